@@ -1,0 +1,1 @@
+"""Real contact area and friction of rubber on rough surfaces."""

@@ -1,0 +1,89 @@
+"""Argument checks shared by every room: one clear sentence for each way a value can be wrong."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gripscale.errors import InputError
+
+
+def number(name: str, value: Any, *, unit: str = "", infinite: bool = False) -> float:
+    """Return `value` as a float; raise `InputError` unless it is a finite (or allowed) number."""
+    expected = f"{name} must be a finite number{_in(unit)}"
+    if isinstance(value, bool | str | bytes):
+        raise InputError(f"{expected}; got {value!r}")
+    try:
+        result = float(value)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{expected}; got {value!r}") from error
+    if math.isnan(result) or (math.isinf(result) and not infinite):
+        raise InputError(f"{expected}; got {result}")
+    return result
+
+
+def positive(name: str, value: Any, *, unit: str = "", infinite: bool = False) -> float:
+    """Return `value` as a float; raise `InputError` unless it is above zero."""
+    result = number(name, value, unit=unit, infinite=infinite)
+    if result <= 0.0:
+        raise InputError(f"{name} must be greater than zero{_in(unit)}; got {result:g}")
+    return result
+
+
+def not_negative(name: str, value: Any, *, unit: str = "", infinite: bool = False) -> float:
+    """Return `value` as a float; raise `InputError` if it is below zero."""
+    result = number(name, value, unit=unit, infinite=infinite)
+    if result < 0.0:
+        raise InputError(f"{name} must not be negative{_in(unit)}; got {result:g}")
+    return result
+
+
+def whole(name: str, value: Any, *, least: int, most: int) -> int:
+    """Return `value` as an int; raise `InputError` unless it is whole and within its limits."""
+    result = number(name, value)
+    if result != math.floor(result) or not least <= result <= most:
+        raise InputError(f"{name} must be a whole number from {least} to {most}; got {value!r}")
+    return int(result)
+
+
+def vector(name: str, value: ArrayLike, *, unit: str = "", missing: bool = False) -> NDArray[Any]:
+    """Return `value` as a 1-D float array; NaN passes only where values may be `missing`."""
+    expected = f"{name} must be a list of finite numbers{_in(unit)}"
+    try:
+        result = np.array(value, dtype=float)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{expected}; got {value!r:.80}") from error
+    if result.ndim != 1:
+        raise InputError(f"{expected} with one dimension; got {result.ndim} dimensions")
+    bad = np.isinf(result) if missing else ~np.isfinite(result)
+    if bad.any():
+        at = int(np.argmax(bad))
+        raise InputError(f"{expected}; got {result[at]} at index {at}")
+    return result
+
+
+def positive_vector(name: str, value: ArrayLike, *, unit: str = "") -> NDArray[Any]:
+    """Return `value` as a 1-D float array; raise `InputError` unless all entries are above zero."""
+    result = vector(name, value, unit=unit)
+    if (result <= 0.0).any():
+        at = int(np.argmax(result <= 0.0))
+        raise InputError(
+            f"{name} must be greater than zero{_in(unit)}; got {result[at]:g} at index {at}"
+        )
+    return result
+
+
+def one_of(name: str, value: Any, choices: Iterable[str]) -> str:
+    """Return `value`; raise `InputError` unless it is one of the named `choices`."""
+    known = list(choices)
+    if value not in known:
+        raise InputError(f"{name} must be one of {', '.join(known)}; got {value!r}")
+    return str(value)
+
+
+def _in(unit: str) -> str:
+    return f" [{unit}]" if unit else ""

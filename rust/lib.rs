@@ -1,0 +1,1 @@
+//! Contact of a finite-strain viscoelastic rubber block with one rigid sine wave.
