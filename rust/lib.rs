@@ -1,1 +1,25 @@
 //! Contact of a finite-strain viscoelastic rubber block with one rigid sine wave.
+//!
+//! The rooms, each using only what stands above it:
+//! `error`, `element`, `cell` (mesh), `network` (material at a point), `memory` (Maxwell history),
+//! `linear` (faer), `assembly`, `wave`, `active_set`, `newton`, `outcome`, `sliding` (one scale),
+//! `python` (bindings, no numerics).
+//!
+//! Conventions: inside, lengths are in wavelengths and stresses in units of |G*(2 pi v / lambda)|;
+//! x along sliding (the rubber moves in +x over the wave, whose frame is used), z up, rubber above,
+//! pressure positive in compression, friction positive when it opposes the sliding.
+
+pub mod active_set;
+pub mod assembly;
+pub mod cell;
+pub mod element;
+pub mod error;
+pub mod linear;
+pub mod memory;
+pub mod network;
+pub mod newton;
+pub mod outcome;
+#[cfg(feature = "python")]
+mod python;
+pub mod sliding;
+pub mod wave;

@@ -2,11 +2,21 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from gripscale import _kernel, checks
+from gripscale.errors import InputError
+
+if TYPE_CHECKING:
+    from gripscale.rubber import Rubber
+
+DEFAULT_COLUMNS = 128
+DEFAULT_ROWS = 16
 
 Array = NDArray[np.float64]
 
@@ -64,3 +74,127 @@ class ScaleResult:
         scale = max(abs(self.friction), abs(self.friction_from_dissipation))
         difference = abs(self.friction - self.friction_from_dissipation)
         return difference / scale if scale > 0.0 else 0.0
+
+
+def solve_scale(
+    rubber: Rubber,
+    *,
+    wavelength: float,
+    amplitude: float,
+    pressure: float,
+    speed: float,
+    load_time: float = math.inf,
+    depth: float = 1.5,
+    columns: int = DEFAULT_COLUMNS,
+    rows: int = DEFAULT_ROWS,
+    element_order: int = 1,
+    max_iterations: int = 40,
+    tolerance: float = 1e-8,
+) -> ScaleResult:
+    """Press a rubber block on one rigid sine wave, slide it, and find contact and friction.
+
+    The block is one wavelength wide and periodic, in plane strain at finite deformation: a
+    neo-Hookean network plus one temporary network per Maxwell element (Lubliner, Mech. Res.
+    Commun. 12 (1985) 93), frictionless unilateral contact with z = amplitude cos(2 pi x /
+    wavelength). The steady state is found in one non-linear solve in the frame of the wave
+    (Wriggers & Reinelt 2009, doi:10.1016/j.cma.2008.08.021, treat the same contact in time).
+
+    Parameters
+    ----------
+    rubber : Rubber
+        The viscoelastic solid.
+    wavelength, amplitude : float
+        Wavelength and half peak-to-valley height of the wave [m].
+    pressure : float
+        Mean pressure on the lid [Pa].
+    speed : float
+        Sliding speed [m/s]; 0 is static contact of the fully relaxed rubber.
+    load_time : float
+        Time the mean deformation has had to relax [s]; infinity by default.
+    depth : float
+        Height of the block in wavelengths.
+    columns, rows : int
+        Elements along and across the block; columns must be even.
+    element_order : int
+        1: bilinear with one pressure; 2: biquadratic with linear discontinuous pressure.
+    max_iterations : int
+        Newton iterations allowed in one load step.
+    tolerance : float
+        Largest residual force over the applied force, and gap over the amplitude [-].
+
+    Returns
+    -------
+    ScaleResult
+        Its `status` is `converged`, or says why the numbers are not to be trusted.
+
+    Raises
+    ------
+    InputError
+        If a value is not a number or out of its range.
+    """
+    wavelength = checks.positive("wavelength", wavelength, unit="m")
+    amplitude = checks.positive("amplitude", amplitude, unit="m")
+    pressure = checks.positive("pressure", pressure, unit="Pa")
+    speed = checks.not_negative("speed", speed, unit="m/s")
+    load_time = checks.not_negative("load_time", load_time, unit="s", infinite=True)
+    columns = checks.whole("columns", columns, least=4, most=1024)
+    if columns % 2:
+        raise InputError(f"columns must be even; got {columns}")
+    try:
+        solution = _kernel.solve_scale(
+            equilibrium_modulus=rubber.equilibrium_modulus / 3.0,
+            moduli=np.ascontiguousarray(rubber.moduli) / 3.0,
+            relaxation_times=np.ascontiguousarray(rubber.relaxation_times),
+            bulk_modulus=rubber.bulk_modulus,
+            wavelength=wavelength,
+            amplitude=amplitude,
+            pressure=pressure,
+            speed=speed,
+            load_time=load_time,
+            depth=checks.positive("depth", depth),
+            columns=columns,
+            rows=checks.whole("rows", rows, least=2, most=256),
+            order=checks.whole("element_order", element_order, least=1, most=2),
+            iterations=checks.whole("max_iterations", max_iterations, least=1, most=1000),
+            tolerance=checks.positive("tolerance", tolerance),
+            step=LARGEST_STEP,
+        )
+    except ValueError as error:
+        raise InputError(str(error)) from error
+    return ScaleResult(
+        wavelength=wavelength,
+        amplitude=amplitude,
+        pressure_received=pressure,
+        speed=speed,
+        load_time=load_time,
+        contact_fraction=solution.contact_fraction,
+        friction=solution.friction,
+        friction_from_dissipation=solution.friction_from_dissipation,
+        status=_status(solution),
+        newton_iterations=solution.newton_iterations,
+        residual=solution.residual,
+        min_stretch=solution.min_stretch,
+        max_stretch=solution.max_stretch,
+        x=solution.x * wavelength,
+        pressure=solution.pressure,
+        deformed_mesh=(solution.mesh_x * wavelength, solution.mesh_z * wavelength),
+        details={
+            "load_steps": solution.load_steps,
+            "load_reached": solution.load_reached,
+            "indentation": solution.approach * wavelength,
+            "columns": columns,
+            "rows": rows,
+            "depth": depth,
+            "element_order": element_order,
+        },
+    )
+
+
+LARGEST_STEP = 0.4
+"""Largest change of the displacement gradient in one Newton iteration [-]."""
+
+
+def _status(solution: _kernel.Solution) -> str:
+    if solution.status == "converged":
+        return "converged"
+    return f"{solution.status} at {100.0 * solution.load_reached:.3g} % of the pressure"

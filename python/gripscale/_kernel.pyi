@@ -1,0 +1,60 @@
+import numpy as np
+from numpy.typing import NDArray
+from typing import final
+
+__all__ = ["Solution", "solve_scale"]
+
+@final
+class Solution:
+    @property
+    def status(self) -> str: ...
+    @property
+    def residual(self) -> float: ...
+    @property
+    def newton_iterations(self) -> int: ...
+    @property
+    def load_steps(self) -> int: ...
+    @property
+    def load_reached(self) -> float: ...
+    @property
+    def approach(self) -> float: ...
+    @property
+    def contact_fraction(self) -> float: ...
+    @property
+    def contacts(self) -> list[tuple[float, float]]: ...
+    @property
+    def friction(self) -> float: ...
+    @property
+    def friction_from_dissipation(self) -> float: ...
+    @property
+    def min_stretch(self) -> float: ...
+    @property
+    def max_stretch(self) -> float: ...
+    @property
+    def x(self) -> NDArray[np.float64]: ...
+    @property
+    def pressure(self) -> NDArray[np.float64]: ...
+    @property
+    def mesh_x(self) -> NDArray[np.float64]: ...
+    @property
+    def mesh_z(self) -> NDArray[np.float64]: ...
+
+def solve_scale(
+    *,
+    equilibrium_modulus: float,
+    moduli: NDArray[np.float64],
+    relaxation_times: NDArray[np.float64],
+    bulk_modulus: float,
+    wavelength: float,
+    amplitude: float,
+    pressure: float,
+    speed: float,
+    load_time: float,
+    depth: float,
+    columns: int,
+    rows: int,
+    order: int,
+    iterations: int,
+    tolerance: float,
+    step: float,
+) -> Solution: ...

@@ -1,0 +1,260 @@
+//! Element rows: residual, tangent with the dense memory coupling along x, condensed pressure.
+//!
+//! R_u = int P : grad(N) dV,   R_p = int m (J - 1) dV - M p / K   (m: pressure modes, M: their mass)
+//! The pressure is an independent unknown, updated linearly and condensed element by element:
+//!     dp = K M^-1 (R_p + B^T du),   K_cond = K_uu + B K M^-1 B^T.
+
+mod kinematics;
+mod memory_tangent;
+
+use crate::cell::Cell;
+use crate::linear::{self, Matrix, RowSystem};
+use crate::memory::History;
+use crate::network::{self, Gradient, Symmetric};
+
+/// Displacements (all layers, lid included) and pressure modes `[row][column][mode]`.
+#[derive(Debug, Clone)]
+pub struct Field {
+    pub u: Vec<f64>,
+    pub pressure: Vec<f64>,
+}
+
+impl Field {
+    pub fn at_rest(cell: &Cell) -> Self {
+        Self {
+            u: vec![0.0; cell.layers() * cell.layer_size()],
+            pressure: vec![0.0; cell.rows * cell.columns * cell.modes()],
+        }
+    }
+}
+
+/// The rubber in a cell: what assembly needs beyond the field.
+pub struct Block<'a> {
+    pub cell: &'a Cell,
+    pub history: &'a History,
+    pub bulk_modulus: f64,
+}
+
+/// Kinematics and memory at the Gauss points of one element row: `[line][column * points + point]`.
+pub struct RowState {
+    pub gradient: Vec<Vec<Gradient>>,
+    pub h: Vec<Vec<Symmetric>>,
+}
+
+impl Block<'_> {
+    fn points(&self) -> usize {
+        self.cell.order + 1
+    }
+
+    /// Positions in the row system of the local unknowns of element `column`.
+    fn local_unknowns(&self, column: usize) -> Vec<usize> {
+        let order = self.cell.order;
+        let mut out = Vec::with_capacity(2 * self.cell.elements[0].nodes());
+        for layer in 0..=order {
+            for sub in 0..=order {
+                let at = layer * self.cell.layer_size();
+                let node = order * column + sub;
+                out.extend([at + self.cell.place(node, 0), at + self.cell.place(node, 1)]);
+            }
+        }
+        out
+    }
+
+    fn row_offset(&self, row: usize) -> usize {
+        row * self.cell.order * self.cell.layer_size()
+    }
+
+    fn element_pressure<'f>(&self, field: &'f Field, row: usize, column: usize) -> &'f [f64] {
+        let modes = self.cell.modes();
+        let at = (row * self.cell.columns + column) * modes;
+        &field.pressure[at..at + modes]
+    }
+
+    /// Residual of the pressure equation of one element.
+    fn pressure_residual(
+        &self,
+        field: &Field,
+        state: &RowState,
+        row: usize,
+        column: usize,
+    ) -> Vec<f64> {
+        let element = &self.cell.elements[row];
+        let points = self.points();
+        let pressure = self.element_pressure(field, row, column);
+        let mut residual: Vec<f64> = (0..pressure.len())
+            .map(|m| -element.mode_mass[m] * pressure[m] / self.bulk_modulus)
+            .collect();
+        for line in 0..points {
+            for point in 0..points {
+                let f = &state.gradient[line][column * points + point];
+                let at = line * points + point;
+                let volume = element.weight[at] * (network::jacobian(f) - 1.0);
+                for (r, mode) in residual.iter_mut().zip(&element.mode[at]) {
+                    *r += mode * volume;
+                }
+            }
+        }
+        residual
+    }
+
+    /// Internal forces of one row (over its layers) and the norm of its pressure residual.
+    pub fn row_forces(&self, row: usize, field: &Field, state: &RowState) -> (Vec<f64>, f64) {
+        let element = &self.cell.elements[row];
+        let points = self.points();
+        let mut forces = vec![0.0; (self.cell.order + 1) * self.cell.layer_size()];
+        let mut volume_error = 0.0;
+        for column in 0..self.cell.columns {
+            let unknowns = self.local_unknowns(column);
+            let pressure = self.element_pressure(field, row, column);
+            let residual = self.pressure_residual(field, state, row, column);
+            volume_error += residual.iter().map(|r| r * r).sum::<f64>();
+            for line in 0..points {
+                for point in 0..points {
+                    let at = line * points + point;
+                    let q = column * points + point;
+                    let level = dot(&element.mode[at], pressure);
+                    let p = network::stress(&state.gradient[line][q], &state.h[line][q], level);
+                    for (node, slope) in element.gradient[at].iter().enumerate() {
+                        let w = element.weight[at];
+                        forces[unknowns[2 * node]] += w * (p[0] * slope[0] + p[1] * slope[1]);
+                        forces[unknowns[2 * node + 1]] += w * (p[2] * slope[0] + p[3] * slope[1]);
+                    }
+                }
+            }
+        }
+        (forces, volume_error)
+    }
+
+    /// Linear system of one row: K du = -(condensed residual).
+    pub fn row_system(&self, row: usize, field: &Field, state: &RowState) -> RowSystem {
+        let (forces, _) = self.row_forces(row, field, state);
+        let size = forces.len();
+        let mut system = RowSystem {
+            matrix: Matrix::zeros(size, size),
+            right: forces.iter().map(|f| -f).collect(),
+        };
+        for column in 0..self.cell.columns {
+            self.add_local(row, column, field, state, &mut system);
+        }
+        if self.history.has_memory() {
+            self.add_memory(row, &state.gradient, &mut system.matrix);
+        }
+        system
+    }
+
+    /// Tangent of one element at fixed memory, with its pressure condensed.
+    fn add_local(
+        &self,
+        row: usize,
+        column: usize,
+        field: &Field,
+        state: &RowState,
+        system: &mut RowSystem,
+    ) {
+        let element = &self.cell.elements[row];
+        let points = self.points();
+        let unknowns = self.local_unknowns(column);
+        let count = unknowns.len();
+        let pressure = self.element_pressure(field, row, column);
+        let residual = self.pressure_residual(field, state, row, column);
+        let mut local = vec![0.0; count * count];
+        let mut coupling = vec![vec![0.0; count]; pressure.len()];
+        for line in 0..points {
+            for point in 0..points {
+                let at = line * points + point;
+                let q = column * points + point;
+                let f = &state.gradient[line][q];
+                let weight = element.weight[at];
+                let level = dot(&element.mode[at], pressure);
+                let d = network::tangent(f, &state.h[line][q], level);
+                let cof = network::cofactor(f);
+                let slopes = &element.gradient[at];
+                add_stiffness(&mut local, count, slopes, &d, weight);
+                for (node, slope) in slopes.iter().enumerate() {
+                    for i in 0..2 {
+                        let b = cof[2 * i] * slope[0] + cof[2 * i + 1] * slope[1];
+                        for (entry, mode) in coupling.iter_mut().zip(&element.mode[at]) {
+                            entry[2 * node + i] += weight * mode * b;
+                        }
+                    }
+                }
+            }
+        }
+        for (m, entry) in coupling.iter().enumerate() {
+            let stiffness = self.bulk_modulus / element.mode_mass[m];
+            for j in 0..count {
+                for i in 0..count {
+                    local[j * count + i] += stiffness * entry[i] * entry[j];
+                }
+                system.right[unknowns[j]] -= stiffness * entry[j] * residual[m];
+            }
+        }
+        for j in 0..count {
+            let target = linear::column_mut(&mut system.matrix, unknowns[j]);
+            for i in 0..count {
+                target[unknowns[i]] += local[j * count + i];
+            }
+        }
+    }
+
+    /// Add the pressure increments that belong to displacement increments `du` times `share`.
+    pub fn update_pressure(
+        &self,
+        row: usize,
+        state: &RowState,
+        du: &[f64],
+        share: f64,
+        field: &mut Field,
+    ) {
+        let element = &self.cell.elements[row];
+        let points = self.points();
+        let modes = self.cell.modes();
+        let increment = self.gradients(row, du, 0.0);
+        for column in 0..self.cell.columns {
+            let mut change = self.pressure_residual(field, state, row, column);
+            for line in 0..points {
+                for point in 0..points {
+                    let q = column * points + point;
+                    let at = line * points + point;
+                    let cof = network::cofactor(&state.gradient[line][q]);
+                    let volume = element.weight[at] * dot(&cof, &increment[line][q]);
+                    for (c, mode) in change.iter_mut().zip(&element.mode[at]) {
+                        *c += mode * volume;
+                    }
+                }
+            }
+            let at = (row * self.cell.columns + column) * modes;
+            for m in 0..modes {
+                field.pressure[at + m] +=
+                    share * self.bulk_modulus / element.mode_mass[m] * change[m];
+            }
+        }
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
+
+/// Add weight * grad(N)^T D grad(N) to a column-major element matrix.
+fn add_stiffness(
+    local: &mut [f64],
+    count: usize,
+    slopes: &[[f64; 2]],
+    d: &[Gradient; 4],
+    weight: f64,
+) {
+    for (node_b, b) in slopes.iter().enumerate() {
+        for j in 0..2 {
+            let mut column = [0.0; 4];
+            for (value, d) in column.iter_mut().zip(d) {
+                *value = weight * (d[2 * j] * b[0] + d[2 * j + 1] * b[1]);
+            }
+            let target = &mut local[(2 * node_b + j) * count..][..count];
+            for (node_a, a) in slopes.iter().enumerate() {
+                target[2 * node_a] += column[0] * a[0] + column[1] * a[1];
+                target[2 * node_a + 1] += column[2] * a[0] + column[3] * a[1];
+            }
+        }
+    }
+}

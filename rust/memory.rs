@@ -1,0 +1,161 @@
+//! Generalized Maxwell memory in steady sliding: a periodic convolution along a line of points.
+//!
+//! The rubber flows through the fixed mesh in +x with speed v, so each temporary network obeys
+//!     tau_i v dA_i/dx = Y - A_i,   periodic in x           (Lubliner 1985, steady in the wave's frame)
+//! and H = G(t) I + sum over points of weight * Y, where the mean state relaxes only for the load
+//! time t: the mean of A_i is (1 - e_i) mean(Y) + e_i I with e_i = exp(-t / tau_i).
+//!
+//! The weights follow from the Fourier series, where harmonic k is multiplied by the complex modulus
+//! G*(2 pi k v / lambda); the exact recurrence between neighbouring points is kept as a check.
+
+/// Shear moduli [in units of the caller] and relaxation times [in passage times lambda / v].
+#[derive(Debug, Clone)]
+pub struct Maxwell {
+    pub equilibrium: f64,
+    pub moduli: Vec<f64>,
+    pub times: Vec<f64>,
+}
+
+impl Maxwell {
+    /// Relaxation modulus G(t); t may be infinite.
+    pub fn relaxation_modulus(&self, time: f64) -> f64 {
+        let decayed = |(g, tau): (&f64, &f64)| g * (-time / tau).exp();
+        self.equilibrium
+            + self
+                .moduli
+                .iter()
+                .zip(&self.times)
+                .map(decayed)
+                .sum::<f64>()
+    }
+
+    /// Complex modulus G*(omega) = G_inf + sum G_i (i w tau) / (1 + i w tau), as (real, imaginary).
+    pub fn complex_modulus(&self, omega: f64) -> (f64, f64) {
+        let mut value = (self.equilibrium, 0.0);
+        for (&g, &tau) in self.moduli.iter().zip(&self.times) {
+            let x = omega * tau;
+            value.0 += g * x * x / (1.0 + x * x);
+            value.1 += g * x / (1.0 + x * x);
+        }
+        value
+    }
+
+    pub fn magnitude(&self, omega: f64) -> f64 {
+        let (storage, loss) = self.complex_modulus(omega);
+        storage.hypot(loss)
+    }
+}
+
+/// Weights between equally placed points of the columns of one line (they form a circulant matrix).
+///
+/// Each Gauss point of a column and its images in the other columns are an equidistant sampling of
+/// the line, so the weights depend on the distance in columns alone.
+#[derive(Debug, Clone)]
+pub struct History {
+    /// Modulus of the mean state, G(load time).
+    pub mean_modulus: f64,
+    /// `stress[m]`: weight of Y in column e - m in H in column e; empty without memory.
+    pub stress: Vec<f64>,
+    /// The same for the energy lost per sliding distance, 1/2 sum weight Y : Cbar.
+    pub dissipation: Vec<f64>,
+}
+
+impl History {
+    /// No memory: the relaxed rubber.
+    pub fn relaxed(modulus: f64) -> Self {
+        Self {
+            mean_modulus: modulus,
+            stress: Vec::new(),
+            dissipation: Vec::new(),
+        }
+    }
+
+    /// Memory of steady sliding; `load_time` in passage times.
+    ///
+    /// Harmonic k of Y is multiplied by G(t) - G*(omega_k), the mean by nothing.
+    pub fn sliding(columns: usize, maxwell: &Maxwell, load_time: f64) -> Self {
+        let mean = maxwell.relaxation_modulus(load_time);
+        let glassy = maxwell.relaxation_modulus(0.0);
+        let (mut stress, mut dissipation) = (vec![0.0; columns], vec![0.0; columns]);
+        for harmonic in 1..=columns / 2 {
+            let omega = std::f64::consts::TAU * harmonic as f64;
+            let (storage, loss) = maxwell.complex_modulus(omega);
+            // The Nyquist harmonic appears once and is real; all others come with their conjugate.
+            let nyquist = 2 * harmonic == columns;
+            let share = if nyquist { 1.0 } else { 2.0 } / columns as f64;
+            for column in 0..columns {
+                let (sine, cosine) = (omega * column as f64 / columns as f64).sin_cos();
+                let odd = if nyquist { 0.0 } else { sine };
+                stress[column] += share * ((mean - storage) * cosine + loss * odd);
+                dissipation[column] += share * omega * ((glassy - storage) * odd - loss * cosine);
+            }
+        }
+        Self::without_local_part(mean, stress, dissipation)
+    }
+
+    /// The same by the exact recurrence of each Maxwell element from column to column,
+    ///     A_(j+1) = e^-h A_j + leaving(h) Y_j + arriving(h) Y_(j+1),   h = column / (v tau),
+    /// closed periodically, for Y linear in between: an independent evaluation of second order.
+    pub fn by_recurrence(columns: usize, maxwell: &Maxwell, load_time: f64) -> Self {
+        let mean = maxwell.relaxation_modulus(load_time);
+        let (mut stress, mut dissipation) = (vec![0.0; columns], vec![0.0; columns]);
+        for (&modulus, &time) in maxwell.moduli.iter().zip(&maxwell.times) {
+            let kept = (-load_time / time).exp() / columns as f64;
+            for (m, weight) in recurrence(columns, time).into_iter().enumerate() {
+                stress[m] += modulus * (weight - kept);
+                dissipation[m] += modulus * (weight - f64::from(m == 0)) / time;
+            }
+        }
+        Self::without_local_part(mean, stress, dissipation)
+    }
+
+    /// Take out the weight of each point on itself, which DEV would remove, to avoid cancellation.
+    fn without_local_part(mean_modulus: f64, mut stress: Vec<f64>, dissipation: Vec<f64>) -> Self {
+        stress[0] = 0.0;
+        Self {
+            mean_modulus,
+            stress,
+            dissipation,
+        }
+    }
+
+    pub fn has_memory(&self) -> bool {
+        !self.stress.is_empty()
+    }
+}
+
+/// A along the line for Y = 1 in column 0, linear to zero in its neighbours, going round for ever.
+fn recurrence(columns: usize, time: f64) -> Vec<f64> {
+    let step = 1.0 / (columns as f64 * time);
+    let decay = (-step).exp();
+    let mut a = vec![0.0; columns];
+    a[0] = arriving(step);
+    for column in 1..columns {
+        a[column] = decay * a[column - 1] + if column == 1 { leaving(step) } else { 0.0 };
+    }
+    // What is left on return to column 0 decays round and round again.
+    let mut again = decay * a[columns - 1] / -(-1.0 / time).exp_m1();
+    for value in &mut a {
+        *value += again;
+        again *= decay;
+    }
+    a
+}
+
+/// Weight of the point arrived at: 1 - (1 - exp(-x)) / x.
+fn arriving(x: f64) -> f64 {
+    if x < 1e-3 {
+        x * (0.5 - x * (1.0 / 6.0 - x / 24.0))
+    } else {
+        1.0 + (-x).exp_m1() / x
+    }
+}
+
+/// Weight of the point left: (1 - exp(-x)) / x - exp(-x).
+fn leaving(x: f64) -> f64 {
+    if x < 1e-3 {
+        x * (0.5 - x * (1.0 / 3.0 - x / 8.0))
+    } else {
+        -(-x).exp_m1() / x - (-x).exp()
+    }
+}

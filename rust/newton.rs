@@ -1,0 +1,261 @@
+//! Newton's method for one load: tangent, condensation to the surface, exact linearised contact.
+//!
+//! Surface node a carries the force f_a grad(g_a), g_a = z_a - d - w(x_a) its gap to the wave at its
+//! deformed abscissa, so that f_a is the vertical force. Linearised:
+//!     (S + diag(f w'')) du = right + f_new grad(g),   g + grad(g) du - dd >= 0,  sum f = load,
+//! with S the stiffness condensed to the surface (Wriggers, "Computational Contact Mechanics", 2006).
+
+use crate::active_set;
+use crate::assembly::{Block, Field, RowState};
+use crate::cell::Cell;
+use crate::linear::{self, Factor, Matrix};
+use crate::network;
+use crate::wave::Wave;
+
+/// Everything that changes while solving.
+#[derive(Debug, Clone)]
+pub struct State {
+    pub field: Field,
+    /// Vertical contact force of every surface node.
+    pub force: Vec<f64>,
+    pub active: Vec<bool>,
+    /// How far the wave is pushed up into the block.
+    pub approach: f64,
+}
+
+impl State {
+    pub fn at_rest(cell: &Cell) -> Self {
+        Self {
+            field: Field::at_rest(cell),
+            force: vec![0.0; cell.layer_nodes()],
+            active: vec![false; cell.layer_nodes()],
+            approach: 0.0,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy)]
+pub struct Limits {
+    pub iterations: usize,
+    /// Residual force relative to the load, and gap relative to the amplitude.
+    pub tolerance: f64,
+    /// Largest change of the displacement gradient in one iteration.
+    pub step: f64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ending {
+    Converged,
+    IterationLimit,
+    ElementInverted,
+    NoActiveSet,
+    NotFinite,
+}
+
+#[derive(Debug, Clone, Copy)]
+pub struct Report {
+    pub ending: Ending,
+    pub iterations: usize,
+    pub residual: f64,
+}
+
+/// The block on its wave.
+pub struct Problem<'a> {
+    pub block: Block<'a>,
+    pub wave: Wave,
+}
+
+impl Problem<'_> {
+    fn cell(&self) -> &Cell {
+        self.block.cell
+    }
+
+    /// Deformed abscissa of surface node `a`.
+    pub fn abscissa(&self, field: &Field, a: usize) -> f64 {
+        a as f64 * self.cell().node_spacing() + field.u[self.cell().place(a, 0)]
+    }
+
+    pub fn gap(&self, state: &State, a: usize) -> f64 {
+        let height = self.wave.height(self.abscissa(&state.field, a));
+        state.field.u[self.cell().place(a, 1)] - state.approach - height
+    }
+
+    pub fn row_states(&self, field: &Field) -> Vec<RowState> {
+        (0..self.cell().rows)
+            .map(|row| self.block.row_state(row, &field.u))
+            .collect()
+    }
+
+    /// Iterate on `state` under `load` (mean pressure times one wavelength).
+    pub fn solve(&self, state: &mut State, load: f64, limits: &Limits) -> Report {
+        let mut report = Report {
+            ending: Ending::IterationLimit,
+            iterations: 0,
+            residual: f64::INFINITY,
+        };
+        let mut rows = self.row_states(&state.field);
+        loop {
+            report.residual = self.residual(state, &rows, load);
+            if !report.residual.is_finite() {
+                report.ending = Ending::NotFinite;
+                return report;
+            }
+            if report.residual < limits.tolerance {
+                report.ending = Ending::Converged;
+                return report;
+            }
+            if report.iterations >= limits.iterations {
+                return report;
+            }
+            report.iterations += 1;
+            if let Err(ending) = self.step(state, &mut rows, load, limits) {
+                report.ending = ending;
+                return report;
+            }
+        }
+    }
+
+    /// One Newton step, limited in displacement gradient and kept from turning elements over.
+    fn step(
+        &self,
+        state: &mut State,
+        rows: &mut Vec<RowState>,
+        load: f64,
+        limits: &Limits,
+    ) -> Result<(), Ending> {
+        let elimination = linear::eliminate(self.cell().rows, self.cell().layer_size(), |row| {
+            self.block.row_system(row, &state.field, &rows[row])
+        });
+        let (surface, contact) = self.contact(state, &elimination, load)?;
+        let mut du = elimination.expand(&surface);
+        du.resize(state.field.u.len(), 0.0);
+        if du.iter().any(|value| !value.is_finite()) {
+            return Err(Ending::NotFinite);
+        }
+        let largest = self.largest_gradient(&du);
+        let mut share = (limits.step / largest).min(1.0);
+        for _ in 0..8 {
+            let mut trial = state.field.clone();
+            for (u, d) in trial.u.iter_mut().zip(&du) {
+                *u += share * d;
+            }
+            let trial_rows = self.row_states(&trial);
+            if smallest_jacobian(&trial_rows) > 0.05 {
+                for (row, old) in rows.iter().enumerate() {
+                    self.block.update_pressure(row, old, &du, share, &mut trial);
+                }
+                for (f, new) in state.force.iter_mut().zip(&contact.force) {
+                    *f += share * (new - *f);
+                }
+                state.approach += share * (contact.approach - state.approach);
+                state.active = contact.active;
+                state.field = trial;
+                *rows = trial_rows;
+                return Ok(());
+            }
+            share *= 0.5;
+        }
+        Err(Ending::ElementInverted)
+    }
+
+    /// Surface displacement increments and contact forces of the linearised contact problem.
+    fn contact(
+        &self,
+        state: &State,
+        elimination: &linear::Elimination,
+        load: f64,
+    ) -> Result<(Vec<f64>, active_set::Contact), Ending> {
+        let nodes = self.cell().layer_nodes();
+        let at_x: Vec<usize> = (0..nodes).map(|a| self.cell().place(a, 0)).collect();
+        let at_z: Vec<usize> = (0..nodes).map(|a| self.cell().place(a, 1)).collect();
+        let slope: Vec<f64> = (0..nodes)
+            .map(|a| self.wave.slope(self.abscissa(&state.field, a)))
+            .collect();
+        let mut matrix = elimination.surface_matrix.clone();
+        for a in 0..nodes {
+            let curvature = self.wave.curvature(self.abscissa(&state.field, a));
+            matrix[(at_x[a], at_x[a])] += state.force[a] * curvature;
+        }
+        // Columns: response to a unit force along each node's gap gradient, and to the residual.
+        let mut response = Matrix::<f64>::zeros(2 * nodes, nodes + 1);
+        for a in 0..nodes {
+            response[(at_x[a], a)] = -slope[a];
+            response[(at_z[a], a)] = 1.0;
+        }
+        for (i, &right) in elimination.surface_right.iter().enumerate() {
+            response[(i, nodes)] = right;
+        }
+        Factor::new(matrix.as_ref()).solve(&mut response);
+        let opening = |column: usize, a: usize| {
+            response[(at_z[a], column)] - slope[a] * response[(at_x[a], column)]
+        };
+        let compliance = Matrix::from_fn(nodes, nodes, |a, b| opening(b, a));
+        // Gaps before contact forces, measured without the approach, which is solved for anew.
+        let free: Vec<f64> = (0..nodes)
+            .map(|a| self.gap(state, a) + state.approach + opening(nodes, a))
+            .collect();
+        if free.iter().any(|g| !g.is_finite()) {
+            return Err(Ending::NotFinite);
+        }
+        let contact = active_set::solve(&compliance, &free, load, &state.active)
+            .ok_or(Ending::NoActiveSet)?;
+        let surface = (0..2 * nodes)
+            .map(|i| {
+                let pushed: f64 = (0..nodes)
+                    .map(|a| response[(i, a)] * contact.force[a])
+                    .sum();
+                pushed + response[(i, nodes)]
+            })
+            .collect();
+        Ok((surface, contact))
+    }
+
+    /// Forces out of balance relative to the load, gaps relative to the amplitude: the largest.
+    fn residual(&self, state: &State, rows: &[RowState], load: f64) -> f64 {
+        let layer = self.cell().layer_size();
+        let mut forces = vec![0.0; state.field.u.len()];
+        let mut volume_error = 0.0;
+        for (row, row_state) in rows.iter().enumerate() {
+            let (local, error) = self.block.row_forces(row, &state.field, row_state);
+            let offset = row * self.cell().order * layer;
+            for (total, force) in forces[offset..].iter_mut().zip(&local) {
+                *total += force;
+            }
+            volume_error += error;
+        }
+        let mut gap_error = 0.0_f64;
+        for a in 0..self.cell().layer_nodes() {
+            let slope = self.wave.slope(self.abscissa(&state.field, a));
+            forces[self.cell().place(a, 0)] += state.force[a] * slope;
+            forces[self.cell().place(a, 1)] -= state.force[a];
+            let gap = self.gap(state, a);
+            let violated = if state.active[a] { gap.abs() } else { -gap };
+            gap_error = gap_error.max(violated);
+        }
+        let free = forces.len() - layer;
+        let unbalanced = forces[..free].iter().map(|f| f * f).sum::<f64>().sqrt() / load;
+        let total = (state.force.iter().sum::<f64>() / load - 1.0).abs();
+        let volume = volume_error.sqrt();
+        // f64::max would drop a NaN.
+        let all = [unbalanced, total, volume, gap_error / self.wave.amplitude];
+        if all.iter().any(|v| v.is_nan()) {
+            return f64::NAN;
+        }
+        all.into_iter().fold(0.0, f64::max)
+    }
+
+    fn largest_gradient(&self, du: &[f64]) -> f64 {
+        (0..self.cell().rows)
+            .flat_map(|row| self.block.gradients(row, du, 0.0))
+            .flatten()
+            .flatten()
+            .fold(1e-300, |m: f64, value| m.max(value.abs()))
+    }
+}
+
+fn smallest_jacobian(rows: &[RowState]) -> f64 {
+    rows.iter()
+        .flat_map(|row| row.gradient.iter().flatten())
+        .map(network::jacobian)
+        .fold(f64::INFINITY, f64::min)
+}
