@@ -1,6 +1,7 @@
+from typing import final
+
 import numpy as np
 from numpy.typing import NDArray
-from typing import final
 
 __all__ = ["Solution", "solve_scale"]
 

@@ -1,1 +1,44 @@
-"""."""
+"""The `gripscale` command; each of its commands has a file of its own."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from gripscale import dataset
+from gripscale.cli.fit_rubber import fit_rubber
+from gripscale.cli.fit_surface import fit_surface
+from gripscale.cli.run import run
+
+app = typer.Typer(
+    name="gripscale",
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+    no_args_is_help=True,
+)
+app.command("run")(run)
+app.command("fit-surface")(fit_surface)
+app.command("fit-rubber")(fit_rubber)
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"gripscale {dataset.versions()['gripscale']}")
+        raise typer.Exit
+
+
+@app.callback()
+def gripscale(
+    version: Annotated[
+        bool,
+        typer.Option("--version", callback=_version, is_eager=True, help="Show the version."),
+    ] = False,
+) -> None:
+    """Real contact area and friction of rubber on rough surfaces."""
+
+
+def main() -> None:
+    """Run the command line."""
+    app(prog_name="gripscale")

@@ -1,1 +1,23 @@
-"""."""
+"""Rubber: master curves, Prony series and the material they make."""
+
+from gripscale.rubber.header import FREQUENCY_UNITS, MODULUS_UNITS
+from gripscale.rubber.master_curve import MasterCurve
+from gripscale.rubber.material import Rubber
+from gripscale.rubber.named import springpot_modulus, styrene_butadiene
+from gripscale.rubber.prony import PronyFit, fit_prony, fit_prony_report
+from gripscale.rubber.reader import read_master_curve
+from gripscale.rubber.term_choice import Candidate
+
+__all__ = [
+    "FREQUENCY_UNITS",
+    "MODULUS_UNITS",
+    "Candidate",
+    "MasterCurve",
+    "PronyFit",
+    "Rubber",
+    "fit_prony",
+    "fit_prony_report",
+    "read_master_curve",
+    "springpot_modulus",
+    "styrene_butadiene",
+]

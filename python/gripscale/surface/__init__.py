@@ -1,1 +1,27 @@
-"""."""
+"""The surface: measured profile, its height difference correlation, and the sines that match it."""
+
+from gripscale.surface.cleaning import CleaningReport, StepReport, clean
+from gripscale.surface.height_difference import HeightDifference, height_difference
+from gripscale.surface.profile import Profile
+from gripscale.surface.read import read_profile, read_profiles
+from gripscale.surface.self_affine import SelfAffineFit, fit_self_affine
+from gripscale.surface.sine_fit import fit_sines
+from gripscale.surface.sines import SineStack
+from gripscale.surface.synthetic import self_affine_profile, sine_profile
+
+__all__ = [
+    "CleaningReport",
+    "HeightDifference",
+    "Profile",
+    "SelfAffineFit",
+    "SineStack",
+    "StepReport",
+    "clean",
+    "fit_self_affine",
+    "fit_sines",
+    "height_difference",
+    "read_profile",
+    "read_profiles",
+    "self_affine_profile",
+    "sine_profile",
+]

@@ -1,0 +1,43 @@
+# Everything from nothing: `make run` does the main job, `make test` checks all, `make bench` measures.
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+READY := $(VENV)/.ready
+BUILT := $(VENV)/.built
+SOURCES := Cargo.toml Cargo.lock pyproject.toml $(shell find rust -name '*.rs')
+
+.PHONY: run build test bench clean
+.DEFAULT_GOAL := run
+
+run: build
+	$(BIN)/gripscale run examples/road_and_tread/case.toml --output results/road_and_tread
+
+build: $(BUILT)
+
+test: build
+	cargo fmt --check
+	cargo clippy --locked --all-targets -- -D warnings
+	cargo clippy --locked --features python -- -D warnings
+	cargo test --locked
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/python -m mypy.stubtest gripscale._kernel
+	$(BIN)/python -m pytest -q
+
+bench: build
+	$(BIN)/python benchmarks/bench.py
+
+$(READY): requirements.lock
+	@$(PYTHON) -c 'import sys; assert sys.version_info >= (3, 11), "gripscale needs Python 3.11 or newer; set PYTHON=..."'
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/pip install --quiet --disable-pip-version-check -r requirements.lock
+	touch $@
+
+$(BUILT): $(READY) $(SOURCES)
+	$(BIN)/maturin develop --release --locked --quiet
+	touch $@
+
+clean:
+	rm -rf $(VENV) target results

@@ -1,0 +1,181 @@
+"""What a case file may say: its tables, their keys, defaults and limits.
+
+Lengths in m, pressures in Pa, speeds in m/s and times in s once read.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from itertools import pairwise
+from typing import Annotated, Any, Literal
+
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+
+from gripscale.case.quantity import Length, Position, Pressure, Speed, Temperature, parse_quantity
+from gripscale.rubber import FREQUENCY_UNITS, MODULUS_UNITS
+from gripscale.surface.units import METRES
+
+NAMED_RUBBERS = ("styrene_butadiene",)
+
+
+def _load_time(value: Any) -> float | str:
+    """Accept "passage", "infinite" or a time."""
+    if value == "passage":
+        return "passage"
+    if value in ("infinite", math.inf):
+        return math.inf
+    try:
+        seconds = parse_quantity(value, "time")
+    except ValueError as error:
+        raise ValueError(f'{error}, or "passage", or "infinite"') from error
+    if seconds <= 0.0:
+        raise ValueError("expected a time greater than zero")
+    return seconds
+
+
+def _among(names: Iterable[str]) -> AfterValidator:
+    """Return a validator that accepts only one of `names`."""
+    known = list(names)
+
+    def check(value: str) -> str:
+        if value not in known:
+            raise ValueError(f"expected one of {', '.join(known)}")
+        return value
+
+    return AfterValidator(check)
+
+
+class Table(BaseModel):
+    """One table of the case file: unknown keys are refused, values are not bent into shape."""
+
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
+
+
+class Wave(Table):
+    """One sine wave stated by hand: wavelength and half peak-to-valley amplitude."""
+
+    wavelength: Length = Field(description='a length such as "20 mm"')
+    amplitude: Length = Field(description='a length such as "1 mm", half peak-to-valley')
+
+
+class Surface(Table):
+    """Measured profiles and how they become sine waves, or the waves themselves."""
+
+    files: list[str] | None = Field(default=None, min_length=1)
+    sines: list[Wave] | None = Field(default=None, min_length=1)
+    x_unit: Annotated[str, _among(METRES)] | None = None
+    z_unit: Annotated[str, _among(METRES)] | None = None
+    direction: Literal["x", "y"] = "x"
+    reader: Literal["auto", "text", "instrument"] = "auto"
+    crop: Annotated[list[Position], Field(min_length=2, max_length=2)] | None = None
+    valid_range: Annotated[list[Position], Field(min_length=2, max_length=2)] | None = None
+    remove_spikes: bool = True
+    spike_slope: float = Field(default=3.0, gt=0.0, allow_inf_nan=False)
+    across_gaps: bool = False
+    detrend: Literal["linear", "mean", "none"] = "linear"
+    max_lag: Length | None = None
+    scales: int | None = Field(default=None, ge=1, le=24)
+    smallest_wavelength: Length | None = None
+    s_wavelength: float | None = Field(default=None, gt=1.0, allow_inf_nan=False)
+    s_amplitude: float | None = Field(default=None, gt=1.0, allow_inf_nan=False)
+    first_wavelength: Length | None = None
+    first_amplitude: Length | None = None
+    single_factor: bool = False
+    smallest_lag: Length | None = None
+    largest_lag: Length | None = None
+
+    @model_validator(mode="after")
+    def _one_source(self) -> Surface:
+        if (self.files is None) == (self.sines is None):
+            raise ValueError("expected either files (measured profiles) or sines (waves by hand)")
+        if self.files is not None and (self.scales is None) == (self.smallest_wavelength is None):
+            raise ValueError("expected either scales (number of waves) or smallest_wavelength")
+        for name, limits in (("crop", self.crop), ("valid_range", self.valid_range)):
+            if limits is not None and limits[0] >= limits[1]:
+                raise ValueError(
+                    f"{name} runs from {limits[0]:g} m to {limits[1]:g} m; "
+                    "expected its start before its end"
+                )
+        if self.sines is not None:
+            lengths = [wave.wavelength for wave in self.sines]
+            if any(b >= a for a, b in pairwise(lengths)):
+                raise ValueError("expected sines in order of falling wavelength")
+        return self
+
+
+class RubberSource(Table):
+    """A measured master curve, with what its header does not state, or a rubber known by name."""
+
+    file: str | None = None
+    name: Literal["styrene_butadiene"] | None = None
+    frequency_unit: Annotated[str, _among(FREQUENCY_UNITS)] | None = None
+    modulus_unit: Annotated[str, _among(MODULUS_UNITS)] | None = None
+    modulus: Literal["E", "G"] | None = None
+    columns: Annotated[list[str | int], Field(min_length=3, max_length=3)] | None = None
+    reference_temperature: Temperature | None = None
+    source: str = ""
+    terms: int | None = Field(default=None, ge=1, le=200)
+    outlier_threshold: float | None = Field(default=None, gt=0.0)
+    bulk_modulus: Pressure | None = None
+
+    @model_validator(mode="after")
+    def _one_source(self) -> RubberSource:
+        if (self.file is None) == (self.name is None):
+            raise ValueError(
+                f"expected either file (a master curve) or name ({', '.join(NAMED_RUBBERS)})"
+            )
+        foreign = self.model_fields_set - {"name", "bulk_modulus", "file"}
+        if self.name is not None and foreign:
+            raise ValueError(f"{min(foreign)} belongs to a measured file, not to a named rubber")
+        return self
+
+
+class Load(Table):
+    """How hard, how fast and over what length the rubber is pressed and slid."""
+
+    pressure: Pressure = Field(description='a pressure such as "3 bar"')
+    speed: Speed = Field(description='a speed such as "0.3 m/s"')
+    footprint: Length = Field(description='a length such as "100 mm"')
+    static: bool = True
+    load_time: Annotated[Any, BeforeValidator(_load_time)] = "passage"
+
+
+class Solver(Table):
+    """The model of one wave and its mesh; what is not stated stays at the solver's default."""
+
+    model: Literal["finite_strain", "half_plane"] = "finite_strain"
+    columns: int | None = Field(default=None, ge=4, le=1024, multiple_of=2)
+    rows: int | None = Field(default=None, ge=2, le=256)
+    depth: float | None = Field(default=None, gt=0.0, allow_inf_nan=False)
+    element_order: Literal[1, 2] | None = None
+    points: int | None = Field(default=None, ge=16, le=8192)
+
+    @model_validator(mode="after")
+    def _options_of_the_model(self) -> Solver:
+        mesh = ["columns", "rows", "depth", "element_order"]
+        foreign = ["points"] if self.model == "finite_strain" else mesh
+        for name in foreign:
+            if getattr(self, name) is not None:
+                raise ValueError(f'{name} is not an option of model = "{self.model}"')
+        return self
+
+    def options(self) -> dict[str, Any]:
+        """Return the stated options as keyword arguments of the solver."""
+        return self.model_dump(exclude={"model"}, exclude_none=True)
+
+
+class Output(Table):
+    """Where the results go."""
+
+    folder: str = "results"
+
+
+class Case(Table):
+    """A whole case file."""
+
+    surface: Surface
+    rubber: RubberSource
+    load: Load
+    solver: Solver = Solver()
+    output: Output = Output()

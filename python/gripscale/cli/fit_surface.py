@@ -1,0 +1,63 @@
+"""`gripscale fit-surface FILES`: the surface half of a run, from profiles to sine waves."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from gripscale.case import Surface, validate
+from gripscale.cli import draw, folder
+from gripscale.cli.inputs import study_surface
+from gripscale.cli.summary import surface_lines, waves_table
+from gripscale.cli.terminal import command, say, screen
+
+
+def _option(text: str) -> Any:
+    return typer.Option(help=text, show_default=False)
+
+
+@command
+def fit_surface(
+    files: Annotated[list[str], typer.Argument(help="Profiles.", show_default=False)],
+    scales: Annotated[int | None, _option("Number of sine waves.")] = None,
+    smallest_wavelength: Annotated[str | None, _option('Such as "0.1 mm".')] = None,
+    s_wavelength: Annotated[float | None, _option("Given instead of fitted.")] = None,
+    s_amplitude: Annotated[float | None, _option("Given instead of fitted.")] = None,
+    single_factor: Annotated[bool, _option("One factor for both lengths.")] = False,
+    crop: Annotated[tuple[str, str] | None, _option('Such as "120 mm" "1780 mm".')] = None,
+    x_unit: Annotated[str | None, _option("Where the file does not state it.")] = None,
+    z_unit: Annotated[str | None, _option("Where the file does not state it.")] = None,
+    keep_spikes: Annotated[bool, _option("Leave spikes in.")] = False,
+    detrend: Annotated[str, typer.Option(help="linear, mean or none.")] = "linear",
+    output: Annotated[
+        Path | None, typer.Option(help="Folder for figures.", metavar="DIR", readable=False)
+    ] = None,
+) -> None:
+    """Clean profiles, find their height difference correlation and fit sine waves to it."""
+    stated = {
+        "files": files,
+        "scales": scales,
+        "smallest_wavelength": smallest_wavelength,
+        "s_wavelength": s_wavelength,
+        "s_amplitude": s_amplitude,
+        "crop": None if crop is None else list(crop),
+        "x_unit": x_unit,
+        "z_unit": z_unit,
+    }
+    values = {key: value for key, value in stated.items() if value is not None}
+    if scales is None and smallest_wavelength is None:
+        values["scales"] = 8
+    flags = {"remove_spikes": not keep_spikes, "detrend": detrend, "single_factor": single_factor}
+    surface = validate(Surface, values | flags, "options")
+    if output is not None:
+        folder.require_writable(output)
+    study = study_surface(surface, Path)
+    console = screen()
+    for line in (*surface_lines(study), *waves_table(study.sines)):
+        say(console, line)
+    if output is not None:
+        folder.make(output)
+        draw.surface_figures(output, study)
+        say(console, f"Figures are in {output}")

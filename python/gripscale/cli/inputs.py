@@ -1,0 +1,155 @@
+"""From what a case names to what a chain needs: cleaned profiles, sine waves, a rubber."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from gripscale.case import RubberSource, Surface
+from gripscale.errors import GripscaleError, InputError
+from gripscale.rubber import (
+    MasterCurve,
+    PronyFit,
+    Rubber,
+    fit_prony_report,
+    read_master_curve,
+    styrene_butadiene,
+)
+from gripscale.surface import (
+    CleaningReport,
+    HeightDifference,
+    Profile,
+    SelfAffineFit,
+    SineStack,
+    clean,
+    fit_self_affine,
+    fit_sines,
+    height_difference,
+    read_profile,
+)
+
+Resolve = Callable[[str], Path]
+
+
+@dataclass(frozen=True)
+class SurfaceStudy:
+    """Sine waves and, where they come from measured profiles, the way to them."""
+
+    sines: SineStack
+    source: str
+    measured: Measured | None = None
+
+
+@dataclass(frozen=True)
+class Measured:
+    """Profiles as read and cleaned, their height difference correlation and its fit."""
+
+    profiles: list[tuple[Profile, Profile]]
+    cleaning: list[CleaningReport]
+    correlation: HeightDifference
+    self_affine: SelfAffineFit | None
+    no_self_affine: str
+    """Why there is no self-affine fit, or empty."""
+
+
+@dataclass(frozen=True)
+class RubberStudy:
+    """A rubber and, where it comes from a master curve, the curve and the report on its fit."""
+
+    rubber: Rubber
+    source: str
+    master: MasterCurve | None = None
+    fit: PronyFit | None = None
+
+
+def study_surface(surface: Surface, resolve: Resolve) -> SurfaceStudy:
+    """Read, clean and describe the profiles of `surface`, or take its waves as stated."""
+    if surface.sines is not None:
+        stack = SineStack(
+            wavelength=np.array([wave.wavelength for wave in surface.sines]),
+            amplitude=np.array([wave.amplitude for wave in surface.sines]),
+        )
+        return SurfaceStudy(stack, "sine waves stated in the case")
+    paths = [resolve(name) for name in surface.files or []]
+    profiles, reports = [], []
+    for path in paths:
+        raw = read_profile(
+            path,
+            x_unit=surface.x_unit,
+            z_unit=surface.z_unit,
+            direction=surface.direction,
+            reader=surface.reader,
+        )
+        cleaned, report = _clean(raw, surface, path)
+        profiles.append((raw, cleaned))
+        reports.append(report)
+    hdc = height_difference([cleaned for _, cleaned in profiles], max_lag=surface.max_lag)
+    self_affine, why_not = _self_affine(hdc)
+    sines = fit_sines(
+        hdc,
+        scales=surface.scales,
+        smallest_wavelength=surface.smallest_wavelength,
+        s_wavelength=surface.s_wavelength,
+        s_amplitude=surface.s_amplitude,
+        first_wavelength=surface.first_wavelength,
+        first_amplitude=surface.first_amplitude,
+        single_factor=surface.single_factor,
+        smallest_lag=surface.smallest_lag,
+        largest_lag=surface.largest_lag,
+    )
+    measured = Measured(profiles, reports, hdc, self_affine, why_not)
+    return SurfaceStudy(sines, ", ".join(str(path) for path in paths), measured)
+
+
+def study_rubber(source: RubberSource, resolve: Resolve) -> RubberStudy:
+    """Read and fit the master curve of `source`, or take the rubber it names."""
+    stiffness = {} if source.bulk_modulus is None else {"bulk_modulus": source.bulk_modulus}
+    if source.file is None:
+        rubber = styrene_butadiene(**stiffness)
+        return RubberStudy(rubber, rubber.source)
+    path = resolve(source.file)
+    master = read_master_curve(
+        path,
+        frequency_unit=source.frequency_unit,
+        modulus_unit=source.modulus_unit,
+        modulus=source.modulus,
+        reference_temperature=source.reference_temperature,
+        columns=source.columns,
+        source=source.source or str(path),
+    )
+    choice = (
+        {} if source.outlier_threshold is None else {"outlier_threshold": source.outlier_threshold}
+    )
+    rubber, report = fit_prony_report(master, terms=source.terms, **stiffness, **choice)
+    return RubberStudy(rubber, master.source, master, report)
+
+
+def _clean(raw: Profile, surface: Surface, path: Path) -> tuple[Profile, CleaningReport]:
+    """Clean `raw`; an error names the file, which the cleaning does not know."""
+    try:
+        return clean(
+            raw,
+            crop=_pair(surface.crop),
+            valid_range=_pair(surface.valid_range),
+            remove_spikes=surface.remove_spikes,
+            spike_slope=surface.spike_slope,
+            across_gaps=surface.across_gaps,
+            detrend=surface.detrend,
+        )
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from error
+
+
+def _self_affine(hdc: HeightDifference) -> tuple[SelfAffineFit | None, str]:
+    """Fit what may not be there: the sine waves do not need a self-affine surface."""
+    try:
+        return fit_self_affine(hdc), ""
+    except GripscaleError as error:
+        return None, str(error)
+
+
+def _pair(limits: list[float] | None) -> tuple[float, float] | None:
+    return None if limits is None else (limits[0], limits[1])

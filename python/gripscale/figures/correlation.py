@@ -1,0 +1,82 @@
+"""Height difference correlation: measured, self-affine fit and sine waves (figures 3b and 4 of LW).
+
+Beyond a quarter of the first wavelength the waves are drawn as they were fitted, the first one by
+its mean over phases, A_1^2 (see `fit_sines`); the pure sines, which fall back there, are dotted.
+Neither is drawn beyond the first wavelength.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from gripscale.figures.style import BLUE, COLOURS, GREY, INK, MILLI, NARROW, ORANGE, sheet, styled
+from gripscale.surface import HeightDifference, SelfAffineFit, SineStack
+
+SQUARE_MM = 1e-6
+
+
+@styled
+def correlation_figure(
+    measured: HeightDifference,
+    sines: Mapping[str, SineStack],
+    self_affine: SelfAffineFit | None = None,
+) -> Figure:
+    """Draw C_z [mm^2] against lag [mm], with the named sine stacks and their wavelengths marked."""
+    figure, panels = sheet(NARROW, 3.7)
+    axes = panels[0, 0]
+    _measured(axes, measured)
+    if self_affine is not None:
+        curve = self_affine.evaluate(measured.lag) / SQUARE_MM
+        text = f"self-affine, $H$ = {self_affine.hurst:.2f}"
+        axes.plot(measured.lag / MILLI, curve, color=ORANGE, ls=(0, (4, 2)), label=text)
+    lag = np.geomspace(measured.lag[0], measured.lag[-1], 1500)
+    for (name, stack), colour in zip(sines.items(), [BLUE, *COLOURS[2:]], strict=False):
+        _waves(axes, stack, lag, name, colour)
+    axes.set(xscale="log", yscale="log", xlabel="lag $l$ [mm]")
+    axes.set_ylabel("height difference correlation $C_z$ [mm$^2$]")
+    value = measured.value / SQUARE_MM
+    axes.set_ylim(0.3 * value[value > 0.0].min(), 3.0 * value.max())
+    axes.xaxis.set_major_formatter(lambda number, _: f"{number:g}")
+    axes.legend(loc="lower right")
+    return figure
+
+
+def _measured(axes: Axes, measured: HeightDifference) -> None:
+    lag = measured.lag / MILLI
+    if measured.lower is not None and measured.upper is not None:
+        low, high = measured.lower / SQUARE_MM, measured.upper / SQUARE_MM
+        axes.fill_between(lag, low, high, color=GREY, alpha=0.35, lw=0, label="95 % band")
+    axes.plot(lag, measured.value / SQUARE_MM, ".", color=INK, ms=4.0, label="measured")
+
+
+def _waves(axes: Axes, stack: SineStack, lag: NDArray[np.float64], name: str, colour: str) -> None:
+    """Draw the waves up to the first wavelength as fitted and as pure sines; mark wavelengths."""
+    first = stack.wavelength[0]
+    lag = lag[lag <= first]
+    fitted = _as_fitted(stack, lag) / SQUARE_MM
+    pure = np.where(lag > 0.25 * first, stack.height_difference(lag) / SQUARE_MM, np.nan)
+    axes.plot(lag / MILLI, fitted, color=colour, label=name)
+    axes.plot(lag / MILLI, pure, color=colour, lw=0.8, ls=(0, (1, 1.5)))
+    axes.plot(
+        stack.wavelength / MILLI,
+        np.full(len(stack), 0.0),
+        "|",
+        color=colour,
+        ms=9,
+        mew=1.4,
+        transform=axes.get_xaxis_transform(),
+        label="their wavelengths",
+    )
+
+
+def _as_fitted(stack: SineStack, lag: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return C_z [m^2] with the first wave by its mean beyond a quarter of its length."""
+    first = SineStack(wavelength=stack.wavelength[:1], amplitude=stack.amplitude[:1])
+    held = np.minimum(lag, 0.25 * stack.wavelength[0])
+    rest = stack.height_difference(lag) - first.height_difference(lag)
+    return np.asarray(rest + first.height_difference(held))

@@ -1,0 +1,109 @@
+"""Master curve with its Prony series, and the frequencies the waves excite (figure 2 of LW)."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import ArrayLike, NDArray
+
+from gripscale.figures.style import BLUE, GREEN, GREY, INK, MEGA, NARROW, ORANGE, sheet, styled
+from gripscale.rubber import MasterCurve, PronyFit, Rubber
+
+Array = NDArray[np.float64]
+
+
+@styled
+def master_curve_figure(
+    rubber: Rubber,
+    master: MasterCurve | None = None,
+    fit: PronyFit | None = None,
+    excitation: ArrayLike = (),
+) -> Figure:
+    """Draw moduli [MPa] and loss factor against angular frequency.
+
+    Parameters
+    ----------
+    rubber
+        Its Prony series is drawn as lines.
+    master
+        The measured points, if any.
+    fit
+        Tells which rows were left out of the fit; they are drawn as crosses.
+    excitation
+        Angular frequencies of the waves [rad/s], marked on the axis.
+    """
+    figure, panels = sheet(NARROW, 4.4, 2, 1, sharex=True, height_ratios=[2.0, 1.0])
+    moduli, loss = panels[:, 0]
+    omega = np.asarray(excitation, dtype=float)
+    _series(moduli, loss, rubber, master, omega)
+    if master is not None:
+        _points(moduli, loss, master, fit)
+    moduli.set(xscale="log", yscale="log", ylabel="modulus $E'$, $E''$ [MPa]")
+    loss.set_ylabel("loss factor [-]")
+    loss.set_xlabel("angular frequency $\\omega$ [rad/s]")
+    loss.set_ylim(bottom=0.0)
+    if omega.size:
+        _marks(moduli, loss, rubber, omega)
+    moduli.legend(loc="upper left")
+    return figure
+
+
+def _series(
+    moduli: Axes,
+    loss: Axes,
+    rubber: Rubber,
+    master: MasterCurve | None,
+    excitation: Array,
+) -> None:
+    """Draw E', E'' and E''/E' of the Prony series over everything that is shown."""
+    ends = [*excitation]
+    if rubber.valid_band is not None:
+        ends.extend(rubber.valid_band)
+    if master is not None:
+        ends.extend(master.angular_frequency[[0, -1]])
+    if not ends:
+        ends.extend(1.0 / rubber.relaxation_times)
+    low, high = min(ends, default=1.0), max(ends, default=1.0)
+    omega = np.geomspace(low / 3.0, high * 3.0, 600)
+    modulus = rubber.complex_modulus(omega)
+    moduli.plot(omega, modulus.real / MEGA, color=BLUE, label="$E'$, Prony series")
+    moduli.plot(omega, modulus.imag / MEGA, color=ORANGE, label="$E''$, Prony series")
+    loss.plot(omega, modulus.imag / modulus.real, color=GREEN)
+
+
+def _marks(moduli: Axes, loss: Axes, rubber: Rubber, omega: Array) -> None:
+    """Mark the frequencies of the waves on the three curves."""
+    modulus = rubber.complex_modulus(omega)
+    look: dict[str, Any] = {
+        "marker": "o",
+        "ls": "",
+        "mfc": "white",
+        "mec": INK,
+        "ms": 3.8,
+        "mew": 0.9,
+    }
+    moduli.plot(omega, modulus.real / MEGA, label="$\\omega_i$ of the waves", **look)
+    moduli.plot(omega, modulus.imag / MEGA, **look)
+    loss.plot(omega, modulus.imag / modulus.real, **look)
+
+
+def _points(moduli: Axes, loss: Axes, master: MasterCurve, fit: PronyFit | None) -> None:
+    """Draw the measured rows, those left out of the fit as crosses."""
+    out = np.zeros(len(master), dtype=bool)
+    if fit is not None:
+        out = np.isin(master.frequency, fit.outlier_frequency)
+    omega = 2.0 * math.pi * master.frequency
+    curves = (
+        (moduli, master.storage / MEGA, BLUE, "$E'$, measured"),
+        (moduli, master.loss / MEGA, ORANGE, "$E''$, measured"),
+        (loss, master.loss_factor, GREEN, None),
+    )
+    for axes, values, colour, label in curves:
+        axes.plot(omega[~out], values[~out], ".", color=colour, ms=3.5, alpha=0.6, label=label)
+        axes.plot(omega[out], values[out], "x", color=colour, ms=4.5)
+    if out.any():
+        moduli.plot([], [], "x", color=GREY, ms=4.5, label="left out of the fit")

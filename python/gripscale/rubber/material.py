@@ -1,0 +1,208 @@
+"""A linear viscoelastic, nearly incompressible rubber: a generalized Maxwell (Prony) solid.
+
+    E(t)  = E_inf + sum_i E_i exp(-t/tau_i)
+    E*(w) = E_inf + sum_i E_i i w tau_i / (1 + i w tau_i) = E'(w) + i E''(w)
+
+Source: J. D. Ferry, Viscoelastic Properties of Polymers, 3rd ed. (1980), ch. 3.
+
+Only shear relaxes: G* = E*/3 and the bulk modulus K is constant. E is the modulus of the
+incompressible limit; the few per cent by which a finite K changes it enter through Poisson's ratio.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gripscale import checks
+from gripscale.errors import InputError
+
+Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+
+@dataclass(frozen=True, init=False, eq=False)
+class Rubber:
+    """Generalized Maxwell solid with constant bulk modulus.
+
+    Parameters
+    ----------
+    equilibrium_modulus : float
+        Young's modulus after infinite time, E_inf = 3 G_inf [Pa], above zero.
+    moduli : array_like, shape (terms,)
+        Young's moduli of the Maxwell elements, E_i = 3 G_i [Pa], above zero. Empty: elastic.
+    relaxation_times : array_like, shape (terms,)
+        Their relaxation times [s], above zero.
+    bulk_modulus : float
+        Bulk modulus [Pa]; more than 2/9 of the glassy modulus, so that Poisson's ratio stays
+        positive at every frequency.
+    name, source : str
+        What the rubber is and where its numbers come from.
+    valid_band : tuple of two floats, optional
+        Lowest and highest angular frequency the numbers rest on [rad/s].
+
+    Raises
+    ------
+    InputError
+        If a value is missing, not finite, not positive, or the lengths differ.
+    """
+
+    equilibrium_modulus: float
+    moduli: Array = field(repr=False)
+    relaxation_times: Array = field(repr=False)
+    bulk_modulus: float = 2e9
+    name: str = ""
+    source: str = ""
+    valid_band: tuple[float, float] | None = None
+
+    def __init__(
+        self,
+        equilibrium_modulus: float,
+        moduli: ArrayLike = (),
+        relaxation_times: ArrayLike = (),
+        bulk_modulus: float = 2e9,
+        name: str = "",
+        source: str = "",
+        valid_band: tuple[float, float] | None = None,
+    ) -> None:
+        values = {
+            "equilibrium_modulus": checks.positive(
+                "equilibrium_modulus", equilibrium_modulus, unit="Pa"
+            ),
+            "moduli": _read_only(checks.positive_vector("moduli", moduli, unit="Pa")),
+            "relaxation_times": _read_only(
+                checks.positive_vector("relaxation_times", relaxation_times, unit="s")
+            ),
+            "bulk_modulus": checks.positive("bulk_modulus", bulk_modulus, unit="Pa"),
+            "name": str(name),
+            "source": str(source),
+            "valid_band": _band(valid_band),
+        }
+        for key, value in values.items():
+            object.__setattr__(self, key, value)
+        self._check_together()
+
+    def _check_together(self) -> None:
+        if len(self.moduli) != len(self.relaxation_times):
+            raise InputError(
+                "moduli and relaxation_times must have the same length; "
+                f"got {len(self.moduli)} and {len(self.relaxation_times)}"
+            )
+        least = 2.0 / 9.0 * self.glassy_modulus
+        if self.bulk_modulus <= least:
+            raise InputError(
+                f"bulk_modulus [Pa] must exceed 2/9 of the glassy modulus, {least:g}, "
+                f"to keep Poisson's ratio positive; got {self.bulk_modulus:g}"
+            )
+
+    def __eq__(self, other: object) -> bool:
+        """Compare all numbers and names."""
+        return isinstance(other, Rubber) and self._key() == other._key()
+
+    def __hash__(self) -> int:
+        return hash(self._key())
+
+    def _key(self) -> tuple[object, ...]:
+        return (
+            self.equilibrium_modulus,
+            self.moduli.tobytes(),
+            self.relaxation_times.tobytes(),
+            self.bulk_modulus,
+            self.name,
+            self.source,
+            self.valid_band,
+        )
+
+    @property
+    def glassy_modulus(self) -> float:
+        """Young's modulus at once after a step, E_inf + sum E_i [Pa]."""
+        return float(self.equilibrium_modulus + self.moduli.sum())
+
+    @property
+    def equilibrium_shear_modulus(self) -> float:
+        """Shear modulus after infinite time, E_inf / 3 [Pa]."""
+        return self.equilibrium_modulus / 3.0
+
+    @property
+    def shear_moduli(self) -> Array:
+        """Shear moduli of the Maxwell elements, E_i / 3 [Pa], shape (terms,)."""
+        return self.moduli / 3.0
+
+    def complex_modulus(self, omega: ArrayLike) -> ComplexArray:
+        """Return E*(w) = E' + i E'' [Pa] at angular frequencies `omega` [rad/s], same shape.
+
+        A negative frequency gives the complex conjugate. Raises `InputError` unless finite.
+        """
+        frequency = _finite("omega", omega, "rad/s")
+        phase = frequency[..., None] * self.relaxation_times
+        storage = self.equilibrium_modulus + (self.moduli * (1.0 - 1.0 / (1.0 + phase**2))).sum(-1)
+        loss = (self.moduli * phase / (1.0 + phase**2)).sum(-1)
+        return np.asarray(storage + 1j * loss, dtype=np.complex128)
+
+    def loss_factor(self, omega: ArrayLike) -> Array:
+        """Return tan(delta) = E''/E' [-] at angular frequencies `omega` [rad/s], same shape."""
+        modulus = self.complex_modulus(omega)
+        return np.asarray(modulus.imag / modulus.real)
+
+    def relaxation_modulus(self, time: ArrayLike) -> Array:
+        """Return E(t) [Pa] at `time` [s] after a step, same shape; infinity gives equilibrium.
+
+        Raises `InputError` for a negative time or NaN.
+        """
+        elapsed = np.asarray(time, dtype=float)
+        if not (elapsed >= 0.0).all():
+            raise InputError(f"time must not be negative [s]; got {elapsed!r:.80}")
+        decay = np.exp(-elapsed[..., None] / self.relaxation_times)
+        return np.asarray(self.equilibrium_modulus + (self.moduli * decay).sum(-1))
+
+    def poisson_ratio(self, omega: ArrayLike) -> Array:
+        """Return nu = (3K - 2|G|) / (2 (3K + |G|)) [-] at `omega` [rad/s], with |G| = |E*|/3."""
+        shear = np.abs(self.complex_modulus(omega)) / 3.0
+        bulk = self.bulk_modulus
+        return np.asarray((3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear)))
+
+    def plane_strain_modulus(self, omega: ArrayLike) -> ComplexArray:
+        """Return the complex E/(1 - nu^2) = 4 G* (3K + G*) / (3K + 4 G*) [Pa] at `omega` [rad/s].
+
+        This is the stiffness of a half-plane in plane strain when shear relaxes (G* = E*/3) and the
+        bulk modulus does not; 4/3 of E* when incompressible.
+        """
+        shear = self.complex_modulus(omega) / 3.0
+        bulk = 3.0 * self.bulk_modulus
+        return np.asarray(4.0 * shear * (bulk + shear) / (bulk + 4.0 * shear))
+
+    def outside_band(self, omega: ArrayLike) -> NDArray[np.bool_]:
+        """Return whether each `omega` [rad/s] lies outside `valid_band`; False if none is known."""
+        frequency = np.abs(_finite("omega", omega, "rad/s"))
+        if self.valid_band is None:
+            return np.zeros(frequency.shape, dtype=bool)
+        low, high = self.valid_band
+        return np.asarray((frequency < low) | (frequency > high))
+
+
+def _read_only(values: Array) -> Array:
+    values.setflags(write=False)
+    return values
+
+
+def _finite(name: str, value: ArrayLike, unit: str) -> Array:
+    try:
+        result = np.asarray(value, dtype=float)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{name} must be finite numbers [{unit}]; got {value!r:.80}") from error
+    if not np.isfinite(result).all():
+        raise InputError(f"{name} must be finite numbers [{unit}]; got {value!r:.80}")
+    return result
+
+
+def _band(value: tuple[float, float] | None) -> tuple[float, float] | None:
+    if value is None:
+        return None
+    band = checks.positive_vector("valid_band", value, unit="rad/s")
+    if len(band) != 2 or band[0] >= band[1]:
+        raise InputError(
+            f"valid_band [rad/s] must be a lower and a higher frequency; got {value!r}"
+        )
+    return float(band[0]), float(band[1])

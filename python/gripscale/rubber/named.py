@@ -1,0 +1,114 @@
+"""Rubbers known by published parameters."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gripscale import checks
+from gripscale.errors import InputError
+from gripscale.rubber.master_curve import MasterCurve
+from gripscale.rubber.material import Rubber
+from gripscale.rubber.prony import fit_prony
+
+ComplexArray = NDArray[np.complex128]
+
+_REFERENCE_FREQUENCY = 2.0 * np.pi * 6.94e7
+_RUBBERY = 1.76e6, 2.3 / 90.0
+_TRANSITION = 1.12e9, 55.0 / 90.0
+_GLASSY = 1.12e9, 2.0 / 90.0
+_ORIGIN = (
+    "springpot parameters published for an unfilled SBR at 20 C; the publication is not stated in "
+    "the source they were taken from"
+)
+
+
+def springpot_modulus(omega: ArrayLike) -> ComplexArray:
+    """Return E*(w) of an unfilled styrene-butadiene rubber at 20 C from springpots.
+
+    One springpot in parallel with two in series, s = i w / w_r, w_r = 2 pi 6.94e7 rad/s:
+
+        E*(w) = E_a + 1/(1/E_b + 1/E_c)
+        E_a = 1.76 MPa s^(2.3/90),  E_b = 1.12 GPa s^(55/90),  E_c = 1.12 GPa s^(2/90)
+
+    The exponents are the limiting loss angles over 90 degrees. The parameters are published for an
+    unfilled SBR at 20 C; the publication, the compound and the strain amplitude are not stated in
+    the source they were taken from.
+
+    Parameters
+    ----------
+    omega : array_like
+        Angular frequency [rad/s], above zero.
+
+    Returns
+    -------
+    ndarray of complex
+        Complex Young's modulus [Pa], shape of `omega`.
+
+    Raises
+    ------
+    InputError
+        If a frequency is not finite or not above zero.
+    """
+    frequency = np.asarray(omega, dtype=float)
+    if not (np.isfinite(frequency) & (frequency > 0.0)).all():
+        raise InputError(f"omega must be greater than zero [rad/s]; got {omega!r:.80}")
+    scaled = 1j * frequency / _REFERENCE_FREQUENCY
+    rubbery, transition, glassy = (
+        modulus * scaled**exponent for modulus, exponent in (_RUBBERY, _TRANSITION, _GLASSY)
+    )
+    return np.asarray(rubbery + 1.0 / (1.0 / transition + 1.0 / glassy))
+
+
+@lru_cache(maxsize=8)
+def styrene_butadiene(
+    *, band: tuple[float, float] = (1e-2, 1e10), bulk_modulus: float = 2e9
+) -> Rubber:
+    """Return an unfilled styrene-butadiene rubber at 20 C as a Prony series.
+
+    The springpots of `springpot_modulus`, fitted over `band` with two elements per decade. A
+    springpot has no equilibrium modulus: the one given here is what is left at the slow end of the
+    band, so static results depend on the band and are not a property of the rubber.
+
+    What is known: unfilled SBR, 20 C, the parameters. Not known: publication, compound, laboratory,
+    strain amplitude, and how far into the glassy region they were measured.
+
+    Parameters
+    ----------
+    band : tuple of two floats
+        Lowest and highest angular frequency [rad/s], at least two decades apart.
+    bulk_modulus : float
+        Bulk modulus [Pa]; assumed, not published with the parameters.
+
+    Returns
+    -------
+    Rubber
+        With `valid_band` equal to `band`.
+
+    Raises
+    ------
+    InputError
+        If the band or the bulk modulus cannot be used.
+    """
+    low, high = checks.positive_vector("band", band, unit="rad/s")[:2]
+    if len(band) != 2 or high < 100.0 * low:
+        raise InputError(f"band [rad/s] must span at least two decades; got {band!r}")
+    decades = float(np.log10(high / low))
+    omega = np.geomspace(low, high, round(10 * decades) + 1)
+    modulus = springpot_modulus(omega)
+    master = MasterCurve(
+        omega / (2.0 * np.pi),
+        modulus.real,
+        modulus.imag,
+        reference_temperature=293.15,
+        name="unfilled styrene-butadiene rubber, 20 C",
+        source=_ORIGIN,
+    )
+    return fit_prony(
+        master,
+        terms=round(2 * decades) + 1,
+        bulk_modulus=bulk_modulus,
+        outlier_threshold=float("inf"),
+    )

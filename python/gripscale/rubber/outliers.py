@@ -1,0 +1,109 @@
+"""Finding rows of a master curve that do not belong to it.
+
+A row is an outlier if its storage or its loss modulus leaves the local trend of its neighbours by
+more than `threshold` times the typical scatter, both
+
+- in the data themselves (log-log straight line through the neighbours), and
+- in the data divided by a Maxwell fit (so that curvature of a smooth spectrum is no outlier).
+
+The line is the median of pairwise slopes (P. K. Sen, J. Am. Stat. Assoc. 63 (1968) 1379,
+doi:10.1080/01621459.1968.10480934); the scatter is 1.4826 times the median absolute deviation.
+The fit alone would not do: measured E' and E'' are often not Kramers-Kronig consistent, and the
+joint fit then misses both by more than their scatter.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gripscale.rubber.maxwell_fit import Spectrum
+
+Array = NDArray[np.float64]
+
+_NEIGHBOURS = 8
+_PASSES = 10
+_LEAST_SCATTER = 0.02
+"""Scatter below this (2 %, a good laboratory) is not believed."""
+_FEWEST_ROWS = _NEIGHBOURS + 3
+
+
+@dataclass(frozen=True)
+class Screening:
+    """Which rows are kept, and how far each is from its neighbours."""
+
+    kept: NDArray[np.bool_]
+    storage_deviation: Array
+    """Log deviation of E' from the local trend [-], shape (rows,)."""
+    loss_deviation: Array
+    """The same of E''."""
+    storage_scatter: float
+    """Robust relative scatter of E' about its local trend [-]."""
+    loss_scatter: float
+
+
+def screen(
+    omega: Array,
+    storage: Array,
+    loss: Array,
+    fit: Callable[[NDArray[np.bool_]], Spectrum],
+    threshold: float,
+) -> Screening:
+    """Return which rows belong to the curve; `fit` is the Maxwell fit to a choice of rows.
+
+    `omega` [rad/s] ascending, `storage` and `loss` [Pa], all of shape (rows,).
+    """
+    kept = np.ones(len(omega), dtype=bool)
+    position = np.log(omega)
+    for _ in range(_PASSES):
+        spectrum = fit(kept)
+        raw = [
+            _deviation(position, np.log(storage), kept),
+            _deviation(position, np.log(loss), kept),
+        ]
+        relative = [
+            _deviation(position, np.log(storage / spectrum.storage(omega)), kept),
+            _deviation(position, np.log(loss / spectrum.loss(omega)), kept),
+        ]
+        scores = [
+            np.minimum(np.abs(a) / _scatter(a[kept]), np.abs(b) / _scatter(b[kept]))
+            for a, b in zip(raw, relative, strict=True)
+        ]
+        new = np.maximum(scores[0], scores[1]) <= threshold
+        if len(omega) < _FEWEST_ROWS or new.sum() < _FEWEST_ROWS or (new == kept).all():
+            break
+        kept = new
+    return Screening(kept, raw[0], raw[1], _spread(raw[0][kept]), _spread(raw[1][kept]))
+
+
+def _deviation(position: Array, value: Array, kept: NDArray[np.bool_]) -> Array:
+    """Return each value minus the straight line through its nearest kept neighbours."""
+    result = np.empty_like(value)
+    members = np.flatnonzero(kept)
+    for row in range(len(value)):
+        near = _nearest(members[members != row], row)
+        first, second = np.triu_indices(len(near), 1)
+        run = position[near][second] - position[near][first]
+        rise = value[near][second] - value[near][first]
+        slope = float(np.median(rise[run > 0.0] / run[run > 0.0])) if (run > 0.0).any() else 0.0
+        level = np.median(value[near] - slope * (position[near] - position[row]))
+        result[row] = value[row] - level
+    return result
+
+
+def _nearest(members: NDArray[np.intp], row: int) -> NDArray[np.intp]:
+    """Return up to eight members around `row`: half on each side, more where one side ends."""
+    split = int(np.searchsorted(members, row))
+    start = min(max(split - _NEIGHBOURS // 2, 0), max(len(members) - _NEIGHBOURS, 0))
+    return members[start : start + _NEIGHBOURS]
+
+
+def _spread(deviation: Array) -> float:
+    return float(1.4826 * np.median(np.abs(deviation)))
+
+
+def _scatter(deviation: Array) -> float:
+    return max(_spread(deviation), _LEAST_SCATTER)

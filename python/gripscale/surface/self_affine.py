@@ -1,0 +1,163 @@
+"""Describe a height difference correlation as self-affine up to a cut-off.
+
+    C_z(l) = xi_perp^2 (l / xi_par)^(6 - 2 D)   below the cut-off xi_par,
+    C_z(l) = xi_perp^2                          above it,               [LW eq. 6]
+
+with the fractal dimension D of the surface and the Hurst exponent H = 3 - D, so that 6 - 2D = 2H.
+[LW] Lind & Wangenheim, ASME IMECE2014-37998, after Klueppel & Heinrich,
+Rubber Chem. Technol. 73 (2000) 578.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gripscale import checks
+from gripscale.errors import InputError
+from gripscale.surface.height_difference import HeightDifference
+from gripscale.surface.plateau import find_plateau, log_weights
+from gripscale.surface.profile import FloatArray
+
+FEWEST_LAGS = 4
+"""Lags a power law must cover."""
+
+
+@dataclass(frozen=True)
+class SelfAffineFit:
+    """A power law up to a cut-off, and the plateau above it.
+
+    Attributes
+    ----------
+    hurst : float
+        Hurst exponent H: half the slope of log C_z over log lag.
+    xi_parallel : float
+        Cut-off lag [m], where the power law meets the plateau.
+    xi_perpendicular : float
+        Root of the plateau [m]: the root mean square height times the root of 2.
+    lag_min, lag_max : float
+        Range of lags [m] over which C_z was found to be a power law.
+    residual : float
+        Root mean square departure from the power law over that range, in decades of C_z.
+    """
+
+    hurst: float
+    xi_parallel: float
+    xi_perpendicular: float
+    lag_min: float
+    lag_max: float
+    residual: float
+
+    @property
+    def fractal_dimension(self) -> float:
+        """Fractal dimension of the surface, D = 3 - H."""
+        return 3.0 - self.hurst
+
+    def evaluate(self, lag: ArrayLike) -> FloatArray:
+        """Return C_z [m^2] at lags [m], by [LW eq. 6]."""
+        lags = checks.positive_vector("lag", lag, unit="m")
+        below = np.minimum(lags / self.xi_parallel, 1.0)
+        return np.asarray(self.xi_perpendicular**2 * below ** (2.0 * self.hurst))
+
+
+def fit_self_affine(
+    hdc: HeightDifference, *, tolerance: float = 0.02, shortest_range: float = 0.5
+) -> SelfAffineFit:
+    """Find the power law and the plateau of a height difference correlation.
+
+    The range of the power law is found, not assumed: of all ranges of lags below the plateau over
+    which a straight line in log C_z departs by no more than `tolerance` rms, the widest is taken
+    (of equally wide ones, that with the smallest departure). Where none is as wide as
+    `shortest_range`, the straightest range of that width is taken, and `residual` exceeds
+    `tolerance`: the surface is then not self-affine.
+
+    Parameters
+    ----------
+    hdc : HeightDifference
+        The measured curve; it must reach its plateau.
+    tolerance : float, optional
+        Largest rms departure from the power law, in decades of C_z.
+    shortest_range : float, optional
+        Narrowest range accepted, in decades of lag.
+
+    Returns
+    -------
+    SelfAffineFit
+        Exponent, cut-offs, and the range they were found in.
+
+    Raises
+    ------
+    InputError
+        If C_z vanishes somewhere, does not reach a plateau or does not rise before it.
+    """
+    checks.positive("tolerance", tolerance)
+    checks.positive("shortest_range", shortest_range)
+    if (hdc.value <= 0.0).any():
+        at = int(np.argmin(hdc.value))
+        raise InputError(
+            f"hdc must be positive at every lag; got {hdc.value[at]:g} m^2 at {hdc.lag[at]:g} m"
+        )
+    plateau = find_plateau(hdc)
+    if plateau is None:
+        raise InputError(
+            "hdc must reach a plateau over a factor of two in lag; it still rises at "
+            f"{hdc.lag[-1]:.4g} m, so use a longer profile or a larger max_lag"
+        )
+    rising = hdc.lag < plateau.lag * (1.0 + 1e-9)
+    first, last = _power_law_range(hdc.lag[rising], hdc.value[rising], tolerance, shortest_range)
+    slope, at_one_metre, residual = _line(hdc.lag[first:last], hdc.value[first:last])
+    if slope <= 0.0:
+        raise InputError(f"hdc must rise before its plateau; got a slope of {slope:.3g}")
+    # The power law meets the plateau where at_one_metre + slope log10(l) = log10(level).
+    cut_off = 10.0 ** ((np.log10(plateau.level) - at_one_metre) / slope)
+    return SelfAffineFit(
+        hurst=0.5 * slope,
+        xi_parallel=float(cut_off),
+        xi_perpendicular=float(np.sqrt(plateau.level)),
+        lag_min=float(hdc.lag[first]),
+        lag_max=float(hdc.lag[last - 1]),
+        residual=residual,
+    )
+
+
+def _power_law_range(
+    lag: FloatArray, value: FloatArray, tolerance: float, shortest: float
+) -> tuple[int, int]:
+    """Return the first index and the one past the last of the widest straight range."""
+    candidates = _ranges(lag, shortest)
+    if not candidates:
+        raise InputError(
+            f"hdc must have {FEWEST_LAGS} lags over {shortest:g} decades below its plateau; "
+            f"got {lag.size} lags up to {lag[-1]:.4g} m"
+        )
+    residuals = [_line(lag[i:j], value[i:j])[2] for i, j in candidates]
+    straight = [(i, j) for (i, j), r in zip(candidates, residuals, strict=True) if r <= tolerance]
+    if straight:
+        return max(straight, key=lambda range_: _decades(lag, range_))
+    return candidates[int(np.argmin(residuals))]
+
+
+def _ranges(lag: FloatArray, shortest: float) -> list[tuple[int, int]]:
+    return [
+        (i, j)
+        for i in range(lag.size)
+        for j in range(i + FEWEST_LAGS, lag.size + 1)
+        if _decades(lag, (i, j)) >= shortest
+    ]
+
+
+def _decades(lag: FloatArray, range_: tuple[int, int]) -> float:
+    first, last = range_
+    return float(np.log10(lag[last - 1] / lag[first]))
+
+
+def _line(lag: FloatArray, value: FloatArray) -> tuple[float, float, float]:
+    """Return slope, log10 value at 1 m and rms departure of a line in log-log, decades alike."""
+    x, y, weight = np.log10(lag), np.log10(value), log_weights(lag)
+    weight = weight / weight.sum()
+    dx, dy = x - weight @ x, y - weight @ y
+    slope = float((weight * dx) @ dy / ((weight * dx) @ dx))
+    residual = float(np.sqrt(weight @ np.square(dy - slope * dx)))
+    return slope, float(weight @ y - slope * (weight @ x)), residual

@@ -1,0 +1,260 @@
+"""Find the sine waves whose height difference correlation matches a measured one.
+
+Wave i has lambda_{i+1} = lambda_i / s_lambda and A_{i+1} = A_i / s_A; the unknowns are the first
+wave (lambda_1, A_1) and the two factors. The fit minimises the rms difference of log10 C_z, decades
+of lag counting alike (Lind & Wangenheim, ASME IMECE2014-37998). Which lags count, and how:
+
+**Large lags.** C_z of a sine falls back to zero at each whole wavelength. A road does not repeat:
+its long waves fill a band of wavelengths and its C_z stays on the plateau, twice the variance of
+the heights. So beyond lambda_1 / 4 the first wave enters the fit by its mean over phases, A_1^2,
+the value it has just reached there:
+
+    C_fit(l) = A_1^2 g(l / lambda_1) + sum_{i > 1} A_i^2 (1 - cos(2 pi l / lambda_i)),
+    g(u) = 1 - cos(2 pi u) for u < 1/4, else 1.
+
+The waves then carry the variance of the road, about sum A_i^2 / 2. (Following the cosine to its
+top at lambda_1 / 2 instead would halve the variance of the first wave.) Lags up to four times the
+one where the plateau begins count: without them a first wave several times too large fits the rise
+as well, and at still larger lags C_z scatters for want of independent heights. To fit the curve of
+a few pure sines, which does fall back, give `largest_lag` = lambda_1 / 4.
+
+The first wave rises as l^2, faster than a rough surface. The amplitudes of the smaller waves fall
+the faster for it: on an exact curve of exponent H, log s_A / log s_lambda comes out up to 0.1 above
+H, and above 1 where H > 0.9, so that they count for little there.
+
+**Small lags.** Any profile has |z(x + m l) - z(x)| <= the sum of its m differences over l, hence
+C_z(m l) <= m^2 C_z(l). Spike removal marks both points of steep neighbours as missing, so steep
+flanks count at lags that span the gap but not at smaller ones: C_z then breaks this rule, and no
+sum of waves can follow. Lags before the first one that keeps the rule do not count by default.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gripscale import checks
+from gripscale.errors import InputError
+from gripscale.surface.height_difference import HeightDifference
+from gripscale.surface.plateau import find_plateau
+from gripscale.surface.profile import FloatArray
+from gripscale.surface.sine_search import (
+    FACTOR_RANGE,
+    FIRST_WAVELENGTH,
+    S_AMPLITUDE,
+    S_WAVELENGTH,
+    Found,
+    Target,
+    Trial,
+    search,
+)
+from gripscale.surface.sines import SineStack
+
+MOST_WAVES = 24
+"""Waves beyond which a stack is refused."""
+
+PLATEAU_COUNTED = 4.0
+"""Largest lag that counts by default, in lags at which the plateau begins."""
+
+CONSISTENT = 1.05
+"""C_z(m l) / (m^2 C_z(l)) above which lag l is inconsistent; sampling may exceed 1 a little."""
+
+AS_GOOD = 1.1
+"""Residual, as a ratio to the least one, up to which fewer waves are preferred."""
+
+
+def fit_sines(
+    hdc: HeightDifference,
+    *,
+    scales: int | None = None,
+    smallest_wavelength: float | None = None,
+    s_wavelength: float | None = None,
+    s_amplitude: float | None = None,
+    first_wavelength: float | None = None,
+    first_amplitude: float | None = None,
+    single_factor: bool = False,
+    smallest_lag: float | None = None,
+    largest_lag: float | None = None,
+) -> SineStack:
+    """Fit superposed sine waves to a height difference correlation.
+
+    Parameters
+    ----------
+    hdc : HeightDifference
+        The measured curve.
+    scales : int, optional
+        Number of waves, 1 to 24. At least one of `scales` and `smallest_wavelength` is needed.
+    smallest_wavelength : float, optional
+        Wavelength of the last wave [m], which may lie below what was measured. Given with
+        `scales`, s_wavelength follows from it. Alone, the number of waves with the least residual
+        is taken (of numbers as good within 10 %, the smallest). Where s_wavelength is given too,
+        the last wave is the smallest one not below `smallest_wavelength`.
+    s_wavelength, s_amplitude : float, optional
+        Magnification factors, both above 1, if they are given rather than fitted.
+    first_wavelength, first_amplitude : float, optional
+        The first wave [m], if it is given rather than fitted.
+    single_factor : bool, optional
+        One factor for both lengths, the comparison Lind & Wangenheim show to fail.
+    smallest_lag, largest_lag : float, optional
+        Range of lags that count [m]; see the top of this file for the defaults.
+
+    Returns
+    -------
+    SineStack
+        The waves, their factors, and the rms residual in decades of C_z over `lag_range`.
+
+    Raises
+    ------
+    InputError
+        If an argument is wrong, `scales` and `smallest_wavelength` are both missing, or the curve
+        has too few positive values in the range of lags.
+    """
+    if scales is None and smallest_wavelength is None:
+        raise InputError("scales or smallest_wavelength must be given; got neither")
+    given = _given_logs(
+        {
+            "first_wavelength": first_wavelength,
+            "first_amplitude": first_amplitude,
+            "s_wavelength": s_wavelength,
+            "s_amplitude": s_amplitude,
+        },
+        single_factor,
+    )
+    target = _target(hdc, smallest_lag, largest_lag, int(np.isnan(given).sum()))
+    if smallest_wavelength is None:
+        waves = checks.whole("scales", scales, least=1, most=MOST_WAVES)
+        return _stack(search(target, Trial(given, waves, single_factor)), target)
+    last = float(np.log(checks.positive("smallest_wavelength", smallest_wavelength, unit="m")))
+    if last >= given[FIRST_WAVELENGTH]:
+        raise InputError(
+            f"smallest_wavelength must be below first_wavelength; got {smallest_wavelength:g} m "
+            f"against {first_wavelength:g} m"
+        )
+    if not np.isnan(given[S_WAVELENGTH]):
+        if scales is not None:
+            raise InputError("give two of scales, smallest_wavelength and s_wavelength; got three")
+        return _stack(_down_with_factor(target, given, single_factor, last), target)
+    if scales is not None:
+        waves = checks.whole("scales", scales, least=2, most=MOST_WAVES)
+        return _stack(search(target, Trial(given, waves, single_factor, last)), target)
+    return _stack(_best_number(target, given, single_factor, last), target)
+
+
+def _given_logs(values: dict[str, float | None], single_factor: bool) -> FloatArray:
+    """Return logs of what is given of the four unknowns, NaN for the others."""
+    logs = np.full(4, np.nan)
+    for at, (name, value) in enumerate(values.items()):
+        if value is None:
+            continue
+        logs[at] = np.log(checks.positive(name, value, unit="" if name.startswith("s_") else "m"))
+        if at >= S_WAVELENGTH and logs[at] <= 0.0:
+            raise InputError(f"{name} must be greater than 1; got {value:g}")
+    factors = logs[S_WAVELENGTH:]
+    if single_factor and not np.isnan(factors).all():
+        if np.nanmin(factors) != np.nanmax(factors):
+            raise InputError(
+                "s_wavelength and s_amplitude must be equal where single_factor is set; got "
+                f"{values['s_wavelength']} and {values['s_amplitude']}"
+            )
+        logs[S_WAVELENGTH:] = np.nanmin(factors)
+    return logs
+
+
+def _target(
+    hdc: HeightDifference, smallest: float | None, largest: float | None, unknowns: int
+) -> Target:
+    """Return the part of the curve that counts."""
+    if (hdc.value <= 0.0).any():
+        at = int(np.argmin(hdc.value))
+        raise InputError(
+            f"hdc must be positive at every lag; got {hdc.value[at]:g} m^2 at {hdc.lag[at]:g} m"
+        )
+    plateau = find_plateau(hdc)
+    if smallest is None:
+        smallest = first_consistent_lag(hdc)
+    if largest is None:
+        largest = float(hdc.lag[-1]) if plateau is None else PLATEAU_COUNTED * plateau.lag
+    low = checks.positive("smallest_lag", smallest, unit="m") * (1.0 - 1e-9)
+    high = checks.positive("largest_lag", largest, unit="m") * (1.0 + 1e-9)
+    used = (hdc.lag >= low) & (hdc.lag <= high)
+    if used.sum() < max(unknowns, 1):
+        raise InputError(
+            f"hdc must have at least {max(unknowns, 1)} lags to fit {unknowns} unknowns; got "
+            f"{used.sum()} from {low:g} m to {high:g} m"
+        )
+    level = plateau.level if plateau is not None else float(hdc.value[used].max())
+    return Target(hdc.lag[used], hdc.value[used], min(level, float(hdc.value[used].max())))
+
+
+def first_consistent_lag(hdc: HeightDifference) -> float:
+    """Return the first lag l with C_z(m l) <= m^2 C_z(l) for all whole m measured [m].
+
+    That C_z keeps this rule follows from the triangle inequality for root mean squares.
+    """
+    for lag, value in zip(hdc.lag, hdc.value, strict=True):
+        ratio = hdc.lag / lag
+        multiple = (ratio > 1.5) & (np.abs(ratio - np.rint(ratio)) < 1e-6 * ratio)
+        if (hdc.value[multiple] <= CONSISTENT * ratio[multiple] ** 2 * value).all():
+            return float(lag)
+    return float(hdc.lag[0])  # not reached: the last lag has no multiples
+
+
+def _down_with_factor(
+    target: Target, given: FloatArray, single_factor: bool, last: float
+) -> Found | None:
+    """Search with s_wavelength given: as many waves as do not go below the last wavelength."""
+    factor, first = float(given[S_WAVELENGTH]), float(given[FIRST_WAVELENGTH])
+    if not np.isnan(first):
+        waves = 1 + int((first - last) / factor + 1e-9)
+        if waves > MOST_WAVES:
+            raise InputError(
+                f"smallest_wavelength must need at most {MOST_WAVES} waves; "
+                f"{np.exp(last):g} m needs {waves}"
+            )
+        return search(target, Trial(given, waves, single_factor))
+    ranges = {n: (last + (n - 1) * factor, last + n * factor) for n in range(1, MOST_WAVES + 1)}
+    return _closest(
+        target, [Trial(given, n, single_factor, first_range=r) for n, r in ranges.items()], 1.0
+    )
+
+
+def _best_number(
+    target: Target, given: FloatArray, single_factor: bool, last: float
+) -> Found | None:
+    """Search over the number of waves down to the last wavelength."""
+    first = float(given[FIRST_WAVELENGTH])
+    spans = [last + (n - 1) * np.log(FACTOR_RANGE) for n in range(2, MOST_WAVES + 1)]
+    numbers = [
+        n for n, (low, high) in enumerate(spans, start=2) if np.isnan(first) or low <= first <= high
+    ]
+    trials = [Trial(given, n, single_factor, last) for n in numbers]
+    return _closest(target, trials, AS_GOOD)
+
+
+def _closest(target: Target, trials: list[Trial], as_good: float) -> Found | None:
+    """Return the closest of all trials; of those as good, the one with the fewest waves."""
+    found = [(search(target, trial, refined=2), trial) for trial in trials]
+    residuals = [one.residual for one, _ in found if one is not None]
+    if not residuals:
+        return None
+    good = [t for one, t in found if one is not None and one.residual <= as_good * min(residuals)]
+    return search(target, min(good, key=lambda trial: trial.waves))
+
+
+def _stack(found: Found | None, target: Target) -> SineStack:
+    if found is None:
+        raise InputError(
+            "no sine waves fit the given number, factors and wavelengths: s_wavelength must lie "
+            f"between {FACTOR_RANGE[0]:g} and {FACTOR_RANGE[1]:g}, and the first wavelength "
+            f"between {2 * target.lag[0]:.3g} m and {400 * target.lag[-1]:.3g} m"
+        )
+    order = np.arange(found.waves)
+    first_wavelength, first_amplitude, s_wavelength, s_amplitude = found.logs
+    several = found.waves > 1
+    return SineStack(
+        wavelength=np.exp(first_wavelength - order * s_wavelength),
+        amplitude=np.exp(first_amplitude - order * s_amplitude),
+        s_wavelength=float(np.exp(s_wavelength)) if several else None,
+        s_amplitude=float(np.exp(found.logs[S_AMPLITUDE])) if several else None,
+        residual=found.residual,
+        lag_range=(float(target.lag[0]), float(target.lag[-1])),
+    )

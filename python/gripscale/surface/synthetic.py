@@ -1,0 +1,99 @@
+"""Profiles made to measure, with known statistics, to test methods and to study sampling."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gripscale import checks
+from gripscale.errors import InputError
+from gripscale.surface.profile import FEWEST_POINTS, FloatArray, Profile
+from gripscale.surface.sines import SineStack
+
+MOST_POINTS = 10_000_000
+"""Points beyond which a synthetic profile is refused."""
+
+
+def self_affine_profile(
+    hurst: float,
+    xi_parallel: float,
+    xi_perpendicular: float,
+    length: float,
+    step: float,
+    seed: int,
+) -> Profile:
+    """Return a Gaussian random profile that is self-affine below a cut-off.
+
+    Its height difference correlation is, in the mean over seeds,
+
+        C_z(l) = xi_perp^2 (1 - exp(-(l / xi_par)^(2H))),
+
+    which has the two asymptotes of [LW eq. 6] (the power law and the plateau meet at xi_par) with
+    a smooth bend between: the sharp bend itself is no covariance of a line for H > 1/2.
+    Drawn exactly, by circulant embedding (Dietrich & Newsam 1997,
+    doi:10.1137/S1064827592240555).
+
+    Parameters
+    ----------
+    hurst : float
+        Hurst exponent, above 0 and up to 1.
+    xi_parallel, xi_perpendicular : float
+        Cut-off lag and root of the plateau [m].
+    length, step : float
+        Length and step of the profile [m].
+    seed : int
+        Seed of the random numbers.
+
+    Raises
+    ------
+    InputError
+        If an argument is out of range.
+    """
+    exponent = 2.0 * checks.positive("hurst", hurst)
+    if exponent > 2.0:
+        raise InputError(f"hurst must be at most 1; got {hurst:g}")
+    cut_off = checks.positive("xi_parallel", xi_parallel, unit="m")
+    variance = 0.5 * checks.positive("xi_perpendicular", xi_perpendicular, unit="m") ** 2
+    x = _points(length, step)
+    # A period twice as long as needed, and ten cut-offs more, keeps the spectrum positive.
+    half = 2 ** int(np.ceil(np.log2(x.size + 10.0 * cut_off / step)))
+    lag = step * np.concatenate((np.arange(half + 1), np.arange(half - 1, 0, -1)))
+    spectrum = np.fft.fft(variance * np.exp(-((lag / cut_off) ** exponent))).real
+    random = np.random.default_rng(checks.whole("seed", seed, least=0, most=2**32 - 1))
+    noise = random.standard_normal(lag.size) + 1j * random.standard_normal(lag.size)
+    drawn = np.fft.fft(np.sqrt(np.maximum(spectrum, 0.0) / lag.size) * noise).real
+    return Profile(x, drawn[: x.size], name=f"self-affine, H = {hurst:g}", source=f"seed {seed}")
+
+
+def sine_profile(stack: SineStack, length: float, step: float, seed: int) -> Profile:
+    """Return a profile of superposed sine waves, each with a random phase.
+
+    Parameters
+    ----------
+    stack : SineStack
+        The waves.
+    length, step : float
+        Length and step of the profile [m].
+    seed : int
+        Seed of the random phases.
+
+    Raises
+    ------
+    InputError
+        If an argument is out of range.
+    """
+    x = _points(length, step)
+    random = np.random.default_rng(checks.whole("seed", seed, least=0, most=2**32 - 1))
+    z = np.zeros(x.size)
+    for wavelength, amplitude in zip(stack.wavelength, stack.amplitude, strict=True):
+        z += amplitude * np.cos(2.0 * np.pi * (x / wavelength + random.random()))
+    return Profile(x, z, name=f"{len(stack)} sine waves", source=f"seed {seed}")
+
+
+def _points(length: float, step: float) -> FloatArray:
+    step = checks.positive("step", step, unit="m")
+    points = round(checks.positive("length", length, unit="m") / step) + 1
+    if not FEWEST_POINTS <= points <= MOST_POINTS:
+        raise InputError(
+            f"length / step must give {FEWEST_POINTS} to {MOST_POINTS} points; got {points}"
+        )
+    return np.asarray(step * np.arange(points), dtype=np.float64)

@@ -1,0 +1,100 @@
+"""A rubber half-plane that fills a rigid sine completely: pressure and friction in closed form.
+
+Geometry: plane strain, wave z = A cos(k x), k = 2 pi/lambda, small slope, no adhesion; the rubber
+slides over it with speed v, so that every point is excited at w = k v.
+
+Nomenclature: M = E/(1-nu^2) the plane strain modulus, complex at w; p mean pressure; mu friction.
+
+    p_full = k A |M(w)| / 2
+    mu     = k^2 A^2 Im M(w) / (4 p)      for p >= p_full
+
+Source: one Fourier component of the half-plane, u_q = -2 p_q / (|q| M(q v)) (K. L. Johnson, Contact
+Mechanics, 1985, sec. 13.2, doi:10.1017/CBO9781139171731), with the elastic modulus replaced by the
+complex one as in B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840, doi:10.1063/1.1388626.
+The pressure then is p + k A |M| / 2 cos(k x + phase), which must not be negative.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gripscale import checks
+from gripscale.errors import InputError
+
+
+def plane_strain_modulus(youngs_modulus: complex, poisson_ratio: float) -> complex:
+    """Return E/(1 - nu^2) [Pa] from Young's modulus, real or complex [Pa], and Poisson's ratio [-].
+
+    Raises `InputError` unless -1 < nu <= 0.5.
+    """
+    return complex(youngs_modulus) / (1.0 - poisson(poisson_ratio) ** 2)
+
+
+def poisson(value: float) -> float:
+    """Return Poisson's ratio [-]; raise `InputError` unless it is above -1 and at most 0.5."""
+    ratio = checks.number("poisson_ratio", value)
+    if not -1.0 < ratio <= 0.5:
+        raise InputError(f"poisson_ratio must be above -1 and at most 0.5; got {ratio:g}")
+    return ratio
+
+
+def full_contact_pressure(
+    plane_strain_modulus: complex, *, wavelength: float, amplitude: float
+) -> float:
+    """Return the least mean pressure that presses the valleys flat, k A |M| / 2 [Pa].
+
+    For an elastic half-plane this is Westergaard's p* = pi E/(1-nu^2) A/lambda.
+
+    Parameters
+    ----------
+    plane_strain_modulus : complex
+        E/(1-nu^2) at the angular frequency 2 pi v/lambda [Pa]; real when elastic.
+    wavelength, amplitude : float
+        Of the wave, amplitude half peak to valley [m], above zero.
+
+    Raises
+    ------
+    InputError
+        If an argument is not a positive finite number.
+    """
+    modulus = _modulus(plane_strain_modulus)
+    length = checks.positive("wavelength", wavelength, unit="m")
+    height = checks.positive("amplitude", amplitude, unit="m")
+    return float(np.pi * abs(modulus) * height / length)
+
+
+def full_contact_friction(
+    plane_strain_modulus: complex, *, wavelength: float, amplitude: float, pressure: float
+) -> float:
+    """Return the friction coefficient in full contact, k^2 A^2 Im(M) / (4 p) [-].
+
+    Parameters
+    ----------
+    plane_strain_modulus : complex
+        E/(1-nu^2) at the angular frequency 2 pi v/lambda [Pa].
+    wavelength, amplitude : float
+        Of the wave, amplitude half peak to valley [m], above zero.
+    pressure : float
+        Mean pressure [Pa], at least `full_contact_pressure`.
+
+    Raises
+    ------
+    InputError
+        If an argument is not positive and finite, or the pressure leaves gaps.
+    """
+    least = full_contact_pressure(plane_strain_modulus, wavelength=wavelength, amplitude=amplitude)
+    load = checks.positive("pressure", pressure, unit="Pa")
+    if load < least * (1.0 - 1e-12):
+        raise InputError(f"pressure must be at least {least:g} for full contact [Pa]; got {load:g}")
+    slope = 2.0 * np.pi * amplitude / wavelength
+    return float(slope**2 * _modulus(plane_strain_modulus).imag / (4.0 * load))
+
+
+def _modulus(value: complex) -> complex:
+    modulus = complex(value)
+    if not (np.isfinite(modulus) and modulus.real > 0.0 and modulus.imag >= 0.0):
+        raise InputError(
+            "plane_strain_modulus must have a real part above zero and an imaginary part not "
+            f"negative [Pa]; got {modulus}"
+        )
+    return modulus

@@ -1,0 +1,240 @@
+"""One wave by small-strain theory: steady sliding of a viscoelastic half-plane.
+
+Geometry: plane strain, frictionless, small slope; rigid wave w = A cos(k x) at rest,
+k = 2 pi/lambda, crest at x = 0; the rubber lies above and slides over it towards +x with speed v.
+A harmonic exp(i m k x) that stands still in this frame is seen by the rubber at the angular
+frequency m k v, so
+
+    u_m = 2 p_m / (m k M(m k v)),        M = E*/(1-nu^2) = 4 G* (3K + G*) / (3K + 4 G*)
+
+K. L. Johnson, Contact Mechanics (1985), sec. 13.2, doi:10.1017/CBO9781139171731, with the complex
+modulus in place of the elastic one (correspondence principle). Friction opposes the sliding:
+
+    mu = mean(p dw/dx) / mean(p)                            from the contact traction
+    mu = (4 / mean(p)) sum_m |p_m|^2 Im M(m k v) / |M(m k v)|^2    from the energy lost
+
+A model independent of the finite-strain block, right where slopes are small. The mean state has
+no part in it: a mean pressure and shear only shift a linear half-plane, so the load time has no
+effect.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gripscale import checks
+from gripscale.rubber import Rubber
+from gripscale.scale import ScaleResult
+from gripscale.theory.full_contact import (
+    full_contact_friction,
+    full_contact_pressure,
+    plane_strain_modulus,
+    poisson,
+)
+from gripscale.theory.periodic_contact import (
+    PeriodicContact,
+    contact_edges,
+    nodes,
+    pressure_harmonics,
+    solve_periodic_contact,
+)
+
+Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+_FEWEST_IN_CONTACT = 8
+
+
+def solve_half_plane(
+    rubber: Rubber,
+    *,
+    wavelength: float,
+    amplitude: float,
+    pressure: float,
+    speed: float,
+    load_time: float = float("inf"),
+    points: int = 1024,
+    poisson_ratio: float | None = None,
+    most_iterations: int = 200,
+) -> ScaleResult:
+    """Return contact and friction of one wave by small-strain theory.
+
+    Parameters
+    ----------
+    rubber : Rubber
+        The sliding half-plane.
+    wavelength, amplitude : float
+        Of the rigid wave, amplitude half peak to valley [m], above zero.
+    pressure : float
+        Mean pressure [Pa], above zero.
+    speed : float
+        Sliding speed [m/s]; zero is the relaxed, elastic contact.
+    load_time : float
+        How long the load has lasted [s]; recorded, without effect in small strain.
+    points : int
+        Nodes per wavelength, 16 to 8192; a multiple of a power of two is solved fastest.
+    poisson_ratio : float, optional
+        Constant Poisson's ratio, E* then being Young's modulus; by default shear relaxes at
+        constant bulk modulus and Poisson's ratio follows the frequency.
+    most_iterations : int
+        Active-set iterations allowed on each grid.
+
+    Returns
+    -------
+    ScaleResult
+        With `model` "half_plane", stretches NaN (a half-plane's surface does not show them) and
+        `details`: `contact_edges` [m], `points`, `points_in_contact`, `full_contact`,
+        `outside_band` (the wave's frequency k v is beyond the rubber's valid band). A `status`
+        other than "converged" says why not to trust the numbers.
+
+    Raises
+    ------
+    InputError
+        If an argument is out of its range.
+    """
+    wave = _Wave(
+        wavelength=checks.positive("wavelength", wavelength, unit="m"),
+        amplitude=checks.positive("amplitude", amplitude, unit="m"),
+        pressure=checks.positive("pressure", pressure, unit="Pa"),
+        frequency=2.0 * np.pi * checks.not_negative("speed", speed, unit="m/s") / wavelength,
+        points=checks.whole("points", points, least=16, most=8192),
+    )
+    duration = checks.positive("load_time", load_time, unit="s", infinite=True)
+    limit = checks.whole("most_iterations", most_iterations, least=1, most=100_000)
+    ratio = None if poisson_ratio is None else poisson(poisson_ratio)
+
+    def modulus(number: Array) -> ComplexArray:
+        return _modulus(rubber, number * wave.frequency, ratio)
+
+    first = complex(modulus(np.ones(1))[0])
+    full = full_contact_pressure(first, wavelength=wave.wavelength, amplitude=wave.amplitude)
+    filled = wave.pressure >= full
+    found = _fill(wave, first) if filled else _touch(wave, modulus, limit)
+    outside = wave.frequency > 0.0 and bool(rubber.outside_band(wave.frequency))
+    return ScaleResult(
+        wavelength=wave.wavelength,
+        amplitude=wave.amplitude,
+        pressure_received=wave.pressure,
+        speed=float(speed),
+        load_time=duration,
+        contact_fraction=sum(end - start for start, end in found.edges) / (2.0 * np.pi),
+        friction=found.friction,
+        friction_from_dissipation=found.friction_from_dissipation,
+        status=found.status,
+        newton_iterations=found.iterations,
+        residual=found.residual,
+        min_stretch=float("nan"),
+        max_stretch=float("nan"),
+        x=wave.x,
+        pressure=found.pressure,
+        model="half_plane",
+        details={
+            "points": wave.points,
+            "points_in_contact": found.points_in_contact,
+            "contact_edges": [
+                (start / wave.number, end / wave.number) for start, end in found.edges
+            ],
+            "full_contact": filled,
+            "outside_band": outside,
+        },
+    )
+
+
+@dataclass(frozen=True)
+class _Wave:
+    """What is asked: lengths [m], mean pressure [Pa], angular frequency k v [rad/s], nodes."""
+
+    wavelength: float
+    amplitude: float
+    pressure: float
+    frequency: float
+    points: int
+
+    @property
+    def number(self) -> float:
+        return 2.0 * np.pi / self.wavelength
+
+    @property
+    def slope(self) -> float:
+        return self.number * self.amplitude
+
+    @property
+    def x(self) -> Array:
+        return nodes(self.points) / self.number
+
+
+@dataclass(frozen=True)
+class _Found:
+    """What is answered; edges as angles k x [rad], pressure [Pa]."""
+
+    edges: list[tuple[float, float]]
+    friction: float
+    friction_from_dissipation: float
+    pressure: Array
+    points_in_contact: int
+    iterations: int = 0
+    residual: float = 0.0
+    status: str = "converged"
+
+
+def _fill(wave: _Wave, modulus: complex) -> _Found:
+    """Return full contact: one harmonic of pressure, ahead of the wave by the loss angle."""
+    shape = {"wavelength": wave.wavelength, "amplitude": wave.amplitude}
+    friction = full_contact_friction(modulus, pressure=wave.pressure, **shape)
+    swing = full_contact_pressure(modulus, **shape)
+    phase = wave.number * wave.x + float(np.angle(modulus))
+    return _Found(
+        edges=[(-np.pi, np.pi)],
+        friction=friction,
+        friction_from_dissipation=friction,
+        pressure=wave.pressure + swing * np.cos(phase),
+        points_in_contact=wave.points,
+    )
+
+
+def _touch(wave: _Wave, modulus: Callable[[Array], ComplexArray], limit: int) -> _Found:
+    """Return partial contact, by boundary elements."""
+
+    def compliance(number: Array) -> ComplexArray:
+        return 2.0 * wave.pressure / (wave.slope * number * modulus(number))
+
+    contact = solve_periodic_contact(compliance, np.cos, wave.points, limit)
+    harmonics = pressure_harmonics(contact.pressure)
+    stiffness = modulus(np.arange(1.0, len(harmonics) + 1.0))
+    lost = np.abs(harmonics) ** 2 * stiffness.imag / np.abs(stiffness) ** 2
+    return _Found(
+        edges=contact_edges(contact),
+        friction=float(wave.slope * harmonics[0].imag),
+        friction_from_dissipation=float(4.0 * wave.pressure * lost.sum()),
+        pressure=wave.pressure * contact.pressure,
+        points_in_contact=int(contact.active.sum()),
+        iterations=contact.iterations,
+        residual=_residual(contact),
+        status=_status(contact),
+    )
+
+
+def _modulus(rubber: Rubber, omega: Array, poisson_ratio: float | None) -> ComplexArray:
+    """Return the plane strain modulus M [Pa] at `omega` [rad/s]."""
+    if poisson_ratio is None:
+        return rubber.plane_strain_modulus(omega)
+    return rubber.complex_modulus(omega) * plane_strain_modulus(1.0, poisson_ratio)
+
+
+def _status(contact: PeriodicContact) -> str:
+    if not contact.settled:
+        return f"active set not settled after {contact.iterations} iterations"
+    in_contact = int(contact.active.sum())
+    if in_contact < _FEWEST_IN_CONTACT:
+        return f"contact too narrow: {in_contact} of {len(contact.active)} points"
+    return "converged"
+
+
+def _residual(contact: PeriodicContact) -> float:
+    """Return the tension left in the contact and the load's error, over the applied force."""
+    tension = -np.minimum(contact.pressure, 0.0).mean()
+    return float(tension + abs(contact.pressure.mean() - 1.0))

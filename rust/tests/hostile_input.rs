@@ -1,0 +1,77 @@
+//! No input panics: whatever the numbers, the answer is a refusal or a status.
+
+use crate::whole_wave::scale;
+use gripscale_kernel::error::KernelError;
+use gripscale_kernel::sliding::Scale;
+use proptest::prelude::*;
+
+fn any_number() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        4 => 1e-3_f64..1e3,
+        1 => prop::num::f64::ANY,
+        1 => Just(0.0),
+        1 => (-300.0_f64..300.0).prop_map(|e| 10f64.powf(e)),
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+    #[test]
+    fn no_input_panics(
+        numbers in prop::collection::vec(any_number(), 8),
+        moduli in prop::collection::vec(any_number(), 0..4),
+        times in prop::collection::vec(any_number(), 0..4),
+        columns in 0_usize..14,
+        rows in 0_usize..6,
+        order in 0_usize..4,
+    ) {
+        let case = Scale {
+            equilibrium_modulus: numbers[0],
+            moduli,
+            relaxation_times: times,
+            bulk_modulus: numbers[1],
+            wavelength: numbers[2],
+            amplitude: numbers[3],
+            pressure: numbers[4],
+            speed: numbers[5],
+            load_time: numbers[6],
+            depth: numbers[7],
+            columns,
+            rows,
+            order,
+            limits: gripscale_kernel::newton::Limits { iterations: 5, tolerance: 1e-8, step: 0.4 },
+        };
+        if let Ok(solution) = case.solve() {
+            prop_assert!(solution.total_iterations < 100_000);
+        }
+    }
+}
+
+#[test]
+fn refusals_name_the_value() {
+    let refuse = |change: fn(&mut Scale)| {
+        let mut case = scale(0.1, 0.1);
+        change(&mut case);
+        case.solve().map(|_| ()).unwrap_err()
+    };
+    let error = refuse(|case| case.pressure = -2.0);
+    assert_eq!(
+        error.to_string(),
+        "pressure must be greater than zero and finite; got -2"
+    );
+    assert_eq!(
+        refuse(|case| case.columns = 2),
+        KernelError::OutOfRange {
+            name: "columns",
+            least: 4,
+            most: 1024,
+            value: 2
+        }
+    );
+    assert!(refuse(|case| case.moduli = vec![1.0])
+        .to_string()
+        .contains("same length; got 1 and 0"));
+    assert!(refuse(|case| case.load_time = f64::NAN)
+        .to_string()
+        .starts_with("load_time must be zero or more"));
+}

@@ -1,0 +1,75 @@
+//! The whole tangent of one element row, local and along the stream, against finite differences.
+
+use crate::noise;
+use gripscale_kernel::assembly::{Block, Field};
+use gripscale_kernel::cell::Cell;
+use gripscale_kernel::linear;
+use gripscale_kernel::memory::{History, Maxwell};
+
+fn worst_error(order: usize, memory: bool) -> f64 {
+    let cell = Cell::new(order, 6, 3, 0.8).unwrap();
+    let maxwell = Maxwell {
+        equilibrium: 1.0,
+        moduli: vec![2.0, 6.0],
+        times: vec![0.05, 0.4],
+    };
+    let history = if memory {
+        History::sliding(cell.columns, &maxwell, 0.7)
+    } else {
+        History::relaxed(1.0)
+    };
+    let block = Block {
+        cell: &cell,
+        history: &history,
+        bulk_modulus: 30.0,
+    };
+    let row = 1;
+    let mut field = Field::at_rest(&cell);
+    for (i, u) in field.u.iter_mut().enumerate() {
+        *u = 0.03 * noise(i);
+    }
+    // Fulfil the pressure equation, so that the condensed system is the slope of the forces alone.
+    let still = vec![0.0; field.u.len()];
+    let state = block.row_state(row, &field.u);
+    block.update_pressure(row, &state, &still, 1.0, &mut field);
+    let system = block.row_system(row, &field, &state);
+    let direction: Vec<f64> = (0..field.u.len()).map(|i| noise(1000 + i)).collect();
+    let forces = |step: f64| {
+        let mut moved = field.clone();
+        let change: Vec<f64> = direction.iter().map(|d| step * d).collect();
+        for (u, d) in moved.u.iter_mut().zip(&change) {
+            *u += d;
+        }
+        block.update_pressure(row, &state, &change, 1.0, &mut moved);
+        let moved_state = block.row_state(row, &moved.u);
+        block.row_forces(row, &moved, &moved_state).0
+    };
+    let step = 1e-6;
+    let (high, low) = (forces(step), forces(-step));
+    let offset = row * order * cell.layer_size();
+    let local = linear::column(&direction[offset..offset + high.len()]);
+    let mut slope = linear::Matrix::zeros(high.len(), 1);
+    linear::product(&mut slope, &system.matrix, &local);
+    let scale = (0..high.len()).fold(0.0_f64, |m, i| m.max(slope[(i, 0)].abs()));
+    (0..high.len()).fold(0.0_f64, |m, i| {
+        let difference = (high[i] - low[i]) / (2.0 * step);
+        m.max((slope[(i, 0)] - difference).abs() / scale)
+    })
+}
+
+/// 1e-6 is asked for; central differences at this step are right to about 1e-9.
+#[test]
+fn local_tangent_equals_finite_differences() {
+    for order in [1, 2] {
+        let error = worst_error(order, false);
+        assert!(error < 1e-7, "order {order}: {error}");
+    }
+}
+
+#[test]
+fn streamline_tangent_equals_finite_differences() {
+    for order in [1, 2] {
+        let error = worst_error(order, true);
+        assert!(error < 1e-7, "order {order}: {error}");
+    }
+}

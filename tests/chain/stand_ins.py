@@ -1,0 +1,63 @@
+"""Stand-ins for the rubber, the sines and the solver, with numbers that are exact by hand."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from gripscale.scale import ScaleResult
+
+
+class Spring:
+    """A rubber with E* = 4 MPa + 3 MPa i at any frequency, so that |E*| is 5 MPa."""
+
+    name, source = "spring", "by hand"
+
+    def complex_modulus(self, omega: Any) -> Any:
+        return np.full(np.shape(omega), 4e6 + 3e6j)
+
+    def outside_band(self, omega: Any) -> Any:
+        return np.abs(omega) > 2 * np.pi * 100.0
+
+
+@dataclass
+class Sines:
+    wavelength: list[float]
+    amplitude: list[float]
+
+
+THREE = Sines(wavelength=[16e-3, 4e-3, 1e-3], amplitude=[1e-3, 0.5e-3, 0.125e-3])
+
+
+@dataclass
+class Scripted:
+    """A solver that returns stated contact fractions and remembers what it was asked."""
+
+    fractions: list[float]
+    frictions: list[float] = field(default_factory=lambda: [0.125, 0.25, 0.5])
+    statuses: list[str] = field(default_factory=lambda: ["converged"] * 3)
+    calls: list[dict[str, Any]] = field(default_factory=list)
+
+    def __call__(self, rubber: Any, /, **asked: Any) -> ScaleResult:
+        i = len(self.calls)
+        self.calls.append({"rubber": rubber, **asked})
+        nodes = 4 + 2 * i
+        return ScaleResult(
+            wavelength=asked["wavelength"],
+            amplitude=asked["amplitude"],
+            pressure_received=asked["pressure"],
+            speed=asked["speed"],
+            load_time=asked["load_time"],
+            contact_fraction=self.fractions[i],
+            friction=self.frictions[i],
+            friction_from_dissipation=self.frictions[i] * 0.75,
+            status=self.statuses[i],
+            newton_iterations=5 + i,
+            residual=1e-10,
+            min_stretch=0.5,
+            max_stretch=1.5,
+            x=np.linspace(-0.5, 0.5, nodes) * asked["wavelength"],
+            pressure=np.full(nodes, asked["pressure"]),
+        )

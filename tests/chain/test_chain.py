@@ -1,0 +1,170 @@
+"""The algebra of the chain, with powers of two so that every number is exact."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from gripscale.chain import ChainError, predict
+from gripscale.errors import ConvergenceError, InputError
+
+from .stand_ins import THREE, Scripted, Sines, Spring
+
+LOAD = {"pressure": 2.0**18, "speed": 0.25, "footprint": 0.125}
+
+
+def test_pressure_area_and_friction_follow_equations_1_to_3() -> None:
+    solver = Scripted([0.5, 0.25, 0.125])
+    result = predict(Spring(), THREE, solver=solver, **LOAD)
+    assert [s.pressure_received for s in result.scales] == [2.0**18, 2.0**19, 2.0**21]
+    assert result.running_contact_fraction.tolist() == [2.0**-1, 2.0**-3, 2.0**-6]
+    assert result.contact_fraction == 2.0**-6
+    assert result.running_friction.tolist() == [0.125, 0.375, 0.875]
+    assert result.friction == 0.875
+    assert result.friction_from_dissipation == 0.75 * 0.875
+
+
+def test_pressure_times_running_area_is_the_nominal_pressure() -> None:
+    result = predict(Spring(), THREE, solver=Scripted([0.3, 0.7, 0.9]), **LOAD)
+    received = np.array([s.pressure_received for s in result.scales])
+    above = np.concatenate([[1.0], result.running_contact_fraction[:-1]])
+    np.testing.assert_allclose(received * above, LOAD["pressure"], rtol=1e-14)
+
+
+def test_full_contact_passes_the_pressure_on_unchanged() -> None:
+    result = predict(Spring(), THREE, solver=Scripted([1.0, 1.0, 0.5]), **LOAD)
+    assert [s.pressure_received for s in result.scales] == [LOAD["pressure"]] * 3
+
+
+def test_load_time_is_the_passage_of_the_contact_above() -> None:
+    solver = Scripted([0.5, 0.25, 0.125])
+    predict(Spring(), THREE, solver=solver, **LOAD)
+    assert [call["load_time"] for call in solver.calls] == [
+        0.125 / 0.25,
+        16e-3 * 0.5 / 0.25,
+        4e-3 * 0.25 / 0.25,
+    ]
+
+
+@pytest.mark.parametrize(("stated", "used"), [(math.inf, math.inf), (2.0, 2.0)])
+def test_stated_load_time_holds_for_every_wave(stated: float, used: float) -> None:
+    solver = Scripted([0.5, 0.5, 0.5])
+    predict(Spring(), THREE, solver=solver, load_time=stated, **LOAD)
+    assert [call["load_time"] for call in solver.calls] == [used] * 3
+
+
+@pytest.mark.parametrize("stated", ["passage", 2.0])
+def test_at_rest_the_load_lasts_for_ever(stated: float | str) -> None:
+    solver = Scripted([0.5, 0.5, 0.5])
+    predict(Spring(), THREE, solver=solver, load_time=stated, **{**LOAD, "speed": 0.0})
+    assert [call["load_time"] for call in solver.calls] == [math.inf] * 3
+
+
+def test_solver_gets_the_rubber_and_the_options() -> None:
+    solver, rubber = Scripted([0.5, 0.5, 0.5]), Spring()
+    predict(rubber, THREE, solver=solver, columns=64, depth=2.0, **LOAD)
+    assert all(call["rubber"] is rubber for call in solver.calls)
+    assert {(call["columns"], call["depth"]) for call in solver.calls} == {(64, 2.0)}
+
+
+@pytest.mark.parametrize(
+    ("limits", "count"),
+    [
+        ({}, 3),
+        ({"max_scales": 2}, 2),
+        ({"max_scales": 9}, 3),
+        ({"smallest_wavelength": 4e-3}, 2),
+        ({"smallest_wavelength": 4.001e-3}, 1),
+        ({"smallest_wavelength": 4e-3, "max_scales": 1}, 1),
+    ],
+)
+def test_chain_stops_at_the_cut_off(limits: dict[str, float], count: int) -> None:
+    result = predict(Spring(), THREE, solver=Scripted([0.5, 0.5, 0.5]), **limits, **LOAD)
+    assert len(result.scales) == count
+
+
+def test_every_wave_is_reported_as_it_comes() -> None:
+    seen: list[int] = []
+    predict(
+        Spring(),
+        THREE,
+        solver=Scripted([0.5, 0.5, 0.5]),
+        on_scale=lambda so_far: seen.append(len(so_far.scales)),
+        **LOAD,
+    )
+    assert seen == [1, 2, 3]
+
+
+def test_modulus_and_loss_factor_are_taken_at_the_fundamental_frequency() -> None:
+    class Dashpot:
+        def complex_modulus(self, omega: np.ndarray) -> np.ndarray:
+            return 4.0 + 1j * np.asarray(omega)
+
+    result = predict(Dashpot(), THREE, solver=Scripted([0.5, 0.5, 0.5]), **LOAD)
+    omega = 2 * math.pi * 0.25 / np.array(THREE.wavelength)
+    np.testing.assert_allclose(result.angular_frequency, omega, rtol=1e-15)
+    np.testing.assert_allclose(result.modulus, np.hypot(4.0, omega), rtol=1e-15)
+    np.testing.assert_allclose(result.loss_factor, omega / 4.0, rtol=1e-15)
+
+
+def test_wave_that_fails_stops_the_chain_and_loses_nothing() -> None:
+    solver = Scripted([0.5, 0.25, 0.5], statuses=["converged", "iteration limit", "converged"])
+    seen: list[str] = []
+    with pytest.raises(ConvergenceError, match=r"wave 2 of 3.*4 mm.*iteration limit") as caught:
+        predict(
+            Spring(),
+            THREE,
+            solver=solver,
+            on_scale=lambda so_far: seen.append(so_far.scales[-1].status),
+            **LOAD,
+        )
+    assert isinstance(caught.value, ChainError)
+    partial = caught.value.partial
+    assert len(solver.calls) == 2
+    assert seen == ["converged", "iteration limit"]
+    assert [s.status for s in partial.scales] == seen
+    assert partial.running_friction[0] == 0.125
+    assert math.isnan(partial.running_friction[1])
+    assert math.isnan(partial.friction)
+    assert math.isnan(partial.contact_fraction)
+    assert math.isnan(partial.friction_from_dissipation)
+
+
+@pytest.mark.parametrize("fraction", [0.0, -0.1, 1.1, math.nan])
+def test_wave_without_a_usable_contact_stops_the_chain(fraction: float) -> None:
+    with pytest.raises(ChainError, match=r"wave 1 of 3.*contact fraction"):
+        predict(Spring(), THREE, solver=Scripted([fraction, 0.5, 0.5]), **LOAD)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"pressure": 0.0}, "pressure must be greater than zero [Pa]; got 0"),
+        ({"pressure": math.nan}, "pressure must be a finite number [Pa]; got nan"),
+        ({"pressure": "3 bar"}, "pressure must be a finite number [Pa]; got '3 bar'"),
+        ({"speed": -1.0}, "speed must not be negative [m/s]; got -1"),
+        ({"speed": math.inf}, "speed must be a finite number [m/s]; got inf"),
+        ({"footprint": -0.1}, "footprint must be greater than zero [m]; got -0.1"),
+        ({"load_time": 0.0}, "load_time must be greater than zero [s]; got 0"),
+        ({"load_time": "soon"}, "load_time must be one of passage; got 'soon'"),
+        ({"max_scales": 0}, "max_scales must be a whole number from 1"),
+        ({"max_scales": 1.5}, "max_scales must be a whole number from 1"),
+        ({"smallest_wavelength": 0.0}, "smallest_wavelength must be greater than zero [m]"),
+        ({"smallest_wavelength": 1.0}, "smallest_wavelength must not exceed the largest wave"),
+    ],
+)
+def test_bad_input_is_refused_before_any_wave_is_solved(
+    change: dict[str, object], words: str
+) -> None:
+    solver = Scripted([0.5, 0.5, 0.5])
+    with pytest.raises(InputError) as caught:
+        predict(Spring(), THREE, solver=solver, **{**LOAD, **change})
+    assert words in str(caught.value)
+    assert solver.calls == []
+
+
+def test_empty_stack_is_refused() -> None:
+    with pytest.raises(InputError, match="at least one wave"):
+        predict(Spring(), Sines([], []), solver=Scripted([]), **LOAD)

@@ -1,0 +1,108 @@
+"""A prediction as a Dataset, on disk and back."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from gripscale import dataset
+from gripscale.chain import Prediction, predict
+from gripscale.errors import FileError
+
+from .stand_ins import THREE, Scripted, Spring
+
+
+@pytest.fixture
+def prediction() -> Prediction:
+    solver = Scripted([0.5, 0.25, 0.125])
+    return predict(Spring(), THREE, solver=solver, pressure=3e5, speed=0.25, footprint=0.1)
+
+
+def test_values_are_those_of_the_prediction(prediction: Prediction) -> None:
+    data = prediction.to_dataset()
+    assert data.sizes == {"scale": 3, "surface_node": 8}
+    assert data.wavelength.values.tolist() == THREE.wavelength
+    assert data.contact_fraction.values.tolist() == [0.5, 0.25, 0.125]
+    np.testing.assert_array_equal(data.running_contact_fraction, [2.0**-1, 2.0**-3, 2.0**-6])
+    np.testing.assert_array_equal(data.running_friction, [0.125, 0.375, 0.875])
+    np.testing.assert_allclose(data.slope, 2 * np.pi * np.array([1 / 16, 1 / 8, 1 / 8]))
+    np.testing.assert_allclose(data.friction_mismatch, 0.25)
+    np.testing.assert_allclose(data.modulus, 5e6)
+    np.testing.assert_allclose(data.loss_factor, 0.75)
+    assert data.status.values.tolist() == ["converged"] * 3
+    assert data.attrs["friction"] == 0.875
+    assert data.attrs["contact_fraction"] == 2.0**-6
+
+
+def test_shorter_waves_are_padded_not_invented(prediction: Prediction) -> None:
+    data = prediction.to_dataset()
+    counts = data.surface_pressure.notnull().sum("surface_node").values.tolist()
+    assert counts == [4, 6, 8]
+    assert data.surface_x.notnull().sum().item() == 18
+
+
+def test_every_variable_says_unit_name_and_source(prediction: Prediction) -> None:
+    data = prediction.to_dataset()
+    for name, variable in data.variables.items():
+        assert {"units", "long_name", "source"} <= set(variable.attrs), name
+
+
+def test_netcdf_brings_everything_back(prediction: Prediction, tmp_path: Path) -> None:
+    data = prediction.to_dataset().assign_attrs(case='[load]\npressure = "3 bar"\n')
+    path = dataset.save(data, tmp_path / "result.nc")
+    again = dataset.load(path)
+    xr.testing.assert_identical(again, data)
+    assert [p.name for p in tmp_path.iterdir()] == ["result.nc"]
+
+
+def test_failed_write_leaves_the_old_file_and_no_rubbish(tmp_path: Path) -> None:
+    path = tmp_path / "result.nc"
+    path.write_text("old")
+
+    def interrupted(temporary: Path) -> None:
+        temporary.write_text("half")
+        raise OSError(28, "No space left on device")
+
+    with pytest.raises(FileError, match=r"result\.nc cannot be written: No space left"):
+        dataset.write_whole(path, interrupted)
+    assert path.read_text() == "old"
+    assert [p.name for p in tmp_path.iterdir()] == ["result.nc"]
+
+
+def test_missing_folder_is_named(prediction: Prediction, tmp_path: Path) -> None:
+    with pytest.raises(FileError, match=r"nowhere/result\.nc cannot be written"):
+        dataset.save(prediction.to_dataset(), tmp_path / "nowhere" / "result.nc")
+
+
+def test_folder_in_the_way_is_named(prediction: Prediction, tmp_path: Path) -> None:
+    (tmp_path / "result.nc").mkdir()
+    with pytest.raises(FileError, match=r"cannot be written: it is a folder"):
+        dataset.save(prediction.to_dataset(), tmp_path / "result.nc")
+
+
+def test_missing_result_is_named(tmp_path: Path) -> None:
+    with pytest.raises(FileError, match=r"result\.nc does not exist"):
+        dataset.load(tmp_path / "result.nc")
+
+
+def test_file_that_is_no_result_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "result.nc").write_text("not netCDF")
+    with pytest.raises(FileError, match="cannot be read as a netCDF result"):
+        dataset.load(tmp_path / "result.nc")
+
+
+def test_a_whole_file_appears_at_once(tmp_path: Path) -> None:
+    path, seen = tmp_path / "result.txt", []
+
+    def slowly(temporary: Path) -> None:
+        temporary.write_text("half")
+        seen.append(path.exists())
+        temporary.write_text("whole")
+        seen.append(temporary.stat().st_ino)
+
+    dataset.write_whole(path, slowly)
+    assert path.read_text() == "whole"
+    assert seen == [False, path.stat().st_ino]  # renamed, not copied

@@ -1,0 +1,50 @@
+"""`gripscale fit-surface`, `gripscale fit-rubber` and `--version`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from typer.testing import Result
+
+from gripscale.dataset import versions
+
+Shell = Callable[..., Result]
+
+
+def test_surface_half_prints_the_waves(shell: Shell, inputs: Path, tmp_path: Path) -> None:
+    target = tmp_path / "figures"
+    options = ["--scales", 3, "--s-wavelength", 3, "--crop", "10 mm", "390 mm", "--output", target]
+    result = shell("fit-surface", inputs / "road.txt", *options)
+    assert result.exit_code == 0, result.output
+    table = result.stdout[result.stdout.index("wavelength [mm]") :].splitlines()[1:4]
+    lengths = [float(line.split()[1]) for line in table]
+    assert lengths[0] / lengths[1] == pytest.approx(3.0, rel=2e-3)
+    assert lengths[1] / lengths[2] == pytest.approx(3.0, rel=2e-3)
+    assert {p.name for p in target.iterdir()} == {
+        f"{name}.{kind}" for name in ("profile", "correlation") for kind in ("png", "pdf")
+    }
+
+
+def test_rubber_half_prints_the_series(shell: Shell, inputs: Path) -> None:
+    result = shell("fit-rubber", inputs / "dma.txt", "--terms", 9, "--bulk-modulus", "1 GPa")
+    assert result.exit_code == 0, result.output
+    assert "bulk modulus 1000 MPa" in result.stdout
+    table = result.stdout[result.stdout.index("relaxation time [s]") :].splitlines()[1:]
+    total = sum(float(line.split()[2]) for line in table)
+    assert total == pytest.approx(10.0, rel=0.1)  # the elements the curve was made of [MPa]
+    assert not list(inputs.glob("*.png"))
+
+
+def test_version(shell: Shell) -> None:
+    result = shell("--version")
+    assert result.exit_code == 0
+    assert result.stdout == f"gripscale {versions()['gripscale']}\n"
+
+
+def test_help_names_the_commands(shell: Shell) -> None:
+    result = shell("--help")
+    assert result.exit_code == 0
+    for name in ("run", "fit-surface", "fit-rubber"):
+        assert name in result.stdout

@@ -1,0 +1,175 @@
+"""`gripscale run` from files to tables, figures and results."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner, Result
+
+from gripscale import dataset
+from gripscale.cli import app, draw, solving
+from gripscale.cli.folder import RESULTS
+from gripscale.scale import ScaleResult
+from gripscale.theory import solve_half_plane
+
+Shell = Callable[..., Result]
+
+
+@pytest.fixture(scope="module")
+def done(inputs: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[Result, Path]:
+    """The small case, run once."""
+    target = tmp_path_factory.mktemp("done") / "deep" / "results"
+    arguments = ["run", str(inputs / "case.toml"), "--output", str(target)]
+    return CliRunner().invoke(app, arguments, env={"COLUMNS": "100"}), target
+
+
+def test_run_ends_well_and_writes_everything(done: tuple[Result, Path]) -> None:
+    result, target = done
+    assert result.exit_code == 0, result.output
+    assert result.stderr == ""
+    written = {str(p.relative_to(target)) for p in target.rglob("*") if p.is_file()}
+    assert written == set(RESULTS)
+
+
+def test_output_fits_its_width_without_colour_codes(done: tuple[Result, Path]) -> None:
+    result, target = done
+    assert "\x1b" not in result.output
+    lines = [line for line in result.output.splitlines() if str(target) not in line]
+    assert max(len(line) for line in lines if "case.toml" not in line) <= 100
+    assert "…" not in result.output
+
+
+def test_output_says_what_was_read_fitted_and_solved(done: tuple[Result, Path]) -> None:
+    output = done[0].output
+    for words in (
+        "3 sine waves from",
+        "Maxwell elements",
+        "wave 3 of 3",
+        "Dynamic, 0.3 m/s",
+        "Static",
+        "A_r/A_0",
+        "spikes",
+    ):
+        assert words in output
+
+
+def test_results_file_holds_the_chain_and_its_inputs(
+    done: tuple[Result, Path], inputs: Path
+) -> None:
+    data = dataset.load(done[1] / "dynamic.nc")
+    assert data.sizes["scale"] == 3
+    np.testing.assert_allclose(
+        data.pressure_received[1:],
+        (data.pressure_received / data.contact_fraction)[:-1],
+        rtol=1e-12,
+    )
+    assert data.attrs["friction"] == pytest.approx(float(data.friction.sum()), rel=1e-12)
+    assert data.attrs["friction"] > 0.0
+    assert data.attrs["case"] == (inputs / "case.toml").read_text()
+    assert data.attrs["surface_source"].endswith("road.txt")
+    rest = dataset.load(done[1] / "static.nc")
+    assert np.isinf(rest.load_time).all()
+    assert rest.attrs["contact_fraction"] > data.attrs["contact_fraction"]
+
+
+def test_case_is_copied_word_for_word(done: tuple[Result, Path], inputs: Path) -> None:
+    assert (done[1] / "case.toml").read_bytes() == (inputs / "case.toml").read_bytes()
+
+
+def test_report_holds_the_tables(done: tuple[Result, Path]) -> None:
+    text = (done[1] / "report.txt").read_text(encoding="utf-8")
+    assert text.count("converged") == 6
+    assert "Static" in text
+    assert "s_wavelength = 3.000" in text
+
+
+def lame(wave: int) -> Any:
+    """Return a solver whose given wave (counted from 1) does not converge."""
+    count = 0
+
+    def solve(*arguments: Any, **asked: Any) -> ScaleResult:
+        nonlocal count
+        count += 1
+        good = solve_half_plane(*arguments, **asked)
+        return replace(good, status="iteration limit") if count == wave else good
+
+    return solve
+
+
+def test_wave_that_fails_keeps_what_was_solved(
+    shell: Shell, changed: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    solver = lame(2)
+    monkeypatch.setattr(solving, "solver_of", lambda case: solver)
+    monkeypatch.setattr(draw, "save_figure", lambda *_: [])
+    case = changed()
+    result = shell("run", case)
+    assert result.exit_code == 3
+    assert "wave 2 of 3" in result.stderr
+    assert "iteration limit" in result.stderr
+    assert len(result.stderr.splitlines()) == 1
+    assert "No totals: wave 2 did not converge" in result.stdout
+    data = dataset.load(case.parent / "results" / "dynamic.nc")
+    assert data.status.values.tolist() == ["converged", "iteration limit"]
+    assert np.isfinite(data.running_friction.values).tolist() == [True, False]
+    assert data.attrs["converged"] == 0
+    rest = dataset.load(case.parent / "results" / "static.nc")
+    assert rest.sizes["scale"] == 3
+
+
+def test_waves_are_on_disk_before_the_next_one_starts(
+    shell: Shell, changed: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    case = changed("[load]", "[load]\nstatic = false")
+    seen: list[int] = []
+
+    def solve(*arguments: Any, **asked: Any) -> ScaleResult:
+        path = case.parent / "results" / "dynamic.nc"
+        seen.append(dataset.load(path).sizes["scale"] if path.exists() else 0)
+        if len(seen) == 3:
+            raise KeyboardInterrupt
+        return solve_half_plane(*arguments, **asked)
+
+    monkeypatch.setattr(solving, "solver_of", lambda case: solve)
+    monkeypatch.setattr(draw, "save_figure", lambda *_: [])
+    result = shell("run", case)
+    assert result.exit_code == 130
+    assert seen == [0, 1, 2]
+    assert dataset.load(case.parent / "results" / "dynamic.nc").sizes["scale"] == 2
+
+
+def test_an_earlier_run_leaves_nothing_behind_and_other_files_stay(
+    shell: Shell, changed: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(draw, "save_figure", lambda *_: [])
+    case = changed("[load]", "[load]\nstatic = false")
+    figures = case.parent / "results" / "figures"
+    figures.mkdir(parents=True)
+    for name in ("static.nc", "notes.txt", "figures/blocks_static.png", "figures/mine.png"):
+        (case.parent / "results" / name).write_text("old")
+    assert shell("run", case).exit_code == 0
+    left = {p.name for p in (case.parent / "results").rglob("*") if p.is_file()}
+    assert left == {"case.toml", "dynamic.nc", "report.txt", "notes.txt", "mine.png"}
+
+
+def test_waves_by_hand_and_a_named_rubber_need_no_files(
+    shell: Shell, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(draw, "save_figure", lambda *_: [])
+    case = tmp_path / "case.toml"
+    case.write_text(
+        '[[surface.sines]]\nwavelength = "10 mm"\namplitude = "1 mm"\n'
+        '[rubber]\nname = "styrene_butadiene"\n'
+        '[load]\npressure = "3 bar"\nspeed = 0\nfootprint = "100 mm"\n'
+        '[solver]\nmodel = "half_plane"\npoints = 64\n'
+    )
+    result = shell("run", case)
+    assert result.exit_code == 0, result.output
+    assert "1 wave: real contact area" in result.stdout
+    assert "Dynamic" not in result.stdout
+    assert (tmp_path / "results" / "static.nc").exists()

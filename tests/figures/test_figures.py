@@ -1,0 +1,193 @@
+"""Each figure shows the numbers it was given, in the units its labels state."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from gripscale.chain import Prediction
+from gripscale.errors import FileError
+from gripscale.figures import (
+    block_figure,
+    blocks_figure,
+    contact_figure,
+    correlation_figure,
+    master_curve_figure,
+    profile_figure,
+    save_figure,
+)
+from gripscale.figures.profile import kept_points
+from gripscale.rubber import MasterCurve, Rubber, fit_prony_report
+from gripscale.scale import ScaleResult
+from gripscale.surface import (
+    Profile,
+    SelfAffineFit,
+    SineStack,
+    clean,
+    height_difference,
+)
+
+STACK = SineStack(wavelength=[20e-3, 5e-3], amplitude=[2e-3, 0.5e-3])
+
+
+def spiky() -> Profile:
+    x = np.arange(2000) * 1e-4
+    z = 2e-3 * np.cos(2 * np.pi * x / 20e-3) + 0.5e-3 * np.cos(2 * np.pi * x / 5e-3 + 1.0)
+    z[100:110] = np.nan
+    z[500] += 5e-3
+    return Profile(x, z, name="two waves")
+
+
+def curve(axes: Axes, label: str) -> tuple[np.ndarray, np.ndarray]:
+    line = next(line for line in axes.lines if line.get_label() == label)
+    return np.asarray(line.get_xdata()), np.asarray(line.get_ydata())
+
+
+def complete(figure: Figure) -> None:
+    """Every axes has data and, on the outside, labels with units."""
+    assert figure.axes
+    for axes in figure.axes:
+        assert axes.lines or axes.collections
+    labels = [axes.get_xlabel() for axes in figure.axes] + [a.get_ylabel() for a in figure.axes]
+    assert all("[" in label for label in labels if label)
+    assert sum(bool(label) for label in labels) >= 2
+    figure.draw_without_rendering()
+
+
+def test_contact_is_drawn_against_falling_wavelength_in_mm(
+    make_prediction: Callable[..., Prediction],
+) -> None:
+    figure = contact_figure({"dynamic": make_prediction(), "static": make_prediction(speed=0.0)})
+    complete(figure)
+    area, friction = figure.axes
+    x, y = curve(area, "dynamic, running")
+    np.testing.assert_allclose(x, [20.0, 5.0, 1.25])
+    np.testing.assert_allclose(y, [0.5, 0.25, 0.125])
+    np.testing.assert_allclose(curve(area, "static, each wave")[1], 0.5)
+    np.testing.assert_allclose(curve(friction, "dynamic, running")[1], [0.1, 0.2, 0.3])
+    assert len(friction.lines) == 2  # nothing of the chain at rest
+    left, right = area.get_xlim()
+    assert left > 20.0
+    assert right < 1.25
+
+
+def test_failed_wave_is_not_drawn_as_a_result(make_prediction: Callable[..., Prediction]) -> None:
+    figure = contact_figure({"dynamic": make_prediction(status="iteration limit")})
+    for label in ("dynamic, running", "dynamic, each wave"):
+        assert np.isnan(curve(figure.axes[0], label)[1]).tolist() == [False, False, True]
+
+
+def test_block_touches_its_wave(make_wave: Callable[..., ScaleResult]) -> None:
+    figure = block_figure(make_wave(4e-3))
+    complete(figure)
+    pressure, block = figure.axes
+    assert pressure.lines[0].get_ydata().max() == pytest.approx(1.0)  # MPa
+    surface = block.lines[1].get_xydata()  # the middle of three periods
+    gap = surface[:, 1] - 0.1 * np.cos(2 * np.pi * surface[:, 0])
+    assert gap.min() == pytest.approx(0.0, abs=1e-12)
+    assert block.get_box_aspect() == pytest.approx(np.ptp(block.get_ylim()))
+
+
+def test_lifted_mesh_is_set_down_on_the_wave(make_wave: Callable[..., ScaleResult]) -> None:
+    from dataclasses import replace
+
+    scale = make_wave(4e-3)
+    assert scale.deformed_mesh is not None
+    x, z = scale.deformed_mesh
+    figure = block_figure(replace(scale, deformed_mesh=(x, z + 1.0)))
+    np.testing.assert_allclose(figure.axes[1].lines[1].get_ydata(), 0.1, rtol=1e-9)
+
+
+@pytest.mark.parametrize("count", [1, 4, 5, 8])
+def test_every_wave_has_its_block(make_prediction: Callable[..., Prediction], count: int) -> None:
+    figure = blocks_figure(make_prediction(count=count).scales)
+    complete(figure)
+    assert len(figure.axes) == 2 * count
+    assert [a.get_title(loc="left") for a in figure.axes[::2]] == [
+        f"$\\lambda$ = {20 / 4.0**i:.3g} mm\n$A$ = {2 / 4.0**i:.3g} mm\n$p$ = 0.3 MPa, contact 0.50"
+        for i in range(count)
+    ]
+
+
+def test_failed_wave_says_so(make_wave: Callable[..., ScaleResult]) -> None:
+    figure = block_figure(make_wave(4e-3, "iteration limit", mesh=False))
+    complete(figure)
+    assert "iteration limit" in figure.axes[0].get_title(loc="left")
+
+
+def test_correlation_shows_measured_band_and_fits() -> None:
+    profile, _ = clean(spiky())
+    measured = height_difference(profile)
+    fit = SelfAffineFit(0.8, 5e-3, 2e-3, 1e-4, 1e-3, 0.01)
+    figure = correlation_figure(measured, {"2 sine waves": STACK}, fit)
+    complete(figure)
+    axes = figure.axes[0]
+    x, y = curve(axes, "measured")
+    np.testing.assert_allclose(x, measured.lag * 1e3)
+    np.testing.assert_allclose(y, measured.value * 1e6)
+    x, y = curve(axes, "self-affine, $H$ = 0.80")
+    np.testing.assert_allclose(y[x > 5.0], 4.0)  # the plateau xi_perp^2 = 4 mm^2
+    x, y = curve(axes, "2 sine waves")
+    below = x < 5.0
+    np.testing.assert_allclose(y[below], STACK.height_difference(x[below] * 1e-3) * 1e6)
+    assert x.max() <= 20.0
+    assert curve(axes, "their wavelengths")[0].tolist() == [20.0, 5.0]
+
+
+def test_master_curve_shows_points_series_and_excitation() -> None:
+    omega = np.geomspace(1e-1, 1e5, 40)
+    modulus = Rubber(5e6, [4e6, 8e6], [1e-2, 1e-4]).complex_modulus(omega)
+    storage, loss = modulus.real.copy(), modulus.imag.copy()
+    storage[20] *= 3.0
+    master = MasterCurve(omega / (2 * np.pi), storage, loss)
+    rubber, fit = fit_prony_report(master)
+    assert len(fit.outlier_frequency) == 1
+    figure = master_curve_figure(rubber, master, fit, [10.0, 100.0])
+    complete(figure)
+    moduli, _ = figure.axes
+    assert curve(moduli, "$E'$, measured")[0].size == 39
+    x, y = curve(moduli, "$\\omega_i$ of the waves")
+    assert x.tolist() == [10.0, 100.0]
+    np.testing.assert_allclose(y, rubber.complex_modulus(x).real / 1e6)
+
+
+def test_named_rubber_needs_no_points() -> None:
+    complete(master_curve_figure(Rubber(5e6, [4e6], [1e-2])))
+
+
+def test_profile_shows_what_cleaning_removed() -> None:
+    raw = spiky()
+    cleaned, _ = clean(raw, crop=(10e-3, 190e-3))
+    kept = kept_points(raw, cleaned)
+    assert kept.sum() == np.isfinite(cleaned.z).sum()
+    assert not kept[[0, 99, 105, 500]].any()
+    assert kept[[150, 498, 1000]].all()
+    figure = profile_figure([(raw, cleaned), (raw, cleaned)])
+    complete(figure)
+    assert len(figure.axes) == 6
+    removed = figure.axes[0].lines[1]
+    assert len(removed.get_xdata()) == (~kept & np.isfinite(raw.z)).sum()
+
+
+def test_saving_gives_both_kinds_and_leaves_matplotlib_alone(
+    tmp_path: Path, make_wave: Callable[..., ScaleResult]
+) -> None:
+    before = dict(mpl.rcParams)
+    paths = save_figure(block_figure(make_wave(4e-3)), tmp_path, "block")
+    assert dict(mpl.rcParams) == before
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["block.pdf", "block.png"]
+    assert paths[0].read_bytes().startswith(b"\x89PNG")
+    assert paths[1].read_bytes().startswith(b"%PDF")
+
+
+def test_folder_that_is_not_there_is_named(
+    tmp_path: Path, make_wave: Callable[..., ScaleResult]
+) -> None:
+    with pytest.raises(FileError, match=r"nowhere/block\.png cannot be written"):
+        save_figure(block_figure(make_wave(4e-3)), tmp_path / "nowhere", "block")

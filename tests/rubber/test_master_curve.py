@@ -1,0 +1,176 @@
+"""Master curves: sorting, checks, and reading files of many shapes without guessing."""
+
+import contextlib
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from gripscale.errors import FileError, InputError
+from gripscale.rubber import MasterCurve, read_master_curve
+
+TREAD = Path(__file__).parents[2] / "examples/data/rubber/measured_dma.txt"
+
+
+def write(folder: Path, text: str, name: str = "curve.txt") -> Path:
+    path = folder / name
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_rows_are_sorted_by_frequency():
+    curve = MasterCurve([10.0, 1.0, 10.0], [3e6, 1e6, 4e6], [3e5, 1e5, 4e5])
+    assert curve.frequency.tolist() == [1.0, 10.0, 10.0]
+    assert curve.storage.tolist() == [1e6, 3e6, 4e6]
+    assert curve.loss_factor == pytest.approx([0.1, 0.1, 0.1])
+    assert curve.angular_frequency[0] == pytest.approx(2 * np.pi)
+    assert curve.decades == pytest.approx(1.0)
+    assert len(curve) == 3
+
+
+@pytest.mark.parametrize(
+    ("frequency", "storage", "loss", "temperature", "message"),
+    [
+        ([1.0, 2.0], [1e6], [1e5, 1e5], None, "same length of at least 2; got 2, 1 and 2"),
+        ([1.0], [1e6], [1e5], None, "at least 2; got 1, 1 and 1"),
+        ([1.0, 0.0], [1e6, 1e6], [1e5, 1e5], None, r"frequency must be greater .* index 1"),
+        ([1.0, 2.0], [1e6, np.nan], [1e5, 1e5], None, "storage must be a list of finite"),
+        ([1.0, 2.0], [1e6, 1e6], [1e5, -1e5], None, "loss must be greater than zero"),
+        ([1.0, 2.0], [1e6, 1e6], [1e5, 1e5], -20.0, "reference_temperature must be greater"),
+    ],
+)
+def test_bad_curves(frequency, storage, loss, temperature, message):
+    with pytest.raises(InputError, match=message):
+        MasterCurve(frequency, storage, loss, temperature)
+
+
+def test_the_measured_tread_curve_reads_with_no_arguments():
+    curve = read_master_curve(TREAD)
+    assert len(curve) == 105
+    assert curve.name == "measured_dma"
+    assert curve.frequency[[0, -1]] == pytest.approx([4.18e-3, 9.89e12])
+    assert curve.storage[[0, -1]] == pytest.approx([6.68e6, 5.03e9])
+    assert curve.loss[[0, -1]] == pytest.approx([7.37e5, 1.41e9])
+
+
+GOOD = {
+    "header with brackets, commas": "f [Hz],E' [MPa],E'' [MPa]\n1,2,0.2\n10,3,0.3\n",
+    "line of units": "f, E_stor, E_loss\nHz, MPa, MPa\n1,2,0.2\n10,3,0.3\n",
+    "semicolons, decimal comma": "Freq (Hz);E' (MPa);E'' (MPa)\n1,0;2,0;0,2\n10;3;0,3\n",
+    "tabs, other order": "E'' [MPa]\tE' [MPa]\tfreq [Hz]\n0.2\t2\t1\n0.3\t3\t10\n",
+    "extra column": "T (C) f (Hz) E' (MPa) E'' (MPa)\n20 1 2 .2\n20 10 3 .3\n",
+    "kPa": "# f (Hz)  E' (kPa)  E'' (kPa)\n1 2e3 2e2\n# between\n\n10 3e3 3e2\n",
+    "slash and other primes": "f / Hz;E′ / MPa;E″ / MPa\n1;2;0.2\n10;3;0.3\n",
+    "descending": "f [Hz],E' [MPa],E'' [MPa]\n10,3,0.3\n1,2,0.2\n",
+    "byte order mark": "\ufefff [Hz],E' [MPa],E'' [MPa]\n1,2,0.2\n10,3,0.3\n",
+    "shear": "f [Hz],G' [MPa],G'' [MPa]\n1,0.6666666666666666,0.0666666666666666\n10,1,0.1\n",
+    "rad/s": "omega [rad/s],E' [MPa],E'' [MPa]\n6.283185307179586,2,0.2\n62.83185307179586,3,.3\n",
+}
+
+
+@pytest.mark.parametrize("text", GOOD.values(), ids=GOOD.keys())
+def test_headers_that_say_everything(tmp_path, text):
+    curve = read_master_curve(write(tmp_path, text))
+    assert curve.frequency == pytest.approx([1.0, 10.0])
+    assert curve.storage == pytest.approx([2e6, 3e6])
+    assert curve.loss == pytest.approx([2e5, 3e5])
+
+
+def test_what_the_header_omits_is_given(tmp_path):
+    path = write(tmp_path, "9 1 2 0.2\n9 10 3 0.3\n")
+    curve = read_master_curve(
+        path,
+        frequency_unit="kHz",
+        modulus_unit="GPa",
+        modulus="G",
+        reference_temperature=293.15,
+        columns=(1, 2, 3),
+        name="mine",
+        source="bench",
+    )
+    assert curve.frequency == pytest.approx([1e3, 1e4])
+    assert curve.storage == pytest.approx([6e9, 9e9])
+    assert curve.loss == pytest.approx([6e8, 9e8])
+    assert (curve.reference_temperature, curve.name, curve.source) == (293.15, "mine", "bench")
+
+
+def test_columns_by_header_name(tmp_path):
+    path = write(tmp_path, "speed (Hz),A (MPa),B (MPa)\n1,2,0.2\n10,3,0.3\n")
+    curve = read_master_curve(path, columns=("speed", "A", "B"), modulus="E")
+    assert curve.storage == pytest.approx([2e6, 3e6])
+    bare = write(tmp_path, "a b c\n1 2 0.2\n10 3 0.3\n")
+    units = {"frequency_unit": "Hz", "modulus_unit": "MPa", "modulus": "E"}
+    assert read_master_curve(bare, columns=("a", "b", "c"), **units).loss[0] == pytest.approx(2e5)
+
+
+ROWS = "1,2,0.2\n10,3,0.3\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "options", "message"),
+    [
+        (ROWS, {}, "frequency_unit must be given .* no unit"),
+        (ROWS, {"frequency_unit": "Hz"}, "modulus_unit must be given"),
+        (ROWS, {"frequency_unit": "Hz", "modulus_unit": "MPa"}, "modulus must be given"),
+        (ROWS, {"frequency_unit": "rpm"}, "frequency_unit must be one of Hz.* got 'rpm'"),
+        ("f [Hz],E' [MPa],E'' [kPa]\n" + ROWS, {}, "modulus_unit .* different units"),
+        ("f [Hz],E' [psi],E'' [psi]\n" + ROWS, {}, "modulus_unit must be given .* 'psi'"),
+        ("f [Hz],storage [MPa],loss [MPa]\n" + ROWS, {}, "modulus must be given"),
+        ("f [Hz],E' [MPa],G'' [MPa]\n" + ROWS, {}, "modulus must be given"),
+        ("f [Hz],E' [MPa],tan delta [-]\n" + ROWS, {}, "columns must name .* 0 header names mean"),
+        ("1,2,3,4\n1,2,3,4\n", {}, "columns must name .* 4 columns"),
+        (ROWS, {"columns": (0, 1, 7)}, "columns must be a whole number from 0 to 2; got 7"),
+        (ROWS, {"columns": (0, 1)}, "columns must be three different"),
+        (ROWS, {"columns": ("f", "a", "b")}, "columns must be among .* got 'f'"),
+    ],
+)
+def test_nothing_is_guessed(tmp_path, text, options, message):
+    with pytest.raises(InputError, match=message):
+        read_master_curve(write(tmp_path, text), **options)
+
+
+HEADER = "f [Hz],E' [MPa],E'' [MPa]\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", "expected at least 2 rows .* got 0"),
+        (HEADER + "1,2,0.2\n", "expected at least 2 rows .* got 1"),
+        (HEADER + "1,2,0.2\n10,abc,0.3\n", "line 3: expected a finite number; got 'abc'"),
+        (HEADER + "1,2,0.2\n10,nan,0.3\n", "line 3: expected a finite number; got 'nan'"),
+        (HEADER + "1,2,0.2\n10,3\n", "line 3: expected 3 numbers; got 2"),
+        (HEADER + "1,2,0.2\n10,-3,0.3\n", "line 3: expected a storage above zero; got -3"),
+        (HEADER + "0,2,0.2\n10,3,0.3\n", "line 2: expected a frequency above zero; got 0"),
+        ("1 2\n3 4\n", "line 1: expected at least 3 columns"),
+    ],
+)
+def test_bad_files_name_path_line_and_value(tmp_path, text, message):
+    path = write(tmp_path, text)
+    with pytest.raises(FileError, match=message) as caught:
+        read_master_curve(path)
+    assert str(path) in str(caught.value)
+
+
+def test_missing_and_binary_files(tmp_path):
+    with pytest.raises(FileError, match=r"none\.txt: cannot be read"):
+        read_master_curve(tmp_path / "none.txt")
+    binary = tmp_path / "sheet.xls"
+    binary.write_bytes(b"\xd0\xcf\x11\xe0\x00\x00")
+    with pytest.raises(FileError, match="expected a text file; got binary data"):
+        read_master_curve(binary)
+
+
+@given(st.text(alphabet="0123456789.,;-+eE'\" \t\n#()[]/HzMPaGf", max_size=80))
+@settings(
+    max_examples=300,
+    deadline=None,
+    derandomize=True,
+    suppress_health_check=[HealthCheck.function_scoped_fixture],
+)
+def test_no_text_raises_anything_but_our_errors(tmp_path, text):
+    path = write(tmp_path, "f [Hz],E' [MPa],E'' [MPa]\n1,2,0.2\n" + text)
+    with contextlib.suppress(FileError, InputError):
+        assert len(read_master_curve(path)) >= 2

@@ -1,0 +1,166 @@
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from gripscale.errors import InputError
+from gripscale.surface import (
+    HeightDifference,
+    clean,
+    height_difference,
+    read_profile,
+    self_affine_profile,
+)
+
+from .surface_cases import ROAD, ROAD_ONLY, profile_of
+
+HEIGHTS = arrays(
+    float, st.integers(64, 90), elements=st.floats(-1.0, 1.0) | st.just(float("nan"))
+).filter(lambda z: np.isfinite(z).sum() > 50)
+
+
+def brute_force(profiles, shift):
+    squares = [
+        (p.z[i + shift] - p.z[i]) ** 2
+        for p in profiles
+        for i in range(len(p) - shift)
+        if np.isfinite(p.z[i + shift]) and np.isfinite(p.z[i])
+    ]
+    return float(np.mean(squares)), len(squares)
+
+
+@settings(max_examples=25, deadline=None)
+@given(first=HEIGHTS, second=HEIGHTS)
+def test_equals_the_sum_over_all_pairs(first, second):
+    profiles = [profile_of(first), profile_of(second)]
+    curve = height_difference(profiles)
+    for lag, value, pairs in zip(curve.lag, curve.value, curve.pairs, strict=True):
+        expected, count = brute_force(profiles, round(lag / 1e-4))
+        assert count == pairs
+        # Differences of heights up to 1 about their mean lose at most 1e-16 absolutely.
+        assert value == pytest.approx(expected, rel=1e-10, abs=1e-30)
+
+
+def test_small_lags_keep_their_digits_far_below_the_plateau():
+    # A smooth wave with C_z at one step 1e-9 of its plateau, on a height of 1 m.
+    x = 1e-4 * np.arange(40_000)
+    wave = np.cos(2 * np.pi * x / 0.7)
+    curve = height_difference(profile_of(1e-3 * wave), max_lag=0.01)
+    k = 2 * np.pi / 0.7
+    assert curve.value[0] < 1e-6 * 1e-6
+    for shift, value in ((1, curve.value[0]), (2, curve.value[1])):
+        a = 1e-3 * wave
+        assert value == pytest.approx(np.mean((a[shift:] - a[:-shift]) ** 2), rel=1e-10)
+        # Mean over a whole number of waves and a bit: A^2 (1 - cos kl) within the end effect.
+        assert value == pytest.approx(1e-6 * (1 - np.cos(k * shift * 1e-4)), rel=0.1)
+
+
+def test_lags_are_whole_steps_to_a_quarter_of_the_length():
+    curve = height_difference(profile_of(np.random.default_rng(1).standard_normal(1001)))
+    steps = curve.lag / 1e-4
+    assert np.allclose(steps, np.rint(steps), atol=1e-9)
+    assert curve.lag[0] == pytest.approx(1e-4)
+    assert curve.lag[-1] == pytest.approx(0.025)
+    decade = (curve.lag > 1.0001e-3) & (curve.lag < 1.0001e-2)
+    assert decade.sum() == pytest.approx(20, abs=1)
+
+
+def test_white_noise_is_flat_at_twice_its_variance():
+    z = np.random.default_rng(2).standard_normal(100_000)
+    curve = height_difference(profile_of(z))
+    # Relative standard error of C_z is at most sqrt(3/N) = 0.0055; four of them.
+    assert np.abs(curve.value / 2.0 - 1.0).max() < 0.022
+
+
+def test_pooling_weighs_profiles_by_their_pairs():
+    z = np.random.default_rng(3).standard_normal(3000).cumsum()
+    whole, part = profile_of(z[:2000]), profile_of(z[2000:])
+    pooled = height_difference([whole, part], max_lag=0.01)
+    one, two = (height_difference(p, max_lag=0.01) for p in (whole, part))
+    expected = (one.value * one.pairs + two.value * two.pairs) / (one.pairs + two.pairs)
+    assert np.allclose(pooled.value, expected, rtol=1e-12)
+
+
+def test_band_covers_the_truth_as_often_as_it_says():
+    # C_z at lags far below a block (1/16 of 200 cut-offs): nominally 95 % of bands hold it.
+    # 60 profiles x 3 lags, correlated within a profile: 95 % - 4 standard errors of 60 tries.
+    inside = []
+    for seed in range(60):
+        profile = self_affine_profile(0.7, 1e-3, 1e-3, 0.2, 5e-5, seed)
+        curve = height_difference(profile, max_lag=4e-4)
+        for at in (0, 2, 5):
+            truth = 1e-6 * (1.0 - np.exp(-((curve.lag[at] / 1e-3) ** 1.4)))
+            inside.append(curve.lower[at] <= truth <= curve.upper[at])
+    assert 0.84 <= np.mean(inside) < 1.0
+
+
+def test_band_narrows_with_length():
+    short, long = (
+        height_difference(self_affine_profile(0.7, 1e-3, 1e-3, length, 1e-4, 5), max_lag=5e-4)
+        for length in (0.2, 3.2)
+    )
+    ratio = np.log(short.upper / short.lower) / np.log(long.upper / long.lower)
+    # Sixteen times the length: a quarter of the width, with 18 % scatter of each (15 freedoms).
+    assert np.median(ratio) == pytest.approx(4.0, rel=0.6)
+
+
+@pytest.mark.parametrize(("station", "low", "high"), [(0, 9.0e-6, 10.5e-6), (1, 10.0e-6, 11.7e-6)])
+def test_measured_road_plateau(station, low, high):
+    profile, _ = clean(read_profile(ROAD[station]), crop=ROAD_ONLY)
+    curve = height_difference(profile)
+    plateau = (curve.lag > 0.015) & (curve.lag < 0.1)
+    # SOURCE.txt: 9.6 to 11 mm^2, reached near 10-15 mm.
+    assert low < np.median(curve.value[plateau]) < high
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        ({"max_lag": 1e-5}, "max_lag must be at least one step"),
+        ({"max_lag": 1.0}, "max_lag must be .* within the profile"),
+        ({"max_lag": -1.0}, "max_lag must be greater than zero"),
+        ({"lags_per_decade": 0}, "lags_per_decade must be a whole number"),
+        ({"band_blocks": 2.5}, "band_blocks must be a whole number"),
+    ],
+)
+def test_bad_arguments_are_refused(arguments, says):
+    with pytest.raises(InputError, match=says):
+        height_difference(profile_of(np.arange(50.0)), **arguments)
+
+
+def test_bad_profiles_are_refused():
+    one, other = profile_of(np.arange(50.0)), profile_of(np.arange(50.0), 2e-4)
+    with pytest.raises(InputError, match=r"same step .* at index 1"):
+        height_difference([one, other])
+    with pytest.raises(InputError, match="Profile or a list"):
+        height_difference([])
+    with pytest.raises(InputError, match="Profile or a list"):
+        height_difference(3)
+    lonely = np.full(50, np.nan)
+    lonely[::25] = 1.0
+    with pytest.raises(InputError, match="at least 16 pairs"):
+        height_difference(profile_of(lonely))
+
+
+@pytest.mark.parametrize(
+    ("lag", "value", "says"),
+    [
+        ([1.0, 2.0], [1.0], "same length"),
+        ([1.0, 1.0], [1.0, 1.0], "lag must increase; got 1 m at index 1"),
+        ([0.0, 1.0], [1.0, 1.0], "lag must be greater than zero"),
+        ([1.0, 2.0], [1.0, -1.0], "value must not be negative"),
+        ([], [], "at least 1"),
+    ],
+)
+def test_a_bad_curve_is_refused(lag, value, says):
+    with pytest.raises(InputError, match=says):
+        HeightDifference(lag, value)
+
+
+def test_a_curve_without_band_has_none():
+    curve = HeightDifference([1.0, 2.0], [1.0, 2.0])
+    assert curve.pairs.tolist() == [0, 0]
+    assert np.isnan(curve.lower).all()
+    with pytest.raises(InputError, match="upper must have 2 entries"):
+        HeightDifference([1.0, 2.0], [1.0, 2.0], upper=[1.0])

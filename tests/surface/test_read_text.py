@@ -1,0 +1,151 @@
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from gripscale.errors import FileError, InputError
+from gripscale.surface import read_profile, read_profiles
+from gripscale.surface.text_table import parse_number
+
+from .surface_cases import ROAD
+
+ROWS = [(0.5 * i, (-1) ** i * 0.25 * i) for i in range(20)]
+
+
+def written(tmp_path, text, name="line.txt"):
+    path = tmp_path / name
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    return path
+
+
+def table(rows=ROWS, header="x [mm],z [um]\n", separator=",", end="\n"):
+    return header + end.join(f"{x}{separator}{z}" for x, z in rows)
+
+
+@pytest.mark.parametrize(
+    ("path", "points", "missing"), [(ROAD[0], 51067, 4373), (ROAD[1], 51290, 4841)]
+)
+def test_captif_files_give_all_points_at_the_true_step(path, points, missing):
+    profile = read_profile(path)
+    assert (len(profile), profile.missing) == (points, missing)
+    # Last distance, printed to 1 um, over the number of steps: the step is known to 1e-6/51000.
+    last = {51067: 1.914413, 51290: 1.922773}[points]
+    assert profile.length == pytest.approx(last, abs=1e-12)
+    assert profile.step == pytest.approx(37.48900e-6, abs=2e-11)
+
+
+def test_captif_heights_are_those_of_the_file():
+    profile = read_profile(ROAD[0])
+    assert profile.z[:3] == pytest.approx([-3.015e-3, -3.004e-3, -2.987e-3], abs=1e-15)
+    # Distances are within half the last printed digit of those in the file (line 40: 1.087 mm).
+    assert profile.x[29] == pytest.approx(1.087e-3, abs=0.51e-6)
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r\r\n", "\r"])
+@pytest.mark.parametrize("separator", [",", ";", "\t", "  "])
+def test_separators_and_line_ends(tmp_path, separator, end):
+    header = "Distance (mm)" + separator + "Height (um)" + end
+    path = written(tmp_path, table(header=header, separator=separator, end=end))
+    profile = read_profile(path)
+    assert profile.x == pytest.approx([x * 1e-3 for x, _ in ROWS])
+    assert profile.z == pytest.approx([z * 1e-6 for _, z in ROWS])
+
+
+def test_decimal_commas_bytes_order_mark_and_missing_heights(tmp_path):
+    text = table(separator=";", header="\ufeffx [mm];z [mm]\n").replace(".", ",")
+    text = text.replace("1,5;-0,75", "1,5;NaN")
+    profile = read_profile(written(tmp_path, text))
+    assert profile.z[2] == pytest.approx(0.5e-3)
+    assert np.flatnonzero(np.isnan(profile.z)).tolist() == [3]
+
+
+def test_units_come_from_titles_or_arguments_and_must_agree(tmp_path):
+    bare = written(tmp_path, table(header=""))
+    assert read_profile(bare, x_unit="cm", z_unit="µm").x[1] == pytest.approx(0.5e-2)
+    titled = written(tmp_path, table(), "titled.txt")
+    assert read_profile(titled, x_unit="mm").z[2] == pytest.approx(0.5e-6)
+    with pytest.raises(InputError, match=r"x_unit is 'm'.*'mm'"):
+        read_profile(titled, x_unit="m")
+    with pytest.raises(FileError, match="column 1 names no unit"):
+        read_profile(bare)
+    with pytest.raises(InputError, match="z_unit must be a unit of length"):
+        read_profile(bare, x_unit="mm", z_unit="furlong")
+
+
+def test_columns_are_found_by_title(tmp_path):
+    rows = "\n".join(f"{i};{z};{x}" for i, (x, z) in enumerate(ROWS))
+    profile = read_profile(written(tmp_path, "no.;height [um];distance [mm]\n" + rows))
+    assert profile.x[1] == pytest.approx(0.5e-3)
+
+
+def test_a_text_file_is_one_profile(tmp_path):
+    path = written(tmp_path, table())
+    (only,) = read_profiles(path)
+    assert np.array_equal(only.z, read_profile(path).z)
+    with pytest.raises(InputError, match="from 0 to 0"):
+        read_profile(path, line=1)
+
+
+@settings(max_examples=50, deadline=None)
+@given(step=st.floats(0.01, 0.9), start=st.floats(-500, 500), points=st.integers(16, 200))
+def test_rounded_distances_become_equidistant(tmp_path_factory, step, start, points):
+    x = start + step * np.arange(points)
+    text = "x [mm], z [mm]\n" + "\n".join(f"{v:.3f}, 1.0" for v in x)
+    profile = read_profile(written(tmp_path_factory.mktemp("rounded"), text))
+    # Both end points are rounded to 0.0005 mm; points between stand on the line through them.
+    assert np.abs(profile.x - 1e-3 * x).max() <= 0.51e-6
+
+
+BAD_FILES = {
+    "empty": (b"", "empty file"),
+    "blank": (b"\r\n \n", "empty file"),
+    "binary": (bytes(range(256)) * 20, "binary data"),
+    "no numbers": (b"a road\nwithout heights\n", r"found none from line 1 \('a road'\)"),
+    "one column": (b"1\n2\n3\n", "two columns"),
+    "three columns": (b"1,2,3\n" * 20, "line 1: expected two columns"),
+    "ragged": (table() + "\n10.0,1,5", "line 22: expected 2 columns as in line 2; got 3"),
+    "word": (table() + "\n10.0,high", "line 22: expected a number in column 2; got 'high'"),
+    "no distance": (table() + "\nnan,1.0", "line 22: expected a distance"),
+    "few points": (table(ROWS[:9]), "at least 16 points; got 9"),
+    "backwards": (table([*ROWS[:18], (3.0, 1.0)]), "line 20: .* increase in equal steps"),
+    "uneven": (table([*ROWS, (99.0, 1.0)]), "line 3: .* increase in equal steps"),
+    "all missing": (table([(x, "nan") for x, _ in ROWS]), "all missing|found none"),
+    "unknown unit": (table(header="x [mm],z [V]\n"), "'V', which is no known unit"),
+    "infinite": (table() + "\n10.0,inf", "line 22: expected a number in column 2; got 'inf'"),
+}
+
+
+@pytest.mark.parametrize("kind", BAD_FILES)
+def test_a_bad_file_is_refused_with_path_and_place(tmp_path, kind):
+    text, says = BAD_FILES[kind]
+    path = written(tmp_path, text)
+    with pytest.raises(FileError, match=says) as caught:
+        read_profile(path)
+    assert str(path) in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_missing_file_directory_and_wrong_arguments(tmp_path):
+    with pytest.raises(FileError, match="no such file"):
+        read_profile(tmp_path / "road.dat")
+    with pytest.raises(FileError, match="got a directory"):
+        read_profile(tmp_path)
+    with pytest.raises(FileError, match="cannot be read"):
+        read_profile("road\0.dat")
+    with pytest.raises(InputError, match="path must be"):
+        read_profile(12)
+    with pytest.raises(InputError, match="direction must be one of x, y"):
+        read_profile(ROAD[0], direction="z")
+
+
+@settings(max_examples=100, deadline=None)
+@given(junk=st.binary(max_size=300))
+def test_no_content_breaks_the_reader(tmp_path_factory, junk):
+    path = written(tmp_path_factory.mktemp("junk"), junk)
+    with pytest.raises((FileError, InputError)):
+        read_profile(path)
+
+
+@pytest.mark.parametrize("cell", ["1_000", "0x1", "infinity", "1e", "1.2.3", "١"])
+def test_only_plain_numbers_are_numbers(cell):
+    assert parse_number(cell) is None

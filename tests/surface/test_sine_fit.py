@@ -1,0 +1,208 @@
+import time
+
+import numpy as np
+import pytest
+
+from gripscale.errors import InputError
+from gripscale.surface import (
+    HeightDifference,
+    SelfAffineFit,
+    clean,
+    fit_sines,
+    height_difference,
+    read_profile,
+    sine_profile,
+)
+from gripscale.surface.sine_fit import first_consistent_lag
+
+from .surface_cases import ROAD, ROAD_ONLY, exact_curve, geometric_stack
+
+FIRST = 24e-3
+STACK = geometric_stack(FIRST, 2.5e-3, 3.5, 2.4, 6)
+
+
+@pytest.fixture(scope="module")
+def road():
+    return height_difference([clean(read_profile(path), crop=ROAD_ONLY)[0] for path in ROAD])
+
+
+@pytest.mark.parametrize(
+    ("s_wavelength", "s_amplitude", "waves"),
+    [(3.5, 2.4, 6), (3.0, 2.2, 6), (6.0, 3.0, 4), (2.2, 1.8, 8), (4.0, 5.0, 4)],
+)
+def test_a_known_stack_is_recovered_from_its_exact_curve(s_wavelength, s_amplitude, waves):
+    stack = geometric_stack(FIRST, 2.5e-3, s_wavelength, s_amplitude, waves)
+    fit = fit_sines(exact_curve(stack, 4e-5, FIRST / 4), scales=waves)
+    # The data are exact and the model is theirs: what is left is where the search stops.
+    assert fit.residual < 1e-6
+    assert fit.wavelength == pytest.approx(stack.wavelength, rel=1e-4)
+    assert fit.amplitude == pytest.approx(stack.amplitude, rel=1e-4)
+    assert fit.lag_range == pytest.approx((4e-5, FIRST / 4))
+
+
+@pytest.mark.parametrize("scale", [1e-6, 1e3])
+def test_the_fit_does_not_depend_on_the_size_of_things(scale):
+    curve = exact_curve(STACK, 4e-5, FIRST / 4)
+    fit = fit_sines(HeightDifference(scale * curve.lag, scale**2 * curve.value), scales=6)
+    assert fit.wavelength / scale == pytest.approx(STACK.wavelength, rel=1e-4)
+
+
+def test_a_known_stack_is_recovered_from_a_profile_with_random_phases():
+    fits = []
+    for seed in range(3):
+        curve = height_difference(sine_profile(STACK, 2.0, 3e-5, seed))
+        fits.append(fit_sines(curve, scales=6, largest_lag=FIRST / 4))
+    # Cross terms of neighbouring waves over L = 2 m: 2 A_1 A_2 / (pi L (1/l_2 - 1/l_1)) is below
+    # 1 % of C_z, and end effects lambda_1/(2 pi L) = 0.2 %; the factors feel less than that.
+    for fit in fits:
+        assert fit.s_wavelength == pytest.approx(3.5, rel=0.02)
+        assert fit.s_amplitude == pytest.approx(2.4, rel=0.02)
+        assert fit.wavelength[0] == pytest.approx(FIRST, rel=0.04)
+        assert fit.amplitude[0] == pytest.approx(2.5e-3, rel=0.04)
+
+
+def test_two_factors_fit_where_given_ones_and_a_single_one_do_not():
+    curve = exact_curve(STACK, 4e-5, FIRST / 4)
+    first = {"first_wavelength": FIRST, "first_amplitude": 2.5e-3}
+    free = fit_sines(curve, scales=6, **first)
+    near = fit_sines(curve, scales=6, s_wavelength=3.0, s_amplitude=2.2, **first)
+    far = fit_sines(curve, scales=6, s_wavelength=6.0, s_amplitude=3.0, **first)
+    single = fit_sines(curve, scales=6, single_factor=True)
+    assert free.residual < 1e-6
+    assert 0.01 < near.residual < far.residual
+    assert single.s_wavelength == single.s_amplitude
+    # H = 1 against H = 0.7: the slopes differ by 0.6 decades per decade, over three decades.
+    assert single.residual > 0.1
+
+
+def test_given_factors_and_first_wave_are_kept():
+    curve = exact_curve(STACK, 4e-5, FIRST / 4)
+    fit = fit_sines(
+        curve,
+        scales=4,
+        s_wavelength=3.0,
+        s_amplitude=2.2,
+        first_wavelength=0.02,
+        first_amplitude=2e-3,
+    )
+    assert fit.wavelength == pytest.approx(0.02 / 3.0 ** np.arange(4))
+    assert fit.amplitude == pytest.approx(2e-3 / 2.2 ** np.arange(4))
+    assert fit.residual > 0.0
+
+
+def test_beyond_a_quarter_wave_the_first_wave_stands_for_the_plateau():
+    # A curve with a plateau: the sum of A^2, twice the variance, must be its level. The ripple of
+    # the second wave, A_2^2/A_1^2 or some 10 %, is averaged over the lags on the plateau.
+    lag = np.geomspace(5e-5, 0.4, 90)
+    truth = SelfAffineFit(0.8, 5e-3, 3e-3, lag[0], 5e-3, 0.0)
+    fit = fit_sines(HeightDifference(lag, truth.evaluate(lag)), scales=5)
+    assert np.sum(fit.amplitude**2) == pytest.approx(9e-6, rel=0.1)
+    # The first wave reaches A^2 at a quarter wavelength: near the cut-off.
+    assert 3.0 < fit.wavelength[0] / 5e-3 < 7.0
+    # A self-affine surface has A ~ lambda^H; the first wave's own rise adds up to 0.1.
+    hurst = np.log(fit.s_amplitude) / np.log(fit.s_wavelength)
+    assert 0.78 < hurst < 0.92
+
+
+def test_the_last_wavelength_can_be_given():
+    curve = exact_curve(STACK, 4e-5, FIRST / 4)
+    last = float(STACK.wavelength[-1])
+    fit = fit_sines(curve, scales=6, smallest_wavelength=last)
+    assert fit.wavelength == pytest.approx(STACK.wavelength, rel=1e-4)
+    alone = fit_sines(curve, smallest_wavelength=last)
+    assert len(alone) == 6
+    assert alone.wavelength == pytest.approx(STACK.wavelength, rel=1e-4)
+    factor = fit_sines(curve, smallest_wavelength=0.9 * last, s_wavelength=3.5)
+    assert len(factor) == 6
+    assert factor.wavelength == pytest.approx(STACK.wavelength, rel=1e-3)
+    all_given = fit_sines(
+        curve, smallest_wavelength=0.9 * last, s_wavelength=3.5, first_wavelength=FIRST
+    )
+    assert len(all_given) == 6
+
+
+def test_no_more_waves_are_taken_than_help():
+    lag = np.geomspace(5e-5, 0.4, 90)
+    truth = SelfAffineFit(0.65, 5e-3, 3e-3, lag[0], 5e-3, 0.0)
+    curve = HeightDifference(lag, truth.evaluate(lag))
+    fits = [fit_sines(curve, scales=n, smallest_wavelength=1e-4) for n in range(3, 16)]
+    least = min(fit.residual for fit in fits)
+    fewest = next(fit for fit in fits if fit.residual <= 1.1 * least)
+    chosen = fit_sines(curve, smallest_wavelength=1e-4)
+    assert len(chosen) == len(fewest) < 10
+    assert chosen.residual == pytest.approx(fewest.residual, rel=1e-3)
+
+
+def test_one_wave_is_recovered():
+    stack = geometric_stack(FIRST, 2.5e-3, 3.5, 2.4, 1)
+    fit = fit_sines(exact_curve(stack, 1e-4, FIRST / 4), scales=1)
+    assert fit.wavelength == pytest.approx([FIRST], rel=1e-5)
+    assert fit.s_wavelength is None
+
+
+def test_lags_bent_by_spike_removal_do_not_count():
+    lag = 1e-5 * np.arange(1, 200)
+    straight = HeightDifference(lag, lag**1.6)
+    assert first_consistent_lag(straight) == lag[0]
+    bent = lag**1.6
+    bent[:2] *= 0.2
+    # C(3) = 3^1.6 C(1) / 0.2 > 9 C(1); lag 2 likewise against lags 4 and 6; lag 3 is untouched.
+    assert first_consistent_lag(HeightDifference(lag, bent)) == pytest.approx(3e-5)
+
+
+def test_measured_road_with_eight_waves_to_a_tenth_of_a_millimetre(road):
+    started = time.perf_counter()
+    fit = fit_sines(road, scales=8, smallest_wavelength=1e-4)
+    assert time.perf_counter() - started < 2.0
+    assert fit.wavelength[-1] == pytest.approx(1e-4)
+    assert fit.lag_range[0] < 1.6e-4
+    # Ripple of the sum of cosines about a smooth curve leaves some 0.03-0.05 decades.
+    assert fit.residual < 0.05
+    slenderness = fit.amplitude / fit.wavelength
+    assert 0.08 < slenderness.min() < slenderness.max() < 0.3
+    # The surface is rougher where it is finer, H < 1, and the waves carry its variance
+    # (C_z plateau 9.6 to 11 mm^2).
+    assert (np.diff(slenderness) > 0.0).all()
+    assert np.sum(fit.amplitude**2) == pytest.approx(10e-6, rel=0.15)
+
+
+def test_measured_road_prefers_two_factors(road):
+    two = fit_sines(road, scales=5, smallest_wavelength=1e-4)
+    one = fit_sines(road, scales=5, smallest_wavelength=1e-4, single_factor=True)
+    coarse = fit_sines(road, scales=3, s_wavelength=6.0, s_amplitude=3.0)
+    assert two.residual < 0.035
+    assert one.residual > 1.2 * two.residual
+    assert coarse.residual > 2.0 * two.residual
+
+
+CURVE = exact_curve(STACK, 4e-5, FIRST / 4)
+BAD = [
+    ({}, "scales or smallest_wavelength must be given"),
+    ({"scales": 0}, "scales must be a whole number from 1 to 24"),
+    ({"scales": 2.5}, "scales must be a whole number"),
+    ({"scales": 4, "s_wavelength": 1.0}, "s_wavelength must be greater than 1"),
+    ({"scales": 4, "s_amplitude": -2.0}, "s_amplitude must be greater than zero"),
+    ({"scales": 4, "first_wavelength": 0.0}, "first_wavelength must be greater than zero"),
+    ({"smallest_wavelength": 1e-3, "first_wavelength": 1e-4}, "must be below first_wavelength"),
+    ({"smallest_wavelength": 1e-3, "s_wavelength": 2.0, "scales": 3}, "give two of"),
+    ({"smallest_wavelength": 1e9}, "no sine waves fit"),
+    ({"smallest_wavelength": 1e-9, "s_wavelength": 1.1, "first_wavelength": 1.0}, "at most 24"),
+    ({"scales": 4, "largest_lag": 4.2e-5}, "at least 4 lags"),
+    ({"scales": 4, "smallest_lag": 1.0}, "at least 4 lags .* got 0"),
+    (
+        {"scales": 4, "s_wavelength": 2.0, "s_amplitude": 3.0, "single_factor": True},
+        "must be equal where single_factor",
+    ),
+]
+
+
+@pytest.mark.parametrize(("arguments", "says"), BAD)
+def test_bad_arguments_are_refused(arguments, says):
+    with pytest.raises(InputError, match=says):
+        fit_sines(CURVE, **arguments)
+
+
+def test_a_flat_curve_is_refused():
+    flat = HeightDifference(CURVE.lag, np.zeros(len(CURVE)))
+    with pytest.raises(InputError, match="must be positive at every lag"):
+        fit_sines(flat, scales=3)
