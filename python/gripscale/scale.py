@@ -89,7 +89,7 @@ def solve_scale(
     rows: int = DEFAULT_ROWS,
     element_order: int = 1,
     max_iterations: int = 40,
-    tolerance: float = 1e-8,
+    residual_tolerance: float = 1e-8,
 ) -> ScaleResult:
     """Press a rubber block on one rigid sine wave, slide it, and find contact and friction.
 
@@ -119,7 +119,7 @@ def solve_scale(
         1: bilinear with one pressure; 2: biquadratic with linear discontinuous pressure.
     max_iterations : int
         Newton iterations allowed in one load step.
-    tolerance : float
+    residual_tolerance : float
         Largest residual force over the applied force, and gap over the amplitude [-].
 
     Returns
@@ -156,7 +156,7 @@ def solve_scale(
             rows=checks.whole("rows", rows, least=2, most=256),
             order=checks.whole("element_order", element_order, least=1, most=2),
             iterations=checks.whole("max_iterations", max_iterations, least=1, most=1000),
-            tolerance=checks.positive("tolerance", tolerance),
+            tolerance=checks.positive("residual_tolerance", residual_tolerance),
             step=LARGEST_STEP,
         )
     except ValueError as error:

@@ -117,7 +117,6 @@ def test_output_folder_without_permission_is_found_before_reading(
         (["--crop", "1 mm", "1 ell"], "options: crop[1] = '1 ell': unknown unit"),
         (["--x-unit", "ell"], "options: x_unit = 'ell': expected one of"),
         (["--detrend", "cubic"], "options: detrend = 'cubic': expected 'linear'"),
-        (["--scales", "3", "--smallest-wavelength", "1 mm"], "expected either scales"),
     ],
 )
 def test_bad_surface_options(shell: Shell, inputs: Path, options: list[str], words: str) -> None:

@@ -89,8 +89,8 @@ class Surface(Table):
     def _one_source(self) -> Surface:
         if (self.files is None) == (self.sines is None):
             raise ValueError("expected either files (measured profiles) or sines (waves by hand)")
-        if self.files is not None and (self.scales is None) == (self.smallest_wavelength is None):
-            raise ValueError("expected either scales (number of waves) or smallest_wavelength")
+        if self.files is not None and self.scales is None and self.smallest_wavelength is None:
+            raise ValueError("expected scales (number of waves), smallest_wavelength, or both")
         for name, limits in (("crop", self.crop), ("valid_range", self.valid_range)):
             if limits is not None and limits[0] >= limits[1]:
                 raise ValueError(
