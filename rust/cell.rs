@@ -116,36 +116,22 @@ impl Cell {
     }
 }
 
-/// Row heights h(z) = (first + growth z) exp(2 pi z / 3), with the growth that fills the depth.
+/// Row heights growing geometrically from `first` so that they fill the depth.
 ///
-/// Next to the contact edges the field's length scale is the distance from the surface; farther up
-/// the first harmonic decays like (1 + k z) exp(-k z), and equal interpolation error of its second
-/// derivative asks for h ~ exp(k z / 3), k = 2 pi.
+/// Next to the contact edges the field's length scale is the distance from the surface, which asks
+/// for heights in proportion to it; coarser rows where the first harmonic has decayed save little.
 fn graded(first: f64, rows: usize, depth: f64) -> Vec<f64> {
-    let (mut low, mut high) = (0.0, 1.0 + depth / first);
+    let sum = |ratio: f64| (0..rows).map(|i| first * ratio.powi(i as i32)).sum::<f64>();
+    let (mut low, mut high) = (1.0, 1.0 + depth / first);
     for _ in 0..200 {
         let middle = 0.5 * (low + high);
-        if heights(first, middle, rows, depth).iter().sum::<f64>() < depth {
+        if sum(middle) < depth {
             low = middle;
         } else {
             high = middle;
         }
     }
-    let heights = heights(first, low, rows, depth);
+    let heights: Vec<f64> = (0..rows).map(|i| first * low.powi(i as i32)).collect();
     let total: f64 = heights.iter().sum();
     heights.iter().map(|h| h * depth / total).collect()
-}
-
-fn heights(first: f64, growth: f64, rows: usize, depth: f64) -> Vec<f64> {
-    let mut base = 0.0_f64;
-    let mut heights = Vec::with_capacity(rows);
-    for _ in 0..rows {
-        // Beyond the depth only the sum matters: keep it finite.
-        let reach = base.min(depth);
-        let height =
-            (first + growth * reach) * (std::f64::consts::TAU / 3.0 * reach.min(3.0)).exp();
-        heights.push(height);
-        base += height;
-    }
-    heights
 }

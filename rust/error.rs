@@ -6,6 +6,8 @@ use thiserror::Error;
 pub enum KernelError {
     #[error("{name} must be greater than zero and finite; got {value}")]
     NotPositive { name: &'static str, value: f64 },
+    #[error("{name} must be a finite number; got {value}")]
+    NotFinite { name: &'static str, value: f64 },
     #[error("{name} must be zero or more{allowed}; got {value}")]
     Negative {
         name: &'static str,
@@ -18,6 +20,12 @@ pub enum KernelError {
         least: usize,
         most: usize,
         value: usize,
+    },
+    #[error("{name} must be one of {expected}; got {value:?}")]
+    UnknownName {
+        name: &'static str,
+        expected: &'static str,
+        value: String,
     },
     #[error("moduli and relaxation_times must have the same length; got {moduli} and {times}")]
     LengthMismatch { moduli: usize, times: usize },

@@ -1,9 +1,10 @@
 //! Contact of a finite-strain viscoelastic rubber block with one rigid sine wave.
 //!
 //! The rooms, each using only what stands above it:
-//! `error`, `element`, `cell` (mesh), `network` (material at a point), `memory` (Maxwell history),
-//! `linear` (faer), `assembly`, `wave`, `active_set`, `newton`, `outcome`, `sliding` (one scale),
-//! `python` (bindings, no numerics).
+//! `error`, `element`, `cell` (mesh), `network` and `hyperelastic` (material at a point), `memory`
+//! (Maxwell history), `linear` (faer), `assembly`, `wave`, `active_set`, `newton` (one load),
+//! `march` (raising it), `transfer` (between meshes), `outcome`, `scale` (one wave, from inputs to
+//! solution), `python` (bindings, no numerics).
 //!
 //! Conventions: inside, lengths are in wavelengths and stresses in units of |G*(2 pi v / lambda)|;
 //! x along sliding (the rubber moves in +x over the wave, whose frame is used), z up, rubber above,
@@ -14,12 +15,15 @@ pub mod assembly;
 pub mod cell;
 pub mod element;
 pub mod error;
+pub mod hyperelastic;
 pub mod linear;
+pub mod march;
 pub mod memory;
 pub mod network;
 pub mod newton;
 pub mod outcome;
 #[cfg(feature = "python")]
 mod python;
-pub mod sliding;
+pub mod scale;
+pub mod transfer;
 pub mod wave;

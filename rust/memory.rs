@@ -2,7 +2,7 @@
 //!
 //! The rubber flows through the fixed mesh in +x with speed v, so each temporary network obeys
 //!     tau_i v dA_i/dx = Y - A_i,   periodic in x           (Lubliner 1985, steady in the wave's frame)
-//! and H = G(t) I + sum over points of weight * Y, where the mean state relaxes only for the load
+//! and H = G_inf b + (G(t) - G_inf) I + sum over points of weight * Y, where the mean state relaxes only for the load
 //! time t: the mean of A_i is (1 - e_i) mean(Y) + e_i I with e_i = exp(-t / tau_i).
 //!
 //! The weights follow from the Fourier series, where harmonic k is multiplied by the complex modulus
@@ -52,24 +52,15 @@ impl Maxwell {
 /// the line, so the weights depend on the distance in columns alone.
 #[derive(Debug, Clone)]
 pub struct History {
-    /// Modulus of the mean state, G(load time).
-    pub mean_modulus: f64,
-    /// `stress[m]`: weight of Y in column e - m in H in column e; empty without memory.
+    /// What the temporary networks add to the mean state, G(load time) - G_inf.
+    pub frozen_modulus: f64,
+    /// `stress[m]`: weight of Y in column e - m in H in column e.
     pub stress: Vec<f64>,
     /// The same for the energy lost per sliding distance, 1/2 sum weight Y : Cbar.
     pub dissipation: Vec<f64>,
 }
 
 impl History {
-    /// No memory: the relaxed rubber.
-    pub fn relaxed(modulus: f64) -> Self {
-        Self {
-            mean_modulus: modulus,
-            stress: Vec::new(),
-            dissipation: Vec::new(),
-        }
-    }
-
     /// Memory of steady sliding; `load_time` in passage times.
     ///
     /// Harmonic k of Y is multiplied by G(t) - G*(omega_k), the mean by nothing.
@@ -90,7 +81,7 @@ impl History {
                 dissipation[column] += share * omega * ((glassy - storage) * odd - loss * cosine);
             }
         }
-        Self::without_local_part(mean, stress, dissipation)
+        Self::without_local_part(mean - maxwell.equilibrium, stress, dissipation)
     }
 
     /// The same by the exact recurrence of each Maxwell element from column to column,
@@ -106,21 +97,21 @@ impl History {
                 dissipation[m] += modulus * (weight - f64::from(m == 0)) / time;
             }
         }
-        Self::without_local_part(mean, stress, dissipation)
+        Self::without_local_part(mean - maxwell.equilibrium, stress, dissipation)
     }
 
     /// Take out the weight of each point on itself, which DEV would remove, to avoid cancellation.
-    fn without_local_part(mean_modulus: f64, mut stress: Vec<f64>, dissipation: Vec<f64>) -> Self {
+    fn without_local_part(
+        frozen_modulus: f64,
+        mut stress: Vec<f64>,
+        dissipation: Vec<f64>,
+    ) -> Self {
         stress[0] = 0.0;
         Self {
-            mean_modulus,
+            frozen_modulus,
             stress,
             dissipation,
         }
-    }
-
-    pub fn has_memory(&self) -> bool {
-        !self.stress.is_empty()
     }
 }
 
@@ -143,7 +134,7 @@ fn recurrence(columns: usize, time: f64) -> Vec<f64> {
 }
 
 /// Weight of the point arrived at: 1 - (1 - exp(-x)) / x.
-fn arriving(x: f64) -> f64 {
+pub fn arriving(x: f64) -> f64 {
     if x < 1e-3 {
         x * (0.5 - x * (1.0 / 6.0 - x / 24.0))
     } else {
@@ -152,7 +143,7 @@ fn arriving(x: f64) -> f64 {
 }
 
 /// Weight of the point left: (1 - exp(-x)) / x - exp(-x).
-fn leaving(x: f64) -> f64 {
+pub fn leaving(x: f64) -> f64 {
     if x < 1e-3 {
         x * (0.5 - x * (1.0 / 3.0 - x / 8.0))
     } else {

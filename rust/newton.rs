@@ -34,9 +34,15 @@ impl State {
     }
 }
 
+/// Iterations without a smaller residual after which a load step is given up.
+const PATIENCE: usize = 12;
+
 #[derive(Debug, Clone, Copy)]
 pub struct Limits {
+    /// Newton iterations in one load step.
     pub iterations: usize,
+    /// Newton iterations in one march.
+    pub budget: usize,
     /// Residual force relative to the load, and gap relative to the amplitude.
     pub tolerance: f64,
     /// Largest change of the displacement gradient in one iteration.
@@ -50,6 +56,10 @@ pub enum Ending {
     ElementInverted,
     NoActiveSet,
     NotFinite,
+    /// The load can be raised no further in steps of a thousandth.
+    Fold,
+    /// Solved, but the finest mesh allowed does not meet the accuracy asked for.
+    ToleranceNotMet,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -94,6 +104,7 @@ impl Problem<'_> {
             residual: f64::INFINITY,
         };
         let mut rows = self.row_states(&state.field);
+        let (mut best, mut best_at) = (f64::INFINITY, 0);
         loop {
             report.residual = self.residual(state, &rows, load);
             if !report.residual.is_finite() {
@@ -104,7 +115,11 @@ impl Problem<'_> {
                 report.ending = Ending::Converged;
                 return report;
             }
-            if report.iterations >= limits.iterations {
+            if report.residual < best {
+                (best, best_at) = (report.residual, report.iterations);
+            }
+            let stalled = report.iterations >= best_at + PATIENCE;
+            if stalled || report.iterations >= limits.iterations {
                 return report;
             }
             report.iterations += 1;

@@ -5,8 +5,9 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::error::KernelError;
+use crate::hyperelastic::Energy;
 use crate::newton::{Ending, Limits};
-use crate::sliding::{Scale, Solution};
+use crate::scale::{Scale, Solution};
 
 impl From<KernelError> for PyErr {
     fn from(error: KernelError) -> Self {
@@ -28,6 +29,8 @@ impl PySolution {
             Ending::ElementInverted => "element inverted",
             Ending::NoActiveSet => "no active set",
             Ending::NotFinite => "not finite",
+            Ending::Fold => "fold in the load path",
+            Ending::ToleranceNotMet => "tolerance not met",
         }
     }
     #[getter]
@@ -36,11 +39,11 @@ impl PySolution {
     }
     #[getter]
     fn newton_iterations(&self) -> usize {
-        self.0.total_iterations
+        self.0.count.iterations
     }
     #[getter]
     fn load_steps(&self) -> usize {
-        self.0.load_steps
+        self.0.count.steps
     }
     #[getter]
     fn load_reached(&self) -> f64 {
@@ -48,7 +51,7 @@ impl PySolution {
     }
     #[getter]
     fn approach(&self) -> f64 {
-        self.0.approach
+        self.0.state.approach
     }
     #[getter]
     fn contact_fraction(&self) -> f64 {
@@ -65,6 +68,22 @@ impl PySolution {
     #[getter]
     fn friction_from_dissipation(&self) -> f64 {
         self.0.outcome.friction_from_dissipation
+    }
+    #[getter]
+    fn contact_fraction_error(&self) -> f64 {
+        self.0.contact_fraction_error
+    }
+    #[getter]
+    fn friction_error(&self) -> f64 {
+        self.0.friction_error
+    }
+    #[getter]
+    fn columns(&self) -> usize {
+        self.0.cell.columns
+    }
+    #[getter]
+    fn rows(&self) -> usize {
+        self.0.cell.rows
     }
     #[getter]
     fn min_stretch(&self) -> f64 {
@@ -106,7 +125,7 @@ impl PySolution {
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let layers: Vec<Vec<f64>> = self
             .0
-            .mesh
+            .mesh()
             .iter()
             .map(|layer| layer.iter().map(&part).collect())
             .collect();
@@ -114,14 +133,32 @@ impl PySolution {
     }
 }
 
+/// The strain energy by its name and two coefficients.
+fn energy(name: &str, first: f64, second: f64) -> Result<Energy, KernelError> {
+    match name {
+        "neo_hookean" => Ok(Energy::NeoHookean),
+        "mooney_rivlin" => Ok(Energy::MooneyRivlin { share: first }),
+        "yeoh" => Ok(Energy::Yeoh {
+            second: first,
+            third: second,
+        }),
+        other => Err(KernelError::UnknownName {
+            name: "strain energy",
+            expected: "neo_hookean, mooney_rivlin, yeoh",
+            value: other.to_owned(),
+        }),
+    }
+}
+
 /// Solve one wave; see `gripscale.scale.solve_scale` for the arguments.
 #[pyfunction]
-#[pyo3(signature = (*, equilibrium_modulus, moduli, relaxation_times, bulk_modulus, wavelength,
-    amplitude, pressure, speed, load_time, depth, columns, rows, order, iterations, tolerance,
-    step))]
+#[pyo3(signature = (*, strain_energy, equilibrium_modulus, moduli, relaxation_times, bulk_modulus,
+    wavelength, amplitude, pressure, speed, load_time, depth, columns, rows, order, tolerance,
+    iterations, budget, residual_tolerance, step, start))]
 #[allow(clippy::too_many_arguments)]
 fn solve_scale(
     py: Python<'_>,
+    strain_energy: (String, f64, f64),
     equilibrium_modulus: f64,
     moduli: PyReadonlyArray1<'_, f64>,
     relaxation_times: PyReadonlyArray1<'_, f64>,
@@ -135,11 +172,15 @@ fn solve_scale(
     columns: usize,
     rows: usize,
     order: usize,
+    tolerance: Option<f64>,
     iterations: usize,
-    tolerance: f64,
+    budget: usize,
+    residual_tolerance: f64,
     step: f64,
+    start: Option<Bound<'_, PySolution>>,
 ) -> PyResult<PySolution> {
     let scale = Scale {
+        energy: energy(&strain_energy.0, strain_energy.1, strain_energy.2)?,
         equilibrium_modulus,
         moduli: moduli.as_array().to_vec(),
         relaxation_times: relaxation_times.as_array().to_vec(),
@@ -153,13 +194,16 @@ fn solve_scale(
         columns,
         rows,
         order,
+        tolerance,
         limits: Limits {
             iterations,
-            tolerance,
+            budget,
+            tolerance: residual_tolerance,
             step,
         },
     };
-    Ok(PySolution(py.detach(|| scale.solve())?))
+    let start = start.as_ref().map(|solution| &solution.get().0);
+    Ok(PySolution(py.detach(|| scale.solve(start))?))
 }
 
 #[pymodule(name = "_kernel")]

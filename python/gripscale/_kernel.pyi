@@ -28,6 +28,14 @@ class Solution:
     @property
     def friction_from_dissipation(self) -> float: ...
     @property
+    def contact_fraction_error(self) -> float: ...
+    @property
+    def friction_error(self) -> float: ...
+    @property
+    def columns(self) -> int: ...
+    @property
+    def rows(self) -> int: ...
+    @property
     def min_stretch(self) -> float: ...
     @property
     def max_stretch(self) -> float: ...
@@ -42,6 +50,7 @@ class Solution:
 
 def solve_scale(
     *,
+    strain_energy: tuple[str, float, float],
     equilibrium_modulus: float,
     moduli: NDArray[np.float64],
     relaxation_times: NDArray[np.float64],
@@ -55,7 +64,10 @@ def solve_scale(
     columns: int,
     rows: int,
     order: int,
+    tolerance: float | None,
     iterations: int,
-    tolerance: float,
+    budget: int,
+    residual_tolerance: float,
     step: float,
+    start: Solution | None,
 ) -> Solution: ...

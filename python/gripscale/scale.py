@@ -57,6 +57,16 @@ class ScaleResult:
     """Deformed node positions (x, z) [m], each (layers, columns + 1), or None."""
     details: dict[str, Any] = field(default_factory=dict, repr=False)
     """Further counts of the solver (load steps, mesh, indentation ...)."""
+    contact_fraction_error: float = math.nan
+    """Estimated discretisation error of the contact fraction [-], NaN if unknown."""
+    friction_error: float = math.nan
+    """Estimated discretisation error of the friction coefficient [-], NaN if unknown."""
+    solution: _kernel.Solution | None = field(default=None, repr=False, compare=False)
+    """The kernel's solution, from which another wave can start."""
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Leave the kernel's solution behind when a result is pickled."""
+        return {**self.__dict__, "solution": None}
 
     @property
     def contact_length(self) -> float:
@@ -88,6 +98,8 @@ def solve_scale(
     columns: int = DEFAULT_COLUMNS,
     rows: int = DEFAULT_ROWS,
     element_order: int = 1,
+    tolerance: float | None = None,
+    start: ScaleResult | None = None,
     max_iterations: int = 40,
     residual_tolerance: float = 1e-8,
 ) -> ScaleResult:
@@ -117,6 +129,12 @@ def solve_scale(
         Elements along and across the block; columns must be even.
     element_order : int
         1: bilinear with one pressure; 2: biquadratic with linear discontinuous pressure.
+    tolerance : float, optional
+        Largest estimated discretisation error, relative in friction and absolute in contact
+        fraction. The mesh is refined until it is met, from coarser than `columns` x `rows` to
+        512 columns; without it the mesh is the one given.
+    start : ScaleResult, optional
+        A result of another wave, pressure, speed or rubber to start from (a warm start).
     max_iterations : int
         Newton iterations allowed in one load step.
     residual_tolerance : float
@@ -142,6 +160,7 @@ def solve_scale(
         raise InputError(f"columns must be even; got {columns}")
     try:
         solution = _kernel.solve_scale(
+            strain_energy=rubber.strain_energy.coefficients(),
             equilibrium_modulus=rubber.equilibrium_modulus / 3.0,
             moduli=np.ascontiguousarray(rubber.moduli) / 3.0,
             relaxation_times=np.ascontiguousarray(rubber.relaxation_times),
@@ -155,9 +174,12 @@ def solve_scale(
             columns=columns,
             rows=checks.whole("rows", rows, least=2, most=256),
             order=checks.whole("element_order", element_order, least=1, most=2),
+            tolerance=None if tolerance is None else checks.positive("tolerance", tolerance),
             iterations=checks.whole("max_iterations", max_iterations, least=1, most=1000),
-            tolerance=checks.positive("residual_tolerance", residual_tolerance),
+            residual_tolerance=checks.positive("residual_tolerance", residual_tolerance),
+            budget=ITERATION_BUDGET,
             step=LARGEST_STEP,
+            start=start.solution if start is not None else None,
         )
     except ValueError as error:
         raise InputError(str(error)) from error
@@ -182,16 +204,22 @@ def solve_scale(
             "load_steps": solution.load_steps,
             "load_reached": solution.load_reached,
             "indentation": solution.approach * wavelength,
-            "columns": columns,
-            "rows": rows,
+            "columns": solution.columns,
+            "rows": solution.rows,
             "depth": depth,
             "element_order": element_order,
         },
+        contact_fraction_error=solution.contact_fraction_error,
+        friction_error=solution.friction_error,
+        solution=solution,
     )
 
 
 LARGEST_STEP = 0.4
 """Largest change of the displacement gradient in one Newton iteration [-]."""
+
+ITERATION_BUDGET = 500
+"""Newton iterations allowed in one march of the pressure."""
 
 
 def _status(solution: _kernel.Solution) -> str:

@@ -1,7 +1,7 @@
 //! Deformation gradients and remembered state at the Gauss points of one element row.
 
-use super::{Block, RowState};
-use crate::network::{self, Gradient, Symmetric};
+use super::{Block, Memory, RowState};
+use crate::network::{self, Gradient, Symmetric, UNIT};
 
 impl Block<'_> {
     /// Deformation gradients of one row for displacements `u`, or increments if `identity` is 0.
@@ -33,21 +33,34 @@ impl Block<'_> {
 
     pub fn row_state(&self, row: usize, u: &[f64]) -> RowState {
         let gradient = self.gradients(row, u, 1.0);
-        let h = gradient.iter().map(|line| self.remember(line)).collect();
+        let h = (0..gradient.len())
+            .map(|line| self.remember(row, line, &gradient[line]))
+            .collect();
         RowState { gradient, h }
     }
 
-    /// H along one line: G(t) I + history of Y.
-    fn remember(&self, line: &[Gradient]) -> Vec<Symmetric> {
-        let mean = network::UNIT.map(|unit| self.history.mean_modulus * unit);
-        if !self.history.has_memory() {
-            return vec![mean; line.len()];
-        }
-        let y: Vec<Symmetric> = line.iter().map(network::remembered).collect();
-        let mut h = convolve(&self.history.stress, &y);
-        for value in &mut h {
-            for k in 0..4 {
-                value[k] += mean[k];
+    /// H along one line: permanent network and memory.
+    fn remember(&self, row: usize, line: usize, gradient: &[Gradient]) -> Vec<Symmetric> {
+        let mut h: Vec<Symmetric> = gradient
+            .iter()
+            .map(|f| self.energy.network(f).map(|b| self.equilibrium * b))
+            .collect();
+        match self.memory {
+            Memory::Relaxed => {}
+            Memory::Sliding(history) => {
+                let y: Vec<Symmetric> = gradient.iter().map(network::remembered).collect();
+                for (h, past) in h.iter_mut().zip(convolve(&history.stress, &y)) {
+                    for k in 0..4 {
+                        h[k] += past[k] + history.frozen_modulus * UNIT[k];
+                    }
+                }
+            }
+            Memory::Given(state) => {
+                for (h, given) in h.iter_mut().zip(&state[row][line]) {
+                    for k in 0..4 {
+                        h[k] += given[k];
+                    }
+                }
             }
         }
         h
@@ -57,13 +70,13 @@ impl Block<'_> {
     pub fn row_dissipation(&self, row: usize, state: &RowState) -> f64 {
         let element = &self.cell.elements[row];
         let points = self.points();
-        if !self.history.has_memory() {
+        let Memory::Sliding(history) = self.memory else {
             return 0.0;
-        }
+        };
         let mut lost = 0.0;
         for (line, gradient) in state.gradient.iter().enumerate() {
             let y: Vec<Symmetric> = gradient.iter().map(network::remembered).collect();
-            let rate = convolve(&self.history.dissipation, &y);
+            let rate = convolve(&history.dissipation, &y);
             for (q, f) in gradient.iter().enumerate() {
                 let weight = element.weight[line * points + q % points];
                 lost += 0.5 * weight * network::contract(&rate[q], &network::isochoric(f));

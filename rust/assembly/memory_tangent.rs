@@ -6,6 +6,7 @@
 
 use super::Block;
 use crate::linear::{self, Matrix};
+use crate::memory::History;
 use crate::network::{self, Gradient};
 
 impl Block<'_> {
@@ -16,6 +17,7 @@ impl Block<'_> {
     pub(super) fn add_memory(
         &self,
         row: usize,
+        history: &History,
         gradient: &[Vec<Gradient>],
         matrix: &mut Matrix<f64>,
     ) {
@@ -28,7 +30,7 @@ impl Block<'_> {
         let mut product = Matrix::<f64>::zeros(points * self.cell.layer_size(), count);
         let unknowns: Vec<Vec<usize>> = (0..columns).map(|c| self.local_unknowns(c)).collect();
         // The weights twice over, so that any shift of them is a contiguous slice.
-        let weights = self.history.stress.repeat(2);
+        let weights = history.stress.repeat(2);
         let pulp = pulp::Arch::new();
         for source in 0..columns {
             pulp.dispatch(|| self.spread(source, count, &left, &weights, &mut spread));

@@ -8,6 +8,7 @@ mod kinematics;
 mod memory_tangent;
 
 use crate::cell::Cell;
+use crate::hyperelastic::Energy;
 use crate::linear::{self, Matrix, RowSystem};
 use crate::memory::History;
 use crate::network::{self, Gradient, Symmetric};
@@ -28,10 +29,24 @@ impl Field {
     }
 }
 
+/// What the temporary networks add to H.
+#[derive(Debug, Clone)]
+pub enum Memory {
+    /// Nothing: the relaxed rubber.
+    Relaxed,
+    /// Steady sliding: all points of a line remember one another.
+    Sliding(History),
+    /// A given state of the networks, `[row][line][column * points + point]`.
+    Given(Vec<Vec<Vec<Symmetric>>>),
+}
+
 /// The rubber in a cell: what assembly needs beyond the field.
 pub struct Block<'a> {
     pub cell: &'a Cell,
-    pub history: &'a History,
+    pub energy: Energy,
+    /// Shear modulus of the permanent network.
+    pub equilibrium: f64,
+    pub memory: &'a Memory,
     pub bulk_modulus: f64,
 }
 
@@ -136,8 +151,8 @@ impl Block<'_> {
         for column in 0..self.cell.columns {
             self.add_local(row, column, field, state, &mut system);
         }
-        if self.history.has_memory() {
-            self.add_memory(row, &state.gradient, &mut system.matrix);
+        if let Memory::Sliding(history) = self.memory {
+            self.add_memory(row, history, &state.gradient, &mut system.matrix);
         }
         system
     }
@@ -166,7 +181,8 @@ impl Block<'_> {
                 let f = &state.gradient[line][q];
                 let weight = element.weight[at];
                 let level = dot(&element.mode[at], pressure);
-                let d = network::tangent(f, &state.h[line][q], level);
+                let mut d = network::tangent(f, &state.h[line][q], level);
+                self.add_network_slope(f, &mut d);
                 let cof = network::cofactor(f);
                 let slopes = &element.gradient[at];
                 add_stiffness(&mut local, count, slopes, &d, weight);
@@ -193,6 +209,20 @@ impl Block<'_> {
             let target = linear::column_mut(&mut system.matrix, unknowns[j]);
             for i in 0..count {
                 target[unknowns[i]] += local[j * count + i];
+            }
+        }
+    }
+
+    /// Stiffness from the permanent network where its b changes with the strain.
+    fn add_network_slope(&self, f: &Gradient, d: &mut [Gradient; 4]) {
+        let Some(slope) = self.energy.network_slope(f) else {
+            return;
+        };
+        let by_h = network::memory_slope(f);
+        for a in 0..4 {
+            for k in 0..4 {
+                let sum: f64 = (0..4).map(|c| by_h[a][c] * slope[c][k]).sum();
+                d[a][k] += self.equilibrium * sum;
             }
         }
     }

@@ -1,8 +1,9 @@
 //! Shape functions reproduce what they must; the cell adds up; an affine field is in equilibrium.
 
-use gripscale_kernel::assembly::{Block, Field};
+use gripscale_kernel::assembly::{Block, Field, Memory};
 use gripscale_kernel::cell::Cell;
 use gripscale_kernel::element::{lagrange, lagrange_slope, Element};
+use gripscale_kernel::hyperelastic::Energy;
 use gripscale_kernel::memory::{History, Maxwell};
 
 #[test]
@@ -73,10 +74,12 @@ fn an_affine_deformation_is_in_equilibrium() {
     };
     for order in [1, 2] {
         let cell = Cell::new(order, 8, 5, 1.5).unwrap();
-        let history = History::sliding(cell.columns, &maxwell, 0.3);
+        let memory = Memory::Sliding(History::sliding(cell.columns, &maxwell, 0.3));
         let block = Block {
             cell: &cell,
-            history: &history,
+            energy: Energy::NeoHookean,
+            equilibrium: maxwell.equilibrium,
+            memory: &memory,
             bulk_modulus: 50.0,
         };
         let mut field = Field::at_rest(&cell);

@@ -2,11 +2,13 @@
 
 use std::f64::consts::{PI, TAU};
 
+use gripscale_kernel::hyperelastic::Energy;
 use gripscale_kernel::newton::{Ending, Limits};
-use gripscale_kernel::sliding::{Scale, Solution};
+use gripscale_kernel::scale::{Scale, Solution};
 
 pub fn scale(amplitude: f64, pressure: f64) -> Scale {
     Scale {
+        energy: Energy::NeoHookean,
         equilibrium_modulus: 1.0,
         moduli: vec![],
         relaxation_times: vec![],
@@ -20,8 +22,10 @@ pub fn scale(amplitude: f64, pressure: f64) -> Scale {
         columns: 64,
         rows: 14,
         order: 1,
+        tolerance: None,
         limits: Limits {
             iterations: 40,
+            budget: 500,
             tolerance: 1e-8,
             step: 0.4,
         },
@@ -29,7 +33,7 @@ pub fn scale(amplitude: f64, pressure: f64) -> Scale {
 }
 
 fn solved(scale: &Scale) -> Solution {
-    let solution = scale.solve().unwrap();
+    let solution = scale.solve(None).unwrap();
     assert_eq!(solution.report.ending, Ending::Converged);
     solution
 }

@@ -6,6 +6,7 @@ from gripscale.rubber.material import Rubber
 from gripscale.rubber.named import springpot_modulus, styrene_butadiene
 from gripscale.rubber.prony import PronyFit, fit_prony, fit_prony_report
 from gripscale.rubber.reader import read_master_curve
+from gripscale.rubber.strain_energy import MooneyRivlin, NeoHookean, StrainEnergy, Yeoh
 from gripscale.rubber.term_choice import Candidate
 
 __all__ = [
@@ -13,8 +14,12 @@ __all__ = [
     "MODULUS_UNITS",
     "Candidate",
     "MasterCurve",
+    "MooneyRivlin",
+    "NeoHookean",
     "PronyFit",
     "Rubber",
+    "StrainEnergy",
+    "Yeoh",
     "fit_prony",
     "fit_prony_report",
     "read_master_curve",

@@ -18,9 +18,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from gripscale import checks
 from gripscale.errors import InputError
+from gripscale.rubber.strain_energy import MooneyRivlin, NeoHookean, StrainEnergy, Yeoh
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
+
+DEFAULT_ENERGY = NeoHookean()
 
 
 @dataclass(frozen=True, init=False, eq=False)
@@ -42,6 +45,8 @@ class Rubber:
         What the rubber is and where its numbers come from.
     valid_band : tuple of two floats, optional
         Lowest and highest angular frequency the numbers rest on [rad/s].
+    strain_energy : NeoHookean, MooneyRivlin or Yeoh
+        Strain energy of the permanent network at finite strain.
 
     Raises
     ------
@@ -56,6 +61,7 @@ class Rubber:
     name: str = ""
     source: str = ""
     valid_band: tuple[float, float] | None = None
+    strain_energy: StrainEnergy = DEFAULT_ENERGY
 
     def __init__(
         self,
@@ -66,6 +72,7 @@ class Rubber:
         name: str = "",
         source: str = "",
         valid_band: tuple[float, float] | None = None,
+        strain_energy: StrainEnergy = DEFAULT_ENERGY,
     ) -> None:
         values = {
             "equilibrium_modulus": checks.positive(
@@ -79,6 +86,7 @@ class Rubber:
             "name": str(name),
             "source": str(source),
             "valid_band": _band(valid_band),
+            "strain_energy": _energy(strain_energy),
         }
         for key, value in values.items():
             object.__setattr__(self, key, value)
@@ -113,6 +121,7 @@ class Rubber:
             self.name,
             self.source,
             self.valid_band,
+            self.strain_energy,
         )
 
     @property
@@ -195,6 +204,12 @@ def _finite(name: str, value: ArrayLike, unit: str) -> Array:
     if not np.isfinite(result).all():
         raise InputError(f"{name} must be finite numbers [{unit}]; got {value!r:.80}")
     return result
+
+
+def _energy(value: StrainEnergy) -> StrainEnergy:
+    if not isinstance(value, NeoHookean | MooneyRivlin | Yeoh):
+        raise InputError(f"strain_energy must be NeoHookean, MooneyRivlin or Yeoh; got {value!r}")
+    return value
 
 
 def _band(value: tuple[float, float] | None) -> tuple[float, float] | None:
