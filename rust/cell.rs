@@ -66,6 +66,12 @@ impl Cell {
         (direction * self.order + sub) * self.columns + column
     }
 
+    /// Mean horizontal displacement of the contact surface.
+    pub fn mean_shift(&self, u: &[f64]) -> f64 {
+        let nodes = self.layer_nodes();
+        (0..nodes).map(|a| u[self.place(a, 0)]).sum::<f64>() / nodes as f64
+    }
+
     pub fn node_spacing(&self) -> f64 {
         1.0 / self.layer_nodes() as f64
     }

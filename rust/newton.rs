@@ -4,6 +4,11 @@
 //! deformed abscissa, so that f_a is the vertical force. Linearised:
 //!     (S + diag(f w'')) du = right + f_new grad(g),   g + grad(g) du - dd >= 0,  sum f = load,
 //! with S the stiffness condensed to the surface (Wriggers, "Computational Contact Mechanics", 2006).
+//!
+//! Where the crest stands along x does not matter to a steady state. It is carried along with the
+//! mean horizontal displacement of the surface, x_a = X_a + u_a - mean(u): otherwise the drag of
+//! friction would push the contact from node to node while the load is raised, and every node
+//! passed is a snap of the discrete problem that the continuous one does not know.
 
 use crate::active_set;
 use crate::assembly::{Block, Field, RowState};
@@ -80,14 +85,21 @@ impl Problem<'_> {
         self.block.cell
     }
 
-    /// Deformed abscissa of surface node `a`.
-    pub fn abscissa(&self, field: &Field, a: usize) -> f64 {
-        a as f64 * self.cell().node_spacing() + field.u[self.cell().place(a, 0)]
+    /// Deformed abscissae of the surface nodes in the frame of the wave.
+    pub fn abscissae(&self, field: &Field) -> Vec<f64> {
+        let cell = self.cell();
+        let shift = cell.mean_shift(&field.u);
+        (0..cell.layer_nodes())
+            .map(|a| a as f64 * cell.node_spacing() + field.u[cell.place(a, 0)] - shift)
+            .collect()
     }
 
-    pub fn gap(&self, state: &State, a: usize) -> f64 {
-        let height = self.wave.height(self.abscissa(&state.field, a));
-        state.field.u[self.cell().place(a, 1)] - state.approach - height
+    /// Gaps of the surface nodes at the abscissae `x`.
+    pub fn gaps(&self, state: &State, x: &[f64]) -> Vec<f64> {
+        let height = |a: usize| state.field.u[self.cell().place(a, 1)] - state.approach;
+        (0..x.len())
+            .map(|a| height(a) - self.wave.height(x[a]))
+            .collect()
     }
 
     pub fn row_states(&self, field: &Field) -> Vec<RowState> {
@@ -183,31 +195,34 @@ impl Problem<'_> {
         let nodes = self.cell().layer_nodes();
         let at_x: Vec<usize> = (0..nodes).map(|a| self.cell().place(a, 0)).collect();
         let at_z: Vec<usize> = (0..nodes).map(|a| self.cell().place(a, 1)).collect();
-        let slope: Vec<f64> = (0..nodes)
-            .map(|a| self.wave.slope(self.abscissa(&state.field, a)))
+        let x = self.abscissae(&state.field);
+        let gap = self.gaps(state, &x);
+        let slope: Vec<f64> = x.iter().map(|&x| self.wave.slope(x)).collect();
+        let bend: Vec<f64> = (0..nodes)
+            .map(|a| state.force[a] * self.wave.curvature(x[a]))
             .collect();
         let mut matrix = elimination.surface_matrix.clone();
+        // Columns: response to a unit force along each node's gap gradient, to the residual, and to
+        // a shift of the wave.
+        let mut response = Matrix::<f64>::zeros(2 * nodes, nodes + 2);
         for a in 0..nodes {
-            let curvature = self.wave.curvature(self.abscissa(&state.field, a));
-            matrix[(at_x[a], at_x[a])] += state.force[a] * curvature;
-        }
-        // Columns: response to a unit force along each node's gap gradient, and to the residual.
-        let mut response = Matrix::<f64>::zeros(2 * nodes, nodes + 1);
-        for a in 0..nodes {
+            matrix[(at_x[a], at_x[a])] += bend[a];
             response[(at_x[a], a)] = -slope[a];
             response[(at_z[a], a)] = 1.0;
+            response[(at_x[a], nodes + 1)] = bend[a];
         }
         for (i, &right) in elimination.surface_right.iter().enumerate() {
             response[(i, nodes)] = right;
         }
         Factor::new(matrix.as_ref()).solve(&mut response);
+        let shift = follow_mean(&mut response, &at_x);
         let opening = |column: usize, a: usize| {
-            response[(at_z[a], column)] - slope[a] * response[(at_x[a], column)]
+            response[(at_z[a], column)] - slope[a] * (response[(at_x[a], column)] - shift[column])
         };
         let compliance = Matrix::from_fn(nodes, nodes, |a, b| opening(b, a));
         // Gaps before contact forces, measured without the approach, which is solved for anew.
         let free: Vec<f64> = (0..nodes)
-            .map(|a| self.gap(state, a) + state.approach + opening(nodes, a))
+            .map(|a| gap[a] + state.approach + opening(nodes, a))
             .collect();
         if free.iter().any(|g| !g.is_finite()) {
             return Err(Ending::NotFinite);
@@ -239,11 +254,10 @@ impl Problem<'_> {
             volume_error += error;
         }
         let mut gap_error = 0.0_f64;
-        for a in 0..self.cell().layer_nodes() {
-            let slope = self.wave.slope(self.abscissa(&state.field, a));
-            forces[self.cell().place(a, 0)] += state.force[a] * slope;
+        let x = self.abscissae(&state.field);
+        for (a, gap) in self.gaps(state, &x).into_iter().enumerate() {
+            forces[self.cell().place(a, 0)] += state.force[a] * self.wave.slope(x[a]);
             forces[self.cell().place(a, 1)] -= state.force[a];
-            let gap = self.gap(state, a);
             let violated = if state.active[a] { gap.abs() } else { -gap };
             gap_error = gap_error.max(violated);
         }
@@ -266,6 +280,25 @@ impl Problem<'_> {
             .flatten()
             .fold(1e-300, |m: f64, value| m.max(value.abs()))
     }
+}
+
+/// Let the wave follow the mean horizontal displacement: each response gets the shift it causes,
+/// times the response to a shift (the last column). Returns the shift of every column.
+fn follow_mean(response: &mut Matrix<f64>, at_x: &[usize]) -> Vec<f64> {
+    let last = response.ncols() - 1;
+    let mean = |column: &[f64]| at_x.iter().map(|&i| column[i]).sum::<f64>() / at_x.len() as f64;
+    let to_shift = linear::column_ref(response, last).to_vec();
+    let left = 1.0 - mean(&to_shift);
+    (0..last)
+        .map(|j| {
+            let column = linear::column_mut(response, j);
+            let shift = mean(column) / left;
+            for (value, per_shift) in column.iter_mut().zip(&to_shift) {
+                *value += shift * per_shift;
+            }
+            shift
+        })
+        .collect()
 }
 
 fn smallest_jacobian(rows: &[RowState]) -> f64 {

@@ -23,9 +23,7 @@ impl Outcome {
         let nodes = state.force.len();
         let load: f64 = state.force.iter().sum();
         let rows = problem.row_states(&state.field);
-        let x: Vec<f64> = (0..nodes)
-            .map(|a| problem.abscissa(&state.field, a))
-            .collect();
+        let x = problem.abscissae(&state.field);
         let pressure = pressures(problem.block.cell.order, &x, &state.force);
         let drag: f64 = (0..nodes)
             .map(|a| state.force[a] * problem.wave.slope(x[a]))
@@ -41,7 +39,7 @@ impl Outcome {
             low = low.min(least);
             high = high.max(most);
         }
-        let gap: Vec<f64> = (0..nodes).map(|a| problem.gap(state, a)).collect();
+        let gap = problem.gaps(state, &x);
         let contacts = contacts(&x, &pressure, &gap, &state.active);
         let length = contacts.iter().map(|(from, to)| to - from).sum::<f64>();
         Self {

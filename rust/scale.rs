@@ -346,10 +346,11 @@ impl Solution {
     /// Deformed node positions in wavelengths, layer by layer: (x, z).
     pub fn mesh(&self) -> Vec<Vec<(f64, f64)>> {
         let (cell, state) = (&self.cell, &self.state);
+        let shift = cell.mean_shift(&state.field.u);
         let place = |layer: usize, z: f64, node: usize| {
             let at = layer * cell.layer_size();
             (
-                node as f64 * cell.node_spacing() + state.field.u[at + cell.place(node, 0)],
+                node as f64 * cell.node_spacing() + state.field.u[at + cell.place(node, 0)] - shift,
                 z - state.approach + state.field.u[at + cell.place(node, 1)],
             )
         };
