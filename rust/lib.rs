@@ -20,10 +20,12 @@ pub mod linear;
 pub mod march;
 pub mod memory;
 pub mod network;
+pub mod networks;
 pub mod newton;
 pub mod outcome;
 #[cfg(feature = "python")]
 mod python;
 pub mod scale;
 pub mod transfer;
+pub mod transient;
 pub mod wave;

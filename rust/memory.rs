@@ -116,7 +116,7 @@ impl History {
 }
 
 /// A along the line for Y = 1 in column 0, linear to zero in its neighbours, going round for ever.
-fn recurrence(columns: usize, time: f64) -> Vec<f64> {
+pub fn recurrence(columns: usize, time: f64) -> Vec<f64> {
     let step = 1.0 / (columns as f64 * time);
     let decay = (-step).exp();
     let mut a = vec![0.0; columns];

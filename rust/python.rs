@@ -1,6 +1,6 @@
 //! Python bindings: arguments in, arrays out, the interpreter released in between. No numerics.
 
-use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
+use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -8,6 +8,7 @@ use crate::error::KernelError;
 use crate::hyperelastic::Energy;
 use crate::newton::{Ending, Limits};
 use crate::scale::{Scale, Solution};
+use crate::transient::Stage;
 
 impl From<KernelError> for PyErr {
     fn from(error: KernelError) -> Self {
@@ -23,15 +24,7 @@ struct PySolution(Solution);
 impl PySolution {
     #[getter]
     fn status(&self) -> &'static str {
-        match self.0.report.ending {
-            Ending::Converged => "converged",
-            Ending::IterationLimit => "iteration limit",
-            Ending::ElementInverted => "element inverted",
-            Ending::NoActiveSet => "no active set",
-            Ending::NotFinite => "not finite",
-            Ending::Fold => "fold in the load path",
-            Ending::ToleranceNotMet => "tolerance not met",
-        }
+        status(self.0.report.ending)
     }
     #[getter]
     fn residual(&self) -> f64 {
@@ -133,6 +126,18 @@ impl PySolution {
     }
 }
 
+fn status(ending: Ending) -> &'static str {
+    match ending {
+        Ending::Converged => "converged",
+        Ending::IterationLimit => "iteration limit",
+        Ending::ElementInverted => "element inverted",
+        Ending::NoActiveSet => "no active set",
+        Ending::NotFinite => "not finite",
+        Ending::Fold => "fold in the load path",
+        Ending::ToleranceNotMet => "tolerance not met",
+    }
+}
+
 /// The strain energy by its name and two coefficients.
 fn energy(name: &str, first: f64, second: f64) -> Result<Energy, KernelError> {
     match name {
@@ -150,18 +155,14 @@ fn energy(name: &str, first: f64, second: f64) -> Result<Energy, KernelError> {
     }
 }
 
-/// Solve one wave; see `gripscale.scale.solve_scale` for the arguments.
-#[pyfunction]
-#[pyo3(signature = (*, strain_energy, equilibrium_modulus, moduli, relaxation_times, bulk_modulus,
-    wavelength, amplitude, pressure, speed, load_time, depth, columns, rows, order, tolerance,
-    iterations, budget, residual_tolerance, step, start))]
-#[allow(clippy::too_many_arguments)]
-fn solve_scale(
-    py: Python<'_>,
+/// The inputs of one wave in SI units, shear moduli; a dictionary on the Python side.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+struct Inputs {
     strain_energy: (String, f64, f64),
     equilibrium_modulus: f64,
-    moduli: PyReadonlyArray1<'_, f64>,
-    relaxation_times: PyReadonlyArray1<'_, f64>,
+    moduli: Vec<f64>,
+    relaxation_times: Vec<f64>,
     bulk_modulus: f64,
     wavelength: f64,
     amplitude: f64,
@@ -177,38 +178,95 @@ fn solve_scale(
     budget: usize,
     residual_tolerance: f64,
     step: f64,
+}
+
+impl Inputs {
+    fn scale(self) -> Result<Scale, KernelError> {
+        Ok(Scale {
+            energy: energy(
+                &self.strain_energy.0,
+                self.strain_energy.1,
+                self.strain_energy.2,
+            )?,
+            equilibrium_modulus: self.equilibrium_modulus,
+            moduli: self.moduli,
+            relaxation_times: self.relaxation_times,
+            bulk_modulus: self.bulk_modulus,
+            wavelength: self.wavelength,
+            amplitude: self.amplitude,
+            pressure: self.pressure,
+            speed: self.speed,
+            load_time: self.load_time,
+            depth: self.depth,
+            columns: self.columns,
+            rows: self.rows,
+            order: self.order,
+            tolerance: self.tolerance,
+            limits: Limits {
+                iterations: self.iterations,
+                budget: self.budget,
+                tolerance: self.residual_tolerance,
+                step: self.step,
+            },
+        })
+    }
+}
+
+/// Solve one wave, from another solution if one is given.
+#[pyfunction]
+fn solve_scale(
+    py: Python<'_>,
+    inputs: Inputs,
     start: Option<Bound<'_, PySolution>>,
 ) -> PyResult<PySolution> {
-    let scale = Scale {
-        energy: energy(&strain_energy.0, strain_energy.1, strain_energy.2)?,
-        equilibrium_modulus,
-        moduli: moduli.as_array().to_vec(),
-        relaxation_times: relaxation_times.as_array().to_vec(),
-        bulk_modulus,
-        wavelength,
-        amplitude,
-        pressure,
-        speed,
-        load_time,
-        depth,
-        columns,
-        rows,
-        order,
-        tolerance,
-        limits: Limits {
-            iterations,
-            budget,
-            tolerance: residual_tolerance,
-            step,
-        },
-    };
+    let scale = inputs.scale()?;
     let start = start.as_ref().map(|solution| &solution.get().0);
     Ok(PySolution(py.detach(|| scale.solve(start))?))
+}
+
+/// Slide through stages (duration, speed, pressure). Returns status, iterations and one row per
+/// moment: time, distance, speed, pressure, friction, contact fraction, approach.
+#[pyfunction]
+fn run_stages<'py>(
+    py: Python<'py>,
+    inputs: Inputs,
+    stages: Vec<(f64, f64, f64)>,
+    start: Option<Bound<'py, PySolution>>,
+) -> PyResult<(&'static str, usize, Bound<'py, PyArray2<f64>>)> {
+    let scale = inputs.scale()?;
+    let start = start.as_ref().map(|solution| &solution.get().0);
+    let stages: Vec<Stage> = stages
+        .into_iter()
+        .map(|(duration, speed, pressure)| Stage {
+            duration,
+            speed,
+            pressure,
+        })
+        .collect();
+    let run = py.detach(|| scale.run(&stages, start))?;
+    let moments: Vec<Vec<f64>> = run
+        .moments
+        .iter()
+        .map(|m| {
+            vec![
+                m.time,
+                m.distance,
+                m.speed,
+                m.pressure,
+                m.friction,
+                m.contact_fraction,
+                m.approach,
+            ]
+        })
+        .collect();
+    let table = PyArray2::from_vec2(py, &moments)?;
+    Ok((status(run.report.ending), run.count.iterations, table))
 }
 
 #[pymodule(name = "_kernel")]
 fn kernel(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PySolution>()?;
     module.add_function(wrap_pyfunction!(solve_scale, module)?)?;
+    module.add_function(wrap_pyfunction!(run_stages, module)?)?;
     Ok(())
 }

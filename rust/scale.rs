@@ -67,7 +67,7 @@ pub struct Solution {
 }
 
 impl Scale {
-    fn check(&self) -> Result<(), KernelError> {
+    pub(crate) fn check(&self) -> Result<(), KernelError> {
         positive("equilibrium_modulus", self.equilibrium_modulus)?;
         positive("bulk_modulus", self.bulk_modulus)?;
         positive("wavelength", self.wavelength)?;
@@ -118,7 +118,7 @@ impl Scale {
     }
 
     /// The rubber in motion, with times in passages and moduli in Pa; at rest it is relaxed.
-    pub(crate) fn maxwell(&self) -> Maxwell {
+    fn maxwell(&self) -> Maxwell {
         let passage = self.wavelength / self.speed;
         let moving = self.speed > 0.0;
         let memory = self.moduli.iter().zip(&self.relaxation_times);

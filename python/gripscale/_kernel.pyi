@@ -1,9 +1,9 @@
-from typing import final
+from typing import TypedDict, final, type_check_only
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Solution", "solve_scale"]
+__all__ = ["Solution", "run_stages", "solve_scale"]
 
 @final
 class Solution:
@@ -48,26 +48,29 @@ class Solution:
     @property
     def mesh_z(self) -> NDArray[np.float64]: ...
 
-def solve_scale(
-    *,
-    strain_energy: tuple[str, float, float],
-    equilibrium_modulus: float,
-    moduli: NDArray[np.float64],
-    relaxation_times: NDArray[np.float64],
-    bulk_modulus: float,
-    wavelength: float,
-    amplitude: float,
-    pressure: float,
-    speed: float,
-    load_time: float,
-    depth: float,
-    columns: int,
-    rows: int,
-    order: int,
-    tolerance: float | None,
-    iterations: int,
-    budget: int,
-    residual_tolerance: float,
-    step: float,
-    start: Solution | None,
-) -> Solution: ...
+@type_check_only
+class Inputs(TypedDict):
+    strain_energy: tuple[str, float, float]
+    equilibrium_modulus: float
+    moduli: list[float]
+    relaxation_times: list[float]
+    bulk_modulus: float
+    wavelength: float
+    amplitude: float
+    pressure: float
+    speed: float
+    load_time: float
+    depth: float
+    columns: int
+    rows: int
+    order: int
+    tolerance: float | None
+    iterations: int
+    budget: int
+    residual_tolerance: float
+    step: float
+
+def solve_scale(inputs: Inputs, start: Solution | None) -> Solution: ...
+def run_stages(
+    inputs: Inputs, stages: list[tuple[float, float, float]], start: Solution | None
+) -> tuple[str, int, NDArray[np.float64]]: ...

@@ -18,6 +18,12 @@ if TYPE_CHECKING:
 DEFAULT_COLUMNS = 128
 DEFAULT_ROWS = 16
 
+LARGEST_STEP = 0.4
+"""Largest change of the displacement gradient in one Newton iteration [-]."""
+
+ITERATION_BUDGET = 500
+"""Newton iterations allowed in one march of the pressure."""
+
 Array = NDArray[np.float64]
 
 
@@ -150,45 +156,85 @@ def solve_scale(
     InputError
         If a value is not a number or out of its range.
     """
-    wavelength = checks.positive("wavelength", wavelength, unit="m")
-    amplitude = checks.positive("amplitude", amplitude, unit="m")
-    pressure = checks.positive("pressure", pressure, unit="Pa")
-    speed = checks.not_negative("speed", speed, unit="m/s")
-    load_time = checks.not_negative("load_time", load_time, unit="s", infinite=True)
+    inputs = kernel_inputs(
+        rubber,
+        wavelength=wavelength,
+        amplitude=amplitude,
+        pressure=pressure,
+        speed=checks.not_negative("speed", speed, unit="m/s"),
+        load_time=load_time,
+        depth=depth,
+        columns=columns,
+        rows=rows,
+        element_order=element_order,
+        tolerance=tolerance,
+        max_iterations=max_iterations,
+        residual_tolerance=residual_tolerance,
+    )
+    try:
+        solution = _kernel.solve_scale(inputs, start.solution if start is not None else None)
+    except ValueError as error:
+        raise InputError(str(error)) from error
+    return _result(inputs, solution)
+
+
+def kernel_inputs(
+    rubber: Rubber,
+    *,
+    wavelength: float,
+    amplitude: float,
+    pressure: float,
+    speed: float,
+    load_time: float = math.inf,
+    depth: float = 1.5,
+    columns: int = DEFAULT_COLUMNS,
+    rows: int = DEFAULT_ROWS,
+    element_order: int = 1,
+    tolerance: float | None = None,
+    max_iterations: int = 40,
+    residual_tolerance: float = 1e-8,
+) -> _kernel.Inputs:
+    """Check the arguments of `solve_scale` and put them as the kernel wants them.
+
+    Raises
+    ------
+    InputError
+        If a value is not a number or out of its range.
+    """
     columns = checks.whole("columns", columns, least=4, most=1024)
     if columns % 2:
         raise InputError(f"columns must be even; got {columns}")
-    try:
-        solution = _kernel.solve_scale(
-            strain_energy=rubber.strain_energy.coefficients(),
-            equilibrium_modulus=rubber.equilibrium_modulus / 3.0,
-            moduli=np.ascontiguousarray(rubber.moduli) / 3.0,
-            relaxation_times=np.ascontiguousarray(rubber.relaxation_times),
-            bulk_modulus=rubber.bulk_modulus,
-            wavelength=wavelength,
-            amplitude=amplitude,
-            pressure=pressure,
-            speed=speed,
-            load_time=load_time,
-            depth=checks.positive("depth", depth),
-            columns=columns,
-            rows=checks.whole("rows", rows, least=2, most=256),
-            order=checks.whole("element_order", element_order, least=1, most=2),
-            tolerance=None if tolerance is None else checks.positive("tolerance", tolerance),
-            iterations=checks.whole("max_iterations", max_iterations, least=1, most=1000),
-            residual_tolerance=checks.positive("residual_tolerance", residual_tolerance),
-            budget=ITERATION_BUDGET,
-            step=LARGEST_STEP,
-            start=start.solution if start is not None else None,
-        )
-    except ValueError as error:
-        raise InputError(str(error)) from error
+    return {
+        "strain_energy": rubber.strain_energy.coefficients(),
+        "equilibrium_modulus": rubber.equilibrium_modulus / 3.0,
+        "moduli": (rubber.moduli / 3.0).tolist(),
+        "relaxation_times": rubber.relaxation_times.tolist(),
+        "bulk_modulus": rubber.bulk_modulus,
+        "wavelength": checks.positive("wavelength", wavelength, unit="m"),
+        "amplitude": checks.positive("amplitude", amplitude, unit="m"),
+        "pressure": checks.positive("pressure", pressure, unit="Pa"),
+        "speed": speed,
+        "load_time": checks.not_negative("load_time", load_time, unit="s", infinite=True),
+        "depth": checks.positive("depth", depth),
+        "columns": columns,
+        "rows": checks.whole("rows", rows, least=2, most=256),
+        "order": checks.whole("element_order", element_order, least=1, most=2),
+        "tolerance": None if tolerance is None else checks.positive("tolerance", tolerance),
+        "iterations": checks.whole("max_iterations", max_iterations, least=1, most=1000),
+        "budget": ITERATION_BUDGET,
+        "residual_tolerance": checks.positive("residual_tolerance", residual_tolerance),
+        "step": LARGEST_STEP,
+    }
+
+
+def _result(inputs: _kernel.Inputs, solution: _kernel.Solution) -> ScaleResult:
+    wavelength = inputs["wavelength"]
     return ScaleResult(
         wavelength=wavelength,
-        amplitude=amplitude,
-        pressure_received=pressure,
-        speed=speed,
-        load_time=load_time,
+        amplitude=inputs["amplitude"],
+        pressure_received=inputs["pressure"],
+        speed=inputs["speed"],
+        load_time=inputs["load_time"],
         contact_fraction=solution.contact_fraction,
         friction=solution.friction,
         friction_from_dissipation=solution.friction_from_dissipation,
@@ -206,20 +252,13 @@ def solve_scale(
             "indentation": solution.approach * wavelength,
             "columns": solution.columns,
             "rows": solution.rows,
-            "depth": depth,
-            "element_order": element_order,
+            "depth": inputs["depth"],
+            "element_order": inputs["order"],
         },
         contact_fraction_error=solution.contact_fraction_error,
         friction_error=solution.friction_error,
         solution=solution,
     )
-
-
-LARGEST_STEP = 0.4
-"""Largest change of the displacement gradient in one Newton iteration [-]."""
-
-ITERATION_BUDGET = 500
-"""Newton iterations allowed in one march of the pressure."""
 
 
 def _status(solution: _kernel.Solution) -> str:

@@ -1,0 +1,172 @@
+"""Sliding in time on one rigid sine wave: start, stop, reversal, steps in speed and pressure.
+
+In the frame of the wave the rubber moves through the mesh by one column per step, and the state of
+every temporary network moves with it, exactly (unit CFL number). All relaxation times act at once.
+The steady state of `gripscale.solve_scale` is the limit of a long run.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gripscale import _kernel, checks
+from gripscale.errors import InputError
+from gripscale.scale import ScaleResult, kernel_inputs
+
+if TYPE_CHECKING:
+    from gripscale.rubber import Rubber
+
+Array = NDArray[np.float64]
+
+DEFAULT_COLUMNS = 96
+DEFAULT_ROWS = 14
+
+
+@dataclass(frozen=True)
+class Stage:
+    """A stretch of time with constant speed and pressure.
+
+    Parameters
+    ----------
+    duration : float
+        How long it lasts [s]; while sliding it is rounded to whole columns of the mesh.
+    speed : float
+        Speed of the rubber's surface over the wave [m/s]; negative slides backwards, 0 dwells.
+    pressure : float
+        Mean pressure [Pa].
+    """
+
+    duration: float
+    speed: float
+    pressure: float
+
+    def __post_init__(self) -> None:
+        checks.positive("duration", self.duration, unit="s")
+        checks.number("speed", self.speed, unit="m/s")
+        checks.positive("pressure", self.pressure, unit="Pa")
+
+
+@dataclass(frozen=True, eq=False)
+class TransientResult:
+    """Friction and contact against time; arrays of shape (moments,).
+
+    `status` is `converged`, or says why the run ended early: the moments before are valid.
+    """
+
+    time: Array
+    distance: Array
+    speed: Array
+    pressure: Array
+    friction: Array
+    """Horizontal over vertical force [-]; positive opposes sliding in +x."""
+    contact_fraction: Array
+    indentation: Array
+    """Approach of wave and block [m]."""
+    status: str
+    newton_iterations: int
+    wavelength: float
+
+    @property
+    def converged(self) -> bool:
+        """Whether the whole programme was run."""
+        return self.status == "converged"
+
+    def cycle(self, wavelengths: float = 1.0) -> dict[str, tuple[float, float, float]]:
+        """Return mean, least and largest friction and contact fraction of the last stretch.
+
+        A steady state shows as a range much smaller than the mean; a limit cycle does not.
+
+        Parameters
+        ----------
+        wavelengths : float
+            Length of the stretch in wavelengths.
+        """
+        back = np.abs(self.distance[-1] - self.distance) <= wavelengths * self.wavelength
+        return {
+            name: (float(values[back].mean()), float(values[back].min()), float(values[back].max()))
+            for name, values in (
+                ("friction", self.friction),
+                ("contact_fraction", self.contact_fraction),
+            )
+        }
+
+
+def solve_transient(
+    rubber: Rubber,
+    *,
+    wavelength: float,
+    amplitude: float,
+    stages: Sequence[Stage],
+    start: ScaleResult | None = None,
+    depth: float = 1.5,
+    columns: int = DEFAULT_COLUMNS,
+    rows: int = DEFAULT_ROWS,
+    **options: Any,
+) -> TransientResult:
+    """Press a rubber block on a rigid sine wave and slide it through a programme in time.
+
+    The programme sets the speed of the rubber's *surface* over the wave (the lid follows the
+    block's mean shear), which makes a dwell one of constant mean shear.
+
+    Parameters
+    ----------
+    rubber : Rubber
+        The viscoelastic solid.
+    wavelength, amplitude : float
+        Of the wave [m].
+    stages : sequence of Stage
+        The programme. The first pressure is put on at once, on rubber at rest.
+    start : ScaleResult, optional
+        A steady state to start from, solved with the same rubber and wave.
+    depth, columns, rows, **options
+        As in `gripscale.solve_scale`.
+
+    Returns
+    -------
+    TransientResult
+
+    Raises
+    ------
+    InputError
+        If a value is not a number or out of its range, or there are no stages.
+    """
+    if not stages:
+        raise InputError("stages must hold at least one Stage; got none")
+    fastest = max(abs(stage.speed) for stage in stages)
+    inputs = kernel_inputs(
+        rubber,
+        wavelength=wavelength,
+        amplitude=amplitude,
+        pressure=stages[0].pressure,
+        speed=start.speed if start is not None else fastest,
+        load_time=start.load_time if start is not None else math.inf,
+        depth=depth,
+        columns=columns,
+        rows=rows,
+        **options,
+    )
+    programme = [(stage.duration, stage.speed, stage.pressure) for stage in stages]
+    solution = start.solution if start is not None else None
+    try:
+        status, iterations, table = _kernel.run_stages(inputs, programme, solution)
+    except ValueError as error:
+        raise InputError(str(error)) from error
+    time, distance, speed, pressure, friction, fraction, approach = table.reshape(-1, 7).T
+    return TransientResult(
+        time=time,
+        distance=distance,
+        speed=speed,
+        pressure=pressure,
+        friction=friction,
+        contact_fraction=fraction,
+        indentation=approach * wavelength,
+        status=status,
+        newton_iterations=iterations,
+        wavelength=float(wavelength),
+    )
