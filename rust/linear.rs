@@ -58,114 +58,140 @@ pub fn product(target: &mut Mat<f64>, left: &Mat<f64>, right: &Mat<f64>) {
     );
 }
 
-/// One element row: its matrix over the node layers it spans, lowest layer first.
-pub struct RowSystem {
-    pub matrix: Mat<f64>,
-    pub right: Vec<f64>,
-}
-
-/// What elimination leaves behind: u_upper = offset - coupling u_lowest, for every element row.
+/// The node layers of a block, eliminated from the lid (fixed) down to the contact surface.
+///
+/// Every element row couples `layers` of unknowns, lowest first. Cost per row of bilinear elements:
+/// 14/3 n^3 flops with n unknowns in a layer; a further right-hand side costs 6 n^2 a row.
 pub struct Elimination {
-    rows: Vec<(Mat<f64>, Vec<f64>)>,
+    /// Contact surface first.
+    rows: Vec<EliminatedRow>,
+    layer: usize,
     /// Stiffness condensed to the contact surface.
     pub surface_matrix: Mat<f64>,
-    /// Residual condensed to the contact surface (right-hand sides carry the sign of K u = right).
-    pub surface_right: Vec<f64>,
-    layer: usize,
 }
 
-/// Eliminates the node layers from the lid down to the contact surface.
-///
-/// `row(r)` builds element row r; the lid (last layer) is fixed. Cost per row of bilinear
-/// elements: 14/3 n^3 flops with n unknowns in a layer.
-pub fn eliminate(
-    rows: usize,
-    layer: usize,
-    mut row: impl FnMut(usize) -> RowSystem,
-) -> Elimination {
-    let mut kept: Vec<(Mat<f64>, Vec<f64>)> = Vec::with_capacity(rows);
-    let mut above: Option<(Mat<f64>, Vec<f64>)> = None;
-    for r in (0..rows).rev() {
-        let mut system = row(r);
-        let full = system.right.len();
-        let top = full - layer;
-        // The lid is fixed: its layer leaves the system of the uppermost row.
-        let size = if above.is_none() { top } else { full };
-        if let Some((matrix, right)) = above.take() {
-            add_block(&mut system, top, &matrix, &right);
-        }
-        let (lower, upper) = (layer, size - layer);
-        if upper == 0 {
-            kept.push((Mat::zeros(0, layer), Vec::new()));
-            above = Some((
-                system.matrix.submatrix(0, 0, lower, lower).to_owned(),
-                system.right[..lower].to_vec(),
-            ));
-            continue;
-        }
-        let factor = Factor::new(system.matrix.submatrix(lower, lower, upper, upper));
-        let mut solved = Mat::from_fn(upper, lower + 1, |i, j| {
-            if j < lower {
-                system.matrix[(lower + i, j)]
-            } else {
-                system.right[lower + i]
-            }
-        });
-        factor.solve(&mut solved);
-        let mut product = Mat::<f64>::zeros(lower, lower + 1);
-        matmul(
-            product.as_mut(),
-            Accum::Replace,
-            system.matrix.submatrix(0, lower, lower, upper),
-            solved.as_ref(),
-            1.0,
-            Par::Seq,
-        );
-        let matrix = Mat::from_fn(lower, lower, |i, j| system.matrix[(i, j)] - product[(i, j)]);
-        let right = (0..lower)
-            .map(|i| system.right[i] - product[(i, lower)])
-            .collect();
-        let offset = (0..upper).map(|i| solved[(i, lower)]).collect();
-        kept.push((solved.submatrix(0, 0, upper, lower).to_owned(), offset));
-        above = Some((matrix, right));
-    }
-    kept.reverse();
-    let (surface_matrix, surface_right) =
-        above.unwrap_or_else(|| (Mat::zeros(layer, layer), vec![0.0; layer]));
-    Elimination {
-        rows: kept,
-        surface_matrix,
-        surface_right,
-        layer,
-    }
+struct EliminatedRow {
+    /// Factors of the upper layers' own block; None where only the fixed lid is above.
+    factor: Option<Factor>,
+    /// Rows of the lowest layer in the columns of the upper ones.
+    lower_upper: Mat<f64>,
+    /// u_upper = offset - coupling u_lowest.
+    coupling: Mat<f64>,
+}
+
+/// A right-hand side carried down to the surface, with what is needed on the way back up.
+pub struct Reduced {
+    offsets: Vec<Mat<f64>>,
+    pub surface_right: Vec<f64>,
 }
 
 impl Elimination {
+    /// Factor the block; `row(r)` builds the matrix of element row r.
+    pub fn new(rows: usize, layer: usize, mut row: impl FnMut(usize) -> Mat<f64>) -> Self {
+        let mut kept = Vec::with_capacity(rows);
+        let mut above: Option<Mat<f64>> = None;
+        for r in (0..rows).rev() {
+            let mut matrix = row(r);
+            let top = matrix.nrows() - layer;
+            let size = if above.is_some() { matrix.nrows() } else { top };
+            if let Some(schur) = above.take() {
+                add_block(&mut matrix, top, &schur);
+            }
+            let (row, schur) = eliminate_row(&matrix, layer, size - layer);
+            kept.push(row);
+            above = Some(schur);
+        }
+        kept.reverse();
+        Self {
+            rows: kept,
+            layer,
+            surface_matrix: above.unwrap_or_else(|| Mat::zeros(layer, layer)),
+        }
+    }
+
+    /// Carry the right-hand sides of all element rows down to the surface.
+    pub fn reduce(&self, rights: &[Vec<f64>]) -> Reduced {
+        let mut offsets = Vec::with_capacity(self.rows.len());
+        let mut above = vec![0.0; self.layer];
+        for (row, right) in self.rows.iter().zip(rights).rev() {
+            let upper = row.lower_upper.ncols();
+            let mut offset = Mat::from_fn(upper, 1, |i, _| right[self.layer + i]);
+            if let Some(top) = upper.checked_sub(self.layer) {
+                if row.couples_lid(right.len()) {
+                    for (i, value) in above.iter().enumerate() {
+                        offset[(top + i, 0)] += value;
+                    }
+                }
+            }
+            if let Some(factor) = &row.factor {
+                factor.solve(&mut offset);
+            }
+            let mut lower = column(&right[..self.layer]);
+            if upper > 0 {
+                add_product(&mut lower, &row.lower_upper, &offset, -1.0);
+            }
+            above = column_ref(&lower, 0).to_vec();
+            offsets.push(offset);
+        }
+        offsets.reverse();
+        Reduced {
+            offsets,
+            surface_right: above,
+        }
+    }
+
     /// All layers' unknowns (the lid excluded) from those of the contact surface.
-    pub fn expand(&self, surface: &[f64]) -> Vec<f64> {
+    pub fn expand(&self, reduced: &Reduced, surface: &[f64]) -> Vec<f64> {
         let mut all = surface.to_vec();
-        for (coupling, offset) in &self.rows {
+        for (row, offset) in self.rows.iter().zip(&reduced.offsets) {
             let lowest = column(&all[all.len() - self.layer..]);
-            let mut upper = column(offset);
-            matmul(
-                upper.as_mut(),
-                Accum::Add,
-                coupling.as_ref(),
-                lowest.as_ref(),
-                -1.0,
-                Par::Seq,
-            );
-            all.extend((0..offset.len()).map(|i| upper[(i, 0)]));
+            let mut upper = offset.clone();
+            if upper.nrows() > 0 {
+                add_product(&mut upper, &row.coupling, &lowest, -1.0);
+                all.extend_from_slice(column_ref(&upper, 0));
+            }
         }
         all
     }
 }
 
-fn add_block(system: &mut RowSystem, at: usize, matrix: &Mat<f64>, right: &[f64]) {
-    for j in 0..right.len() {
-        for i in 0..right.len() {
-            system.matrix[(at + i, at + j)] += matrix[(i, j)];
+impl EliminatedRow {
+    /// Whether the row's uppermost layer is free, with another row above it.
+    fn couples_lid(&self, full: usize) -> bool {
+        self.lower_upper.ncols() + self.lower_upper.nrows() == full
+    }
+}
+
+/// Eliminate the `upper` unknowns above the lowest layer of one element row.
+fn eliminate_row(matrix: &Mat<f64>, lower: usize, upper: usize) -> (EliminatedRow, Mat<f64>) {
+    let lower_upper = matrix.submatrix(0, lower, lower, upper).to_owned();
+    let mut coupling = matrix.submatrix(lower, 0, upper, lower).to_owned();
+    let mut schur = matrix.submatrix(0, 0, lower, lower).to_owned();
+    let factor = (upper > 0).then(|| {
+        let factor = Factor::new(matrix.submatrix(lower, lower, upper, upper));
+        factor.solve(&mut coupling);
+        add_product(&mut schur, &lower_upper, &coupling, -1.0);
+        factor
+    });
+    let row = EliminatedRow {
+        factor,
+        lower_upper,
+        coupling,
+    };
+    (row, schur)
+}
+
+/// target += factor left right.
+fn add_product(target: &mut Mat<f64>, left: &Mat<f64>, right: &Mat<f64>, factor: f64) {
+    let (left, right) = (left.as_ref(), right.as_ref());
+    matmul(target.as_mut(), Accum::Add, left, right, factor, Par::Seq);
+}
+
+fn add_block(target: &mut Mat<f64>, at: usize, block: &Mat<f64>) {
+    for j in 0..block.ncols() {
+        let column = &mut column_mut(target, at + j)[at..];
+        for (t, b) in column.iter_mut().zip(column_ref(block, j)) {
+            *t += b;
         }
-        system.right[at + j] += right[j];
     }
 }

@@ -9,6 +9,8 @@ const FIRST_FRACTION: f64 = 0.02;
 const LARGEST_GROWTH: f64 = 3.0;
 /// A march whose steps must be smaller than this stands at a fold.
 const SMALLEST_GROWTH: f64 = 1.001;
+/// Load steps of one march: a bound where no iteration is ever begun.
+const MOST_STEPS: usize = 300;
 /// Newton iterations of an easy step.
 const EASY: usize = 7;
 
@@ -31,13 +33,14 @@ pub fn climb(
     let mut next = load.min(FIRST_FRACTION * full);
     let mut growth = LARGEST_GROWTH;
     let mut reached = 0.0;
-    let mut spent = 0;
+    let (mut spent, mut steps) = (0, 0);
     loop {
         let mut trial = state.clone();
         let mut report = problem.solve(&mut trial, next, limits);
         count.iterations += report.iterations;
         count.steps += 1;
         spent += report.iterations;
+        steps += 1;
         if report.ending == Ending::Converged {
             *state = trial;
             reached = next;
@@ -56,7 +59,7 @@ pub fn climb(
         }
         let stuck = reached > 0.0 && growth < SMALLEST_GROWTH;
         let hopeless = reached == 0.0 && next < 1e-7 * load.min(full);
-        if stuck || hopeless || spent >= limits.budget {
+        if stuck || hopeless || spent >= limits.budget || steps >= MOST_STEPS {
             if report.ending == Ending::Converged {
                 report.ending = Ending::IterationLimit;
             } else if stuck {

@@ -9,11 +9,13 @@
 //! mean horizontal displacement of the surface, x_a = X_a + u_a - mean(u): otherwise the drag of
 //! friction would push the contact from node to node while the load is raised, and every node
 //! passed is a snap of the discrete problem that the continuous one does not know.
+//!
+//! The factored block is kept as long as it makes the residual fall fast enough (modified Newton).
 
 use crate::active_set;
 use crate::assembly::{Block, Field, RowState};
 use crate::cell::Cell;
-use crate::linear::{self, Factor, Matrix};
+use crate::linear::{self, Elimination, Factor, Matrix};
 use crate::network;
 use crate::wave::Wave;
 
@@ -41,6 +43,11 @@ impl State {
 
 /// Iterations without a smaller residual after which a load step is given up.
 const PATIENCE: usize = 12;
+
+/// The factored block is kept while the residual is below the first and falls to this share of
+/// itself in every iteration.
+const KEEP_FROM: f64 = 0.1;
+const KEEP_BELOW: f64 = 0.3;
 
 #[derive(Debug, Clone, Copy)]
 pub struct Limits {
@@ -72,6 +79,13 @@ pub struct Report {
     pub ending: Ending,
     pub iterations: usize,
     pub residual: f64,
+}
+
+/// A factored block and the state it was factored at. The volume change keeps the slope of that
+/// state too: with a bulk modulus of hundreds of shear moduli a mixture of slopes would not converge.
+pub struct Kept {
+    elimination: Elimination,
+    factored: Vec<RowState>,
 }
 
 /// The block on its wave.
@@ -110,6 +124,17 @@ impl Problem<'_> {
 
     /// Iterate on `state` under `load` (mean pressure times one wavelength).
     pub fn solve(&self, state: &mut State, load: f64, limits: &Limits) -> Report {
+        self.solve_with(&mut None, state, load, limits)
+    }
+
+    /// The same, starting from the factored block in `kept` and leaving the last one there.
+    pub fn solve_with(
+        &self,
+        kept: &mut Option<Kept>,
+        state: &mut State,
+        load: f64,
+        limits: &Limits,
+    ) -> Report {
         let mut report = Report {
             ending: Ending::IterationLimit,
             iterations: 0,
@@ -118,6 +143,7 @@ impl Problem<'_> {
         let mut rows = self.row_states(&state.field);
         let (mut best, mut best_at) = (f64::INFINITY, 0);
         loop {
+            let before = report.residual;
             report.residual = self.residual(state, &rows, load);
             if !report.residual.is_finite() {
                 report.ending = Ending::NotFinite;
@@ -134,8 +160,12 @@ impl Problem<'_> {
             if stalled || report.iterations >= limits.iterations {
                 return report;
             }
+            let falling = before.is_infinite() || report.residual < KEEP_BELOW * before;
+            if !(falling && report.residual < KEEP_FROM) {
+                *kept = None;
+            }
             report.iterations += 1;
-            if let Err(ending) = self.step(state, &mut rows, load, limits) {
+            if let Err(ending) = self.step(kept, state, &mut rows, load, limits) {
                 report.ending = ending;
                 return report;
             }
@@ -145,16 +175,31 @@ impl Problem<'_> {
     /// One Newton step, limited in displacement gradient and kept from turning elements over.
     fn step(
         &self,
+        kept: &mut Option<Kept>,
         state: &mut State,
         rows: &mut Vec<RowState>,
         load: f64,
         limits: &Limits,
     ) -> Result<(), Ending> {
-        let elimination = linear::eliminate(self.cell().rows, self.cell().layer_size(), |row| {
-            self.block.row_system(row, &state.field, &rows[row])
+        let (count, layer) = (self.cell().rows, self.cell().layer_size());
+        let Kept {
+            elimination,
+            factored,
+        } = kept.get_or_insert_with(|| Kept {
+            elimination: Elimination::new(count, layer, |row| {
+                self.block.row_matrix(row, &state.field, &rows[row])
+            }),
+            factored: rows.clone(),
         });
-        let (surface, contact) = self.contact(state, &elimination, load)?;
-        let mut du = elimination.expand(&surface);
+        let rights: Vec<Vec<f64>> = (0..count)
+            .map(|row| {
+                self.block
+                    .row_right(row, &state.field, &rows[row], &factored[row])
+            })
+            .collect();
+        let reduced = elimination.reduce(&rights);
+        let (surface, contact) = self.contact(state, elimination, &reduced.surface_right, load)?;
+        let mut du = elimination.expand(&reduced, &surface);
         du.resize(state.field.u.len(), 0.0);
         if du.iter().any(|value| !value.is_finite()) {
             return Err(Ending::NotFinite);
@@ -168,8 +213,9 @@ impl Problem<'_> {
             }
             let trial_rows = self.row_states(&trial);
             if smallest_jacobian(&trial_rows) > 0.05 {
-                for (row, old) in rows.iter().enumerate() {
-                    self.block.update_pressure(row, old, &du, share, &mut trial);
+                for (row, (now, old)) in rows.iter().zip(factored.iter()).enumerate() {
+                    self.block
+                        .update_pressure(row, now, old, &du, share, &mut trial);
                 }
                 for (f, new) in state.force.iter_mut().zip(&contact.force) {
                     *f += share * (new - *f);
@@ -189,7 +235,8 @@ impl Problem<'_> {
     fn contact(
         &self,
         state: &State,
-        elimination: &linear::Elimination,
+        elimination: &Elimination,
+        right: &[f64],
         load: f64,
     ) -> Result<(Vec<f64>, active_set::Contact), Ending> {
         let nodes = self.cell().layer_nodes();
@@ -211,7 +258,7 @@ impl Problem<'_> {
             response[(at_z[a], a)] = 1.0;
             response[(at_x[a], nodes + 1)] = bend[a];
         }
-        for (i, &right) in elimination.surface_right.iter().enumerate() {
+        for (i, &right) in right.iter().enumerate() {
             response[(i, nodes)] = right;
         }
         Factor::new(matrix.as_ref()).solve(&mut response);

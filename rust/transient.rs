@@ -11,7 +11,7 @@ use crate::error::KernelError;
 use crate::march::{climb, Count};
 use crate::memory::Maxwell;
 use crate::networks::Networks;
-use crate::newton::{Ending, Problem, Report, State};
+use crate::newton::{Ending, Kept, Problem, Report, State};
 use crate::outcome::Outcome;
 use crate::scale::{Scale, Solution};
 use crate::wave::Wave;
@@ -78,6 +78,7 @@ impl Scale {
             moments: Vec::new(),
             time: 0.0,
             distance: 0.0,
+            kept: None,
         };
         let report = mover.all(stages, start);
         Ok(Run {
@@ -110,6 +111,8 @@ struct Mover<'a> {
     moments: Vec<Moment>,
     time: f64,
     distance: f64,
+    /// The factored block of the last step, good enough for the next one as a rule.
+    kept: Option<Kept>,
 }
 
 impl Mover<'_> {
@@ -135,8 +138,8 @@ impl Mover<'_> {
             residual: 0.0,
         };
         let (mut state, mut networks) = match start {
-            Some(solution) => self.from_steady(solution),
-            None => self.from_rest(),
+            Some(solution) => self.steady(solution),
+            None => self.rest(),
         };
         let mut pressed = start.is_some();
         for stage in stages {
@@ -159,14 +162,14 @@ impl Mover<'_> {
         report
     }
 
-    fn from_rest(&self) -> (State, Networks) {
+    fn rest(&self) -> (State, Networks) {
         let state = State::at_rest(self.cell);
         let rows = self.problem(&Memory::Relaxed).row_states(&state.field);
         let networks = Networks::at_rest(&rows, self.cell.columns, self.maxwell);
         (state, networks)
     }
 
-    fn from_steady(&self, solution: &Solution) -> (State, Networks) {
+    fn steady(&self, solution: &Solution) -> (State, Networks) {
         let stress = solution.stress_unit / self.unit;
         let state = crate::transfer::transfer(&solution.cell, &solution.state, self.cell, stress);
         let rows = self.problem(&Memory::Relaxed).row_states(&state.field);
@@ -224,11 +227,13 @@ impl Mover<'_> {
         let memory = Memory::Given(networks.known_part(self.maxwell, dt));
         let load = stage.pressure / self.unit;
         let mut count = self.count;
+        let mut kept = self.kept.take();
         let problem = self.problem(&memory);
-        let report = settle(&problem, state, load, self.scale, &mut count);
+        let report = settle(&problem, &mut kept, state, load, self.scale, &mut count);
         let rows = problem.row_states(&state.field);
         networks.advance(&rows, self.maxwell, dt);
         self.count = count;
+        self.kept = kept;
         report
     }
 
@@ -252,6 +257,7 @@ impl Mover<'_> {
 /// Newton from the last step's state; if that fails, the load is led to its new value in parts.
 fn settle(
     problem: &Problem<'_>,
+    kept: &mut Option<Kept>,
     state: &mut State,
     load: f64,
     scale: &Scale,
@@ -259,7 +265,7 @@ fn settle(
 ) -> Report {
     let from: f64 = state.force.iter().sum();
     let mut trial = state.clone();
-    let mut report = problem.solve(&mut trial, load, &scale.limits);
+    let mut report = problem.solve_with(kept, &mut trial, load, &scale.limits);
     count.iterations += report.iterations;
     count.steps += 1;
     if report.ending != Ending::Converged {

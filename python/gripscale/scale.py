@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from gripscale.rubber import Rubber
 
 DEFAULT_COLUMNS = 128
-DEFAULT_ROWS = 16
+DEFAULT_ROWS = 20
 
 LARGEST_STEP = 0.4
 """Largest change of the displacement gradient in one Newton iteration [-]."""

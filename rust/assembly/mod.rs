@@ -9,7 +9,7 @@ mod memory_tangent;
 
 use crate::cell::Cell;
 use crate::hyperelastic::Energy;
-use crate::linear::{self, Matrix, RowSystem};
+use crate::linear::{self, Matrix};
 use crate::memory::History;
 use crate::network::{self, Gradient, Symmetric};
 
@@ -51,6 +51,7 @@ pub struct Block<'a> {
 }
 
 /// Kinematics and memory at the Gauss points of one element row: `[line][column * points + point]`.
+#[derive(Debug, Clone)]
 pub struct RowState {
     pub gradient: Vec<Vec<Gradient>>,
     pub h: Vec<Vec<Symmetric>>,
@@ -140,21 +141,52 @@ impl Block<'_> {
         (forces, volume_error)
     }
 
-    /// Linear system of one row: K du = -(condensed residual).
-    pub fn row_system(&self, row: usize, field: &Field, state: &RowState) -> RowSystem {
+    /// Right-hand side of one row, -(R_u + B K M^-1 R_p), with B of the state `factored`.
+    pub fn row_right(
+        &self,
+        row: usize,
+        field: &Field,
+        state: &RowState,
+        factored: &RowState,
+    ) -> Vec<f64> {
+        let element = &self.cell.elements[row];
+        let points = self.points();
         let (forces, _) = self.row_forces(row, field, state);
-        let size = forces.len();
-        let mut system = RowSystem {
-            matrix: Matrix::zeros(size, size),
-            right: forces.iter().map(|f| -f).collect(),
-        };
+        let mut right: Vec<f64> = forces.iter().map(|force| -force).collect();
         for column in 0..self.cell.columns {
-            self.add_local(row, column, field, state, &mut system);
+            let unknowns = self.local_unknowns(column);
+            let mut level = self.pressure_residual(field, state, row, column);
+            for (m, value) in level.iter_mut().enumerate() {
+                *value *= self.bulk_modulus / element.mode_mass[m];
+            }
+            for line in 0..points {
+                for point in 0..points {
+                    let at = line * points + point;
+                    let cof = network::cofactor(&factored.gradient[line][column * points + point]);
+                    let p = element.weight[at] * dot(&element.mode[at], &level);
+                    for (node, slope) in element.gradient[at].iter().enumerate() {
+                        for i in 0..2 {
+                            let b = cof[2 * i] * slope[0] + cof[2 * i + 1] * slope[1];
+                            right[unknowns[2 * node + i]] -= p * b;
+                        }
+                    }
+                }
+            }
+        }
+        right
+    }
+
+    /// Tangent of one row with its pressures condensed.
+    pub fn row_matrix(&self, row: usize, field: &Field, state: &RowState) -> Matrix<f64> {
+        let size = (self.cell.order + 1) * self.cell.layer_size();
+        let mut matrix = Matrix::zeros(size, size);
+        for column in 0..self.cell.columns {
+            self.add_local(row, column, field, state, &mut matrix);
         }
         if let Memory::Sliding(history) = self.memory {
-            self.add_memory(row, history, &state.gradient, &mut system.matrix);
+            self.add_memory(row, history, &state.gradient, &mut matrix);
         }
-        system
+        matrix
     }
 
     /// Tangent of one element at fixed memory, with its pressure condensed.
@@ -164,14 +196,13 @@ impl Block<'_> {
         column: usize,
         field: &Field,
         state: &RowState,
-        system: &mut RowSystem,
+        matrix: &mut Matrix<f64>,
     ) {
         let element = &self.cell.elements[row];
         let points = self.points();
         let unknowns = self.local_unknowns(column);
         let count = unknowns.len();
         let pressure = self.element_pressure(field, row, column);
-        let residual = self.pressure_residual(field, state, row, column);
         let mut local = vec![0.0; count * count];
         let mut coupling = vec![vec![0.0; count]; pressure.len()];
         for line in 0..points {
@@ -202,11 +233,10 @@ impl Block<'_> {
                 for i in 0..count {
                     local[j * count + i] += stiffness * entry[i] * entry[j];
                 }
-                system.right[unknowns[j]] -= stiffness * entry[j] * residual[m];
             }
         }
         for j in 0..count {
-            let target = linear::column_mut(&mut system.matrix, unknowns[j]);
+            let target = linear::column_mut(matrix, unknowns[j]);
             for i in 0..count {
                 target[unknowns[i]] += local[j * count + i];
             }
@@ -227,11 +257,12 @@ impl Block<'_> {
         }
     }
 
-    /// Add the pressure increments that belong to displacement increments `du` times `share`.
+    /// Add `share` of the pressure increments K M^-1 (R_p + B^T du), with B of `factored`.
     pub fn update_pressure(
         &self,
         row: usize,
         state: &RowState,
+        factored: &RowState,
         du: &[f64],
         share: f64,
         field: &mut Field,
@@ -246,7 +277,7 @@ impl Block<'_> {
                 for point in 0..points {
                     let q = column * points + point;
                     let at = line * points + point;
-                    let cof = network::cofactor(&state.gradient[line][q]);
+                    let cof = network::cofactor(&factored.gradient[line][q]);
                     let volume = element.weight[at] * dot(&cof, &increment[line][q]);
                     for (c, mode) in change.iter_mut().zip(&element.mode[at]) {
                         *c += mode * volume;
@@ -255,8 +286,8 @@ impl Block<'_> {
             }
             let at = (row * self.cell.columns + column) * modes;
             for m in 0..modes {
-                field.pressure[at + m] +=
-                    share * self.bulk_modulus / element.mode_mass[m] * change[m];
+                let stiffness = self.bulk_modulus / element.mode_mass[m];
+                field.pressure[at + m] += share * stiffness * change[m];
             }
         }
     }

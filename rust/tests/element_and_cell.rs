@@ -94,7 +94,7 @@ fn an_affine_deformation_is_in_equilibrium() {
         let mut total = vec![0.0; field.u.len()];
         for row in 0..cell.rows {
             let state = block.row_state(row, &field.u);
-            block.update_pressure(row, &state, &still, 1.0, &mut field);
+            block.update_pressure(row, &state, &state, &still, 1.0, &mut field);
             let (forces, volume_error) = block.row_forces(row, &field, &state);
             assert!(volume_error < 1e-28);
             let offset = row * order * cell.layer_size();

@@ -34,8 +34,8 @@ fn worst_error(order: usize, energy: Energy, memory: bool) -> f64 {
     // Fulfil the pressure equation, so that the condensed system is the slope of the forces alone.
     let still = vec![0.0; field.u.len()];
     let state = block.row_state(row, &field.u);
-    block.update_pressure(row, &state, &still, 1.0, &mut field);
-    let system = block.row_system(row, &field, &state);
+    block.update_pressure(row, &state, &state, &still, 1.0, &mut field);
+    let matrix = block.row_matrix(row, &field, &state);
     let direction: Vec<f64> = (0..field.u.len()).map(|i| noise(1000 + i)).collect();
     let forces = |step: f64| {
         let mut moved = field.clone();
@@ -43,7 +43,7 @@ fn worst_error(order: usize, energy: Energy, memory: bool) -> f64 {
         for (u, d) in moved.u.iter_mut().zip(&change) {
             *u += d;
         }
-        block.update_pressure(row, &state, &change, 1.0, &mut moved);
+        block.update_pressure(row, &state, &state, &change, 1.0, &mut moved);
         let moved_state = block.row_state(row, &moved.u);
         block.row_forces(row, &moved, &moved_state).0
     };
@@ -52,7 +52,7 @@ fn worst_error(order: usize, energy: Energy, memory: bool) -> f64 {
     let offset = row * order * cell.layer_size();
     let local = linear::column(&direction[offset..offset + high.len()]);
     let mut slope = linear::Matrix::zeros(high.len(), 1);
-    linear::product(&mut slope, &system.matrix, &local);
+    linear::product(&mut slope, &matrix, &local);
     let scale = (0..high.len()).fold(0.0_f64, |m, i| m.max(slope[(i, 0)].abs()));
     (0..high.len()).fold(0.0_f64, |m, i| {
         let difference = (high[i] - low[i]) / (2.0 * step);
