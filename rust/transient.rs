@@ -12,7 +12,7 @@ use crate::march::{climb, Count};
 use crate::memory::Maxwell;
 use crate::networks::Networks;
 use crate::newton::{Ending, Kept, Problem, Report, State};
-use crate::outcome::Outcome;
+use crate::outcome::{EdgeLaw, Outcome};
 use crate::scale::{Scale, Solution};
 use crate::wave::Wave;
 
@@ -237,10 +237,19 @@ impl Mover<'_> {
         report
     }
 
+    fn edge_law(&self, stage: &Stage) -> EdgeLaw {
+        if stage.speed == 0.0 {
+            return EdgeLaw::ELASTIC;
+        }
+        let wave = 4.0 * self.scale.wavelength / self.cell.layer_nodes() as f64;
+        let (storage, loss) = self.maxwell.complex_modulus(TAU * stage.speed.abs() / wave);
+        EdgeLaw::new(storage, loss, stage.speed > 0.0)
+    }
+
     fn record(&mut self, state: &State, stage: &Stage) {
         let memory = Memory::Relaxed;
         let problem = self.problem(&memory);
-        let outcome = Outcome::of(&problem, state);
+        let outcome = Outcome::of(&problem, state, self.edge_law(stage));
         let moment = Moment {
             time: self.time,
             distance: self.distance,

@@ -22,6 +22,7 @@ from gripscale.surface import (
     height_difference,
     read_profile,
 )
+from gripscale.transient import Stage, TransientResult, solve_transient
 
 __version__ = _version("gripscale")
 
@@ -38,6 +39,8 @@ __all__ = [
     "ScaleResult",
     "SelfAffineFit",
     "SineStack",
+    "Stage",
+    "TransientResult",
     "clean",
     "fit_prony",
     "fit_self_affine",
@@ -48,6 +51,7 @@ __all__ = [
     "read_profile",
     "rubber",
     "solve_scale",
+    "solve_transient",
     "surface",
     "theory",
 ]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 import platform
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from importlib import metadata
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -75,14 +75,19 @@ def from_prediction(prediction: Prediction) -> xr.Dataset:
     return xr.Dataset(data, coords={"scale": index}, attrs=_attributes(prediction))
 
 
-def save(dataset: xr.Dataset, path: str | Path) -> Path:
+def save(
+    dataset: xr.Dataset, path: str | Path, groups: Mapping[str, xr.Dataset] | None = None
+) -> Path:
     """Write `dataset` as netCDF (HDF5) to `path`, completely or not at all; return the path.
 
-    Raises `FileError` if the file cannot be written.
+    Each of the named `groups` goes into the same file, as a group beside the root that holds
+    `dataset`. Raises `FileError` if the file cannot be written.
     """
 
     def write(temporary: Path) -> None:
         dataset.to_netcdf(temporary, engine="h5netcdf")
+        for name, group in (groups or {}).items():
+            group.to_netcdf(temporary, engine="h5netcdf", mode="a", group=name)
 
     return write_whole(path, write)
 
@@ -119,6 +124,26 @@ def load(path: str | Path) -> xr.Dataset:
         return xr.load_dataset(path, engine="h5netcdf")
     except (OSError, ValueError, KeyError) as error:
         raise FileError(f"{path} cannot be read as a netCDF result: {error}") from error
+
+
+def load_groups(path: str | Path) -> dict[str, xr.Dataset]:
+    """Read the groups beside the Dataset that `save` wrote at `path` into memory, by name.
+
+    Raises `FileError` as `load` does.
+    """
+    path = Path(path)
+    if not path.is_file():
+        raise FileError(f"result file {path} does not exist")
+    try:
+        opened = xr.open_groups(path, engine="h5netcdf")
+    except (OSError, ValueError, KeyError) as error:
+        raise FileError(f"{path} cannot be read as a netCDF result: {error}") from error
+    groups = {}
+    for place, group in opened.items():
+        with group:
+            if place != "/":
+                groups[place.removeprefix("/")] = group.load()
+    return groups
 
 
 def versions() -> dict[str, str]:

@@ -9,7 +9,10 @@ import typer
 from gripscale import dataset
 from gripscale.cli.fit_rubber import fit_rubber
 from gripscale.cli.fit_surface import fit_surface
+from gripscale.cli.report import report
+from gripscale.cli.reproduce import reproduce
 from gripscale.cli.run import run
+from gripscale.cli.study import study
 
 app = typer.Typer(
     name="gripscale",
@@ -19,6 +22,9 @@ app = typer.Typer(
     no_args_is_help=True,
 )
 app.command("run")(run)
+app.command("report")(report)
+app.command("study")(study)
+app.command("reproduce")(reproduce)
 app.command("fit-surface")(fit_surface)
 app.command("fit-rubber")(fit_rubber)
 

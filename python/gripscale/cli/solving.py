@@ -13,6 +13,7 @@ from rich.console import Console
 from gripscale import dataset
 from gripscale.case import Case, CaseFile
 from gripscale.chain import ChainError, Prediction, Solver, predict
+from gripscale.cli import record
 from gripscale.cli.inputs import RubberStudy, SurfaceStudy
 from gripscale.cli.terminal import say
 
@@ -58,12 +59,15 @@ def solve(chain: Chain, file: CaseFile, console: Console, path: Path) -> None:
     load, sines = file.case.load, chain.surface.sines
     console.print()
     say(console, chain.title)
+    inputs = record.inputs_group(file, chain.surface, chain.rubber)
     clock = time.perf_counter()
 
     def keep(so_far: Prediction) -> None:
         nonlocal clock
         chain.result = so_far
-        dataset.save(so_far.to_dataset().assign_attrs(_provenance(chain, file)), path)
+        saved = so_far.to_dataset().assign_attrs(_provenance(chain, file))
+        groups = {"inputs": inputs, "solver": record.solver_group(so_far)}
+        dataset.save(saved, path, groups)
         seconds, clock = time.perf_counter() - clock, time.perf_counter()
         say(console, f"  {_progress(so_far, len(sines))}, {seconds:.1f} s")
 

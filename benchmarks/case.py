@@ -1,0 +1,152 @@
+"""The shipped case as a user runs it: time and memory of the command, accuracy of every wave."""
+
+from __future__ import annotations
+
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from dataclasses import dataclass
+from functools import partial
+from itertools import pairwise
+from pathlib import Path
+
+import problems
+from measure import Mesh, name, solve_all
+from rich.console import Console
+from table import show
+
+import gripscale as gs
+from gripscale.case import read_case
+from gripscale.cli.inputs import study_rubber, study_surface
+
+CASE = problems.ROOT / "examples" / "road_and_tread" / "case.toml"
+FINE: Mesh = (256, 28, 1)
+REPEATS = 3
+MOST_SECONDS, AIM_SECONDS, MOST_MEGABYTES = 60.0, 10.0, 1000.0
+
+
+@dataclass(frozen=True)
+class Chain:
+    """One chain of the case and the same waves, with the same inputs, on the fine mesh."""
+
+    name: str
+    default: gs.Prediction
+    fine: list[gs.ScaleResult]
+    seconds: list[float]
+
+
+def run(console: Console) -> None:
+    """Print what the command takes and how accurate it is."""
+    _whole_command(console)
+    for chain in _chains():
+        _waves(console, chain)
+
+
+def _whole_command(console: Console) -> None:
+    """Run `gripscale run` in processes of its own."""
+    seconds, megabytes = [], []
+    for _ in range(REPEATS):
+        with tempfile.TemporaryDirectory() as folder:
+            command = [sys.executable, "-c", "from gripscale.cli import main; main()"]
+            start = time.perf_counter()
+            process = subprocess.Popen(
+                [*command, "run", str(CASE), "--output", str(Path(folder) / "results")],
+                stdout=subprocess.DEVNULL,
+            )
+            _, status, usage = os.wait4(process.pid, 0)
+            process.returncode = os.waitstatus_to_exitcode(status)
+            seconds.append(time.perf_counter() - start)
+        if process.returncode != 0:
+            raise RuntimeError(f"gripscale run ended with code {process.returncode}")
+        megabytes.append(usage.ru_maxrss / 1024.0)
+    show(
+        console,
+        f"gripscale run {CASE.relative_to(problems.ROOT)}: files in, tables and figures out",
+        ["", "measured", "asked"],
+        [
+            ["time, median", f"{statistics.median(seconds):.1f} s", f"< {MOST_SECONDS:.0f} s"],
+            ["time, all", " ".join(f"{s:.1f}" for s in seconds), f"aim {AIM_SECONDS:.0f} s"],
+            ["peak memory", f"{max(megabytes):.0f} MB", f"< {MOST_MEGABYTES:.0f} MB"],
+        ],
+        "Dynamic and static chain, eight waves each, six figures as PNG and PDF.",
+    )
+
+
+def _chains() -> list[Chain]:
+    file = read_case(CASE)
+    rubber = study_rubber(file.case.rubber, file.resolve).rubber
+    sines = study_surface(file.case.surface, file.resolve).sines
+    load = file.case.load
+    chains = []
+    for title, speed in (("dynamic", load.speed), ("static", 0.0)):
+        marks = [time.perf_counter()]
+        default = gs.predict(
+            rubber,
+            sines,
+            pressure=load.pressure,
+            speed=speed,
+            footprint=load.footprint,
+            load_time=load.load_time,
+            on_scale=lambda _, marks=marks: marks.append(time.perf_counter()),
+        )
+        fine = [_again(rubber, scale) for scale in default.scales]
+        seconds = [b - a for a, b in pairwise(marks)]
+        chains.append(Chain(title, default, fine, seconds))
+    return chains
+
+
+def _again(rubber: gs.Rubber, scale: gs.ScaleResult) -> gs.ScaleResult:
+    """Solve the same wave under the same load on the fine mesh."""
+    call = partial(
+        gs.solve_scale,
+        rubber,
+        wavelength=scale.wavelength,
+        amplitude=scale.amplitude,
+        pressure=scale.pressure_received,
+        speed=scale.speed,
+        load_time=scale.load_time,
+        **problems.options(FINE),
+    )
+    return solve_all([call])[0][0]
+
+
+def _waves(console: Console, chain: Chain) -> None:
+    moving = chain.default.speed > 0.0
+    rows, products = [], [1.0, 1.0]
+    for i, (scale, fine) in enumerate(zip(chain.default.scales, chain.fine, strict=True)):
+        products = [products[0] * scale.contact_fraction, products[1] * fine.contact_fraction]
+        row = [
+            f"{i + 1}: {scale.wavelength * 1e3:.3g} mm",
+            f"{scale.amplitude / scale.wavelength:.3f}",
+            f"{scale.pressure_received / float(chain.default.modulus[i]):.2f}",
+            f"{chain.seconds[i]:.2f}",
+            f"{scale.newton_iterations}",
+            f"{scale.contact_fraction:.4f}",
+            f"{scale.contact_fraction - fine.contact_fraction:+.4f}",
+            f"{scale.contact_fraction_error:.4f}",
+        ]
+        if moving:
+            row += [
+                f"{scale.friction:.4f}",
+                f"{scale.friction / fine.friction - 1.0:+.2%}",
+                f"{scale.friction_error / scale.friction:.2%}",
+                f"{scale.friction_mismatch:.2%}",
+                f"{fine.friction_mismatch:.2%}",
+            ]
+        rows.append(row)
+    headings = ["wave", "A/λ", "p/|E*|", "time s", "Newton", "area", "error", "estimate"]
+    headings += ["mu", "error", "estimate", "mismatch", "fine mismatch"] if moving else []
+    note = (
+        f"Error: difference from {name(FINE)}, every wave under the load it has in the table; "
+        "estimate: the solver's own, from its coarser meshes; "
+        f"the product of the contact fractions differs by {products[0] / products[1] - 1.0:+.2%}"
+    )
+    if moving:
+        total = sum(fine.friction for fine in chain.fine)
+        note += f", the sum of the frictions by {chain.default.friction / total - 1.0:+.2%}"
+        worst = max(scale.friction_mismatch for scale in chain.default.scales)
+        note += f". Largest mismatch of the two friction measures {worst:.2%}; asked: below 2 %"
+    show(console, f"The shipped case, {chain.name}, wave by wave", headings, rows, f"{note}.")

@@ -1,0 +1,134 @@
+"""`gripscale study CASE.toml --vary ...`: one case with one or two of its inputs varied."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from rich.console import Console
+
+from gripscale.cli import folder
+from gripscale.cli.terminal import NOT_CONVERGED, command, complain, say, screen
+from gripscale.errors import InputError
+
+if TYPE_CHECKING:
+    from gripscale.study import Progress, Study
+
+
+@command
+def study(
+    case: Annotated[
+        Path, typer.Argument(help="The case file (TOML).", metavar="CASE.toml", readable=False)
+    ],
+    vary: Annotated[
+        list[str],
+        typer.Option(
+            help="What to vary, once or twice: speed=0.003:30:log9, pressure='1 bar,3 bar', "
+            "smallest_wavelength, waves, factors=3.5/2.4,3/2.2, rubber=case,dma.txt, surface.",
+            metavar="NAME=VALUES",
+        ),
+    ],
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            help="Results folder, instead of `study` in the one of the case.",
+            metavar="DIR",
+            readable=False,
+        ),
+    ] = None,
+    workers: Annotated[
+        int | None, typer.Option(help="Cores to use; all by default.", show_default=False)
+    ] = None,
+    cluster: Annotated[
+        str | None,
+        typer.Option(
+            help='"local", or the address of a Dask scheduler: tcp://host:8786.',
+            show_default=False,
+        ),
+    ] = None,
+    static: Annotated[
+        bool | None,
+        typer.Option(
+            "--static/--no-static",
+            help="Also the rubber at rest; as the case says by default.",
+            show_default=False,
+        ),
+    ] = None,
+) -> None:
+    """Vary one or two inputs of a case: table, figures, one result file; resumes where stopped."""
+    from gripscale.study import Study
+    from gripscale.study.axes import parse_vary
+
+    pairs = [parse_vary(text) for text in vary]
+    axes = dict(pairs)
+    if len(axes) < len(pairs):
+        raise InputError(f"vary must name different inputs; got {', '.join(n for n, _ in pairs)}")
+    made = Study(case, axes, static=static)
+    target = output or made.file.resolve(made.file.case.output.folder) / "study"
+    folder.require_writable(target)
+    console = screen()
+    for line in _opening(made):
+        say(console, line)
+    folder.make(target / "figures")
+    folder.write_text(target / "case.toml", made.file.text)
+    result = made.run(target, workers=workers, client=cluster, on_case=_teller(console))
+    _conclude(console, made, result, target)
+
+
+def _opening(made: Study) -> list[str]:
+    """Return what is going to be solved, line by line."""
+    points = [*made.points, *made.static_points]
+    chains = len({point.task.key for point in points})
+    names = " x ".join(f"{axis.name} ({len(axis.values)})" for axis in made.axes)
+    return [
+        f"Study of {made.file.path}",
+        f"  varied: {names}; {chains} different chains",
+        *(f"  surface: {road.source}, {len(road.sines)} sine waves" for road in made.roads),
+        *(f"  rubber: {rubber.name}, {rubber.source}" for rubber in made.rubbers),
+        "",
+    ]
+
+
+def _teller(console: Console) -> Any:
+    """Return what prints a line for each chain."""
+
+    def tell(progress: Progress) -> None:
+        attrs = progress.result.attrs
+        width = len(str(progress.total))
+        text = f"[{progress.done:>{width}}/{progress.total}] {progress.label}: "
+        if attrs["case_status"] != "converged":
+            text += attrs["case_status"]
+        else:
+            text += f"area {attrs['contact_fraction']:.4g}"
+            if attrs["sliding_speed_m_per_s"] > 0.0:
+                text += f", friction {attrs['friction']:.3f}"
+        how = "already solved" if progress.stored else f"{progress.seconds:.1f} s"
+        say(console, f"{text}, {how}")
+
+    return tell
+
+
+def _conclude(console: Console, made: Study, result: Any, target: Path) -> None:
+    """Print and keep the table, draw the figures, and say which chains failed."""
+    from gripscale import report
+    from gripscale.figures.study_all import draw
+    from gripscale.study.table import study_table
+
+    table = study_table(result)
+    console.print()
+    console.print(table)
+    folder.write_text(target / "study.txt", report.as_text(*_opening(made), table))
+    draw(result, target / "figures")
+    console.print()
+    say(console, f"Result (study.nc), table and figures are in {target}")
+    statuses = result.case_status.values.ravel().tolist()
+    if "static_case_status" in result:
+        statuses += result.static_case_status.values.ravel().tolist()
+    failed = [status for status in statuses if status != "converged"]
+    if failed:
+        complain(
+            f"{len(failed)} of {len(statuses)} chains did not converge and have no totals; "
+            f"the first: {failed[0]}"
+        )
+        raise typer.Exit(NOT_CONVERGED)

@@ -1,0 +1,80 @@
+"""Real contact area and friction of all waves over what a study varied."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from gripscale.figures.study_axes import along, area_axis, colours
+from gripscale.figures.style import BLUE, INK, WIDE, sheet, styled
+from gripscale.study.display import WORDS, dimensions, name_of, numeric
+
+
+@styled
+def totals_figure(result: xr.Dataset) -> Figure:
+    """Draw A_r/A_0 and friction over the first numeric axis, a line for each value of the other.
+
+    Without a numeric axis they are drawn as points over the names of the first one. Contact at
+    rest is dashed where it was solved. Chains that did not converge leave gaps.
+    """
+    figure, panels = sheet(WIDE, 3.1, 1, 2, gap=0.06)
+    area, friction = panels[0]
+    names = dimensions(result)
+    x = (numeric(result) or names)[0]
+    other = next((name for name in names if name != x), None)
+    count = result.sizes[other] if other else 1
+    shades = [BLUE] if other is None else colours(count, ordered=other in numeric(result))
+    for i, colour in enumerate(shades):
+        piece = result if other is None else result.isel({other: i})
+        label = "sliding" if other is None else name_of(result, other, i)
+        _line(area, piece, x, "total_contact_fraction", colour, label)
+        _line(friction, piece, x, "total_friction", colour, label)
+        if "static_total_contact_fraction" in result:
+            _rest(area, piece, x, colour, "at rest" if other is None else None)
+    area_axis(area)
+    area.set_ylabel("real contact area $A_r/A_0$ [-]")
+    friction.set_ylabel("friction coefficient $\\mu$ [-]")
+    friction.set_ylim(bottom=0.0)
+    handles, labels = area.get_legend_handles_labels()
+    if len(handles) > 1:
+        figure.legend(handles, labels, loc="outside upper center", ncols=4)
+    return figure
+
+
+def _line(axes: Axes, piece: xr.Dataset, x: str, quantity: str, colour: str, label: str) -> None:
+    if x in WORDS:
+        place = np.arange(piece.sizes[x])
+        axes.set_xticks(place, [name_of(piece, x, int(i)) for i in place])
+        axes.set_xlabel(f"{WORDS[x]} [-]")
+        axes.margins(x=0.3)
+        axes.plot(place, piece[quantity], "o", color=colour, label=label)
+    else:
+        axes.plot(
+            along(axes, piece, x),
+            piece[quantity],
+            "o-",
+            ms=3.0,
+            clip_on=False,
+            color=colour,
+            label=label,
+        )
+
+
+def _rest(axes: Axes, piece: xr.Dataset, x: str, colour: str, label: str | None) -> None:
+    """Draw contact at rest, which has no speed, as a dashed level or over the same axis."""
+    rest = piece.static_total_contact_fraction
+    style: dict[str, Any] = {
+        "color": colour if label is None else INK,
+        "ls": (0, (4, 2)),
+        "lw": 0.9,
+    }
+    if x not in rest.dims:
+        axes.axhline(float(rest), label=label, **style)
+    elif x in WORDS:
+        axes.plot(np.arange(rest.size), rest, "o", mfc="white", color=colour, label=label)
+    else:
+        axes.plot(along(axes, piece, x), rest, label=label, **style)

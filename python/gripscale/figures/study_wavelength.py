@@ -1,0 +1,41 @@
+"""Contact area and friction against wavelength for each chain of a study (figures 5 to 9 of LW)."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+
+from gripscale.figures.study_axes import area_axis, colours, legend_beside
+from gripscale.figures.style import MILLI, WIDE, falling_wavelength, sheet, styled
+from gripscale.study.display import name_of
+
+MOST_NAMES = 12
+
+
+@styled
+def wavelength_figure(result: xr.Dataset, axis: str, title: str = "") -> Figure:
+    """Draw running contact area and running friction against wavelength over one axis."""
+    figure, panels = sheet(WIDE, 3.1, 1, 2, gap=0.06)
+    area, friction = panels[0]
+    ordered = np.issubdtype(result[axis].dtype, np.number)
+    shades = colours(result.sizes[axis], ordered=ordered)
+    every = -(-len(shades) // MOST_NAMES)
+    for i, colour in enumerate(shades):
+        chain = result.isel({axis: i})
+        x = chain.wavelength / MILLI
+        label = name_of(result, axis, i) if i % every == 0 else None
+        area.plot(x, chain.running_contact_fraction, "o-", ms=3.0, color=colour, label=label)
+        friction.plot(x, chain.running_friction, "o-", ms=3.0, color=colour)
+    area.set_ylim(top=1.15)
+    area_axis(area)
+    area.set_ylabel("relative contact area, running [-]")
+    friction.set_ylabel("friction coefficient, running [-]")
+    friction.set_ylim(bottom=0.0)
+    wavelengths = result.wavelength.values[np.isfinite(result.wavelength.values)] / MILLI
+    for panel in (area, friction):
+        falling_wavelength(panel, wavelengths)
+    legend_beside(figure, *area.get_legend_handles_labels())
+    if title:
+        figure.suptitle(title, fontsize=9.0)
+    return figure

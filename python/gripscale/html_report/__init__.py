@@ -1,0 +1,44 @@
+"""One self-contained HTML page per result: inputs, fits, tables, figures to zoom, evidence, method.
+
+Needs the extra `gripscale[report]` (Bokeh and Jinja2). The page carries its scripts and
+images, so it opens without a network, and its content security policy forbids it to ask for one.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from gripscale.errors import InputError
+
+__all__ = ["write_report"]
+
+EXTRA = ("bokeh", "jinja2", "markupsafe")
+
+
+def write_report(result: str | Path, output: str | Path | None = None) -> Path:
+    """Write the HTML report of `result` and return its path.
+
+    Parameters
+    ----------
+    result
+        Results folder of a run or a study, or one of their netCDF files.
+    output
+        The file to write; `report.html` in the results folder by default.
+
+    Raises
+    ------
+    FileError
+        If the result is missing or unreadable, or the page cannot be written.
+    InputError
+        If the libraries of `gripscale[report]` are not installed.
+    """
+    try:
+        from gripscale.html_report.build import build
+    except ModuleNotFoundError as error:
+        if (error.name or "").partition(".")[0] not in EXTRA:
+            raise
+        raise InputError(
+            f"a report needs {error.name}, which is not installed; "
+            "install it with: pip install 'gripscale[report]'"
+        ) from error
+    return build(Path(result), None if output is None else Path(output))

@@ -1,0 +1,100 @@
+"""From a result to the file: read, compose, render, write."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+from functools import lru_cache
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+from bokeh.core.types import ID
+from bokeh.embed import json_item
+from bokeh.resources import Resources
+from jinja2 import Environment, PackageLoader, StrictUndefined, Template
+from markupsafe import Markup
+
+from gripscale.dataset import write_whole
+from gripscale.errors import FileError
+from gripscale.html_report.elements import Page
+from gripscale.html_report.run_page import run_page
+from gripscale.html_report.source import Run, read_result
+from gripscale.html_report.study_page import study_page
+
+REPORT = "report.html"
+
+
+def build(result: Path, output: Path | None) -> Path:
+    """Write the report of `result` to `output`, by default into the folder of the result."""
+    source = read_result(result)
+    if output is None:
+        output = (result if result.is_dir() else result.parent) / REPORT
+    if not output.parent.is_dir():
+        raise FileError(f"{output} cannot be written: there is no folder {output.parent}")
+    text = render(run_page(source) if isinstance(source, Run) else study_page(source))
+
+    def write(path: Path) -> None:
+        path.write_text(text, encoding="utf-8")
+
+    return write_whole(output, write)
+
+
+def render(page: Page) -> str:
+    """Return `page` as HTML; all texts in it are escaped by the template."""
+    library, script = _bokeh(), _own("page.js")
+    style = "\n".join(_own(f"{name}.css") for name in ("page", "elements", "media"))
+    return _template().render(
+        page=page,
+        figures=[_figure(chart.name, chart.model) for chart in page.charts],
+        library=Markup(library),
+        style=Markup(style),
+        script=Markup(script),
+        policy=_policy(library, script),
+    )
+
+
+def _figure(name: str, model: Any) -> dict[str, Any]:
+    """Return a figure as plain data; the template turns it into JSON without any markup."""
+    item = json_item(model, ID(f"plot-{name}"))
+    plain: dict[str, Any] = json.loads(json.dumps(item, allow_nan=False))
+    return plain
+
+
+@lru_cache(maxsize=1)
+def _template() -> Template:
+    environment = Environment(
+        loader=PackageLoader("gripscale.html_report"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    # Bokeh's figures name an object where it first occurs: the order of keys matters.
+    environment.policies["json.dumps_kwargs"] = {"sort_keys": False, "separators": (",", ":")}
+    return environment.get_template("page.html")
+
+
+@lru_cache(maxsize=1)
+def _bokeh() -> str:
+    """Return Bokeh's core script; widgets, tables and WebGL are not needed."""
+    resources = Resources(mode="inline", minified=True, components=["bokeh"], log_level="error")
+    return "\n".join(resources.js_raw)
+
+
+def _own(name: str) -> str:
+    return files("gripscale.html_report").joinpath("templates", name).read_text(encoding="utf-8")
+
+
+def _policy(*scripts: str) -> str:
+    """Return the content security policy: these scripts and nothing else, no network at all."""
+    hashes = " ".join(f"'sha256-{_digest(script)}'" for script in scripts)
+    return (
+        f"default-src 'none'; script-src {hashes}; style-src 'unsafe-inline'; "
+        "img-src data: blob:; base-uri 'none'; form-action 'none'"
+    )
+
+
+def _digest(script: str) -> str:
+    return base64.b64encode(hashlib.sha256(script.encode("utf-8")).digest()).decode("ascii")

@@ -1,0 +1,149 @@
+"""Curves of a study: totals over each axis, contact and friction against wavelength."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from itertools import product
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from gripscale.html_report.charts.look import (
+    COLOURS,
+    curve,
+    hover,
+    legend,
+    plot,
+    shades,
+    whole_decades,
+)
+from gripscale.html_report.elements import Chart
+from gripscale.html_report.source import Study
+
+MOST_CURVES = 12
+"""Curves in one figure; of more, so many evenly spaced ones are drawn."""
+PER_WAVE = ("running_contact_fraction", "running_friction", "contact_fraction", "friction")
+Array = NDArray[np.float64]
+
+
+def study_charts(study: Study) -> list[Chart]:
+    """Return a figure for each total over each numeric axis, and for each number per wave."""
+    totals = [
+        str(name)
+        for name, variable in study.data.data_vars.items()
+        if variable.dims and set(variable.dims) <= set(study.axes) and variable.dtype.kind in "fi"
+    ]
+    axes = [axis for axis in study.axes if _numeric(study.data, axis)]
+    charts = [
+        _total(study, name, axis)
+        for axis in axes
+        for name in totals
+        if axis in study.data[name].dims and np.isfinite(study.data[name].values).any()
+    ]
+    charts += [
+        _total(study, str(name), "decade")
+        for name, variable in study.data.data_vars.items()
+        if "decade" in variable.dims and _numeric(study.data, "decade")
+    ]
+    if "wavelength" in study.data:
+        charts += [_per_wave(study, name) for name in PER_WAVE if _drawable(study, name)]
+    return charts
+
+
+def _numeric(data: xr.Dataset, axis: str) -> bool:
+    return axis in data.coords and data[axis].dtype.kind in "fiu" and data.sizes[axis] > 1
+
+
+def _drawable(study: Study, name: str) -> bool:
+    if name not in study.data or "scale" not in study.data[name].dims:
+        return False
+    values, lengths = study.data[name].values, study.data["wavelength"].values
+    return bool(np.isfinite(values).any() and (lengths[np.isfinite(lengths)] > 0.0).any())
+
+
+def _total(study: Study, name: str, axis: str) -> Chart:
+    variable = study.data[name]
+    x = study.data[axis].values.astype(float) / _display(study.data, axis)[0]
+    spread = bool((x > 0.0).all() and x.max() / x.min() > 8.0)
+    figure = plot(_label(study.data, axis), _label(study.data, name), log="x" if spread else "")
+    others = [str(dim) for dim in variable.dims if dim != axis]
+    colours = _colours(variable, others)
+    for i, (label, one) in enumerate(_slices(variable, others)):
+        y = one.values.astype(float)
+        dots = curve(figure, x, y, colours[i], label or name)
+        hover(figure, [dots], [(axis, "@x"), (name, "@y")])
+    return Chart(
+        f"{name}-over-{axis}",
+        f"{variable.attrs.get('long_name', name)}, over {axis}.",
+        f"{name} against {axis}.",
+        legend(figure),
+    )
+
+
+def _per_wave(study: Study, name: str) -> Chart:
+    data = study.data
+    lengths = data["wavelength"].values.astype(float) * 1e3
+    lengths = lengths[np.isfinite(lengths)]
+    log = "y" if "fraction" in name else ""
+    label = _label(data, name)
+    figure = plot("wavelength λ [mm]", label, log=log, wavelengths=lengths, height=400)
+    both = xr.broadcast(data[name], data["wavelength"])
+    others = [str(dim) for dim in both[0].dims if dim != "scale"]
+    pairs = zip(_slices(both[0], others), _slices(both[1], others), strict=True)
+    colours = _colours(both[0], others)
+    if log:
+        whole_decades(figure, data[name].values)
+    for i, ((text, values), (_, wavelength)) in enumerate(pairs):
+        x, y = wavelength.values.astype(float) * 1e3, values.values.astype(float)
+        dots = curve(figure, x, y, colours[i], text or name)
+        hover(figure, [dots], [("λ", "@x mm"), (name, "@y")])
+    return Chart(
+        f"{name}-per-wave",
+        f"{data[name].attrs.get('long_name', name)}, against wavelength.",
+        f"{name} against wavelength, which falls to the right.",
+        legend(figure),
+    )
+
+
+def _colours(variable: xr.DataArray, over: list[str]) -> list[str]:
+    """Return a colour for each slice: distinct ones for a few, shades for many."""
+    count = min(math.prod(variable.sizes[name] for name in over), MOST_CURVES)
+    return list(COLOURS) if count <= len(COLOURS) else shades(count)
+
+
+def _slices(variable: xr.DataArray, over: list[str]) -> Iterator[tuple[str, xr.DataArray]]:
+    """Yield the slices at (a choice of) all points of the axes `over`, with what to call them."""
+    points = list(product(*(range(variable.sizes[name]) for name in over)))
+    if len(points) > MOST_CURVES:
+        chosen = np.linspace(0, len(points) - 1, MOST_CURVES).round().astype(int)
+        points = [points[i] for i in chosen]
+    for point in points:
+        at = dict(zip(over, point, strict=True))
+        words = [_value(variable, name, i) for name, i in at.items()]
+        yield ", ".join(words), variable.isel(at)
+
+
+def _value(variable: xr.DataArray, name: str, i: int) -> str:
+    """Return what a point of an axis is called: with its unit, or else with the axis."""
+    if name not in variable.coords:
+        return f"{name} {i + 1}"
+    value: Any = variable[name].values[i]
+    if not isinstance(value, np.number):
+        return str(value)
+    scale, unit = _display(variable, name)
+    return f"{name} {value:.3g}" if unit == "-" else f"{value / scale:.3g} {unit}"
+
+
+def _label(data: xr.Dataset, name: str) -> str:
+    return f"{name.replace('_', ' ')} [{_display(data, name)[1]}]"
+
+
+def _display(data: xr.Dataset | xr.DataArray, name: str) -> tuple[float, str]:
+    """Return the unit in which a coordinate is drawn, and its size in the unit it has."""
+    if name not in data.coords:
+        return 1.0, "-"
+    unit = str(data[name].attrs.get("units", "1"))
+    return {"Pa": (1e6, "MPa"), "m": (1e-3, "mm"), "1": (1.0, "-")}.get(unit, (1.0, unit))

@@ -1,0 +1,135 @@
+"""The equations of the method, set by matplotlib as SVG.
+
+MathML would need no pictures, but browsers set it badly where no mathematical font is installed.
+"""
+
+from __future__ import annotations
+
+import base64
+import io
+import re
+from functools import lru_cache
+from typing import Any
+
+import matplotlib as mpl
+from matplotlib.figure import Figure
+
+from gripscale.html_report.elements import Equation
+
+LW = "Lind & Wangenheim 2014, ASME IMECE2014-37998"
+
+_POINTS = 14.0
+"""Size of the letters [pt]."""
+
+# name, LaTeX, words, source
+_EQUATIONS = [
+    (
+        "correlation",
+        r"C_z(l) = \langle ( z(x+l) - z(x) )^2 \rangle",
+        "Height difference correlation of the measured profile, over all pairs of valid heights a "
+        "lag l apart.",
+        f"{LW}, equation 5",
+    ),
+    (
+        "self-affine",
+        r"C_z(l) = \xi_\perp^2 \left( \dfrac{l}{\xi_\parallel} \right)^{6-2D} "
+        r"\quad \mathrm{for}\  l < \xi_\parallel , \qquad \xi_\perp^2 \quad \mathrm{beyond}",
+        "A self-affine surface up to its cut-off; H = 3 − D. It describes the surface; the chain "
+        "does not use it.",
+        f"{LW}, equation 6",
+    ),
+    (
+        "sines",
+        r"C_z(l) = \sum_i A_i^2 \left( 1 - \cos \dfrac{2 \pi l}{\lambda_i} \right) , \qquad "
+        r"\lambda_{i+1} = \dfrac{\lambda_i}{s_\lambda} , \quad A_{i+1} = \dfrac{A_i}{s_A}",
+        "Superposed sine waves of unrelated phase, fitted in log C_z with two magnification "
+        "factors.",
+        f"{LW}, figure 4",
+    ),
+    (
+        "prony",
+        r"E^*(\omega) = E_\infty + \sum_j E_j \dfrac{i \omega \tau_j}{1 + i \omega \tau_j}",
+        "Rubber: generalized Maxwell (Prony) series of the master curve.",
+        "J. D. Ferry, Viscoelastic Properties of Polymers, 3rd ed. (1980), chapter 3",
+    ),
+    (
+        "network",
+        r"\tau_j \dfrac{\mathrm{d} \mathbf{A}_j}{\mathrm{d} t} = \bar{\mathbf{C}}^{-1} - "
+        r"\mathbf{A}_j , \qquad \mathbf{S}_{\mathrm{iso}} = J^{-2/3} \, \mathrm{DEV} \left[ "
+        r"G_\infty \mathbf{I} + \sum_j G_j \mathbf{A}_j \right]",
+        "At finite strain each Maxwell element is a temporary network beside the permanent one "
+        "(written here for a neo-Hookean permanent network; the inputs name the one used), with "
+        "G = E/3 and a constant bulk modulus. The choice among forms with the same small-strain "
+        "limit is physics: at steep waves it moves friction by 15 to 20 %.",
+        "J. Lubliner, Mech. Res. Commun. 12 (1985) 93",
+    ),
+    (
+        "steady",
+        r"\dfrac{\mathrm{d}}{\mathrm{d} t} = v \dfrac{\partial}{\partial X} , \qquad "
+        r"\omega_k = \dfrac{2 \pi k v}{\lambda_i} , \qquad t_1 = \dfrac{\ell_0}{v} , \quad "
+        r"t_i = \dfrac{a_{i-1}}{v}",
+        "Steady sliding is one problem in the frame of the wave: the history is a periodic "
+        "convolution along straight lines. The mean state relaxes only for the load time: the "
+        "passage of the footprint ℓ₀, or of the contact length a of the wave above.",
+        "method of this software",
+    ),
+    (
+        "contact",
+        r"g \geq 0 , \qquad p_n \geq 0 , \qquad g \, p_n = 0",
+        "Frictionless unilateral contact of gap g and normal pressure with the rigid sine at the "
+        "deformed position.",
+        "P. Wriggers & J. Reinelt, Comput. Methods Appl. Mech. Engrg. 198 (2009) 1996, "
+        "doi:10.1016/j.cma.2008.08.021",
+    ),
+    (
+        "pressure",
+        r"p_{i+1} = p_i \dfrac{\lambda_i}{a_i}",
+        "The mean pressure in the contact of one wave is what the next one receives; a is the "
+        "contact length on the mean plane.",
+        f"{LW}, equation 1",
+    ),
+    (
+        "area",
+        r"\dfrac{A_r}{A_0} = \prod_i \dfrac{a_i}{\lambda_i}",
+        "Real over nominal contact area.",
+        f"{LW}, equation 2",
+    ),
+    (
+        "friction",
+        r"\mu = \sum_i \mu_i , \qquad \mu_i = \dfrac{1}{p_i \lambda_i} \int_0^{\lambda_i} t_x \, "
+        r"\mathrm{d} x = \dfrac{W_i}{p_i \lambda_i^2}",
+        "Friction: each wave's from the horizontal contact traction, and independently from the "
+        "energy W lost in the rubber per wavelength slid (and unit width). Their mismatch is the "
+        "discretisation's own error.",
+        f"{LW}, equation 3; balance of energy",
+    ),
+]
+
+
+@lru_cache(maxsize=1)
+def equations() -> tuple[Equation, ...]:
+    """Return the equations of the method, in the order of the chain."""
+    return tuple(
+        Equation(name, latex, *_svg(latex), words, source)
+        for name, latex, words, source in _EQUATIONS
+    )
+
+
+def _svg(latex: str) -> tuple[str, int, int]:
+    """Return `latex` as an SVG picture, base64, with width and height [px]."""
+    rules: Any = {"mathtext.fontset": "stix", "svg.hashsalt": "gripscale", "svg.fonttype": "path"}
+    drawn = io.StringIO()
+    with mpl.rc_context(rules):
+        figure = Figure()
+        figure.text(0.0, 0.0, f"${latex}$", fontsize=_POINTS)
+        look: dict[str, Any] = {
+            "format": "svg",
+            "bbox_inches": "tight",
+            "pad_inches": 0.02,
+            "transparent": True,
+        }
+        figure.savefig(drawn, metadata={"Date": None, "Creator": None}, **look)
+    text = drawn.getvalue()
+    sizes = [re.search(rf'<svg[^>]* {side}="([\d.]+)pt"', text) for side in ("width", "height")]
+    width, height = (round(float(size[1]) * 4.0 / 3.0) for size in sizes if size is not None)
+    return base64.b64encode(text.encode("utf-8")).decode("ascii"), width, height

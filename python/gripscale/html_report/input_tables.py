@@ -1,0 +1,191 @@
+"""What the result rests on: load, files, cleaning, fits, Maxwell elements."""
+
+from __future__ import annotations
+
+import math
+import re
+from pathlib import PurePath, PureWindowsPath
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from gripscale.html_report.elements import Facts, Heading, Table
+from gripscale.html_report.numbers import NONE, number, percent, whole
+from gripscale.html_report.source import Run
+
+MILLI, MEGA, GIGA, BAR = 1e-3, 1e6, 1e9, 1e5
+
+
+def load_facts(run: Run) -> Facts:
+    """Return load, rubber, surface and model in words."""
+    attrs, moving = run.attrs, [chain for chain in run.chains if chain.moving]
+    speeds = ", ".join(f"{number(chain.speed)} m/s" for chain in moving) or "none"
+    if any(not chain.moving for chain in run.chains):
+        speeds += "; and at rest (relaxed rubber)"
+    pressure = attrs.get("nominal_pressure_Pa", math.nan)
+    return Facts(
+        "Load and model",
+        [
+            ("Nominal pressure", f"{number(pressure, MEGA)} MPa ({number(pressure, BAR)} bar)"),
+            ("Sliding speed", speeds),
+            ("Footprint", f"{number(attrs.get('footprint_m', math.nan), MILLI)} mm"),
+            ("Rubber", rubber_source(run)),
+            ("Model of a wave", str(attrs.get("model", NONE)).replace("_", " ")),
+            ("Strain energy", str(run.inputs.attrs.get("strain_energy", NONE)).removesuffix("()")),
+            ("Method", str(attrs.get("method", NONE))),
+        ],
+    )
+
+
+def rubber_source(run: Run) -> str:
+    """Return name and source of the rubber; of a source that is a path, the file name."""
+    name = str(run.inputs.attrs.get("rubber_name", ""))
+    source = str(run.attrs.get("rubber_source", run.attrs.get("rubber", "")))
+    return "; ".join(part for part in (name, without_folder(source)) if part) or NONE
+
+
+def without_folder(text: str) -> str:
+    """Return `text` with only the names of absolute paths in it: folders are of one machine."""
+    return "".join(_name(part) for part in re.split(r"(; |, |: |\n)", text))
+
+
+def _name(text: str) -> str:
+    for kind in (PurePath, PureWindowsPath):
+        if kind(text).is_absolute():
+            return kind(text).name
+    return text
+
+
+def files_table(inputs: xr.Dataset) -> Table:
+    """Return the measured files with size and checksum."""
+    columns = [inputs[f"file_{name}"].values for name in ("name", "role", "bytes", "sha256")]
+    rows = [
+        [without_folder(str(name)), str(role), whole(size), str(checksum)]
+        for name, role, size, checksum in zip(*columns, strict=True)
+    ]
+    headings = [
+        Heading("file, as the case names it"),
+        Heading("used for", words=True),
+        Heading("bytes"),
+    ]
+    return Table("files", "Measured files", [*headings, Heading("SHA-256", words=True)], rows)
+
+
+def cleaning_tables(inputs: xr.Dataset) -> list[Table]:
+    """Return, for each profile, what each step of cleaning did."""
+    tables = []
+    steps = [str(step) for step in inputs["cleaning_step_name"].values]
+    headings = [
+        Heading("step"),
+        Heading("points left"),
+        Heading("cut off"),
+        Heading("made missing"),
+        Heading("missing now"),
+        Heading("what was done", words=True),
+    ]
+    for i, name in enumerate(str(name) for name in inputs["profile_name"].values):
+        one = inputs.isel(profile=i)
+        fields = ("points", "removed", "made_missing", "missing")
+        rows = [
+            [
+                step,
+                *(whole(one[f"cleaning_{field}"].values[j]) for field in fields),
+                str(one["cleaning_note"].values[j]) or NONE,
+            ]
+            for j, step in enumerate(steps)
+        ]
+        step, length = float(one["profile_step"]), float(one["profile_length"])
+        caption = (
+            f"Cleaning of {name}: {whole(one['profile_points'])} points read, step "
+            f"{number(step, MILLI, 4)} mm, length {number(length)} m"
+        )
+        tables.append(Table(f"cleaning-{i + 1}", caption, headings, rows))
+    return tables
+
+
+def surface_facts(inputs: xr.Dataset) -> list[Facts]:
+    """Return what the fits to the height difference correlation found."""
+    get = inputs.attrs.get
+    waves = [("Waves", str(inputs.sizes["wave"]))]
+    for key, label in (
+        ("s_wavelength", "Factor of wavelength"),
+        ("s_amplitude", "Factor of amplitude"),
+    ):
+        waves.append((label, number(get(f"sines_{key}", math.nan), digits=4)))
+    waves.append(("Residual", f"{number(get('sines_residual_decades', math.nan))} decades of C_z"))
+    waves.append(("Fitted lags", _span(get, "sines_lag_min_m", "sines_lag_max_m")))
+    facts = [Facts("Sine waves", waves)]
+    if "self_affine_hurst" in inputs.attrs:
+        hurst = float(inputs.attrs["self_affine_hurst"])
+        residual = number(get("self_affine_residual_decades", math.nan))
+        pairs = [
+            ("Hurst exponent H", number(hurst)),
+            ("Fractal dimension D", number(3.0 - hurst)),
+            ("Cut-off length ξ∥", f"{number(get('self_affine_xi_parallel_m'), MILLI)} mm"),
+            ("Cut-off height ξ⊥", f"{number(get('self_affine_xi_perpendicular_m'), MILLI)} mm"),
+            ("Residual", f"{residual} decades of C_z"),
+            ("Fitted lags", _span(get, "self_affine_lag_min_m", "self_affine_lag_max_m")),
+        ]
+        facts.append(Facts("Self-affine description (not used by the chain)", pairs))
+    elif "no_self_affine" in inputs.attrs:
+        facts.append(Facts("Self-affine description", [("None", str(get("no_self_affine")))]))
+    return facts
+
+
+def _span(get: Any, first: str, last: str) -> str:
+    low, high = get(first, math.nan), get(last, math.nan)
+    return f"{number(low, MILLI)} to {number(high, MILLI)} mm"
+
+
+def waves_table(inputs: xr.Dataset) -> Table:
+    """Return the sine waves."""
+    lengths, heights = inputs["wave_wavelength"].values, inputs["wave_amplitude"].values
+    rows = [
+        [str(i + 1), number(w, MILLI, 4), number(a, MILLI, 4), number(2.0 * math.pi * a / w)]
+        for i, (w, a) in enumerate(zip(lengths, heights, strict=True))
+    ]
+    headings = [Heading("wave"), Heading("λ", "mm"), Heading("A", "mm"), Heading("slope", "2πA/λ")]
+    return Table("waves", "The sine waves", headings, rows)
+
+
+def rubber_facts(inputs: xr.Dataset) -> Facts:
+    """Return moduli, band and quality of the Prony series."""
+    get = inputs.attrs.get
+    moduli = inputs["term_modulus"].values if "term_modulus" in inputs else np.zeros(0)
+    relaxed = float(get("equilibrium_modulus_Pa", math.nan))
+    kelvin = float(get("reference_temperature_K", math.nan))
+    low, high = (number(get(f"band_{end}_rad_per_s", math.nan)) for end in ("low", "high"))
+    pairs = [
+        ("Relaxed modulus", f"{number(relaxed, MEGA)} MPa"),
+        ("Glassy modulus", f"{number(relaxed + moduli.sum(), MEGA)} MPa"),
+        ("Bulk modulus", f"{number(get('bulk_modulus_Pa', math.nan), GIGA)} GPa"),
+        ("Maxwell elements", str(moduli.size)),
+        ("Measured band", f"{low} to {high} rad/s"),
+        ("Temperature", f"{number(kelvin)} K ({number(kelvin - 273.15)} °C)"),
+    ]
+    if "prony_rms_storage" in inputs.attrs:
+        names = (
+            ("rms_storage", "Rms error of E′"),
+            ("rms_loss", "Rms error of E″"),
+            ("rms_loss_factor", "Rms error of E″/E′"),
+            ("mean_loss_factor_error", "Mean error of E″/E′"),
+            ("storage_scatter", "Scatter of measured E′"),
+            ("loss_scatter", "Scatter of measured E″"),
+        )
+        pairs += [(label, percent(get(f"prony_{name}", math.nan))) for name, label in names]
+        left_out = inputs["master_frequency"].values[inputs["master_left_out"].values != 0]
+        texts = ", ".join(number(frequency) for frequency in left_out)
+        pairs.append(("Rows left out as outliers", f"{texts} Hz" if texts else "none"))
+    return Facts("Rubber", pairs)
+
+
+def prony_table(inputs: xr.Dataset) -> Table:
+    """Return the Maxwell elements."""
+    times, moduli = inputs["term_relaxation_time"].values, inputs["term_modulus"].values
+    rows = [
+        [str(i + 1), number(time, 1.0, 4), number(modulus, MEGA, 4)]
+        for i, (time, modulus) in enumerate(zip(times, moduli, strict=True))
+    ]
+    headings = [Heading("element"), Heading("τ", "s"), Heading("E", "MPa")]
+    return Table("prony", "Maxwell elements of the Prony series", headings, rows)

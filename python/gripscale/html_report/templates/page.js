@@ -1,0 +1,43 @@
+"use strict";
+
+// Draws the figures from the data blocks of the page, then says so on <html data-drawn>.
+async function drawAll() {
+  const figures = JSON.parse(document.getElementById("figures").textContent);
+  for (const figure of figures) {
+    await Bokeh.embed.embed_item(figure);
+  }
+  document.documentElement.dataset.drawn = String(figures.length);
+}
+
+// Remembers the width of each figure for the print stylesheet.
+function rememberWidths() {
+  if (matchMedia("print").matches) {
+    return;
+  }
+  for (const plot of document.querySelectorAll(".plot")) {
+    plot.style.removeProperty("--drawn-width");
+    plot.style.setProperty("--drawn-width", `${plot.clientWidth}px`);
+  }
+}
+
+async function copyText(button) {
+  const text = document.getElementById(button.dataset.copies).textContent;
+  try {
+    await navigator.clipboard.writeText(text);
+    button.textContent = "Copied";
+  } catch {
+    const range = document.createRange();
+    range.selectNodeContents(document.getElementById(button.dataset.copies));
+    getSelection().removeAllRanges();
+    getSelection().addRange(range);
+    button.textContent = "Selected: press Ctrl+C";
+  }
+}
+
+for (const button of document.querySelectorAll("button[data-copies]")) {
+  button.hidden = false;
+  button.addEventListener("click", () => copyText(button));
+}
+addEventListener("resize", rememberWidths);
+rememberWidths();
+drawAll();

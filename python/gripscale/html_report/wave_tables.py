@@ -1,0 +1,170 @@
+"""The tables per wave: every column of the result, the chains side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import chain as joined
+
+import numpy as np
+
+from gripscale.html_report.elements import Heading, Table
+from gripscale.html_report.numbers import NONE, number, percent, whole
+from gripscale.html_report.source import Chain
+
+MILLI, MEGA = 1e-3, 1e6
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of the result: its name there, its heading, and how its values are shown."""
+
+    name: str
+    heading: str
+    unit: str = ""
+    show: Callable[[float], str] = number
+    moving_only: bool = False
+
+
+def _in(unit: float, digits: int = 3) -> Callable[[float], str]:
+    return lambda value: number(value, unit, digits)
+
+
+def _plain(value: float) -> str:
+    return whole(value) if float(value).is_integer() else number(value)
+
+
+def _yes_no(value: float) -> str:
+    return NONE if np.isnan(value) else "yes" if value else "no"
+
+
+WAVE = [
+    Column("wavelength", "λ", "mm", _in(MILLI)),
+    Column("amplitude", "A", "mm", _in(MILLI)),
+    Column("slope", "slope", "2πA/λ"),
+]
+LOAD = [
+    Column("pressure_received", "p", "MPa", _in(MEGA)),
+    Column("load_time", "load time", "s"),
+    Column("angular_frequency", "ω", "rad/s", moving_only=True),
+    Column("modulus", "|E*|", "MPa", _in(MEGA)),
+    Column("loss_factor", "tan δ", moving_only=True),
+    Column("outside_band", "outside band", show=_yes_no, moving_only=True),
+]
+CONTACT = [
+    Column("contact_length", "contact length", "mm", _in(MILLI)),
+    Column("contact_fraction", "area", "of the wave"),
+    Column("running_contact_fraction", "area", "A_r/A_0 so far"),
+    Column("friction", "μ", "of the wave", moving_only=True),
+    Column("running_friction", "μ", "sum so far", moving_only=True),
+    Column("friction_from_dissipation", "μ", "from energy lost", moving_only=True),
+]
+ERRORS = [
+    Column("friction_mismatch", "mismatch of μ", "", percent, moving_only=True),
+    Column("contact_fraction_error", "est. error", "area"),
+    Column("friction_error", "est. error", "μ", moving_only=True),
+    Column("min_stretch", "stretch", "least"),
+    Column("max_stretch", "stretch", "largest"),
+]
+SOLUTION = [
+    Column("residual", "residual", "force", _in(1.0, 2)),
+    Column("load_steps", "load steps", "", whole),
+    Column("newton_iterations", "Newton iterations", "", whole),
+]
+MESH = [
+    Column("columns", "columns", "", whole),
+    Column("rows", "rows", "", whole),
+    Column("depth", "depth", "wavelengths"),
+    Column("element_order", "order", "", whole),
+    Column("indentation", "indentation", "mm", _in(MILLI)),
+    Column("load_reached", "load reached", "", percent),
+]
+NOT_SHOWN = {"scale", "status", "surface_x", "surface_pressure", "mesh_x", "mesh_z"}
+NOTE = f"{NONE}: not reached, not defined, or not usable because the wave did not converge."
+
+
+def wave_tables(chains: Sequence[Chain]) -> list[Table]:
+    """Return the tables of load, contact, errors, solution and mesh, and of any further column."""
+    tables = [
+        _table("load", "What each wave receives, and the rubber there", chains, LOAD),
+        _table("contact", "Contact and friction of each wave", chains, CONTACT),
+        _table("errors", "Errors and stretches of each wave", chains, ERRORS),
+        _table("solution", "Solution of each wave", chains, SOLUTION, status=True),
+        _table("mesh", "Mesh of each wave", chains, MESH),
+        _table("further", "Further columns of the result", chains, _further(chains)),
+    ]
+    return [table for table in tables if len(table.headings) > 2]
+
+
+def _further(chains: Sequence[Chain]) -> list[Column]:
+    """Return a column for every number per wave that no other table shows."""
+    known = {
+        column.name for column in [*WAVE, *LOAD, *CONTACT, *ERRORS, *SOLUTION, *MESH]
+    } | NOT_SHOWN
+    found: dict[str, Column] = {}
+    for name, variable in joined.from_iterable(
+        [*chain.data.data_vars.items(), *chain.solver.data_vars.items()] for chain in chains
+    ):
+        if name not in known and variable.dims == ("scale",) and variable.dtype.kind in "fiu":
+            unit = str(variable.attrs.get("units", ""))
+            found.setdefault(
+                str(name), Column(str(name), str(name), "" if unit == "1" else unit, _plain)
+            )
+    return list(found.values())
+
+
+def _table(
+    name: str,
+    caption: str,
+    chains: Sequence[Chain],
+    columns: Sequence[Column],
+    *,
+    status: bool = False,
+) -> Table:
+    shown = [[c for c in columns if _applies(chain, c)] for chain in chains]
+    own = WAVE if name == "load" else WAVE[:1]
+    headings = [Heading("wave"), *(Heading(c.heading, c.unit) for c in own)]
+    groups = [("", len(headings))]
+    for chain, each in zip(chains, shown, strict=True):
+        headings += [Heading(c.heading, c.unit) for c in each]
+        headings += [Heading("status", words=True)] * status
+        groups.append((chain.title, len(each) + status))
+    longest = max(chains, key=lambda chain: chain.waves)
+    rows = []
+    for i in range(longest.waves):
+        row = [str(i + 1), *(c.show(float(longest.column(c.name)[i])) for c in own)]
+        for chain, each in zip(chains, shown, strict=True):
+            row += _cells(chain, each, i, status=status)
+        rows.append(row)
+    bad = _failed(chains, [count for _, count in groups])
+    used = [(label, count) for label, count in groups if count]
+    if len(used) == 1:
+        headings = headings[:1]
+    note = NOTE if any(NONE in row for row in rows) else ""
+    return Table(name, caption, headings, rows, used, bad, note)
+
+
+def _failed(chains: Sequence[Chain], counts: Sequence[int]) -> frozenset[tuple[int, int]]:
+    """Return the cells of waves that did not converge, and the numbers of those waves."""
+    bad = set()
+    first = counts[0]
+    for chain, count in zip(chains, counts[1:], strict=True):
+        for i in map(int, np.flatnonzero(~chain.converged)):
+            bad |= {(i, 0), *((i, first + j) for j in range(count))}
+        first += count
+    return frozenset(bad)
+
+
+def _applies(chain: Chain, column: Column) -> bool:
+    return chain.has(column.name) and (chain.moving or not column.moving_only)
+
+
+def _cells(chain: Chain, columns: Sequence[Column], i: int, *, status: bool) -> list[str]:
+    """Return the cells of wave `i`, which this chain may not have reached."""
+    if i >= chain.waves:
+        return [NONE] * len(columns) + ["not reached"] * status
+    cells = [column.show(float(chain.column(column.name)[i])) for column in columns]
+    if status:
+        state = str(chain.data["status"].values[i])
+        cells.append(state if chain.converged[i] else f"NOT CONVERGED: {state}")
+    return cells

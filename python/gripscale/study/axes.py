@@ -1,0 +1,199 @@
+"""What a study varies: axes with their values, from Python or from a text such as one of these.
+
+- speed=0.003:30:log9: nine speeds [m/s], evenly spaced in their logarithm (lin9: evenly)
+- pressure=1 bar,3 bar: a list, with units
+- factors=3.5/2.4,3/2.2,6/3: magnification factors of wavelength and amplitude
+- rubber=case,dma.txt: the case's own, a master curve, a rubber known by name
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from gripscale import checks
+from gripscale.case import parse_quantity
+from gripscale.errors import InputError
+
+MOST_VALUES = 1000
+MOST_AXES = 2
+
+QUANTITIES = {"speed": "speed", "pressure": "pressure", "smallest_wavelength": "length"}
+"""Axes of numbers, with the kind of quantity."""
+
+UNITS = {
+    "speed": "m/s",
+    "pressure": "Pa",
+    "smallest_wavelength": "m",
+    "waves": "1",
+    "factors": "1",
+    "rubber": "1",
+    "surface": "1",
+}
+"""All axes, with the units of their values."""
+
+LONG_NAMES = {
+    "speed": "sliding speed",
+    "pressure": "nominal pressure",
+    "smallest_wavelength": "smallest wavelength",
+    "waves": "number of waves",
+    "factors": "magnification factors of wavelength and amplitude",
+    "rubber": "rubber",
+    "surface": "surface",
+}
+
+_RANGE = re.compile(r"\s*(.+?)\s*:\s*(.+?)\s*:\s*(lin|log)(\d+)\s*")
+
+
+@dataclass(frozen=True)
+class Axis:
+    """One varied input: its values as the study uses them, and what they are called."""
+
+    name: str
+    values: tuple[Any, ...]
+    labels: tuple[str, ...]
+
+    @property
+    def numeric(self) -> bool:
+        """Whether the values are numbers, in the unit of `UNITS`."""
+        return self.name in QUANTITIES or self.name == "waves"
+
+    @property
+    def coordinate(self) -> list[Any]:
+        """Values along the axis of a Dataset: numbers, or labels."""
+        return list(self.values) if self.numeric else list(self.labels)
+
+
+def axes_of(vary: Mapping[str, Any]) -> tuple[Axis, ...]:
+    """Return the axes of `vary`: values, or a text as on the command line, by name.
+
+    Raises `InputError` if there are none or more than two, or a value cannot be used.
+    """
+    if not 1 <= len(vary) <= MOST_AXES:
+        raise InputError(f"a study varies one or two of {', '.join(UNITS)}; got {len(vary)}")
+    return tuple(_axis(name, values) for name, values in vary.items())
+
+
+def parse_vary(text: str) -> tuple[str, str]:
+    """Return name and values of `name=values`; raise `InputError` if it is not that."""
+    name, separator, values = text.partition("=")
+    if not separator or not values.strip():
+        raise InputError(f'vary must be such as "speed=0.003:30:log9"; got {text!r}')
+    return checks.one_of("vary", name.strip(), UNITS), values
+
+
+def _axis(name: str, given: Any) -> Axis:
+    checks.one_of("vary", name, UNITS)
+    if name in ("rubber", "surface"):
+        values, labels = _named(name, given)
+    else:
+        values = tuple(_READERS[name](name, entry) for entry in _entries(name, given))
+        labels = tuple(_label(value) for value in values)
+    if not 1 <= len(values) <= MOST_VALUES:
+        raise InputError(f"{name} must have 1 to {MOST_VALUES} values; got {len(values)}")
+    twice = {label for label in labels if labels.count(label) > 1}
+    if twice:
+        raise InputError(f"{name} must have different values; got {min(twice)} more than once")
+    return Axis(name, values, labels)
+
+
+def _entries(name: str, given: Any) -> Iterable[Any]:
+    """Return single values of a list, a text `a,b,c`, a text `a:b:log5`, or a single value."""
+    if isinstance(given, str):
+        found = _RANGE.fullmatch(given)
+        if found is not None:
+            return _spaced(name, *found.groups())
+        if ":" in given:
+            raise InputError(f'{name} must be a range such as "1:10:log5"; got {given!r}')
+        return [part.strip() for part in given.split(",")]
+    return given if isinstance(given, Iterable) else [given]
+
+
+def _spaced(name: str, first: str, last: str, spacing: str, count: str) -> list[float]:
+    """Return evenly spaced values between two ends in SI units, the ends exactly."""
+    if name not in QUANTITIES and name != "waves":
+        raise InputError(f"{name} must be a list, not a range; got {first}:{last}")
+    if _bare(first) != _bare(last):
+        raise InputError(f"{name} must have a unit at both ends or none; got {first}:{last}")
+    number = checks.whole(f"{name}: number of values", int(count), least=2, most=MOST_VALUES)
+    low, high = _READERS[name](name, first), _READERS[name](name, last)
+    if low >= high:
+        raise InputError(f"{name} must go from low to high; got {first}:{last}")
+    if spacing == "lin":
+        values = np.linspace(low, high, number)
+    else:
+        checks.positive(f"{name} of a log range", low)
+        values = np.geomspace(low, high, number)
+    if name == "waves":
+        return [float(value) for value in np.unique(np.rint(values))]
+    return [low, *(float(f"{value:.12g}") for value in values[1:-1]), high]
+
+
+def _quantity(name: str, value: Any) -> float:
+    """Read a number in SI units or a text with a unit."""
+    if isinstance(value, str) and not _bare(value):
+        try:
+            value = parse_quantity(value, QUANTITIES[name])
+        except ValueError as error:
+            raise InputError(f"{name} = {value!r}: {error}") from error
+    check = checks.not_negative if name == "speed" else checks.positive
+    return check(name, float(value) if isinstance(value, str) else value, unit=UNITS[name])
+
+
+def _count(name: str, value: Any) -> int:
+    if isinstance(value, str) and _bare(value):
+        value = float(value)
+    return checks.whole(name, value, least=1, most=24)
+
+
+def _pair(name: str, value: Any) -> tuple[float, float]:
+    """Read `3.5/2.4`, or a pair of numbers."""
+    parts = value.split("/") if isinstance(value, str) else value
+    try:
+        first, second = (float(part) for part in parts)
+    except (TypeError, ValueError) as error:
+        raise InputError(f'factors must be pairs such as "3.5/2.4"; got {value!r}') from error
+    for part in (first, second):
+        if checks.number(name, part) <= 1.0:
+            raise InputError(f"factors must be greater than 1; got {part:g}")
+    return first, second
+
+
+def _named(name: str, given: Any) -> tuple[tuple[Any, ...], tuple[str, ...]]:
+    """Return values and labels of rubbers or surfaces: a mapping, or texts and paths."""
+    if isinstance(given, Mapping):
+        return tuple(given.values()), tuple(str(label) for label in given)
+    entries = given.split(",") if isinstance(given, str) else list(given)
+    for entry in entries:
+        if not isinstance(entry, str | Path):
+            raise InputError(
+                f"{name} must be names and files, or a mapping from names; got {entry!r:.60}"
+            )
+    texts = [str(entry).strip() for entry in entries]
+    stems = tuple(Path(text).stem for text in texts)
+    return tuple(texts), stems if len(set(stems)) == len(stems) else tuple(texts)
+
+
+def _bare(text: str) -> bool:
+    """Return whether `text` is a number without a unit."""
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def _label(value: Any) -> str:
+    return "/".join(f"{part:g}" for part in value) if isinstance(value, tuple) else f"{value:.6g}"
+
+
+_READERS: dict[str, Callable[[str, Any], Any]] = {
+    **dict.fromkeys(QUANTITIES, _quantity),
+    "waves": _count,
+    "factors": _pair,
+}

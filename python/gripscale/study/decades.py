@@ -1,0 +1,79 @@
+"""Which relaxation times of the rubber make the friction: an estimate in small-strain terms.
+
+The contact pressure of one wave has harmonics p_k. On a half-plane of modulus E*, harmonic k
+dissipates, per sliding distance and up to factors common to all of them,
+
+    D_k = |p_k|^2 E''(w_k) / |E*(w_k)|^2,       w_k = 2 pi k v / lambda,
+
+and E'' is a sum over the Maxwell elements (Ferry, Viscoelastic Properties of Polymers, 3rd ed.
+(1980), ch. 3), so each D_k splits into their parts. The parts, added by decade of relaxation time
+and scaled to the friction coefficient that was solved, are what is returned: the pressure is the
+solver's, at finite strain; the split is that of small strain.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from gripscale.rubber import Rubber
+
+HARMONICS = 32
+"""Harmonics of the contact pressure that count."""
+
+Array = NDArray[np.float64]
+
+
+def friction_by_decade(solved: xr.Dataset, rubber: Rubber) -> dict[int, float]:
+    """Return the friction coefficient of all waves by decade of relaxation time.
+
+    Parameters
+    ----------
+    solved
+        A chain in motion, as `Prediction.to_dataset` returns it.
+    rubber
+        What it was solved for.
+
+    Returns
+    -------
+    dict
+        From n, for relaxation times of 10^n s up to 10^(n+1) s, to its part of the friction
+        coefficient [-]. Empty where nothing slides, the rubber is elastic or a wave failed.
+    """
+    if solved.attrs["case_status"] != "converged" or not solved.attrs["sliding_speed_m_per_s"]:
+        return {}
+    decade = np.floor(np.log10(rubber.relaxation_times) + 1e-9).astype(int)
+    parts = {int(n): 0.0 for n in np.unique(decade)}
+    for i in range(solved.sizes["scale"]):
+        wave = solved.isel(scale=i)
+        share = _shares(wave, rubber) * float(wave.friction)
+        for n in parts:
+            parts[n] += float(share[decade == n].sum())
+    return parts
+
+
+def _shares(wave: xr.Dataset, rubber: Rubber) -> Array:
+    """Return the part of each Maxwell element in the dissipation of one wave, adding to one."""
+    order = np.arange(1, HARMONICS + 1)
+    omega = order * float(wave.angular_frequency)
+    pressure = _harmonics(wave.surface_x.values, wave.surface_pressure.values, wave, order)
+    weight = pressure**2 / np.abs(rubber.complex_modulus(omega)) ** 2
+    phase = omega[:, None] * rubber.relaxation_times
+    loss = rubber.moduli * phase / (1.0 + phase**2)
+    parts = weight @ loss
+    total = float(parts.sum())
+    return np.asarray(parts / total if total > 0.0 else parts)
+
+
+def _harmonics(x: Array, pressure: Array, wave: xr.Dataset, order: NDArray[np.int_]) -> Array:
+    """Return |p_k| of a periodic pressure given at uneven abscissas, by the trapezoidal rule."""
+    period = float(wave.wavelength)
+    known = np.isfinite(x) & np.isfinite(pressure)
+    place = np.mod(x[known], period)
+    sequence = np.argsort(place)
+    place, height = place[sequence], pressure[known][sequence]
+    width = np.diff(np.append(place, place[0] + period))
+    weight = 0.5 * (width + np.roll(width, 1))
+    phase = np.exp(-2j * np.pi * np.outer(order, place) / period)
+    return np.asarray(np.abs(phase @ (weight * height)) / period)

@@ -1,0 +1,39 @@
+"""What the axes of a study are called in tables and figures, in readable units."""
+
+from __future__ import annotations
+
+import xarray as xr
+
+LABELS = {
+    "speed": (1.0, "sliding speed $v$ [m/s]", "m/s"),
+    "pressure": (1e6, "nominal pressure $p$ [MPa]", "MPa"),
+    "smallest_wavelength": (1e-3, "smallest wavelength [mm]", "mm"),
+    "waves": (1.0, "number of waves [-]", "waves"),
+}
+"""Numeric axes: what their values are divided by, the label of the axis, the unit of a value."""
+
+WORDS = {
+    "factors": "magnification factors $s_\\lambda/s_A$",
+    "rubber": "rubber",
+    "surface": "surface",
+}
+
+
+def dimensions(result: xr.Dataset) -> list[str]:
+    """Return the axes that were varied, in order."""
+    return [str(name) for name in result.total_friction.dims]
+
+
+def numeric(result: xr.Dataset) -> list[str]:
+    """Return the varied axes of numbers with at least two values, longest first."""
+    found = [n for n in dimensions(result) if n in LABELS and result.sizes[n] > 1]
+    return sorted(found, key=lambda name: -result.sizes[name])
+
+
+def name_of(result: xr.Dataset, axis: str, i: int) -> str:
+    """Return what value `i` of an axis is called, with its unit."""
+    value = result[axis].values[i]
+    if axis not in LABELS:
+        return str(value).replace("_", " ")
+    divisor, _, unit = LABELS[axis]
+    return f"{value / divisor:.3g} {unit}"

@@ -1,0 +1,56 @@
+"""Finished chains on disk: one small netCDF file each, named by the key of its task.
+
+A file is written beside its place and renamed into it, so a file that is there is whole. One that
+cannot be read back all the same (a disk that was full, a power cut) counts as not there.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import xarray as xr
+
+from gripscale import dataset
+from gripscale.errors import FileError
+
+
+class Store:
+    """A folder of finished chains.
+
+    Parameters
+    ----------
+    folder
+        Made if it is not there.
+
+    Raises
+    ------
+    FileError
+        If the folder cannot be made.
+    """
+
+    def __init__(self, folder: str | Path) -> None:
+        self.folder = Path(folder)
+        try:
+            self.folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            reason = error.strerror or error
+            raise FileError(f"folder {self.folder} cannot be made: {reason}") from error
+
+    def path(self, key: str) -> Path:
+        """Return where the chain of `key` is, or would be."""
+        return self.folder / f"{key}.nc"
+
+    def get(self, key: str) -> xr.Dataset | None:
+        """Return the chain of `key`, or None if it is not there whole."""
+        try:
+            found = dataset.load(self.path(key))
+        except FileError:
+            return None
+        return found if found.attrs.get("case_key") == key else None
+
+    def put(self, key: str, solved: xr.Dataset) -> xr.Dataset:
+        """Write the chain of `key` and return it as read back.
+
+        Raises `FileError` if it cannot be written.
+        """
+        return dataset.load(dataset.save(solved, self.path(key)))

@@ -1,0 +1,52 @@
+"""A study as a table a person can read: one row per chain."""
+
+from __future__ import annotations
+
+from itertools import product
+
+import numpy as np
+import xarray as xr
+from rich import box
+from rich.table import Table
+
+from gripscale.report import significant
+from gripscale.study.display import dimensions, name_of
+
+MOST_ROWS = 200
+
+
+def study_table(result: xr.Dataset) -> Table:
+    """Return area, friction and status of each chain of a study, over what was varied."""
+    names = dimensions(result)
+    at_rest = "static_total_contact_fraction" in result
+    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
+    for name in names:
+        table.add_column(name.replace("_", " "), no_wrap=True)
+    heads = ["A_r/A_0", "μ", "μ diss.", "largest μ of", *(["A_r/A_0 at rest"] if at_rest else [])]
+    for head in heads:
+        table.add_column(head, justify="right", no_wrap=True)
+    table.add_column("status", overflow="fold")
+    for index in list(product(*(range(result.sizes[name]) for name in names)))[:MOST_ROWS]:
+        place = dict(zip(names, index, strict=True))
+        chain = result.isel(place)
+        cells = [
+            significant(float(chain.total_contact_fraction)),
+            significant(float(chain.total_friction)),
+            significant(float(chain.total_friction_from_dissipation)),
+            _largest(chain),
+        ]
+        if at_rest:
+            cells.append(significant(float(chain.static_total_contact_fraction)))
+        status = str(chain.case_status.item())
+        style = None if status == "converged" else "bold red"
+        words = [name_of(result, name, i) for name, i in place.items()]
+        table.add_row(*words, *cells, status, style=style)
+    return table
+
+
+def _largest(chain: xr.Dataset) -> str:
+    """Return the wavelength of the wave with the most friction."""
+    if not float(chain.total_friction) > 1e-9:
+        return "-"
+    wavelength = float(chain.wavelength[int(np.nanargmax(chain.friction.values))])
+    return f"{wavelength * 1e3:.3g} mm"

@@ -1,0 +1,149 @@
+"""Results to report on: a real, coarse run; the same with a failed wave; a small study."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+from typer.testing import CliRunner
+
+from gripscale import dataset
+from gripscale.cli import app, draw
+from gripscale.rubber import Rubber
+
+CASE = """\
+# A small case <b>with</b> "marks" & signs
+[surface]
+files = ["road.txt", "lane.txt"]
+crop = ["10 mm", "390 mm"]
+scales = 3
+s_wavelength = 3
+
+[rubber]
+file = "dma.txt"
+terms = 6
+
+[load]
+pressure = "3 bar"
+speed = "0.3 m/s"
+footprint = "100 mm"
+
+[solver]
+columns = 32
+rows = 8
+
+[output]
+folder = "results"
+"""
+WAVES = 3
+
+
+def write_inputs(folder: Path) -> None:
+    """Write two roads of three waves, a Maxwell rubber and the case."""
+    x = np.arange(4000) * 0.1
+    for name, phase in (("road", 0.0), ("lane", 0.7)):
+        z = 2.0 * np.cos(x / 3.0 + phase) + 0.7 * np.cos(x + 1.0) + 0.2 * np.cos(3.1 * x + 2.0)
+        rows = [f"{a:.1f}\t{b:.4f}" for a, b in zip(x, z, strict=True)]
+        (folder / f"{name}.txt").write_text("\n".join(["x [mm]\tz [mm]", *rows]) + "\n")
+    frequency = np.geomspace(1e-2, 1e6, 60)
+    modulus = Rubber(6e6, [2e6, 3e6, 5e6], [1e-1, 1e-3, 1e-5]).complex_modulus(
+        2 * np.pi * frequency
+    )
+    lines = [
+        f"{f:.5e} {e.real / 1e6:.6e} {e.imag / 1e6:.6e}"
+        for f, e in zip(frequency, modulus, strict=True)
+    ]
+    header = "# Frequency (Hz) E' (MPa) E'' (MPa)"
+    (folder / "dma.txt").write_text("\n".join([header, *lines]) + "\n")
+    (folder / "case.toml").write_text(CASE)
+
+
+@pytest.fixture(scope="session")
+def run_folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    """The results folder of a real run, without its printed figures."""
+    folder = tmp_path_factory.mktemp("somewhere-private")
+    write_inputs(folder)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(draw, "save_figure", lambda *_: [])
+        done = CliRunner().invoke(app, ["run", str(folder / "case.toml")])
+    assert done.exit_code == 0, done.output
+    yield folder / "results"
+    shutil.rmtree(folder)
+
+
+Change = Callable[[xr.Dataset], xr.Dataset]
+
+
+@pytest.fixture
+def changed_run(run_folder: Path, tmp_path: Path) -> Callable[..., Path]:
+    """Copy the run with its chains passed through a function; meshes, slow to draw, stay out."""
+
+    def change(edit: Change, *names: str) -> Path:
+        target = tmp_path / "changed"
+        target.mkdir()
+        for name in ("dynamic", "static"):
+            source = run_folder / f"{name}.nc"
+            data = dataset.load(source)
+            data = edit(data) if name in names else data
+            groups = dataset.load_groups(source)
+            groups["solver"] = groups["solver"].drop_vars(["mesh_x", "mesh_z"])
+            dataset.save(data, target / f"{name}.nc", groups)
+        return target
+
+    return change
+
+
+def fail_second_wave(data: xr.Dataset) -> xr.Dataset:
+    """Return a chain that ended at its second wave."""
+    cut = data.isel(scale=slice(0, 2)).copy(deep=True)
+    status = ["converged", "iteration limit at 40 % of the pressure"]
+    cut["status"] = ("scale", np.array(status, dtype=object))
+    for name in ("running_contact_fraction", "running_friction"):
+        cut[name].values[1] = np.nan
+    cut.attrs |= {"contact_fraction": np.nan, "friction": np.nan, "converged": 0}
+    return cut
+
+
+@pytest.fixture
+def failed_folder(changed_run: Callable[..., Path]) -> Path:
+    """The run with a dynamic chain that failed at its second wave."""
+    return changed_run(fail_second_wave, "dynamic")
+
+
+@pytest.fixture(scope="session")
+def study_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A study over two speeds and two rubbers, one case of which failed."""
+    speed, rubber, scale = [0.03, 3.0], ["tread", "<b>SBR</b>"], [1, 2, 3]
+    shape = (2, 2, 3)
+    axes, waves = ("speed", "rubber"), ("speed", "rubber", "scale")
+    area = np.linspace(0.2, 0.9, 12).reshape(shape)
+    area[1, 1, 2] = np.nan
+    status = np.full((2, 2), "converged", dtype=object)
+    status[1, 1] = "wave 3 of 3 did not converge: iteration limit"
+    running, friction = np.cumprod(area, axis=2), np.cumsum(0.1 * area, axis=2)
+    data = xr.Dataset(
+        {
+            "total_contact_fraction": (axes, running[:, :, -1]),
+            "total_friction": (axes, friction[:, :, -1]),
+            "case_status": (axes, status),
+            "wavelength": (waves, np.broadcast_to([1e-2, 2e-3, 4e-4], shape)),
+            "contact_fraction": (waves, area),
+            "running_contact_fraction": (waves, running),
+            "running_friction": (waves, friction),
+            "friction_by_decade": ((*axes, "decade"), np.full((2, 2, 3), 0.1)),
+            "static_total_contact_fraction": (("rubber",), [0.3, 0.2]),
+        },
+        coords={
+            "speed": speed,
+            "rubber": np.array(rubber, dtype=object),
+            "scale": scale,
+            "decade": [0.1, 1.0, 10.0],
+        },
+        attrs={"title": "Study of <contact>", "case": CASE, "version_gripscale": "0.1.0"},
+    )
+    data["speed"].attrs |= {"units": "m/s", "long_name": "sliding speed"}
+    return dataset.save(data, tmp_path_factory.mktemp("study") / "study.nc")

@@ -1,0 +1,283 @@
+"""The pages in a real headless Chromium: figures drawn, tables complete, silence, no network."""
+
+from __future__ import annotations
+
+import io
+import os
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+from typer.testing import CliRunner
+
+from gripscale.cli import app, draw
+from gripscale.html_report import write_report
+
+from .conftest import CASE
+
+playwright = pytest.importorskip("playwright.sync_api", reason="needs pip install playwright")
+
+NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
+CHROMIUM = next((path for path in map(shutil.which, NAMES) if path is not None), None)
+pytestmark = pytest.mark.skipif(
+    CHROMIUM is None, reason=f"no browser ({', '.join(NAMES)}); on Debian: apt-get install chromium"
+)
+
+
+@dataclass
+class Visit:
+    """An open page, and what it said and asked for."""
+
+    page: Any
+    said: list[str] = field(default_factory=list)
+    asked: list[str] = field(default_factory=list)
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    options = ["--no-sandbox"] if hasattr(os, "geteuid") and os.geteuid() == 0 else []
+    with playwright.sync_playwright() as started:
+        chromium = started.chromium.launch(executable_path=CHROMIUM, args=options)
+        yield chromium
+        chromium.close()
+
+
+@contextmanager
+def visit(browser: Any, path: Path, width: int = 1280) -> Iterator[Visit]:
+    """Open `path` without a network; collect warnings, errors and requests."""
+    context = browser.new_context(viewport={"width": width, "height": 900}, offline=True)
+    seen = Visit(context.new_page())
+
+    def route(route: Any) -> None:
+        url = route.request.url
+        if url.startswith("file:"):
+            route.continue_()
+        else:
+            seen.asked.append(url)
+            route.abort()
+
+    def listen(message: Any) -> None:
+        if message.type in ("error", "warning"):
+            seen.said.append(message.text)
+
+    context.route("**/*", route)
+    seen.page.on("console", listen)
+    seen.page.on("pageerror", lambda error: seen.said.append(str(error)))
+    seen.page.goto(path.as_uri())
+    yield seen
+    context.close()
+
+
+def drawn(seen: Visit) -> Visit:
+    """Wait until the page says that all its figures are drawn."""
+    seen.page.wait_for_selector("html[data-drawn]", timeout=30_000)
+    seen.page.wait_for_timeout(300)
+    return seen
+
+
+@pytest.fixture(scope="module")
+def run_page(run_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_report(run_folder, tmp_path_factory.mktemp("page") / "run.html")
+
+
+@pytest.fixture(scope="module")
+def visited(browser: Any, run_page: Path) -> Iterator[Visit]:
+    with visit(browser, run_page) as seen:
+        yield drawn(seen)
+
+
+def coloured(picture: bytes) -> int:
+    """Return how many pixels of `picture` have a colour: axes and letters are grey."""
+    pixels = np.asarray(Image.open(io.BytesIO(picture)).convert("RGB")).astype(int)
+    return int((pixels.max(axis=2) - pixels.min(axis=2) > 60).sum())
+
+
+FRAMES = """plot => {
+    const all = root => [...root.querySelectorAll('*')].flatMap(
+        e => e.shadowRoot ? [e, ...all(e.shadowRoot)] : [e]);
+    const box = e => { const r = e.getBoundingClientRect(); return [r.x, r.y, r.width, r.height]; };
+    const named = name => all(plot).filter(e => e.classList.contains(name)).map(box);
+    return {plot: box(plot), frame: named('bk-CartesianFrame'), legend: named('bk-Legend')};
+}"""
+
+
+def check_figures(seen: Visit) -> int:
+    """Assert that every figure fills its place with curves; return how many there are."""
+    plots = seen.page.locator(".plot").all()
+    for plot in plots:
+        name = plot.get_attribute("id")
+        boxes = plot.evaluate(FRAMES)
+        x, y, width, height = boxes["plot"]
+        assert width > 250, name
+        assert height >= 290, name
+        assert len(boxes["frame"]) == 1, name
+        for left, top, wide, high in [*boxes["frame"], *boxes["legend"]]:
+            assert left >= x - 1, name
+            assert top >= y - 1, name
+            assert left + wide <= x + width + 1, name
+            assert top + high <= y + height + 1, name
+        assert boxes["frame"][0][3] > 0.5 * height, f"{name}: frame is squeezed"
+        assert coloured(plot.screenshot()) > 150, f"{name} is empty"
+    return len(plots)
+
+
+def test_title_and_headings(visited: Visit) -> None:
+    assert visited.page.title() == "Contact and friction: case.toml"
+    assert visited.page.locator("h1").count() == 1
+    assert visited.page.locator("h2").count() == 8
+
+
+def test_every_figure_is_drawn(visited: Visit) -> None:
+    count = check_figures(visited)
+    assert count >= 18
+    assert visited.page.locator("html").get_attribute("data-drawn") == str(count)
+
+
+def test_every_picture_is_decoded(visited: Visit) -> None:
+    sizes = visited.page.eval_on_selector_all(
+        "main img", "all => all.map(e => [e.complete, e.naturalWidth, e.clientHeight])"
+    )
+    assert len(sizes) == 12
+    assert all(complete and width > 30 and height > 10 for complete, width, height in sizes)
+
+
+def test_every_table_is_complete(visited: Visit) -> None:
+    tables = visited.page.eval_on_selector_all(
+        "table",
+        """all => all.map(t => ({
+            caption: t.caption.innerText, shown: t.getBoundingClientRect().height > 20,
+            rows: [...t.tBodies[0].rows].map(r => [...r.cells].map(c => c.innerText.trim())),
+            heads: t.tHead ? t.tHead.rows[t.tHead.rows.length - 1].cells.length : 2}))""",
+    )
+    assert len(tables) >= 14
+    for table in tables:
+        assert table["caption"]
+        assert table["shown"], table["caption"]
+        assert table["rows"], table["caption"]
+        for row in table["rows"]:
+            assert len(row) == table["heads"], table["caption"]
+            assert all(row), table["caption"]
+
+
+def test_silence_and_no_network(visited: Visit) -> None:
+    assert visited.said == []
+    assert visited.asked == []
+
+
+def test_the_watch_would_notice(browser: Any, tmp_path: Path) -> None:
+    """A page that warns, fails and asks for a picture is caught at all three."""
+    path = tmp_path / "bad.html"
+    path.write_text(
+        "<img src='http://example.org/a.png'><script>console.warn('w'); throw Error('e')</script>"
+    )
+    with visit(browser, path) as seen:
+        seen.page.wait_for_timeout(200)
+        assert seen.asked == ["http://example.org/a.png"]
+        assert "w" in seen.said
+        assert "e" in seen.said
+
+
+def test_injected_script_does_not_run(browser: Any, run_page: Path, tmp_path: Path) -> None:
+    """Even markup that slipped through the escaping is stopped by the page's policy."""
+    path = tmp_path / "injected.html"
+    text = run_page.read_text(encoding="utf-8")
+    path.write_text(text.replace("<main>", "<main><script>document.title = 'taken'</script>"))
+    with visit(browser, path) as seen:
+        drawn(seen)
+        assert seen.page.title() == "Contact and friction: case.toml"
+        assert any("Content Security Policy" in text for text in seen.said)
+
+
+def test_figures_zoom_by_dragging(visited: Visit) -> None:
+    place = visited.page.locator("#plot-friction")
+    place.scroll_into_view_if_needed()
+    left, top, width, height = place.evaluate(FRAMES)["frame"][0]
+    limits = """() => { const plot = Bokeh.documents.flatMap(d => d.roots()).find(
+        r => document.querySelector('#plot-friction').contains(Bokeh.index.get_by_id(r.id).el));
+        return [plot.y_range.start, plot.y_range.end]; }"""
+    before = visited.page.evaluate(limits)
+    mouse = visited.page.mouse
+    mouse.move(left + 0.2 * width, top + 0.2 * height)
+    mouse.down()
+    mouse.move(left + 0.8 * width, top + 0.5 * height, steps=5)
+    mouse.up()
+    visited.page.wait_for_timeout(200)
+    after = visited.page.evaluate(limits)
+    share = (after[1] - after[0]) / (before[1] - before[0])
+    assert share == pytest.approx(0.3, abs=0.02)
+
+
+def test_case_can_be_copied(visited: Visit) -> None:
+    button = visited.page.locator("button[data-copies=code-case]")
+    assert button.is_visible()
+    button.click()
+    text = visited.page.evaluate("() => document.getElementById('code-case').textContent")
+    assert text == CASE
+    visited.page.wait_for_function("b => b.innerText !== 'Copy'", arg=button.element_handle())
+    assert button.inner_text() in ("Copied", "Selected: press Ctrl+C")
+
+
+@pytest.mark.parametrize("width", [420, 800])
+def test_narrow_window_does_not_overflow(browser: Any, run_page: Path, width: int) -> None:
+    with visit(browser, run_page, width) as seen:
+        drawn(seen)
+        assert seen.page.evaluate("() => document.documentElement.scrollWidth") <= width
+        assert seen.said == []
+
+
+def test_print_keeps_figures_whole(browser: Any, run_page: Path) -> None:
+    with visit(browser, run_page) as seen:
+        drawn(seen)
+        before = [plot.bounding_box()["width"] for plot in seen.page.locator(".plot").all()]
+        seen.page.emulate_media(media="print")
+        after = [plot.bounding_box()["width"] for plot in seen.page.locator(".plot").all()]
+        assert after == pytest.approx(before)
+        assert not seen.page.locator("nav").is_visible()
+        assert seen.page.pdf().startswith(b"%PDF")
+
+
+def test_failed_run_is_loud(browser: Any, failed_folder: Path) -> None:
+    with visit(browser, write_report(failed_folder)) as seen:
+        drawn(seen)
+        alert = seen.page.get_by_role("alert").first
+        assert alert.is_visible()
+        assert alert.bounding_box()["y"] < 400
+        assert "did NOT converge" in alert.inner_text()
+        assert check_figures(seen) >= 18
+        assert seen.said == []
+        assert seen.asked == []
+
+
+@pytest.mark.parametrize("speed", ["0", '"1 m/s"'])
+def test_smallest_case_has_no_empty_figure(browser: Any, tmp_path: Path, speed: str) -> None:
+    """One wave by hand, a rubber by name, the half-plane: no meshes, no stretches, no files."""
+    (tmp_path / "case.toml").write_text(
+        '[[surface.sines]]\nwavelength = "10 mm"\namplitude = "1 mm"\n'
+        '[rubber]\nname = "styrene_butadiene"\n'
+        f'[load]\npressure = "3 bar"\nspeed = {speed}\nfootprint = "100 mm"\n'
+        '[solver]\nmodel = "half_plane"\npoints = 64\n'
+    )
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(draw, "save_figure", lambda *_: [])
+        done = CliRunner().invoke(app, ["run", str(tmp_path / "case.toml")])
+    assert done.exit_code == 0, done.output
+    with visit(browser, write_report(tmp_path / "results")) as seen:
+        drawn(seen)
+        assert check_figures(seen) >= 7
+        assert seen.said == []
+        assert seen.asked == []
+
+
+def test_study_is_drawn(browser: Any, study_file: Path, tmp_path: Path) -> None:
+    with visit(browser, write_report(study_file, tmp_path / "study.html")) as seen:
+        drawn(seen)
+        assert check_figures(seen) == 6
+        assert seen.page.title() == "Study of <contact>"
+        assert seen.said == []
+        assert seen.asked == []

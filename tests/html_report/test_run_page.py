@@ -1,0 +1,238 @@
+"""The page of a run, read without a browser."""
+
+from __future__ import annotations
+
+import builtins
+import hashlib
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from gripscale import dataset
+from gripscale.errors import FileError, InputError
+from gripscale.html_report import write_report
+from gripscale.html_report.notices import cards, notices
+from gripscale.html_report.source import Run, read_result
+
+from .conftest import CASE, WAVES
+from .reading import Page
+
+NAMES = ("load", "contact", "errors", "solution", "mesh")
+HOSTILE = "</script><script>alert(1)</script><img src=x onerror=alert(2)>\"'&{{ 7 * 7 }}"
+
+
+@pytest.fixture(scope="module")
+def page(run_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Page:
+    return Page(write_report(run_folder, tmp_path_factory.mktemp("page") / "report.html"))
+
+
+def test_page_is_one_file_that_may_ask_for_nothing(page: Page) -> None:
+    named = [(tag, attrs.get("src") or attrs.get("href")) for tag, attrs in page.tags]
+    asked = [value for _, value in named if value and not value.startswith(("data:", "#"))]
+    assert asked == []
+    policy = next(a["content"] for _, a in page.tags if "http-equiv" in a)
+    assert policy is not None
+    assert "default-src 'none'" in policy
+    scripts = policy.partition("script-src ")[2].partition(";")[0].split()
+    assert len(scripts) == 2
+    assert all(source.startswith("'sha256-") for source in scripts)
+    assert len(page.source) < 3e6
+
+
+def test_page_names_no_folder_of_this_machine(page: Page, run_folder: Path) -> None:
+    assert "somewhere-private" in str(run_folder)
+    assert "somewhere-private" not in page.source
+
+
+def test_inputs_are_named_with_their_checksums(page: Page, run_folder: Path) -> None:
+    rows = page.body("files")
+    assert [row[:2] for row in rows] == [
+        ["road.txt", "surface"],
+        ["lane.txt", "surface"],
+        ["dma.txt", "rubber"],
+    ]
+    for row in rows:
+        content = (run_folder.parent / row[0]).read_bytes()
+        assert row[3] == hashlib.sha256(content).hexdigest()
+        assert int(re.sub(r"\D", "", row[2])) == len(content)
+
+
+def test_cleaning_is_told_for_each_profile(page: Page) -> None:
+    for name in ("cleaning-1", "cleaning-2"):
+        rows = page.body(name)
+        assert [row[0] for row in rows] == ["crop", "dropouts", "spikes", "trend"]
+        assert rows[0][2] != "0"
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_tables_have_every_wave_and_no_empty_cell(page: Page, name: str) -> None:
+    rows = page.body(name)
+    assert [row[0] for row in rows] == ["1", "2", "3"]
+    assert all(cell for row in rows for cell in row)
+
+
+def numbers_on(page: Page) -> np.ndarray:
+    """Return every number that fills a cell, percentages as ratios."""
+    cells = {cell for rows in page.tables.values() for row in rows for cell in row}
+    found = []
+    for cell in cells:
+        match = re.fullmatch(r"(−?\d+(?:\.\d+)?(?:e[+−]\d+)?)( %)?", cell)
+        if match is not None:
+            found.append(float(match[1].replace("−", "-")) / (100.0 if match[2] else 1.0))
+    return np.array(found)
+
+
+def test_every_column_of_the_result_is_shown(page: Page, run_folder: Path) -> None:
+    """Each number per wave of the result stands in some table, rounded."""
+    data, shown = dataset.load(run_folder / "dynamic.nc"), numbers_on(page)
+    columns = [v for v in data.data_vars.values() if v.dims == ("scale",) and v.dtype.kind == "f"]
+    assert len(columns) >= 18
+    for variable in columns:
+        unit = {"m": 1e-3, "Pa": 1e6}.get(variable.attrs["units"], 1.0)
+        digits = 2 if variable.name in ("friction_mismatch", "residual") else 3
+        for value in variable.values / unit:
+            apart = np.abs(shown - value).min()
+            assert apart <= 0.51 * 10.0 ** (1 - digits) * abs(value), variable.name
+
+
+def test_a_new_column_of_the_result_is_shown_too(changed_run: Callable[..., Path]) -> None:
+    def edit(data: xr.Dataset) -> xr.Dataset:
+        return data.assign(flash_temperature=("scale", [0.125, 0.25, 0.5], {"units": "K"}))
+
+    page = Page(write_report(changed_run(edit, "dynamic")))
+    assert [row[-1] for row in page.body("further")] == ["0.125", "0.250", "0.500"]
+    assert "flash_temperatureK" in page.tables["table-further"][1]
+
+
+def test_static_and_dynamic_stand_side_by_side(page: Page) -> None:
+    groups = page.tables["table-contact"][0]
+    assert groups[1:] == ["Dynamic, 0.3 m/s", "Static"]
+
+
+def test_case_text_is_given_word_for_word(page: Page) -> None:
+    assert " ".join(CASE.split()) in page.text
+    assert "gripscale run case.toml" in page.text
+
+
+def test_pictures_and_figures_have_texts(page: Page) -> None:
+    pictures = [attrs for tag, attrs in page.tags if tag == "img"]
+    assert len(pictures) == 12  # ten equations, two chains of blocks
+    assert all(attrs.get("alt") for attrs in pictures)
+    plots = [attrs for _, attrs in page.tags if attrs.get("class") == "plot"]
+    assert len(plots) >= 18
+    assert all(attrs.get("aria-label") and attrs.get("role") == "img" for attrs in plots)
+
+
+def test_good_run_raises_no_alarm(page: Page) -> None:
+    assert not [a for _, a in page.tags if a.get("role") == "alert"]
+    assert "Every wave converged." in page.text
+
+
+def test_failed_wave_is_loud_and_has_no_totals(failed_folder: Path) -> None:
+    page = Page(write_report(failed_folder))
+    assert [a for _, a in page.tags if a.get("role") == "alert"]
+    assert "Dynamic, 0.3 m/s: wave 2 did NOT converge (iteration limit at 40 %" in page.text
+    assert "No totals" in page.text
+    assert "Every wave converged." not in page.text
+    marked = [tag for tag, a in page.tags if "bad" in (a.get("class") or "").split()]
+    assert marked.count("th") == 5  # wave 2 in each of five tables
+    columns = sum(len(page.tables[f"table-{name}"][0]) for name in NAMES)
+    assert marked.count("td") > columns
+    solution = page.body("solution")
+    assert len(solution) == WAVES
+    assert "NOT CONVERGED: iteration limit at 40 % of the pressure" in solution[1]
+    assert "not reached" in solution[2]
+    assert all(cell for row in solution for cell in row)
+
+
+def test_run_that_was_stopped_has_no_totals(changed_run: Callable[..., Path]) -> None:
+    folder = changed_run(lambda data: data.isel(scale=slice(0, 2)), "static")
+    run = read_result(folder)
+    assert isinstance(run, Run)
+    errors = [notice.text for notice in notices(run) if notice.level == "error"]
+    assert len(errors) == 1
+    assert errors[0].startswith("Static: the run ended after wave 2 of 3.")
+    assert [card.label for card in cards(run) if card.bad] == ["No totals"]
+
+
+def test_large_mismatch_and_foreign_frequencies_are_warned_of(
+    changed_run: Callable[..., Path],
+) -> None:
+    def edit(data: xr.Dataset) -> xr.Dataset:
+        data = data.copy(deep=True)
+        data["friction_mismatch"].values[:] = [0.01, 0.2, 0.01]
+        data["outside_band"].values[:] = [0, 0, 1]
+        return data
+
+    run = read_result(changed_run(edit, "dynamic"))
+    assert isinstance(run, Run)
+    text = " ".join(notice.text for notice in notices(run))
+    assert "the two frictions of waves 2 are up to 20 % apart" in text
+    assert "waves 3 excite the rubber beyond the frequencies" in text
+    assert [card.label for card in cards(run) if card.bad] == ["Largest mismatch of μ"]
+
+
+def test_hostile_texts_stay_texts(run_folder: Path, tmp_path: Path) -> None:
+    data = dataset.load(run_folder / "dynamic.nc")
+    groups = dataset.load_groups(run_folder / "dynamic.nc")
+    for name in ("case", "case_file", "rubber_source", "model", "version_gripscale"):
+        data.attrs[name] = HOSTILE
+    groups["inputs"].attrs["rubber_name"] = HOSTILE
+    for name in ("profile_name", "file_name", "cleaning_note"):
+        texts = np.full(groups["inputs"][name].shape, HOSTILE, dtype=object)
+        groups["inputs"][name] = (groups["inputs"][name].dims, texts)
+    data["status"] = ("scale", np.array([HOSTILE] * WAVES, dtype=object))
+    groups["solver"] = groups["solver"].drop_vars(["mesh_x", "mesh_z"])
+    page = Page(write_report(dataset.save(data, tmp_path / "dynamic.nc", groups)))
+    assert [tag for tag, _ in page.tags].count("script") == 3
+    assert not [a for _, a in page.tags if "onerror" in a]
+    assert page.text.count("alert(1)") > 10
+    assert "{{ 7 * 7 }}" in page.text
+    assert "<script>alert" not in page.source
+
+
+def test_single_file_and_chain_without_record(run_folder: Path, tmp_path: Path) -> None:
+    alone = dataset.save(dataset.load(run_folder / "static.nc"), tmp_path / "alone.nc")
+    page = Page(write_report(alone))
+    assert "holds no record of its inputs" in page.text
+    assert "The result holds no deformed meshes." in page.text
+    assert [row[0] for row in page.body("load")] == ["1", "2", "3"]
+    assert "table-files" not in page.tables
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [(None, "does not exist"), (b"text", "cannot be read"), ("empty", "holds no result")],
+)
+def test_what_is_no_result_is_refused(tmp_path: Path, content: Any, words: str) -> None:
+    path = tmp_path / "result.nc"
+    if content == "empty":
+        path.mkdir()
+    elif content is not None:
+        path.write_bytes(content)
+    with pytest.raises(FileError, match=words):
+        write_report(path)
+
+
+def test_foreign_netcdf_is_refused(tmp_path: Path) -> None:
+    path = dataset.save(xr.Dataset({"a": ("scale", [1.0])}), tmp_path / "other.nc")
+    with pytest.raises(FileError, match="is not a result of gripscale"):
+        write_report(path)
+
+
+def test_missing_library_is_named(run_folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    real = builtins.__import__
+
+    def without(name: str, *arguments: Any, **options: Any) -> Any:
+        if name == "gripscale.html_report.build":
+            raise ModuleNotFoundError("No module named 'bokeh'", name="bokeh.embed")
+        return real(name, *arguments, **options)
+
+    monkeypatch.setattr(builtins, "__import__", without)
+    with pytest.raises(InputError, match=r"pip install 'gripscale\[report\]'"):
+        write_report(run_folder)

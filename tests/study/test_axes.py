@@ -1,0 +1,84 @@
+"""What may be varied, and the one sentence for each way of getting it wrong."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from gripscale.errors import InputError
+from gripscale.study.axes import axes_of, parse_vary
+
+
+@pytest.mark.parametrize(
+    ("name", "given", "values"),
+    [
+        ("speed", "0.001:10:log5", (0.001, 0.01, 0.1, 1.0, 10.0)),
+        ("speed", "1 mm/s:10 m/s:log5", (0.001, 0.01, 0.1, 1.0, 10.0)),
+        ("speed", "0:2:lin3", (0.0, 1.0, 2.0)),
+        ("speed", "0, 36 km/h", (0.0, 10.0)),
+        ("speed", [0.3, "300 cm/s"], None),
+        ("pressure", "1 bar,3 bar", (1e5, 3e5)),
+        ("pressure", 2e5, (2e5,)),
+        ("smallest_wavelength", "0.01 mm:1 mm:log3", (1e-5, 1e-4, 1e-3)),
+        ("waves", "2:6:lin3", (2, 4, 6)),
+        ("waves", [3, 8], (3, 8)),
+        ("factors", "3.5/2.4, 6/3", ((3.5, 2.4), (6.0, 3.0))),
+        ("factors", [(3, 2.2)], ((3.0, 2.2),)),
+        ("rubber", "case,here/dma.txt", ("case", "here/dma.txt")),
+    ],
+)
+def test_values_are_read(name: str, given: Any, values: tuple[Any, ...] | None) -> None:
+    if values is None:
+        with pytest.raises(InputError, match="unknown unit 'cm/s'"):
+            axes_of({name: given})
+        return
+    axis = axes_of({name: given})[0]
+    assert axis.values == values
+    assert len(axis.labels) == len(values)
+
+
+def test_labels_are_short_unless_they_would_be_equal() -> None:
+    assert axes_of({"rubber": "case,a/dma.txt"})[0].labels == ("case", "dma")
+    assert axes_of({"rubber": "b/dma.txt,a/dma.txt"})[0].labels == ("b/dma.txt", "a/dma.txt")
+    assert axes_of({"factors": "3.5/2.4"})[0].labels == ("3.5/2.4",)
+
+
+@pytest.mark.parametrize(
+    ("vary", "words"),
+    [
+        ({}, "varies one or two of speed, pressure"),
+        ({"speed": [1], "waves": [2], "pressure": [3]}, "one or two of .*; got 3"),
+        ({"sped": [1]}, "vary must be one of speed, .*; got 'sped'"),
+        ({"speed": []}, "speed must have 1 to 1000 values; got 0"),
+        ({"speed": "1:10"}, "speed must be a range such as \"1:10:log5\"; got '1:10'"),
+        ({"speed": "1:10:sqrt3"}, "speed must be a range such as"),
+        ({"speed": "1:10:log1"}, "number of values must be a whole number from 2"),
+        ({"speed": "10:1:log3"}, "speed must go from low to high"),
+        ({"speed": "0:1:log3"}, "log range must be greater than zero"),
+        ({"speed": "1:10 m/s:log3"}, "a unit at both ends or none"),
+        ({"speed": "-1"}, "speed must not be negative"),
+        ({"speed": "fast"}, "speed = 'fast': expected a speed"),
+        ({"speed": "1,1.0"}, "different values; got 1 more than once"),
+        ({"pressure": "3 furlong"}, "pressure = '3 furlong': unknown unit"),
+        ({"pressure": "0"}, "pressure must be greater than zero"),
+        ({"pressure": [float("nan")]}, "pressure must be a finite number"),
+        ({"waves": "2.5"}, "waves must be a whole number from 1 to 24"),
+        ({"waves": "some"}, "waves must be"),
+        ({"factors": "3.5"}, "pairs such as \"3.5/2.4\"; got '3.5'"),
+        ({"factors": "3.5/0.9"}, "factors must be greater than 1; got 0.9"),
+        ({"factors": "2/2:3/3:lin3"}, "factors must be a list, not a range"),
+        ({"rubber": [3]}, "rubber must be names and files"),
+    ],
+)
+def test_wrong_axis_is_one_sentence(vary: dict[str, Any], words: str) -> None:
+    with pytest.raises(InputError, match=words) as caught:
+        axes_of(vary)
+    assert "\n" not in str(caught.value)
+
+
+def test_option_is_a_name_and_its_values() -> None:
+    assert parse_vary("speed = 1:2:lin2") == ("speed", " 1:2:lin2")
+    for wrong in ("speed", "speed=", "sped=1"):
+        with pytest.raises(InputError, match="vary must be"):
+            parse_vary(wrong)

@@ -1,0 +1,72 @@
+"""A study that was killed goes on where it was, and ends in the same bytes."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import xarray as xr
+
+from gripscale.study import Progress, Store, Study
+
+VARY = {"speed": "0.01:1:log3", "pressure": "1 bar,3 bar"}
+PROGRAM = """
+import sys
+from gripscale.study import Study
+vary = {"speed": "0.01:1:log3", "pressure": "1 bar,3 bar"}
+Study(sys.argv[1], vary).run(
+    sys.argv[2], workers=2, on_case=lambda told: print(told.done, told.label, flush=True)
+)
+"""
+
+
+def killed_after(count: int, case: Path, folder: Path) -> None:
+    """Run the study in a process of its own and `kill -9` it after so many chains."""
+    command = [sys.executable, "-c", PROGRAM, str(case), str(folder)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        for _ in range(count):
+            assert process.stdout.readline()
+        os.kill(process.pid, signal.SIGKILL)
+        process.communicate()
+    assert process.returncode == -signal.SIGKILL
+
+
+def test_killed_study_resumes_to_the_same_bytes(
+    case: Path, tmp_path: Path, same_bytes: Callable[[xr.Dataset, xr.Dataset], None]
+) -> None:
+    killed_after(2, case, tmp_path / "killed")
+    cases = tmp_path / "killed" / "cases"
+    kept = {path.name: path.stat().st_mtime_ns for path in cases.glob("[!.]*.nc")}
+    assert 2 <= len(kept) < 6
+    assert not (tmp_path / "killed" / "study.nc").exists()
+
+    told: list[Progress] = []
+    study = Study(case, VARY)
+    resumed = study.run(tmp_path / "killed", on_case=told.append)
+    assert sum(t.stored for t in told) == len(kept)
+    assert sum(not t.stored for t in told) == 6 - len(kept)
+    assert all((cases / name).stat().st_mtime_ns == when for name, when in kept.items())
+    same_bytes(resumed, study.run(tmp_path / "whole", workers=1))
+
+    told.clear()
+    same_bytes(resumed, study.run(tmp_path / "killed", on_case=told.append))
+    assert all(t.stored for t in told)
+
+
+def test_damaged_file_counts_as_not_there(
+    case: Path, tmp_path: Path, same_bytes: Callable[[xr.Dataset, xr.Dataset], None]
+) -> None:
+    study = Study(case, {"speed": [0.01, 1.0]})
+    first = study.run(tmp_path)
+    store = Store(tmp_path / "cases")
+    cut, foreign = (store.path(point.task.key) for point in study.points)
+    foreign.write_bytes(cut.read_bytes())  # a whole file under the wrong name
+    cut.write_bytes(cut.read_bytes()[:1000])
+    told: list[Progress] = []
+    same_bytes(first, study.run(tmp_path, on_case=told.append))
+    assert not any(t.stored for t in told)

@@ -1,0 +1,179 @@
+"""A study holds exactly the chains of `predict` over its axes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import gripscale as gs
+from gripscale import dataset
+from gripscale.errors import FileError, InputError
+from gripscale.scale import ScaleResult, solve_scale
+from gripscale.study import Progress, Study, Task, task
+
+Compare = Callable[[xr.Dataset, xr.Dataset], None]
+SPEEDS = [0.01, 1.0]
+WAVES = gs.SineStack(wavelength=[10e-3, 3e-3, 1e-3], amplitude=[0.8e-3, 0.25e-3, 0.08e-3])
+
+
+def test_crossed_study_is_predict_at_every_point(case: Path, tmp_path: Path) -> None:
+    told: list[Progress] = []
+    study = Study(case, {"speed": SPEEDS, "pressure": "1 bar, 3 bar"}, static=True)
+    result = study.run(tmp_path / "out", on_case=told.append)
+    alone = gs.predict(
+        gs.rubber.styrene_butadiene(),
+        WAVES,
+        pressure=3e5,
+        speed=1.0,
+        footprint=0.1,
+        columns=32,
+        rows=8,
+    )
+    there = result.sel(speed=1.0, pressure=3e5)
+    assert there.total_friction == alone.friction
+    assert there.total_contact_fraction == alone.contact_fraction
+    np.testing.assert_array_equal(there.running_friction, alone.running_friction)
+    assert result.total_friction.dims == ("speed", "pressure")
+    assert result.static_total_contact_fraction.dims == ("pressure",)
+    assert (result.static_total_contact_fraction > result.total_contact_fraction).all()
+    assert (result.case_status == "converged").all()
+    assert [t.done for t in told] == [1, 2, 3, 4, 5, 6]
+    assert {t.label for t in told} >= {"speed 0.01 m/s, pressure 100000 Pa"}
+
+
+def test_result_file_is_labelled_with_units_and_provenance(case: Path, tmp_path: Path) -> None:
+    result = Study(case, {"speed": SPEEDS}).run(tmp_path)
+    kept = dataset.load(tmp_path / "study.nc")
+    assert kept.identical(result)
+    assert all({"units", "long_name"} <= set(kept[name].attrs) for name in kept.variables)
+    assert kept.speed.attrs["units"] == "m/s"
+    assert kept.attrs["case"] == case.read_text()
+    assert kept.attrs["software"].startswith("gripscale ")
+    assert "static_contact_fraction" not in kept
+
+
+def test_speed_zero_is_static_contact(case: Path, tmp_path: Path) -> None:
+    result = Study(case, {"speed": [0.0, 0.3]}, static=True).run(tmp_path)
+    assert result.total_contact_fraction[0] == result.static_total_contact_fraction
+    assert len(list((tmp_path / "cases").iterdir())) == 2
+
+
+def test_number_of_workers_changes_nothing(case: Path, tmp_path: Path, same_bytes: Compare) -> None:
+    study = Study(case, {"speed": "0.01:1:log4"})
+    same_bytes(study.run(tmp_path / "one", workers=1), study.run(tmp_path / "three", workers=3))
+
+
+def test_factors_keep_the_first_wave_and_waves_are_counted(case: Path, tmp_path: Path) -> None:
+    study = Study(case, {"factors": "3/3.2,10/10", "rubber": ["styrene_butadiene"]})
+    result = study.run(tmp_path)
+    assert result.wavelength.dims == ("factors", "rubber", "scale")
+    np.testing.assert_allclose(
+        result.wavelength.isel(rubber=0),
+        [[10e-3, 10e-3 / 3, 10e-3 / 9], [10e-3, 1e-3, np.nan]],
+        rtol=1e-14,
+    )
+    np.testing.assert_allclose(result.amplitude[:, 0, 1], [0.25e-3, 0.08e-3], rtol=1e-14)
+    assert result.s_amplitude.values.tolist() == [3.2, 10.0]
+    assert np.isfinite(result.total_friction).all()
+
+
+def test_rubbers_and_surfaces_may_be_given_as_objects(case: Path, tmp_path: Path) -> None:
+    elastic = gs.Rubber(equilibrium_modulus=5e6)
+    study = Study(
+        case,
+        {"rubber": {"elastic": elastic, "lossy": "styrene_butadiene"}, "surface": {"hand": WAVES}},
+    )
+    result = study.run(tmp_path)
+    assert result.rubber.values.tolist() == ["elastic", "lossy"]
+    assert abs(result.total_friction.sel(rubber="elastic", surface="hand")) < 1e-9
+    assert result.total_friction.sel(rubber="lossy", surface="hand") > 0.01
+
+
+@pytest.mark.parametrize(
+    ("vary", "error", "words"),
+    [
+        ({"rubber": "nowhere.txt"}, FileError, "rubber nowhere.txt is neither a file here or"),
+        ({"surface": "nowhere.txt"}, FileError, "surface nowhere.txt is neither a file"),
+        ({"waves": "4"}, InputError, "waves must be at most 3"),
+        ({"smallest_wavelength": "1 m"}, InputError, "smallest_wavelength must not exceed"),
+    ],
+)
+def test_what_is_not_there_is_one_sentence(
+    case: Path, vary: dict[str, Any], error: type[Exception], words: str
+) -> None:
+    with pytest.raises(error, match=words):
+        _ = Study(case, vary).points
+
+
+def test_failed_chain_is_a_status(
+    case: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def lame(*arguments: Any, **asked: Any) -> ScaleResult:
+        good = solve_scale(*arguments, **asked)
+        if asked["speed"] < 1.0 or asked["wavelength"] > 5e-3:
+            return good
+        return ScaleResult(**{**vars(good), "status": "iteration limit"})
+
+    monkeypatch.setattr(task, "_solver", lambda model: lame)
+    result = Study(case, {"speed": SPEEDS}).run(tmp_path)
+    assert result.case_status[0] == "converged"
+    assert "wave 2 of 3" in str(result.case_status[1].item())
+    assert "iteration limit" in str(result.case_status[1].item())
+    assert np.isnan(result.total_friction).values.tolist() == [False, True]
+    assert np.isnan(result.running_friction[1]).values.tolist() == [False, True, True]
+    assert np.isnan(result.wavelength[1]).values.tolist() == [False, False, True]
+    told: list[Progress] = []
+    Study(case, {"speed": SPEEDS}).run(tmp_path, on_case=told.append)
+    assert [t.stored for t in told] == [True, True]
+
+
+def test_key_changes_with_every_input_and_the_software(monkeypatch: pytest.MonkeyPatch) -> None:
+    rubber = gs.Rubber(5e6, [1e6], [1e-3])
+    inputs: dict[str, Any] = {
+        "rubber": rubber,
+        "sines": WAVES,
+        "pressure": 3e5,
+        "speed": 0.3,
+        "footprint": 0.1,
+    }
+    changes: list[dict[str, Any]] = [
+        {"rubber": gs.Rubber(5e6, [1e6], [math.nextafter(1e-3, 1)])},
+        {"rubber": gs.Rubber(5e6, [1e6], [1e-3], valid_band=(1.0, 2.0))},
+        {"rubber": gs.Rubber(5e6, [1e6], [1e-3], bulk_modulus=1e9)},
+        {"sines": gs.SineStack(WAVES.wavelength[:2], WAVES.amplitude[:2])},
+        {"pressure": math.nextafter(3e5, 1e6)},
+        {"speed": 0.31},
+        {"footprint": 0.11},
+        {"load_time": math.inf},
+        {"model": "half_plane"},
+        {"options": {"columns": 64}},
+    ]
+    keys = [Task(**{**inputs, **change}).key for change in [{}, *changes]]
+    assert len(set(keys)) == len(keys)
+    assert Task(**inputs).key == keys[0]
+    monkeypatch.setattr(task, "software", lambda: "gripscale 99")
+    assert Task(**inputs).key != keys[0]
+
+
+def test_decades_of_relaxation_share_out_the_friction(case: Path, tmp_path: Path) -> None:
+    one = gs.Rubber(5e6, [5e6], [2e-3])
+    two = gs.Rubber(5e6, [2.5e6, 2.5e6], [2e-3, 2e-3])
+    far = gs.Rubber(5e6, [5e6, 1.0], [2e-3, 2e-1])
+    study = Study(case, {"rubber": {"one": one, "two": two, "far": far}, "speed": [0.01, 0.3]})
+    result = study.run(tmp_path)
+    by_decade = result.friction_by_decade
+    np.testing.assert_allclose(by_decade.decade, [1e-3, 1e-2, 1e-1])
+    np.testing.assert_allclose(by_decade.sum("decade"), result.total_friction, rtol=1e-12)
+    np.testing.assert_allclose(by_decade.isel(decade=1), 0.0, atol=1e-15)
+    shares = (by_decade.isel(decade=2) / result.total_friction).sel(rubber="far")
+    # E'' of both elements at the fundamental of the largest wave, where the slow one leads most.
+    phase = 2 * np.pi * result.speed.values / 10e-3
+    slow, fast = (g * phase * t / (1 + (phase * t) ** 2) for g, t in ((1.0, 0.2), (5e6, 2e-3)))
+    assert (shares.values > 0.0).all()
+    assert (shares.values < slow / (slow + fast)).all()

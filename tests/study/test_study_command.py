@@ -1,0 +1,90 @@
+"""`gripscale study` from the command line to table, figures and result file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from typer.testing import Result
+
+from gripscale import dataset
+from gripscale.scale import ScaleResult, solve_scale
+from gripscale.study import task
+
+Shell = Callable[..., Result]
+
+
+def test_command_solves_prints_draws_and_resumes(shell: Shell, case: Path) -> None:
+    asked = ("study", case, "--vary", "speed=0.01:1:log3", "--vary", "pressure=1 bar,3 bar")
+    result = shell(*asked, "--static")
+    assert result.exit_code == 0, result.output
+    target = case.parent / "results" / "study"
+    written = {str(p.relative_to(target)) for p in target.rglob("*.*") if "cases" not in p.parts}
+    figures = {
+        "totals",
+        *(
+            f"{name}_{end}"
+            for end in ("0.1_MPa", "0.3_MPa")
+            for name in ("wavelength", "stacked", "shares", "decades")
+        ),
+    }
+    files = {f"figures/{name}.{kind}" for name in figures for kind in ("png", "pdf")}
+    assert written == files | {"case.toml", "study.nc", "study.txt"}
+    for words in ("speed (3) x pressure (2); 8 different chains", "[8/8] static, pressure"):
+        assert words in result.stdout
+    data = dataset.load(target / "study.nc")
+    assert f"{float(data.total_friction[2, 1]):.3f}" in result.stdout
+    assert result.stdout.count("converged") == 6
+    assert max(len(line) for line in result.stdout.splitlines() if "in /" not in line) <= 100
+    again = shell(*asked, "--static")
+    assert again.stdout.count("already solved") == 8
+
+
+def test_names_are_drawn_as_points(shell: Shell, case: Path, tmp_path: Path) -> None:
+    result = shell(
+        "study", case, "--vary", "rubber=case", "--vary", "factors=3/3,4/4", "--output", tmp_path
+    )
+    assert result.exit_code == 0, result.output
+    names = {path.stem for path in (tmp_path / "figures").glob("*.png")}
+    assert names == {"totals", "wavelength_3_3", "wavelength_4_4"}
+
+
+def test_failed_chain_ends_with_its_own_code(
+    shell: Shell, case: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def lame(*arguments: Any, **asked: Any) -> ScaleResult:
+        good = solve_scale(*arguments, **asked)
+        failed = asked["speed"] > 0.5 and asked["wavelength"] < 2e-3
+        return ScaleResult(**{**vars(good), "status": "iteration limit"}) if failed else good
+
+    monkeypatch.setattr(task, "_solver", lambda model: lame)
+    result = shell("study", case, "--vary", "speed=0.1,1")
+    assert result.exit_code == 3
+    assert len(result.stderr.splitlines()) == 1
+    assert "1 of 2 chains did not converge and have no totals; the first: wave 3" in result.stderr
+    assert (case.parent / "results" / "study" / "study.nc").exists()
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["--vary", "sped=1"], "vary must be one of speed"),
+        (["--vary", "speed=1", "--vary", "speed=2"], "vary must name different inputs"),
+        (["--vary", "speed=1", "--workers", "0"], "workers must be a whole number from 1"),
+        (["--vary", "rubber=none.txt"], "rubber none.txt is neither a file here"),
+        (["--vary", "speed=1", "--cluster", "nonsense"], 'cluster must be "local" or the address'),
+    ],
+)
+def test_bad_option_is_refused(shell: Shell, case: Path, options: list[str], words: str) -> None:
+    result = shell("study", case, *options)
+    assert result.exit_code == 2, result.output
+    assert len(result.stderr.splitlines()) == 1
+    assert words in result.stderr
+
+
+def test_file_in_place_of_the_folder_is_refused(shell: Shell, case: Path) -> None:
+    result = shell("study", case, "--vary", "speed=1", "--output", case)
+    assert result.exit_code == 2
+    assert "is not a folder" in result.stderr
