@@ -6,9 +6,11 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 from collections.abc import Callable
 from pathlib import Path
 
+import pytest
 import xarray as xr
 
 from gripscale.study import Progress, Store, Study
@@ -70,3 +72,18 @@ def test_damaged_file_counts_as_not_there(
     told: list[Progress] = []
     same_bytes(first, study.run(tmp_path, on_case=told.append))
     assert not any(t.stored for t in told)
+
+
+def test_study_stopped_by_the_caller_keeps_what_was_solved_and_solves_no_more(
+    case: Path, tmp_path: Path
+) -> None:
+    def stop(progress: Progress) -> None:
+        raise KeyboardInterrupt
+
+    study = Study(case, {"speed": "0.01:1:log8"})
+    with pytest.raises(KeyboardInterrupt):
+        study.run(tmp_path, workers=2, on_case=stop)
+    assert not [t for t in threading.enumerate() if t.name.startswith("gripscale")]
+    told: list[Progress] = []
+    study.run(tmp_path, on_case=told.append)
+    assert sum(t.stored for t in told) == 1

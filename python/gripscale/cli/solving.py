@@ -52,7 +52,7 @@ def chains_of(case: Case, surface: SurfaceStudy, rubber: RubberStudy) -> list[Ch
 
 
 def solve(chain: Chain, file: CaseFile, console: Console, path: Path) -> None:
-    """Run `chain`, print a line per wave and save to `path` after each.
+    """Run `chain`, print a line per wave and save to `path` after each; inputs follow at the end.
 
     A wave that does not converge ends the chain and is kept as `chain.failure`.
     """
@@ -62,12 +62,16 @@ def solve(chain: Chain, file: CaseFile, console: Console, path: Path) -> None:
     inputs = record.inputs_group(file, chain.surface, chain.rubber)
     clock = time.perf_counter()
 
+    def save(complete: bool) -> None:
+        if chain.result is not None:
+            saved = chain.result.to_dataset().assign_attrs(_provenance(chain, file))
+            groups = {"inputs": inputs, "solver": record.solver_group(chain.result)}
+            dataset.save(saved, path, groups if complete else None)
+
     def keep(so_far: Prediction) -> None:
         nonlocal clock
         chain.result = so_far
-        saved = so_far.to_dataset().assign_attrs(_provenance(chain, file))
-        groups = {"inputs": inputs, "solver": record.solver_group(so_far)}
-        dataset.save(saved, path, groups)
+        save(complete=False)
         seconds, clock = time.perf_counter() - clock, time.perf_counter()
         say(console, f"  {_progress(so_far, len(sines))}, {seconds:.1f} s")
 
@@ -86,6 +90,8 @@ def solve(chain: Chain, file: CaseFile, console: Console, path: Path) -> None:
             )
         except ChainError as failure:
             chain.failure = failure
+        finally:
+            save(complete=True)
 
 
 def solver_of(case: Case) -> Solver | None:

@@ -6,6 +6,7 @@ from gripscale.rubber.finite_strain_fit import (
     fit_finite_strain,
     read_uniaxial_test,
     rms_error,
+    work_error,
 )
 from gripscale.rubber.header import FREQUENCY_UNITS, MODULUS_UNITS
 from gripscale.rubber.master_curve import MasterCurve
@@ -40,4 +41,5 @@ __all__ = [
     "springpot_modulus",
     "styrene_butadiene",
     "uniaxial_stress",
+    "work_error",
 ]

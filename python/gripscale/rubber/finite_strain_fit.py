@@ -9,9 +9,9 @@ On given relaxation times the nominal stress of a material point is linear in it
     Yeoh           c = G_inf, G_inf c2, G_inf c3
 
 so that the least squares of P over the peak stress of each test, each test counting alike, is a
-convex problem with bounds (moduli not negative, c2 free) and one solution: no start values, no
-local minima. Method: R. J. Hanson & C. L. Lawson; bounded variables by P. B. Stark & R. L. Parker,
-Comput. Stat. 10 (1995) 129.
+convex problem with bounds (moduli not negative, c2 free) and one minimum: no start values, no
+local minima. Bounded-variable least squares: P. B. Stark & R. L. Parker, Comput. Stat. 10 (1995)
+129.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.integrate import trapezoid
 from scipy.optimize import lsq_linear
 
 from gripscale import checks
@@ -70,9 +71,7 @@ class UniaxialTest:
     stretch: Array = field(repr=False)
     stress: Array = field(repr=False)
 
-    def __init__(
-        self, name: str, time: ArrayLike, stretch: ArrayLike, stress: ArrayLike
-    ) -> None:
+    def __init__(self, name: str, time: ArrayLike, stretch: ArrayLike, stress: ArrayLike) -> None:
         object.__setattr__(self, "name", str(name))
         object.__setattr__(self, "time", checks.vector("time", time, unit="s"))
         object.__setattr__(self, "stretch", checks.positive_vector("stretch", stretch))
@@ -120,11 +119,26 @@ class FiniteStrainFit:
         """Root mean square error of the stress over the peak stress [-], shape (tests,)."""
         return np.array([rms_error(self.rubber, test) for test in self.tests])
 
+    @property
+    def work_errors(self) -> Array:
+        """Predicted over measured work lost in the loop, less one [-], shape (tests,)."""
+        return np.array([work_error(self.rubber, test) for test in self.tests])
+
 
 def rms_error(rubber: Rubber, test: UniaxialTest) -> float:
     """Return the root mean square error of the predicted stress over the measured peak [-]."""
     error = uniaxial_stress(rubber, test.time, test.stretch) - test.stress
     return float(np.sqrt(np.mean(error**2)) / test.peak)
+
+
+def work_error(rubber: Rubber, test: UniaxialTest) -> float:
+    """Return the predicted over the measured work int P ds of the test, less one [-].
+
+    For a loop that ends free of stress this is the work lost, as heat or in networks still
+    stretched. Trapezoidal rule on the samples, the same for both.
+    """
+    predicted = uniaxial_stress(rubber, test.time, test.stretch)
+    return float(trapezoid(predicted, test.stretch) / trapezoid(test.stress, test.stretch)) - 1
 
 
 def fit_finite_strain(
@@ -161,9 +175,8 @@ def fit_finite_strain(
         raise InputError("tests must hold at least one UniaxialTest; got none")
     checks.one_of("energy", energy, ENERGIES)
     times = _relaxation_times(tests, checks.whole("terms", terms, least=1, most=40), band)
-    weights = [1.0 / (test.peak * np.sqrt(len(test.time))) for test in tests]
-    left = np.vstack([w * _columns(energy, times, test) for w, test in zip(weights, tests)])
-    right = np.concatenate([w * test.stress for w, test in zip(weights, tests)])
+    left = np.vstack([_columns(energy, times, test) * _weight(test) for test in tests])
+    right = np.concatenate([test.stress * _weight(test) for test in tests])
     lower = np.zeros(left.shape[1])
     lower[0] = _LEAST_EQUILIBRIUM * min(test.peak for test in tests)
     if energy == "yeoh":
@@ -227,6 +240,11 @@ def _relaxation_times(
     if low >= high:
         raise InputError(f"band [s] must be a shorter and a longer time; got {low:g} and {high:g}")
     return np.geomspace(low, high, terms) if terms > 1 else np.array([np.sqrt(low * high)])
+
+
+def _weight(test: UniaxialTest) -> float:
+    """Return what a sample counts [1/Pa]: the squares of a test then sum to its rms_error^2."""
+    return float(1.0 / (test.peak * np.sqrt(len(test.time))))
 
 
 def _columns(energy: str, times: Array, test: UniaxialTest) -> Array:

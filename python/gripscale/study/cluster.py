@@ -8,7 +8,7 @@ wave it was solving; its tasks go to the others.
 from __future__ import annotations
 
 import importlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
 from contextlib import ExitStack, contextmanager
 from typing import Any
 
@@ -17,12 +17,16 @@ from gripscale.errors import ConvergenceError, InputError
 from gripscale.study.solving import Solved, timed
 from gripscale.study.task import Task
 
+Solve = Callable[[list[Task]], Generator[Solved, None, None]]
+
 CONNECT_SECONDS = 10
 """How long to wait for a scheduler to answer."""
 
 
 @contextmanager
-def cluster(client: Any, workers: int) -> Iterator[Callable[[list[Task]], Iterator[Solved]]]:
+def cluster(
+    client: Any, workers: int
+) -> Iterator[Solve]:
     """Give a function that solves tasks on a cluster.
 
     Parameters
@@ -49,7 +53,7 @@ def cluster(client: Any, workers: int) -> Iterator[Callable[[list[Task]], Iterat
         yield lambda tasks: _solve(distributed, client, tasks)
 
 
-def _solve(distributed: Any, client: Any, tasks: list[Task]) -> Iterator[Solved]:
+def _solve(distributed: Any, client: Any, tasks: list[Task]) -> Generator[Solved, None, None]:
     """Yield results as they come."""
     futures = [client.submit(timed, task, key=f"gripscale-{task.key}") for task in tasks]
     try:

@@ -4,7 +4,9 @@ Results are written by the calling thread only, in whatever order they come; a r
 its task alone, so neither the order nor the number of workers changes a bit of it.
 
 On one machine the workers are threads: nearly all time is spent in the compiled kernel, which
-leaves Python's lock free.
+leaves Python's lock free. Measured on two cores with six chains of eight waves: one thread 7.8 s,
+two threads 4.6 s, two processes 3.9 s once they have started, which takes them 1 to 2 s. Threads
+need no guard in the caller's script; `client="local"` gives processes.
 """
 
 from __future__ import annotations
@@ -12,9 +14,9 @@ from __future__ import annotations
 import os
 import threading
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
 from concurrent.futures import Future, ThreadPoolExecutor, as_completed
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from typing import Any
 
@@ -127,15 +129,16 @@ def _solver(tasks: list[Task], workers: int | None, client: Any) -> Iterator[Ite
     if not tasks:
         yield ()
     elif client is None:
-        yield _threads(tasks, count)
+        with closing(_threads(tasks, count)) as stream:
+            yield stream
     else:
         from gripscale.study.cluster import cluster
 
-        with cluster(client, count) as solve:
-            yield solve(tasks)
+        with cluster(client, count) as solve, closing(solve(tasks)) as stream:
+            yield stream
 
 
-def _threads(tasks: list[Task], workers: int) -> Iterator[Solved]:
+def _threads(tasks: list[Task], workers: int) -> Generator[Solved, None, None]:
     """Solve in threads; on any end but the natural one, stop after the waves now being solved."""
     stop = threading.Event()
     pool = ThreadPoolExecutor(workers, thread_name_prefix="gripscale")

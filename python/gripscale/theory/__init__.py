@@ -1,9 +1,11 @@
 """Closed forms and the small-strain model, to check the solver against and to learn from.
 
 Modules: `full_contact`, `westergaard`, `hertz`, `slab`, `uniaxial` (closed forms) and `half_plane`
-(the small-strain model of one sliding wave, on `periodic_contact`).
+(the small-strain model of one sliding wave, on `periodic_contact`). The material point under any
+history, `uniaxial_stress` and `simple_shear_stress`, is in `gripscale.rubber.material_point`.
 """
 
+from gripscale.rubber import simple_shear_stress, uniaxial_stress
 from gripscale.theory.full_contact import (
     full_contact_friction,
     full_contact_pressure,
@@ -24,7 +26,9 @@ __all__ = [
     "full_contact_pressure",
     "largest_pressure",
     "plane_strain_modulus",
+    "simple_shear_stress",
     "slab_compliance",
     "solve_half_plane",
     "step_relaxation_stress",
+    "uniaxial_stress",
 ]
