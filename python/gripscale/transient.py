@@ -80,21 +80,38 @@ class TransientResult:
     def cycle(self, wavelengths: float = 1.0) -> dict[str, tuple[float, float, float]]:
         """Return mean, least and largest friction and contact fraction of the last stretch.
 
-        A steady state shows as a range much smaller than the mean; a limit cycle does not.
-
         Parameters
         ----------
         wavelengths : float
             Length of the stretch in wavelengths.
         """
-        back = np.abs(self.distance[-1] - self.distance) <= wavelengths * self.wavelength
+        back = np.abs(self.distance[-1] - self.distance) / self.wavelength
+        last = back <= wavelengths
         return {
-            name: (float(values[back].mean()), float(values[back].min()), float(values[back].max()))
+            name: (float(values[last].mean()), float(values[last].min()), float(values[last].max()))
             for name, values in (
                 ("friction", self.friction),
                 ("contact_fraction", self.contact_fraction),
             )
         }
+
+    def verdict(self, tolerance: float = 0.01) -> str:
+        """Say whether friction has become `steady`, is `settling`, or runs a `limit cycle`.
+
+        Judged by its range over the last wavelength: steady if below `tolerance` of the mean,
+        settling if it still shrinks by a tenth per wavelength, else a limit cycle, whose mean and
+        range `cycle` gives. `too short` with less than two wavelengths since speed last changed.
+        """
+        back = np.abs(self.distance[-1] - self.distance) / self.wavelength
+        changed = np.flatnonzero(self.speed != self.speed[-1])
+        since = changed[-1] + 1 if len(changed) else 0
+        if self.speed[-1] == 0.0 or back[since] < 2.0 - 1e-9:
+            return "too short"
+        last, before = (back <= 1.0), (back > 1.0) & (back <= 2.0)
+        ranges = [float(np.ptp(self.friction[part])) for part in (before, last)]
+        if ranges[1] <= tolerance * abs(float(self.friction[last].mean())):
+            return "steady"
+        return "settling" if ranges[1] < 0.9 * ranges[0] else "limit cycle"
 
 
 def solve_transient(

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale import Stage, solve_transient
+from gripscale import Stage, TransientResult, solve_transient
 
 WAVELENGTH = 1e-3
 SPEED = 1.0
@@ -121,8 +121,47 @@ def test_cycle_gives_mean_and_range_of_the_last_stretch():
     stages = [Stage(3 * PASSAGE, SPEED, pressure)]
     run = solve_transient(material, **wave, stages=stages, columns=32, rows=8)
     mean, least, largest = run.cycle()["friction"]
+    assert run.verdict() == "steady"
     assert least <= mean <= largest
     assert largest - least < 1e-3 * mean
+
+
+def made_up(friction, wavelengths=4.0):
+    """A run with a given course of friction over its distance in wavelengths."""
+    distance = np.linspace(0.0, wavelengths, 401)
+    values = friction(distance)
+    same = np.ones_like(distance)
+    return TransientResult(
+        time=distance,
+        distance=distance,
+        speed=same,
+        pressure=same,
+        friction=values,
+        contact_fraction=0.3 * same,
+        indentation=same,
+        status="converged",
+        newton_iterations=0,
+        wavelength=1.0,
+    )
+
+
+@pytest.mark.parametrize(
+    ("friction", "verdict"),
+    [
+        (lambda x: 0.5 + 0.0 * x, "steady"),
+        (lambda x: 0.5 + 0.1 * np.exp(-x / 2) * np.sin(2 * np.pi * x), "settling"),
+        (lambda x: 0.5 + 0.1 * np.sin(2 * np.pi * x), "limit cycle"),
+    ],
+)
+def test_verdict_tells_steady_settling_and_cycling_apart(friction, verdict):
+    run = made_up(friction)
+    assert run.verdict() == verdict
+    if verdict == "limit cycle":
+        assert run.cycle()["friction"] == pytest.approx((0.5, 0.4, 0.6), abs=1e-3)
+
+
+def test_verdict_needs_two_wavelengths():
+    assert made_up(lambda x: 0.5 + 0.0 * x, wavelengths=1.5).verdict() == "too short"
 
 
 @pytest.mark.parametrize(
