@@ -2,9 +2,10 @@
 //!
 //! The rooms, each using only what stands above it:
 //! `error`, `element`, `cell` (mesh), `network` and `hyperelastic` (material at a point), `memory`
-//! (Maxwell history), `linear` (faer), `assembly`, `wave`, `active_set`, `newton` (one load),
-//! `march` (raising it), `transfer` (between meshes), `outcome`, `scale` (one wave, from inputs to
-//! solution), `python` (bindings, no numerics).
+//! (Maxwell history), `linear` (faer), `assembly`, `wave`, `active_set`, `surface_contact` and
+//! `newton` (one load), `march` (raising it), `transfer` (between meshes), `outcome`, `ladder` and
+//! `scale` (one wave, from inputs to solution), `networks` and `transient` (sliding in time),
+//! `python` (bindings, no numerics).
 //!
 //! Conventions: inside, lengths are in wavelengths and stresses in units of |G*(2 pi v / lambda)|;
 //! x along sliding (the rubber moves in +x over the wave, whose frame is used), z up, rubber above,
@@ -16,6 +17,7 @@ pub mod cell;
 pub mod element;
 pub mod error;
 pub mod hyperelastic;
+pub mod ladder;
 pub mod linear;
 pub mod march;
 pub mod memory;
@@ -26,6 +28,7 @@ pub mod outcome;
 #[cfg(feature = "python")]
 mod python;
 pub mod scale;
+pub mod surface_contact;
 pub mod transfer;
 pub mod transient;
 pub mod wave;
