@@ -27,6 +27,8 @@ pub enum KernelError {
         expected: &'static str,
         value: String,
     },
+    #[error("a stage may slide over at most {longest} wavelengths; got {wavelengths}")]
+    TooLong { longest: f64, wavelengths: f64 },
     #[error("moduli and relaxation_times must have the same length; got {moduli} and {times}")]
     LengthMismatch { moduli: usize, times: usize },
 }

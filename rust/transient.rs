@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 
 use crate::assembly::{Block, Memory};
 use crate::cell::Cell;
-use crate::error::KernelError;
+use crate::error::{positive, KernelError};
 use crate::march::{climb, Count};
 use crate::memory::Maxwell;
 use crate::networks::Networks;
@@ -20,6 +20,8 @@ use crate::wave::Wave;
 const DWELL_STEPS: usize = 40;
 /// First step of a dwell over its duration.
 const DWELL_FIRST: f64 = 1e-4;
+/// Longest way of one stage in wavelengths.
+const LONGEST: f64 = 10_000.0;
 /// A step that fails is tried again with its load change cut into this many parts.
 const PARTS: usize = 8;
 
@@ -54,11 +56,30 @@ pub struct Run {
 }
 
 impl Scale {
+    fn check_stage(&self, stage: &Stage) -> Result<(), KernelError> {
+        positive("duration", stage.duration)?;
+        positive("pressure", stage.pressure)?;
+        if !stage.speed.is_finite() {
+            return Err(KernelError::NotFinite {
+                name: "speed",
+                value: stage.speed,
+            });
+        }
+        let wavelengths = stage.duration * (stage.speed / self.wavelength).abs();
+        if wavelengths <= LONGEST {
+            return Ok(());
+        }
+        Err(KernelError::TooLong {
+            longest: LONGEST,
+            wavelengths,
+        })
+    }
+
     /// Slide through `stages`, from rest or from a steady `start` found with the same inputs.
     pub fn run(&self, stages: &[Stage], start: Option<&Solution>) -> Result<Run, KernelError> {
         self.check()?;
         for stage in stages {
-            check_stage(stage)?;
+            self.check_stage(stage)?;
         }
         let cell = Cell::new(self.order, self.columns, self.rows, self.depth)?;
         let mut maxwell = Maxwell {
@@ -85,19 +106,6 @@ impl Scale {
             moments: mover.moments,
             report,
             count: mover.count,
-        })
-    }
-}
-
-fn check_stage(stage: &Stage) -> Result<(), KernelError> {
-    crate::error::positive("duration", stage.duration)?;
-    crate::error::positive("pressure", stage.pressure)?;
-    if stage.speed.is_finite() {
-        Ok(())
-    } else {
-        Err(KernelError::NotFinite {
-            name: "speed",
-            value: stage.speed,
         })
     }
 }

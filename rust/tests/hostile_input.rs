@@ -4,6 +4,7 @@ use crate::whole_wave::scale;
 use gripscale_kernel::error::KernelError;
 use gripscale_kernel::hyperelastic::Energy;
 use gripscale_kernel::scale::Scale;
+use gripscale_kernel::transient::Stage;
 use proptest::prelude::*;
 
 fn any_number() -> impl Strategy<Value = f64> {
@@ -45,10 +46,29 @@ proptest! {
             tolerance: None,
             limits: gripscale_kernel::newton::Limits { iterations: 5, budget: 60, tolerance: 1e-8, step: 0.4 },
         };
+        let stage = Stage { duration: numbers[7], speed: numbers[5], pressure: numbers[4] };
+        if stage.duration * (stage.speed / numbers[2]).abs() < 2.0 {
+            if let Ok(run) = case.run(&[stage], None) {
+                prop_assert!(run.moments.len() <= 42);
+            }
+        }
         if let Ok(solution) = case.solve(None) {
             prop_assert!(solution.count.iterations < 1000);
         }
     }
+}
+
+#[test]
+fn an_endless_way_is_refused() {
+    let stage = Stage {
+        duration: 1e9,
+        speed: 1e9,
+        pressure: 0.1,
+    };
+    let error = scale(0.1, 0.1).run(&[stage], None).map(|_| ()).unwrap_err();
+    assert!(error
+        .to_string()
+        .starts_with("a stage may slide over at most 10000 wavelengths"));
 }
 
 #[test]

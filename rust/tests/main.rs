@@ -6,6 +6,7 @@ mod elimination;
 mod hostile_input;
 mod material_point;
 mod memory;
+mod sliding_in_time;
 mod tangent;
 mod whole_wave;
 
