@@ -23,7 +23,7 @@ from gripscale.case import read_case
 from gripscale.cli.inputs import study_rubber, study_surface
 
 CASE = problems.ROOT / "examples" / "road_and_tread" / "case.toml"
-FINE: Mesh = (256, 28, 1)
+FINE: Mesh = (256, 30, 1)
 REPEATS = 3
 MOST_SECONDS, AIM_SECONDS, MOST_MEGABYTES = 60.0, 10.0, 1000.0
 

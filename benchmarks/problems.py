@@ -23,7 +23,7 @@ FINITE_STRAIN = {0.1: 0.20589, 0.3: 0.37276, 0.5: 0.50448, 0.7: 0.63081, 0.9: 0.
 """p/(4 pi G A/lambda): contact fraction at A/lambda = 0.1, K/G = 1000, depth one wavelength,
 converged with three other finite-element codes to 0.0002."""
 
-DEFAULT: Mesh = (128, 16, 1)
+DEFAULT: Mesh = (128, 20, 1)
 
 
 def options(mesh: Mesh) -> dict[str, int]:

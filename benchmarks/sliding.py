@@ -9,7 +9,7 @@ from measure import HEADINGS, Mesh, name, root_mean_square, solve_all, worst
 from rich.console import Console
 from table import show
 
-MESHES: list[Mesh] = [(64, 12, 1), (96, 14, 1), (128, 16, 1), (192, 20, 1)]
+MESHES: list[Mesh] = [(64, 12, 1), (96, 16, 1), (128, 20, 1), (192, 26, 1)]
 HEAVY_MESH_COLUMNS = 192
 EVERY = 3
 

@@ -14,6 +14,7 @@ import pytest
 import xarray as xr
 
 from gripscale.study import Progress, Store, Study
+from gripscale.study.solving import Stopped, timed
 
 VARY = {"speed": "0.01:1:log3", "pressure": "1 bar,3 bar"}
 PROGRAM = """
@@ -87,3 +88,12 @@ def test_study_stopped_by_the_caller_keeps_what_was_solved_and_solves_no_more(
     told: list[Progress] = []
     study.run(tmp_path, on_case=told.append)
     assert sum(t.stored for t in told) == 1
+
+
+def test_chain_is_given_up_between_two_waves(case: Path) -> None:
+    task = Study(case, {"speed": [0.1]}).points[0].task
+    stop = threading.Event()
+    assert timed(task, stop)[1].sizes["scale"] == 3
+    stop.set()
+    with pytest.raises(Stopped):
+        timed(task, stop)

@@ -51,6 +51,17 @@ def test_names_are_drawn_as_points(shell: Shell, case: Path, tmp_path: Path) -> 
     assert names == {"totals", "wavelength_3_3", "wavelength_4_4"}
 
 
+def test_table_keeps_its_status_beside_long_names(shell: Shell, case: Path, tmp_path: Path) -> None:
+    named = "surface=case,synthetic_dense_asphalt"
+    asked = ("study", case, "--vary", "rubber=styrene_butadiene", "--vary", named, "--static")
+    result = shell(*asked, "--output", tmp_path)
+    assert result.exit_code == 0, result.output
+    rows = [line for line in result.stdout.splitlines() if line.startswith(" styrene butadiene")]
+    assert len(rows) == 2
+    assert all(row.rstrip().endswith("converged") for row in rows)
+    assert "…" not in result.stdout
+
+
 def test_failed_chain_ends_with_its_own_code(
     shell: Shell, case: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -53,10 +53,11 @@ def _panel(axes: Axes, test: UniaxialTest, fits: Mapping[str, FiniteStrainFit], 
     """Draw one test, the fits over it, and their errors in the same colours."""
     measured = test.stress / KILO
     axes.plot(test.stretch, measured, "o", ms=3.0, mfc="none", mec=GREY, mew=0.7, label="measured")
-    axes.text(0.03, 0.97, "rms, work lost", transform=axes.transAxes, va="top", fontsize=7.0)
-    for line, ((label, fit), colour) in enumerate(zip(fits.items(), COLOURS, strict=False), 1):
+    axes.text(0.03, 0.97, "error: rms, work lost", transform=axes.transAxes, va="top", fontsize=7.0)
+    looks = zip(fits.items(), COLOURS, ("-", "-", "--", ":", "-.", "-"), strict=False)
+    for line, ((label, fit), colour, dash) in enumerate(looks, 1):
         stress = uniaxial_stress(fit.rubber, test.time, test.stretch) / KILO
-        axes.plot(test.stretch, stress, color=colour, lw=1.1, label=label)
+        axes.plot(test.stretch, stress, color=colour, ls=dash, lw=1.1, label=label)
         rms, work = fit.rms_errors[place], fit.work_errors[place]
         axes.text(
             0.03,
@@ -68,4 +69,5 @@ def _panel(axes: Axes, test: UniaxialTest, fits: Mapping[str, FiniteStrainFit], 
             color=colour,
         )
     axes.set_title(test.name)
-    axes.set_ylim(min(0.0, 1.1 * float(np.min(measured))), 1.25 * float(np.max(measured)))
+    top = float(np.max(measured))
+    axes.set_ylim(min(0.0, float(np.min(measured))) - 0.04 * top, 1.25 * top)

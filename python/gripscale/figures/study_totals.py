@@ -35,6 +35,9 @@ def totals_figure(result: xr.Dataset) -> Figure:
         _line(friction, piece, x, "total_friction", colour, label)
         if "static_total_contact_fraction" in result:
             _rest(area, piece, x, colour, "at rest" if other is None else None)
+    if other is not None and "static_total_contact_fraction" in result:
+        look: dict[str, Any] = {"ls": "", "marker": "o", "mfc": "white"} if x in WORDS else {}
+        area.plot([], [], **({"color": INK, "ls": (0, (4, 2)), "lw": 0.9} | look), label="at rest")
     area_axis(area)
     area.set_ylabel("real contact area $A_r/A_0$ [-]")
     friction.set_ylabel("friction coefficient $\\mu$ [-]")

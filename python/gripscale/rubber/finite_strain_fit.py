@@ -205,7 +205,9 @@ def read_uniaxial_test(path: str | Path, *, stress_unit: str = "Pa") -> Uniaxial
     path = Path(path)
     rows = _first_sheet(path)
     try:
-        table = np.array([row[:3] for row in rows], dtype=float).reshape(-1, 3)
+        if any(len(row) < 3 for row in rows):
+            raise InputError("a row has fewer than three cells")
+        table = np.array([row[:3] for row in rows], dtype=float).reshape(len(rows), 3)
         stress = table[:, 2] * MODULUS_UNITS[stress_unit]
         return UniaxialTest(path.stem, table[:, 0], table[:, 1], stress)
     except (TypeError, ValueError) as error:

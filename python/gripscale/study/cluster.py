@@ -24,9 +24,7 @@ CONNECT_SECONDS = 10
 
 
 @contextmanager
-def cluster(
-    client: Any, workers: int
-) -> Iterator[Solve]:
+def cluster(client: Any, workers: int) -> Iterator[Solve]:
     """Give a function that solves tasks on a cluster.
 
     Parameters

@@ -22,7 +22,13 @@ def study_table(result: xr.Dataset) -> Table:
     table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
     for name in names:
         table.add_column(name.replace("_", " "), no_wrap=True)
-    heads = ["A_r/A_0", "μ", "μ diss.", "largest μ of", *(["A_r/A_0 at rest"] if at_rest else [])]
+    heads = [
+        "A_r/A_0",
+        "μ",
+        "μ\ndiss.",
+        "largest\nμ of",
+        *(["A_r/A_0\nat rest"] if at_rest else []),
+    ]
     for head in heads:
         table.add_column(head, justify="right", no_wrap=True)
     table.add_column("status", overflow="fold")

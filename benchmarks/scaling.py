@@ -1,0 +1,220 @@
+"""Cost against unknowns: one full Newton iteration, one cheap one, one wave; and the ceiling."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import problems
+from measure import peak_since_reset, reset_peak
+from numpy.typing import NDArray
+from rich.console import Console
+from table import show
+
+import gripscale as gs
+from gripscale.figures.style import BLUE, GREEN, GREY, ORANGE, WIDE, save_figure, sheet, styled
+
+COLUMNS = [34, 50, 66, 98, 130, 194, 258, 386]
+"""Twice an odd number: such a mesh is a ladder of one, and a warm start iterates on it alone."""
+ROW_EXPONENT = 0.585
+SHORTEST = 0.25
+"""Seconds over which a measurement is repeated."""
+LOAD_CHANGE = 1.001
+ONE_ITERATION, CONVERGED = 1e-4, 1e-8
+PRESSURES = {"sliding": (5e6, 0.3), "static": (2e6, 0.0)}
+"""Pressure [Pa] and speed [m/s]."""
+
+
+@dataclass(frozen=True)
+class Cost:
+    """Processor seconds of the parts of one wave on one mesh."""
+
+    columns: int
+    rows: int
+    megabytes: float
+    cold: float
+    iterations: int
+    full: float
+    cheap: float
+    outcome: float
+
+    @property
+    def unknowns(self) -> int:
+        """Displacement unknowns."""
+        return 2 * self.columns * self.rows
+
+    @property
+    def flops(self) -> float:
+        """Flops of the block elimination in one full iteration, 14/3 n^3 a row."""
+        return 14.0 / 3.0 * (2 * self.columns) ** 3 * self.rows
+
+
+def run(console: Console, figure: Path) -> None:
+    """Print and draw the costs, and compare the elimination with dense products and LU."""
+    costs = {kind: [_cost(kind, columns) for columns in COLUMNS] for kind in PRESSURES}
+    for kind, found in costs.items():
+        rows = [
+            [
+                f"{cost.columns}x{cost.rows}",
+                f"{cost.unknowns}",
+                f"{cost.megabytes:.0f}",
+                f"{cost.cold:.3f}",
+                f"{cost.iterations}",
+                f"{1e3 * cost.full:.1f}",
+                f"{1e3 * cost.cheap:.1f}",
+                f"{1e3 * cost.outcome:.1f}",
+                f"{cost.flops / 1e9:.2f}",
+                f"{cost.flops / cost.full / 1e9:.1f}",
+            ]
+            for cost in found
+        ]
+        rows.append(
+            [
+                "exponent, by unknowns",
+                "",
+                "",
+                f"{_exponent(found, 'cold'):.2f}",
+                "",
+                *(f"{_exponent(found, part):.2f}" for part in ("full", "cheap", "outcome")),
+                "",
+                "",
+            ]
+        )
+        show(
+            console,
+            f"Cost against unknowns, {kind}: tread rubber, A/lambda = 0.16",
+            [
+                *("mesh", "unknowns", "peak MB", "cold CPU s", "Newton"),
+                *("full ms", "cheap ms", "outcome ms", "elimination GFlop", "GFlop/s"),
+            ],
+            rows,
+            "Cold: the march of the load on this mesh alone, without the ladder that the default "
+            "mesh uses. Full: one iteration with a fresh factorisation, assembly and contact "
+            "included; cheap: one with the block kept; outcome: friction, edges, stretches and the "
+            "handing over of the fields. GFlop/s: the elimination's flops over the time of all of "
+            "a full iteration. Exponent: by unknowns, least squares over the last four meshes.",
+        )
+    _ceiling(console)
+    figure.parent.mkdir(parents=True, exist_ok=True)
+    for path in save_figure(_draw(costs), figure.parent, figure.stem):
+        if path.suffix == ".pdf":
+            path.unlink()
+    console.print(f"Figure: {figure}\n")
+
+
+def _rows(columns: int) -> int:
+    return round(20 * (columns / 128) ** ROW_EXPONENT)
+
+
+def _cost(kind: str, columns: int) -> Cost:
+    pressure, speed = PRESSURES[kind]
+
+    def solve(
+        factor: float, tolerance: float, start: gs.ScaleResult | None = None
+    ) -> gs.ScaleResult:
+        return gs.solve_scale(
+            problems.tread(),
+            wavelength=problems.WAVELENGTH,
+            amplitude=0.16 * problems.WAVELENGTH,
+            pressure=factor * pressure,
+            speed=speed,
+            load_time=5e-3,
+            columns=columns,
+            rows=_rows(columns),
+            residual_tolerance=tolerance,
+            start=start,
+        )
+
+    reset_peak()
+    cold_seconds, cold = _timed(lambda: solve(1.0, CONVERGED))
+    megabytes = peak_since_reset()
+    none, _ = _timed(lambda: solve(1.0, CONVERGED, cold))
+    one, first = _timed(lambda: solve(LOAD_CHANGE, ONE_ITERATION, cold))
+    more, last = _timed(lambda: solve(LOAD_CHANGE, CONVERGED, cold))
+    if first.newton_iterations != 1 or last.newton_iterations < 2 or not last.converged:
+        raise RuntimeError(f"unexpected iterations: {first}, {last}")
+    return Cost(
+        columns,
+        _rows(columns),
+        megabytes,
+        cold_seconds,
+        cold.newton_iterations,
+        one - none,
+        (more - one) / (last.newton_iterations - 1),
+        none,
+    )
+
+
+def _timed(call: Callable[[], gs.ScaleResult]) -> tuple[float, gs.ScaleResult]:
+    """Return the median CPU seconds of repeated calls, and the last result."""
+    seconds: list[float] = []
+    while len(seconds) < 3 or sum(seconds) < SHORTEST:
+        start = time.process_time()
+        result = call()
+        seconds.append(time.process_time() - start)
+        if sum(seconds) > 4 * SHORTEST:
+            break
+    return float(np.median(seconds)), result
+
+
+def _exponent(costs: list[Cost], part: str) -> float:
+    last = costs[-4:]
+    values = [getattr(cost, part) for cost in last]
+    return float(np.polyfit(np.log([c.unknowns for c in last]), np.log(values), 1)[0])
+
+
+def _ceiling(console: Console) -> None:
+    """Print what a dense product and a dense LU with n right-hand sides reach here."""
+    from threadpoolctl import threadpool_limits
+
+    generator = np.random.default_rng(1)
+    rows = []
+    with threadpool_limits(limits=1):
+        for size in (128, 256, 512):
+            a, b = generator.random((2, size, size)) + size * np.eye(size)
+            product = _rate(lambda a=a, b=b: a @ b, 2.0 * size**3)
+            solve = _rate(lambda a=a, b=b: np.linalg.solve(a, b), 8.0 / 3.0 * size**3)
+            rows.append([f"{size}", f"{product:.1f}", f"{solve:.1f}"])
+    show(
+        console,
+        "The practical ceiling: numpy (OpenBLAS), one thread",
+        ["n", "product GFlop/s", "LU and n right-hand sides GFlop/s"],
+        rows,
+        "2 n^3 and 8/3 n^3 flops. The elimination needs both per row: 14/3 n^3.",
+    )
+
+
+def _rate(call: Callable[[], NDArray[np.float64]], flops: float) -> float:
+    call()
+    count, start = 0, time.process_time()
+    while time.process_time() - start < SHORTEST:
+        call()
+        count += 1
+    return flops * count / (time.process_time() - start) / 1e9
+
+
+@styled
+def _draw(costs: dict[str, list[Cost]]) -> object:
+    page, axes = sheet(WIDE, 3.1, 1, 2, gap=0.06)
+    for panel, kind in zip(axes[0], costs, strict=True):
+        found = costs[kind]
+        unknowns = [cost.unknowns for cost in found]
+        for part, label, colour in (
+            ("cold", "one wave, cold", BLUE),
+            ("full", "full Newton iteration", GREEN),
+            ("cheap", "iteration with the block kept", ORANGE),
+        ):
+            values = [getattr(cost, part) for cost in found]
+            text = f"{label}, exponent {_exponent(found, part):.1f}"
+            panel.plot(unknowns, values, color=colour, marker="o", label=text)
+        limit = [cost.flops / 1e11 for cost in found]
+        panel.plot(unknowns, limit, color=GREY, ls=":", label="elimination at 100 GFlop/s")
+        panel.set_xscale("log")
+        panel.set_yscale("log")
+        panel.set_xlabel(f"unknowns, {kind}")
+        panel.set_ylabel("processor time [s]")
+        panel.legend()
+    return page
