@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections import Counter
 from dataclasses import dataclass
+from itertools import pairwise
 
 import load_grid
 import numpy as np
@@ -85,8 +86,8 @@ def _failures(all_solved: dict[Mesh, list[Solved]]) -> str:
 
 def _bins(console: Console, solved: list[Solved]) -> None:
     rows = []
-    for low, high in zip(SLOPES[:-1], SLOPES[1:], strict=True):
-        for least, most in zip(PRESSURES[:-1], PRESSURES[1:], strict=True):
+    for low, high in pairwise(SLOPES):
+        for least, most in pairwise(PRESSURES):
             inside = [
                 s
                 for s in solved
@@ -118,7 +119,7 @@ def _bins(console: Console, solved: list[Solved]) -> None:
             *("mismatch median", "most", "area", "largest stretch"),
         ],
         rows,
-        "Mean shear stays below one, as half-plane friction over the modulus at the load time says.",
+        "Mean shear, half-plane friction over the modulus at the load time, is below one.",
     )
 
 

@@ -155,6 +155,7 @@ def predict(
     max_scales: int | None = None,
     load_time: LoadTime = "passage",
     on_scale: Callable[[Prediction], None] | None = None,
+    start: Prediction | None = None,
     **options: Any,
 ) -> Prediction:
     """Run the chain over the waves of `sines`, largest first.
@@ -183,6 +184,9 @@ def predict(
         infinity lets the mean state relax fully. Always infinite at zero speed.
     on_scale
         Called with the prediction so far after every wave.
+    start
+        A prediction at a neighbouring speed, pressure or rubber: each wave starts from its wave of
+        the same number. The results are the same to the solver's residual, found sooner.
     **options
         Passed to the solver: columns, rows, depth ...
 
@@ -207,7 +211,9 @@ def predict(
 
     result = Prediction(rubber, sines, pressure, speed, footprint, [])
     p, length = pressure, footprint
-    for wavelength, amplitude in waves:
+    for number, (wavelength, amplitude) in enumerate(waves):
+        if start is not None and number < len(start.scales):
+            options["start"] = start.scales[number]
         scale = solve(
             rubber,
             wavelength=wavelength,
