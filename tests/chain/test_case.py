@@ -145,6 +145,7 @@ WRONG = [
     ("[load]", "[solver]\ncolumns = 2\n[load]", "[solver] columns = 2: expected at least 4"),
     ("[load]", "[solver]\ncolumns = 9\n[load]", "columns = 9: expected a multiple of 2"),
     ("[load]", "[solver]\nelement_order = 3\n[load]", "element_order = 3: expected 1 or 2"),
+    ("[load]", "[solver]\ntolerance = 0\n[load]", "tolerance = 0: expected greater than 0"),
     (
         "[load]",
         '[solver]\nmodel = "half_plane"\ncolumns = 64\n[load]',

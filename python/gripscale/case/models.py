@@ -149,11 +149,12 @@ class Solver(Table):
     rows: int | None = Field(default=None, ge=2, le=256)
     depth: float | None = Field(default=None, gt=0.0, allow_inf_nan=False)
     element_order: Literal[1, 2] | None = None
+    tolerance: float | None = Field(default=None, gt=0.0, lt=1.0, allow_inf_nan=False)
     points: int | None = Field(default=None, ge=16, le=8192)
 
     @model_validator(mode="after")
     def _options_of_the_model(self) -> Solver:
-        mesh = ["columns", "rows", "depth", "element_order"]
+        mesh = ["columns", "rows", "depth", "element_order", "tolerance"]
         foreign = ["points"] if self.model == "finite_strain" else mesh
         for name in foreign:
             if getattr(self, name) is not None:
