@@ -111,11 +111,11 @@ def solve_scale(
 ) -> ScaleResult:
     """Press a rubber block on one rigid sine wave, slide it, and find contact and friction.
 
-    The block is one wavelength wide and periodic, in plane strain at finite deformation: a
-    neo-Hookean network plus one temporary network per Maxwell element (Lubliner, Mech. Res.
+    The block is one wavelength wide and periodic, in plane strain at finite deformation: the
+    rubber's permanent network plus one temporary network per Maxwell element (Lubliner, Mech. Res.
     Commun. 12 (1985) 93), frictionless unilateral contact with z = amplitude cos(2 pi x /
     wavelength). The steady state is found in one non-linear solve in the frame of the wave
-    (Wriggers & Reinelt 2009, doi:10.1016/j.cma.2008.08.021, treat the same contact in time).
+    (Wriggers & Reinelt, Comput. Methods Appl. Mech. Engrg. 198 (2009) 1996, treat it in time).
 
     Parameters
     ----------

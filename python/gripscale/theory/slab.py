@@ -10,8 +10,8 @@ Nomenclature: kappa = 3 - 4 nu, c = k h.
 Limits: 2 (1-nu^2)/(E k), the half-plane, for c -> infinity; h (1+nu)(1-2nu)/(E (1-nu)), uniaxial
 strain, for c -> 0.
 
-Source: M. Hannah, Q. J. Mech. Appl. Math. 4 (1951) 94, doi:10.1093/qjmam/4.1.94; F. Bentall &
-K. L. Johnson, Int. J. Mech. Sci. 10 (1968) 637, doi:10.1016/0020-7403(68)90070-2 (bonded layer).
+Source: M. Hannah, Q. J. Mech. Appl. Math. 4 (1951) 94; F. Bentall & K. L. Johnson,
+Int. J. Mech. Sci. 10 (1968) 637 (bonded layer).
 """
 
 from __future__ import annotations
