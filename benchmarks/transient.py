@@ -141,9 +141,9 @@ def _each_case(
 def _long_memory(console: Console) -> None:
     """Relaxation time of 50 passages: compare with the steady state at the same load time."""
     rubber, wave, pressure = _load((0.1, 0.1, [2.0, 3.0], [0.1, 50.0]))
-    grid = {"columns": MESHES[-1][0], "rows": MESHES[-1][1]}
+    grid = {"columns": FIGURE_MESH[0], "rows": FIGURE_MESH[1]}
     rows = []
-    for passages in (1, 2, 5, 10):
+    for passages in (2, 5, 10):
         duration = passages * PASSAGE
         steady = gs.solve_scale(
             rubber, **wave, pressure=pressure, speed=SPEED, load_time=duration, **grid
@@ -206,5 +206,5 @@ def _draw(moving: gs.TransientResult, steady: gs.ScaleResult) -> object:
         panel.set_xlabel("sliding distance over wavelength [-]")
     axes[0][0].set_ylabel("friction coefficient [-]")
     axes[0][1].set_ylabel("contact fraction [-]")
-    axes[0][0].legend()
+    axes[0][0].legend(loc=(0.02, 0.2))
     return page

@@ -131,8 +131,10 @@ def solve_scale(
         Time the mean deformation has had to relax [s]; infinity by default.
     depth : float
         Height of the block in wavelengths.
-    columns, rows : int
-        Elements along and across the block; columns must be even.
+    columns : int
+        Elements along the block, an even number.
+    rows : int
+        Elements across the block.
     element_order : int
         1: bilinear with one pressure; 2: biquadratic with linear discontinuous pressure.
     tolerance : float, optional

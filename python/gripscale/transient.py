@@ -85,8 +85,7 @@ class TransientResult:
         wavelengths : float
             Length of the stretch in wavelengths.
         """
-        back = np.abs(self.distance[-1] - self.distance) / self.wavelength
-        last = back <= wavelengths
+        last = self._way_to_the_end() <= wavelengths
         return {
             name: (float(values[last].mean()), float(values[last].min()), float(values[last].max()))
             for name, values in (
@@ -95,6 +94,11 @@ class TransientResult:
             )
         }
 
+    def _way_to_the_end(self) -> Array:
+        """Return the way still to go at every moment, forth and back, in wavelengths."""
+        way = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(self.distance)))))
+        return np.asarray((way[-1] - way) / self.wavelength)
+
     def verdict(self, tolerance: float = 0.01) -> str:
         """Say whether friction has become `steady`, is `settling`, or runs a `limit cycle`.
 
@@ -102,9 +106,9 @@ class TransientResult:
         settling if it still shrinks by a tenth per wavelength, else a limit cycle, whose mean and
         range `cycle` gives. `too short` with less than two wavelengths since speed last changed.
         """
-        back = np.abs(self.distance[-1] - self.distance) / self.wavelength
+        back = self._way_to_the_end()
         changed = np.flatnonzero(self.speed != self.speed[-1])
-        since = changed[-1] + 1 if len(changed) else 0
+        since = changed[-1] if len(changed) else 0
         if self.speed[-1] == 0.0 or back[since] < 2.0 - 1e-9:
             return "too short"
         last, before = (back <= 1.0), (back > 1.0) & (back <= 2.0)

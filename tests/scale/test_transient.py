@@ -102,6 +102,11 @@ def test_start_stop_and_reversal():
     # Sliding back mirrors sliding forth, on a mesh that is its own mirror image.
     assert backward == pytest.approx(-forward, rel=1e-3)
     assert run.distance[-1] == pytest.approx(0.0, abs=1e-12)
+    # The last stretch is the way back alone, though it passes the same places as the way forth.
+    mean, _, largest = run.cycle()["friction"]
+    assert mean < 0.0
+    assert largest < 0.0
+    assert run.verdict() == "steady"
     assert run.time[-1] == pytest.approx(7 * PASSAGE)
 
 

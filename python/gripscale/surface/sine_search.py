@@ -7,7 +7,7 @@ smallest wavelength. Starts are a fixed grid, so that equal input gives equal ou
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import product
 
 import numpy as np
@@ -128,13 +128,22 @@ def search(target: Target, trial: Trial, refined: int = 10) -> Found | None:
     low, high = trial.bounds(target)
     if (low >= high).any():
         return None
-    starts = sorted((np.clip(q, low, high) for q in _starts(target, trial)), key=distance)
+    grid = _starts(target, trial) + _tied_start(target, trial, refined)
+    starts = sorted((np.clip(q, low, high) for q in grid), key=distance)
     fits = [
         least_squares(residuals, q, bounds=(low, high), xtol=1e-11, ftol=1e-11, gtol=1e-11)
         for q in starts[:refined]
     ]
     closest = min(fits, key=lambda fit: float(fit.cost))
     return Found(trial.fill(closest.x), trial.waves, float(np.sqrt(2.0 * closest.cost)))
+
+
+def _tied_start(target: Target, trial: Trial, refined: int) -> list[FloatArray]:
+    """Return the solution with one factor for both lengths: two factors must not do worse."""
+    if S_AMPLITUDE not in trial.free or not np.isnan(trial.given[S_WAVELENGTH]):
+        return []
+    tied = search(target, replace(trial, single_factor=True), refined)
+    return [] if tied is None else [tied.logs[trial.free]]
 
 
 def _starts(target: Target, trial: Trial) -> list[FloatArray]:

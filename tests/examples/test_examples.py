@@ -1,0 +1,103 @@
+"""Every example runs from anywhere, without a warning, and finds what it should."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+COARSE = "64"
+"""Columns of the mesh where an example takes them."""
+TESTED_ELSEWHERE = {"finite_strain_rubber"}
+
+
+@pytest.fixture
+def run(tmp_path):
+    """Run an example in a folder of its own; return what it prints and the figures it saves."""
+
+    def run(name: str, *arguments: str) -> str:
+        figures = tmp_path / "figures"
+        command = [sys.executable, "-W", "error", str(EXAMPLES / f"{name}.py"), str(figures)]
+        done = subprocess.run(
+            [*command, *arguments], cwd=tmp_path, capture_output=True, text=True, check=False
+        )
+        assert done.returncode == 0, done.stderr
+        assert not done.stderr
+        assert [path.name for path in tmp_path.iterdir()] == ["figures"]
+        saved = list(figures.glob(f"{name}*.png"))
+        assert saved
+        assert min(path.stat().st_size for path in saved) > 10_000
+        return done.stdout
+
+    return run
+
+
+def numbers(pattern: str, text: str) -> list[float]:
+    """Return the numbers a pattern catches in its first match."""
+    found = re.search(pattern, text)
+    assert found, text
+    return [float(value) for value in found.groups()]
+
+
+def test_every_example_is_tested():
+    tested = {name.removeprefix("test_") for name in globals() if name.startswith("test_")}
+    assert {path.stem for path in EXAMPLES.glob("*.py")} <= tested | TESTED_ELSEWHERE
+
+
+def test_one_wave(run):
+    printed = run("one_wave", "96")
+    rows = [[float(v) for v in line.split()[:6]] for line in printed.splitlines()[1:5]]
+    slope, block, plane, block_friction, plane_friction, stretch = zip(*rows, strict=True)
+    assert slope == (0.05, 0.3, 0.6, 0.9)
+    # Small strain scales with the slope, whatever it is; at small slope the models agree.
+    assert plane_friction[-1] / plane_friction[0] == pytest.approx(18.0, rel=0.01)
+    assert block[0] == pytest.approx(plane[0], abs=0.01)
+    assert block_friction[0] == pytest.approx(plane_friction[0], rel=0.01)
+    # At large slope they part: 0.311 against 0.3215 on 192 columns, contact 0.533 against 0.551.
+    assert block_friction[-1] / plane_friction[-1] == pytest.approx(0.968, abs=0.015)
+    assert plane[-1] - block[-1] == pytest.approx(0.018, abs=0.008)
+    assert stretch[-1] > 1.5
+
+
+def test_speed_sweep(run):
+    printed = run("speed_sweep", COARSE)
+    largest, speed = numbers(r"largest, ([\d.]+), at ([\d.e+-]+) m/s", printed)
+    assert largest == pytest.approx(0.193, abs=0.01)
+    assert 10.0 < speed < 100.0
+    slow, fast = numbers(r"contact ([\d.]+) slow, ([\d.]+) fast", printed)
+    assert slow == pytest.approx(1.0, abs=0.01)
+    assert fast < 0.1
+    (iterations,) = numbers(r"([\d.]+) Newton iterations", printed)
+    assert iterations < 15.0  # on all meshes together; cold starts take about 40
+
+
+def test_start_stop_reversal(run):
+    printed = run("start_stop_reversal", COARSE)
+    forth, back, largest = numbers(r"forth ([\d.-]+), back ([\d.-]+), largest ([\d.]+)", printed)
+    (steady,) = numbers(r"steady state ([\d.]+)", printed)
+    assert forth == pytest.approx(steady, rel=0.03)
+    assert back == pytest.approx(-steady, rel=0.03)
+    assert largest > 1.05 * steady
+    before, after = numbers(r"grows from ([\d.]+) to ([\d.]+)", printed)
+    assert after > before + 0.1
+
+
+def test_own_rubber(run):
+    printed = run("own_rubber")
+    assert numbers(r"E' ([\d.]+)%, E'' ([\d.]+)%", printed) == pytest.approx([9.0, 8.7], abs=0.5)
+    lost = [float(value) for value in re.findall(r", ([\d.]+) MJ/m\^3 lost", printed)]
+    # The permanent network loses nothing, and the temporary ones are the same in all three.
+    assert lost == pytest.approx([0.89] * 3, abs=0.02)
+
+
+def test_measured_surface(run):
+    printed = run("measured_surface")
+    (hurst,) = numbers(r"Hurst exponent ([\d.]+)", printed)
+    assert hurst == pytest.approx(0.87, abs=0.02)
+    residuals = [float(value) for value in re.findall(r"residual ([\d.]+)", printed)]
+    assert residuals[0] > residuals[1] > 0.0
+    assert residuals[2] < 0.06

@@ -1,0 +1,115 @@
+"""The variables, units, columns, statuses and figures the docs list are those the code writes."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from gripscale import Rubber, dataset, report, surface
+from gripscale.cli import app
+
+ROOT = Path(__file__).parents[2]
+PAGE = (ROOT / "docs" / "reading-results.md").read_text(encoding="utf-8")
+
+CASE = """\
+[surface]
+files = ["road.txt"]
+scales = 2
+smallest_wavelength = "2 mm"
+[rubber]
+file = "dma.txt"
+terms = 4
+[load]
+pressure = "3 bar"
+speed = "0.3 m/s"
+footprint = "100 mm"
+static = false
+[solver]
+columns = 64
+rows = 10
+"""
+
+
+def section(title: str) -> str:
+    """Return the text below a heading, up to the next one."""
+    found = re.search(rf"^#+ {re.escape(title)}\n(.*?)(?=^#|\Z)", PAGE, re.DOTALL | re.MULTILINE)
+    assert found, title
+    return found[1]
+
+
+def first_cells(title: str) -> list[str]:
+    """Return the names in the first column of the tables of a section."""
+    text = re.sub(r"</?code>", "`", section(title)).replace("&#124;", "\0")
+    cells = re.findall(r"^\| (`.*?) \|", text, re.MULTILINE)
+    return [name.replace("\0", "|") for cell in cells for name in re.findall(r"`(.*?)`", cell)]
+
+
+def units(title: str) -> dict[str, str]:
+    """Return name and unit of the variables a section lists."""
+    rows = re.findall(r"^\| `(\w+)` \| (.*?) ?\|", section(title), re.MULTILINE)
+    assert len(rows) == len(dict(rows)), f"listed twice: {title}"
+    return dict(rows)
+
+
+def written(data) -> dict[str, str]:
+    return {str(name): variable.attrs.get("units", "") for name, variable in data.variables.items()}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """A run and a study of a made-up road and rubber."""
+    folder = tmp_path_factory.mktemp("case")
+    road = surface.self_affine_profile(0.8, 3e-3, 8e-4, length=0.1, step=1e-4, seed=1)
+    rows = [f"{x * 1e3:.1f}\t{z * 1e3:.5f}" for x, z in zip(road.x, road.z, strict=True)]
+    (folder / "road.txt").write_text("\n".join(["x [mm]\tz [mm]", *rows]))
+    frequency = np.geomspace(1e-1, 1e5, 30)
+    modulus = Rubber(6e6, [3e6, 5e6], [1e-1, 1e-4]).complex_modulus(2 * np.pi * frequency)
+    lines = [f"{f:.5e} {e.real:.6e} {e.imag:.6e}" for f, e in zip(frequency, modulus, strict=True)]
+    (folder / "dma.txt").write_text("\n".join(["# frequency (Hz) E' (Pa) E'' (Pa)", *lines]))
+    (folder / "case.toml").write_text(CASE)
+    for arguments in (["run"], ["study", "--vary", "speed=0.3,0.6", "--workers", "1"]):
+        command = [arguments[0], str(folder / "case.toml"), *arguments[1:]]
+        outcome = CliRunner().invoke(app, command)
+        assert outcome.exit_code == 0, outcome.output
+    return folder / "results"
+
+
+def test_the_variables_of_a_run_are_listed_with_their_units(folder):
+    groups = dataset.load_groups(folder / "dynamic.nc")
+    assert units("Waves") == written(dataset.load(folder / "dynamic.nc"))
+    assert set(groups) == {"inputs", "solver"}
+    for name, data in groups.items():
+        assert units(f"Group `{name}`") == written(data)
+
+
+def test_the_variables_of_a_study_are_listed_with_their_units(folder):
+    study = written(dataset.load(folder / "study" / "study.nc"))
+    waves = units("Waves")
+    own = {name: unit for name, unit in study.items() if name not in {"speed", *waves}}
+    assert units("The file of a study") == own
+    assert {name: waves[name] for name in study if name in waves}.items() <= study.items()
+
+
+def test_the_figures_are_listed(folder):
+    listed = set(first_cells("The figures of a run"))
+    of_run = {path.stem for path in (folder / "figures").iterdir()}
+    of_study = {path.stem for path in (folder / "study" / "figures").iterdir()}
+    assert listed == of_run | of_study | {"blocks_static"}
+
+
+def test_the_columns_of_the_table_are_listed():
+    columns = [report.WAVE, report.LENGTH, *report.LOAD, *report.CONTACT, *report.EVIDENCE]
+    two_lines = {"area", "μ"}
+    names = [f"{c.heading} {c.unit}" if c.heading in two_lines else c.heading for c in columns]
+    assert first_cells("The table") == names
+
+
+def test_the_statuses_are_those_of_the_kernel():
+    kernel = (ROOT / "rust" / "python.rs").read_text(encoding="utf-8")
+    assert first_cells("Statuses, and what to do about them") == re.findall(
+        r'Ending::\w+ => "(.*?)"', kernel
+    )

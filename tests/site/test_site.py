@@ -1,0 +1,97 @@
+"""The site builds without a warning, has every page, and loads nothing from elsewhere."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from html.parser import HTMLParser
+from pathlib import Path
+
+import pytest
+import yaml
+
+import gripscale
+
+ROOT = Path(__file__).parents[2]
+LOADING = {"script": "src", "img": "src", "iframe": "src", "source": "src", "video": "src"}
+"""Tags that make a browser fetch, with the attribute that says what; links are looked at apart."""
+
+
+class Loads(HTMLParser):
+    """Collects what a page makes a browser fetch, and its ids."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.targets: list[str] = []
+        self.ids: set[str] = set()
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        values = {name: value or "" for name, value in attrs}
+        self.ids |= {values["id"]} if "id" in values else set()
+        fetched = values.get(LOADING.get(tag, ""))
+        if tag == "link" and values.get("rel") not in ("canonical", "prev", "next"):
+            fetched = values.get("href")
+        if fetched:
+            self.targets.append(fetched)
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    pytest.importorskip("mkdocs", reason="needs gripscale[docs]")
+    folder = tmp_path_factory.mktemp("site")
+    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--site-dir", str(folder)]
+    environment = {**os.environ, "NO_MKDOCS_2_WARNING": "1"}
+    built = subprocess.run(
+        command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False
+    )
+    assert built.returncode == 0, built.stderr
+    assert "WARNING" not in built.stderr + built.stdout
+    return folder
+
+
+def pages_of(nav) -> list[str]:
+    if isinstance(nav, str):
+        return [nav]
+    entries = nav.values() if isinstance(nav, dict) else nav
+    return [page for entry in entries for page in pages_of(entry)]
+
+
+def read(page: Path) -> Loads:
+    loads = Loads()
+    loads.feed(page.read_text(encoding="utf-8"))
+    return loads
+
+
+def test_every_page_of_the_nav_exists(site):
+    nav = yaml.safe_load((ROOT / "mkdocs.yml").read_text(encoding="utf-8"))["nav"]
+    pages = pages_of(nav)
+    assert len(pages) >= 14
+    for page in pages:
+        assert (site / page).with_suffix(".html").stat().st_size > 5000, page
+
+
+def test_no_page_loads_anything_from_elsewhere(site):
+    pages = list(site.rglob("*.html"))
+    assert len(pages) > 14
+    for page in pages:
+        for target in read(page).targets:
+            assert not re.match(r"(\w+:)?//", target), f"{page.name} loads {target}"
+            if not target.startswith("data:") and page.name != "404.html":
+                file = page.parent / target.partition("?")[0].partition("#")[0]
+                assert file.exists(), f"{page.name} loads {target}, which is not there"
+
+
+def test_no_style_sheet_loads_anything_from_elsewhere(site):
+    for sheet in site.rglob("*.css"):
+        text = sheet.read_text(encoding="utf-8")
+        assert not re.search(r"(@import|url\()\s*[\"']?(https?:)?//", text), sheet.name
+
+
+def test_every_public_name_has_its_entry(site):
+    ids = set().union(*(read(page).ids for page in (site / "reference").glob("*.html")))
+    modules = {"rubber", "surface", "theory"}
+    missing = [n for n in gripscale.__all__ if n not in modules and f"gripscale.{n}" not in ids]
+    missing += [n for n in gripscale.theory.__all__ if f"gripscale.theory.{n}" not in ids]
+    assert not [name for name in missing if name not in ("simple_shear_stress", "uniaxial_stress")]
