@@ -7,7 +7,7 @@ READY := $(VENV)/.ready
 BUILT := $(VENV)/.built
 SOURCES := Cargo.toml Cargo.lock pyproject.toml $(shell find rust -name '*.rs')
 
-.PHONY: run build test bench clean
+.PHONY: run build test docs bench clean
 .DEFAULT_GOAL := run
 
 run: build
@@ -25,6 +25,9 @@ test: build
 	$(BIN)/mypy
 	$(BIN)/python -m mypy.stubtest gripscale._kernel
 	$(BIN)/python -m pytest -q
+
+docs: build
+	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict
 
 bench: build
 	$(BIN)/python benchmarks/bench.py

@@ -136,7 +136,7 @@ impl Scale {
         maxwell.equilibrium /= unit;
         maxwell.moduli.iter_mut().for_each(|g| *g /= unit);
         let mut climber = Ladder::new(self, maxwell, unit);
-        let cells = self.cells(start.is_some())?;
+        let cells = self.cells(start)?;
         let mut last: Option<Level> = None;
         let mut result = None;
         for (index, cell) in cells.iter().enumerate() {
@@ -166,7 +166,7 @@ impl Scale {
     }
 
     /// The ladder, coarsest first: up to the mesh asked for, or with a tolerance beyond it.
-    fn cells(&self, warm: bool) -> Result<Vec<Cell>, KernelError> {
+    fn cells(&self, start: Option<&Solution>) -> Result<Vec<Cell>, KernelError> {
         let finest = Cell::new(self.order, self.columns, self.rows, self.depth)?;
         let mut columns = vec![self.columns];
         while columns[0] % 4 == 0 && self.order * columns[0] / 2 >= COARSEST {
@@ -176,7 +176,10 @@ impl Scale {
             while columns[columns.len() - 1] * 2 <= MAX_COLUMNS / 2 {
                 columns.push(columns[columns.len() - 1] * 2);
             }
-        } else if warm {
+            // A neighbour that met its tolerance tells which meshes are worth a look.
+            let least = start.map_or(0, |solution| solution.cell.columns / 2);
+            columns.retain(|&count| count >= least);
+        } else if start.is_some() {
             columns.drain(..columns.len().saturating_sub(2));
         }
         columns

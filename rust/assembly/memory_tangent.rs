@@ -1,8 +1,8 @@
 //! The dense part of the tangent of steady sliding: all points of a line remember one another.
 //!
 //! M = sum over lines and pairs of points (q, q') of L_q weight(q - q') R_q', with L = dR_u/dH at q
-//! and R = dY/du at q'. Cost per element row of order 1 with n columns: 2 * 16 * 64 n^2 flops for
-//! the product and a third of that for spreading.
+//! and R = dY/du at q'. Cost per element row of order 1 with n columns: 1024 n^2 flops for the
+//! product and a quarter of that for spreading.
 
 use super::Block;
 use crate::linear::{self, Matrix};
