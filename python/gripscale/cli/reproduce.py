@@ -11,6 +11,7 @@ import typer
 from rich.console import Console
 
 from gripscale.cli import folder
+from gripscale.cli.options import Cluster, Workers
 from gripscale.cli.terminal import command, say, screen
 
 if TYPE_CHECKING:
@@ -40,16 +41,8 @@ def reproduce(
             show_default=False,
         ),
     ] = None,
-    workers: Annotated[
-        int | None, typer.Option(help="Cores to use; all by default.", show_default=False)
-    ] = None,
-    cluster: Annotated[
-        str | None,
-        typer.Option(
-            help='"local", or the address of a Dask scheduler: tcp://host:8786.',
-            show_default=False,
-        ),
-    ] = None,
+    workers: Workers = None,
+    cluster: Cluster = None,
 ) -> None:
     """Reproduce figures of Lind & Wangenheim 2014 and judge the paper's statements."""
     from gripscale.reproduce import reproduce as make

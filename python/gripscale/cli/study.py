@@ -9,6 +9,7 @@ import typer
 from rich.console import Console
 
 from gripscale.cli import folder
+from gripscale.cli.options import Cluster, Workers
 from gripscale.cli.terminal import NOT_CONVERGED, command, complain, say, screen
 from gripscale.errors import InputError
 
@@ -37,16 +38,8 @@ def study(
             readable=False,
         ),
     ] = None,
-    workers: Annotated[
-        int | None, typer.Option(help="Cores to use; all by default.", show_default=False)
-    ] = None,
-    cluster: Annotated[
-        str | None,
-        typer.Option(
-            help='"local", or the address of a Dask scheduler: tcp://host:8786.',
-            show_default=False,
-        ),
-    ] = None,
+    workers: Workers = None,
+    cluster: Cluster = None,
     static: Annotated[
         bool | None,
         typer.Option(
