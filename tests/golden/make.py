@@ -1,0 +1,17 @@
+"""Write the golden file anew: `python -m tests.golden.make`, only when a number is meant to move."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+from .instruction_set import instruction_set
+from .quantities import all_numbers
+
+if __name__ == "__main__":
+    with tempfile.TemporaryDirectory() as folder:
+        numbers = all_numbers(Path(folder))
+    kept = {"instruction_set": np.array(instruction_set()), **numbers}
+    np.savez_compressed(Path(__file__).with_name("golden.npz"), allow_pickle=False, **kept)
