@@ -1,4 +1,4 @@
-"""Write the golden file anew: `python -m tests.golden.make`, only when a number is meant to move."""
+"""Write the golden file anew (`python -m tests.golden.make`), when a number is meant to move."""
 
 from __future__ import annotations
 
