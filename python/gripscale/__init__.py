@@ -4,54 +4,17 @@ From a surface profile and a DMA master curve, through superposed sine waves, to
 viscoelastic contact solution of every wave (Lind & Wangenheim, ASME IMECE2014-37998).
 """
 
-from importlib.metadata import version as _version
+from typing import Any
 
-from gripscale import rubber, surface, theory
-from gripscale.chain import Prediction, predict
-from gripscale.errors import ConvergenceError, FileError, GripscaleError, InputError
-from gripscale.rubber import MasterCurve, Rubber, fit_prony, read_master_curve
-from gripscale.scale import ScaleResult, solve_scale
-from gripscale.surface import (
-    HeightDifference,
-    Profile,
-    SelfAffineFit,
-    SineStack,
-    clean,
-    fit_self_affine,
-    fit_sines,
-    height_difference,
-    read_profile,
-)
-from gripscale.transient import Stage, TransientResult, solve_transient
+import lazy_loader
 
-__version__ = _version("gripscale")
+_lazy, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
 
-__all__ = [
-    "ConvergenceError",
-    "FileError",
-    "GripscaleError",
-    "HeightDifference",
-    "InputError",
-    "MasterCurve",
-    "Prediction",
-    "Profile",
-    "Rubber",
-    "ScaleResult",
-    "SelfAffineFit",
-    "SineStack",
-    "Stage",
-    "TransientResult",
-    "clean",
-    "fit_prony",
-    "fit_self_affine",
-    "fit_sines",
-    "height_difference",
-    "predict",
-    "read_master_curve",
-    "read_profile",
-    "rubber",
-    "solve_scale",
-    "solve_transient",
-    "surface",
-    "theory",
-]
+
+def __getattr__(name: str) -> Any:
+    """Import a public name when it is first asked for."""
+    if name == "__version__":
+        from gripscale.versions import version_of
+
+        return version_of("gripscale")
+    return _lazy(name)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import math
 from collections.abc import Iterable
 from typing import Any
@@ -83,6 +84,16 @@ def one_of(name: str, value: Any, choices: Iterable[str]) -> str:
     if value not in known:
         raise InputError(f"{name} must be one of {', '.join(known)}; got {value!r}")
     return str(value)
+
+
+def known(kind: str, given: Iterable[str], allowed: Iterable[str]) -> None:
+    """Raise `InputError`, with the nearest name, unless all names `given` are among `allowed`."""
+    names = list(allowed)
+    for name in given:
+        if name not in names:
+            near = difflib.get_close_matches(name, names, n=1)
+            hint = f"did you mean {near[0]}?" if near else f"expected one of {', '.join(names)}"
+            raise InputError(f"unknown {kind} {name}; {hint}")
 
 
 def _in(unit: str) -> str:

@@ -86,9 +86,9 @@ def _chain(name: str, prediction: gs.Prediction) -> Numbers:
         f"{name}/total_friction": np.array(prediction.friction),
         f"{name}/running_contact_fraction": prediction.running_contact_fraction,
         f"{name}/running_friction": prediction.running_friction,
-        f"{name}/modulus": prediction.modulus,
-        f"{name}/loss_factor": prediction.loss_factor,
-        f"{name}/outside_band": prediction.outside_band,
+        f"{name}/modulus": np.array([scale.modulus for scale in prediction.scales]),
+        f"{name}/loss_factor": np.array([scale.loss_factor for scale in prediction.scales]),
+        f"{name}/outside_band": np.array([scale.outside_band for scale in prediction.scales]),
     }
     for i, scale in enumerate(prediction.scales):
         at = f"{name}/{i + 1}"

@@ -30,7 +30,7 @@ def now(tmp_path_factory: pytest.TempPathFactory) -> Numbers:
 
 
 def test_every_number_is_there(golden: Numbers, now: Numbers) -> None:
-    assert set(golden) - {"instruction_set"} == set(now)
+    assert set(golden) - {"instruction_set"} <= set(now)
 
 
 def test_no_number_has_moved(golden: Numbers, now: Numbers) -> None:

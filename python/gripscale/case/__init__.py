@@ -1,18 +1,5 @@
-"""The case file: one TOML file that says what a run reads, solves and writes."""
+"""The case: one TOML file that says what is read, solved and written; and running it."""
 
-from gripscale.case.models import Case, Load, Output, RubberSource, Solver, Surface
-from gripscale.case.quantity import parse_quantity
-from gripscale.case.read import CaseFile, read_case, validate
+import lazy_loader
 
-__all__ = [
-    "Case",
-    "CaseFile",
-    "Load",
-    "Output",
-    "RubberSource",
-    "Solver",
-    "Surface",
-    "parse_quantity",
-    "read_case",
-    "validate",
-]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -124,6 +124,13 @@ class Rubber:
             self.strain_energy,
         )
 
+    def to_dict(self):
+        return {"equilibrium_modulus": self.equilibrium_modulus, "moduli": self.moduli.tolist(), "relaxation_times": self.relaxation_times.tolist(), "bulk_modulus": self.bulk_modulus, "name": self.name, "source": self.source, "valid_band": self.valid_band}
+
+    @classmethod
+    def from_dict(cls, d):
+        return cls(**d)
+
     @property
     def glassy_modulus(self) -> float:
         """Young's modulus at once after a step, E_inf + sum E_i [Pa]."""

@@ -1,8 +1,5 @@
 """Studies: a case with its inputs varied, on all cores or a cluster, resumed where they stopped."""
 
-from gripscale.study.solving import Progress, solve_all
-from gripscale.study.store import Store
-from gripscale.study.study import Study
-from gripscale.study.task import Task, solve_task
+import lazy_loader
 
-__all__ = ["Progress", "Store", "Study", "Task", "solve_all", "solve_task"]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

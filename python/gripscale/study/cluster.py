@@ -12,10 +12,9 @@ from collections.abc import Callable, Generator, Iterator
 from contextlib import ExitStack, contextmanager
 from typing import Any
 
-from gripscale.dataset import versions
 from gripscale.errors import ConvergenceError, InputError
-from gripscale.study.solving import Solved, timed
-from gripscale.study.task import Task
+from gripscale.study.software import software
+from gripscale.study.task import Solved, Task
 
 Solve = Callable[[list[Task]], Generator[Solved, None, None]]
 
@@ -47,13 +46,15 @@ def cluster(client: Any, workers: int) -> Iterator[Solve]:
             client = ending.enter_context(local)
         if not isinstance(client, distributed.Client):
             client = ending.enter_context(_connected(distributed, client))
-        _require_same_version(client)
+        _require_same_software(client)
         yield lambda tasks: _solve(distributed, client, tasks)
 
 
 def _solve(distributed: Any, client: Any, tasks: list[Task]) -> Generator[Solved, None, None]:
     """Yield results as they come."""
-    futures = [client.submit(timed, task, key=f"gripscale-{task.key}") for task in tasks]
+    futures = [
+        client.submit(Task.solve, task.reduced(), key=f"gripscale-{task.key}") for task in tasks
+    ]
     try:
         for future, result in distributed.as_completed(
             futures, loop=client.loop, with_results=True
@@ -62,7 +63,7 @@ def _solve(distributed: Any, client: Any, tasks: list[Task]) -> Generator[Solved
             future.release()
     except distributed.KilledWorker as error:
         raise ConvergenceError(
-            f"the cluster gave up a case that {error.allowed_failures} workers died on; "
+            f"the cluster gave up a prediction that {error.allowed_failures} workers died on; "
             "they may be short of memory"
         ) from error
     finally:
@@ -89,15 +90,9 @@ def _connected(distributed: Any, address: Any) -> Any:
         ) from error
 
 
-def _require_same_version(client: Any) -> None:
-    """Raise `InputError` if a worker would solve with another gripscale."""
-    here = versions()["gripscale"]
-    for worker, there in client.run(_version).items():
+def _require_same_software(client: Any) -> None:
+    """Raise `InputError` if a worker would solve with other code, whatever its version says."""
+    here = software()
+    for worker, there in client.run(software).items():
         if there != here:
-            raise InputError(
-                f"worker {worker} has gripscale {there}, this machine {here}; install the same"
-            )
-
-
-def _version() -> str:
-    return versions()["gripscale"]
+            raise InputError(f"worker {worker} has {there}, this machine {here}; install the same")

@@ -31,7 +31,7 @@ def friction_by_decade(solved: xr.Dataset, rubber: Rubber) -> dict[int, float]:
     Parameters
     ----------
     solved
-        A chain in motion, as `Prediction.to_dataset` returns it.
+        A prediction in motion, as `Prediction.to_dataset` returns it.
     rubber
         What it was solved for.
 
@@ -39,9 +39,13 @@ def friction_by_decade(solved: xr.Dataset, rubber: Rubber) -> dict[int, float]:
     -------
     dict
         From n, for relaxation times of 10^n s up to 10^(n+1) s, to its part of the friction
-        coefficient [-]. Empty where nothing slides, the rubber is elastic or a wave failed.
+        coefficient [-]. Empty where nothing slides, the rubber is elastic, a wave failed or the
+        model has no waves.
     """
-    if solved.attrs["case_status"] != "converged" or not solved.attrs["sliding_speed_m_per_s"]:
+    needed = {"surface_pressure", "angular_frequency", "friction"}
+    if not needed <= set(solved.data_vars) or solved.prediction_status != "converged":
+        return {}
+    if solved.nominal_speed == 0.0:
         return {}
     decade = np.floor(np.log10(rubber.relaxation_times) + 1e-9).astype(int)
     parts = {int(n): 0.0 for n in np.unique(decade)}

@@ -1,4 +1,4 @@
-"""Finished chains on disk: one small netCDF file each, named by the key of its task.
+"""Finished predictions on disk: one small netCDF file each, named by the key of its task.
 
 A file is written beside its place and renamed into it, so a file that is there is whole. One that
 cannot be read back all the same (a disk that was full, a power cut) counts as not there.
@@ -10,12 +10,12 @@ from pathlib import Path
 
 import xarray as xr
 
-from gripscale import dataset
+from gripscale import netcdf
 from gripscale.errors import FileError
 
 
 class Store:
-    """A folder of finished chains.
+    """A folder of finished predictions.
 
     Parameters
     ----------
@@ -37,20 +37,20 @@ class Store:
             raise FileError(f"folder {self.folder} cannot be made: {reason}") from error
 
     def path(self, key: str) -> Path:
-        """Return where the chain of `key` is, or would be."""
+        """Return where the prediction of `key` is, or would be."""
         return self.folder / f"{key}.nc"
 
     def get(self, key: str) -> xr.Dataset | None:
-        """Return the chain of `key`, or None if it is not there whole."""
+        """Return the prediction of `key`, or None if it is not there whole."""
         try:
-            found = dataset.load(self.path(key))
+            found = netcdf.load(self.path(key))
         except FileError:
             return None
-        return found if found.attrs.get("case_key") == key else None
+        return found if found.attrs.get("prediction_key") == key else None
 
     def put(self, key: str, solved: xr.Dataset) -> xr.Dataset:
-        """Write the chain of `key` and return it as read back.
+        """Write the prediction of `key` and return it as read back.
 
         Raises `FileError` if it cannot be written.
         """
-        return dataset.load(dataset.save(solved, self.path(key)))
+        return netcdf.load(netcdf.save(solved, self.path(key)))

@@ -3,7 +3,7 @@
     study = Study("case.toml", vary={"speed": "0.003:30:log9", "pressure": ["1 bar", "3 bar"]})
     result = study.run("results/speed_and_pressure")
 
-Each chain is kept as soon as it is solved. A study that was stopped, however abruptly, goes on
+Each prediction is kept as soon as it is made. A study that was stopped, however abruptly, goes on
 where it was when it is run again, and ends in the same Dataset to the last bit.
 """
 
@@ -19,23 +19,27 @@ from typing import Any
 
 import xarray as xr
 
-from gripscale import dataset
-from gripscale.case import CaseFile, read_case
+from gripscale import netcdf, versions
+from gripscale.case.read import CaseFile, read_case
+from gripscale.chain.model import Chain
+from gripscale.chain.solvers import wave_solver
+from gripscale.model import Model, NominalLoad
 from gripscale.rubber import Rubber
 from gripscale.study import assemble
 from gripscale.study.assemble import Index
 from gripscale.study.axes import Axis, axes_of
-from gripscale.study.inputs import Road, case_road, case_rubber, road_of, rubber_of
-from gripscale.study.solving import OnCase, solve_all
+from gripscale.study.inputs import case_rubber, case_surface, rubber_of, surface_of
+from gripscale.study.software import software
 from gripscale.study.store import Store
-from gripscale.study.task import Task, exact, software
-from gripscale.surface import SineStack
+from gripscale.study.task import Task, exact
+from gripscale.study.threads import OnTask, solve_all
+from gripscale.surface import PreparedSurface
 
 RESULT = "study.nc"
 """The Dataset, in the folder of the study."""
 
-CASES = "cases"
-"""Folder of the finished chains, in the folder of the study."""
+PREDICTIONS = "predictions"
+"""Folder of the finished predictions, in the folder of the study."""
 
 
 @dataclass(frozen=True)
@@ -62,6 +66,8 @@ class Study:
         ("0.003:30:log9", "1 bar,3 bar"). A speed of zero is static contact.
     static
         Whether the relaxed rubber at rest is solved, too; as the case says by default.
+    model
+        What predicts; the chain with the solver of the case by default.
 
     Raises
     ------
@@ -75,20 +81,21 @@ class Study:
         vary: Mapping[str, Any],
         *,
         static: bool | None = None,
+        model: Model | None = None,
     ) -> None:
         self.file = case if isinstance(case, CaseFile) else read_case(case)
         self.axes: tuple[Axis, ...] = axes_of(vary)
         self.static = self.file.case.load.static if static is None else static
-        own = {axis.name: axis for axis in self.axes}
-        surfaces = own["surface"].values if "surface" in own else ()
-        rubbers = own["rubber"].values if "rubber" in own else ()
-        self.roads: list[Road] = [road_of(value, self.file) for value in surfaces] or [
-            case_road(self.file)
-        ]
-        self.rubbers: list[Rubber] = [rubber_of(value, self.file) for value in rubbers] or [
-            case_rubber(self.file)
-        ]
-        self._stacks: dict[tuple[Any, ...], SineStack] = {}
+        solver = self.file.case.solver
+        self.model = model or Chain(wave_solver(solver.model, solver.options()))
+        own = {axis.name: axis.values for axis in self.axes}
+        self.surfaces: list[PreparedSurface] = [
+            surface_of(value, self.file) for value in own.get("surface", ())
+        ] or [case_surface(self.file)]
+        self.rubbers: list[Rubber] = [
+            rubber_of(value, self.file) for value in own.get("rubber", ())
+        ] or [case_rubber(self.file)]
+        self._varied: dict[Any, PreparedSurface] = {}
 
     @cached_property
     def points(self) -> list[Point]:
@@ -111,23 +118,23 @@ class Study:
         *,
         workers: int | None = None,
         client: Any = None,
-        on_case: OnCase | None = None,
+        on_task: OnTask | None = None,
     ) -> xr.Dataset:
         """Solve what `folder` does not have yet, and write and return the Dataset.
 
         Parameters
         ----------
         folder
-            Gets `study.nc`, and the chains in `cases`. Several studies may share one folder for
-            their chains, one after the other; the last one's Dataset stays.
-        workers, client, on_case
+            Gets `study.nc`, and the predictions in `predictions`. Several studies may share one folder for
+            their predictions, one after the other; the last one's Dataset stays.
+        workers, client, on_task
             As for `solve_all`.
 
         Returns
         -------
         xarray.Dataset
             Per wave and in total, over the varied axes; at rest with the prefix `static_`.
-            A chain that did not converge has NaN totals and says why in `case_status`.
+            A prediction that did not converge has NaN totals and says why in `prediction_status`.
 
         Raises
         ------
@@ -135,31 +142,25 @@ class Study:
             An input that cannot be used, a result that cannot be written.
         """
         folder = Path(folder)
-        store = Store(folder / CASES)
+        store = Store(folder / PREDICTIONS)
         tasks = {point.label: point.task for point in [*self.points, *self.static_points]}
-        solved = solve_all(tasks, store, workers=workers, client=client, on_case=on_case)
+        solved = solve_all(tasks, store, workers=workers, client=client, on_task=on_task)
         result = self.assemble(solved)
-        dataset.save(result, folder / RESULT)
+        netcdf.save(result, folder / RESULT)
         return result
 
     def assemble(self, solved: Mapping[str, xr.Dataset]) -> xr.Dataset:
-        """Return the Dataset of the study from its chains by their keys."""
+        """Return the Dataset of the study from its predictions by their keys."""
         moving = {point.index: solved[point.task.key] for point in self.points}
         rest = {point.index: solved[point.task.key] for point in self.static_points}
         rubbers = {point.index: point.task.rubber for point in self.points}
-        data = {
-            **assemble.totals(moving, self.axes),
-            **assemble.per_wave(moving, self.axes),
-            **assemble.by_decade(moving, self.axes, rubbers),
-        }
+        result = assemble.combined(moving, self.axes)
+        result = result.assign(assemble.by_decade(moving, self.axes, rubbers))
         if rest:
-            data |= _at_rest(assemble.totals(rest, self.static_axes))
-            data |= _at_rest(assemble.per_wave(rest, self.static_axes))
-        waves = max(cell.sizes["scale"] for cell in [*moving.values(), *rest.values()])
-        data = {name: _padded(variable, waves) for name, variable in data.items()}
-        return xr.Dataset(
-            data, coords=assemble.coordinates(self.axes, waves), attrs=self._provenance()
-        )
+            at_rest = _at_rest(assemble.combined(rest, self.static_axes))
+            result = xr.merge([result, at_rest], join="outer", compat="no_conflicts")
+        result = result.assign_coords(assemble.coordinates(self.axes))
+        return result.drop_attrs(deep=False).assign_attrs(self._provenance())
 
     def _points(self, axes: tuple[Axis, ...], *, static: bool) -> list[Point]:
         points = []
@@ -175,30 +176,31 @@ class Study:
         return points
 
     def _task(self, chosen: dict[str, Any], place: dict[str, int], *, static: bool) -> Task:
-        case = self.file.case
-        speed = 0.0 if static else chosen.get("speed", case.load.speed)
+        load = self.file.case.load
+        speed = 0.0 if static else chosen.get("speed", load.speed)
         return Task(
             rubber=self.rubbers[place.get("rubber", 0)],
-            sines=self._stack(place.get("surface", 0), chosen),
-            pressure=chosen.get("pressure", case.load.pressure),
-            speed=speed,
-            footprint=case.load.footprint,
-            load_time=case.load.load_time if speed > 0.0 else "passage",
-            model=case.solver.model,
-            options=case.solver.options(),
+            surface=self._surface(place.get("surface", 0), chosen),
+            load=NominalLoad(
+                pressure=chosen.get("pressure", load.pressure),
+                speed=speed,
+                footprint=load.footprint,
+                load_time=load.load_time if speed > 0.0 else "passage",
+            ),
+            model=self.model,
         )
 
-    def _stack(self, road: int, chosen: dict[str, Any]) -> SineStack:
-        """Return the waves of a point; each is fitted once."""
+    def _surface(self, number: int, chosen: dict[str, Any]) -> PreparedSurface:
+        """Return the surface of a point; each choice of waves is fitted once."""
         changes = {
             name: chosen[name]
             for name in ("factors", "waves", "smallest_wavelength")
             if name in chosen
         }
-        key = (road, *sorted(changes.items()))
-        if key not in self._stacks:
-            self._stacks[key] = self.roads[road].stack(**changes)
-        return self._stacks[key]
+        key = (number, *sorted(changes.items()))
+        if key not in self._varied:
+            self._varied[key] = self.surfaces[number].varied(**changes)
+        return self._varied[key]
 
     def _provenance(self) -> dict[str, Any]:
         """Return what the study is of; nothing in it depends on when or how often it was run."""
@@ -206,30 +208,20 @@ class Study:
             "title": "Study of real contact area and friction of rubber on a rough surface",
             "case": self.file.text,
             "varied": json.dumps({axis.name: list(axis.labels) for axis in self.axes}),
-            "surfaces": "; ".join(road.source for road in self.roads),
+            "surfaces": "; ".join(surface.source for surface in self.surfaces),
             "rubbers": "; ".join(f"{rubber.name}: {rubber.source}" for rubber in self.rubbers),
             "rubber_parameters": json.dumps(exact(self.rubbers)),
             "software": software(),
-            "method": f"{dataset.LW}, equations 1 to 3",
-            **{f"version_{name}": version for name, version in dataset.versions().items()},
+            "model": self.model.name,
+            **versions.attributes(),
         }
 
 
-def _at_rest(data: dict[str, xr.DataArray]) -> dict[str, xr.DataArray]:
+def _at_rest(data: xr.Dataset) -> xr.Dataset:
     """Return what `data` says of rubber at rest, where there is no friction, as `static_...`."""
-    moving = ("friction", "angular_frequency", "loss_factor", "load_time")
-    return {
-        f"static_{name}": variable
-        for name, variable in data.items()
-        if not any(word in name for word in moving)
-    }
-
-
-def _padded(variable: xr.DataArray, waves: int) -> xr.DataArray:
-    """Return `variable` with NaN for waves it does not have."""
-    if "scale" not in variable.dims or variable.sizes["scale"] == waves:
-        return variable
-    return variable.pad(scale=(0, waves - variable.sizes["scale"]), keep_attrs=True)
+    moving = ("friction", "angular_frequency", "loss_factor", "load_time", "speed")
+    names = [str(name) for name in data.data_vars if not any(word in str(name) for word in moving)]
+    return data[names].rename({name: f"static_{name}" for name in names})
 
 
 def _unit(axis: Axis) -> str:

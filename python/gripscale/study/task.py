@@ -1,109 +1,81 @@
-"""One chain as a task: everything its result depends on, its key, and its solution.
+"""One prediction to make: everything its result depends on, its key, and its solution.
 
-The key is a hash of all inputs, to the last bit, and of the software that solves them: the version,
-the compiled kernel and the Python files with numerics in them. Equal keys mean equal results, so a
-result stored under its key never has to be found again and can never be a stale one.
+The key is a hash of all inputs, to the last bit, and of the software that solves them. Equal keys
+mean equal results, so a result stored under its key never has to be found again and can never be a
+stale one.
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Callable, Mapping
+import threading
+import time
+from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, is_dataclass
-from functools import cached_property, lru_cache
-from pathlib import Path
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from gripscale import _kernel, chain, dataset, scale, theory
-from gripscale.chain import ChainError, LoadTime, Prediction, Solver, predict
+from gripscale.chain.model import Chain
+from gripscale.errors import InputError
+from gripscale.model import Model, NominalLoad
 from gripscale.rubber import Rubber
-from gripscale.surface import SineStack
+from gripscale.study.software import software
+from gripscale.surface import PreparedSurface
 
 KEY_LENGTH = 32
 """Hexadecimal digits of a key (128 bits)."""
 
+Solved = tuple[str, xr.Dataset, float]
+"""Key, result and seconds of a task."""
+
 
 @dataclass(frozen=True, eq=False)
 class Task:
-    """One chain to solve (m, Pa, m/s, s).
-
-    Attributes
-    ----------
-    rubber, sines
-        What slides, and on which waves.
-    pressure, speed, footprint
-        Nominal pressure [Pa], sliding speed [m/s] (zero: static, relaxed), length of contact [m].
-    load_time
-        As for `predict`.
-    model
-        "finite_strain" or "half_plane".
-    options
-        Further arguments of the solver: columns, rows ...
-    """
+    """One prediction to make: what slides on what, under which load, by which model."""
 
     rubber: Rubber
-    sines: SineStack
-    pressure: float
-    speed: float
-    footprint: float
-    load_time: LoadTime = "passage"
-    model: str = "finite_strain"
-    options: Mapping[str, Any] = field(default_factory=dict)
+    surface: PreparedSurface
+    load: NominalLoad
+    model: Model = field(default_factory=Chain)
 
     @cached_property
     def key(self) -> str:
-        """Name of the result: a hash of all inputs and of the software."""
-        text = json.dumps({"software": software(), **self.inputs()}, sort_keys=True)
-        return hashlib.sha256(text.encode()).hexdigest()[:KEY_LENGTH]
+        """Name of the result: a hash of all inputs and of the software.
 
-    def inputs(self) -> dict[str, Any]:
-        """Return everything the result depends on, floats as exact hexadecimal texts."""
-        waves = {"wavelength": self.sines.wavelength, "amplitude": self.sines.amplitude}
-        own = {field.name: exact(getattr(self, field.name)) for field in fields(self)}
-        return own | {"sines": exact(waves)}
+        Raises `InputError` if the model holds something that cannot be written down exactly.
+        """
+        inputs = {
+            "software": software(),
+            "rubber": exact(self.rubber),
+            "surface": exact(self.model.relevant(self.surface)),
+            "load": exact(self.load),
+            "model": exact(self.model),
+        }
+        return hashlib.sha256(json.dumps(inputs, sort_keys=True).encode()).hexdigest()[:KEY_LENGTH]
 
+    def reduced(self) -> Task:
+        """Return the same task with nothing in it that its result does not depend on."""
+        return Task(self.rubber, self.model.relevant(self.surface), self.load, self.model)
 
-def solve_task(task: Task, on_scale: Callable[[Prediction], None] | None = None) -> xr.Dataset:
-    """Solve `task` and return its Dataset, as `Prediction.to_dataset` does.
+    def solve(self, stop: threading.Event | None = None) -> Solved:
+        """Return key, result and seconds; give up between two steps once `stop` is set."""
 
-    A wave that does not converge ends the chain; it is the last one of the Dataset, the totals are
-    NaN and the attribute `case_status` says why. Otherwise `case_status` is "converged".
-    """
-    status = "converged"
-    try:
-        result = predict(
-            task.rubber,
-            task.sines,
-            pressure=task.pressure,
-            speed=task.speed,
-            footprint=task.footprint,
-            load_time=task.load_time,
-            solver=_solver(task.model),
-            on_scale=on_scale,
-            **task.options,
-        )
-    except ChainError as error:
-        result, status = error.partial, str(error)
-    return result.to_dataset().assign_attrs(
-        case_key=task.key, case_status=status, load_time=str(task.load_time)
-    )
+        def look(_: object) -> None:
+            if stop is not None and stop.is_set():
+                raise Stopped
+
+        start = time.perf_counter()
+        found = self.model.predict(self.rubber, self.surface, self.load, on_progress=look)
+        seconds = time.perf_counter() - start
+        return self.key, found.assign_attrs(prediction_key=self.key), seconds
 
 
-@lru_cache(maxsize=1)
-def software() -> str:
-    """Return version and fingerprint of what turns inputs into results."""
-    fingerprint = hashlib.sha256()
-    for file in (_kernel.__file__, scale.__file__, chain.__file__, theory.half_plane.__file__):
-        fingerprint.update(Path(str(file)).read_bytes())
-    return f"gripscale {dataset.versions()['gripscale']} {fingerprint.hexdigest()[:16]}"
-
-
-def _solver(model: str) -> Solver | None:
-    return theory.solve_half_plane if model == "half_plane" else None
+class Stopped(Exception):
+    """Somebody asked for an end."""
 
 
 def exact(value: Any) -> Any:
@@ -117,6 +89,12 @@ def exact(value: Any) -> Any:
     if isinstance(value, list | tuple):
         return [exact(entry) for entry in value]
     if is_dataclass(value):
+        kind = type(value) if not isinstance(value, type) else value
         named = {f.name: exact(getattr(value, f.name)) for f in fields(value)}
-        return {"class": type(value).__name__, **named}
-    return value
+        return {"class": f"{kind.__module__}.{kind.__qualname__}", **named}
+    if value is None or isinstance(value, str | bool | int):
+        return value
+    raise InputError(
+        "a study keeps its results by everything they depend on: models and conditions must be "
+        f"dataclasses of numbers, texts and such; got {value!r:.80}"
+    )

@@ -2,6 +2,7 @@
 
 from gripscale.surface.cleaning import CleaningReport, StepReport, clean
 from gripscale.surface.height_difference import HeightDifference, height_difference
+from gripscale.surface.prepared import Measured, PreparedSurface
 from gripscale.surface.profile import Profile
 from gripscale.surface.read import read_profile, read_profiles
 from gripscale.surface.self_affine import SelfAffineFit, fit_self_affine
@@ -12,6 +13,8 @@ from gripscale.surface.synthetic import self_affine_profile, sine_profile
 __all__ = [
     "CleaningReport",
     "HeightDifference",
+    "Measured",
+    "PreparedSurface",
     "Profile",
     "SelfAffineFit",
     "SineStack",

@@ -5,30 +5,6 @@ Modules: `full_contact`, `westergaard`, `hertz`, `slab`, `uniaxial` (closed form
 history, `uniaxial_stress` and `simple_shear_stress`, is in `gripscale.rubber.material_point`.
 """
 
-from gripscale.rubber import simple_shear_stress, uniaxial_stress
-from gripscale.theory.full_contact import (
-    full_contact_friction,
-    full_contact_pressure,
-    plane_strain_modulus,
-)
-from gripscale.theory.half_plane import solve_half_plane
-from gripscale.theory.hertz import contact_half_width, crest_radius, largest_pressure
-from gripscale.theory.slab import slab_compliance
-from gripscale.theory.uniaxial import step_relaxation_stress
-from gripscale.theory.westergaard import contact_fraction, contact_pressure
+import lazy_loader
 
-__all__ = [
-    "contact_fraction",
-    "contact_half_width",
-    "contact_pressure",
-    "crest_radius",
-    "full_contact_friction",
-    "full_contact_pressure",
-    "largest_pressure",
-    "plane_strain_modulus",
-    "simple_shear_stress",
-    "slab_compliance",
-    "solve_half_plane",
-    "step_relaxation_stress",
-    "uniaxial_stress",
-]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -22,13 +22,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gripscale import checks
+from gripscale.errors import InputError
 from gripscale.rubber import Rubber
-from gripscale.scale import ScaleResult
 from gripscale.theory.full_contact import (
     full_contact_friction,
     full_contact_pressure,
@@ -42,6 +43,10 @@ from gripscale.theory.periodic_contact import (
     pressure_harmonics,
     solve_periodic_contact,
 )
+from gripscale.wave.problem import Load, Sine, WaveProblem
+from gripscale.wave.result import WaveResult
+from gripscale.wave.solver import face_of
+from gripscale.wave.status import Status
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -49,6 +54,73 @@ ComplexArray = NDArray[np.complex128]
 _FEWEST_IN_CONTACT = 8
 
 
+@dataclass(frozen=True)
+class HalfPlane:
+    """Solver of one wave at small strain.
+
+    Parameters
+    ----------
+    points : int
+        Nodes per wavelength, 16 to 8192; a multiple of a power of two is solved fastest.
+    poisson_ratio : float, optional
+        Constant Poisson's ratio, E* then being Young's modulus; by default shear relaxes at
+        constant bulk modulus and Poisson's ratio follows the frequency.
+    most_iterations : int
+        Active-set iterations allowed on each grid.
+
+    Raises
+    ------
+    InputError
+        If an argument is out of its range.
+    """
+
+    name: ClassVar[str] = "half_plane"
+
+    points: int = 1024
+    poisson_ratio: float | None = None
+    most_iterations: int = 200
+
+    def __post_init__(self) -> None:
+        checked: dict[str, Any] = {
+            "points": checks.whole("points", self.points, least=16, most=8192),
+            "most_iterations": checks.whole(
+                "most_iterations", self.most_iterations, least=1, most=100_000
+            ),
+        }
+        if self.poisson_ratio is not None:
+            checked["poisson_ratio"] = poisson(self.poisson_ratio)
+        for name, value in checked.items():
+            object.__setattr__(self, name, value)
+
+    @classmethod
+    def of(cls, **options: Any) -> HalfPlane:
+        """Return the solver of keyword arguments; unknown ones are refused."""
+        checks.known("option", options, cls.__dataclass_fields__)
+        return cls(**options)
+
+    def solve(self, problem: WaveProblem, start: WaveResult | None = None) -> WaveResult:
+        """Return contact and friction of `problem`.
+
+        Raises `InputError` if there is a `start`: grids nested from coarse to fine need none.
+        """
+        if start is not None:
+            raise InputError(
+                "start must be None: the half-plane model is solved on nested grids and starts "
+                f"from nothing; got a result of {start.model}"
+            )
+        wave = _Wave(problem.profile, problem.load, self.points)
+
+        def modulus(number: Array) -> ComplexArray:
+            return _modulus(problem.rubber, number * wave.frequency, self.poisson_ratio)
+
+        first = complex(modulus(np.ones(1))[0])
+        full = full_contact_pressure(first, **wave.shape)
+        filled = wave.pressure >= full
+        found = _fill(wave, first) if filled else _touch(wave, modulus, self.most_iterations)
+        return _result(problem, wave, found, filled=filled)
+
+
+@face_of(HalfPlane)
 def solve_half_plane(
     rubber: Rubber,
     *,
@@ -57,10 +129,10 @@ def solve_half_plane(
     pressure: float,
     speed: float,
     load_time: float = float("inf"),
-    points: int = 1024,
+    points: int = HalfPlane.points,
     poisson_ratio: float | None = None,
-    most_iterations: int = 200,
-) -> ScaleResult:
+    most_iterations: int = HalfPlane.most_iterations,
+) -> WaveResult:
     """Return contact and friction of one wave by small-strain theory.
 
     Parameters
@@ -75,20 +147,14 @@ def solve_half_plane(
         Sliding speed [m/s]; zero is the relaxed, elastic contact.
     load_time : float
         How long the load has lasted [s]; recorded, without effect in small strain.
-    points : int
-        Nodes per wavelength, 16 to 8192; a multiple of a power of two is solved fastest.
-    poisson_ratio : float, optional
-        Constant Poisson's ratio, E* then being Young's modulus; by default shear relaxes at
-        constant bulk modulus and Poisson's ratio follows the frequency.
-    most_iterations : int
-        Active-set iterations allowed on each grid.
+    points, poisson_ratio, most_iterations
+        See `HalfPlane`.
 
     Returns
     -------
-    ScaleResult
+    WaveResult
         With `model` "half_plane", stretches NaN (a half-plane's surface does not show them) and
-        `details`: `contact_edges` [m], `points`, `points_in_contact`, `full_contact`,
-        `outside_band` (the wave's frequency k v is beyond the rubber's valid band). A `status`
+        `details`: `contact_edges` [m], `points`, `points_in_contact`, `full_contact`. A `status`
         other than "converged" says why not to trust the numbers.
 
     Raises
@@ -96,31 +162,17 @@ def solve_half_plane(
     InputError
         If an argument is out of its range.
     """
-    wave = _Wave(
-        wavelength=checks.positive("wavelength", wavelength, unit="m"),
-        amplitude=checks.positive("amplitude", amplitude, unit="m"),
-        pressure=checks.positive("pressure", pressure, unit="Pa"),
-        frequency=2.0 * np.pi * checks.not_negative("speed", speed, unit="m/s") / wavelength,
-        points=checks.whole("points", points, least=16, most=8192),
-    )
-    duration = checks.positive("load_time", load_time, unit="s", infinite=True)
-    limit = checks.whole("most_iterations", most_iterations, least=1, most=100_000)
-    ratio = None if poisson_ratio is None else poisson(poisson_ratio)
+    problem = WaveProblem(rubber, Sine(wavelength, amplitude), Load(pressure, speed, load_time))
+    return HalfPlane(points, poisson_ratio, most_iterations).solve(problem)
 
-    def modulus(number: Array) -> ComplexArray:
-        return _modulus(rubber, number * wave.frequency, ratio)
 
-    first = complex(modulus(np.ones(1))[0])
-    full = full_contact_pressure(first, wavelength=wave.wavelength, amplitude=wave.amplitude)
-    filled = wave.pressure >= full
-    found = _fill(wave, first) if filled else _touch(wave, modulus, limit)
-    outside = wave.frequency > 0.0 and bool(rubber.outside_band(wave.frequency))
-    return ScaleResult(
-        wavelength=wave.wavelength,
-        amplitude=wave.amplitude,
+def _result(problem: WaveProblem, wave: _Wave, found: _Found, *, filled: bool) -> WaveResult:
+    return WaveResult(
+        wavelength=wave.profile.wavelength,
+        amplitude=wave.profile.amplitude,
         pressure_received=wave.pressure,
-        speed=float(speed),
-        load_time=duration,
+        speed=wave.load.speed,
+        load_time=wave.load.load_time,
         contact_fraction=sum(end - start for start, end in found.edges) / (2.0 * np.pi),
         friction=found.friction,
         friction_from_dissipation=found.friction_from_dissipation,
@@ -131,7 +183,8 @@ def solve_half_plane(
         max_stretch=float("nan"),
         x=wave.x,
         pressure=found.pressure,
-        model="half_plane",
+        rubber=problem.rubber,
+        model=HalfPlane.name,
         details={
             "points": wave.points,
             "points_in_contact": found.points_in_contact,
@@ -139,28 +192,38 @@ def solve_half_plane(
                 (start / wave.number, end / wave.number) for start, end in found.edges
             ],
             "full_contact": filled,
-            "outside_band": outside,
         },
     )
 
 
 @dataclass(frozen=True)
 class _Wave:
-    """What is asked: lengths [m], mean pressure [Pa], angular frequency k v [rad/s], nodes."""
+    """What is asked, and on how many nodes."""
 
-    wavelength: float
-    amplitude: float
-    pressure: float
-    frequency: float
+    profile: Sine
+    load: Load
     points: int
 
     @property
+    def shape(self) -> dict[str, float]:
+        return {"wavelength": self.profile.wavelength, "amplitude": self.profile.amplitude}
+
+    @property
+    def pressure(self) -> float:
+        return self.load.pressure
+
+    @property
     def number(self) -> float:
-        return 2.0 * np.pi / self.wavelength
+        return 2.0 * np.pi / self.profile.wavelength
+
+    @property
+    def frequency(self) -> float:
+        """Angular frequency k v [rad/s]."""
+        return 2.0 * np.pi * self.load.speed / self.profile.wavelength
 
     @property
     def slope(self) -> float:
-        return self.number * self.amplitude
+        return self.number * self.profile.amplitude
 
     @property
     def x(self) -> Array:
@@ -178,14 +241,13 @@ class _Found:
     points_in_contact: int
     iterations: int = 0
     residual: float = 0.0
-    status: str = "converged"
+    status: Status = Status.CONVERGED
 
 
 def _fill(wave: _Wave, modulus: complex) -> _Found:
     """Return full contact: one harmonic of pressure, ahead of the wave by the loss angle."""
-    shape = {"wavelength": wave.wavelength, "amplitude": wave.amplitude}
-    friction = full_contact_friction(modulus, pressure=wave.pressure, **shape)
-    swing = full_contact_pressure(modulus, **shape)
+    friction = full_contact_friction(modulus, pressure=wave.pressure, **wave.shape)
+    swing = full_contact_pressure(modulus, **wave.shape)
     phase = wave.number * wave.x + float(np.angle(modulus))
     return _Found(
         edges=[(-np.pi, np.pi)],
@@ -225,13 +287,11 @@ def _modulus(rubber: Rubber, omega: Array, poisson_ratio: float | None) -> Compl
     return rubber.complex_modulus(omega) * plane_strain_modulus(1.0, poisson_ratio)
 
 
-def _status(contact: PeriodicContact) -> str:
+def _status(contact: PeriodicContact) -> Status:
     if not contact.settled:
-        return f"active set not settled after {contact.iterations} iterations"
-    in_contact = int(contact.active.sum())
-    if in_contact < _FEWEST_IN_CONTACT:
-        return f"contact too narrow: {in_contact} of {len(contact.active)} points"
-    return "converged"
+        return Status.ACTIVE_SET_NOT_SETTLED
+    narrow = int(contact.active.sum()) < _FEWEST_IN_CONTACT
+    return Status.CONTACT_TOO_NARROW if narrow else Status.CONVERGED
 
 
 def _residual(contact: PeriodicContact) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from gripscale.dataset import write_whole
+from gripscale.netcdf import write_whole
 from gripscale.errors import FileError
 
 FIGURES = (

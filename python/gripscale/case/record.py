@@ -2,7 +2,6 @@
 
 Group `inputs`: the input files with their checksums, the profiles as drawn, their cleaning, the
 height difference correlation and its fits, the master curve and its Prony series.
-Group `solver`: the deformed meshes and further counts of the solver.
 """
 
 from __future__ import annotations
@@ -18,11 +17,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from gripscale.case import CaseFile
-from gripscale.chain import Prediction
-from gripscale.cli.inputs import Measured, RubberStudy, SurfaceStudy
-from gripscale.scale import ScaleResult
-from gripscale.surface import Profile
+from gripscale.case.prepare import PreparedRubber
+from gripscale.case.read import CaseFile
+from gripscale.case.results import CaseResults
+from gripscale.surface import HeightDifference, Measured, PreparedSurface, Profile
 from gripscale.surface.text_table import read_bytes
 
 Variables = dict[str, Any]
@@ -32,50 +30,18 @@ CLOSE_UP = 30e-3
 """Length of the piece of a profile that is kept point by point [m]."""
 
 
-def inputs_group(file: CaseFile, surface: SurfaceStudy, rubber: RubberStudy) -> xr.Dataset:
+def inputs(results: CaseResults) -> xr.Dataset:
     """Return everything a report says about the inputs of a case."""
-    data, attrs = _waves(surface)
-    for part in (_files(file), _rubber(rubber)):
-        data |= part[0]
-        attrs |= part[1]
-    if surface.measured is not None:
-        for part in (_profiles(surface.measured), _correlation(surface.measured)):
-            data |= part[0]
-            attrs |= part[1]
-    return xr.Dataset(data, attrs={k: v for k, v in attrs.items() if v is not None})
-
-
-def solver_group(prediction: Prediction) -> xr.Dataset:
-    """Return the solver's own counts and estimates, and the deformed meshes [m].
-
-    Meshes are in single precision, to be drawn, and padded with NaN to the size of the largest.
-    """
-    scales = prediction.scales
+    surface = results.surface
+    parts = [_waves(surface), _files(results.file), _rubber(results.rubber)]
+    if surface.measured is not None and surface.correlation is not None:
+        parts += [_profiles(surface.measured), _correlation(surface.correlation, surface.measured)]
     data: Variables = {}
-    for name in dict.fromkeys(name for scale in scales for name in scale.details):
-        values = [scale.details.get(name, math.nan) for scale in scales]
-        if all(isinstance(value, int | float) for value in values):
-            data[name] = ("scale", np.array(values, dtype=float))
-    for name in ("contact_fraction_error", "friction_error"):
-        estimates = np.array([getattr(scale, name) for scale in scales])
-        if np.isfinite(estimates).any():
-            data[name] = ("scale", estimates)
-    for name, layers in _meshes(scales).items():
-        data[name] = (("scale", "layer", "column"), layers, {"units": "m"})
-    return xr.Dataset(data)
-
-
-def _meshes(scales: Sequence[ScaleResult]) -> dict[str, NDArray[np.float32]]:
-    meshes = [scale.deformed_mesh for scale in scales]
-    shapes = [mesh[0].shape for mesh in meshes if mesh is not None]
-    if not shapes:
-        return {}
-    size = (len(scales), *(max(lengths) for lengths in zip(*shapes, strict=True)))
-    out = {name: np.full(size, math.nan, dtype=np.float32) for name in ("mesh_x", "mesh_z")}
-    for i, mesh in enumerate(meshes):
-        for values, part in zip(out.values(), mesh or (), strict=False):
-            values[i, : part.shape[0], : part.shape[1]] = part
-    return out
+    attrs: Variables = {}
+    for more_data, more_attrs in parts:
+        data |= more_data
+        attrs |= more_attrs
+    return xr.Dataset(data, attrs={k: v for k, v in attrs.items() if v is not None})
 
 
 def _files(file: CaseFile) -> tuple[Variables, Variables]:
@@ -94,7 +60,7 @@ def _files(file: CaseFile) -> tuple[Variables, Variables]:
     }, {}
 
 
-def _waves(surface: SurfaceStudy) -> tuple[Variables, Variables]:
+def _waves(surface: PreparedSurface) -> tuple[Variables, Variables]:
     sines = surface.sines
     low, high = sines.lag_range or (None, None)
     return {
@@ -157,8 +123,8 @@ def _close_up(profile: Profile) -> NDArray[np.float64]:
     return np.array([profile.x[inside], profile.z[inside]])
 
 
-def _correlation(measured: Measured) -> tuple[Variables, Variables]:
-    hdc, fit = measured.correlation, measured.self_affine
+def _correlation(hdc: HeightDifference, measured: Measured) -> tuple[Variables, Variables]:
+    fit = measured.self_affine
     data: Variables = {"lag": ("lag", np.asarray(hdc.lag), {"units": "m"})}
     for name in ("value", "lower", "upper"):
         values = np.asarray(getattr(hdc, name))
@@ -176,8 +142,8 @@ def _correlation(measured: Measured) -> tuple[Variables, Variables]:
     }
 
 
-def _rubber(study: RubberStudy) -> tuple[Variables, Variables]:
-    rubber, master, fit = study.rubber, study.master, study.fit
+def _rubber(prepared: PreparedRubber) -> tuple[Variables, Variables]:
+    rubber, master, fit = prepared.rubber, prepared.master, prepared.fit
     low, high = rubber.valid_band or (None, None)
     attrs: Variables = {
         "rubber_name": rubber.name,

@@ -10,17 +10,19 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gripscale import _kernel, checks
+from gripscale import checks
 from gripscale.errors import InputError
-from gripscale.scale import ScaleResult, kernel_inputs
-
-if TYPE_CHECKING:
-    from gripscale.rubber import Rubber
+from gripscale.rubber import Rubber
+from gripscale.wave import kernel
+from gripscale.wave.block import FiniteStrainBlock
+from gripscale.wave.problem import Load, Sine, WaveProblem
+from gripscale.wave.result import WaveResult
+from gripscale.wave.status import Status
 
 Array = NDArray[np.float64]
 
@@ -68,14 +70,14 @@ class TransientResult:
     contact_fraction: Array
     indentation: Array
     """Approach of wave and block [m]."""
-    status: str
+    status: Status
     newton_iterations: int
     wavelength: float
 
     @property
     def converged(self) -> bool:
         """Whether the whole programme was run."""
-        return self.status == "converged"
+        return self.status == Status.CONVERGED
 
     def cycle(self, wavelengths: float = 1.0) -> dict[str, tuple[float, float, float]]:
         """Return mean, least and largest friction and contact fraction of the last stretch.
@@ -124,7 +126,7 @@ def solve_transient(
     wavelength: float,
     amplitude: float,
     stages: Sequence[Stage],
-    start: ScaleResult | None = None,
+    start: WaveResult | None = None,
     depth: float = 1.5,
     columns: int = DEFAULT_COLUMNS,
     rows: int = DEFAULT_ROWS,
@@ -143,8 +145,8 @@ def solve_transient(
         Of the wave [m].
     stages : sequence of Stage
         The programme. The first pressure is put on at once, on rubber at rest.
-    start : ScaleResult, optional
-        A steady state to start from, solved with the same rubber and wave.
+    start : WaveResult, optional
+        A static or steady state to start from, solved with the same rubber and wave.
     depth, columns, rows, **options
         As in `gripscale.solve_scale`.
 
@@ -159,35 +161,31 @@ def solve_transient(
     """
     if not stages:
         raise InputError("stages must hold at least one Stage; got none")
-    fastest = max(abs(stage.speed) for stage in stages)
-    inputs = kernel_inputs(
-        rubber,
-        wavelength=wavelength,
-        amplitude=amplitude,
-        pressure=stages[0].pressure,
-        speed=start.speed if start is not None else fastest,
-        load_time=start.load_time if start is not None else math.inf,
-        depth=depth,
-        columns=columns,
-        rows=rows,
-        **options,
-    )
+    if options.get("tolerance") is not None:
+        raise InputError(
+            f"tolerance cannot be kept in time, where the mesh stays as it is: give columns and "
+            f"rows; got {options['tolerance']!r}"
+        )
+    first = None if start is None else kernel.solution_of(start)
+    speed = max(abs(stage.speed) for stage in stages) if start is None else start.speed
+    load_time = math.inf if start is None else start.load_time
+    load = Load(stages[0].pressure, speed, load_time)
+    problem = WaveProblem(rubber, Sine(wavelength, amplitude), load)
+    block = FiniteStrainBlock.of(depth=depth, columns=columns, rows=rows, **options)
     programme = [(stage.duration, stage.speed, stage.pressure) for stage in stages]
-    solution = start.solution if start is not None else None
-    try:
-        status, iterations, table = _kernel.run_stages(inputs, programme, solution)
-    except ValueError as error:
-        raise InputError(str(error)) from error
-    time, distance, speed, pressure, friction, fraction, approach = table.reshape(-1, 7).T
+    status, iterations, table = kernel.solve_transient(
+        problem, block.mesh, block.settings, programme, first
+    )
+    time, distance, speeds, pressure, friction, fraction, approach = table.reshape(-1, 7).T
     return TransientResult(
         time=time,
         distance=distance,
-        speed=speed,
+        speed=speeds,
         pressure=pressure,
         friction=friction,
         contact_fraction=fraction,
         indentation=approach * wavelength,
-        status=status,
+        status=Status(status),
         newton_iterations=iterations,
         wavelength=float(wavelength),
     )

@@ -5,14 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache
 
-from gripscale.surface import (
-    HeightDifference,
-    Profile,
-    SineStack,
-    fit_sines,
-    height_difference,
-    self_affine_profile,
-)
+from gripscale.surface.height_difference import height_difference
+from gripscale.surface.prepared import PreparedSurface
+from gripscale.surface.profile import Profile
+from gripscale.surface.sine_fit import fit_sines
+from gripscale.surface.synthetic import self_affine_profile
 
 
 @dataclass(frozen=True)
@@ -53,8 +50,8 @@ def synthetic_profile(name: str) -> Profile:
 
 
 @lru_cache(maxsize=4)
-def synthetic_surface(name: str) -> tuple[SineStack, str, HeightDifference]:
-    """Return the waves of a synthetic surface, what it is made of, and its correlation."""
+def synthetic_surface(name: str) -> PreparedSurface:
+    """Return a synthetic surface, with what it is made of as its source."""
     made = SYNTHETIC_SURFACES[name]
     correlation = height_difference(synthetic_profile(name))
     sines = fit_sines(correlation, scales=made.waves, smallest_wavelength=made.smallest_wavelength)
@@ -64,4 +61,5 @@ def synthetic_surface(name: str) -> tuple[SineStack, str, HeightDifference]:
         f"xi_perpendicular = {made.xi_perpendicular * 1e3:g} mm, "
         f"{made.length:g} m in steps of {made.step * 1e6:g} um, seed {made.seed}"
     )
-    return sines, source, correlation
+    fit = {"smallest_wavelength": float(sines.wavelength[-1])}
+    return PreparedSurface(sines, source, correlation, fit)

@@ -1,4 +1,4 @@
-"""Solving many tasks: what the store has is read, the rest is solved and stored as it comes.
+"""Solving many tasks in threads or on a cluster: what the store has is read, the rest is solved and stored as it comes.
 
 Results are written by the calling thread only, in whatever order they come; a result depends on
 its task alone, so neither the order nor the number of workers changes a bit of it.
@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import os
 import threading
-import time
 from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
 from concurrent.futures import Future, ThreadPoolExecutor, as_completed
 from contextlib import closing, contextmanager
@@ -24,15 +23,11 @@ import xarray as xr
 
 from gripscale import checks
 from gripscale.study.store import Store
-from gripscale.study.task import Task, solve_task
-
-Solved = tuple[str, xr.Dataset, float]
-"""Key, result and seconds of a task."""
-
+from gripscale.study.task import Solved, Task
 
 @dataclass(frozen=True)
 class Progress:
-    """What became of one task, as `on_case` is told."""
+    """What became of one task, as `on_task` is told."""
 
     done: int
     total: int
@@ -44,7 +39,7 @@ class Progress:
     """Whether it was found in the store."""
 
 
-OnCase = Callable[[Progress], None]
+OnTask = Callable[[Progress], None]
 
 
 def solve_all(
@@ -53,7 +48,7 @@ def solve_all(
     *,
     workers: int | None = None,
     client: Any = None,
-    on_case: OnCase | None = None,
+    on_task: OnTask | None = None,
 ) -> dict[str, xr.Dataset]:
     """Return the result of every task by its key, solving only what `store` does not have.
 
@@ -68,7 +63,7 @@ def solve_all(
     client
         None: threads of this process. "local": a Dask cluster of processes on this machine.
         "tcp://...": the address of a Dask scheduler. Or a `distributed.Client`.
-    on_case
+    on_task
         Called after each task with its `Progress`.
 
     Raises
@@ -84,9 +79,9 @@ def solve_all(
     results: dict[str, xr.Dataset] = {}
 
     def tell(key: str, seconds: float, *, stored: bool) -> None:
-        if on_case is not None:
+        if on_task is not None:
             label = wanted[key][0]
-            on_case(Progress(len(results), len(wanted), label, results[key], seconds, stored))
+            on_task(Progress(len(results), len(wanted), label, results[key], seconds, stored))
 
     for key in wanted:
         found = store.get(key)
@@ -99,22 +94,6 @@ def solve_all(
             results[key] = store.put(key, solved.assign_attrs(seconds=seconds))
             tell(key, seconds, stored=False)
     return results
-
-
-def timed(task: Task, stop: threading.Event | None = None) -> Solved:
-    """Solve `task`, giving up between two waves once `stop` is set."""
-
-    def look(_: object) -> None:
-        if stop is not None and stop.is_set():
-            raise Stopped
-
-    start = time.perf_counter()
-    solved = solve_task(task, on_scale=look)
-    return task.key, solved, time.perf_counter() - start
-
-
-class Stopped(Exception):
-    """Somebody asked for an end."""
 
 
 def cores() -> int:
@@ -143,7 +122,7 @@ def _threads(tasks: list[Task], workers: int) -> Generator[Solved, None, None]:
     stop = threading.Event()
     pool = ThreadPoolExecutor(workers, thread_name_prefix="gripscale")
     try:
-        futures: list[Future[Solved]] = [pool.submit(timed, task, stop) for task in tasks]
+        futures: list[Future[Solved]] = [pool.submit(task.solve, stop) for task in tasks]
         for future in as_completed(futures):
             yield future.result()
     finally:

@@ -1,4 +1,4 @@
-"""From what a case names to what a chain needs: cleaned profiles, sine waves, a rubber."""
+"""From what a case names to what a model needs: cleaned profiles, sine waves, a rubber."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from gripscale.case import RubberSource, Surface
+from gripscale.case.models import RubberSource, Surface
 from gripscale.errors import GripscaleError, InputError
 from gripscale.rubber import (
     MasterCurve,
@@ -21,6 +21,8 @@ from gripscale.rubber import (
 from gripscale.surface import (
     CleaningReport,
     HeightDifference,
+    Measured,
+    PreparedSurface,
     Profile,
     SelfAffineFit,
     SineStack,
@@ -33,30 +35,22 @@ from gripscale.surface import (
 
 Resolve = Callable[[str], Path]
 
-
-@dataclass(frozen=True)
-class SurfaceStudy:
-    """Sine waves and, where they come from measured profiles, the way to them."""
-
-    sines: SineStack
-    source: str
-    measured: Measured | None = None
-
-
-@dataclass(frozen=True)
-class Measured:
-    """Profiles as read and cleaned, their height difference correlation and its fit."""
-
-    profiles: list[tuple[Profile, Profile]]
-    cleaning: list[CleaningReport]
-    correlation: HeightDifference
-    self_affine: SelfAffineFit | None
-    no_self_affine: str
-    """Why there is no self-affine fit, or empty."""
+FIT_KEYS = (
+    "scales",
+    "smallest_wavelength",
+    "s_wavelength",
+    "s_amplitude",
+    "first_wavelength",
+    "first_amplitude",
+    "single_factor",
+    "smallest_lag",
+    "largest_lag",
+)
+"""Keys of the case's [surface] that say how sine waves are fitted."""
 
 
 @dataclass(frozen=True)
-class RubberStudy:
+class PreparedRubber:
     """A rubber and, where it comes from a master curve, the curve and the report on its fit."""
 
     rubber: Rubber
@@ -65,14 +59,19 @@ class RubberStudy:
     fit: PronyFit | None = None
 
 
-def study_surface(surface: Surface, resolve: Resolve) -> SurfaceStudy:
-    """Read, clean and describe the profiles of `surface`, or take its waves as stated."""
+def prepare_surface(surface: Surface, resolve: Resolve = Path) -> PreparedSurface:
+    """Read, clean and describe the profiles of `surface`, or take its waves as stated.
+
+    `resolve` turns the name of a file into its path.
+
+    Raises `FileError` and `InputError` as reading, cleaning and fitting do.
+    """
     if surface.sines is not None:
         stack = SineStack(
             wavelength=np.array([wave.wavelength for wave in surface.sines]),
             amplitude=np.array([wave.amplitude for wave in surface.sines]),
         )
-        return SurfaceStudy(stack, "sine waves stated in the case")
+        return PreparedSurface(stack, "sine waves stated in the case")
     paths = [resolve(name) for name in surface.files or []]
     profiles, reports = [], []
     for path in paths:
@@ -86,30 +85,26 @@ def study_surface(surface: Surface, resolve: Resolve) -> SurfaceStudy:
         cleaned, report = _clean(raw, surface, path)
         profiles.append((raw, cleaned))
         reports.append(report)
-    hdc = height_difference([cleaned for _, cleaned in profiles], max_lag=surface.max_lag)
-    self_affine, why_not = _self_affine(hdc)
-    sines = fit_sines(
-        hdc,
-        scales=surface.scales,
-        smallest_wavelength=surface.smallest_wavelength,
-        s_wavelength=surface.s_wavelength,
-        s_amplitude=surface.s_amplitude,
-        first_wavelength=surface.first_wavelength,
-        first_amplitude=surface.first_amplitude,
-        single_factor=surface.single_factor,
-        smallest_lag=surface.smallest_lag,
-        largest_lag=surface.largest_lag,
+    correlation = height_difference([cleaned for _, cleaned in profiles], max_lag=surface.max_lag)
+    fit = {key: getattr(surface, key) for key in FIT_KEYS}
+    return PreparedSurface(
+        fit_sines(correlation, **fit),
+        ", ".join(str(path) for path in paths),
+        correlation,
+        fit,
+        Measured(profiles, reports, *_self_affine(correlation)),
     )
-    measured = Measured(profiles, reports, hdc, self_affine, why_not)
-    return SurfaceStudy(sines, ", ".join(str(path) for path in paths), measured)
 
 
-def study_rubber(source: RubberSource, resolve: Resolve) -> RubberStudy:
-    """Read and fit the master curve of `source`, or take the rubber it names."""
+def prepare_rubber(source: RubberSource, resolve: Resolve = Path) -> PreparedRubber:
+    """Read and fit the master curve of `source`, or take the rubber it names.
+
+    Raises `FileError` and `InputError` as reading and fitting do.
+    """
     stiffness = {} if source.bulk_modulus is None else {"bulk_modulus": source.bulk_modulus}
     if source.file is None:
         rubber = styrene_butadiene(**stiffness)
-        return RubberStudy(rubber, rubber.source)
+        return PreparedRubber(rubber, rubber.source)
     path = resolve(source.file)
     master = read_master_curve(
         path,
@@ -124,7 +119,7 @@ def study_rubber(source: RubberSource, resolve: Resolve) -> RubberStudy:
         {} if source.outlier_threshold is None else {"outlier_threshold": source.outlier_threshold}
     )
     rubber, report = fit_prony_report(master, terms=source.terms, **stiffness, **choice)
-    return RubberStudy(rubber, master.source, master, report)
+    return PreparedRubber(rubber, master.source, master, report)
 
 
 def _clean(raw: Profile, surface: Surface, path: Path) -> tuple[Profile, CleaningReport]:

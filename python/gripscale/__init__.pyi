@@ -1,0 +1,30 @@
+from . import rubber as rubber
+from . import surface as surface
+from . import theory as theory
+from . import wave as wave
+from .chain.predict import predict as predict
+from .chain.prediction import Prediction as Prediction
+from .errors import ConvergenceError as ConvergenceError
+from .errors import FileError as FileError
+from .errors import GripscaleError as GripscaleError
+from .errors import InputError as InputError
+from .rubber import MasterCurve as MasterCurve
+from .rubber import Rubber as Rubber
+from .rubber import fit_prony as fit_prony
+from .rubber import read_master_curve as read_master_curve
+from .surface import HeightDifference as HeightDifference
+from .surface import Profile as Profile
+from .surface import SelfAffineFit as SelfAffineFit
+from .surface import SineStack as SineStack
+from .surface import clean as clean
+from .surface import fit_self_affine as fit_self_affine
+from .surface import fit_sines as fit_sines
+from .surface import height_difference as height_difference
+from .surface import read_profile as read_profile
+from .wave.block import solve_scale as solve_scale
+from .wave.result import ScaleResult as ScaleResult
+from .wave.transient import Stage as Stage
+from .wave.transient import TransientResult as TransientResult
+from .wave.transient import solve_transient as solve_transient
+
+__version__: str

@@ -1,0 +1,17 @@
+from .models import Case as Case
+from .models import Load as Load
+from .models import Output as Output
+from .models import RubberSource as RubberSource
+from .models import Solver as Solver
+from .models import Surface as Surface
+from .prepare import PreparedRubber as PreparedRubber
+from .prepare import prepare_rubber as prepare_rubber
+from .prepare import prepare_surface as prepare_surface
+from .quantity import parse_quantity as parse_quantity
+from .read import CaseFile as CaseFile
+from .read import read_case as read_case
+from .read import validate as validate
+from .results import CaseResults as CaseResults
+from .run import WaveSolved as WaveSolved
+from .run import prepare_case as prepare_case
+from .run import run_case as run_case

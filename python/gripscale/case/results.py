@@ -1,0 +1,67 @@
+"""What running a case gives: its inputs as prepared, and a prediction in motion and at rest."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from gripscale.case.prepare import PreparedRubber
+from gripscale.case.read import CaseFile
+from gripscale.chain.predict import ChainError
+from gripscale.chain.prediction import Prediction
+from gripscale.surface import PreparedSurface
+
+DYNAMIC, STATIC = "dynamic", "static"
+
+
+@dataclass
+class CaseResults:
+    """Everything a case gave.
+
+    Attributes
+    ----------
+    file, surface, rubber
+        What was run, and the inputs as prepared.
+    predictions
+        By name, "dynamic" and "static", as far as they were asked for and got.
+    failures
+        Why a prediction has no totals, by name.
+    folder
+        Where the results were written, or None.
+    """
+
+    file: CaseFile
+    surface: PreparedSurface
+    rubber: PreparedRubber
+    predictions: dict[str, Prediction] = field(default_factory=dict)
+    failures: dict[str, ChainError] = field(default_factory=dict)
+    folder: Path | None = None
+
+    @property
+    def dynamic(self) -> Prediction | None:
+        """The rubber sliding, or None if it was not asked for or did not get so far."""
+        return self.predictions.get(DYNAMIC)
+
+    @property
+    def static(self) -> Prediction | None:
+        """The relaxed rubber at rest, or None if it was not asked for or did not get so far."""
+        return self.predictions.get(STATIC)
+
+    @property
+    def converged(self) -> bool:
+        """Whether every prediction asked for may be used."""
+        return not self.failures
+
+    def planned(self) -> Iterator[tuple[str, float]]:
+        """Yield name and speed [m/s] of the predictions the case asks for."""
+        load = self.file.case.load
+        if load.speed > 0.0:
+            yield DYNAMIC, load.speed
+        if load.static or load.speed == 0.0:
+            yield STATIC, 0.0
+
+
+def title(speed: float) -> str:
+    """Return what tables and figures call a prediction at `speed` [m/s]."""
+    return "Static" if speed == 0.0 else f"Dynamic, {speed:g} m/s"

@@ -1,0 +1,121 @@
+"""Running a case without a console: prepared inputs, predictions, files as the results come.
+
+    results = run_case("case.toml", output="results")
+    results.dynamic.friction
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from gripscale import netcdf
+from gripscale.case import folder, record
+from gripscale.case.prepare import prepare_rubber, prepare_surface
+from gripscale.case.read import CaseFile, read_case
+from gripscale.case.results import CaseResults
+from gripscale.chain.predict import ChainError, predict
+from gripscale.chain.prediction import Prediction
+from gripscale.chain.solvers import wave_solver
+
+
+@dataclass(frozen=True)
+class WaveSolved:
+    """One more wave of a prediction is solved, as `on_wave` is told."""
+
+    name: str
+    so_far: Prediction
+
+
+def prepare_case(case: CaseFile | str | Path) -> CaseResults:
+    """Read and fit what a case names; nothing is solved yet.
+
+    Raises `FileError` and `InputError` for what cannot be used.
+    """
+    file = case if isinstance(case, CaseFile) else read_case(case)
+    surface = prepare_surface(file.case.surface, file.resolve)
+    return CaseResults(file, surface, prepare_rubber(file.case.rubber, file.resolve))
+
+
+def run_case(
+    case: CaseResults | CaseFile | str | Path,
+    *,
+    output: str | Path | None = None,
+    on_wave: Callable[[WaveSolved], None] | None = None,
+) -> CaseResults:
+    """Predict contact area and friction of a case.
+
+    Parameters
+    ----------
+    case : path, CaseFile or CaseResults
+        The case file, read, or with its inputs prepared.
+    output : path, optional
+        Folder for the result files, written wave by wave and cleared of an earlier run before;
+        without it nothing is written.
+    on_wave : callable, optional
+        Called after each wave.
+
+    Returns
+    -------
+    CaseResults
+        A wave that did not converge ends its prediction, which is kept, and is named in
+        `failures`.
+
+    Raises
+    ------
+    FileError, InputError
+        For what cannot be read, used or written.
+    """
+    results = case if isinstance(case, CaseResults) else prepare_case(case)
+    if output is not None:
+        results.folder = Path(output)
+        folder.require_writable(results.folder)
+        folder.prepare(results.folder)
+        folder.write_text(results.folder / "case.toml", results.file.text)
+    for name, speed in results.planned():
+        _solve(results, name, speed, on_wave)
+    return results
+
+
+def _solve(
+    results: CaseResults, name: str, speed: float, on_wave: Callable[[WaveSolved], None] | None
+) -> None:
+    """Add one prediction to `results`, on disk after each wave; the inputs follow at the end."""
+    load, solver = results.file.case.load, results.file.case.solver
+
+    def keep(so_far: Prediction) -> None:
+        results.predictions[name] = so_far
+        _save(results, name)
+        if on_wave is not None:
+            on_wave(WaveSolved(name, so_far))
+
+    try:
+        predict(
+            results.rubber.rubber,
+            results.surface.sines,
+            pressure=load.pressure,
+            speed=speed,
+            footprint=load.footprint,
+            load_time=load.load_time,
+            solver=wave_solver(solver.model, solver.options()),
+            on_scale=keep,
+        )
+    except ChainError as failure:
+        results.failures[name] = failure
+    finally:
+        _save(results, name, complete=True)
+
+
+def _save(results: CaseResults, name: str, *, complete: bool = False) -> None:
+    """Write what is known of a prediction; a complete one has the inputs beside it."""
+    if results.folder is None or name not in results.predictions:
+        return
+    data = results.predictions[name].to_dataset().assign_attrs(
+        case=results.file.text,
+        case_file=str(results.file.path),
+        surface_source=results.surface.source,
+        rubber_source=results.rubber.source,
+    )
+    groups = {"inputs": record.inputs(results)} if complete else {}
+    netcdf.save(data, results.folder / f"{name}.nc", groups)

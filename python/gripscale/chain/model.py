@@ -1,0 +1,69 @@
+"""The chain as one of the models that can be compared, varied, drawn and reported."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from gripscale.chain.predict import ChainError, RubberAt, predict
+from gripscale.surface import PreparedSurface, SineStack
+from gripscale.wave.block import FiniteStrainBlock
+from gripscale.wave.solver import WaveSolver
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from gripscale.model import NominalLoad
+    from gripscale.rubber import Rubber
+
+
+@dataclass(frozen=True)
+class Chain:
+    """Waves solved one after the other, each with the pressure that leaves the one above.
+
+    Parameters
+    ----------
+    solver : WaveSolver
+        What solves one wave.
+    rubber_at : RubberAt, optional
+        Conditions that change the rubber on the way; a frozen dataclass, so that it can be kept.
+    """
+
+    name: ClassVar[str] = "chain"
+
+    solver: WaveSolver = field(default_factory=FiniteStrainBlock)
+    rubber_at: RubberAt | None = None
+
+    def relevant(self, surface: PreparedSurface) -> PreparedSurface:
+        """Return nothing of `surface` but its waves."""
+        sines = SineStack(surface.sines.wavelength, surface.sines.amplitude)
+        return PreparedSurface(sines, source="")
+
+    def predict(
+        self,
+        rubber: Rubber,
+        surface: PreparedSurface,
+        load: NominalLoad,
+        *,
+        on_progress: Callable[[Any], None] | None = None,
+    ) -> xr.Dataset:
+        """Return the prediction as a Dataset; `on_progress` gets the `Prediction` so far.
+
+        A wave that does not converge ends the chain and is its last; `prediction_status` says why.
+        """
+        try:
+            result = predict(
+                rubber,
+                surface.sines,
+                pressure=load.pressure,
+                speed=load.speed,
+                footprint=load.footprint,
+                load_time=load.load_time,
+                solver=self.solver,
+                rubber_at=self.rubber_at,
+                on_scale=on_progress,
+            )
+        except ChainError as failure:
+            return failure.partial.to_dataset().assign(prediction_status=str(failure))
+        return result.to_dataset()

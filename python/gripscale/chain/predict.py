@@ -1,0 +1,165 @@
+"""The chain: the pressure that leaves the contact of one wave is what the next wave receives.
+
+With A_i the contact length of wave i projected on the mean plane (Lind & Wangenheim 2014,
+IMECE2014-37998, equation 1):
+
+    p_(i+1)  = p_i lambda_i / A_i
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any, Protocol
+
+from gripscale import checks
+from gripscale.chain.prediction import Prediction
+from gripscale.chain.solvers import WaveSolverLike, wave_solver
+from gripscale.errors import ConvergenceError, InputError
+from gripscale.model import LoadTime, NominalLoad
+from gripscale.rubber import Rubber
+from gripscale.surface import SineStack
+from gripscale.wave.problem import Load, Sine, WaveProblem
+
+
+class RubberAt(Protocol):
+    """Conditions that change the rubber on the way: temperature, strain, what was solved so far."""
+
+    def __call__(self, wave: Sine, so_far: Prediction) -> Rubber:
+        """Return the rubber as it is on `wave`, next after those of `so_far`."""
+
+
+class ChainError(ConvergenceError):
+    """A wave of the chain did not converge; `partial` holds everything solved up to it.
+
+    The last entry of `partial.scales` is the wave that failed, with its status.
+    """
+
+    def __init__(self, message: str, partial: Prediction) -> None:
+        super().__init__(message)
+        self.partial = partial
+
+
+def predict(
+    rubber: Rubber,
+    sines: SineStack,
+    *,
+    pressure: float,
+    speed: float,
+    footprint: float,
+    solver: WaveSolverLike = "finite_strain",
+    smallest_wavelength: float | None = None,
+    max_scales: int | None = None,
+    load_time: LoadTime = "passage",
+    on_scale: Callable[[Prediction], None] | None = None,
+    start: Prediction | None = None,
+    rubber_at: RubberAt | None = None,
+    **options: Any,
+) -> Prediction:
+    """Run the chain over the waves of `sines`, largest first.
+
+    Parameters
+    ----------
+    rubber
+        The rubber, handed to the solver.
+    sines
+        Waves in order of falling wavelength [m], amplitude = half peak-to-valley [m].
+    pressure
+        Nominal pressure on the largest wave [Pa], above zero.
+    speed
+        Sliding speed [m/s]; zero is static contact of the relaxed rubber.
+    footprint
+        Length of the nominal contact [m]; with `speed` it gives wave 1 its load time.
+    solver
+        "finite_strain", "half_plane", the function that is its face (`solve_scale`,
+        `theory.solve_half_plane`), or any `WaveSolver`.
+    smallest_wavelength
+        Waves shorter than this are left out [m].
+    max_scales
+        Number of waves after which to stop.
+    load_time
+        "passage": wave i is loaded while the contact above it passes,
+        t_1 = footprint/speed, t_i = A_(i-1)/speed. A number fixes it for every wave [s],
+        infinity lets the mean state relax fully. Always infinite at zero speed.
+    on_scale
+        Called with the prediction so far after every wave.
+    start
+        A prediction at a neighbouring speed, pressure or rubber: each wave starts from its wave of
+        the same number, as far as there is one. The results are the same to the solver's residual,
+        found sooner.
+    rubber_at
+        Gives the rubber of each wave, from the wave and what was solved so far.
+    **options
+        Of a solver given by name: columns, rows, depth, tolerance ...
+
+    Returns
+    -------
+    Prediction
+        One `WaveResult` per wave, with running area and friction.
+
+    Raises
+    ------
+    InputError
+        A value that cannot be used.
+    ChainError
+        A wave did not converge; a `ConvergenceError` whose `partial` is the prediction so far.
+    """
+    load = NominalLoad(pressure, speed, footprint, load_time)
+    solve = wave_solver(solver, options).solve
+    waves = select_waves(sines, smallest_wavelength=smallest_wavelength, max_scales=max_scales)
+    result = Prediction(rubber, sines, load, [], len(waves))
+    received, length = load.pressure, load.footprint
+    for number, wave in enumerate(waves):
+        first = start.scales[number] if start is not None and number < len(start.scales) else None
+        own = rubber if rubber_at is None else rubber_at(wave, result)
+        asked = Load(received, load.speed, load.time_under(length))
+        scale = solve(WaveProblem(own, wave, asked), first)
+        result = replace(result, scales=[*result.scales, scale])
+        if on_scale is not None:
+            on_scale(result)
+        _require_contact(result)
+        # Equation 1; unchanged in full contact.
+        received = received * wave.wavelength / scale.contact_length
+        length = scale.contact_length
+    return result
+
+
+def select_waves(
+    sines: SineStack,
+    *,
+    smallest_wavelength: float | None = None,
+    max_scales: int | None = None,
+) -> list[Sine]:
+    """Return the waves the chain visits.
+
+    Raises `InputError` if the limits leave none.
+    """
+    pairs = zip(sines.wavelength, sines.amplitude, strict=True)
+    waves = [Sine(float(wavelength), float(amplitude)) for wavelength, amplitude in pairs]
+    if not waves:
+        raise InputError("sines must hold at least one wave; got none")
+    if smallest_wavelength is not None:
+        least = checks.positive("smallest_wavelength", smallest_wavelength, unit="m")
+        largest = waves[0].wavelength
+        waves = [wave for wave in waves if wave.wavelength >= least]
+        if not waves:
+            raise InputError(
+                f"smallest_wavelength must not exceed the largest wave, {largest:g} m; "
+                f"got {least:g} m"
+            )
+    if max_scales is not None:
+        waves = waves[: checks.whole("max_scales", max_scales, least=1, most=1000)]
+    return waves
+
+
+def _require_contact(so_far: Prediction) -> None:
+    """Raise `ChainError` unless the last wave may hand its pressure on."""
+    scale = so_far.scales[-1]
+    if not scale.converged:
+        raise ChainError(so_far.failure(), so_far)
+    if not 0.0 < scale.contact_fraction <= 1.0:
+        raise ChainError(
+            f"{so_far.place()} has a contact fraction of {scale.contact_fraction:g}; "
+            "expected more than 0 and at most 1",
+            so_far,
+        )

@@ -1,0 +1,172 @@
+"""What the chain answers: the waves solved, and area and friction down to each of them.
+
+    real area    A_r/A_0  = prod A_i / lambda_i
+    friction     mu_r     = sum mu_i
+
+Lind & Wangenheim 2014, IMECE2014-37998, equations 2 and 3. The friction sum conserves energy because
+the pressure on a wave times the area fraction above it is the nominal pressure.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gripscale import model, versions
+from gripscale.model import NominalLoad
+from gripscale.rubber import Rubber
+from gripscale.surface import SineStack
+from gripscale.wave.result import WaveResult
+from gripscale.wave.status import Status
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Prediction:
+    """Contact and friction of a stack of waves (m, Pa, m/s).
+
+    A wave that did not converge is kept, last, with its status: the totals are then NaN.
+    """
+
+    rubber: Rubber
+    """As it was given; conditions may change it on the way, see `WaveResult.rubber`."""
+    sines: SineStack
+    load: NominalLoad
+    scales: list[WaveResult]
+    planned: int
+    """Number of waves to solve."""
+
+    @property
+    def status(self) -> Status:
+        """`converged` if every wave solved so far may be used, else the status of the last."""
+        return self.scales[-1].status if self.scales else Status.CONVERGED
+
+    @property
+    def converged(self) -> bool:
+        """Whether every wave solved so far may be used."""
+        return all(scale.converged for scale in self.scales)
+
+    @property
+    def running_contact_fraction(self) -> Array:
+        """A_r/A_0 down to each wave (equation 2); NaN from a failed wave on."""
+        each = self._of_converged([s.contact_fraction for s in self.scales])
+        return np.asarray(np.cumprod(each), dtype=float)
+
+    @property
+    def running_friction(self) -> Array:
+        """Friction coefficient down to each wave (equation 3); NaN from a failed wave on."""
+        each = self._of_converged([s.friction for s in self.scales])
+        return np.asarray(np.cumsum(each), dtype=float)
+
+    @property
+    def contact_fraction(self) -> float:
+        """Real over nominal contact area, A_r/A_0, of all waves [-]."""
+        return float(self.running_contact_fraction[-1]) if self.scales else math.nan
+
+    @property
+    def friction(self) -> float:
+        """Friction coefficient of all waves [-]."""
+        return float(self.running_friction[-1]) if self.scales else math.nan
+
+    @property
+    def friction_from_dissipation(self) -> float:
+        """Friction coefficient of all waves from the energy lost in the rubber [-]."""
+        each = self._of_converged([s.friction_from_dissipation for s in self.scales])
+        return float(each.sum()) if self.scales else math.nan
+
+    @property
+    def why(self) -> str:
+        """`converged`, or which wave failed and why."""
+        return "converged" if self.converged else self.failure()
+
+    def failure(self) -> str:
+        """Return a sentence on the last wave, which did not converge."""
+        scale = self.scales[-1]
+        return (
+            f"{self.place()} did not converge: {scale.why} after {scale.newton_iterations} "
+            f"Newton iterations, residual {scale.residual:.2g}"
+        )
+
+    def place(self) -> str:
+        """Return which wave the last one is, in words."""
+        scale = self.scales[-1]
+        return (
+            f"wave {len(self.scales)} of {self.planned} "
+            f"(wavelength {scale.wavelength * 1e3:.4g} mm, "
+            f"amplitude {scale.amplitude * 1e3:.4g} mm, pressure {scale.pressure_received:.4g} Pa, "
+            f"speed {scale.speed:.4g} m/s)"
+        )
+
+    def to_dataset(self) -> xr.Dataset:
+        """Return everything as a labelled Dataset over the dimension `scale`."""
+        from gripscale.wave.dataset import CHAIN, LW, labelled, waves_to_dataset
+
+        data = waves_to_dataset(self.scales)
+        data["running_contact_fraction"] = labelled(
+            "scale",
+            self.running_contact_fraction,
+            "1",
+            "real over nominal contact area down to the wave",
+            f"{LW}, equation 2",
+        )
+        data["running_friction"] = labelled(
+            "scale",
+            self.running_friction,
+            "1",
+            "friction coefficient down to the wave",
+            f"{LW}, equation 3",
+        )
+        for part in ("wavelength", "amplitude"):
+            values = getattr(self.sines, part)
+            data[f"sines_{part}"] = labelled("wave", values, "m", f"{part} of the waves", CHAIN)
+        totals = {
+            "total_contact_fraction": self.contact_fraction,
+            "total_friction": self.friction,
+            "total_friction_from_dissipation": self.friction_from_dissipation,
+        }
+        data = data.assign_attrs(
+            title="Real contact area and friction of rubber on a rough surface",
+            rubber=f"{self.rubber.name}; {self.rubber.source}".strip("; "),
+            rubber_parameters=json.dumps(self.rubber.to_dict()),
+            planned_waves=self.planned,
+            method=f"{LW}, equations 1 to 3",
+            **versions.attributes(),
+        )
+        return model.answer(data, totals, self.why, "chain", self.load)
+
+    @classmethod
+    def from_dataset(cls, data: xr.Dataset) -> Prediction:
+        """Return the prediction a Dataset was made of, in memory or read from a file.
+
+        Raises `KeyError` if it was made of something else.
+        """
+        from gripscale.wave.dataset import waves_from_dataset
+
+        stated = str(data.attrs["load_time"])
+        load = NominalLoad(
+            pressure=float(data["nominal_pressure"]),
+            speed=float(data["nominal_speed"]),
+            footprint=float(data["footprint"]),
+            load_time="passage" if stated == "passage" else float(stated),
+        )
+        return cls(
+            rubber=Rubber.from_dict(json.loads(data.attrs["rubber_parameters"])),
+            sines=SineStack(data["sines_wavelength"].values, data["sines_amplitude"].values),
+            load=load,
+            scales=waves_from_dataset(data),
+            planned=int(data.attrs["planned_waves"]),
+        )
+
+    def _of_converged(self, values: Sequence[float]) -> Array:
+        usable = np.array([scale.converged for scale in self.scales], dtype=bool)
+        return np.where(usable, np.array(values, dtype=float), math.nan)

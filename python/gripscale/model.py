@@ -1,0 +1,130 @@
+"""What every model of contact and friction looks like: a rubber, a surface and a load, answered.
+
+A model may be the chain over sine waves, the direct contact of a whole surface, or a theory. All
+answer with the same names for the same things, so that whatever compares, varies, draws or reports
+takes any of them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal, Protocol, runtime_checkable
+
+from gripscale import checks
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from gripscale.rubber import Rubber
+    from gripscale.surface.prepared import PreparedSurface
+
+LoadTime = Literal["passage"] | float
+
+
+@dataclass(frozen=True)
+class NominalLoad:
+    """The load on the whole surface.
+
+    Parameters
+    ----------
+    pressure : float
+        Nominal pressure [Pa], above zero.
+    speed : float
+        Sliding speed [m/s]; zero is static contact of the relaxed rubber.
+    footprint : float
+        Length of the nominal contact [m].
+    load_time : float or "passage"
+        How long a place of the rubber is loaded: while the contact above it passes, or a time [s],
+        which may be infinite.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used.
+    """
+
+    pressure: float
+    speed: float
+    footprint: float
+    load_time: LoadTime = "passage"
+
+    def __post_init__(self) -> None:
+        checked: dict[str, Any] = {
+            "pressure": checks.positive("pressure", self.pressure, unit="Pa"),
+            "speed": checks.not_negative("speed", self.speed, unit="m/s"),
+            "footprint": checks.positive("footprint", self.footprint, unit="m"),
+        }
+        if isinstance(self.load_time, str):
+            checks.one_of("load_time", self.load_time, ["passage"])
+        else:
+            time = checks.positive("load_time", self.load_time, unit="s", infinite=True)
+            checked["load_time"] = time
+        for name, value in checked.items():
+            object.__setattr__(self, name, value)
+
+    def time_under(self, contact_length: float) -> float:
+        """Return for how long what slides under a contact so long [m] is loaded [s]."""
+        if self.speed == 0.0:
+            return math.inf
+        if isinstance(self.load_time, str):
+            return contact_length / self.speed
+        return self.load_time
+
+
+@runtime_checkable
+class Model(Protocol):
+    """Predicts contact and friction.
+
+    A frozen dataclass whose fields decide its answers together with the inputs: studies name their
+    results by them.
+    """
+
+    @property
+    def name(self) -> str:
+        """Word for it in results, tables and case files."""
+
+    def relevant(self, surface: PreparedSurface) -> PreparedSurface:
+        """Return `surface` with nothing in it that the answer does not depend on."""
+
+    def predict(
+        self,
+        rubber: Rubber,
+        surface: PreparedSurface,
+        load: NominalLoad,
+        *,
+        on_progress: Callable[[Any], None] | None = None,
+    ) -> xr.Dataset:
+        """Return the answer: a Dataset with `TOTALS` and `prediction_status`, and what it rests on.
+
+        A part that did not converge makes the totals NaN and is named in the status.
+        `on_progress` is called with what is known so far, where the model goes step by step.
+        """
+
+
+TOTALS = {
+    "total_contact_fraction": "real over nominal contact area",
+    "total_friction": "friction coefficient",
+    "total_friction_from_dissipation": "friction coefficient from the energy lost in the rubber",
+}
+"""Names and meanings of the numbers every model answers with."""
+
+
+def answer(
+    data: xr.Dataset, totals: dict[str, float], status: str, model: str, load: NominalLoad
+) -> xr.Dataset:
+    """Return `data` with the numbers every model answers with, and the load they are for."""
+    import xarray as xr
+
+    def number(value: Any, unit: str, long_name: str) -> xr.DataArray:
+        return xr.DataArray(value, attrs={"units": unit, "long_name": long_name, "source": model})
+
+    if set(totals) != set(TOTALS):
+        raise ValueError(f"totals must be {', '.join(TOTALS)}; got {', '.join(totals)}")
+    variables = {name: number(totals[name], "1", text) for name, text in TOTALS.items()}
+    variables["prediction_status"] = number(status, "1", "converged, or why not")
+    variables["nominal_pressure"] = number(load.pressure, "Pa", "nominal pressure")
+    variables["nominal_speed"] = number(load.speed, "m/s", "sliding speed")
+    variables["footprint"] = number(load.footprint, "m", "length of the nominal contact")
+    return data.assign(variables).assign_attrs(model=model, load_time=str(load.load_time))

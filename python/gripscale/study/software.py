@@ -1,0 +1,33 @@
+"""The fingerprint of what turns inputs into results: the compiled kernel and every numeric module."""
+
+from __future__ import annotations
+
+import hashlib
+from functools import lru_cache
+from pathlib import Path
+
+import gripscale
+from gripscale import _kernel
+from gripscale.versions import version_of
+
+FACES = ("cli", "figures", "report")
+"""Rooms that only show results; all others are taken to make them."""
+
+
+@lru_cache(maxsize=1)
+def software() -> str:
+    """Return version and fingerprint of the software that solves."""
+    home = Path(gripscale.__file__).parent
+    digest = fingerprint(home, Path(str(_kernel.__file__)))
+    return f"gripscale {version_of('gripscale')} {digest[:16]}"
+
+
+def fingerprint(home: Path, kernel: Path) -> str:
+    """Return a hash of the package at `home`, without the faces, and of the `kernel`."""
+    found = hashlib.sha256(kernel.read_bytes())
+    for path in sorted(home.rglob("*.py")):
+        place = path.relative_to(home)
+        if place.parts[0] not in FACES:
+            found.update(f"{place.as_posix()} {path.stat().st_size}\n".encode())
+            found.update(path.read_bytes())
+    return found.hexdigest()

@@ -1,0 +1,12 @@
+from .full_contact import full_contact_friction as full_contact_friction
+from .full_contact import full_contact_pressure as full_contact_pressure
+from .full_contact import plane_strain_modulus as plane_strain_modulus
+from .half_plane import HalfPlane as HalfPlane
+from .half_plane import solve_half_plane as solve_half_plane
+from .hertz import contact_half_width as contact_half_width
+from .hertz import crest_radius as crest_radius
+from .hertz import largest_pressure as largest_pressure
+from .slab import slab_compliance as slab_compliance
+from .uniaxial import step_relaxation_stress as step_relaxation_stress
+from .westergaard import contact_fraction as contact_fraction
+from .westergaard import contact_pressure as contact_pressure

@@ -1,0 +1,14 @@
+from .block import FiniteStrainBlock as FiniteStrainBlock
+from .block import solve_scale as solve_scale
+from .kernel import default_settings as default_settings
+from .kernel import describe_settings as describe_settings
+from .mesh import Mesh as Mesh
+from .problem import Load as Load
+from .problem import Sine as Sine
+from .problem import WaveProblem as WaveProblem
+from .result import WaveResult as WaveResult
+from .solver import WaveSolver as WaveSolver
+from .status import Status as Status
+from .transient import Stage as Stage
+from .transient import TransientResult as TransientResult
+from .transient import solve_transient as solve_transient

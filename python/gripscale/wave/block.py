@@ -1,0 +1,196 @@
+"""The finite-strain block: a rubber block pressed on, and slid over, one rigid sine wave."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, ClassVar
+
+from gripscale import checks
+from gripscale.rubber import Rubber
+from gripscale.wave import kernel
+from gripscale.wave.mesh import Mesh
+from gripscale.wave.problem import Load, Sine, WaveProblem
+from gripscale.wave.result import WaveResult
+from gripscale.wave.solver import face_of
+from gripscale.wave.status import Status
+
+
+@dataclass(frozen=True)
+class FiniteStrainBlock:
+    """Solver of one wave at finite strain.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The mesh, or with a tolerance the one whose proportions are kept.
+    tolerance : float, optional
+        Largest estimated discretisation error, relative in friction and absolute in contact
+        fraction. The mesh is refined until it is met, from coarser than `mesh` to 512 columns.
+    settings : mapping
+        What differs from `gripscale.wave.default_settings()`.
+
+    Raises
+    ------
+    InputError
+        If the tolerance is not above zero, or a setting is unknown or no number above zero.
+    """
+
+    name: ClassVar[str] = "finite_strain"
+
+    mesh: Mesh = field(default_factory=Mesh)
+    tolerance: float | None = None
+    settings: Mapping[str, float] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if self.tolerance is not None:
+            object.__setattr__(self, "tolerance", checks.positive("tolerance", self.tolerance))
+        object.__setattr__(self, "settings", kernel.checked_settings(self.settings))
+
+    @classmethod
+    def of(
+        cls,
+        *,
+        tolerance: float | None = None,
+        max_iterations: int | None = None,
+        residual_tolerance: float | None = None,
+        **mesh: Any,
+    ) -> FiniteStrainBlock:
+        """Return the block of the keyword arguments of `solve_scale`; others are refused."""
+        checks.known("option", mesh, Mesh.__dataclass_fields__)
+        stated = {"max_iterations": max_iterations, "residual_tolerance": residual_tolerance}
+        settings = {name: value for name, value in stated.items() if value is not None}
+        return cls(Mesh(**mesh), tolerance, settings)
+
+    def solve(self, problem: WaveProblem, start: WaveResult | None = None) -> WaveResult:
+        """Return contact and friction of `problem`.
+
+        `start` may be of another rubber, wave or load: it is only a first guess.
+
+        Raises `InputError` if `start` is of another solver or was read from a file.
+        """
+        first = None if start is None else kernel.solution_of(start)
+        solution = kernel.solve_steady(
+            problem, self.mesh, self.settings, self.tolerance, first
+        )
+        return _result(problem, self.mesh, solution)
+
+
+@face_of(FiniteStrainBlock)
+def solve_scale(
+    rubber: Rubber,
+    *,
+    wavelength: float,
+    amplitude: float,
+    pressure: float,
+    speed: float,
+    load_time: float = math.inf,
+    depth: float = Mesh.depth,
+    columns: int = Mesh.columns,
+    rows: int = Mesh.rows,
+    element_order: int = Mesh.element_order,
+    tolerance: float | None = None,
+    start: WaveResult | None = None,
+    max_iterations: int | None = None,
+    residual_tolerance: float | None = None,
+) -> WaveResult:
+    """Press a rubber block on one rigid sine wave, slide it, and find contact and friction.
+
+    The block is one wavelength wide and periodic, in plane strain at finite deformation: the
+    rubber's permanent network plus one temporary network per Maxwell element (Lubliner, Mech. Res.
+    Commun. 12 (1985) 93), frictionless unilateral contact with z = amplitude cos(2 pi x /
+    wavelength). The steady state is found in one non-linear solve in the frame of the wave
+    (Wriggers & Reinelt, Comput. Methods Appl. Mech. Engrg. 198 (2009) 1996, treat it in time).
+
+    Parameters
+    ----------
+    rubber : Rubber
+        The viscoelastic solid.
+    wavelength, amplitude : float
+        Wavelength and half peak-to-valley height of the wave [m].
+    pressure : float
+        Mean pressure on the lid [Pa].
+    speed : float
+        Sliding speed [m/s]; 0 is static contact of the fully relaxed rubber.
+    load_time : float
+        Time the mean deformation has had to relax [s]; infinity by default.
+    depth : float
+        Height of the block in wavelengths.
+    columns : int
+        Elements along the block, an even number.
+    rows : int
+        Elements across the block.
+    element_order : int
+        1: bilinear with one pressure; 2: biquadratic with linear discontinuous pressure.
+    tolerance : float, optional
+        Largest estimated discretisation error, relative in friction and absolute in contact
+        fraction. The mesh is refined until it is met, from coarser than `columns` x `rows` to
+        512 columns; without it the mesh is the one given.
+    start : WaveResult, optional
+        A result of another wave, pressure, speed or rubber to start from (a warm start).
+    max_iterations : int, optional
+        Newton iterations allowed in one load step.
+    residual_tolerance : float, optional
+        Largest residual force over the applied force, and gap over the amplitude [-].
+
+    Returns
+    -------
+    WaveResult
+        Its `status` is `converged`, or says why the numbers are not to be trusted.
+
+    Raises
+    ------
+    InputError
+        If a value is not a number or out of its range.
+    """
+    problem = WaveProblem(rubber, Sine(wavelength, amplitude), Load(pressure, speed, load_time))
+    block = FiniteStrainBlock.of(
+        columns=columns,
+        rows=rows,
+        depth=depth,
+        element_order=element_order,
+        tolerance=tolerance,
+        max_iterations=max_iterations,
+        residual_tolerance=residual_tolerance,
+    )
+    return block.solve(problem, start)
+
+
+def _result(problem: WaveProblem, mesh: Mesh, solution: kernel.Solution) -> WaveResult:
+    profile, load = problem.profile, problem.load
+    return WaveResult(
+        wavelength=profile.wavelength,
+        amplitude=profile.amplitude,
+        pressure_received=load.pressure,
+        speed=load.speed,
+        load_time=load.load_time,
+        contact_fraction=solution.contact_fraction,
+        friction=solution.friction,
+        friction_from_dissipation=solution.friction_from_dissipation,
+        status=Status(solution.status),
+        newton_iterations=solution.newton_iterations,
+        residual=solution.residual,
+        min_stretch=solution.min_stretch,
+        max_stretch=solution.max_stretch,
+        x=solution.x * profile.wavelength,
+        pressure=solution.pressure,
+        rubber=problem.rubber,
+        model=FiniteStrainBlock.name,
+        deformed_mesh=(
+            solution.mesh_x * profile.wavelength,
+            solution.mesh_z * profile.wavelength,
+        ),
+        details={
+            "load_steps": solution.load_steps,
+            "load_reached": solution.load_reached,
+            "indentation": solution.approach * profile.wavelength,
+            "columns": solution.columns,
+            "rows": solution.rows,
+            "depth": mesh.depth,
+            "element_order": mesh.element_order,
+        },
+        contact_fraction_error=solution.contact_fraction_error,
+        friction_error=solution.friction_error,
+        solution=solution,
+    )

@@ -1,0 +1,134 @@
+"""Contact and friction of one wave, with the evidence for them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gripscale.rubber import Rubber
+from gripscale.wave.status import Status
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class WaveResult:
+    """Contact and friction of one wave, with the evidence for them.
+
+    All lengths in m, pressures in Pa, speeds in m/s, angular frequencies in rad/s.
+    """
+
+    wavelength: float
+    amplitude: float
+    pressure_received: float
+    """Mean pressure this wave was given [Pa]."""
+    speed: float
+    load_time: float
+    contact_fraction: float
+    """Contact length projected on the mean plane over the wavelength [-]."""
+    friction: float
+    """Friction coefficient from the contact traction [-]."""
+    friction_from_dissipation: float
+    """Friction coefficient from the energy lost in the rubber per sliding distance [-]."""
+    status: Status
+    """`converged`, or why the solution is not to be trusted."""
+    newton_iterations: int
+    residual: float
+    """Residual force relative to the applied force [-]."""
+    min_stretch: float
+    max_stretch: float
+    x: Array = field(repr=False)
+    """Deformed abscissa of the surface nodes in the frame of the wave (crest at 0) [m]."""
+    pressure: Array = field(repr=False)
+    """Contact pressure at `x` [Pa], zero out of contact."""
+    rubber: Rubber | None = field(default=None, repr=False, compare=False)
+    """The rubber as it was on this wave."""
+    model: str = "finite_strain"
+    """Name of the solver: `finite_strain` (the block) or `half_plane` (small strain)."""
+    deformed_mesh: tuple[Array, Array] | None = field(default=None, repr=False)
+    """Deformed node positions (x, z) [m], each (layers, columns + 1), or None."""
+    details: Mapping[str, Any] = field(default_factory=dict, repr=False)
+    """Further numbers of the solver (load steps, mesh, indentation ...)."""
+    contact_fraction_error: float = math.nan
+    """Estimated discretisation error of the contact fraction [-], NaN if unknown."""
+    friction_error: float = math.nan
+    """Estimated discretisation error of the friction coefficient [-], NaN if unknown."""
+    solution: Any = field(default=None, repr=False, compare=False)
+    """What the solver keeps to start another wave from; not written to files."""
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Leave the solver's own solution behind when a result is pickled."""
+        return {**self.__dict__, "solution": None}
+
+    @property
+    def contact_length(self) -> float:
+        """Contact length projected on the mean plane [m]."""
+        return self.contact_fraction * self.wavelength
+
+    @property
+    def converged(self) -> bool:
+        """Whether the solution may be used."""
+        return self.status == Status.CONVERGED
+
+    @property
+    def why(self) -> str:
+        """The status, and how much of the pressure was reached before a failure."""
+        reached = self.details.get("load_reached", math.nan)
+        if self.converged or not math.isfinite(reached):
+            return str(self.status)
+        return f"{self.status} at {100.0 * reached:.3g} % of the pressure"
+
+    @property
+    def friction_mismatch(self) -> float:
+        """Relative difference of the two friction measures: the discretisation's own error."""
+        scale = max(abs(self.friction), abs(self.friction_from_dissipation))
+        difference = abs(self.friction - self.friction_from_dissipation)
+        return difference / scale if scale > 0.0 else 0.0
+
+    @property
+    def slope(self) -> float:
+        """Largest slope of the wave, 2 pi amplitude / wavelength [-]."""
+        return 2.0 * math.pi * self.amplitude / self.wavelength
+
+    @property
+    def angular_frequency(self) -> float:
+        """Fundamental excitation 2 pi speed / wavelength [rad/s]."""
+        return 2.0 * math.pi * self.speed / self.wavelength
+
+    @property
+    def modulus(self) -> float:
+        """|E*| of the rubber at the fundamental excitation [Pa], NaN if it is not known."""
+        return abs(self._complex_modulus())
+
+    @property
+    def loss_factor(self) -> float:
+        """E''/E' of the rubber at the fundamental excitation [-], NaN if it is not known."""
+        modulus = self._complex_modulus()
+        return modulus.imag / modulus.real
+
+    @property
+    def outside_band(self) -> bool:
+        """Whether the wave excites the rubber beyond what was measured, where it slides.
+
+        Looked at are the fundamental and its harmonic as long as the contact,
+        n = ceil(wavelength / contact length).
+        """
+        if self.speed == 0.0 or self.rubber is None:
+            return False
+        harmonic = math.ceil(1.0 / self.contact_fraction) if self.contact_fraction > 0.0 else 1
+        omega = self.angular_frequency * np.array([1.0, harmonic])
+        return bool(self.rubber.outside_band(omega).any())
+
+    def _complex_modulus(self) -> complex:
+        if self.rubber is None:
+            return complex(math.nan, math.nan)
+        return complex(self.rubber.complex_modulus(self.angular_frequency))
+
+
+ScaleResult = WaveResult
+"""Its name as `gripscale.ScaleResult`."""
