@@ -5,12 +5,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from gripscale.scale import ScaleResult
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gripscale.errors import InputError
 from gripscale.rubber import Rubber, styrene_butadiene
-from gripscale.scale import ScaleResult
 from gripscale.theory import (
     contact_fraction,
     contact_pressure,

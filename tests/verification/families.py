@@ -78,7 +78,7 @@ def worst(errors: NDArray[np.float64]) -> float:
 
 
 def westergaard() -> Family:
-    """Elastic contact at small slope, p/p* = 0.1 to 0.9; Westergaard, J. Appl. Mech. 6 (1939) 49."""
+    """Elastic contact at small slope, p/p* 0.1 to 0.9 (Westergaard, J. Appl. Mech. 6 (1939) 49)."""
     rubber = gs.Rubber(RELAXED, bulk_modulus=1e3 * RELAXED)
     full = theory.full_contact_pressure(
         rubber.plane_strain_modulus(1.0).real, wavelength=WAVELENGTH, amplitude=AMPLITUDE
@@ -142,9 +142,7 @@ def zener_wave(row: Row) -> WaveProblem:
 def zener_loads(points: int = 4096) -> Family:
     """Zener solid, E_0/E_inf = 10, k v tau = 0.1, sixteen loads, against the half-plane model."""
     problems = tuple(
-        zener_wave(
-            {"E_glassy_over_E_relaxed": 10.0, "pbar_over_pstar_relaxed": p, "k_v_tau": 0.1}
-        )
+        zener_wave({"E_glassy_over_E_relaxed": 10.0, "pbar_over_pstar_relaxed": p, "k_v_tau": 0.1})
         for p in np.geomspace(0.1, 0.8, 16)
     )
     plane = theory.HalfPlane(points=points)

@@ -2,6 +2,10 @@
 
 import numpy as np
 import pytest
+
+import gripscale as gs
+from gripscale import theory
+from gripscale.wave import Mesh
 from tests.verification.families import (
     AMPLITUDE,
     RELAXED,
@@ -12,10 +16,6 @@ from tests.verification.families import (
     westergaard,
     worst,
 )
-
-import gripscale as gs
-from gripscale import theory
-from gripscale.wave import Mesh
 
 WAVE = {"wavelength": WAVELENGTH, "amplitude": AMPLITUDE}
 
@@ -32,9 +32,7 @@ def test_westergaard():
     assert max(abs(result.friction) for result in results) < 1e-9
     for result in results:
         # p_max/p = 2/sqrt(p/p*); the nodal pressures at the crest are right to about 0.5 %.
-        full = theory.full_contact_pressure(
-            result.rubber.plane_strain_modulus(1.0).real, **WAVE
-        )
+        full = theory.full_contact_pressure(result.rubber.plane_strain_modulus(1.0).real, **WAVE)
         expected = 2.0 * np.sqrt(result.pressure_received * full)
         assert result.pressure.max() == pytest.approx(expected, rel=0.01)
 
