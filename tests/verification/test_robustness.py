@@ -1,15 +1,12 @@
-"""Random loads of real roads from a cold start, and warm starts along sweeps."""
+"""Random loads as real roads bring them, solved cold."""
 
-import sys
-from pathlib import Path
+from collections import Counter
 
 import numpy as np
 import pytest
 
 import gripscale as gs
-
-sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
-from load_grid import cases
+from tests.verification.load_grid import cases
 
 CASES = cases(30)
 
@@ -37,35 +34,24 @@ def test_the_random_loads_cover_the_range():
     assert any(np.isinf(case.passages) for case in CASES)
 
 
-@pytest.mark.parametrize("varied", ["speed", "pressure", "amplitude"])
-def test_a_warm_start_finds_the_same_solution_sooner(varied):
-    material = gs.Rubber(3e6, [6e6, 9e6], [2e-5, 2e-4], bulk_modulus=1e9)
-    load = {
-        "wavelength": 1e-3,
-        "amplitude": 1.5e-4,
-        "pressure": 3e6,
-        "speed": 1.0,
-        "load_time": 1e-3,
-    }
-    first = gs.solve_scale(material, **load)
-    load[varied] *= 1.1
-    cold = gs.solve_scale(material, **load)
-    warm = gs.solve_scale(material, **load, start=first)
-    assert warm.converged
-    assert warm.friction == pytest.approx(cold.friction, rel=1e-6)
-    assert warm.contact_fraction == pytest.approx(cold.contact_fraction, abs=1e-6)
-    assert warm.details["load_steps"] < cold.details["load_steps"]
-    assert warm.contact_fraction_error == pytest.approx(cold.contact_fraction_error, rel=1e-3)
+@pytest.mark.verification
+@pytest.mark.parametrize(
+    ("columns", "rows", "typical", "most"), [(64, 12, 0.002, 0.09), (128, 20, 0.001, 0.05)]
+)
+def test_three_hundred_random_loads_converge_cold(columns, rows, typical, most):
+    """All of them, where 99 % is asked, with a mismatch of 5 % only in contacts of few nodes.
 
-
-def test_a_chain_starts_from_its_neighbour_along_a_sweep():
-    material = gs.Rubber(3e6, [6e6, 9e6], [2e-5, 2e-4], bulk_modulus=1e9)
-    sines = gs.SineStack(wavelength=[1e-2, 2e-3], amplitude=[1e-3, 2e-4])
-    load = {"pressure": 3e5, "footprint": 0.1, "columns": 64, "rows": 12}
-    first = gs.predict(material, sines, speed=1.0, **load)
-    cold = gs.predict(material, sines, speed=1.2, **load)
-    warm = gs.predict(material, sines, speed=1.2, **load, start=first)
-    assert warm.friction == pytest.approx(cold.friction, rel=1e-6)
-    assert warm.contact_fraction == pytest.approx(cold.contact_fraction, rel=1e-6)
-    steps = [sum(s.details["load_steps"] for s in p.scales) for p in (warm, cold)]
-    assert steps[0] < steps[1]
+    Bounds of the mismatch of the two friction measures, median and largest: five to seven per cent
+    are what four to eight nodes in contact give (A/lambda 0.35), and half the loads have many.
+    """
+    results = [
+        gs.solve_scale(case.rubber, **case.arguments(), columns=columns, rows=rows)
+        for case in cases()
+    ]
+    assert Counter(result.status for result in results) == {"converged": 300}
+    mismatch = [result.friction_mismatch for result in results]
+    assert np.median(mismatch) < typical
+    assert max(mismatch) < most
+    nodes = [columns * result.contact_fraction for result in results]
+    for many, off in zip(nodes, mismatch, strict=True):
+        assert off < 0.02 or many < 24.0

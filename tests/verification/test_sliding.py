@@ -1,5 +1,7 @@
 """Steady sliding of the finite-strain block against independent small-strain models."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -26,29 +28,31 @@ def test_the_zener_rows_cover_the_table():
     assert max(row["k_v_tau"] for row in rows) >= 2.0 > 0.02 >= min(row["k_v_tau"] for row in rows)
 
 
-# mesh; friction from traction worst, rms; from dissipation worst, rms; contact fraction worst.
-# Asked of the default mesh: friction within 2 %, contact fraction within 0.006. The others are
-# coarser by a known factor: an error of the second order in friction (rms), of the first in the
-# place of an edge, twice as large where a contact has a few nodes only.
-ZENER_BOUNDS = [
-    (Mesh(64, 12), 0.08, 0.02, 0.16, 0.02, 0.012),
-    (Mesh(96, 16), 0.03556, 0.0089, 0.05, 0.0089, 0.008),
-    (Mesh(), 0.02, 0.005, 0.02, 0.005, 0.006),
-]
+@cache
+def slid(columns, rows):
+    return zener().solve(Mesh(columns, rows))
 
 
-@pytest.mark.parametrize("bounds", ZENER_BOUNDS, ids=lambda bounds: f"{bounds[0].columns} columns")
-def test_zener_solid_slides_as_the_half_plane_table_says(bounds):
-    mesh, traction, traction_rms, lost, lost_rms, area = bounds
-    family = zener()
-    results = family.solve(mesh)
+@pytest.mark.parametrize(("columns", "rows"), [(64, 12), (96, 16), (128, 20)])
+def test_zener_solid_slides_as_the_half_plane_table_says(columns, rows):
+    """Asked of the default mesh: friction within 2 %, contact fraction within 0.006.
+
+    Coarser meshes may err more by the second order in friction, by the first in the contact
+    fraction, which is known to a share of the node spacing.
+    """
+    family, results = zener(), slid(columns, rows)
+    coarser = 128 / columns
     friction = family.friction_errors(results)
-    dissipated = family.friction_errors(results, "friction_from_dissipation")
-    assert worst(friction) < traction
-    assert root_mean_square(friction) < traction_rms
-    assert worst(dissipated) < lost
-    assert root_mean_square(dissipated) < lost_rms
-    assert worst(family.area_errors(results)) < area
+    assert worst(friction) < 0.02 * coarser**2
+    assert root_mean_square(friction) < 0.005 * coarser**2
+    assert worst(family.area_errors(results)) < 0.006 * coarser
+
+
+def test_energy_lost_says_the_same_friction():
+    """The other measure, within the same 2 %, and the mismatch of the two within both."""
+    results = slid(128, 20)
+    assert worst(zener().friction_errors(results, "friction_from_dissipation")) < 0.02
+    assert max(result.friction_mismatch for result in results) < 0.02
 
 
 @pytest.mark.parametrize(
