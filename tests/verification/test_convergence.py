@@ -63,7 +63,7 @@ def rate(errors: list[float]) -> float:
     ],
 )
 def test_rates(name: str, finest_area: float, finest_friction: float) -> None:
-    """On 128 columns a quarter of a spacing, 0.002, and (k h)^2 = 0.24 % with as much of 16 rows."""
+    """On 128 columns: a quarter of a spacing, 0.002; (k h)^2 = 0.24 % and as much of 16 rows."""
     errors = errors_of(FAMILIES[name]())
     assert rate(errors["area"]) > AREA_RATE
     assert errors["area"][-1] < finest_area
