@@ -5,17 +5,19 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from gripscale.errors import FileError
 
 if TYPE_CHECKING:
     import xarray as xr
 
-ENGINE = "h5netcdf"
+ENGINE: Final = "h5netcdf"
 
 
-def save(data: xr.Dataset, path: str | Path, groups: Mapping[str, xr.Dataset] | None = None) -> Path:
+def save(
+    data: xr.Dataset, path: str | Path, groups: Mapping[str, xr.Dataset] | None = None
+) -> Path:
     """Write `data` to `path`, with the named `groups` beside it in the file; return the path.
 
     Raises `FileError` if the file cannot be written.

@@ -10,7 +10,7 @@ import pytest
 import gripscale as gs
 from gripscale.case import read_case
 from gripscale.errors import FileError
-from gripscale.study.inputs import case_surface, surface_of, rubber_of
+from gripscale.study.inputs import case_surface, rubber_of, surface_of
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "road_and_tread" / "case.toml"
 STACK = gs.SineStack(wavelength=20e-3 / 3.0 ** np.arange(5), amplitude=2e-3 / 2.2 ** np.arange(5))

@@ -14,8 +14,8 @@ import xarray as xr
 
 import gripscale as gs
 from gripscale import netcdf
-from gripscale.errors import FileError, InputError
 from gripscale.chain import Chain
+from gripscale.errors import FileError, InputError
 from gripscale.model import NominalLoad
 from gripscale.study import Progress, Study, Task, task
 from gripscale.study.software import fingerprint
@@ -209,9 +209,7 @@ def test_model_that_cannot_be_written_down_is_refused() -> None:
         ("cli/run.py", False),
     ],
 )
-def test_changed_module_changes_the_fingerprint(
-    module: str, counts: bool, tmp_path: Path
-) -> None:
+def test_changed_module_changes_the_fingerprint(module: str, counts: bool, tmp_path: Path) -> None:
     home, kernel = tmp_path / "gripscale", tmp_path / "_kernel.so"
     (home / module).parent.mkdir(parents=True)
     (home / module).write_text("number = 1\n")

@@ -20,7 +20,9 @@ def test_command_solves_prints_draws_and_resumes(shell: Shell, case: Path) -> No
     result = shell(*asked, "--static")
     assert result.exit_code == 0, result.output
     target = case.parent / "results" / "study"
-    written = {str(p.relative_to(target)) for p in target.rglob("*.*") if "predictions" not in p.parts}
+    written = {
+        str(p.relative_to(target)) for p in target.rglob("*.*") if "predictions" not in p.parts
+    }
     figures = {
         "totals",
         *(
@@ -77,7 +79,9 @@ def test_failed_chain_ends_with_its_own_code(
     result = shell("study", case, "--vary", "speed=0.1,1")
     assert result.exit_code == 3
     assert len(result.stderr.splitlines()) == 1
-    assert "1 of 2 predictions did not converge and have no totals; the first: wave 3" in result.stderr
+    assert (
+        "1 of 2 predictions did not converge and have no totals; the first: wave 3" in result.stderr
+    )
     assert (case.parent / "results" / "study" / "study.nc").exists()
 
 

@@ -30,7 +30,7 @@ def combined(predictions: Predictions, axes: Sequence[Axis]) -> xr.Dataset:
     for index, data in kept.items():
         nested[index] = data
     names = [axis.name for axis in axes]
-    together = xr.combine_nested(
+    together: xr.Dataset = xr.combine_nested(
         nested.tolist(),
         concat_dim=names,
         data_vars="all",
@@ -39,7 +39,8 @@ def combined(predictions: Predictions, axes: Sequence[Axis]) -> xr.Dataset:
         join="outer",
         combine_attrs="override",
     )
-    return together.transpose(*names, ...).drop_attrs(deep=False)
+    result: xr.Dataset = together.transpose(*names, ...).drop_attrs(deep=False)
+    return result
 
 
 def by_decade(

@@ -25,6 +25,7 @@ from gripscale import checks
 from gripscale.study.store import Store
 from gripscale.study.task import Solved, Task
 
+
 @dataclass(frozen=True)
 class Progress:
     """What became of one task, as `on_task` is told."""
