@@ -40,5 +40,6 @@ def test_a_wave_that_cannot_be_solved_says_so():
     result = gs.solve_scale(
         gs.Rubber(3e6), **(GOOD | {"amplitude": 3e-4, "pressure": 3e6}), max_iterations=1
     )
-    assert result.status.startswith("iteration limit at ")
+    assert result.status == "iteration limit"
+    assert result.why.startswith("iteration limit at ")
     assert not result.converged

@@ -1,3 +1,4 @@
+from . import folder as folder
 from .models import Case as Case
 from .models import Load as Load
 from .models import Output as Output

@@ -25,12 +25,19 @@ T = TypeVar("T")
 @lru_cache(maxsize=1)
 def default_settings() -> Mapping[str, float]:
     """Return every constant of the solver with its default, by name."""
-    return {"max_iterations": 40.0, "residual_tolerance": 1e-8, "iteration_budget": 500.0, "largest_step": 0.4}
+    return {
+        "max_iterations": 40.0,
+        "residual_tolerance": 1e-8,
+        "iteration_budget": 500.0,
+        "largest_step": 0.4,
+    }
 
 
 def describe_settings() -> str:
     """Return name, default and meaning of every constant of the solver, one a line."""
-    return "\n".join(f"{name} = {value:g}: {text}" for name, value, text in _kernel.default_settings())
+    return "\n".join(
+        f"{name} = {value:g}: {text}" for name, value, text in _kernel.default_settings()
+    )
 
 
 def checked_settings(settings: Mapping[str, float]) -> Mapping[str, float]:
@@ -87,15 +94,26 @@ def _inputs(problem: WaveProblem, mesh: Mesh) -> Any:
         "moduli": (rubber.moduli / 3.0).tolist(),
         "relaxation_times": rubber.relaxation_times.tolist(),
         "bulk_modulus": rubber.bulk_modulus,
-        "wavelength": profile.wavelength, "amplitude": profile.amplitude,
-        "pressure": load.pressure, "speed": load.speed, "load_time": load.load_time,
-        "depth": mesh.depth, "columns": mesh.columns, "rows": mesh.rows, "order": mesh.element_order,
+        "wavelength": profile.wavelength,
+        "amplitude": profile.amplitude,
+        "pressure": load.pressure,
+        "speed": load.speed,
+        "load_time": load.load_time,
+        "depth": mesh.depth,
+        "columns": mesh.columns,
+        "rows": mesh.rows,
+        "order": mesh.element_order,
     }
 
 
 def _extra(settings: Any, tolerance: Any) -> Any:
-    return {"tolerance": tolerance, "iterations": int(settings.get("max_iterations", 40)), "budget": 500,
-            "residual_tolerance": settings.get("residual_tolerance", 1e-8), "step": 0.4}
+    return {
+        "tolerance": tolerance,
+        "iterations": int(settings.get("max_iterations", 40)),
+        "budget": 500,
+        "residual_tolerance": settings.get("residual_tolerance", 1e-8),
+        "step": 0.4,
+    }
 
 
 def _asked(call: Callable[[], T]) -> T:

@@ -10,7 +10,7 @@ import pytest
 import gripscale as gs
 from gripscale.case import read_case
 from gripscale.errors import FileError
-from gripscale.study.inputs import case_road, road_of, rubber_of
+from gripscale.study.inputs import case_surface, rubber_of, surface_of
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "road_and_tread" / "case.toml"
 STACK = gs.SineStack(wavelength=20e-3 / 3.0 ** np.arange(5), amplitude=2e-3 / 2.2 ** np.arange(5))
@@ -34,14 +34,14 @@ def measured(tmp_path: Path) -> Path:
 
 
 def test_measured_surface_is_fitted_anew(measured: Path) -> None:
-    road = case_road(read_case(measured))
-    base = road.stack()
+    road = case_surface(read_case(measured))
+    base = road.varied().sines
     assert (len(base), base.wavelength[-1]) == (5, pytest.approx(0.25e-3))
-    four = road.stack(waves=4)
+    four = road.varied(waves=4).sines
     assert (len(four), four.wavelength[-1]) == (4, pytest.approx(0.25e-3))
-    finer = road.stack(smallest_wavelength=0.1e-3)
+    finer = road.varied(smallest_wavelength=0.1e-3).sines
     assert (len(finer), finer.wavelength[-1]) == (5, pytest.approx(0.1e-3))
-    pair = road.stack(factors=(3.5, 2.4))
+    pair = road.varied(factors=(3.5, 2.4)).sines
     assert pair.wavelength[0] == pytest.approx(base.wavelength[0], rel=1e-12)
     assert pair.amplitude[0] == pytest.approx(base.amplitude[0], rel=1e-12)
     assert pair.wavelength[-1] >= base.wavelength[-1] > pair.wavelength[-1] / 3.5
@@ -54,27 +54,27 @@ def test_measured_surface_is_fitted_anew(measured: Path) -> None:
 def test_fixed_factor_leaves_room_for_what_varies(measured: Path) -> None:
     text = measured.read_text().replace('smallest_wavelength = "0.25 mm"', "s_wavelength = 3")
     measured.write_text(text)
-    road = case_road(read_case(measured))
-    assert len(road.stack(waves=3)) == 3
-    finer = road.stack(smallest_wavelength=1e-4)
+    road = case_surface(read_case(measured))
+    assert len(road.varied(waves=3).sines) == 3
+    finer = road.varied(smallest_wavelength=1e-4).sines
     assert finer.s_wavelength == pytest.approx(3.0)
     assert 1e-4 <= finer.wavelength[-1] < 3e-4
 
 
 def test_surface_by_name_file_or_case(measured: Path, tmp_path: Path) -> None:
     file = read_case(measured)
-    own = road_of("case", file)
-    beside = road_of("other.txt", file)
-    other_case = road_of(str(measured), file)
+    own = surface_of("case", file)
+    beside = surface_of("other.txt", file)
+    other_case = surface_of(str(measured), file)
     for road in (beside, other_case):
         np.testing.assert_array_equal(road.sines.wavelength, own.sines.wavelength)
     assert beside.source.endswith("other.txt")
-    made = road_of("synthetic_dense_asphalt", file)
+    made = surface_of("synthetic_dense_asphalt", file)
     assert "synthetic, self-affine, H = 0.8" in made.source
     assert made.sines.wavelength[-1] == pytest.approx(0.1e-3)
-    assert len(made.stack(waves=4)) == 4
+    assert len(made.varied(waves=4).sines) == 4
     with pytest.raises(FileError, match="nor one of case, synthetic_dense_asphalt"):
-        road_of("synthetic_lawn", file)
+        surface_of("synthetic_lawn", file)
 
 
 def test_rubber_by_name_file_or_case(measured: Path) -> None:
@@ -90,7 +90,7 @@ def test_rubber_by_name_file_or_case(measured: Path) -> None:
 
 
 def test_waves_by_hand_are_cut_off() -> None:
-    road = road_of(STACK, read_case(EXAMPLE))
-    assert len(road.stack(waves=2)) == 2
-    assert len(road.stack(smallest_wavelength=1e-3)) == 3
-    assert road.stack(factors=(3.0, 2.0)).residual is None
+    road = surface_of(STACK, read_case(EXAMPLE))
+    assert len(road.varied(waves=2).sines) == 2
+    assert len(road.varied(smallest_wavelength=1e-3).sines) == 3
+    assert road.varied(factors=(3.0, 2.0)).sines.residual is None
