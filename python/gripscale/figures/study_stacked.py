@@ -16,7 +16,8 @@ from gripscale.figures.study_axes import (
     legend_beside,
     wavelength_names,
 )
-from gripscale.figures.style import INK, WIDE, sheet, styled
+from gripscale.figures.palette import INK, WIDE
+from gripscale.figures.style import sheet, styled
 
 HEIGHT = 3.4
 
