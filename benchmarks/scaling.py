@@ -16,7 +16,8 @@ from rich.console import Console
 import gripscale as gs
 from benchmarks.measure import peak_since_reset, reset_peak
 from benchmarks.table import show
-from gripscale.figures.style import BLUE, GREEN, GREY, WIDE, save_figure, sheet, styled
+from gripscale.figures.palette import BLUE, GREEN, GREY, WIDE
+from gripscale.figures.style import save_figure, sheet, styled
 from tests.verification.families import WAVELENGTH, tread
 
 COLUMNS = [34, 50, 66, 98, 130, 194, 258, 386]

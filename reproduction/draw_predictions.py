@@ -10,8 +10,9 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from gripscale.figures.palette import GREY, MILLI, NARROW, WIDE
 from gripscale.figures.study_axes import area_axis, colours
-from gripscale.figures.style import GREY, MILLI, NARROW, WIDE, falling_wavelength, sheet, styled
+from gripscale.figures.style import falling_wavelength, sheet, styled
 
 Quantity = Literal["area", "friction", "running_friction"]
 Predictions = Mapping[str, xr.Dataset]
