@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 import gripscale as gs
 from gripscale.figures.palette import BLUE, GREEN, GREY, ORANGE, WIDE
 from gripscale.figures.style import save_figure, sheet, styled
-from tests.verification.test_convergence import COLUMNS, FAMILIES, Errors, errors_of, rate
+from tests.verification.test_convergence import COLUMNS, FAMILIES, Errors, errors_of
 from tests.verification.transient_cases import PLAIN, SPEED
 
 LABELS = {"area": "error of the contact fraction [-]", "friction": "relative error of friction [-]"}
@@ -23,9 +23,9 @@ def convergence_figure(errors: dict[str, Errors]) -> Figure:
     figure, axes = sheet(WIDE, 3.1, 1, 2, gap=0.06)
     for panel, (quantity, label) in zip(axes[0], LABELS.items(), strict=True):
         for (name, found), colour in zip(errors.items(), (BLUE, GREEN, ORANGE), strict=True):
-            if found[quantity]:
-                text = f"{name}, rate {rate(found[quantity]):.1f}"
-                panel.plot(COLUMNS, found[quantity], color=colour, marker="o", label=text)
+            if values := getattr(found, quantity):
+                text = f"{name}, rate {found.rate(quantity):.1f}"
+                panel.plot(found.columns, values, color=colour, marker="o", label=text)
         panel.set(xscale="log", yscale="log", xlabel="columns (rows = columns / 8)", ylabel=label)
         panel.set_xticks(COLUMNS, [str(number) for number in COLUMNS])
         panel.minorticks_off()
@@ -70,7 +70,7 @@ def transient_figure(moving: gs.TransientResult, steady: gs.ScaleResult) -> Figu
 
 def main(folder: str) -> None:
     """Draw both into `folder`, as PNG only."""
-    errors = {name: errors_of(make()) for name, make in FAMILIES.items()}
+    errors = {name: errors_of(name) for name in FAMILIES}
     figures = {
         "convergence": convergence_figure(errors),
         "transient": transient_figure(*start_stop_return()),
