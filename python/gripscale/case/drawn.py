@@ -1,4 +1,4 @@
-"""What is drawn of the inputs of a case, on paper and on the page, evaluated by the fits themselves."""
+"""What is drawn of the inputs of a case, on paper and on the page, by the fits themselves."""
 
 from __future__ import annotations
 

@@ -69,7 +69,9 @@ def _draw(view: PredictionView, waves: Any, columns: int, width: float) -> Figur
     figure = Figure(figsize=(width, height), dpi=DPI)
 
     def panel(left: float, top: float, high: float) -> Axes:
-        return figure.add_axes((left / width, 1 - (top + high) / height, inside / width, high / height))
+        return figure.add_axes(
+            (left / width, 1 - (top + high) / height, inside / width, high / height)
+        )
 
     for place, i in enumerate(waves):
         row, column = divmod(place, columns)
@@ -166,9 +168,7 @@ def _mesh(axes: Axes, x: Array, z: Array, top: float) -> None:
     upright = np.arange(first, last)[np.arange(first, last) % every == 0]
     level = slice(None, rows, max(x.shape[0] // 24, 1))
     edge = [np.append(v[0, first:last], v[rows - 1, first:last][::-1]) for v in (x, z)]
-    lines = [
-        np.append(_joined(v[level, first:last]), _joined(v[:rows, upright].T)) for v in (x, z)
-    ]
+    lines = [np.append(_joined(v[level, first:last]), _joined(v[:rows, upright].T)) for v in (x, z)]
     axes.fill(*edge, color=BLUE, alpha=0.10, lw=0)
     axes.plot(*lines, color=BLUE, lw=0.3, alpha=0.6, label="mesh")
     axes.plot(x[0, first:last], z[0, first:last], color=BLUE, lw=1.2, label="surface")

@@ -71,4 +71,3 @@ def _waves(axes: Axes, stack: SineStack, lag: NDArray[np.float64], name: str, co
         transform=axes.get_xaxis_transform(),
         label="their wavelengths",
     )
-

@@ -111,7 +111,7 @@ def write_png(figure: Figure, target: Path | IO[bytes], dpi: float = DPI) -> Non
             layout.execute(figure)
             figure.set_layout_engine("none")
         # `savefig` would draw twice: once more to find out what it has to show.
-        FigureCanvasAgg(figure).print_png(target, pil_kwargs={"compress_level": 2})
+        FigureCanvasAgg(figure).print_png(target, pil_kwargs={"compress_level": 1})
 
 
 def save_figure(figure: Figure, folder: Path, name: str) -> list[Path]:
