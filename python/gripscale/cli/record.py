@@ -23,7 +23,7 @@ from gripscale.chain import Prediction
 from gripscale.cli.inputs import Measured, RubberStudy, SurfaceStudy
 from gripscale.scale import ScaleResult
 from gripscale.surface import Profile
-from gripscale.surface.text_table import read_bytes
+from gripscale.textfile import read_bytes
 
 Variables = dict[str, Any]
 BINS = 1200

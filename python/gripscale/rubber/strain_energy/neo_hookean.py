@@ -1,0 +1,33 @@
+"""The Gaussian network, W = G/2 (I1 - 3)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from gripscale.rubber.strain_energy.base import Array, StrainEnergy
+
+
+@dataclass(frozen=True)
+class NeoHookean(StrainEnergy):
+    """Gaussian network: energy in the first invariant alone."""
+
+    kind: ClassVar[str] = "neo_hookean"
+    least_coefficients: ClassVar[tuple[float, ...]] = (0.0,)
+
+    def slopes(self, first: Array, second: Array) -> tuple[Array, Array]:
+        """Return w1 = 1 and w2 = 0."""
+        return np.ones_like(first), np.zeros_like(second)
+
+    @classmethod
+    def basis(cls, stretch: Array) -> list[Array]:
+        """Return the factor of c = G."""
+        return [cls().uniaxial_factor(stretch)]
+
+    @classmethod
+    def from_coefficients(cls, found: Sequence[float]) -> tuple[float, NeoHookean]:
+        """Return G = c and the law."""
+        return float(found[0]), cls()
