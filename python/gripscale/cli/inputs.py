@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -108,7 +108,7 @@ def study_rubber(source: RubberSource, resolve: Resolve) -> RubberStudy:
     """Read and fit the master curve of `source`, or take the rubber it names."""
     stiffness = {} if source.bulk_modulus is None else {"bulk_modulus": source.bulk_modulus}
     if source.file is None:
-        rubber = styrene_butadiene(**stiffness)
+        rubber = replace(styrene_butadiene(**stiffness), strain_energy=source.strain_energy)
         return RubberStudy(rubber, rubber.source)
     path = resolve(source.file)
     master = read_master_curve(
@@ -124,6 +124,7 @@ def study_rubber(source: RubberSource, resolve: Resolve) -> RubberStudy:
         {} if source.outlier_threshold is None else {"outlier_threshold": source.outlier_threshold}
     )
     rubber, report = fit_prony_report(master, terms=source.terms, **stiffness, **choice)
+    rubber = replace(rubber, strain_energy=source.strain_energy)
     return RubberStudy(rubber, master.source, master, report)
 
 
