@@ -22,7 +22,6 @@ _EXPECTED = {
     "float_type": "a number",
     "greater_than": "greater than {gt:g}",
     "greater_than_equal": "at least {ge:g}",
-    "int_from_float": "a whole number",
     "int_type": "a whole number",
     "less_than": "less than {lt:g}",
     "less_than_equal": "at most {le:g}",
