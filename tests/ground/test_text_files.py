@@ -72,6 +72,9 @@ SHAPES = {
     "units behind a slash": lambda lines: "\n".join(lines).replace(" [", " / ").replace("]", ""),
     "units behind a blank": lambda lines: "\n".join(lines).replace(" [", " ").replace("]", ""),
     "separators at the ends": lambda lines: ";\n".join(lines) + ";",
+    "separators around the rows": lambda lines: "\n".join(
+        [lines[0], *(f";{line};" for line in lines[1:])]
+    ),
     "quotes": lambda lines: "\n".join(f'"{line}"'.replace(";", '";"') for line in lines),
     "numbered rows": lambda lines: "\n".join(
         f"{i or 'no.'};{line}" for i, line in enumerate(lines)

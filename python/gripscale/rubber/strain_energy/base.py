@@ -11,7 +11,7 @@ Source: R. S. Rivlin, Phil. Trans. R. Soc. A 241 (1948) 379, doi:10.1098/rsta.19
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields
 from typing import ClassVar, Self
 
@@ -27,8 +27,8 @@ Array = NDArray[np.float64]
 class StrainEnergy(ABC):
     """A law of the permanent network; its dataclass fields are its parameters, all numbers.
 
-    For a fit, G times the law is linear in coefficients c_k [Pa] of the same law with other
-    parameters.
+    A fit takes G times the law as linear in coefficients c_k [Pa]. Here they are G and G times each
+    parameter; a law for which that is not so replaces `basis` and `from_coefficients`.
     """
 
     kind: ClassVar[str]
@@ -46,14 +46,22 @@ class StrainEnergy(ABC):
         """Return w1 and w2 [-] at I1 - 3 and I2 - 3, all of one shape."""
 
     @classmethod
-    @abstractmethod
     def basis(cls, stretch: Array) -> list[Array]:
         """Return the uniaxial factor per unit of each c_k over G [-], each like `stretch` [-]."""
+        units = np.eye(len(fields(cls)) + 1)[:, 1:]
+        plain, *others = (cls._of(unit).uniaxial_factor(stretch) for unit in units)
+        return [plain, *(other - plain for other in others)]
 
     @classmethod
-    @abstractmethod
     def from_coefficients(cls, found: Sequence[float]) -> tuple[float, Self]:
         """Return G [Pa] and the law of coefficients c_k [Pa]."""
+        shear, *others = found
+        return shear, cls._of(other / shear for other in others)
+
+    @classmethod
+    def _of(cls, values: Iterable[float]) -> Self:
+        names = (field.name for field in fields(cls))
+        return cls(**dict(zip(names, values, strict=True)))
 
     def parameters(self) -> dict[str, float]:
         """Return the parameters by name."""

@@ -48,5 +48,5 @@ class MooneyRivlin(StrainEnergy):
     @classmethod
     def from_coefficients(cls, found: Sequence[float]) -> tuple[float, MooneyRivlin]:
         """Return G = c1 + c2 and the law of s = c2/G."""
-        shear = float(np.sum(found))
-        return shear, cls(float(found[1]) / shear)
+        shear = sum(found)
+        return shear, cls(found[1] / shear)

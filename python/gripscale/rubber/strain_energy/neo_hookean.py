@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -21,13 +20,3 @@ class NeoHookean(StrainEnergy):
     def slopes(self, first: Array, second: Array) -> tuple[Array, Array]:
         """Return w1 = 1 and w2 = 0."""
         return np.ones_like(first), np.zeros_like(second)
-
-    @classmethod
-    def basis(cls, stretch: Array) -> list[Array]:
-        """Return the factor of c = G."""
-        return [cls().uniaxial_factor(stretch)]
-
-    @classmethod
-    def from_coefficients(cls, found: Sequence[float]) -> tuple[float, NeoHookean]:
-        """Return G = c and the law."""
-        return float(found[0]), cls()

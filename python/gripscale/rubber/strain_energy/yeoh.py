@@ -5,7 +5,6 @@ Source: O. H. Yeoh, Rubber Chem. Technol. 66 (1993) 754, doi:10.5254/1.3538343.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -34,16 +33,3 @@ class Yeoh(StrainEnergy):
         """Return w1 = 1 + 2 c2 (I1 - 3) + 3 c3 (I1 - 3)^2 and w2 = 0."""
         w1 = 1.0 + 2.0 * self.second * first + 3.0 * self.third * first**2
         return w1, np.zeros_like(second)
-
-    @classmethod
-    def basis(cls, stretch: Array) -> list[Array]:
-        """Return the factors of c = G, G c2, G c3."""
-        gauss = cls(0.0, 0.0).uniaxial_factor(stretch)
-        parts = (cls(1.0, 0.0).uniaxial_factor(stretch), cls(0.0, 1.0).uniaxial_factor(stretch))
-        return [gauss, *(part - gauss for part in parts)]
-
-    @classmethod
-    def from_coefficients(cls, found: Sequence[float]) -> tuple[float, Yeoh]:
-        """Return G = c1 and the law of c2/G, c3/G."""
-        shear, second, third = map(float, found)
-        return shear, cls(second / shear, third / shear)
