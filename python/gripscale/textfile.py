@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import math
 import re
+import sys
 from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from decimal import Decimal
@@ -35,6 +36,10 @@ _TITLE_SEPARATORS = (r"\t", r";", r",", r"\s{2,}", r"\s+")
 _CUT = re.compile(r"\s*[\[(]\s*([^\[\]()]+?)\s*[\])]|[\s/_,]+(?=(.+))")
 _STATED = re.compile(r"(.*?)(?:\s*[\[(]\s*([^\[\]()]+?)\s*[\])]|\s+/\s*(\S+))\s*")
 _TITLES_IN_BRACKETS = re.compile(r"[^()\[\]]+[(\[][^()\[\]]*[)\]]")
+
+
+Line = tuple[int, str]
+"""A line with its number in the file, from 1."""
 
 
 @dataclass(frozen=True)
@@ -120,9 +125,10 @@ def read_table(
     first, separator = _first_row(path, lines, expected)
     numbers = [number for number, line in lines[first:] if not _is_comment(line)]
     rows = [_cells(line, separator) for _, line in lines[first:] if not _is_comment(line)]
-    _check_above(path, lines[:first], separator, len(rows[0]))
+    count = len(rows[0])
+    _check_faults(path, lines[:first], separator, range(count, count + 1))
     _check_lengths(path, rows, numbers)
-    decimal = _decimal_sign(path, rows, numbers, separator)
+    decimal = _decimal_sign(path, rows, numbers)
     rows = _without_empty_columns(rows)
     columns = _columns([line for _, line in lines[:first]], len(rows[0]), kinds, named)
     return TextTable(path, columns, rows, numbers, decimal)
@@ -160,14 +166,15 @@ def parse_number(cell: str) -> float | None:
     return float(cell) if _NUMBER.fullmatch(cell) else None
 
 
-def _first_row(path: Path, lines: list[tuple[int, str]], expected: str) -> tuple[int, str | None]:
+def _first_row(path: Path, lines: list[Line], expected: str) -> tuple[int, str | None]:
     """Return the index of the first line of numbers, and what parts its cells."""
     for at, (_, line) in enumerate(lines):
         for separator in () if _is_comment(line) else _SEPARATORS:
             cells = _cells(line, separator)
-            numbers = any(_is_number(cell, separator) for cell in cells)
-            if len(cells) >= 2 and numbers and all(_fits(cell, separator) for cell in cells):
+            if len(cells) >= 2 and any(map(_is_number, cells)) and all(map(_fits, cells)):
                 return at, separator
+    for separator in _SEPARATORS:
+        _check_faults(path, lines, separator, range(2, sys.maxsize))
     number, line = lines[0]
     raise FileError(
         f"{path}: expected {expected}; found none from line {number} ({line.strip()[:40]!r}) on"
@@ -178,27 +185,25 @@ def _is_comment(line: str) -> bool:
     return line.lstrip().startswith(_COMMENT)
 
 
-def _is_number(cell: str, separator: str | None) -> bool:
-    return bool(_NUMBER.fullmatch(cell) or (separator != "," and _COMMA_NUMBER.fullmatch(cell)))
+def _is_number(cell: str) -> bool:
+    return bool(_NUMBER.fullmatch(cell) or _COMMA_NUMBER.fullmatch(cell))
 
 
-def _fits(cell: str, separator: str | None) -> bool:
+def _fits(cell: str) -> bool:
     """Return whether a cell may stand in a row of numbers."""
-    return cell.lower() in _MISSING or _is_number(cell, separator)
+    return cell.lower() in _MISSING or _is_number(cell)
 
 
 def _cells(line: str, separator: str | None) -> list[str]:
     return [cell.strip().strip('"').strip() for cell in line.strip(" \r\n").split(separator)]
 
 
-def _check_above(
-    path: Path, lines: list[tuple[int, str]], separator: str | None, count: int
-) -> None:
-    """Refuse a line above the first row that looks like a row with a fault."""
+def _check_faults(path: Path, lines: list[Line], separator: str | None, counts: range) -> None:
+    """Refuse a line that begins as a row of so many cells, but has a word in another cell."""
     for number, line in lines:
         cells = _cells(line, separator)
-        if not _is_comment(line) and len(cells) == count and _is_number(cells[0], separator):
-            fault = next(at for at, cell in enumerate(cells) if not _fits(cell, separator))
+        if not _is_comment(line) and len(cells) in counts and _is_number(cells[0]):
+            fault = next(at for at, cell in enumerate(cells) if not _fits(cell))
             raise FileError(
                 f"{path}, line {number}: expected a number in column {fault + 1}; "
                 f"got {cells[fault]!r}"
@@ -214,12 +219,8 @@ def _check_lengths(path: Path, rows: list[list[str]], numbers: list[int]) -> Non
             )
 
 
-def _decimal_sign(
-    path: Path, rows: list[list[str]], numbers: list[int], separator: str | None
-) -> str:
+def _decimal_sign(path: Path, rows: list[list[str]], numbers: list[int]) -> str:
     """Return the sign all numbers of the file use."""
-    if separator == ",":
-        return "."
     comma = _first_cell(rows, lambda cell: "," in cell and bool(_COMMA_NUMBER.fullmatch(cell)))
     if comma is None:
         return "."

@@ -127,6 +127,10 @@ REFUSED = {
         lambda lines: "\n".join(lines) + "\n1;1;1;1;1",
         r"line \d+: expected \d columns as in line 2; got 5",
     ),
+    "a word in every row": (
+        lambda lines: "\n".join([lines[0], *(f"{line};ok" for line in lines[1:])]),
+        r"line 2: expected a number in column \d; got 'ok'",
+    ),
     "a fault in the first row": (
         lambda lines: "\n".join([lines[0], lines[1].rpartition(";")[0] + ";O.1", *lines[2:]]),
         r"line 2: expected a number in column \d; got 'O\.1'",
