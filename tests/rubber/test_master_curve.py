@@ -141,7 +141,7 @@ HEADER = "f [Hz],E' [MPa],E'' [MPa]\n"
         (HEADER + "1,2,0.2\n", "expected at least 2 rows .* got 1"),
         (HEADER + "1,2,0.2\n10,abc,0.3\n", "line 3: expected a finite number; got 'abc'"),
         (HEADER + "1,2,0.2\n10,nan,0.3\n", "line 3: expected a finite number; got 'nan'"),
-        (HEADER + "1,2,0.2\n10,3\n", "line 3: expected 3 numbers; got 2"),
+        (HEADER + "1,2,0.2\n10,3\n", "line 3: expected 3 columns as in line 2; got 2"),
         (HEADER + "1,2,0.2\n10,-3,0.3\n", "line 3: expected a storage above zero; got -3"),
         (HEADER + "0,2,0.2\n10,3,0.3\n", "line 2: expected a frequency above zero; got 0"),
         ("1 2\n3 4\n", "line 1: expected at least 3 columns"),

@@ -21,7 +21,7 @@ from gripscale.case.prepare import PreparedRubber
 from gripscale.case.read import CaseFile
 from gripscale.case.results import CaseResults
 from gripscale.surface import HeightDifference, Measured, PreparedSurface, Profile
-from gripscale.surface.text_table import read_bytes
+from gripscale.textfile import read_bytes
 
 Variables = dict[str, Any]
 BINS = 1200

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from gripscale import checks
-from gripscale.case import parse_quantity
+from gripscale.units import parse_quantity
 from gripscale.errors import InputError
 
 MOST_VALUES = 1000
