@@ -267,6 +267,12 @@ def test_the_rubber_of_a_case_has_its_strain_energy(tmp_path: Path) -> None:
         assert plain == other
 
 
+def test_one_item_is_not_plural() -> None:
+    tables = tomllib.loads(GOOD)
+    tables["surface"]["files"] = []
+    assert complaint(tables).endswith("files = []: expected at least 1 item")
+
+
 def test_text_that_is_no_toml_is_named_with_its_line(tmp_path: Path) -> None:
     path = written(tmp_path, GOOD.replace("[load]", "[load"))
     with pytest.raises(FileError, match=r"case\.toml is not valid TOML: .*line 7"):

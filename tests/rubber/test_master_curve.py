@@ -63,6 +63,7 @@ GOOD = {
     "extra column": "T (C) f (Hz) E' (MPa) E'' (MPa)\n20 1 2 .2\n20 10 3 .3\n",
     "kPa": "# f (Hz)  E' (kPa)  E'' (kPa)\n1 2e3 2e2\n# between\n\n10 3e3 3e2\n",
     "slash and other primes": "f / Hz;E′ / MPa;E″ / MPa\n1;2;0.2\n10;3;0.3\n",
+    "one unit in two spellings": "f [Hz],E' [N/mm2],E'' [N/mm²]\n1,2,0.2\n10,3,0.3\n",
     "descending": "f [Hz],E' [MPa],E'' [MPa]\n10,3,0.3\n1,2,0.2\n",
     "byte order mark": "\ufefff [Hz],E' [MPa],E'' [MPa]\n1,2,0.2\n10,3,0.3\n",
     "shear": "f [Hz],G' [MPa],G'' [MPa]\n1,0.6666666666666666,0.0666666666666666\n10,1,0.1\n",
