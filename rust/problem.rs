@@ -75,8 +75,8 @@ impl Load {
         let endless = " (infinity is allowed)";
         Ok(Self {
             pressure: positive("pressure", pressure)?,
-            speed: not_negative("speed", " and finite", speed, f64::MAX)?,
-            load_time: not_negative("load_time", endless, load_time, f64::INFINITY)?,
+            speed: not_negative("speed", speed, f64::MAX, " and finite")?,
+            load_time: not_negative("load_time", load_time, f64::INFINITY, endless)?,
         })
     }
 }

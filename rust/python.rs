@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyMapping;
 
 use crate::contact::profile::Heights;
-use crate::error::KernelError;
+use crate::error::{unknown, KernelError};
 use crate::material::energy::{Energy, Parameters};
 use crate::problem::{Load, MeshSize, Problem, Profile, Rubber};
 use crate::settings::Settings;
@@ -145,13 +145,7 @@ impl BodyItems {
         )?;
         let heights = match self.profile.kind.as_str() {
             "sine" => Heights::sine(self.profile.amplitude)?,
-            other => {
-                return Err(KernelError::UnknownName {
-                    name: "the kind of a profile".to_owned(),
-                    expected: "sine".to_owned(),
-                    value: other.to_owned(),
-                })
-            }
+            other => return Err(unknown("the kind of a profile", other, &["sine"])),
         };
         let profile = Profile::new(self.profile.wavelength, heights)?;
         let mesh = MeshSize::new(mesh.columns, mesh.rows, mesh.depth, mesh.element_order)?;

@@ -1,15 +1,15 @@
 //! Every constant of the solver that may be tuned, with its default, its range and what it does.
 
-use crate::error::{whole, KernelError};
+use crate::error::{between, unknown, whole, KernelError};
 
 /// A kind of number that a setting can be.
 trait Setting: Copy + std::fmt::Debug {
-    fn read(name: &'static str, value: f64, least: Self, most: Self) -> Result<Self, KernelError>;
+    fn read(name: &str, value: f64, least: Self, most: Self) -> Result<Self, KernelError>;
     fn number(self) -> f64;
 }
 
 impl Setting for usize {
-    fn read(name: &'static str, value: f64, least: Self, most: Self) -> Result<Self, KernelError> {
+    fn read(name: &str, value: f64, least: Self, most: Self) -> Result<Self, KernelError> {
         whole(name, value, least, most)
     }
 
@@ -19,16 +19,8 @@ impl Setting for usize {
 }
 
 impl Setting for f64 {
-    fn read(name: &'static str, value: f64, least: Self, most: Self) -> Result<Self, KernelError> {
-        if (least..=most).contains(&value) {
-            return Ok(value);
-        }
-        Err(KernelError::OutOfRange {
-            name,
-            least,
-            most,
-            value,
-        })
+    fn read(name: &str, value: f64, least: Self, most: Self) -> Result<Self, KernelError> {
+        between(name, value, least, most)
     }
 
     fn number(self) -> f64 {
@@ -62,7 +54,7 @@ macro_rules! settings {
                     $(stringify!($name) => {
                         self.$name = Setting::read(stringify!($name), value, $least, $most)?;
                     })+
-                    _ => return Err(self.unknown(name)),
+                    _ => return Err(unknown("setting", name, &[$(stringify!($name)),+])),
                 }
                 Ok(())
             }
@@ -116,14 +108,5 @@ impl Settings {
             settings.set(name, value)?;
         }
         Ok(settings)
-    }
-
-    fn unknown(&self, name: &str) -> KernelError {
-        let names: Vec<&str> = self.list().into_iter().map(|entry| entry.0).collect();
-        KernelError::UnknownName {
-            name: "setting".to_owned(),
-            expected: names.join(", "),
-            value: name.to_owned(),
-        }
     }
 }

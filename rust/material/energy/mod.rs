@@ -11,7 +11,7 @@ mod yeoh;
 use std::collections::BTreeMap;
 
 use super::kinematics::{contract, isochoric, isochoric_slope, Gradient, Symmetric, UNIT};
-use crate::error::{finite, KernelError};
+use crate::error::{finite, unknown, KernelError};
 
 /// Parameters of a strain energy by name.
 pub type Parameters = BTreeMap<String, f64>;
@@ -60,11 +60,7 @@ macro_rules! energies {
                     refuse_unknown::<$kind>(parameters)?;
                     return Ok(Self::$kind($kind::new(parameters)?));
                 })+
-                Err(KernelError::UnknownName {
-                    name: "strain_energy".to_owned(),
-                    expected: [$($kind::NAME),+].join(", "),
-                    value: kind.to_owned(),
-                })
+                Err(unknown("strain_energy", kind, &[$($kind::NAME),+]))
             }
 
             /// W at F.
@@ -153,13 +149,12 @@ fn parameter<E: StrainEnergy>(
 }
 
 fn refuse_unknown<E: StrainEnergy>(parameters: &Parameters) -> Result<(), KernelError> {
-    let unknown = |name: &&String| !E::PARAMETERS.contains(&name.as_str());
-    match parameters.keys().find(unknown) {
+    let other = |name: &&String| !E::PARAMETERS.contains(&name.as_str());
+    match parameters.keys().find(other) {
         None => Ok(()),
-        Some(other) => Err(KernelError::UnknownName {
-            name: format!("a parameter of {}", E::NAME),
-            expected: format!("[{}]", E::PARAMETERS.join(", ")),
-            value: other.clone(),
-        }),
+        Some(name) => {
+            let owner = format!("a parameter of {}", E::NAME);
+            Err(unknown(&owner, name, E::PARAMETERS))
+        }
     }
 }

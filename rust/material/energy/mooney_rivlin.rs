@@ -17,7 +17,7 @@ impl StrainEnergy for MooneyRivlin {
 
     fn new(parameters: &Parameters) -> Result<Self, KernelError> {
         let share = parameter::<Self>(parameters, "share")?;
-        not_negative("share", " and at most 1", share, 1.0).map(|share| Self { share })
+        not_negative("share", share, 1.0, " and at most 1").map(|share| Self { share })
     }
 
     fn density(&self, [i1, i2]: Invariants) -> f64 {
