@@ -28,18 +28,6 @@ def test_a_law_is_made_from_its_kind_and_parameters(law: StrainEnergy) -> None:
     assert strain_energy(law.kind, **law.parameters()) == law
 
 
-@pytest.mark.parametrize(
-    ("law", "passed_on"),
-    [
-        (NeoHookean(), ("neo_hookean", 0.0, 0.0)),
-        (MooneyRivlin(0.3), ("mooney_rivlin", 0.3, 0.0)),
-        (Yeoh(-0.06, 0.005), ("yeoh", -0.06, 0.005)),
-    ],
-)
-def test_what_the_kernel_is_given(law: StrainEnergy, passed_on: tuple[str, float, float]) -> None:
-    assert law.coefficients() == passed_on
-
-
 @pytest.mark.parametrize("law", LAWS)
 def test_the_shear_modulus_at_small_strain_is_one(law: StrainEnergy) -> None:
     """Factors depart from 1 by the strain at most, times the parameters' order 1."""

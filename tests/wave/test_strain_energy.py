@@ -11,11 +11,15 @@ solutions, from the deformed meshes, for two pressures. Nothing but the mesh is 
 
 from __future__ import annotations
 
+from dataclasses import fields
+
 import numpy as np
 import pytest
 
 import gripscale as gs
+from gripscale import _kernel
 from gripscale.rubber import MooneyRivlin, StrainEnergy, Yeoh
+from gripscale.rubber.strain_energy import STRAIN_ENERGIES
 
 MODULUS, WAVELENGTH = 3e6, 1e-2
 SHEAR = MODULUS / 3.0
@@ -81,3 +85,8 @@ def test_coefficient_changes_the_indentation_as_its_energy_says(energy, density)
     said = -(stored[1] - stored[0]) / (2.0 * step) / WAVELENGTH
     # Both differences are of second order, a few 1e-4; the active set's jumps add a few 1e-3.
     assert felt == pytest.approx(said, rel=0.01)
+
+
+def test_kernel_and_package_list_the_same_energies() -> None:
+    ours = {kind: [f.name for f in fields(law)] for kind, law in STRAIN_ENERGIES.items()}
+    assert _kernel.strain_energies() == ours

@@ -67,11 +67,6 @@ class StrainEnergy(ABC):
         """Return the parameters by name."""
         return {field.name: getattr(self, field.name) for field in fields(self)}
 
-    def coefficients(self) -> tuple[str, float, float]:
-        """Return the kind and two parameters, as the kernel asks for them."""
-        first, second = [*self.parameters().values(), 0.0, 0.0][:2]
-        return self.kind, first, second
-
     def uniaxial_factor(self, stretch: ArrayLike) -> Array:
         """Return the nominal stress over G (s - s^-2), incompressible, at `stretch` [-]."""
         s = np.asarray(stretch, dtype=float)
