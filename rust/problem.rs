@@ -114,6 +114,6 @@ fn parts(rubber: &Rubber, profile: &Profile) -> [(&'static str, String); 7] {
         ("relaxation_times", format!("{:?}", rubber.relaxation_times)),
         ("bulk_modulus", format!("{:?}", rubber.bulk_modulus)),
         ("wavelength", format!("{:?}", profile.wavelength)),
-        ("heights", format!("{:?}", profile.heights)),
+        ("profile", format!("{:?}", profile.heights)),
     ]
 }

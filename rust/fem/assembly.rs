@@ -19,19 +19,15 @@ impl Block<'_> {
         column: usize,
     ) -> Vec<f64> {
         let element = &self.mesh.elements[row];
-        let points = self.points();
         let pressure = self.element_pressure(field, row, column);
         let mut residual: Vec<f64> = (0..pressure.len())
             .map(|m| -element.mode_mass[m] * pressure[m] / self.bulk_modulus)
             .collect();
-        for line in 0..points {
-            for point in 0..points {
-                let f = &state.gradient[line][column * points + point];
-                let at = line * points + point;
-                let volume = element.weight[at] * (jacobian(f) - 1.0);
-                for (r, mode) in residual.iter_mut().zip(&element.mode[at]) {
-                    *r += mode * volume;
-                }
+        for (at, line, q) in self.gauss_points(column) {
+            let f = &state.gradient[line][q];
+            let volume = element.weight[at] * (jacobian(f) - 1.0);
+            for (r, mode) in residual.iter_mut().zip(&element.mode[at]) {
+                *r += mode * volume;
             }
         }
         residual
@@ -40,7 +36,6 @@ impl Block<'_> {
     /// Internal forces of one row (over its layers) and the norm of its pressure residual.
     pub fn row_forces(&self, row: usize, field: &Field, state: &RowState) -> (Vec<f64>, f64) {
         let element = &self.mesh.elements[row];
-        let points = self.points();
         let mut forces = vec![0.0; (self.mesh.order + 1) * self.mesh.layer_size()];
         let mut volume_error = 0.0;
         for column in 0..self.mesh.columns {
@@ -48,17 +43,13 @@ impl Block<'_> {
             let pressure = self.element_pressure(field, row, column);
             let residual = self.pressure_residual(field, state, row, column);
             volume_error += residual.iter().map(|r| r * r).sum::<f64>();
-            for line in 0..points {
-                for point in 0..points {
-                    let at = line * points + point;
-                    let q = column * points + point;
-                    let level = dot(&element.mode[at], pressure);
-                    let p = stress(&state.gradient[line][q], &state.h[line][q], level);
-                    for (node, slope) in element.gradient[at].iter().enumerate() {
-                        let w = element.weight[at];
-                        forces[unknowns[2 * node]] += w * (p[0] * slope[0] + p[1] * slope[1]);
-                        forces[unknowns[2 * node + 1]] += w * (p[2] * slope[0] + p[3] * slope[1]);
-                    }
+            for (at, line, q) in self.gauss_points(column) {
+                let level = dot(&element.mode[at], pressure);
+                let p = stress(&state.gradient[line][q], &state.h[line][q], level);
+                for (node, slope) in element.gradient[at].iter().enumerate() {
+                    let w = element.weight[at];
+                    forces[unknowns[2 * node]] += w * (p[0] * slope[0] + p[1] * slope[1]);
+                    forces[unknowns[2 * node + 1]] += w * (p[2] * slope[0] + p[3] * slope[1]);
                 }
             }
         }
@@ -74,7 +65,6 @@ impl Block<'_> {
         factored: &RowState,
     ) -> Vec<f64> {
         let element = &self.mesh.elements[row];
-        let points = self.points();
         let (forces, _) = self.row_forces(row, field, state);
         let mut right: Vec<f64> = forces.iter().map(|force| -force).collect();
         for column in 0..self.mesh.columns {
@@ -83,16 +73,13 @@ impl Block<'_> {
             for (m, value) in level.iter_mut().enumerate() {
                 *value *= self.bulk_modulus / element.mode_mass[m];
             }
-            for line in 0..points {
-                for point in 0..points {
-                    let at = line * points + point;
-                    let cof = cofactor(&factored.gradient[line][column * points + point]);
-                    let p = element.weight[at] * dot(&element.mode[at], &level);
-                    for (node, slope) in element.gradient[at].iter().enumerate() {
-                        for i in 0..2 {
-                            let b = cof[2 * i] * slope[0] + cof[2 * i + 1] * slope[1];
-                            right[unknowns[2 * node + i]] -= p * b;
-                        }
+            for (at, line, q) in self.gauss_points(column) {
+                let cof = cofactor(&factored.gradient[line][q]);
+                let p = element.weight[at] * dot(&element.mode[at], &level);
+                for (node, slope) in element.gradient[at].iter().enumerate() {
+                    for i in 0..2 {
+                        let b = cof[2 * i] * slope[0] + cof[2 * i + 1] * slope[1];
+                        right[unknowns[2 * node + i]] -= p * b;
                     }
                 }
             }
@@ -123,30 +110,25 @@ impl Block<'_> {
         matrix: &mut Matrix<f64>,
     ) {
         let element = &self.mesh.elements[row];
-        let points = self.points();
         let unknowns = self.local_unknowns(column);
         let count = unknowns.len();
         let pressure = self.element_pressure(field, row, column);
         let mut local = vec![0.0; count * count];
         let mut coupling = vec![vec![0.0; count]; pressure.len()];
-        for line in 0..points {
-            for point in 0..points {
-                let at = line * points + point;
-                let q = column * points + point;
-                let f = &state.gradient[line][q];
-                let weight = element.weight[at];
-                let level = dot(&element.mode[at], pressure);
-                let mut d = tangent(f, &state.h[line][q], level);
-                self.add_network_slope(f, &mut d);
-                let cof = cofactor(f);
-                let slopes = &element.gradient[at];
-                add_stiffness(&mut local, count, slopes, &d, weight);
-                for (node, slope) in slopes.iter().enumerate() {
-                    for i in 0..2 {
-                        let b = cof[2 * i] * slope[0] + cof[2 * i + 1] * slope[1];
-                        for (entry, mode) in coupling.iter_mut().zip(&element.mode[at]) {
-                            entry[2 * node + i] += weight * mode * b;
-                        }
+        for (at, line, q) in self.gauss_points(column) {
+            let f = &state.gradient[line][q];
+            let weight = element.weight[at];
+            let level = dot(&element.mode[at], pressure);
+            let mut d = tangent(f, &state.h[line][q], level);
+            self.add_network_slope(f, &mut d);
+            let cof = cofactor(f);
+            let slopes = &element.gradient[at];
+            add_stiffness(&mut local, count, slopes, &d, weight);
+            for (node, slope) in slopes.iter().enumerate() {
+                for i in 0..2 {
+                    let b = cof[2 * i] * slope[0] + cof[2 * i + 1] * slope[1];
+                    for (entry, mode) in coupling.iter_mut().zip(&element.mode[at]) {
+                        entry[2 * node + i] += weight * mode * b;
                     }
                 }
             }
@@ -192,20 +174,15 @@ impl Block<'_> {
         field: &mut Field,
     ) {
         let element = &self.mesh.elements[row];
-        let points = self.points();
         let modes = self.mesh.modes();
         let increment = self.gradients(row, du, 0.0);
         for column in 0..self.mesh.columns {
             let mut change = self.pressure_residual(field, state, row, column);
-            for line in 0..points {
-                for point in 0..points {
-                    let q = column * points + point;
-                    let at = line * points + point;
-                    let cof = cofactor(&factored.gradient[line][q]);
-                    let volume = element.weight[at] * dot(&cof, &increment[line][q]);
-                    for (c, mode) in change.iter_mut().zip(&element.mode[at]) {
-                        *c += mode * volume;
-                    }
+            for (at, line, q) in self.gauss_points(column) {
+                let cof = cofactor(&factored.gradient[line][q]);
+                let volume = element.weight[at] * dot(&cof, &increment[line][q]);
+                for (c, mode) in change.iter_mut().zip(&element.mode[at]) {
+                    *c += mode * volume;
                 }
             }
             let at = (row * self.mesh.columns + column) * modes;

@@ -55,6 +55,15 @@ impl Block<'_> {
         self.mesh.order + 1
     }
 
+    /// Gauss points of element `column`: point of the element, its line, its place along the line.
+    pub(super) fn gauss_points(
+        &self,
+        column: usize,
+    ) -> impl Iterator<Item = (usize, usize, usize)> {
+        let n = self.points();
+        (0..n).flat_map(move |line| (0..n).map(move |i| (line * n + i, line, column * n + i)))
+    }
+
     /// Positions in the row system of the local unknowns of element `column`.
     pub(super) fn local_unknowns(&self, column: usize) -> Vec<usize> {
         let order = self.mesh.order;

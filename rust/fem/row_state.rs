@@ -22,19 +22,16 @@ impl Block<'_> {
         let mut out = vec![vec![[0.0; 4]; self.mesh.columns * points]; points];
         for column in 0..self.mesh.columns {
             let unknowns = self.local_unknowns(column);
-            for line in 0..points {
-                for point in 0..points {
-                    let mut f = [identity, 0.0, 0.0, identity];
-                    let shape = &element.gradient[line * points + point];
-                    for (node, slope) in shape.iter().enumerate() {
-                        let ux = u[offset + unknowns[2 * node]];
-                        let uz = u[offset + unknowns[2 * node + 1]];
-                        f[0] += ux * slope[0];
-                        f[1] += ux * slope[1];
-                        f[2] += uz * slope[0];
-                        f[3] += uz * slope[1];
-                    }
-                    out[line][column * points + point] = f;
+            for (at, line, q) in self.gauss_points(column) {
+                let f = &mut out[line][q];
+                *f = [identity, 0.0, 0.0, identity];
+                for (node, slope) in element.gradient[at].iter().enumerate() {
+                    let ux = u[offset + unknowns[2 * node]];
+                    let uz = u[offset + unknowns[2 * node + 1]];
+                    f[0] += ux * slope[0];
+                    f[1] += ux * slope[1];
+                    f[2] += uz * slope[0];
+                    f[3] += uz * slope[1];
                 }
             }
         }

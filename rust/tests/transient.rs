@@ -131,7 +131,7 @@ fn a_start_of_another_rubber_or_profile_is_refused_by_name() {
         ),
         (|c| c.relaxation_times = vec![0.2], "relaxation_times"),
         (|c| c.bulk_modulus = 999.0, "bulk_modulus"),
-        (|c| c.amplitude = 0.11, "heights"),
+        (|c| c.amplitude = 0.11, "profile"),
         (
             |c| c.energy = ("mooney_rivlin", vec![("share", 0.1)]),
             "strain_energy",

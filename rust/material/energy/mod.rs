@@ -9,6 +9,7 @@ mod neo_hookean;
 mod yeoh;
 
 use std::collections::BTreeMap;
+use std::fmt;
 
 use super::kinematics::{contract, isochoric, isochoric_slope, Gradient, Symmetric, UNIT};
 use crate::error::{finite, unknown, KernelError};
@@ -44,9 +45,17 @@ macro_rules! energies {
         $(pub use $file::$kind;)+
 
         /// One of the strain energies.
-        #[derive(Debug, Clone, Copy, PartialEq)]
+        #[derive(Clone, Copy, PartialEq)]
         pub enum Energy {
             $($kind($kind),)+
+        }
+
+        impl fmt::Debug for Energy {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                match self {
+                    $(Self::$kind(energy) => energy.fmt(f),)+
+                }
+            }
         }
 
         impl Energy {
