@@ -17,7 +17,7 @@ from PIL import Image
 from typer.testing import CliRunner
 
 from gripscale.cli import app, draw
-from gripscale.html_report import write_report
+from gripscale.report import write_report
 
 from .conftest import CASE
 

@@ -15,9 +15,9 @@ import xarray as xr
 
 from gripscale import dataset
 from gripscale.errors import FileError, InputError
-from gripscale.html_report import write_report
-from gripscale.html_report.notices import cards, notices
-from gripscale.html_report.source import Run, read_result
+from gripscale.report import write_report
+from gripscale.report.notices import cards, notices
+from gripscale.report.source import Run, read_result
 
 from .conftest import CASE, WAVES
 from .reading import Page
@@ -229,7 +229,7 @@ def test_missing_library_is_named(run_folder: Path, monkeypatch: pytest.MonkeyPa
     real = builtins.__import__
 
     def without(name: str, *arguments: Any, **options: Any) -> Any:
-        if name == "gripscale.html_report.build":
+        if name == "gripscale.report.build":
             raise ModuleNotFoundError("No module named 'bokeh'", name="bokeh.embed")
         return real(name, *arguments, **options)
 

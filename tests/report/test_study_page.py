@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from gripscale.html_report import write_report
+from gripscale.report import write_report
 
 from .reading import Page
 

@@ -9,8 +9,9 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
+from gripscale.figures.palette import INK, NARROW
 from gripscale.figures.study_axes import along, legend_beside
-from gripscale.figures.style import INK, NARROW, sheet, styled
+from gripscale.figures.style import sheet, styled
 
 LEAST_SHARE = 0.005
 """Decades that never reach this share of the friction are not drawn."""

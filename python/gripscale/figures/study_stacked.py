@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
+from gripscale.figures.palette import INK, WIDE
 from gripscale.figures.study_axes import (
     Array,
     along,
@@ -16,7 +17,7 @@ from gripscale.figures.study_axes import (
     legend_beside,
     wavelength_names,
 )
-from gripscale.figures.style import INK, WIDE, sheet, styled
+from gripscale.figures.style import sheet, styled
 
 HEIGHT = 3.4
 

@@ -9,8 +9,9 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from gripscale.figures.palette import BLUE, INK, WIDE
 from gripscale.figures.study_axes import along, area_axis, colours
-from gripscale.figures.style import BLUE, INK, WIDE, sheet, styled
+from gripscale.figures.style import sheet, styled
 from gripscale.study.display import WORDS, dimensions, name_of, numeric
 
 

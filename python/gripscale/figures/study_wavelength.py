@@ -6,8 +6,9 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
+from gripscale.figures.palette import MILLI, WIDE
 from gripscale.figures.study_axes import area_axis, colours, legend_beside
-from gripscale.figures.style import MILLI, WIDE, falling_wavelength, sheet, styled
+from gripscale.figures.style import falling_wavelength, sheet, styled
 from gripscale.study.display import name_of
 
 MOST_NAMES = 12

@@ -1,4 +1,4 @@
-"""Which chains each figure needs; equal chains of several figures are solved once."""
+"""Which predictions each figure needs; equal predictions of several figures are solved once."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from collections.abc import Mapping
 import numpy as np
 import xarray as xr
 
-from gripscale.reproduce.bench import (
+from gripscale.study import Task
+from reproduction.inputs import (
     DENSE,
     FAST,
     FASTEST,
@@ -16,12 +17,11 @@ from gripscale.reproduce.bench import (
     SPEED,
     SPEEDS,
     TREAD,
-    Bench,
+    Inputs,
 )
-from gripscale.study import Task
 
 Panels = dict[str, dict[str, Task]]
-"""Chains by panel of a figure and by name of the line."""
+"""Predictions by panel of a figure and by name of the line."""
 
 Solved = dict[str, dict[str, xr.Dataset]]
 """Their results."""
@@ -34,33 +34,33 @@ def speed_name(speed: float) -> str:
     return f"{speed * 1e3:g} mm/s" if speed > 0.0 else STATIC
 
 
-def panels_of(figure: str, bench: Bench) -> Panels:
-    """Return the chains of a figure by panel and line; none for figures of the inputs."""
+def panels_of(figure: str, inputs: Inputs) -> Panels:
+    """Return the predictions of a figure by panel and line; none for figures of the inputs."""
     if figure in ("fig5a", "fig5b", "fig8a"):
         speed = 0.0 if figure == "fig5a" else SPEED
         return {
-            road: {
-                name: bench.task(road, TREAD, speed, stack)
-                for name, stack in bench.magnified(road).items()
+            surface: {
+                name: inputs.task(surface, TREAD, speed, stack)
+                for name, stack in inputs.magnified(surface).items()
             }
-            for road in (DENSE, ROAD)
+            for surface in (DENSE, ROAD)
         }
     if figure == "fig6a":
-        return {TREAD: {speed_name(v): bench.task(ROAD, TREAD, v) for v in (0.0, *SPEEDS)}}
+        return {TREAD: {speed_name(v): inputs.task(ROAD, TREAD, v) for v in (0.0, *SPEEDS)}}
     if figure == "fig8b":
         return {
-            rubber: {speed_name(v): bench.task(ROAD, rubber, v) for v in SPEEDS}
+            rubber: {speed_name(v): inputs.task(ROAD, rubber, v) for v in SPEEDS}
             for rubber in (SBR, TREAD)
         }
     if figure in ("fig6b", "fig9a"):
         speeds = (SPEED,) if figure == "fig6b" else (SPEED, FAST, FASTEST)
         return {
-            speed_name(v): {rubber: bench.task(ROAD, rubber, v) for rubber in (TREAD, SBR)}
+            speed_name(v): {rubber: inputs.task(ROAD, rubber, v) for rubber in (TREAD, SBR)}
             for v in speeds
         }
     if figure in ("fig7a", "fig7b", "fig9b"):
         speed = FAST if figure == "fig7b" else SPEED
-        return {speed_name(speed): {r: bench.task(r, TREAD, speed) for r in (ROAD, DENSE)}}
+        return {speed_name(speed): {r: inputs.task(r, TREAD, speed) for r in (ROAD, DENSE)}}
     return {}
 
 
@@ -72,5 +72,5 @@ def results_of(panels: Panels, solved: Mapping[str, xr.Dataset]) -> Solved:
     }
 
 
-def _converged(chain: xr.Dataset) -> xr.Dataset:
-    return chain.isel(scale=np.flatnonzero(np.isfinite(chain.running_contact_fraction)))
+def _converged(prediction: xr.Dataset) -> xr.Dataset:
+    return prediction.isel(scale=np.flatnonzero(np.isfinite(prediction.running_contact_fraction)))

@@ -10,11 +10,12 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from gripscale.figures.palette import GREY, MILLI, NARROW, WIDE
 from gripscale.figures.study_axes import area_axis, colours
-from gripscale.figures.style import GREY, MILLI, NARROW, WIDE, falling_wavelength, sheet, styled
+from gripscale.figures.style import falling_wavelength, sheet, styled
 
 Quantity = Literal["area", "friction", "running_friction"]
-Chains = Mapping[str, xr.Dataset]
+Predictions = Mapping[str, xr.Dataset]
 
 MARKERS = "osD^vP*"
 AXES: dict[str, tuple[str, str]] = {
@@ -25,19 +26,19 @@ AXES: dict[str, tuple[str, str]] = {
 
 
 @styled
-def chains_figure(
-    panels: Mapping[str, Chains],
+def predictions_figure(
+    panels: Mapping[str, Predictions],
     quantities: Sequence[Quantity],
     title: str,
     *,
     ordered: bool = False,
 ) -> Figure:
-    """Draw chains against wavelength, one panel each, large waves left as in the paper.
+    """Draw predictions against wavelength, one panel each, large waves left as in the paper.
 
     Parameters
     ----------
     panels
-        Chains by name of the line, by name of the panel.
+        Predictions by name of the line, by name of the panel.
     quantities
         What each panel shows.
     title
@@ -47,14 +48,16 @@ def chains_figure(
     """
     width = WIDE if len(panels) > 1 else NARROW
     figure, axes = sheet(width, 3.5, 1, len(panels), gap=0.06)
-    for panel, (name, chains), quantity in zip(axes[0], panels.items(), quantities, strict=True):
-        _panel(panel, chains, quantity, ordered)
+    for panel, (name, predictions), quantity in zip(
+        axes[0], panels.items(), quantities, strict=True
+    ):
+        _panel(panel, predictions, quantity, ordered)
         if len(panels) > 1:
             panel.set_title(name, loc="left")
     if len(set(quantities)) == 1:
         for panel in axes[0][1:]:
             panel.set_ylabel("")
-    alike = len({tuple(chains) for chains in panels.values()}) == 1
+    alike = len({tuple(predictions) for predictions in panels.values()}) == 1
     if alike:
         handles, labels = axes[0][0].get_legend_handles_labels()
         figure.legend(
@@ -68,18 +71,18 @@ def chains_figure(
     return figure
 
 
-def _panel(axes: Axes, chains: Chains, quantity: Quantity, ordered: bool) -> None:
+def _panel(axes: Axes, predictions: Predictions, quantity: Quantity, ordered: bool) -> None:
     variable, label = AXES[quantity]
     wavelengths: list[float] = []
-    shades = colours(sum(name != "static" for name in chains), ordered=ordered)
+    shades = colours(sum(name != "static" for name in predictions), ordered=ordered)
     moving = iter(zip(shades, MARKERS, strict=False))
-    for name, chain in chains.items():
-        x, y = chain.wavelength.values / MILLI, chain[variable].values
+    for name, prediction in predictions.items():
+        x, y = prediction.wavelength.values / MILLI, prediction[variable].values
         still: dict[str, Any] = {"color": GREY, "marker": "x", "ls": (0, (4, 2))}
         if name != "static":
             colour, marker = next(moving)
             still = {"color": colour, "marker": marker}
-        whole = chain.attrs["case_status"] == "converged"
+        whole = prediction.prediction_status.item() == "converged"
         axes.plot(x, y, label=name if whole else f"{name}, next wave not solved", ms=4.0, **still)
         wavelengths.extend(x)
     falling_wavelength(axes, wavelengths)

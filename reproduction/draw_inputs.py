@@ -8,11 +8,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from gripscale.figures.style import COLOURS, GREY, INK, MEGA, MILLI, WIDE, sheet, styled
+from gripscale.figures.palette import COLOURS, GREY, INK, MEGA, MILLI, SQUARE_MM, WIDE
+from gripscale.figures.style import sheet, styled
 from gripscale.rubber import MasterCurve, Rubber
 from gripscale.surface import HeightDifference, SelfAffineFit, SineStack
-
-SQUARE_MM = 1e-6
 
 
 @styled

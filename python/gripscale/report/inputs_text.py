@@ -1,19 +1,22 @@
-"""What a run says about its inputs: cleaning, correlation, sine waves, Prony series."""
+"""What a run says about its inputs in plain text: cleaning, correlation, sine waves, Prony series."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
-from gripscale.cli.inputs import RubberStudy, SurfaceStudy
-from gripscale.report import significant
-from gripscale.surface import SineStack
+from gripscale.figures.palette import MEGA, MILLI
+from gripscale.report.tables import significant
 
-MILLI, MEGA = 1e-3, 1e6
+if TYPE_CHECKING:
+    from gripscale.case.prepare import PreparedRubber
+    from gripscale.rubber import Rubber
+    from gripscale.surface import PreparedSurface, SineStack
 
 
-def surface_lines(study: SurfaceStudy) -> Iterator[str]:
+def surface_lines(surface: PreparedSurface) -> Iterator[str]:
     """Yield what was read and removed, the fits, and the sine waves."""
-    measured = study.measured
+    measured = surface.measured
     if measured is not None:
         for (raw, cleaned), report in zip(measured.profiles, measured.cleaning, strict=True):
             yield f"{raw.name or raw.source}: {len(cleaned)} points, step {raw.step / MILLI:.4g} mm"
@@ -28,7 +31,7 @@ def surface_lines(study: SurfaceStudy) -> Iterator[str]:
                 f"xi_parallel = {fit.xi_parallel / MILLI:.3g} mm, "
                 f"xi_perpendicular = {fit.xi_perpendicular / MILLI:.3g} mm"
             )
-    yield sines_line(study.sines)
+    yield sines_line(surface.sines)
 
 
 def sines_line(sines: SineStack) -> str:
@@ -54,9 +57,9 @@ def waves_table(sines: SineStack) -> Iterator[str]:
         )
 
 
-def rubber_lines(study: RubberStudy) -> Iterator[str]:
+def rubber_lines(prepared: PreparedRubber) -> Iterator[str]:
     """Yield what the rubber is and how well its Prony series fits."""
-    rubber = study.rubber
+    rubber = prepared.rubber
     relaxed, glassy, bulk = (
         significant(modulus / MEGA)
         for modulus in (rubber.equilibrium_modulus, rubber.glassy_modulus, rubber.bulk_modulus)
@@ -65,15 +68,15 @@ def rubber_lines(study: RubberStudy) -> Iterator[str]:
         f"{rubber.name or 'rubber'}: E from {relaxed} MPa (relaxed) to {glassy} MPa (glassy), "
         f"bulk modulus {bulk} MPa"
     )
-    if study.fit is not None:
-        yield from study.fit.summary().splitlines()
-    if study.source:
-        yield f"source: {study.source}"
+    if prepared.fit is not None:
+        yield from prepared.fit.summary().splitlines()
+    if prepared.source:
+        yield f"source: {prepared.source}"
 
 
-def prony_table(study: RubberStudy) -> Iterator[str]:
+def prony_table(rubber: Rubber) -> Iterator[str]:
     """Yield the Maxwell elements, one a line."""
     yield f"{'term':>4} {'relaxation time [s]':>20} {'modulus [MPa]':>14}"
-    pairs = zip(study.rubber.relaxation_times, study.rubber.moduli, strict=True)
+    pairs = zip(rubber.relaxation_times, rubber.moduli, strict=True)
     for i, (time, modulus) in enumerate(pairs):
         yield f"{i + 1:>4} {time:>20.4g} {modulus / MEGA:>14.5g}"

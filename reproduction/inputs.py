@@ -1,4 +1,4 @@
-"""The two surfaces and two compounds of the reproduction, and the chains on them.
+"""The two surfaces and two compounds of the reproduction, and the tasks made of them.
 
 Surfaces: a measured coarse road, and a synthetic dense asphalt of stated self-affine parameters.
 Compounds: a filled tread rubber from its master curve, and an unfilled styrene-butadiene rubber
@@ -8,17 +8,18 @@ from published parameters. Loads as in Lind & Wangenheim 2014 (IMECE2014-37998):
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-import gripscale
-from gripscale.case import RubberSource, Surface
+from gripscale.case import RubberSource, Surface, prepare_rubber, prepare_surface
 from gripscale.errors import FileError
+from gripscale.model import NominalLoad
 from gripscale.rubber import MasterCurve, PronyFit, Rubber, styrene_butadiene
 from gripscale.study import Task
-from gripscale.study.inputs import Road
-from gripscale.study.synthetic import synthetic_surface
-from gripscale.surface import HeightDifference, SineStack, fit_sines
+from gripscale.surface import HeightDifference, PreparedSurface, SineStack, fit_sines
+from gripscale.surface.named import synthetic_surface
+
+DATA = Path(__file__).resolve().parents[1] / "examples" / "data"
 
 PRESSURE = 3e5
 SPEED, FAST = 0.3, 3.0
@@ -45,39 +46,38 @@ TREAD_SOURCE = "filled tread-type rubber; compound and laboratory are not stated
 
 
 @dataclass(frozen=True)
-class Bench:
+class Inputs:
     """Surfaces and compounds by name, with the measurements behind the tread rubber."""
 
-    roads: dict[str, Road]
+    surfaces: dict[str, PreparedSurface]
     rubbers: dict[str, Rubber]
     master: MasterCurve
     prony: PronyFit
 
-    def correlation(self, road: str) -> HeightDifference:
+    def correlation(self, surface: str) -> HeightDifference:
         """Return the height difference correlation of a surface."""
-        found = self.roads[road].correlation
+        found = self.surfaces[surface].correlation
         assert found is not None
         return found
 
-    def task(self, road: str, rubber: str, speed: float, sines: SineStack | None = None) -> Task:
-        """Return the chain of a rubber on a surface; zero speed is static."""
+    def task(self, surface: str, rubber: str, speed: float, sines: SineStack | None = None) -> Task:
+        """Return the chain of a rubber on a surface, or on other waves of it; zero is static."""
+        whole = self.surfaces[surface]
         return Task(
-            rubber=self.rubbers[rubber],
-            sines=self.roads[road].sines if sines is None else sines,
-            pressure=PRESSURE,
-            speed=speed,
-            footprint=FOOTPRINT,
+            self.rubbers[rubber],
+            whole if sines is None else replace(whole, sines=sines),
+            NominalLoad(PRESSURE, speed, FOOTPRINT),
         )
 
-    def magnified(self, road: str) -> dict[str, SineStack]:
+    def magnified(self, surface: str) -> dict[str, SineStack]:
         """Return waves with the paper's three magnifications, all from one first wave.
 
         On the dense asphalt they are the paper's pairs as printed, from the first wave fitted to
         the first pair. The coarse road has another exponent, to which the paper's amplitudes do
         not belong: there they are fitted for each of the paper's magnifications of wavelength.
         """
-        curve, first = self.correlation(road), self.roads[road].sines
-        printed = road == DENSE
+        curve, first = self.correlation(surface), self.surfaces[surface].sines
+        printed = surface == DENSE
         if printed:
             s_wavelength, s_amplitude = PAPER_FACTORS[0]
             first = fit_sines(
@@ -100,55 +100,44 @@ class Bench:
         return stacks
 
 
-def default_data() -> Path:
-    """Return where the example data are beside an installation from source."""
-    return Path(gripscale.__file__).resolve().parents[2] / "examples" / "data"
-
-
-def bench(data: Path | None = None) -> Bench:
+def read_inputs(data: Path = DATA) -> Inputs:
     """Read and fit the inputs of the reproduction.
 
     Parameters
     ----------
     data
-        Folder with `road` and `rubber`; by default the one beside an installation from source.
+        Folder with `road` and `rubber`; by default the one beside this folder.
 
     Raises
     ------
     FileError
         If the data are not there.
     """
-    from gripscale.cli.inputs import study_rubber, study_surface  # late: loads the command line
-
-    folder = default_data() if data is None else data
     for name in (*ROAD_FILES, TREAD_FILE):
-        if not (folder / name).is_file():
+        if not (data / name).is_file():
             raise FileError(
-                f"example data {folder / name} does not exist; give the folder examples/data of "
+                f"example data {data / name} does not exist; give the folder examples/data of "
                 "gripscale's source with --data"
             )
-    settings = Surface(
-        files=[str(folder / name) for name in ROAD_FILES],
+    road = Surface(
+        files=[str(data / name) for name in ROAD_FILES],
         crop=[0.12, 1.78],
         scales=8,
         smallest_wavelength=SMALLEST_WAVELENGTH,
     )
-    road = study_surface(settings, Path)
-    assert road.measured is not None
     source = RubberSource(
-        file=str(folder / TREAD_FILE),
+        file=str(data / TREAD_FILE),
         reference_temperature=293.15,
         source=TREAD_SOURCE,
         bulk_modulus=2e9,
     )
-    tread = study_rubber(source, Path)
+    tread = prepare_rubber(source)
     assert tread.master is not None
     assert tread.fit is not None
-    dense, described, correlation = synthetic_surface("synthetic_dense_asphalt")
-    return Bench(
-        roads={
-            ROAD: Road(road.sines, road.source, road.measured.correlation, settings),
-            DENSE: Road(dense, described, correlation),
+    return Inputs(
+        surfaces={
+            ROAD: prepare_surface(road),
+            DENSE: synthetic_surface("synthetic_dense_asphalt"),
         },
         rubbers={TREAD: tread.rubber, SBR: styrene_butadiene()},
         master=tread.master,

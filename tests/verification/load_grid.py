@@ -1,4 +1,4 @@
-"""A random grid of loads as real roads bring them, solved cold, for `make bench` and the tests."""
+"""A random grid of loads as real roads bring them, to be solved cold."""
 
 from __future__ import annotations
 
