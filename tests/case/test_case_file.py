@@ -17,13 +17,13 @@ from gripscale.case import (
     RubberSource,
     Solver,
     Surface,
+    prepare_rubber,
     read_case,
     validate,
 )
-from gripscale.case import prepare_rubber
 from gripscale.errors import FileError, InputError
-from gripscale.units import parse_quantity
 from gripscale.rubber import NeoHookean, Yeoh
+from gripscale.units import parse_quantity
 
 GOOD = """
 [surface]
