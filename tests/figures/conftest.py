@@ -6,10 +6,10 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from gripscale.scale import ScaleResult
 
 from gripscale.chain import Prediction
 from gripscale.rubber import Rubber
-from gripscale.scale import ScaleResult
 from gripscale.surface import SineStack
 
 RUBBER = Rubber(5e6, [4e6, 8e6], [1e-2, 1e-4], valid_band=(1e-2, 1e6))

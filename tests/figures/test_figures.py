@@ -8,6 +8,7 @@ from pathlib import Path
 import matplotlib as mpl
 import numpy as np
 import pytest
+from gripscale.scale import ScaleResult
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -24,7 +25,6 @@ from gripscale.figures import (
 )
 from gripscale.figures.profile import kept_points
 from gripscale.rubber import MasterCurve, Rubber, fit_prony_report
-from gripscale.scale import ScaleResult
 from gripscale.surface import (
     Profile,
     SelfAffineFit,
