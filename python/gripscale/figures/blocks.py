@@ -59,7 +59,7 @@ def blocks_figure(prediction: xr.Dataset) -> Figure:
 
 
 def _draw(view: PredictionView, waves: Any, columns: int, width: float) -> Figure:
-    """Place the panels by hand: they are alike, and laying them out would cost more than drawing."""
+    """Place the panels by hand: they are alike, and a layout engine takes as long as drawing."""
     columns = min(columns, max(len(waves), 1))
     rows = max(math.ceil(len(waves) / columns), 1)
     low, high = _window(view, waves)

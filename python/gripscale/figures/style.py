@@ -82,6 +82,13 @@ def log_axis(axes: Axes, which: str, steps: Sequence[float] = (1.0,)) -> None:
     axis.set_minor_formatter(NullFormatter())
 
 
+def area_axis(axes: Axes) -> None:
+    """Make the upright axis one of relative area: logarithmic, with enough numbers to read it."""
+    axes.set_yscale("log")
+    low, high = axes.get_ylim()
+    log_axis(axes, "y", (1.0, 2.0, 5.0) if high < 500.0 * low else (1.0,))
+
+
 def short_number(value: float) -> str:
     """Return a number for an axis: plain where it stays short, else with a power of ten.
 
@@ -90,8 +97,13 @@ def short_number(value: float) -> str:
     if value <= 0.0 or 0.99e-4 < value < 0.99e5:
         return f"{value:g}"
     factor, _, exponent = f"{value:.0e}".partition("e")
-    power = "10" + str(int(exponent)).translate(RAISED)
+    power = power_of_ten(int(exponent))
     return power if factor == "1" else f"{factor}·{power}"
+
+
+def power_of_ten(exponent: int) -> str:
+    """Return 10 to `exponent` in plain letters."""
+    return "10" + str(exponent).translate(RAISED)
 
 
 def falling_wavelength(axes: Axes, wavelengths_mm: Iterable[float]) -> None:
@@ -111,7 +123,8 @@ def write_png(figure: Figure, target: Path | IO[bytes], dpi: float = DPI) -> Non
             layout.execute(figure)
             figure.set_layout_engine("none")
         # `savefig` would draw twice: once more to find out what it has to show.
-        FigureCanvasAgg(figure).print_png(target, pil_kwargs={"compress_level": 1})
+        canvas: Any = FigureCanvasAgg(figure)
+        canvas.print_png(target, pil_kwargs={"compress_level": 1})
 
 
 def save_figure(figure: Figure, folder: Path, name: str) -> list[Path]:
@@ -122,7 +135,8 @@ def save_figure(figure: Figure, folder: Path, name: str) -> list[Path]:
 
     def write_pdf(target: Path) -> None:
         with mpl.rc_context(RULES):
-            FigureCanvasPdf(figure).print_pdf(target)
+            canvas: Any = FigureCanvasPdf(figure)
+            canvas.print_pdf(target)
 
     return [
         write_whole(folder / f"{name}.png", lambda target: write_png(figure, target)),
