@@ -11,6 +11,8 @@ import pytest
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.markers import TICKDOWN
 
 from gripscale.case.drawn import envelope, sine_curves, trace
 from gripscale.errors import FileError, InputError
@@ -24,6 +26,7 @@ from gripscale.figures import (
     save_figure,
 )
 from gripscale.figures.profile import kept_points
+from gripscale.figures.style import short_number
 from gripscale.rubber import MasterCurve, Rubber, fit_prony_report
 from gripscale.surface import (
     Profile,
@@ -252,3 +255,26 @@ def test_folder_that_is_not_there_is_named(
 ) -> None:
     with pytest.raises(FileError, match=r"nowhere/block\.png cannot be written"):
         save_figure(block_figure(make_wave(4e-3)), tmp_path / "nowhere", "block")
+
+
+def test_logarithmic_axes_are_marked_between_the_powers_of_ten_once(
+    tmp_path: Path, make_prediction: Callable[..., xr.Dataset]
+) -> None:
+    figure = contact_figure({"dynamic": make_prediction()})
+    for _ in range(2):
+        save_figure(figure, tmp_path, "contact")
+    marks = [line for line in figure.findobj(Line2D) if line.get_marker() == TICKDOWN]
+    marks = [line for line in marks if line.axes is None and len(line.get_xdata())]
+    assert len(marks) == 2  # below each panel
+    wavelength = np.asarray(marks[0].get_xdata())
+    low, high = sorted(figure.axes[0].get_xlim())
+    expected = [m * 10.0**n for n in (-1, 0, 1) for m in range(2, 10)]
+    np.testing.assert_allclose(wavelength, [x for x in expected if low <= x <= high])
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [(0.001, "0.001"), (2.5, "2.5"), (1e4, "10000"), (1e-5, "10⁻⁵"), (2e12, "2·10¹²"), (0.0, "0")],
+)
+def test_numbers_of_axes_stay_short(value: float, text: str) -> None:
+    assert short_number(value) == text

@@ -1,4 +1,4 @@
-"""Contact area and friction against wavelength for each prediction of a study (figures 5 to 9 of LW)."""
+"""Contact area and friction against wavelength over a study (figures 5 to 9 of LW)."""
 
 from __future__ import annotations
 
