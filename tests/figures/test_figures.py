@@ -11,7 +11,6 @@ import pytest
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from matplotlib.markers import TICKDOWN
 
 from gripscale.case.drawn import envelope, sine_curves, trace
@@ -263,8 +262,7 @@ def test_logarithmic_axes_are_marked_between_the_powers_of_ten_once(
     figure = contact_figure({"dynamic": make_prediction()})
     for _ in range(2):
         save_figure(figure, tmp_path, "contact")
-    marks = [line for line in figure.findobj(Line2D) if line.get_marker() == TICKDOWN]
-    marks = [line for line in marks if line.axes is None and len(line.get_xdata())]
+    marks = [line for line in figure.artists if line.get_marker() == TICKDOWN]
     assert len(marks) == 2  # below each panel
     wavelength = np.asarray(marks[0].get_xdata())
     low, high = sorted(figure.axes[0].get_xlim())
