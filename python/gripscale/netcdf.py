@@ -5,17 +5,19 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from gripscale.errors import FileError
 
 if TYPE_CHECKING:
     import xarray as xr
 
-ENGINE = "h5netcdf"
+ENGINE: Final = "netcdf4"
 
 
-def save(data: xr.Dataset, path: str | Path, groups: Mapping[str, xr.Dataset] | None = None) -> Path:
+def save(
+    data: xr.Dataset, path: str | Path, groups: Mapping[str, xr.Dataset] | None = None
+) -> Path:
     """Write `data` to `path`, with the named `groups` beside it in the file; return the path.
 
     Raises `FileError` if the file cannot be written.
@@ -42,7 +44,7 @@ def load(path: str | Path) -> xr.Dataset:
     place = _there(path)
     try:
         return xr.load_dataset(place, engine=ENGINE)
-    except (OSError, ValueError, KeyError) as error:
+    except (OSError, ValueError, KeyError, RuntimeError) as error:
         raise FileError(f"{place} cannot be read as a netCDF result: {error}") from error
 
 
@@ -57,7 +59,7 @@ def load_tree(path: str | Path) -> xr.DataTree:
     try:
         with xr.open_datatree(place, engine=ENGINE) as tree:
             return tree.load()
-    except (OSError, ValueError, KeyError) as error:
+    except (OSError, ValueError, KeyError, RuntimeError) as error:
         raise FileError(f"{place} cannot be read as a netCDF result: {error}") from error
 
 

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
-from gripscale.scale import ScaleResult
+from gripscale.rubber import Rubber
+from gripscale.wave import Status, WaveProblem, WaveResult
 
 
-class Spring:
+class Spring(Rubber):
     """A rubber with E* = 4 MPa + 3 MPa i at any frequency, so that |E*| is 5 MPa."""
 
-    name, source = "spring", "by hand"
+    def __init__(self) -> None:
+        super().__init__(4e6, name="spring", source="by hand")
 
     def complex_modulus(self, omega: Any) -> Any:
         return np.full(np.shape(omega), 4e6 + 3e6j)
@@ -35,29 +37,35 @@ THREE = Sines(wavelength=[16e-3, 4e-3, 1e-3], amplitude=[1e-3, 0.5e-3, 0.125e-3]
 class Scripted:
     """A solver that returns stated contact fractions and remembers what it was asked."""
 
+    name: ClassVar[str] = "scripted"
+
     fractions: list[float]
     frictions: list[float] = field(default_factory=lambda: [0.125, 0.25, 0.5])
     statuses: list[str] = field(default_factory=lambda: ["converged"] * 3)
-    calls: list[dict[str, Any]] = field(default_factory=list)
+    asked: list[WaveProblem] = field(default_factory=list)
+    starts: list[WaveResult | None] = field(default_factory=list)
 
-    def __call__(self, rubber: Any, /, **asked: Any) -> ScaleResult:
-        i = len(self.calls)
-        self.calls.append({"rubber": rubber, **asked})
+    def solve(self, problem: WaveProblem, start: WaveResult | None = None) -> WaveResult:
+        i = len(self.asked)
+        self.asked.append(problem)
+        self.starts.append(start)
         nodes = 4 + 2 * i
-        return ScaleResult(
-            wavelength=asked["wavelength"],
-            amplitude=asked["amplitude"],
-            pressure_received=asked["pressure"],
-            speed=asked["speed"],
-            load_time=asked["load_time"],
+        wavelength, load = problem.profile.wavelength, problem.load
+        return WaveResult(
+            wavelength=wavelength,
+            amplitude=problem.profile.amplitude,
+            pressure_received=load.pressure,
+            speed=load.speed,
+            load_time=load.load_time,
             contact_fraction=self.fractions[i],
             friction=self.frictions[i],
             friction_from_dissipation=self.frictions[i] * 0.75,
-            status=self.statuses[i],
+            status=Status(self.statuses[i]),
             newton_iterations=5 + i,
             residual=1e-10,
             min_stretch=0.5,
             max_stretch=1.5,
-            x=np.linspace(-0.5, 0.5, nodes) * asked["wavelength"],
-            pressure=np.full(nodes, asked["pressure"]),
+            x=np.linspace(-0.5, 0.5, nodes) * wavelength,
+            pressure=np.full(nodes, load.pressure),
+            rubber=problem.rubber,
         )

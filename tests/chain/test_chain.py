@@ -7,8 +7,12 @@ import math
 import numpy as np
 import pytest
 
-from gripscale.chain import ChainError, predict
+from gripscale.chain import ChainError, Prediction, predict
 from gripscale.errors import ConvergenceError, InputError
+from gripscale.rubber import Rubber
+from gripscale.surface import SineStack
+from gripscale.theory import HalfPlane, solve_half_plane
+from gripscale.wave import Sine
 
 from .stand_ins import THREE, Scripted, Sines, Spring
 
@@ -41,7 +45,7 @@ def test_full_contact_passes_the_pressure_on_unchanged() -> None:
 def test_load_time_is_the_passage_of_the_contact_above() -> None:
     solver = Scripted([0.5, 0.25, 0.125])
     predict(Spring(), THREE, solver=solver, **LOAD)
-    assert [call["load_time"] for call in solver.calls] == [
+    assert [problem.load.load_time for problem in solver.asked] == [
         0.125 / 0.25,
         16e-3 * 0.5 / 0.25,
         4e-3 * 0.25 / 0.25,
@@ -52,21 +56,74 @@ def test_load_time_is_the_passage_of_the_contact_above() -> None:
 def test_stated_load_time_holds_for_every_wave(stated: float, used: float) -> None:
     solver = Scripted([0.5, 0.5, 0.5])
     predict(Spring(), THREE, solver=solver, load_time=stated, **LOAD)
-    assert [call["load_time"] for call in solver.calls] == [used] * 3
+    assert [problem.load.load_time for problem in solver.asked] == [used] * 3
 
 
 @pytest.mark.parametrize("stated", ["passage", 2.0])
 def test_at_rest_the_load_lasts_for_ever(stated: float | str) -> None:
     solver = Scripted([0.5, 0.5, 0.5])
     predict(Spring(), THREE, solver=solver, load_time=stated, **{**LOAD, "speed": 0.0})
-    assert [call["load_time"] for call in solver.calls] == [math.inf] * 3
+    assert [problem.load.load_time for problem in solver.asked] == [math.inf] * 3
 
 
-def test_solver_gets_the_rubber_and_the_options() -> None:
+def test_solver_gets_the_rubber() -> None:
     solver, rubber = Scripted([0.5, 0.5, 0.5]), Spring()
-    predict(rubber, THREE, solver=solver, columns=64, depth=2.0, **LOAD)
-    assert all(call["rubber"] is rubber for call in solver.calls)
-    assert {(call["columns"], call["depth"]) for call in solver.calls} == {(64, 2.0)}
+    predict(rubber, THREE, solver=solver, **LOAD)
+    assert all(problem.rubber is rubber for problem in solver.asked)
+
+
+def test_solver_by_name_or_by_its_face_gets_the_options() -> None:
+    rubber, load = Rubber(5e6, [1e6], [1e-3]), {"pressure": 3e5, "speed": 0.3, "footprint": 0.1}
+    one = SineStack([10e-3], [0.8e-3])
+    block = predict(rubber, one, columns=32, rows=8, depth=2.0, **load).scales[0]
+    assert (block.details["columns"], block.details["depth"]) == (32, 2.0)
+    for solver in ("half_plane", solve_half_plane):
+        plane = predict(rubber, one, solver=solver, points=64, **load).scales[0]
+        assert (plane.model, len(plane.x)) == ("half_plane", 64)
+    by_object = predict(rubber, one, solver=HalfPlane(points=64), **load)
+    assert by_object.friction == plane.friction
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"solver": "quarter_plane"}, "solver must be one of finite_strain, half_plane"),
+        ({"solver": 3}, "or a WaveSolver such as HalfPlane"),
+        ({"colums": 32}, "unknown option colums; did you mean columns?"),
+        ({"solver": HalfPlane(), "points": 64}, "points belongs to the solver"),
+    ],
+)
+def test_solver_or_option_that_is_none_is_refused(given: dict[str, object], words: str) -> None:
+    with pytest.raises(InputError) as caught:
+        predict(Rubber(5e6), SineStack([10e-3], [0.8e-3]), **{**LOAD, **given})
+    assert words in str(caught.value)
+
+
+def test_start_shorter_than_the_stack_starts_only_its_own_waves() -> None:
+    first = predict(Spring(), THREE, solver=Scripted([0.5, 0.5, 0.5]), max_scales=1, **LOAD)
+    solver = Scripted([0.5, 0.5, 0.5])
+    predict(Spring(), THREE, solver=solver, start=first, **LOAD)
+    assert solver.starts == [first.scales[0], None, None]
+
+
+def test_half_plane_neither_gives_nor_takes_a_start() -> None:
+    rubber, one = Rubber(5e6, [1e6], [1e-3]), SineStack([10e-3], [0.8e-3])
+    plane = predict(rubber, one, solver=solve_half_plane, **LOAD)
+    with pytest.raises(InputError, match="start must be None: the half-plane model"):
+        predict(rubber, one, solver=solve_half_plane, start=plane, **LOAD)
+    with pytest.raises(InputError, match=r"a result of the finite-strain block .* half_plane"):
+        predict(rubber, one, start=plane, **LOAD)
+
+
+def test_rubber_of_a_wave_may_depend_on_what_was_solved() -> None:
+    def softer(wave: Sine, so_far: Prediction) -> Rubber:
+        return Rubber(4e6 / (1 + len(so_far.scales)), name=f"{wave.wavelength:g}")
+
+    solver = Scripted([0.5, 0.5, 0.5])
+    result = predict(Rubber(4e6), THREE, solver=solver, rubber_at=softer, **LOAD)
+    assert [problem.rubber.name for problem in solver.asked] == ["0.016", "0.004", "0.001"]
+    np.testing.assert_allclose([wave.modulus for wave in result.scales], [4e6, 2e6, 4e6 / 3])
+    assert result.rubber == Rubber(4e6)
 
 
 @pytest.mark.parametrize(
@@ -98,15 +155,15 @@ def test_every_wave_is_reported_as_it_comes() -> None:
 
 
 def test_modulus_and_loss_factor_are_taken_at_the_fundamental_frequency() -> None:
-    class Dashpot:
+    class Dashpot(Spring):
         def complex_modulus(self, omega: np.ndarray) -> np.ndarray:
             return 4.0 + 1j * np.asarray(omega)
 
     result = predict(Dashpot(), THREE, solver=Scripted([0.5, 0.5, 0.5]), **LOAD)
     omega = 2 * math.pi * 0.25 / np.array(THREE.wavelength)
-    np.testing.assert_allclose(result.angular_frequency, omega, rtol=1e-15)
-    np.testing.assert_allclose(result.modulus, np.hypot(4.0, omega), rtol=1e-15)
-    np.testing.assert_allclose(result.loss_factor, omega / 4.0, rtol=1e-15)
+    np.testing.assert_allclose([s.angular_frequency for s in result.scales], omega, rtol=1e-15)
+    np.testing.assert_allclose([s.modulus for s in result.scales], np.hypot(4.0, omega), rtol=1e-15)
+    np.testing.assert_allclose([s.loss_factor for s in result.scales], omega / 4.0, rtol=1e-15)
 
 
 def test_wave_that_fails_stops_the_chain_and_loses_nothing() -> None:
@@ -122,7 +179,7 @@ def test_wave_that_fails_stops_the_chain_and_loses_nothing() -> None:
         )
     assert isinstance(caught.value, ChainError)
     partial = caught.value.partial
-    assert len(solver.calls) == 2
+    assert len(solver.asked) == 2
     assert seen == ["converged", "iteration limit"]
     assert [s.status for s in partial.scales] == seen
     assert partial.running_friction[0] == 0.125
@@ -162,7 +219,7 @@ def test_bad_input_is_refused_before_any_wave_is_solved(
     with pytest.raises(InputError) as caught:
         predict(Spring(), THREE, solver=solver, **{**LOAD, **change})
     assert words in str(caught.value)
-    assert solver.calls == []
+    assert solver.asked == []
 
 
 def test_empty_stack_is_refused() -> None:

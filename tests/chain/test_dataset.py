@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray as xr
 
-from gripscale import dataset
+from gripscale import netcdf
 from gripscale.chain import Prediction, predict
 from gripscale.errors import FileError
+from gripscale.rubber import Rubber, Yeoh
+from gripscale.surface import SineStack
 
 from .stand_ins import THREE, Scripted, Spring
 
@@ -23,7 +26,7 @@ def prediction() -> Prediction:
 
 def test_values_are_those_of_the_prediction(prediction: Prediction) -> None:
     data = prediction.to_dataset()
-    assert data.sizes == {"scale": 3, "surface_node": 8}
+    assert data.sizes == {"scale": 3, "surface_node": 8, "wave": 3}
     assert data.wavelength.values.tolist() == THREE.wavelength
     assert data.contact_fraction.values.tolist() == [0.5, 0.25, 0.125]
     np.testing.assert_array_equal(data.running_contact_fraction, [2.0**-1, 2.0**-3, 2.0**-6])
@@ -33,8 +36,9 @@ def test_values_are_those_of_the_prediction(prediction: Prediction) -> None:
     np.testing.assert_allclose(data.modulus, 5e6)
     np.testing.assert_allclose(data.loss_factor, 0.75)
     assert data.status.values.tolist() == ["converged"] * 3
-    assert data.attrs["friction"] == 0.875
-    assert data.attrs["contact_fraction"] == 2.0**-6
+    assert data.total_friction == 0.875
+    assert data.total_contact_fraction == 2.0**-6
+    assert data.prediction_status == "converged"
 
 
 def test_shorter_waves_are_padded_not_invented(prediction: Prediction) -> None:
@@ -52,10 +56,28 @@ def test_every_variable_says_unit_name_and_source(prediction: Prediction) -> Non
 
 def test_netcdf_brings_everything_back(prediction: Prediction, tmp_path: Path) -> None:
     data = prediction.to_dataset().assign_attrs(case='[load]\npressure = "3 bar"\n')
-    path = dataset.save(data, tmp_path / "result.nc")
-    again = dataset.load(path)
+    path = netcdf.save(data, tmp_path / "result.nc")
+    again = netcdf.load(path)
     xr.testing.assert_identical(again, data)
     assert [p.name for p in tmp_path.iterdir()] == ["result.nc"]
+
+
+def test_dataset_brings_the_prediction_back(tmp_path: Path) -> None:
+    rubber = Rubber(5e6, [1e6, 3e6], [1e-3, 1e-5], name="r", strain_energy=Yeoh(-0.1, 0.02))
+    sines = SineStack([10e-3, 3e-3], [0.8e-3, 0.2e-3])
+    load = {"pressure": 3e5, "speed": 0.3, "footprint": 0.1, "load_time": math.inf}
+    for solver in ("finite_strain", "half_plane"):
+        made = predict(rubber, sines, solver=solver, **load)
+        path = netcdf.save(made.to_dataset(), tmp_path / "result.nc")
+        again = Prediction.from_dataset(netcdf.load(path))
+        assert (again.rubber, again.load, again.planned) == (made.rubber, made.load, made.planned)
+        assert again.friction == made.friction
+        xr.testing.assert_identical(again.to_dataset(), made.to_dataset())
+        for one, other in zip(again.scales, made.scales, strict=True):
+            np.testing.assert_array_equal(one.pressure, other.pressure)
+            assert (one.status, one.rubber, one.why) == (other.status, rubber, other.why)
+            if other.deformed_mesh is not None and one.deformed_mesh is not None:
+                np.testing.assert_array_equal(one.deformed_mesh, other.deformed_mesh)
 
 
 def test_failed_write_leaves_the_old_file_and_no_rubbish(tmp_path: Path) -> None:
@@ -67,31 +89,31 @@ def test_failed_write_leaves_the_old_file_and_no_rubbish(tmp_path: Path) -> None
         raise OSError(28, "No space left on device")
 
     with pytest.raises(FileError, match=r"result\.nc cannot be written: No space left"):
-        dataset.write_whole(path, interrupted)
+        netcdf.write_whole(path, interrupted)
     assert path.read_text() == "old"
     assert [p.name for p in tmp_path.iterdir()] == ["result.nc"]
 
 
 def test_missing_folder_is_named(prediction: Prediction, tmp_path: Path) -> None:
     with pytest.raises(FileError, match=r"nowhere/result\.nc cannot be written"):
-        dataset.save(prediction.to_dataset(), tmp_path / "nowhere" / "result.nc")
+        netcdf.save(prediction.to_dataset(), tmp_path / "nowhere" / "result.nc")
 
 
 def test_folder_in_the_way_is_named(prediction: Prediction, tmp_path: Path) -> None:
     (tmp_path / "result.nc").mkdir()
     with pytest.raises(FileError, match=r"cannot be written: it is a folder"):
-        dataset.save(prediction.to_dataset(), tmp_path / "result.nc")
+        netcdf.save(prediction.to_dataset(), tmp_path / "result.nc")
 
 
 def test_missing_result_is_named(tmp_path: Path) -> None:
     with pytest.raises(FileError, match=r"result\.nc does not exist"):
-        dataset.load(tmp_path / "result.nc")
+        netcdf.load(tmp_path / "result.nc")
 
 
 def test_file_that_is_no_result_is_refused(tmp_path: Path) -> None:
     (tmp_path / "result.nc").write_text("not netCDF")
     with pytest.raises(FileError, match="cannot be read as a netCDF result"):
-        dataset.load(tmp_path / "result.nc")
+        netcdf.load(tmp_path / "result.nc")
 
 
 def test_a_whole_file_appears_at_once(tmp_path: Path) -> None:
@@ -103,6 +125,6 @@ def test_a_whole_file_appears_at_once(tmp_path: Path) -> None:
         temporary.write_text("whole")
         seen.append(temporary.stat().st_ino)
 
-    dataset.write_whole(path, slowly)
+    netcdf.write_whole(path, slowly)
     assert path.read_text() == "whole"
     assert seen == [False, path.stat().st_ino]  # renamed, not copied

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from typer.testing import Result
 
-from gripscale.cli import solving
+from gripscale.theory import HalfPlane
 
 Shell = Callable[..., Result]
 
@@ -29,10 +29,10 @@ def refused(result: Result, *words: str) -> None:
 def never_solved(monkeypatch: pytest.MonkeyPatch) -> None:
     """Nothing in this file may get as far as a solver."""
 
-    def solver_of(case: object) -> None:
+    def solve(*_: object) -> None:
         raise AssertionError("solved with bad input")
 
-    monkeypatch.setattr(solving, "solver_of", solver_of)
+    monkeypatch.setattr(HalfPlane, "solve", solve)
 
 
 @pytest.mark.parametrize(

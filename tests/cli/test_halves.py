@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from typer.testing import Result
 
-from gripscale.dataset import versions
+from gripscale.versions import versions
 
 Shell = Callable[..., Result]
 

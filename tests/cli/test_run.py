@@ -11,11 +11,12 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner, Result
 
-from gripscale import dataset
-from gripscale.cli import app, draw, solving
-from gripscale.cli.folder import RESULTS
-from gripscale.scale import ScaleResult
-from gripscale.theory import solve_half_plane
+from gripscale import netcdf
+from gripscale.case.folder import RESULTS
+from gripscale.cli import app
+from gripscale.figures import case_all
+from gripscale.theory import HalfPlane
+from gripscale.wave import Status, WaveProblem, WaveResult
 
 Shell = Callable[..., Result]
 
@@ -61,20 +62,20 @@ def test_output_says_what_was_read_fitted_and_solved(done: tuple[Result, Path]) 
 def test_results_file_holds_the_chain_and_its_inputs(
     done: tuple[Result, Path], inputs: Path
 ) -> None:
-    data = dataset.load(done[1] / "dynamic.nc")
+    data = netcdf.load(done[1] / "dynamic.nc")
     assert data.sizes["scale"] == 3
     np.testing.assert_allclose(
         data.pressure_received[1:],
         (data.pressure_received / data.contact_fraction)[:-1],
         rtol=1e-12,
     )
-    assert data.attrs["friction"] == pytest.approx(float(data.friction.sum()), rel=1e-12)
-    assert data.attrs["friction"] > 0.0
+    assert data.total_friction == pytest.approx(float(data.friction.sum()), rel=1e-12)
+    assert data.total_friction > 0.0
     assert data.attrs["case"] == (inputs / "case.toml").read_text()
     assert data.attrs["surface_source"].endswith("road.txt")
-    rest = dataset.load(done[1] / "static.nc")
+    rest = netcdf.load(done[1] / "static.nc")
     assert np.isinf(rest.load_time).all()
-    assert rest.attrs["contact_fraction"] > data.attrs["contact_fraction"]
+    assert rest.total_contact_fraction > data.total_contact_fraction
 
 
 def test_case_is_copied_word_for_word(done: tuple[Result, Path], inputs: Path) -> None:
@@ -89,24 +90,23 @@ def test_report_holds_the_tables(done: tuple[Result, Path]) -> None:
 
 
 def lame(wave: int) -> Any:
-    """Return a solver whose given wave (counted from 1) does not converge."""
-    count = 0
+    """Return the half-plane's `solve`, whose given wave (counted from 1) does not converge."""
+    count, solve = 0, HalfPlane.solve
 
-    def solve(*arguments: Any, **asked: Any) -> ScaleResult:
+    def lamed(self: HalfPlane, problem: WaveProblem, start: WaveResult | None = None) -> WaveResult:
         nonlocal count
         count += 1
-        good = solve_half_plane(*arguments, **asked)
-        return replace(good, status="iteration limit") if count == wave else good
+        good = solve(self, problem, start)
+        return replace(good, status=Status.ITERATION_LIMIT) if count == wave else good
 
-    return solve
+    return lamed
 
 
 def test_wave_that_fails_keeps_what_was_solved(
     shell: Shell, changed: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    solver = lame(2)
-    monkeypatch.setattr(solving, "solver_of", lambda case: solver)
-    monkeypatch.setattr(draw, "save_figure", lambda *_: [])
+    monkeypatch.setattr(HalfPlane, "solve", lame(2))
+    monkeypatch.setattr(case_all, "save_figure", lambda *_: [])
     case = changed()
     result = shell("run", case)
     assert result.exit_code == 3
@@ -114,11 +114,11 @@ def test_wave_that_fails_keeps_what_was_solved(
     assert "iteration limit" in result.stderr
     assert len(result.stderr.splitlines()) == 1
     assert "No totals: wave 2 did not converge" in result.stdout
-    data = dataset.load(case.parent / "results" / "dynamic.nc")
+    data = netcdf.load(case.parent / "results" / "dynamic.nc")
     assert data.status.values.tolist() == ["converged", "iteration limit"]
     assert np.isfinite(data.running_friction.values).tolist() == [True, False]
-    assert data.attrs["converged"] == 0
-    rest = dataset.load(case.parent / "results" / "static.nc")
+    assert str(data.prediction_status.item()).startswith("wave 2 of 3")
+    rest = netcdf.load(case.parent / "results" / "static.nc")
     assert rest.sizes["scale"] == 3
 
 
@@ -128,25 +128,29 @@ def test_waves_are_on_disk_before_the_next_one_starts(
     case = changed("[load]", "[load]\nstatic = false")
     seen: list[int] = []
 
-    def solve(*arguments: Any, **asked: Any) -> ScaleResult:
+    solve = HalfPlane.solve
+
+    def looking(
+        self: HalfPlane, problem: WaveProblem, start: WaveResult | None = None
+    ) -> WaveResult:
         path = case.parent / "results" / "dynamic.nc"
-        seen.append(dataset.load(path).sizes["scale"] if path.exists() else 0)
+        seen.append(netcdf.load(path).sizes["scale"] if path.exists() else 0)
         if len(seen) == 3:
             raise KeyboardInterrupt
-        return solve_half_plane(*arguments, **asked)
+        return solve(self, problem, start)
 
-    monkeypatch.setattr(solving, "solver_of", lambda case: solve)
-    monkeypatch.setattr(draw, "save_figure", lambda *_: [])
+    monkeypatch.setattr(HalfPlane, "solve", looking)
+    monkeypatch.setattr(case_all, "save_figure", lambda *_: [])
     result = shell("run", case)
     assert result.exit_code == 130
     assert seen == [0, 1, 2]
-    assert dataset.load(case.parent / "results" / "dynamic.nc").sizes["scale"] == 2
+    assert netcdf.load(case.parent / "results" / "dynamic.nc").sizes["scale"] == 2
 
 
 def test_an_earlier_run_leaves_nothing_behind_and_other_files_stay(
     shell: Shell, changed: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(draw, "save_figure", lambda *_: [])
+    monkeypatch.setattr(case_all, "save_figure", lambda *_: [])
     case = changed("[load]", "[load]\nstatic = false")
     figures = case.parent / "results" / "figures"
     figures.mkdir(parents=True)
@@ -160,7 +164,7 @@ def test_an_earlier_run_leaves_nothing_behind_and_other_files_stay(
 def test_waves_by_hand_and_a_named_rubber_need_no_files(
     shell: Shell, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(draw, "save_figure", lambda *_: [])
+    monkeypatch.setattr(case_all, "save_figure", lambda *_: [])
     case = tmp_path / "case.toml"
     case.write_text(
         '[[surface.sines]]\nwavelength = "10 mm"\namplitude = "1 mm"\n'

@@ -7,6 +7,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -15,23 +16,27 @@ COARSE = "64"
 TESTED_ELSEWHERE = {"finite_strain_rubber"}
 
 
+def start(name: str, folder: Path, *arguments: str) -> str:
+    """Run an example in `folder`; return what it prints."""
+    command = [sys.executable, "-W", "error", str(EXAMPLES / f"{name}.py"), *arguments]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert not done.stderr
+    return done.stdout
+
+
 @pytest.fixture
 def run(tmp_path):
     """Run an example in a folder of its own; return what it prints and the figures it saves."""
 
     def run(name: str, *arguments: str) -> str:
         figures = tmp_path / "figures"
-        command = [sys.executable, "-W", "error", str(EXAMPLES / f"{name}.py"), str(figures)]
-        done = subprocess.run(
-            [*command, *arguments], cwd=tmp_path, capture_output=True, text=True, check=False
-        )
-        assert done.returncode == 0, done.stderr
-        assert not done.stderr
+        printed = start(name, tmp_path, str(figures), *arguments)
         assert [path.name for path in tmp_path.iterdir()] == ["figures"]
         saved = list(figures.glob(f"{name}*.png"))
         assert saved
         assert min(path.stat().st_size for path in saved) > 10_000
-        return done.stdout
+        return printed
 
     return run
 
@@ -101,3 +106,41 @@ def test_measured_surface(run):
     residuals = [float(value) for value in re.findall(r"residual ([\d.]+)", printed)]
     assert residuals[0] > residuals[1] > 0.0
     assert residuals[2] < 0.06
+
+
+def test_toy_model(tmp_path):
+    printed = start("toy_model", tmp_path, "out")
+    rows = [line.split() for line in printed.splitlines() if line.endswith("converged")]
+    assert [row[:4] for row in rows] == [
+        [speed, "m/s", pressure, "MPa"] for speed in ("0.01", "10") for pressure in ("0.1", "0.3")
+    ]
+    area = [float(row[4]) for row in rows]
+    # In proportion to the load, and the less the faster: the rubber is stiffer.
+    assert area[1] / area[0] == pytest.approx(3.0, rel=0.01)
+    assert area[3] / area[2] == pytest.approx(3.0, rel=0.01)
+    assert area[2] < area[0]
+    assert len(list((tmp_path / "out" / "toy_model" / "predictions").glob("*.nc"))) == 4
+
+
+def test_toy_condition(tmp_path):
+    printed = start("toy_condition", tmp_path, "out")
+    pairs = re.findall(r"mm: friction ([\d.]+), ([\d.]+)", printed)
+    plain, warm = np.array(pairs, dtype=float).T
+    # Warmed by the waves above only; on this side of its loss peak warm rubber has less friction.
+    assert warm[0] == plain[0]
+    assert (warm[1:] < 0.8 * plain[1:]).all()
+    assert len(re.findall(r"m/s: friction 0\.\d+ of the tread", printed)) == 2
+
+
+def test_run_case(tmp_path):
+    coarse = (EXAMPLES / "road_and_tread" / "case.toml").read_text(encoding="utf-8")
+    case = tmp_path / "case.toml"
+    files = coarse.replace('"../data', f'"{EXAMPLES.as_posix()}/data')
+    case.write_text(files + "\n[solver]\ncolumns = 32\nrows = 8\n", encoding="utf-8")
+    printed = start("run_case", tmp_path, str(case), "out")
+    area, friction = numbers(r"A_r/A_0 = ([\d.]+), mu = ([\d.]+)", printed)
+    # 0.0182 and 0.576 on the default mesh; 32 columns are within a tenth of that.
+    assert area == pytest.approx(0.0182, rel=0.1)
+    assert friction == pytest.approx(0.576, rel=0.1)
+    assert "8 waves on measured_dma" in printed
+    assert {path.name for path in (tmp_path / "out").glob("*.nc")} == {"dynamic.nc", "static.nc"}

@@ -48,7 +48,7 @@ def test_worker_killed_on_the_way_changes_nothing(
             if len(told) == 1:
                 os.kill(victim, signal.SIGKILL)
 
-        result = study.run(tmp_path / "cluster", client=client, on_case=kill_one)
+        result = study.run(tmp_path / "cluster", client=client, on_task=kill_one)
     assert len(before) == 2
     with pytest.raises(ProcessLookupError):
         os.kill(victim, 0)
@@ -62,8 +62,8 @@ def test_scheduler_is_reached_by_its_address(
     study = Study(case, {"speed": [0.01, 1.0]})
     result = study.run(tmp_path / "cluster", client=workers.scheduler_address)
     same_bytes(result, study.run(tmp_path / "threads"))
-    monkeypatch.setattr(cluster, "versions", lambda: {"gripscale": "99"})
-    with pytest.raises(InputError, match=r"has gripscale .*, this machine 99"):
+    monkeypatch.setattr(cluster, "software", lambda: "gripscale 0.1.0 other")
+    with pytest.raises(InputError, match=r"has gripscale .*, this machine gripscale 0.1.0 other"):
         study.run(tmp_path / "other", client=workers.scheduler_address)
 
 

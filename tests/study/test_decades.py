@@ -28,9 +28,8 @@ def one_wave(first: float, second: float, status: str = "converged") -> xr.Datas
             "friction": ("scale", [FRICTION]),
             "surface_x": (("scale", "surface_node"), padded[0]),
             "surface_pressure": (("scale", "surface_node"), padded[1]),
-        },
-        attrs={"case_status": status, "sliding_speed_m_per_s": SPEED},
-    )
+        }
+    ).assign(prediction_status=status, nominal_speed=SPEED)
 
 
 def by_hand(first: float, second: float) -> float:
@@ -56,5 +55,5 @@ def test_split_is_that_of_the_harmonics(first: float, second: float) -> None:
 
 def test_no_split_without_a_solution_or_sliding() -> None:
     assert friction_by_decade(one_wave(0.8, 0.1, "iteration limit"), RUBBER) == {}
-    rest = one_wave(0.8, 0.1).assign_attrs(sliding_speed_m_per_s=0.0)
+    rest = one_wave(0.8, 0.1).assign(nominal_speed=0.0)
     assert friction_by_decade(rest, RUBBER) == {}

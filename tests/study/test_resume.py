@@ -14,7 +14,7 @@ import pytest
 import xarray as xr
 
 from gripscale.study import Progress, Store, Study
-from gripscale.study.solving import Stopped, timed
+from gripscale.study.task import Stopped
 
 VARY = {"speed": "0.01:1:log3", "pressure": "1 bar,3 bar"}
 PROGRAM = """
@@ -22,7 +22,7 @@ import sys
 from gripscale.study import Study
 vary = {"speed": "0.01:1:log3", "pressure": "1 bar,3 bar"}
 Study(sys.argv[1], vary).run(
-    sys.argv[2], workers=2, on_case=lambda told: print(told.done, told.label, flush=True)
+    sys.argv[2], workers=2, on_task=lambda told: print(told.done, told.label, flush=True)
 )
 """
 
@@ -43,21 +43,21 @@ def test_killed_study_resumes_to_the_same_bytes(
     case: Path, tmp_path: Path, same_bytes: Callable[[xr.Dataset, xr.Dataset], None]
 ) -> None:
     killed_after(2, case, tmp_path / "killed")
-    cases = tmp_path / "killed" / "cases"
+    cases = tmp_path / "killed" / "predictions"
     kept = {path.name: path.stat().st_mtime_ns for path in cases.glob("[!.]*.nc")}
     assert 2 <= len(kept) < 6
     assert not (tmp_path / "killed" / "study.nc").exists()
 
     told: list[Progress] = []
     study = Study(case, VARY)
-    resumed = study.run(tmp_path / "killed", on_case=told.append)
+    resumed = study.run(tmp_path / "killed", on_task=told.append)
     assert sum(t.stored for t in told) == len(kept)
     assert sum(not t.stored for t in told) == 6 - len(kept)
     assert all((cases / name).stat().st_mtime_ns == when for name, when in kept.items())
     same_bytes(resumed, study.run(tmp_path / "whole", workers=1))
 
     told.clear()
-    same_bytes(resumed, study.run(tmp_path / "killed", on_case=told.append))
+    same_bytes(resumed, study.run(tmp_path / "killed", on_task=told.append))
     assert all(t.stored for t in told)
 
 
@@ -66,12 +66,12 @@ def test_damaged_file_counts_as_not_there(
 ) -> None:
     study = Study(case, {"speed": [0.01, 1.0]})
     first = study.run(tmp_path)
-    store = Store(tmp_path / "cases")
+    store = Store(tmp_path / "predictions")
     cut, foreign = (store.path(point.task.key) for point in study.points)
     foreign.write_bytes(cut.read_bytes())  # a whole file under the wrong name
     cut.write_bytes(cut.read_bytes()[:1000])
     told: list[Progress] = []
-    same_bytes(first, study.run(tmp_path, on_case=told.append))
+    same_bytes(first, study.run(tmp_path, on_task=told.append))
     assert not any(t.stored for t in told)
 
 
@@ -83,17 +83,17 @@ def test_study_stopped_by_the_caller_keeps_what_was_solved_and_solves_no_more(
 
     study = Study(case, {"speed": "0.01:1:log8"})
     with pytest.raises(KeyboardInterrupt):
-        study.run(tmp_path, workers=2, on_case=stop)
+        study.run(tmp_path, workers=2, on_task=stop)
     assert not [t for t in threading.enumerate() if t.name.startswith("gripscale")]
     told: list[Progress] = []
-    study.run(tmp_path, on_case=told.append)
+    study.run(tmp_path, on_task=told.append)
     assert sum(t.stored for t in told) == 1
 
 
 def test_chain_is_given_up_between_two_waves(case: Path) -> None:
     task = Study(case, {"speed": [0.1]}).points[0].task
     stop = threading.Event()
-    assert timed(task, stop)[1].sizes["scale"] == 3
+    assert task.solve(stop)[1].sizes["scale"] == 3
     stop.set()
     with pytest.raises(Stopped):
-        timed(task, stop)
+        task.solve(stop)

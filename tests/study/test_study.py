@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -12,20 +13,37 @@ import pytest
 import xarray as xr
 
 import gripscale as gs
-from gripscale import dataset
+from gripscale import netcdf
+from gripscale.chain import Chain
 from gripscale.errors import FileError, InputError
-from gripscale.scale import ScaleResult, solve_scale
+from gripscale.model import NominalLoad
 from gripscale.study import Progress, Study, Task, task
+from gripscale.study.software import fingerprint
+from gripscale.surface import PreparedSurface
+from gripscale.theory import HalfPlane
+from gripscale.wave import FiniteStrainBlock, Mesh, Sine, Status, WaveProblem, WaveResult
 
 Compare = Callable[[xr.Dataset, xr.Dataset], None]
 SPEEDS = [0.01, 1.0]
+
+
+@dataclass(frozen=True)
+class Warmer:
+    """A condition that does nothing, with a number that counts."""
+
+    temperature: float
+
+    def __call__(self, wave: Sine, so_far: gs.Prediction) -> gs.Rubber:
+        return so_far.rubber
+
+
 WAVES = gs.SineStack(wavelength=[10e-3, 3e-3, 1e-3], amplitude=[0.8e-3, 0.25e-3, 0.08e-3])
 
 
 def test_crossed_study_is_predict_at_every_point(case: Path, tmp_path: Path) -> None:
     told: list[Progress] = []
     study = Study(case, {"speed": SPEEDS, "pressure": "1 bar, 3 bar"}, static=True)
-    result = study.run(tmp_path / "out", on_case=told.append)
+    result = study.run(tmp_path / "out", on_task=told.append)
     alone = gs.predict(
         gs.rubber.styrene_butadiene(),
         WAVES,
@@ -42,14 +60,14 @@ def test_crossed_study_is_predict_at_every_point(case: Path, tmp_path: Path) -> 
     assert result.total_friction.dims == ("speed", "pressure")
     assert result.static_total_contact_fraction.dims == ("pressure",)
     assert (result.static_total_contact_fraction > result.total_contact_fraction).all()
-    assert (result.case_status == "converged").all()
+    assert (result.prediction_status == "converged").all()
     assert [t.done for t in told] == [1, 2, 3, 4, 5, 6]
     assert {t.label for t in told} >= {"speed 0.01 m/s, pressure 100000 Pa"}
 
 
 def test_result_file_is_labelled_with_units_and_provenance(case: Path, tmp_path: Path) -> None:
     result = Study(case, {"speed": SPEEDS}).run(tmp_path)
-    kept = dataset.load(tmp_path / "study.nc")
+    kept = netcdf.load(tmp_path / "study.nc")
     assert kept.identical(result)
     assert all({"units", "long_name"} <= set(kept[name].attrs) for name in kept.variables)
     assert kept.speed.attrs["units"] == "m/s"
@@ -61,7 +79,7 @@ def test_result_file_is_labelled_with_units_and_provenance(case: Path, tmp_path:
 def test_speed_zero_is_static_contact(case: Path, tmp_path: Path) -> None:
     result = Study(case, {"speed": [0.0, 0.3]}, static=True).run(tmp_path)
     assert result.total_contact_fraction[0] == result.static_total_contact_fraction
-    assert len(list((tmp_path / "cases").iterdir())) == 2
+    assert len(list((tmp_path / "predictions").iterdir())) == 2
 
 
 def test_number_of_workers_changes_nothing(case: Path, tmp_path: Path, same_bytes: Compare) -> None:
@@ -114,51 +132,104 @@ def test_what_is_not_there_is_one_sentence(
 def test_failed_chain_is_a_status(
     case: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def lame(*arguments: Any, **asked: Any) -> ScaleResult:
-        good = solve_scale(*arguments, **asked)
-        if asked["speed"] < 1.0 or asked["wavelength"] > 5e-3:
-            return good
-        return ScaleResult(**{**vars(good), "status": "iteration limit"})
+    solve = FiniteStrainBlock.solve
 
-    monkeypatch.setattr(task, "_solver", lambda model: lame)
+    def lame(
+        self: FiniteStrainBlock, problem: WaveProblem, start: WaveResult | None = None
+    ) -> WaveResult:
+        good = solve(self, problem, start)
+        if problem.load.speed < 1.0 or problem.profile.wavelength > 5e-3:
+            return good
+        return replace(good, status=Status.ITERATION_LIMIT)
+
+    monkeypatch.setattr(FiniteStrainBlock, "solve", lame)
     result = Study(case, {"speed": SPEEDS}).run(tmp_path)
-    assert result.case_status[0] == "converged"
-    assert "wave 2 of 3" in str(result.case_status[1].item())
-    assert "iteration limit" in str(result.case_status[1].item())
+    assert result.prediction_status[0] == "converged"
+    assert "wave 2 of 3" in str(result.prediction_status[1].item())
+    assert "iteration limit" in str(result.prediction_status[1].item())
     assert np.isnan(result.total_friction).values.tolist() == [False, True]
     assert np.isnan(result.running_friction[1]).values.tolist() == [False, True, True]
     assert np.isnan(result.wavelength[1]).values.tolist() == [False, False, True]
     told: list[Progress] = []
-    Study(case, {"speed": SPEEDS}).run(tmp_path, on_case=told.append)
+    Study(case, {"speed": SPEEDS}).run(tmp_path, on_task=told.append)
     assert [t.stored for t in told] == [True, True]
 
 
 def test_key_changes_with_every_input_and_the_software(monkeypatch: pytest.MonkeyPatch) -> None:
-    rubber = gs.Rubber(5e6, [1e6], [1e-3])
+    surface = PreparedSurface(WAVES, "by hand")
     inputs: dict[str, Any] = {
-        "rubber": rubber,
-        "sines": WAVES,
-        "pressure": 3e5,
-        "speed": 0.3,
-        "footprint": 0.1,
+        "rubber": gs.Rubber(5e6, [1e6], [1e-3]),
+        "surface": surface,
+        "load": NominalLoad(3e5, 0.3, 0.1),
     }
     changes: list[dict[str, Any]] = [
         {"rubber": gs.Rubber(5e6, [1e6], [math.nextafter(1e-3, 1)])},
         {"rubber": gs.Rubber(5e6, [1e6], [1e-3], valid_band=(1.0, 2.0))},
         {"rubber": gs.Rubber(5e6, [1e6], [1e-3], bulk_modulus=1e9)},
-        {"sines": gs.SineStack(WAVES.wavelength[:2], WAVES.amplitude[:2])},
-        {"pressure": math.nextafter(3e5, 1e6)},
-        {"speed": 0.31},
-        {"footprint": 0.11},
-        {"load_time": math.inf},
-        {"model": "half_plane"},
-        {"options": {"columns": 64}},
+        {"rubber": gs.Rubber(5e6, [1e6], [1e-3], strain_energy=gs.rubber.Yeoh(-0.1, 0.02))},
+        {"surface": PreparedSurface(gs.SineStack(WAVES.wavelength[:2], WAVES.amplitude[:2]), "")},
+        {"load": NominalLoad(math.nextafter(3e5, 1e6), 0.3, 0.1)},
+        {"load": NominalLoad(3e5, 0.31, 0.1)},
+        {"load": NominalLoad(3e5, 0.3, 0.11)},
+        {"load": NominalLoad(3e5, 0.3, 0.1, math.inf)},
+        {"model": Chain(HalfPlane())},
+        {"model": Chain(FiniteStrainBlock(Mesh(columns=64)))},
+        {"model": Chain(FiniteStrainBlock(tolerance=0.01))},
+        {"model": Chain(rubber_at=Warmer(300.0))},
+        {"model": Chain(rubber_at=Warmer(301.0))},
     ]
     keys = [Task(**{**inputs, **change}).key for change in [{}, *changes]]
     assert len(set(keys)) == len(keys)
     assert Task(**inputs).key == keys[0]
+    elsewhere = {**inputs, "surface": PreparedSurface(WAVES, "the same waves from elsewhere")}
+    assert Task(**elsewhere).key == keys[0]
     monkeypatch.setattr(task, "software", lambda: "gripscale 99")
     assert Task(**inputs).key != keys[0]
+
+
+def test_model_that_cannot_be_written_down_is_refused() -> None:
+    odd = Chain(rubber_at=lambda wave, so_far: so_far.rubber)
+    made = Task(gs.Rubber(5e6), PreparedSurface(WAVES, ""), NominalLoad(3e5, 0.3, 0.1), odd)
+    with pytest.raises(InputError, match="models and conditions must be dataclasses"):
+        _ = made.key
+
+
+@pytest.mark.parametrize(
+    ("module", "counts"),
+    [
+        ("rubber/material.py", True),
+        ("rubber/strain_energy/yeoh.py", True),
+        ("theory/half_plane.py", True),
+        ("wave/dataset.py", True),
+        ("chain/predict.py", True),
+        ("checks.py", True),
+        ("a_room_of_tomorrow/new.py", True),
+        ("figures/blocks.py", False),
+        ("report/tables.py", False),
+        ("cli/run.py", False),
+    ],
+)
+def test_changed_module_changes_the_fingerprint(module: str, counts: bool, tmp_path: Path) -> None:
+    home, kernel = tmp_path / "gripscale", tmp_path / "_kernel.so"
+    (home / module).parent.mkdir(parents=True)
+    (home / module).write_text("number = 1\n")
+    kernel.write_bytes(b"compiled")
+    before = fingerprint(home, kernel)
+    (home / module).write_text("number = 2\n")
+    assert (fingerprint(home, kernel) != before) == counts
+    kernel.write_bytes(b"compiled anew")
+    assert fingerprint(home, kernel) != before
+
+
+def test_changed_material_is_never_served_old_results(
+    case: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    study = Study(case, {"speed": [1.0]})
+    study.run(tmp_path)
+    monkeypatch.setattr(task, "software", lambda: "gripscale with another material.py")
+    told: list[Progress] = []
+    Study(case, {"speed": [1.0]}).run(tmp_path, on_task=told.append)
+    assert [t.stored for t in told] == [False]
 
 
 def test_decades_of_relaxation_share_out_the_friction(case: Path, tmp_path: Path) -> None:

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import pytest
 from typer.testing import Result
 
-from gripscale import dataset
-from gripscale.scale import ScaleResult, solve_scale
-from gripscale.study import task
+from gripscale import netcdf
+from gripscale.wave import FiniteStrainBlock, Status, WaveProblem, WaveResult
 
 Shell = Callable[..., Result]
 
@@ -21,7 +20,9 @@ def test_command_solves_prints_draws_and_resumes(shell: Shell, case: Path) -> No
     result = shell(*asked, "--static")
     assert result.exit_code == 0, result.output
     target = case.parent / "results" / "study"
-    written = {str(p.relative_to(target)) for p in target.rglob("*.*") if "cases" not in p.parts}
+    written = {
+        str(p.relative_to(target)) for p in target.rglob("*.*") if "predictions" not in p.parts
+    }
     figures = {
         "totals",
         *(
@@ -32,9 +33,9 @@ def test_command_solves_prints_draws_and_resumes(shell: Shell, case: Path) -> No
     }
     files = {f"figures/{name}.{kind}" for name in figures for kind in ("png", "pdf")}
     assert written == files | {"case.toml", "study.nc", "study.txt"}
-    for words in ("speed (3) x pressure (2); 8 different chains", "[8/8] static, pressure"):
+    for words in ("speed (3) x pressure (2); 8 different predictions", "[8/8] static, pressure"):
         assert words in result.stdout
-    data = dataset.load(target / "study.nc")
+    data = netcdf.load(target / "study.nc")
     assert f"{float(data.total_friction[2, 1]):.3f}" in result.stdout
     assert result.stdout.count("converged") == 6
     assert max(len(line) for line in result.stdout.splitlines() if "in /" not in line) <= 100
@@ -65,16 +66,22 @@ def test_table_keeps_its_status_beside_long_names(shell: Shell, case: Path, tmp_
 def test_failed_chain_ends_with_its_own_code(
     shell: Shell, case: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def lame(*arguments: Any, **asked: Any) -> ScaleResult:
-        good = solve_scale(*arguments, **asked)
-        failed = asked["speed"] > 0.5 and asked["wavelength"] < 2e-3
-        return ScaleResult(**{**vars(good), "status": "iteration limit"}) if failed else good
+    solve = FiniteStrainBlock.solve
 
-    monkeypatch.setattr(task, "_solver", lambda model: lame)
+    def lame(
+        self: FiniteStrainBlock, problem: WaveProblem, start: WaveResult | None = None
+    ) -> WaveResult:
+        good = solve(self, problem, start)
+        failed = problem.load.speed > 0.5 and problem.profile.wavelength < 2e-3
+        return replace(good, status=Status.ITERATION_LIMIT) if failed else good
+
+    monkeypatch.setattr(FiniteStrainBlock, "solve", lame)
     result = shell("study", case, "--vary", "speed=0.1,1")
     assert result.exit_code == 3
     assert len(result.stderr.splitlines()) == 1
-    assert "1 of 2 chains did not converge and have no totals; the first: wave 3" in result.stderr
+    assert (
+        "1 of 2 predictions did not converge and have no totals; the first: wave 3" in result.stderr
+    )
     assert (case.parent / "results" / "study" / "study.nc").exists()
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from gripscale.netcdf import write_whole
 from gripscale.errors import FileError
+from gripscale.netcdf import write_whole
 
 FIGURES = (
     "profile",

@@ -22,7 +22,7 @@ from gripscale.case.read import CaseFile
 from gripscale.case.results import CaseResults
 from gripscale.rubber import Rubber
 from gripscale.surface import HeightDifference, Measured, PreparedSurface, SineStack
-from gripscale.surface.text_table import read_bytes
+from gripscale.textfile import read_bytes
 
 Variables = dict[str, Any]
 POINTS = 600

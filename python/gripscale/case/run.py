@@ -1,7 +1,7 @@
 """Running a case without a console: prepared inputs, predictions, files as the results come.
 
-    results = run_case("case.toml", output="results")
-    results.dynamic.friction
+results = run_case("case.toml", output="results")
+results.dynamic.friction
 """
 
 from __future__ import annotations
@@ -111,11 +111,15 @@ def _save(results: CaseResults, name: str, *, complete: bool = False) -> None:
     """Write what is known of a prediction; a complete one has the inputs beside it."""
     if results.folder is None or name not in results.predictions:
         return
-    data = results.predictions[name].to_dataset().assign_attrs(
-        case=results.file.text,
-        case_file=str(results.file.path),
-        surface_source=results.surface.source,
-        rubber_source=results.rubber.source,
+    data = (
+        results.predictions[name]
+        .to_dataset()
+        .assign_attrs(
+            case=results.file.text,
+            case_file=str(results.file.path),
+            surface_source=results.surface.source,
+            rubber_source=results.rubber.source,
+        )
     )
     groups = {"inputs": record.inputs(results)} if complete else {}
     netcdf.save(data, results.folder / f"{name}.nc", groups)

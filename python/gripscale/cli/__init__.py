@@ -1,4 +1,8 @@
-"""The `gripscale` command; each of its commands has a file of its own."""
+"""The `gripscale` command; each of its commands has a file of its own.
+
+The files import what computes inside their functions, so that help and a misspelt option answer at
+once.
+"""
 
 from __future__ import annotations
 
@@ -6,13 +10,13 @@ from typing import Annotated
 
 import typer
 
-from gripscale import dataset
 from gripscale.cli.fit_rubber import fit_rubber
 from gripscale.cli.fit_surface import fit_surface
 from gripscale.cli.report import report
-from gripscale.cli.reproduce import reproduce
+from gripscale.cli.reproduce import PASS_ON, reproduce
 from gripscale.cli.run import run
 from gripscale.cli.study import study
+from gripscale.versions import version_of
 
 app = typer.Typer(
     name="gripscale",
@@ -24,14 +28,14 @@ app = typer.Typer(
 app.command("run")(run)
 app.command("report")(report)
 app.command("study")(study)
-app.command("reproduce")(reproduce)
+app.command("reproduce", context_settings=PASS_ON)(reproduce)
 app.command("fit-surface")(fit_surface)
 app.command("fit-rubber")(fit_rubber)
 
 
 def _version(wanted: bool) -> None:
     if wanted:
-        typer.echo(f"gripscale {dataset.versions()['gripscale']}")
+        typer.echo(f"gripscale {version_of('gripscale')}")
         raise typer.Exit
 
 

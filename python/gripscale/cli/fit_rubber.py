@@ -5,13 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any
 
-import numpy as np
 import typer
 
-from gripscale.case import RubberSource, validate
-from gripscale.cli import draw, folder
-from gripscale.cli.inputs import study_rubber
-from gripscale.cli.summary import prony_table, rubber_lines
 from gripscale.cli.terminal import command, say, screen
 
 
@@ -32,6 +27,9 @@ def fit_rubber(
     ] = None,
 ) -> None:
     """Fit a Prony series to a master curve of storage and loss modulus."""
+    from gripscale.case import RubberSource, folder, prepare_rubber, validate
+    from gripscale.report.inputs_text import prony_table, rubber_lines
+
     stated = {
         "file": file,
         "terms": terms,
@@ -44,11 +42,13 @@ def fit_rubber(
     source = validate(RubberSource, values, "options")
     if output is not None:
         folder.require_writable(output)
-    study = study_rubber(source, Path)
+    prepared = prepare_rubber(source)
     console = screen()
-    for line in (*rubber_lines(study), *prony_table(study)):
+    for line in (*rubber_lines(prepared), *prony_table(prepared.rubber)):
         say(console, line)
     if output is not None:
+        from gripscale.figures.case_all import rubber_figure
+
         folder.make(output)
-        draw.rubber_figure(output, study, np.array([]))
+        rubber_figure(prepared, (), output)
         say(console, f"The figure is in {output}")

@@ -7,10 +7,6 @@ from typing import Annotated, Any
 
 import typer
 
-from gripscale.case import Surface, validate
-from gripscale.cli import draw, folder
-from gripscale.cli.inputs import study_surface
-from gripscale.cli.summary import surface_lines, waves_table
 from gripscale.cli.terminal import command, say, screen
 
 
@@ -36,6 +32,9 @@ def fit_surface(
     ] = None,
 ) -> None:
     """Clean profiles, find their height difference correlation and fit sine waves to it."""
+    from gripscale.case import Surface, folder, prepare_surface, validate
+    from gripscale.report.inputs_text import surface_lines, waves_table
+
     stated = {
         "files": files,
         "scales": scales,
@@ -53,11 +52,13 @@ def fit_surface(
     surface = validate(Surface, values | flags, "options")
     if output is not None:
         folder.require_writable(output)
-    study = study_surface(surface, Path)
+    prepared = prepare_surface(surface)
     console = screen()
-    for line in (*surface_lines(study), *waves_table(study.sines)):
+    for line in (*surface_lines(prepared), *waves_table(prepared.sines)):
         say(console, line)
     if output is not None:
+        from gripscale.figures.case_all import surface_figures
+
         folder.make(output)
-        draw.surface_figures(output, study)
+        surface_figures(prepared, output)
         say(console, f"Figures are in {output}")

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
+import time
+from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from rich.console import Console
 
-from gripscale import dataset, report
-from gripscale.case import CaseFile, read_case
-from gripscale.chain import ChainError
-from gripscale.cli import draw, folder
-from gripscale.cli.inputs import RubberStudy, SurfaceStudy, study_rubber, study_surface
-from gripscale.cli.solving import Chain, chains_of, solve
-from gripscale.cli.summary import rubber_lines, surface_lines
 from gripscale.cli.terminal import command, complain, say, screen
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from gripscale.case import CaseResults, WaveSolved
 
 REPORT_WIDTH = 110
 
@@ -33,60 +33,96 @@ def run(
     ] = None,
 ) -> None:
     """Predict contact area and friction of a case: tables, figures and result files."""
+    from gripscale.case import folder, prepare_case, read_case, run_case
+    from gripscale.figures.case_all import draw_inputs, draw_predictions
+
     console = screen()
     file = read_case(case)
     target = output if output is not None else file.resolve(file.case.output.folder)
     folder.require_writable(target)
-    surface = study_surface(file.case.surface, file.resolve)
-    rubber = study_rubber(file.case.rubber, file.resolve)
-    chains = chains_of(file.case, surface, rubber)
-    opening = _opening(file, surface, rubber)
+    results = prepare_case(file)
+    opening = _opening(results)
     for line in opening:
         say(console, line)
+    with _spinner(console):
+        run_case(results, output=target, on_wave=_teller(console, len(results.surface.sines)))
+    draw_inputs(results, target / "figures")
+    _conclude(console, target, opening, results)
+    draw_predictions(results, target / "figures")
+    console.print()
+    say(console, f"Results, report and figures are in {target}")
+    _fail_if_any(results)
 
-    folder.prepare(target)
-    folder.write_text(target / "case.toml", file.text)
-    draw.inputs(target / "figures", surface, rubber, file.case.load.speed)
-    for chain in chains:
-        solve(chain, file, console, target / f"{chain.name}.nc")
-    _conclude(console, target, opening, chains)
-    _fail_if_any([chain.failure for chain in chains if chain.failure is not None])
 
-
-def _opening(file: CaseFile, surface: SurfaceStudy, rubber: RubberStudy) -> list[str]:
+def _opening(results: CaseResults) -> list[str]:
     """Return what the run starts from, line by line."""
+    from gripscale.report.inputs_text import rubber_lines, surface_lines
+    from gripscale.versions import version_of
+
     return [
-        f"gripscale {dataset.versions()['gripscale']}, case {file.path}",
+        f"gripscale {version_of('gripscale')}, case {results.file.path}",
         "",
         "Surface",
-        *(f"  {line}" for line in surface_lines(surface)),
+        *(f"  {line}" for line in surface_lines(results.surface)),
         "",
         "Rubber",
-        *(f"  {line}" for line in rubber_lines(rubber)),
+        *(f"  {line}" for line in rubber_lines(results.rubber)),
     ]
 
 
-def _conclude(console: Console, target: Path, opening: list[str], chains: list[Chain]) -> None:
-    """Print the tables, write them down, draw the figures of the chains."""
-    solved = [chain for chain in chains if chain.result is not None]
-    for chain in solved:
+def _spinner(console: Console) -> AbstractContextManager[Any]:
+    """Return a spinner where somebody may be watching, else nothing."""
+    return console.status("solving") if console.is_terminal else nullcontext()
+
+
+def _teller(console: Console, waves: int) -> Callable[[WaveSolved], None]:
+    """Return what prints a line for each wave, and a title before the first of a prediction."""
+    from gripscale.case.results import title
+
+    clock = time.perf_counter()
+
+    def tell(solved: WaveSolved) -> None:
+        nonlocal clock
+        so_far = solved.so_far
+        if len(so_far.scales) == 1:
+            console.print()
+            say(console, title(so_far.load.speed))
+        scale = so_far.scales[-1]
+        text = (
+            f"wave {len(so_far.scales)} of {waves}: {scale.wavelength * 1e3:.3g} mm, "
+            f"contact {scale.contact_fraction:.3f}"
+        )
+        if scale.speed > 0.0:
+            text += f", friction {scale.friction:.3f}"
+        seconds, clock = time.perf_counter() - clock, time.perf_counter()
+        say(console, f"  {text}, {scale.why}, {seconds:.1f} s")
+
+    return tell
+
+
+def _conclude(console: Console, target: Path, opening: list[str], results: CaseResults) -> None:
+    """Print the tables and write them down."""
+    from gripscale.case import folder
+    from gripscale.case.results import title
+    from gripscale.report import tables
+
+    solved = {title(p.load.speed): p.to_dataset() for p in results.predictions.values()}
+    for name, data in solved.items():
         console.print()
-        console.print(report.prediction_table(chain.solved, chain.title, console.width))
+        console.print(tables.prediction_table(data, name, console.width))
     if solved:
         console.print()
-        say(console, report.LEGEND)
-    tables = [report.prediction_table(c.solved, c.title, REPORT_WIDTH) for c in solved]
+        say(console, tables.LEGEND)
+    written = [tables.prediction_table(data, name, REPORT_WIDTH) for name, data in solved.items()]
     folder.write_text(
         target / "report.txt",
-        report.as_text(*opening, "", *tables, report.LEGEND, width=REPORT_WIDTH),
+        tables.as_text(*opening, "", *written, tables.LEGEND, width=REPORT_WIDTH),
     )
-    draw.chains(target / "figures", solved)
-    console.print()
-    say(console, f"Results, report and figures are in {target}")
 
 
-def _fail_if_any(failures: list[ChainError]) -> None:
+def _fail_if_any(results: CaseResults) -> None:
     """Raise the last failure, which sets the exit code, after a sentence for the others."""
+    failures = list(results.failures.values())
     for failure in failures[:-1]:
         complain(str(failure))
     if failures:

@@ -6,14 +6,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from rich.console import Console
 
-from gripscale.cli import folder
 from gripscale.cli.options import Cluster, Workers
 from gripscale.cli.terminal import NOT_CONVERGED, command, complain, say, screen
 from gripscale.errors import InputError
 
 if TYPE_CHECKING:
+    import xarray as xr
+    from rich.console import Console
+
     from gripscale.study import Progress, Study
 
 
@@ -50,6 +51,7 @@ def study(
     ] = None,
 ) -> None:
     """Vary one or two inputs of a case: table, figures, one result file; resumes where stopped."""
+    from gripscale.case import folder
     from gripscale.study import Study
     from gripscale.study.axes import parse_vary
 
@@ -65,63 +67,71 @@ def study(
         say(console, line)
     folder.make(target / "figures")
     folder.write_text(target / "case.toml", made.file.text)
-    result = made.run(target, workers=workers, client=cluster, on_case=_teller(console))
-    _conclude(console, made, result, target)
+    before = made.stored(target)
+    result = made.run(target, workers=workers, client=cluster, on_task=_teller(console))
+    known = before is not None and before.identical(result)
+    _conclude(console, made, result, target, drawn=known)
 
 
 def _opening(made: Study) -> list[str]:
     """Return what is going to be solved, line by line."""
     points = [*made.points, *made.static_points]
-    chains = len({point.task.key for point in points})
+    count = len({point.task.key for point in points})
     names = " x ".join(f"{axis.name} ({len(axis.values)})" for axis in made.axes)
     return [
         f"Study of {made.file.path}",
-        f"  varied: {names}; {chains} different chains",
-        *(f"  surface: {road.source}, {len(road.sines)} sine waves" for road in made.roads),
+        f"  varied: {names}; {count} different predictions",
+        *(f"  surface: {one.source}, {len(one.sines)} sine waves" for one in made.surfaces),
         *(f"  rubber: {rubber.name}, {rubber.source}" for rubber in made.rubbers),
         "",
     ]
 
 
 def _teller(console: Console) -> Any:
-    """Return what prints a line for each chain."""
+    """Return what prints a line for each prediction."""
 
     def tell(progress: Progress) -> None:
-        attrs = progress.result.attrs
+        found = progress.result
         width = len(str(progress.total))
         text = f"[{progress.done:>{width}}/{progress.total}] {progress.label}: "
-        if attrs["case_status"] != "converged":
-            text += attrs["case_status"]
+        if found.prediction_status != "converged":
+            text += str(found.prediction_status.item())
         else:
-            text += f"area {attrs['contact_fraction']:.4g}"
-            if attrs["sliding_speed_m_per_s"] > 0.0:
-                text += f", friction {attrs['friction']:.3f}"
+            text += f"area {float(found.total_contact_fraction):.4g}"
+            if found.nominal_speed > 0.0:
+                text += f", friction {float(found.total_friction):.3f}"
         how = "already solved" if progress.stored else f"{progress.seconds:.1f} s"
         say(console, f"{text}, {how}")
 
     return tell
 
 
-def _conclude(console: Console, made: Study, result: Any, target: Path) -> None:
-    """Print and keep the table, draw the figures, and say which chains failed."""
-    from gripscale import report
-    from gripscale.figures.study_all import draw
+def _conclude(
+    console: Console, made: Study, result: xr.Dataset, target: Path, *, drawn: bool
+) -> None:
+    """Print and keep the table, draw the figures, and say which predictions failed."""
+    from gripscale.case import folder
+    from gripscale.report import tables
     from gripscale.study.table import study_table
 
     table = study_table(result)
     console.print()
     console.print(table)
-    folder.write_text(target / "study.txt", report.as_text(*_opening(made), table))
-    draw(result, target / "figures")
+    folder.write_text(target / "study.txt", tables.as_text(*_opening(made), table))
+    figures = target / "figures"
+    if not (drawn and any(figures.iterdir())):
+        from gripscale.figures.study_all import draw
+
+        draw(result, figures)
     console.print()
     say(console, f"Result (study.nc), table and figures are in {target}")
-    statuses = result.case_status.values.ravel().tolist()
-    if "static_case_status" in result:
-        statuses += result.static_case_status.values.ravel().tolist()
+    statuses = result.prediction_status.values.ravel().tolist()
+    if "static_prediction_status" in result:
+        statuses += result.static_prediction_status.values.ravel().tolist()
     failed = [status for status in statuses if status != "converged"]
     if failed:
         complain(
-            f"{len(failed)} of {len(statuses)} chains did not converge and have no totals; "
+            f"{len(failed)} of {len(statuses)} predictions did not converge and have no totals; "
             f"the first: {failed[0]}"
         )
         raise typer.Exit(NOT_CONVERGED)

@@ -7,13 +7,14 @@ import sys
 import textwrap
 from collections.abc import Callable
 from functools import wraps
-from typing import ParamSpec
+from typing import TYPE_CHECKING, ParamSpec
 
 import typer
-from rich.console import Console
-from rich.text import Text
 
 from gripscale.errors import ConvergenceError, GripscaleError
+
+if TYPE_CHECKING:
+    from rich.console import Console
 
 BAD_INPUT, NOT_CONVERGED, STOPPED = 2, 3, 130
 """Exit codes: an input that cannot be used, a wave without solution, stopped from outside."""
@@ -26,6 +27,8 @@ P = ParamSpec("P")
 
 def screen(stderr: bool = False) -> Console:
     """Return a console for a terminal, or for a plain file or pipe of sensible width."""
+    from rich.console import Console
+
     stream = sys.stderr if stderr else sys.stdout
     wide = None if stream.isatty() or "COLUMNS" in os.environ else PLAIN_WIDTH
     return Console(stderr=stderr, width=wide, highlight=False, markup=False)
@@ -33,12 +36,16 @@ def screen(stderr: bool = False) -> Console:
 
 def complain(message: str) -> None:
     """Print one sentence to stderr, unwrapped."""
+    from rich.text import Text
+
     text = Text("error: ", style="bold red").append(message, style="not bold default")
     screen(stderr=True).print(text, soft_wrap=True)
 
 
 def say(console: Console, message: str) -> None:
     """Print a line, continued with its own indent where too long; words and paths stay whole."""
+    from rich.text import Text
+
     indent = " " * (len(message) - len(message.lstrip()))
     lines = textwrap.wrap(
         message,

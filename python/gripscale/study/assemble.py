@@ -30,7 +30,7 @@ def combined(predictions: Predictions, axes: Sequence[Axis]) -> xr.Dataset:
     for index, data in kept.items():
         nested[index] = data
     names = [axis.name for axis in axes]
-    return xr.combine_nested(
+    together: xr.Dataset = xr.combine_nested(
         nested.tolist(),
         concat_dim=names,
         data_vars="all",
@@ -38,7 +38,9 @@ def combined(predictions: Predictions, axes: Sequence[Axis]) -> xr.Dataset:
         compat="override",
         join="outer",
         combine_attrs="override",
-    ).drop_attrs(deep=False)
+    )
+    result: xr.Dataset = together.transpose(*names, ...).drop_attrs(deep=False)
+    return result
 
 
 def by_decade(
@@ -89,7 +91,7 @@ def _kept(data: xr.Dataset) -> xr.Dataset:
         data.attrs["prediction_key"],
         attrs={"units": "1", "long_name": "name of the file the prediction is kept in"},
     )
-    return data[names].assign(prediction_key=key)
+    return data[names].assign(prediction_key=key).drop_encoding()
 
 
 def _labelled(dims: Any, values: Any, unit: str, long_name: str) -> xr.DataArray:

@@ -93,6 +93,10 @@ def _connected(distributed: Any, address: Any) -> Any:
 def _require_same_software(client: Any) -> None:
     """Raise `InputError` if a worker would solve with other code, whatever its version says."""
     here = software()
-    for worker, there in client.run(software).items():
+    for worker, there in client.run(_software_there).items():
         if there != here:
             raise InputError(f"worker {worker} has {there}, this machine {here}; install the same")
+
+
+def _software_there() -> str:
+    return software()

@@ -23,6 +23,7 @@ from gripscale import netcdf, versions
 from gripscale.case.read import CaseFile, read_case
 from gripscale.chain.model import Chain
 from gripscale.chain.solvers import wave_solver
+from gripscale.errors import FileError
 from gripscale.model import Model, NominalLoad
 from gripscale.rubber import Rubber
 from gripscale.study import assemble
@@ -125,8 +126,8 @@ class Study:
         Parameters
         ----------
         folder
-            Gets `study.nc`, and the predictions in `predictions`. Several studies may share one folder for
-            their predictions, one after the other; the last one's Dataset stays.
+            Gets `study.nc`, and the predictions in `predictions`. Several studies may share one
+            folder for their predictions, one after the other; the last one's Dataset stays.
         workers, client, on_task
             As for `solve_all`.
 
@@ -148,6 +149,14 @@ class Study:
         result = self.assemble(solved)
         netcdf.save(result, folder / RESULT)
         return result
+
+    @staticmethod
+    def stored(folder: str | Path) -> xr.Dataset | None:
+        """Return the Dataset an earlier run left in `folder`, or None if there is none whole."""
+        try:
+            return netcdf.load(Path(folder) / RESULT)
+        except FileError:
+            return None
 
     def assemble(self, solved: Mapping[str, xr.Dataset]) -> xr.Dataset:
         """Return the Dataset of the study from its predictions by their keys."""

@@ -1,4 +1,4 @@
-"""A study as a table a person can read: one row per chain."""
+"""A study as a table a person can read: one row per prediction."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ import xarray as xr
 from rich import box
 from rich.table import Table
 
-from gripscale.report import significant
+from gripscale.report.tables import significant
 from gripscale.study.display import dimensions, name_of
 
 MOST_ROWS = 200
 
 
 def study_table(result: xr.Dataset) -> Table:
-    """Return area, friction and status of each chain of a study, over what was varied."""
+    """Return area, friction and status of each prediction of a study, over what was varied."""
     names = dimensions(result)
     at_rest = "static_total_contact_fraction" in result
     table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
@@ -43,7 +43,7 @@ def study_table(result: xr.Dataset) -> Table:
         ]
         if at_rest:
             cells.append(significant(float(chain.static_total_contact_fraction)))
-        status = str(chain.case_status.item())
+        status = str(chain.prediction_status.item())
         style = None if status == "converged" else "bold red"
         words = [name_of(result, name, i) for name, i in place.items()]
         table.add_row(*words, *cells, status, style=style)
@@ -51,8 +51,8 @@ def study_table(result: xr.Dataset) -> Table:
 
 
 def _largest(chain: xr.Dataset) -> str:
-    """Return the wavelength of the wave with the most friction."""
-    if not float(chain.total_friction) > 1e-9:
+    """Return the wavelength of the wave with the most friction, if there are waves."""
+    if "wavelength" not in chain or not float(chain.total_friction) > 1e-9:
         return "-"
     wavelength = float(chain.wavelength[int(np.nanargmax(chain.friction.values))])
     return f"{wavelength * 1e3:.3g} mm"

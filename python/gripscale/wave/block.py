@@ -71,9 +71,7 @@ class FiniteStrainBlock:
         Raises `InputError` if `start` is of another solver or was read from a file.
         """
         first = None if start is None else kernel.solution_of(start)
-        solution = kernel.solve_steady(
-            problem, self.mesh, self.settings, self.tolerance, first
-        )
+        solution = kernel.solve_steady(problem, self.mesh, self.settings, self.tolerance, first)
         return _result(problem, self.mesh, solution)
 
 

@@ -1,0 +1,107 @@
+"""Surfaces and rubbers by name and file; measured surfaces are fitted anew where waves vary."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import gripscale as gs
+from gripscale.case import read_case
+from gripscale.errors import FileError
+from gripscale.study.inputs import case_surface, rubber_of, surface_of
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "road_and_tread" / "case.toml"
+STACK = gs.SineStack(wavelength=20e-3 / 3.0 ** np.arange(5), amplitude=2e-3 / 2.2 ** np.arange(5))
+
+
+@pytest.fixture
+def measured(tmp_path: Path) -> Path:
+    """A case on a made-up road of five waves, and a copy of the road under another name."""
+    profile = gs.surface.sine_profile(STACK, length=0.5, step=1e-4, seed=3)
+    rows = [f"{x * 1e3:.3f}\t{z * 1e3:.6f}" for x, z in zip(profile.x, profile.z, strict=True)]
+    for name in ("road.txt", "other.txt"):
+        (tmp_path / name).write_text("\n".join(["x [mm]\tz [mm]", *rows]) + "\n")
+    path = tmp_path / "case.toml"
+    path.write_text(
+        '[surface]\nfiles = ["road.txt"]\nremove_spikes = false\nscales = 5\n'
+        'smallest_wavelength = "0.25 mm"\n'
+        '[rubber]\nname = "styrene_butadiene"\nbulk_modulus = "1.5 GPa"\n'
+        '[load]\npressure = "3 bar"\nspeed = 0.3\nfootprint = 0.1\n'
+    )
+    return path
+
+
+def test_measured_surface_is_fitted_anew(measured: Path) -> None:
+    road = case_surface(read_case(measured))
+    base = road.varied().sines
+    assert (len(base), base.wavelength[-1]) == (5, pytest.approx(0.25e-3))
+    four = road.varied(waves=4).sines
+    assert (len(four), four.wavelength[-1]) == (4, pytest.approx(0.25e-3))
+    finer = road.varied(smallest_wavelength=0.1e-3).sines
+    assert (len(finer), finer.wavelength[-1]) == (5, pytest.approx(0.1e-3))
+    pair = road.varied(factors=(3.5, 2.4)).sines
+    assert pair.wavelength[0] == pytest.approx(base.wavelength[0], rel=1e-12)
+    assert pair.amplitude[0] == pytest.approx(base.amplitude[0], rel=1e-12)
+    assert pair.wavelength[-1] >= base.wavelength[-1] > pair.wavelength[-1] / 3.5
+    assert (pair.s_wavelength, pair.s_amplitude) == pytest.approx((3.5, 2.4))
+    assert pair.residual is not None
+    assert base.residual is not None
+    assert pair.residual > base.residual
+
+
+def test_fixed_factor_leaves_room_for_what_varies(measured: Path) -> None:
+    text = measured.read_text().replace('smallest_wavelength = "0.25 mm"', "s_wavelength = 3")
+    measured.write_text(text)
+    road = case_surface(read_case(measured))
+    assert len(road.varied(waves=3).sines) == 3
+    finer = road.varied(smallest_wavelength=1e-4).sines
+    assert finer.s_wavelength == pytest.approx(3.0)
+    assert 1e-4 <= finer.wavelength[-1] < 3e-4
+
+
+def test_surface_by_name_file_or_case(measured: Path, tmp_path: Path) -> None:
+    file = read_case(measured)
+    own = surface_of("case", file)
+    beside = surface_of("other.txt", file)
+    other_case = surface_of(str(measured), file)
+    for road in (beside, other_case):
+        np.testing.assert_array_equal(road.sines.wavelength, own.sines.wavelength)
+    assert beside.source.endswith("other.txt")
+    made = surface_of("synthetic_dense_asphalt", file)
+    assert "synthetic, self-affine, H = 0.8" in made.source
+    assert made.sines.wavelength[-1] == pytest.approx(0.1e-3)
+    assert len(made.varied(waves=4).sines) == 4
+    with pytest.raises(FileError, match="nor one of case, synthetic_dense_asphalt"):
+        surface_of("synthetic_lawn", file)
+
+
+def test_rubber_by_name_file_or_case(measured: Path) -> None:
+    file = read_case(measured)
+    assert rubber_of("case", file).bulk_modulus == 1.5e9
+    assert rubber_of("styrene_butadiene", file) == rubber_of("case", file)
+    tread = rubber_of(str(EXAMPLE), file)
+    assert tread.bulk_modulus == 2e9
+    dma = EXAMPLE.parents[1] / "data" / "rubber" / "measured_dma.txt"
+    again = rubber_of(str(dma), file)
+    assert again.bulk_modulus == 1.5e9
+    np.testing.assert_array_equal(again.relaxation_times, tread.relaxation_times)
+
+
+def test_waves_by_hand_are_cut_off() -> None:
+    road = surface_of(STACK, read_case(EXAMPLE))
+    assert len(road.varied(waves=2).sines) == 2
+    assert len(road.varied(smallest_wavelength=1e-3).sines) == 3
+    assert road.varied(factors=(3.0, 2.0)).sines.residual is None
+
+
+def test_varied_rubber_keeps_what_the_case_says_beside_its_curve(measured: Path) -> None:
+    energy = 'strain_energy = { kind = "yeoh", second = -0.1, third = 0.02 }\n[load]'
+    measured.write_text(measured.read_text().replace("[load]", energy))
+    file = read_case(measured)
+    dma = EXAMPLE.parents[1] / "data" / "rubber" / "measured_dma.txt"
+    for value in ("case", "styrene_butadiene", str(dma)):
+        rubber = rubber_of(value, file)
+        assert rubber.strain_energy == gs.rubber.Yeoh(-0.1, 0.02)
+        assert rubber.bulk_modulus == 1.5e9
