@@ -2,18 +2,63 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
+from typing import Any
+
+import numpy as np
 import pytest
+import xarray as xr
 
-from gripscale.chain import ChainError, Prediction, predict
-from gripscale.report import as_text, prediction_table, significant, totals
+from gripscale.chain import Prediction
+from gripscale.model import TOTALS, NominalLoad, answer
+from gripscale.report.tables import as_text, prediction_table, significant, totals
+from gripscale.rubber import Rubber
+from gripscale.surface import SineStack
+from gripscale.wave import WaveResult
+from gripscale.wave.status import Status
 
-from .stand_ins import THREE, Scripted, Spring
 
-LOAD = {"pressure": 3e5, "speed": 0.25, "footprint": 0.1}
+class Spring(Rubber):
+    """A rubber with E* = 4 MPa + 3 MPa i at any frequency, so that |E*| is 5 MPa."""
+
+    def complex_modulus(self, omega: Any) -> Any:
+        return np.full(np.shape(omega), 4e6 + 3e6j)
+
+    def outside_band(self, omega: Any) -> Any:
+        return np.abs(omega) > 2 * np.pi * 100.0
 
 
-def solved(**changes: float) -> Prediction:
-    return predict(Spring(), THREE, solver=Scripted([0.5, 0.25, 0.125]), **{**LOAD, **changes})
+RUBBER = Spring(5e6, [1e6], [1.0])
+SINES = SineStack(wavelength=[16e-3, 4e-3, 1e-3], amplitude=[1e-3, 0.5e-3, 0.125e-3])
+
+
+def wave(i: int, speed: float, status: str = "converged") -> WaveResult:
+    """Return one of three waves with powers of two in contact and friction."""
+    friction = 0.125 * 2**i if speed > 0.0 else 0.0
+    return WaveResult(
+        wavelength=SINES.wavelength[i],
+        amplitude=SINES.amplitude[i],
+        pressure_received=[3e5, 6e5, 2.4e6][i],
+        speed=speed,
+        load_time=1.0,
+        contact_fraction=0.5 ** (i + 1),
+        friction=friction,
+        friction_from_dissipation=0.75 * friction,
+        status=Status(status),
+        newton_iterations=5 + i,
+        residual=1e-10,
+        min_stretch=0.5,
+        max_stretch=1.5,
+        x=np.linspace(-0.5, 0.5, 4) * SINES.wavelength[i],
+        pressure=np.full(4, 3e5),
+        rubber=RUBBER,
+    )
+
+
+def solved(speed: float = 0.25, statuses: tuple[str, ...] = ("converged",) * 3) -> xr.Dataset:
+    waves = [wave(i, speed, status) for i, status in enumerate(statuses)]
+    return Prediction(RUBBER, SINES, NominalLoad(3e5, speed, 0.1), waves, 3).to_dataset()
 
 
 def row(text: str, wave: int) -> list[str]:
@@ -57,24 +102,41 @@ def test_nothing_at_rest_has_friction() -> None:
 
 
 def test_failed_wave_has_no_totals() -> None:
-    solver = Scripted([0.5, 0.5, 0.5], statuses=["converged", "iteration limit", "converged"])
-    with pytest.raises(ChainError) as caught:
-        predict(Spring(), THREE, solver=solver, **LOAD)
-    partial = caught.value.partial
-    assert totals(partial) == "No totals: wave 2 did not converge (iteration limit)."
-    assert "iteration limit" in as_text(prediction_table(partial, "Dynamic", 100), width=100)
+    failed = solved(statuses=("converged", "iteration limit"))
+    assert totals(failed) == "No totals: wave 2 did not converge (iteration limit)."
+    assert "iteration limit" in as_text(prediction_table(failed, "Dynamic", 100), width=100)
+    reached = failed.assign(load_reached=("scale", [1.0, 0.4]))
+    assert totals(reached).endswith("(iteration limit at 40 % of the pressure).")
 
 
 @pytest.mark.parametrize("width", [80, 100])
 def test_long_status_is_wrapped_not_cut_off(width: int) -> None:
     status = "active set not settled after 200 iterations, and the load step was cut 14 times"
-    solver = Scripted([0.5, 0.5, 0.5], statuses=["converged", status, "converged"])
-    with pytest.raises(ChainError) as caught:
-        predict(Spring(), THREE, solver=solver, **LOAD)
-    text = as_text(prediction_table(caught.value.partial, "Dynamic", width), width=width)
+    failed = solved(statuses=("converged", "iteration limit"))
+    failed["status"].values[1] = status
+    text = as_text(prediction_table(failed, "Dynamic", width), width=width)
     table = text[: text.index("No totals")]
     assert set(status.split()) <= set(table.split())
     assert max(map(len, table.splitlines())) <= width
+
+
+def test_model_without_waves_shows_its_totals() -> None:
+    numbers = dict(zip(TOTALS, (0.0123, 0.456, 0.451), strict=True))
+    load = NominalLoad(3e5, 0.3, 0.1)
+    data = answer(xr.Dataset(), numbers, "converged", "toy", load)
+    sentence = "real contact area A_r/A_0 = 0.0123, friction mu = 0.456 (0.451 from dissipation)."
+    assert as_text(prediction_table(data, "Toy", 100)) == f"Toy\n{sentence}\n"
+    failed = answer(xr.Dataset(), dict.fromkeys(TOTALS, np.nan), "no contact", "toy", load)
+    assert totals(failed) == "No totals: no contact."
+
+
+def test_tables_need_no_drawing_library() -> None:
+    code = (
+        "import sys, gripscale.report.tables, gripscale.report\n"
+        "print(sorted({'matplotlib', 'bokeh', 'scipy', 'xarray', 'jinja2'} & set(sys.modules)))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "[]\n"
 
 
 def test_brackets_are_text_not_markup() -> None:

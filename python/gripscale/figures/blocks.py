@@ -59,7 +59,7 @@ def blocks_figure(prediction: xr.Dataset) -> Figure:
 
 
 def _draw(view: PredictionView, waves: Any, columns: int, width: float) -> Figure:
-    """Place the panels by hand: they are alike, and laying them out would cost more than drawing."""
+    """Place the panels by hand: they are alike, and a layout engine takes as long as drawing."""
     columns = min(columns, max(len(waves), 1))
     rows = max(math.ceil(len(waves) / columns), 1)
     low, high = _window(view, waves)
@@ -80,14 +80,14 @@ def _draw(view: PredictionView, waves: Any, columns: int, width: float) -> Figur
         below = panel(left, top + inside * PRESSURE + MIDDLE, inside * (high - low))
         _pressure(above, view, i)
         _block(below, view, i, (low, high))
-        above.set_title(_caption(view, i), loc="left", fontsize=7.0, parse_math=False)
+        above.set_title(_caption(view, i), loc="left", y=1.0, fontsize=7.0, parse_math=False)
         if place == 0:
             _annotate(above, below, view, i)
         if column == 0:
             above.set_ylabel("$p_c$ [MPa]")
             below.set_ylabel("$z/\\lambda$ [-]")
         else:
-            below.tick_params(labelleft=False)
+            below.set_yticks([])  # those of the first block hold along the row
         if place + columns >= len(waves):
             below.set_xlabel("$x/\\lambda$ [-]")
     return figure
@@ -127,7 +127,7 @@ def _pressure(axes: Axes, view: PredictionView, i: int) -> None:
     axes.axhline(view.column("pressure_received")[i] / MEGA, color=GREY, lw=0.8, ls=(0, (4, 2)))
     axes.set_ylim(bottom=0.0)
     axes.set_xlim(-0.5, 0.5)
-    axes.set_xticks([-0.5, 0.0, 0.5], [])
+    axes.set_xticks([])  # those of the block below hold here, too
     axes.yaxis.set_major_locator(MaxNLocator(2, steps=[1, 2, 5, 10], min_n_ticks=2))
 
 

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from gripscale.figures.palette import COLOURS, MILLI, WIDE
-from gripscale.figures.style import falling_wavelength, log_axis, sheet, styled
+from gripscale.figures.style import area_axis, falling_wavelength, sheet, styled
 from gripscale.figures.view import PredictionView
 
 if TYPE_CHECKING:
@@ -32,8 +32,8 @@ def contact_figure(predictions: Mapping[str, xr.Dataset]) -> Figure:
         _pair(area, view, "contact_fraction", colour)
         if view.moving:
             _pair(friction, view, "friction", colour)
-    log_axis(area, "y")
     area.set_ylim(top=1.15)
+    area_axis(area)
     area.set_ylabel("relative contact area [-]")
     friction.set_ylabel("friction coefficient [-]")
     friction.set_ylim(bottom=0.0)

@@ -57,6 +57,7 @@ def _measured(axes: Axes, measured: HeightDifference) -> None:
 
 def _waves(axes: Axes, stack: SineStack, lag: NDArray[np.float64], name: str, colour: str) -> None:
     """Draw the waves up to the first wavelength as fitted and as pure sines; mark wavelengths."""
+    lag = lag[lag <= stack.wavelength[0]]
     fitted, pure = (curve / SQUARE_MM for curve in sine_curves(stack, lag))
     pure[lag <= 0.25 * stack.wavelength[0]] = np.nan  # the same as fitted
     axes.plot(lag / MILLI, fitted, color=colour, label=name)

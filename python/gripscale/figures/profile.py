@@ -15,6 +15,10 @@ from gripscale.figures.palette import BLUE, GREY, MILLI, ORANGE, WIDE
 from gripscale.figures.style import sheet, styled
 from gripscale.surface.profile import Profile
 
+THIN: Any = {"lw": 0.45, "rasterized": True}
+PIECES = 5000
+"""Pieces a profile is drawn in: several to a pixel, so that most gaps are still seen."""
+
 
 @styled
 def profile_figure(pairs: Sequence[tuple[Profile, Profile]]) -> Figure:
@@ -53,7 +57,7 @@ def kept_points(raw: Profile, cleaned: Profile) -> NDArray[np.bool_]:
 def _as_read(axes: Axes, raw: Profile, cleaned: Profile) -> None:
     kept = kept_points(raw, cleaned)
     x, z = raw.x / MILLI, raw.z / MILLI
-    axes.plot(*_outline(x, np.where(kept, z, np.nan)), color=GREY, lw=0.5, label="kept")
+    axes.plot(*_outline(x, np.where(kept, z, np.nan)), color=GREY, label="kept", **THIN)
     gone = ~kept & np.isfinite(raw.z)
     dots: dict[str, Any] = {"color": ORANGE, "rasterized": True, "zorder": 1.5}
     axes.plot(x[gone], z[gone], ".", ms=1.0, mew=0.0, **dots)
@@ -61,12 +65,12 @@ def _as_read(axes: Axes, raw: Profile, cleaned: Profile) -> None:
 
 
 def _cleaned(axes: Axes, cleaned: Profile) -> None:
-    axes.plot(*_outline(cleaned.x / MILLI, cleaned.z / MILLI), color=BLUE, lw=0.4)
+    axes.plot(*_outline(cleaned.x / MILLI, cleaned.z / MILLI), color=BLUE, **THIN)
 
 
 def _outline(x: NDArray[np.float64], z: NDArray[np.float64]) -> tuple[Any, Any]:
-    """Return what a line of all points would show, with as few points as pixels show apart."""
-    return trace(*envelope(x, z))
+    """Return what a line of all points would show, in so few that it is quickly drawn."""
+    return trace(*envelope(x, z, PIECES))
 
 
 def _close_up(axes: Axes, raw: Profile, cleaned: Profile) -> None:

@@ -67,9 +67,3 @@ def legend_beside(
     """Put a legend to the right of all panels."""
     place: Any = "outside right center"
     figure.legend(handles, labels, loc=place, title=title, alignment="left")
-
-
-def area_axis(axes: Axes) -> None:
-    """Make the upright axis one of relative area: logarithmic, with enough numbers to read it."""
-    low, high = axes.get_ylim()
-    log_axis(axes, "y", (1.0, 2.0, 5.0) if high < 500.0 * low else (1.0,))

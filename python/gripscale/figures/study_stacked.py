@@ -12,12 +12,11 @@ from gripscale.figures.palette import INK, WIDE
 from gripscale.figures.study_axes import (
     Array,
     along,
-    area_axis,
     colours,
     legend_beside,
     wavelength_names,
 )
-from gripscale.figures.style import sheet, styled
+from gripscale.figures.style import area_axis, sheet, styled
 
 HEIGHT = 3.4
 

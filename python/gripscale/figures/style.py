@@ -14,7 +14,9 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
-from matplotlib.ticker import LogLocator, NullFormatter
+from matplotlib.lines import Line2D
+from matplotlib.markers import TICKDOWN, TICKLEFT
+from matplotlib.ticker import LogLocator, NullLocator
 from numpy.typing import NDArray
 
 from gripscale.figures.palette import FAINT, INK
@@ -22,6 +24,9 @@ from gripscale.netcdf import write_whole
 
 DPI = 200
 """Pixels per inch of a PNG, and of what is rasterised in a PDF."""
+
+MOST_MARKED = 1e7
+"""Largest over smallest value of a logarithmic axis with marks between the powers of ten."""
 
 RULES: Any = {
     "font.size": 9.0,
@@ -79,7 +84,14 @@ def log_axis(axes: Axes, which: str, steps: Sequence[float] = (1.0,)) -> None:
     axis = axes.xaxis if which == "x" else axes.yaxis
     axis.set_major_locator(LogLocator(subs=steps, numticks=12))
     axis.set_major_formatter(lambda value, _: short_number(value))
-    axis.set_minor_formatter(NullFormatter())
+    axis.set_minor_locator(NullLocator())  # `_mark_between` draws them
+
+
+def area_axis(axes: Axes) -> None:
+    """Make the upright axis one of relative area: logarithmic, with enough numbers to read it."""
+    axes.set_yscale("log")
+    low, high = axes.get_ylim()
+    log_axis(axes, "y", (1.0, 2.0, 5.0) if high < 500.0 * low else (1.0,))
 
 
 def short_number(value: float) -> str:
@@ -90,8 +102,13 @@ def short_number(value: float) -> str:
     if value <= 0.0 or 0.99e-4 < value < 0.99e5:
         return f"{value:g}"
     factor, _, exponent = f"{value:.0e}".partition("e")
-    power = "10" + str(int(exponent)).translate(RAISED)
+    power = power_of_ten(int(exponent))
     return power if factor == "1" else f"{factor}·{power}"
+
+
+def power_of_ten(exponent: int) -> str:
+    """Return 10 to `exponent` in plain letters."""
+    return "10" + str(exponent).translate(RAISED)
 
 
 def falling_wavelength(axes: Axes, wavelengths_mm: Iterable[float]) -> None:
@@ -102,16 +119,37 @@ def falling_wavelength(axes: Axes, wavelengths_mm: Iterable[float]) -> None:
     axes.set_xlabel("wavelength $\\lambda$ [mm]")
 
 
+def _mark_between(figure: Figure) -> None:
+    """Mark 2 to 9 times each power of ten on logarithmic axes, all marks as one line.
+
+    As ticks, each with its grid line and label, they would be half of the drawing.
+    """
+    for axes in figure.axes:
+        for axis, marker in ((axes.xaxis, TICKDOWN), (axes.yaxis, TICKLEFT)):
+            low, high = sorted(axis.get_view_interval())
+            if axis.get_scale() != "log" or high > MOST_MARKED * low:
+                continue
+            places = np.asarray(LogLocator(subs=range(2, 10), numticks=99).tick_values(low, high))
+            places = places[(places >= low) & (places <= high)]
+            along = (places, np.zeros_like(places))
+            x, y = along if axis is axes.xaxis else along[::-1]
+            where = axes.get_xaxis_transform() if axis is axes.xaxis else axes.get_yaxis_transform()
+            look: dict[str, Any] = {"marker": marker, "ms": 2.0, "mew": 0.6, "ls": "", "color": INK}
+            figure.add_artist(Line2D(x, y, transform=where, in_layout=False, **look))
+
+
 def write_png(figure: Figure, target: Path | IO[bytes], dpi: float = DPI) -> None:
     """Write `figure` as PNG; its layout is solved now, and stays."""
     with mpl.rc_context(RULES):
         figure.set_dpi(dpi)
         layout = figure.get_layout_engine()
-        if layout is not None:
+        if isinstance(layout, ConstrainedLayoutEngine):
+            _mark_between(figure)
             layout.execute(figure)
             figure.set_layout_engine("none")
         # `savefig` would draw twice: once more to find out what it has to show.
-        FigureCanvasAgg(figure).print_png(target, pil_kwargs={"compress_level": 1})
+        canvas: Any = FigureCanvasAgg(figure)
+        canvas.print_png(target, pil_kwargs={"compress_level": 1})
 
 
 def save_figure(figure: Figure, folder: Path, name: str) -> list[Path]:
@@ -122,7 +160,8 @@ def save_figure(figure: Figure, folder: Path, name: str) -> list[Path]:
 
     def write_pdf(target: Path) -> None:
         with mpl.rc_context(RULES):
-            FigureCanvasPdf(figure).print_pdf(target)
+            canvas: Any = FigureCanvasPdf(figure)
+            canvas.print_pdf(target)
 
     return [
         write_whole(folder / f"{name}.png", lambda target: write_png(figure, target)),

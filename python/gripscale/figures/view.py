@@ -74,7 +74,9 @@ class PredictionView:
     @cached_property
     def converged(self) -> NDArray[np.bool_]:
         """Whether each wave may be used."""
-        states = self.data["status"].values if "status" in self.data else []
+        if "status" not in self.data:
+            return np.zeros(self.waves, dtype=bool)
+        states = self.data["status"].values
         return np.array([str(state) == CONVERGED for state in states], dtype=bool)
 
     def why(self, i: int) -> str:

@@ -1,4 +1,4 @@
-"""What a run says about its inputs in plain text: cleaning, correlation, sine waves, Prony series."""
+"""What a run says about its inputs: cleaning, correlation, sine waves, Prony series."""
 
 from __future__ import annotations
 

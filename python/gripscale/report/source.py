@@ -86,8 +86,8 @@ def _read_folder(folder: Path) -> Run | Study:
 def _run(trees: dict[str, xr.DataTree]) -> Run:
     views = [PredictionView(tree.to_dataset(), name) for name, tree in trees.items()]
     first = next(iter(trees.values()))
-    known = "inputs" in first.children
-    return Run(views, first["inputs"].to_dataset(inherit=False) if known else xr.Dataset())
+    inputs = first.children.get("inputs", xr.DataTree())
+    return Run(views, inputs.to_dataset(inherit=False))
 
 
 def _checked(path: Path) -> xr.DataTree:

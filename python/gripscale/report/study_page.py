@@ -145,7 +145,7 @@ def _good(one: xr.Dataset, name: str) -> bool:
 
 
 def _failures(study: Study) -> Iterator[str]:
-    """Yield a sentence for each prediction with a status that is not `converged`, or a NaN total."""
+    """Yield a sentence for each prediction that is not `converged`, or has a NaN total."""
     names = totals_of(study)
     states = [name for name in names if name.endswith("status")]
     totals = [n for n in names if n == "total_contact_fraction" or n == "contact_fraction"]

@@ -83,6 +83,8 @@ NOTE = f"{NONE}: not reached, not defined, or not usable because the wave did no
 
 def wave_tables(predictions: Sequence[PredictionView]) -> list[Table]:
     """Return the tables of load, contact, errors, solution and mesh, and of any further column."""
+    if not predictions:
+        return []
     tables = [
         _table("load", "What each wave receives, and the rubber there", predictions, LOAD),
         _table("contact", "Contact and friction of each wave", predictions, CONTACT),
