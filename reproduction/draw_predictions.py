@@ -11,8 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from gripscale.figures.palette import GREY, MILLI, NARROW, WIDE
-from gripscale.figures.study_axes import area_axis, colours
-from gripscale.figures.style import falling_wavelength, sheet, styled
+from gripscale.figures.study_axes import colours
+from gripscale.figures.style import area_axis, falling_wavelength, sheet, styled
 
 Quantity = Literal["area", "friction", "running_friction"]
 Predictions = Mapping[str, xr.Dataset]
