@@ -23,8 +23,8 @@ from rich.console import Console
 
 import gripscale as gs
 from gripscale.model import NominalLoad, answer
+from gripscale.report.study_table import study_table
 from gripscale.study import Study
-from gripscale.study.table import study_table
 from gripscale.surface import PreparedSurface
 
 CASE = Path(__file__).parent / "three_waves" / "case.toml"

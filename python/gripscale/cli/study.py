@@ -112,7 +112,7 @@ def _conclude(
     """Print and keep the table, draw the figures, and say which predictions failed."""
     from gripscale.case import folder
     from gripscale.report import tables
-    from gripscale.study.table import study_table
+    from gripscale.report.study_table import study_table
 
     table = study_table(result)
     console.print()
