@@ -16,13 +16,12 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import gripscale as gs
+from gripscale.case import prepare_case
 from gripscale.chain import Chain, Prediction, predict
 from gripscale.study import Study
 from gripscale.wave import FiniteStrainBlock, Mesh, Sine
 
-CASE = Path(__file__).parent / "road_and_tread" / "case.toml"
-RUBBER = gs.Rubber(4e6, [8e6, 6e6, 4e6], [1e-6, 1e-5, 1e-4])  # [Pa], [Pa], [s]
-SINES = gs.SineStack(wavelength=[10e-3, 3e-3, 1e-3], amplitude=[0.8e-3, 0.25e-3, 0.08e-3])  # [m]
+CASE = Path(__file__).parent / "three_waves" / "case.toml"
 COARSE = FiniteStrainBlock(Mesh(columns=32, rows=8))
 
 
@@ -44,16 +43,17 @@ class Warming:
 
 def main(folder: str = "results/examples") -> None:
     """Predict with and without it; then vary the speed in a study with it."""
+    case = prepare_case(CASE)
+    inputs = case.rubber.rubber, case.surface.sines
     load = {"pressure": 3e5, "speed": 3.0, "footprint": 0.1}  # [Pa], [m/s], [m]
-    plain = predict(RUBBER, SINES, **load, solver=COARSE)
-    warm = predict(RUBBER, SINES, **load, solver=COARSE, rubber_at=Warming())
+    plain = predict(*inputs, **load, solver=COARSE)
+    warm = predict(*inputs, **load, solver=COARSE, rubber_at=Warming())
     for cold, hot in zip(plain.scales, warm.scales, strict=True):
         print(f"{cold.wavelength * 1e3:.0f} mm: friction {cold.friction:.4f}, {hot.friction:.4f}")
-    vary = {"speed": [0.3, 3.0], "surface": {"three waves": SINES}}
-    study = Study(CASE, vary, static=False, model=Chain(COARSE, rubber_at=Warming()))
-    result = study.run(Path(folder) / "toy_condition").sel(surface="three waves")
+    study = Study(CASE, {"speed": [0.3, 3.0]}, model=Chain(COARSE, rubber_at=Warming()))
+    result = study.run(Path(folder) / "toy_condition")
     for speed, friction in zip(result.speed.values, result.total_friction.values, strict=True):
-        print(f"{speed:g} m/s: friction {friction:.4f} of the tread rubber of the case")
+        print(f"{speed:g} m/s: friction {friction:.4f}")
 
 
 if __name__ == "__main__":

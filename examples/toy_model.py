@@ -27,7 +27,7 @@ from gripscale.study import Study
 from gripscale.study.table import study_table
 from gripscale.surface import PreparedSurface
 
-CASE = Path(__file__).parent / "road_and_tread" / "case.toml"
+CASE = Path(__file__).parent / "three_waves" / "case.toml"
 
 
 @dataclass(frozen=True)
@@ -64,10 +64,10 @@ class Proportional:
 
 
 def main(folder: str = "results/examples") -> None:
-    """Vary speed and pressure of the shipped case with it; print the table."""
+    """Vary speed and pressure of a case with it; print the table."""
     vary = {"speed": "0.01 m/s, 10 m/s", "pressure": "1 bar, 3 bar"}
-    study = Study(CASE, vary, static=False, model=Proportional())
-    Console(width=100).print(study_table(study.run(Path(folder) / "toy_model")))
+    result = Study(CASE, vary, model=Proportional()).run(Path(folder) / "toy_model")
+    Console(width=100).print(study_table(result))
 
 
 if __name__ == "__main__":

@@ -10,6 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from gripscale import netcdf
+
 EXAMPLES = Path(__file__).parents[2] / "examples"
 COARSE = "64"
 """Columns of the mesh where an example takes them."""
@@ -110,7 +112,7 @@ def test_measured_surface(run):
 
 def test_toy_model(tmp_path):
     printed = start("toy_model", tmp_path, "out")
-    rows = [line.split() for line in printed.splitlines() if line.endswith("converged")]
+    rows = [line.split() for line in printed.splitlines() if "converged" in line]
     assert [row[:4] for row in rows] == [
         [speed, "m/s", pressure, "MPa"] for speed in ("0.01", "10") for pressure in ("0.1", "0.3")
     ]
@@ -126,21 +128,22 @@ def test_toy_condition(tmp_path):
     printed = start("toy_condition", tmp_path, "out")
     pairs = re.findall(r"mm: friction ([\d.]+), ([\d.]+)", printed)
     plain, warm = np.array(pairs, dtype=float).T
-    # Warmed by the waves above only; on this side of its loss peak warm rubber has less friction.
+    # Warmed by the waves above only; below its loss peak a warmer rubber has less friction.
+    assert len(plain) == 3
     assert warm[0] == plain[0]
-    assert (warm[1:] < 0.8 * plain[1:]).all()
-    assert len(re.findall(r"m/s: friction 0\.\d+ of the tread", printed)) == 2
+    assert (warm[1:] < 0.9 * plain[1:]).all()
+    # The study solves the same chain again.
+    slow, fast = (float(value) for value in re.findall(r"m/s: friction ([\d.]+)", printed))
+    assert fast == pytest.approx(warm.sum(), abs=2e-4)
+    assert slow < fast
 
 
 def test_run_case(tmp_path):
-    coarse = (EXAMPLES / "road_and_tread" / "case.toml").read_text(encoding="utf-8")
-    case = tmp_path / "case.toml"
-    files = coarse.replace('"../data', f'"{EXAMPLES.as_posix()}/data')
-    case.write_text(files + "\n[solver]\ncolumns = 32\nrows = 8\n", encoding="utf-8")
-    printed = start("run_case", tmp_path, str(case), "out")
+    printed = start("run_case", tmp_path, str(EXAMPLES / "three_waves" / "case.toml"), "out")
     area, friction = numbers(r"A_r/A_0 = ([\d.]+), mu = ([\d.]+)", printed)
-    # 0.0182 and 0.576 on the default mesh; 32 columns are within a tenth of that.
-    assert area == pytest.approx(0.0182, rel=0.1)
-    assert friction == pytest.approx(0.576, rel=0.1)
-    assert "8 waves on measured_dma" in printed
-    assert {path.name for path in (tmp_path / "out").glob("*.nc")} == {"dynamic.nc", "static.nc"}
+    data = netcdf.load(tmp_path / "out" / "dynamic.nc")
+    assert area == pytest.approx(float(data.total_contact_fraction), abs=1e-4)
+    assert friction == pytest.approx(float(data.total_friction), abs=1e-3)
+    assert 0.0 < area < 1.0
+    assert 0.0 < friction < 1.0
+    assert "3 waves on unfilled styrene-butadiene rubber" in printed
