@@ -74,6 +74,9 @@ def test_contact_is_drawn_against_falling_wavelength_in_mm(
     np.testing.assert_allclose(curve(area, "static, each wave")[1], 0.5)
     np.testing.assert_allclose(curve(friction, "dynamic, running")[1], [0.1, 0.2, 0.3])
     assert len(friction.lines) == 2  # nothing of the chain at rest
+    low, high = area.get_ylim()
+    assert 0.05 < low < 0.125  # the smallest number shown, with little below it
+    assert high == 1.15
     left, right = area.get_xlim()
     assert left > 20.0
     assert right < 1.25

@@ -32,8 +32,7 @@ def contact_figure(predictions: Mapping[str, xr.Dataset]) -> Figure:
         _pair(area, view, "contact_fraction", colour)
         if view.moving:
             _pair(friction, view, "friction", colour)
-    area.set_ylim(top=1.15)
-    area_axis(area)
+    area_axis(area, top=1.15)
     area.set_ylabel("relative contact area [-]")
     friction.set_ylabel("friction coefficient [-]")
     friction.set_ylim(bottom=0.0)

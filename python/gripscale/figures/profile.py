@@ -15,7 +15,7 @@ from gripscale.figures.palette import BLUE, GREY, MILLI, ORANGE, WIDE
 from gripscale.figures.style import sheet, styled
 from gripscale.surface.profile import Profile
 
-THIN: Any = {"lw": 0.45, "rasterized": True}
+THIN: Any = {"lw": 0.45}
 PIECES = 5000
 """Pieces a profile is drawn in: several to a pixel, so that most gaps are still seen."""
 

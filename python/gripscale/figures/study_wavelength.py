@@ -28,8 +28,7 @@ def wavelength_figure(result: xr.Dataset, axis: str, title: str = "") -> Figure:
         label = name_of(result, axis, i) if i % every == 0 else None
         area.plot(x, one.running_contact_fraction, "o-", ms=3.0, color=colour, label=label)
         friction.plot(x, one.running_friction, "o-", ms=3.0, color=colour)
-    area.set_ylim(top=1.15)
-    area_axis(area)
+    area_axis(area, top=1.15)
     area.set_ylabel("relative contact area, running [-]")
     friction.set_ylabel("friction coefficient, running [-]")
     friction.set_ylim(bottom=0.0)

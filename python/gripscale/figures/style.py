@@ -87,9 +87,10 @@ def log_axis(axes: Axes, which: str, steps: Sequence[float] = (1.0,)) -> None:
     axis.set_minor_locator(NullLocator())  # `_mark_between` draws them
 
 
-def area_axis(axes: Axes) -> None:
+def area_axis(axes: Axes, top: float | None = None) -> None:
     """Make the upright axis one of relative area: logarithmic, with enough numbers to read it."""
-    axes.set_yscale("log")
+    axes.set_yscale("log")  # before any limit is asked for: a linear axis may start below zero
+    axes.set_ylim(top=top)
     low, high = axes.get_ylim()
     log_axis(axes, "y", (1.0, 2.0, 5.0) if high < 500.0 * low else (1.0,))
 
