@@ -137,7 +137,7 @@ fn names_and_values_are_refused_in_words() {
         (
             "ogden",
             &[][..],
-            "strain_energy must be one of neo_hookean, mooney_rivlin, yeoh; got \"ogden\"",
+            "strain_energy must be one of neo_hookean, mooney_rivlin, yeoh, isihara; got \"ogden\"",
         ),
         (
             "yeoh",

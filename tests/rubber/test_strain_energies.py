@@ -8,6 +8,7 @@ import pytest
 from gripscale.errors import InputError
 from gripscale.rubber import (
     STRAIN_ENERGIES,
+    Isihara,
     MooneyRivlin,
     NeoHookean,
     Rubber,
@@ -16,7 +17,7 @@ from gripscale.rubber import (
     strain_energy,
 )
 
-LAWS = [NeoHookean(), MooneyRivlin(0.3), Yeoh(-0.06, 0.005)]
+LAWS = [NeoHookean(), MooneyRivlin(0.3), Yeoh(-0.06, 0.005), Isihara(0.2, -0.03)]
 
 
 def test_every_kind_is_tried_here() -> None:
@@ -53,7 +54,7 @@ def test_coefficients_give_the_law_and_its_stress(law: StrainEnergy) -> None:
 @pytest.mark.parametrize(
     ("kind", "parameters", "says"),
     [
-        ("ogden", {}, "kind must be one of neo_hookean, mooney_rivlin, yeoh; got 'ogden'"),
+        ("ogden", {}, "kind must be one of neo_hookean, mooney_rivlin, yeoh, isihara; got 'ogden'"),
         ("yeoh", {"second": 0.1}, "yeoh takes the parameters second, third; got second"),
         ("yeoh", {}, "yeoh takes the parameters second, third; got none"),
         ("neo_hookean", {"share": 0.1}, "neo_hookean takes no parameters; got share"),

@@ -18,7 +18,7 @@ import pytest
 
 import gripscale as gs
 from gripscale import _kernel
-from gripscale.rubber import MooneyRivlin, StrainEnergy, Yeoh
+from gripscale.rubber import Isihara, MooneyRivlin, StrainEnergy, Yeoh
 from gripscale.rubber.strain_energy import STRAIN_ENERGIES
 
 MODULUS, WAVELENGTH = 3e6, 1e-2
@@ -66,8 +66,10 @@ def invariants(result: gs.ScaleResult, rest: gs.ScaleResult) -> tuple[np.ndarray
         (lambda c: Yeoh(c, 0.0), lambda i1, i2: i1**2),
         (lambda c: Yeoh(0.0, c), lambda i1, i2: i1**3),
         (lambda c: MooneyRivlin(0.02 + c), lambda i1, i2: i2 - i1),
+        (lambda c: Isihara(0.02 + c, 0.0), lambda i1, i2: i2 - i1),
+        (lambda c: Isihara(0.0, c), lambda i1, i2: i1**2),
     ],
-    ids=["yeoh second", "yeoh third", "mooney_rivlin share"],
+    ids=["yeoh second", "yeoh third", "mooney_rivlin share", "isihara share", "isihara second"],
 )
 def test_coefficient_changes_the_indentation_as_its_energy_says(energy, density) -> None:
     step, change = 0.02 * PRESSURE, 0.005

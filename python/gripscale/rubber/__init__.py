@@ -14,6 +14,7 @@ from gripscale.rubber.prony import PronyFit, fit_prony, fit_prony_report
 from gripscale.rubber.reader import read_master_curve
 from gripscale.rubber.strain_energy import (
     STRAIN_ENERGIES,
+    Isihara,
     MooneyRivlin,
     NeoHookean,
     StrainEnergy,
@@ -27,6 +28,7 @@ __all__ = [
     "STRAIN_ENERGIES",
     "Candidate",
     "FiniteStrainFit",
+    "Isihara",
     "MasterCurve",
     "MooneyRivlin",
     "NeoHookean",

@@ -4,6 +4,7 @@
 //!     S_iso = J^(-2/3) DEV[G b],   b = 2 dW/dCbar = 2 W_1 1 + 2 W_2 (I1 1 - Cbar)
 //! with W_i = dW/dI_i (Holzapfel, "Nonlinear Solid Mechanics" (2000), section 6.4).
 
+mod isihara;
 mod mooney_rivlin;
 mod neo_hookean;
 mod yeoh;
@@ -101,6 +102,7 @@ energies! {
     neo_hookean::NeoHookean,
     mooney_rivlin::MooneyRivlin,
     yeoh::Yeoh,
+    isihara::Isihara,
 }
 
 fn invariants(c: &Symmetric) -> Invariants {

@@ -7,12 +7,14 @@ from typing import Any
 from gripscale import checks
 from gripscale.errors import InputError
 from gripscale.rubber.strain_energy.base import StrainEnergy
+from gripscale.rubber.strain_energy.isihara import Isihara
 from gripscale.rubber.strain_energy.mooney_rivlin import MooneyRivlin
 from gripscale.rubber.strain_energy.neo_hookean import NeoHookean
 from gripscale.rubber.strain_energy.yeoh import Yeoh
 
 __all__ = [
     "STRAIN_ENERGIES",
+    "Isihara",
     "MooneyRivlin",
     "NeoHookean",
     "StrainEnergy",
@@ -22,7 +24,7 @@ __all__ = [
 ]
 
 STRAIN_ENERGIES: dict[str, type[StrainEnergy]] = {
-    law.kind: law for law in (NeoHookean, MooneyRivlin, Yeoh)
+    law.kind: law for law in (NeoHookean, MooneyRivlin, Yeoh, Isihara)
 }
 """Every strain energy by its kind."""
 
