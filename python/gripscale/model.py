@@ -117,8 +117,9 @@ def answer(
     """Return `data` with the numbers every model answers with, and the load they are for."""
     import xarray as xr
 
-    def number(value: Any, unit: str, long_name: str) -> xr.DataArray:
-        return xr.DataArray(value, attrs={"units": unit, "long_name": long_name, "source": model})
+    def number(value: Any, unit: str, long_name: str) -> xr.Variable:
+        attrs = {"units": unit, "long_name": long_name, "source": model}
+        return xr.Variable((), value, attrs)
 
     if set(totals) != set(TOTALS):
         raise ValueError(f"totals must be {', '.join(TOTALS)}; got {', '.join(totals)}")

@@ -16,6 +16,7 @@ import math
 import re
 import sys
 from collections.abc import Callable, Collection
+from contextlib import suppress
 from dataclasses import dataclass
 from decimal import Decimal
 from pathlib import Path
@@ -36,6 +37,9 @@ _TITLE_SEPARATORS = (r"\t", r";", r",", r"\s{2,}", r"\s+")
 _CUT = re.compile(r"\s*[\[(]\s*([^\[\]()]+?)\s*[\])]|[\s/_,]+(?=(.+))")
 _STATED = re.compile(r"(.*?)(?:\s*[\[(]\s*([^\[\]()]+?)\s*[\])]|\s+/\s*(\S+))\s*")
 _TITLES_IN_BRACKETS = re.compile(r"[^()\[\]]+[(\[][^()\[\]]*[)\]]")
+_DIGITS = frozenset("0123456789+-.")
+_PLAIN = _DIGITS | {"e", "E"}
+"""Letters of numbers that can be read all at once."""
 
 
 Line = tuple[int, str]
@@ -72,6 +76,12 @@ class TextTable:
 
         Raises `FileError` with the line of the first other cell and what was `expected`.
         """
+        cells = [self._with_point(row[column]) for row in self.rows]
+        if _PLAIN.issuperset("".join(cells)):
+            with suppress(ValueError):  # a word of these letters, which the loop below names
+                plain = np.array(cells, dtype=float)
+                if np.isfinite(plain).all():
+                    return plain
         values = np.empty(len(self.rows))
         for at, row in enumerate(self.rows):
             value = parse_number(self._with_point(row[column]))
@@ -85,8 +95,11 @@ class TextTable:
 
     def resolution(self, column: int) -> float:
         """Return the last decimal place to which any number of a column is printed, as 0.001."""
-        cells = (Decimal(self._with_point(row[column])).as_tuple().exponent for row in self.rows)
-        return float(10.0 ** min(place for place in cells if isinstance(place, int)))
+        cells = [self._with_point(row[column]) for row in self.rows]
+        if _DIGITS.issuperset("".join(cells)):
+            return float(10.0 ** -max(len(cell.partition(".")[2]) for cell in cells))
+        places = (Decimal(cell).as_tuple().exponent for cell in cells)
+        return float(10.0 ** min(place for place in places if isinstance(place, int)))
 
     def _with_point(self, cell: str) -> str:
         return cell.replace(",", ".") if self.decimal == "," else cell

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import platform
+from functools import lru_cache
 from importlib import metadata
 
 
@@ -17,6 +18,7 @@ def attributes() -> dict[str, str]:
     return {f"version_{name}": version for name, version in versions().items()}
 
 
+@lru_cache
 def version_of(name: str) -> str:
     """Return the version of an installed package."""
     try:

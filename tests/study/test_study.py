@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -18,6 +19,7 @@ from gripscale.chain import Chain
 from gripscale.errors import FileError, InputError
 from gripscale.model import NominalLoad
 from gripscale.study import Progress, Study, Task, task
+from gripscale.study import study as study_module
 from gripscale.study.software import fingerprint
 from gripscale.surface import PreparedSurface
 from gripscale.theory import HalfPlane
@@ -221,12 +223,41 @@ def test_changed_module_changes_the_fingerprint(module: str, counts: bool, tmp_p
     assert fingerprint(home, kernel) != before
 
 
+def test_study_found_whole_is_not_prepared_again(
+    case: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    first = Study(case, {"speed": SPEEDS}).run(tmp_path)
+    monkeypatch.setattr(study_module, "case_rubber", lambda _: pytest.fail("fitted again"))
+    again = Study(case, {"speed": SPEEDS})
+    assert again.run(tmp_path).identical(first)
+    assert json.loads(first.attrs["description"])[1].endswith("2 different predictions")
+    for other in (
+        Study(case, {"speed": [0.01, 2.0]}),
+        Study(case, {"speed": SPEEDS}, static=True),
+        Study(case, {"speed": SPEEDS}, model=Chain(HalfPlane())),
+    ):
+        assert other.stored(tmp_path) is None
+    case.write_text(case.read_text() + "# a word more\n")
+    assert Study(case, {"speed": SPEEDS}).stored(tmp_path) is None
+
+
+def test_study_is_not_the_same_with_another_file_behind_it(case: Path, tmp_path: Path) -> None:
+    curve = tmp_path / "dma.txt"
+    rows = [f"{10.0**n} {5 + n} {0.5 + 0.1 * n}" for n in range(6)]
+    curve.write_text("\n".join(["f (Hz) E' (MPa) E'' (MPa)", *rows]) + "\n")
+    key = Study(case, {"rubber": str(curve)}).key
+    assert Study(case, {"rubber": str(curve)}).key == key
+    curve.write_text(curve.read_text().replace("7 0.7", "7 0.8"))
+    assert Study(case, {"rubber": str(curve)}).key != key
+
+
 def test_changed_material_is_never_served_old_results(
     case: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     study = Study(case, {"speed": [1.0]})
     study.run(tmp_path)
-    monkeypatch.setattr(task, "software", lambda: "gripscale with another material.py")
+    for module in (task, study_module):
+        monkeypatch.setattr(module, "software", lambda: "gripscale with another material.py")
     told: list[Progress] = []
     Study(case, {"speed": [1.0]}).run(tmp_path, on_task=told.append)
     assert [t.stored for t in told] == [False]

@@ -111,24 +111,27 @@ class Prediction:
         """Return everything as a labelled Dataset over the dimension `scale`."""
         from gripscale.wave.dataset import CHAIN, LW, labelled, waves_to_dataset
 
-        data = waves_to_dataset(self.scales)
-        data["running_contact_fraction"] = labelled(
-            "scale",
-            self.running_contact_fraction,
-            "1",
-            "real over nominal contact area down to the wave",
-            f"{LW}, equation 2",
+        running = {
+            "running_contact_fraction": (
+                self.running_contact_fraction,
+                "real over nominal contact area down to the wave",
+                f"{LW}, equation 2",
+            ),
+            "running_friction": (
+                self.running_friction,
+                "friction coefficient down to the wave",
+                f"{LW}, equation 3",
+            ),
+        }
+        data = waves_to_dataset(self.scales).assign(
+            {n: labelled("scale", values, "1", *words) for n, (values, *words) in running.items()}
+            | {
+                f"sines_{part}": labelled(
+                    "wave", getattr(self.sines, part), "m", f"{part} of the waves", CHAIN
+                )
+                for part in ("wavelength", "amplitude")
+            }
         )
-        data["running_friction"] = labelled(
-            "scale",
-            self.running_friction,
-            "1",
-            "friction coefficient down to the wave",
-            f"{LW}, equation 3",
-        )
-        for part in ("wavelength", "amplitude"):
-            values = getattr(self.sines, part)
-            data[f"sines_{part}"] = labelled("wave", values, "m", f"{part} of the waves", CHAIN)
         totals = {
             "total_contact_fraction": self.contact_fraction,
             "total_friction": self.friction,

@@ -34,7 +34,7 @@ def run(
 ) -> None:
     """Predict contact area and friction of a case: tables, figures and result files."""
     from gripscale.case import folder, prepare_case, read_case, run_case
-    from gripscale.figures.case_all import draw_inputs, draw_predictions
+    from gripscale.figures.beside import drawn_beside
 
     console = screen()
     file = read_case(case)
@@ -44,11 +44,16 @@ def run(
     opening = _opening(results)
     for line in opening:
         say(console, line)
-    with _spinner(console):
-        run_case(results, output=target, on_wave=_teller(console, len(results.surface.sines)))
-    draw_inputs(results, target / "figures")
-    _conclude(console, target, opening, results)
-    draw_predictions(results, target / "figures")
+    tell = _teller(console, len(results.surface.sines))
+    with drawn_beside(results, target / "figures") as solving:
+
+        def look(solved: WaveSolved) -> None:
+            tell(solved)
+            solving(solved.name)
+
+        with _spinner(console):
+            run_case(results, output=target, on_wave=look)
+        _conclude(console, target, opening, results)
     console.print()
     say(console, f"Results, report and figures are in {target}")
     _fail_if_any(results)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
     import xarray as xr
     from rich.console import Console
 
-    from gripscale.study import Progress, Study
+    from gripscale.study import Progress
 
 
 @command
@@ -63,28 +64,17 @@ def study(
     target = output or made.file.resolve(made.file.case.output.folder) / "study"
     folder.require_writable(target)
     console = screen()
-    for line in _opening(made):
+    known = made.stored(target)
+    opening = [
+        *(json.loads(known.attrs["description"]) if known is not None else made.description()),
+        "",
+    ]
+    for line in opening:
         say(console, line)
     folder.make(target / "figures")
     folder.write_text(target / "case.toml", made.file.text)
-    before = made.stored(target)
     result = made.run(target, workers=workers, client=cluster, on_task=_teller(console))
-    known = before is not None and before.identical(result)
-    _conclude(console, made, result, target, drawn=known)
-
-
-def _opening(made: Study) -> list[str]:
-    """Return what is going to be solved, line by line."""
-    points = [*made.points, *made.static_points]
-    count = len({point.task.key for point in points})
-    names = " x ".join(f"{axis.name} ({len(axis.values)})" for axis in made.axes)
-    return [
-        f"Study of {made.file.path}",
-        f"  varied: {names}; {count} different predictions",
-        *(f"  surface: {one.source}, {len(one.sines)} sine waves" for one in made.surfaces),
-        *(f"  rubber: {rubber.name}, {rubber.source}" for rubber in made.rubbers),
-        "",
-    ]
+    _conclude(console, opening, result, target, drawn=known is not None)
 
 
 def _teller(console: Console) -> Any:
@@ -107,7 +97,7 @@ def _teller(console: Console) -> Any:
 
 
 def _conclude(
-    console: Console, made: Study, result: xr.Dataset, target: Path, *, drawn: bool
+    console: Console, opening: list[str], result: xr.Dataset, target: Path, *, drawn: bool
 ) -> None:
     """Print and keep the table, draw the figures, and say which predictions failed."""
     from gripscale.case import folder
@@ -117,7 +107,7 @@ def _conclude(
     table = study_table(result)
     console.print()
     console.print(table)
-    folder.write_text(target / "study.txt", tables.as_text(*_opening(made), table))
+    folder.write_text(target / "study.txt", tables.as_text(*opening, table))
     figures = target / "figures"
     if not (drawn and any(figures.iterdir())):
         from gripscale.figures.study_all import draw

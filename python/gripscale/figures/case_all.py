@@ -29,15 +29,17 @@ def draw_inputs(results: CaseResults, folder: Path) -> None:
     rubber_figure(results.rubber, omega, folder)
 
 
-def draw_predictions(results: CaseResults, folder: Path) -> None:
-    """Draw area and friction of all predictions into `folder`, and the blocks of each."""
-    found = {name: one.to_dataset() for name, one in results.predictions.items()}
-    if not found:
-        return
-    titles = {PredictionView(data).title.lower(): data for data in found.values()}
+def draw_blocks(results: CaseResults, name: str, folder: Path) -> None:
+    """Draw the blocks of a prediction, "dynamic" or "static", into `folder`."""
+    data = results.predictions[name].to_dataset()
+    save_figure(blocks_figure(data), folder, f"blocks_{name}")
+
+
+def draw_contact(results: CaseResults, folder: Path) -> None:
+    """Draw area and friction of all predictions into `folder`."""
+    found = [prediction.to_dataset() for prediction in results.predictions.values()]
+    titles = {PredictionView(data).title.lower(): data for data in found}
     save_figure(contact_figure(titles), folder, "contact_and_friction")
-    for name, data in found.items():
-        save_figure(blocks_figure(data), folder, f"blocks_{name}")
 
 
 def surface_figures(surface: PreparedSurface, folder: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 from pathlib import Path
 from typing import Any
 
@@ -10,8 +11,10 @@ from gripscale.case.prepare import prepare_rubber, prepare_surface
 from gripscale.case.read import CaseFile, read_case, validate
 from gripscale.errors import FileError
 from gripscale.rubber import Rubber
+from gripscale.study.task import exact
 from gripscale.surface import PreparedSurface, SineStack
 from gripscale.surface.named import SYNTHETIC_SURFACES, synthetic_surface
+from gripscale.textfile import read_bytes
 
 
 def case_surface(file: CaseFile) -> PreparedSurface:
@@ -68,6 +71,29 @@ def rubber_of(value: Any, file: CaseFile) -> Rubber:
     if path.suffix == ".toml":
         return case_rubber(read_case(path))
     return _rubber({"file": str(path), **own})
+
+
+def stated_by(value: Any, file: CaseFile) -> Any:
+    """Return what decides a varied surface or rubber: its name, the bytes behind it, itself."""
+    if not isinstance(value, str | Path):
+        return exact(value)
+    if value in ("case", *SYNTHETIC_SURFACES, *NAMED_RUBBERS):
+        return str(value)
+    path = _found("input", value, file, ())
+    return contents(read_case(path)) if path.suffix == ".toml" else [str(path), _digest(path)]
+
+
+def contents(file: CaseFile) -> list[str]:
+    """Return the text of a case and the digests of the files it names.
+
+    Raises `FileError` if one cannot be read.
+    """
+    named = [*(file.case.surface.files or []), *filter(None, [file.case.rubber.file])]
+    return [str(file.path), file.text, *(_digest(file.resolve(name)) for name in named)]
+
+
+def _digest(path: Path) -> str:
+    return hashlib.sha256(read_bytes(path)).hexdigest()
 
 
 def _found(name: str, value: Any, file: CaseFile, known: tuple[str, ...]) -> Path:

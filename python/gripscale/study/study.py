@@ -9,8 +9,9 @@ where it was when it is run again, and ends in the same Dataset to the last bit.
 
 from __future__ import annotations
 
+import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
@@ -29,11 +30,18 @@ from gripscale.rubber import Rubber
 from gripscale.study import assemble
 from gripscale.study.assemble import Index
 from gripscale.study.axes import Axis, axes_of
-from gripscale.study.inputs import case_rubber, case_surface, rubber_of, surface_of
+from gripscale.study.inputs import (
+    case_rubber,
+    case_surface,
+    contents,
+    rubber_of,
+    stated_by,
+    surface_of,
+)
 from gripscale.study.software import software
 from gripscale.study.store import Store
 from gripscale.study.task import Task, exact
-from gripscale.study.threads import OnTask, solve_all
+from gripscale.study.threads import OnTask, Progress, solve_all
 from gripscale.surface import PreparedSurface
 
 RESULT = "study.nc"
@@ -89,14 +97,50 @@ class Study:
         self.static = self.file.case.load.static if static is None else static
         solver = self.file.case.solver
         self.model = model or Chain(wave_solver(solver.model, solver.options()))
-        own = {axis.name: axis.values for axis in self.axes}
-        self.surfaces: list[PreparedSurface] = [
-            surface_of(value, self.file) for value in own.get("surface", ())
-        ] or [case_surface(self.file)]
-        self.rubbers: list[Rubber] = [
-            rubber_of(value, self.file) for value in own.get("rubber", ())
-        ] or [case_rubber(self.file)]
         self._varied: dict[Any, PreparedSurface] = {}
+
+    @cached_property
+    def surfaces(self) -> list[PreparedSurface]:
+        """The varied surfaces, or the one of the case, read and fitted."""
+        given = self._values("surface")
+        return [surface_of(value, self.file) for value in given] or [case_surface(self.file)]
+
+    @cached_property
+    def rubbers(self) -> list[Rubber]:
+        """The varied rubbers, or the one of the case, read and fitted."""
+        given = self._values("rubber")
+        return [rubber_of(value, self.file) for value in given] or [case_rubber(self.file)]
+
+    def _values(self, name: str) -> tuple[Any, ...]:
+        return next((axis.values for axis in self.axes if axis.name == name), ())
+
+    @cached_property
+    def key(self) -> str:
+        """A hash of all the study depends on, its files unread but for their bytes."""
+        named = {name: self._values(name) for name in ("surface", "rubber")}
+        stated = {
+            "software": software(),
+            "case": contents(self.file),
+            "axes": {axis.name: axis.labels for axis in self.axes},
+            "values": {
+                axis.name: exact(axis.values) for axis in self.axes if axis.name not in named
+            },
+            "named": {n: [stated_by(v, self.file) for v in vs] for n, vs in named.items()},
+            "static": self.static,
+            "model": exact(self.model),
+        }
+        return hashlib.sha256(json.dumps(stated, sort_keys=True).encode()).hexdigest()
+
+    def description(self) -> list[str]:
+        """Return in words what is varied, and on what."""
+        count = len({point.task.key for point in [*self.points, *self.static_points]})
+        names = " x ".join(f"{axis.name} ({len(axis.values)})" for axis in self.axes)
+        return [
+            f"Study of {self.file.path}",
+            f"  varied: {names}; {count} different predictions",
+            *(f"  surface: {one.source}, {len(one.sines)} sine waves" for one in self.surfaces),
+            *(f"  rubber: {rubber.name}, {rubber.source}" for rubber in self.rubbers),
+        ]
 
     @cached_property
     def points(self) -> list[Point]:
@@ -144,19 +188,35 @@ class Study:
         """
         folder = Path(folder)
         store = Store(folder / PREDICTIONS)
+        known = self.stored(folder)
+        if known is not None and self._all_there(known, store, on_task):
+            return known
         tasks = {point.label: point.task for point in [*self.points, *self.static_points]}
         solved = solve_all(tasks, store, workers=workers, client=client, on_task=on_task)
-        result = self.assemble(solved)
-        netcdf.save(result, folder / RESULT)
-        return result
+        return netcdf.load(netcdf.save(self.assemble(solved), folder / RESULT))
 
-    @staticmethod
-    def stored(folder: str | Path) -> xr.Dataset | None:
-        """Return the Dataset an earlier run left in `folder`, or None if there is none whole."""
+    def stored(self, folder: str | Path) -> xr.Dataset | None:
+        """Return the Dataset an earlier run of just this study left in `folder`, or None."""
         try:
-            return netcdf.load(Path(folder) / RESULT)
+            found = netcdf.load(Path(folder) / RESULT)
         except FileError:
             return None
+        return found if found.attrs.get("study_key") == self.key else None
+
+    def _all_there(self, known: xr.Dataset, store: Store, on_task: OnTask | None) -> bool:
+        """Tell of every prediction as stored, if none of `known` is missing or damaged."""
+        wanted: dict[str, str] = {}
+        for prefix, axes in (("", self.axes), ("static_", self.static_axes)):
+            if f"{prefix}prediction_key" in known:
+                for index, label in self._places(axes, static=bool(prefix)):
+                    wanted.setdefault(str(known[f"{prefix}prediction_key"].values[index]), label)
+        found = {key: store.get(key) for key in wanted}
+        if any(one is None for one in found.values()):
+            return False
+        for number, (key, one) in enumerate(found.items(), start=1):
+            if on_task is not None and one is not None:
+                on_task(Progress(number, len(found), wanted[key], one, 0.0, stored=True))
+        return True
 
     def assemble(self, solved: Mapping[str, xr.Dataset]) -> xr.Dataset:
         """Return the Dataset of the study from its predictions by their keys."""
@@ -171,16 +231,20 @@ class Study:
         result = result.assign_coords(assemble.coordinates(self.axes))
         return result.drop_attrs(deep=False).assign_attrs(self._provenance())
 
-    def _points(self, axes: tuple[Axis, ...], *, static: bool) -> list[Point]:
-        points = []
+    def _places(self, axes: tuple[Axis, ...], *, static: bool) -> Iterator[tuple[Index, str]]:
+        """Yield where each point is on the axes, and what it is called."""
         for index in product(*(range(len(axis.values)) for axis in axes)):
-            chosen = {axis.name: axis.values[i] for axis, i in zip(axes, index, strict=True)}
-            place = {axis.name: i for axis, i in zip(axes, index, strict=True)}
             words = [
                 f"{axis.name} {axis.labels[i]}{_unit(axis)}"
                 for axis, i in zip(axes, index, strict=True)
             ]
-            label = ", ".join(["static", *words] if static else words)
+            yield index, ", ".join(["static", *words] if static else words)
+
+    def _points(self, axes: tuple[Axis, ...], *, static: bool) -> list[Point]:
+        points = []
+        for index, label in self._places(axes, static=static):
+            chosen = {axis.name: axis.values[i] for axis, i in zip(axes, index, strict=True)}
+            place = {axis.name: i for axis, i in zip(axes, index, strict=True)}
             points.append(Point(index, label, self._task(chosen, place, static=static)))
         return points
 
@@ -221,6 +285,8 @@ class Study:
             "rubbers": "; ".join(f"{rubber.name}: {rubber.source}" for rubber in self.rubbers),
             "rubber_parameters": json.dumps(exact(self.rubbers)),
             "software": software(),
+            "study_key": self.key,
+            "description": json.dumps(self.description()),
             "model": self.model.name,
             **versions.attributes(),
         }

@@ -38,7 +38,7 @@ class Field(NamedTuple):
         """Name of the attribute of `WaveResult`."""
         return self.other_name or self.name
 
-    def variable(self, values: Any) -> xr.DataArray:
+    def variable(self, values: Any) -> xr.Variable:
         """Return `values` over the waves with what every variable of a result carries."""
         return labelled("scale", values, self.unit, self.long_name, self.source)
 
@@ -123,13 +123,13 @@ def waves_from_dataset(data: xr.Dataset) -> list[WaveResult]:
     return [_wave(data.isel(scale=i)) for i in range(data.sizes["scale"])]
 
 
-def labelled(dims: Any, values: Any, unit: str, long_name: str, source: str) -> xr.DataArray:
+def labelled(dims: Any, values: Any, unit: str, long_name: str, source: str) -> xr.Variable:
     """Return `values` with what every variable of a result carries."""
     attrs = {"units": unit, "long_name": long_name, "source": source}
-    return xr.DataArray(np.asarray(values), dims=dims, attrs=attrs)
+    return xr.Variable(dims, np.asarray(values), attrs)
 
 
-def _column(field: Field, results: Sequence[WaveResult]) -> xr.DataArray:
+def _column(field: Field, results: Sequence[WaveResult]) -> xr.Variable:
     values = np.array([getattr(result, field.attribute) for result in results])
     if field.name == "friction_mismatch":  # nothing slides: nothing to compare
         values = np.where([result.speed > 0.0 for result in results], values, math.nan)
@@ -138,7 +138,7 @@ def _column(field: Field, results: Sequence[WaveResult]) -> xr.DataArray:
     return field.variable(values)
 
 
-def _along_the_wave(results: Sequence[WaveResult]) -> dict[str, xr.DataArray]:
+def _along_the_wave(results: Sequence[WaveResult]) -> dict[str, xr.Variable]:
     dims = ("scale", "surface_node")
     x, pressure = (_padded([getattr(r, name) for r in results]) for name in ALONG.values())
     return {
@@ -147,7 +147,7 @@ def _along_the_wave(results: Sequence[WaveResult]) -> dict[str, xr.DataArray]:
     }
 
 
-def _meshes(results: Sequence[WaveResult]) -> dict[str, xr.DataArray]:
+def _meshes(results: Sequence[WaveResult]) -> dict[str, xr.Variable]:
     meshes = [result.deformed_mesh for result in results]
     if all(mesh is None for mesh in meshes):
         return {}
