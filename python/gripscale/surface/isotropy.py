@@ -11,9 +11,9 @@ Transform and Its Applications, 3rd ed. (2000), ch. 13; for surfaces P. R. Nayak
 
     C(q) = C_1(q) / (2 sqrt(pi) q Gamma(H + 1/2) / Gamma(H + 1)),
 
-1.6 to 2 times the C_1/(2 pi q) that would count every wave as running along the line. The solution
-needs the derivative of a measured, scattered curve; it is found here by least squares on the first
-equation, with C not negative.
+1.6 to 2 times (H from 0.5 to 1) the C_1/(2 pi q) that takes every wave to run along the line. The
+solution needs the derivative of a measured, scattered curve; C is found here by least squares on
+the first equation instead, and not negative.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The theory of Klueppel and Heinrich: hysteresis friction from the loss under a self-affine surface.
+"""The theory of Klueppel and Heinrich: hysteresis friction by the loss under a self-affine surface.
 
     mu     = 1/2 delta/(p_0 v) int dw w E''(w) S(w),     w = 2 pi v/lambda from xi_par to lambda_min
     delta  = b z_p

@@ -31,7 +31,7 @@ from gripscale.model import NominalLoad
 from gripscale.rubber import Rubber
 from gripscale.surface.isotropy import areal_spectrum
 from gripscale.surface.spectrum import ArealSpectrum, ProfileSpectrum, last_wavenumber
-from gripscale.theory.quadrature import divided, refined, running_integral
+from gripscale.theory.quadrature import divided, filled_in, refined, running_integral
 from gripscale.wave.status import Status
 
 if TYPE_CHECKING:
@@ -58,8 +58,11 @@ _VARIABLES = (
 _COARSEST, _FINEST = 4, 128
 """Intervals between neighbouring points of the spectrum, doubled from the first to the last."""
 
-_ANGLES = 16
-"""Angles of a quarter turn on the coarsest grid; doubled likewise."""
+_WIDEST = 0.25
+"""Widest step of log q on the coarsest grid, times the intervals there."""
+
+_ANGLES = 12
+"""Angles of a quarter turn beyond the number of intervals."""
 
 
 @dataclass(frozen=True)
@@ -186,7 +189,8 @@ def persson(
     if share > 1.0:
         raise InputError(f"gamma must be at most 1; got {gamma:g}")
     last = last_wavenumber(spectrum.wavenumber, smallest_wavelength)
-    nodes = np.append(spectrum.wavenumber[spectrum.wavenumber < last], last)
+    points = np.append(spectrum.wavenumber[spectrum.wavenumber < last], last)
+    nodes = np.exp(filled_in(np.log(points), _WIDEST))
     load = NominalLoad(pressure, speed, 2.0 * np.pi / nodes[0] if footprint is None else footprint)
     integrals = _Integrals(rubber, spectrum, load, share, nodes)
     (area, friction), (area_error, friction_error) = refined(
@@ -220,7 +224,7 @@ class _Integrals:
         """Return P and mu at the nodes, by the trapezoidal rule in log q."""
         log_q = divided(np.log(self.nodes), intervals)
         q = np.exp(log_q)
-        stiff, lossy = self.over_angles(q, _ANGLES * intervals // _COARSEST)
+        stiff, lossy = self.over_angles(q, _ANGLES + intervals)
         weight = q**4 * self.spectrum.at(q)  # q^3 C dq with dq = q d(log q)
         with np.errstate(divide="ignore"):
             area = special.erf(1.0 / np.sqrt(running_integral(weight * stiff / 2.0, log_q)))

@@ -17,6 +17,13 @@ def divided(nodes: Array, intervals: int) -> Array:
     return np.append((nodes[:-1, None] + np.diff(nodes)[:, None] * inside).ravel(), nodes[-1])
 
 
+def filled_in(nodes: Array, widest: float) -> Array:
+    """Return `nodes` with wider steps than `widest` cut into equal ones."""
+    parts = np.ceil(np.diff(nodes) / widest).astype(int)
+    cut = [divided(nodes[at : at + 2], count)[:-1] for at, count in enumerate(parts)]
+    return np.concatenate([*cut, nodes[-1:]])
+
+
 def running_integral(values: Array, x: Array) -> Array:
     """Return the integral of `values` from the first to each entry of `x`."""
     steps = 0.5 * (values[1:] + values[:-1]) * np.diff(x)
