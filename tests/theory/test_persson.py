@@ -100,7 +100,7 @@ def test_full_contact_friction_in_closed_form(speed):
     steps = np.log(last / first) + np.arcsinh(1 / last) - np.arcsinh(1 / first)
     expected = 4 / 3 * np.pi * STIFF * LEVEL / (pressure * speed * TIME) * steps
     assert found.converged
-    assert found.friction == pytest.approx(expected, rel=QUADRATURE)
+    assert found.friction == pytest.approx(expected, rel=QUADRATURE, abs=0)
 
 
 def test_full_contact_is_the_sum_over_single_waves():
@@ -123,7 +123,7 @@ def test_full_contact_is_the_sum_over_single_waves():
         )
         for angle in angles[::10]
     ]
-    assert found.friction == pytest.approx(np.mean(each), rel=3e-4)
+    assert found.friction == pytest.approx(np.mean(each), rel=3e-4, abs=0)
 
 
 def test_contact_fills_under_a_large_pressure():
@@ -161,6 +161,23 @@ def test_the_factor_of_small_contacts_is_linear_in_gamma():
     )
     assert half == pytest.approx(0.5 * (none + all_), rel=2 * QUADRATURE)
     assert none < 0.01 * all_
+
+
+def test_light_contact_of_a_slightly_lossy_rubber():
+    """Slow sliding, gamma = 1, P = sqrt(8/pi) p/(M h'(q)), h'(q)^2 = 2 pi C_0 (q - q_0):
+
+    mu = 1/2 int C_0 P pi M_1 tau v q/p dq
+       = 2 M_1 tau v/M sqrt(C_0) [(q - q_0)^(3/2)/3 + q_0 (q - q_0)^(1/2)]_(q_1)
+
+    at any load. Left out: (q v tau)^2 = 1e-6, full contact near q_0, (q_0/q_1)^(3/2) = 3e-5."""
+    speed = 1e-3 / (Q1 * TIME)
+    load = 1e-3 * RELAXED * 4 / 3 * HALF.rms_gradient()
+    over = Q1 - Q0
+    steps = 2 * (over**1.5 / 3 + Q0 * over**0.5)
+    expected = STIFF / RELAXED * TIME * speed * np.sqrt(LEVEL) * steps
+    for pressure in (load, 0.1 * load):
+        found = persson(ZENER, HALF, pressure=pressure, speed=speed, gamma=1.0)
+        assert found.friction == pytest.approx(expected, rel=2 * QUADRATURE, abs=0)
 
 
 @given(st.floats(-3, 3), st.floats(-2, 2), st.floats(-2, 2))
