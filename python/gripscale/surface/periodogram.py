@@ -11,19 +11,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import partial
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy import signal
 
 from gripscale import checks
 from gripscale.errors import InputError
 from gripscale.surface.profile import FEWEST_POINTS, FloatArray, Profile
 from gripscale.surface.spectrum import PER_DECADE, ArealSpectrum, ProfileSpectrum, first_of_bins
 
-TAPERS = {
-    "hann": ("hann", partial(signal.detrend, type="linear")),
-    "none": ("boxcar", partial(signal.detrend, type="constant")),
+TAPERS: dict[str, tuple[str, Literal["linear", "constant"]]] = {
+    "hann": ("hann", "linear"),
+    "none": ("boxcar", "constant"),
 }
 """What is done to each window: its weights, and the trend taken out of it before."""
 
@@ -58,6 +58,8 @@ def profile_spectrum(
     InputError
         If the steps differ, the window does not fit or a word is unknown.
     """
+    from scipy import signal  # slow to import
+
     profiles = _profiles(profile)
     step = profiles[0].step
     weights, trend = TAPERS[checks.one_of("taper", taper, TAPERS)]
@@ -66,8 +68,9 @@ def profile_spectrum(
     points = max(shortest // parts, FEWEST_POINTS)
     if window is not None:
         points = _points(shortest, step, window)
+    detrend = partial(signal.detrend, type=trend)
     powers = [
-        signal.welch(_filled(one.z), 1.0 / step, weights, points, detrend=trend)[1]
+        signal.welch(_filled(one.z), 1.0 / step, weights, points, detrend=detrend)[1]
         for one in profiles
     ]
     density = np.average(powers, axis=0, weights=[len(one) for one in profiles])
@@ -138,7 +141,7 @@ def _plane_waves(
     if tapered:
         x, y = np.meshgrid(*(np.arange(n) - 0.5 * (n - 1) for n in z.shape), indexing="ij")
         z = z - x * (z * x).sum() / (x * x).sum() - y * (z * y).sum() / (y * y).sum()
-        windows = [signal.get_window("hann", n) for n in z.shape]
+        windows = [np.hanning(n + 1)[:-1] for n in z.shape]
     window = windows[0][:, None] * windows[1]
     area = steps[0] * steps[1] / (4.0 * np.pi**2 * np.square(window).sum())
     power = np.asarray(area * np.abs(np.fft.fft2(window * z)) ** 2, dtype=np.float64)
