@@ -1,4 +1,5 @@
-# Everything from nothing: `make run` does the main job, `make test` checks all, `make bench` measures.
+# Everything from nothing: `make run` does the main job, `make test` checks all,
+# `make verify` compares with references for minutes, `make bench` measures time and memory.
 
 PYTHON ?= python3
 VENV := .venv
@@ -7,7 +8,7 @@ READY := $(VENV)/.ready
 BUILT := $(VENV)/.built
 SOURCES := Cargo.toml Cargo.lock pyproject.toml $(shell find rust -name '*.rs')
 
-.PHONY: run build test docs bench clean
+.PHONY: run build test verify docs bench clean
 .DEFAULT_GOAL := run
 
 run: build
@@ -26,11 +27,14 @@ test: build
 	$(BIN)/python -m mypy.stubtest gripscale._kernel
 	$(BIN)/python -m pytest -q
 
+verify: build
+	$(BIN)/python -m pytest -q -m verification
+
 docs: build
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict
 
 bench: build
-	$(BIN)/python benchmarks/bench.py
+	$(BIN)/python -m benchmarks
 
 $(READY): requirements.lock
 	@$(PYTHON) -c 'import sys; assert sys.version_info >= (3, 11), "gripscale needs Python 3.11 or newer; set PYTHON=..."'

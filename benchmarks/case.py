@@ -8,21 +8,20 @@ import sys
 import tempfile
 import time
 from dataclasses import dataclass
-from functools import partial
 from itertools import pairwise
 from pathlib import Path
 
-import problems
-from measure import Mesh, name, solve_all
 from rich.console import Console
-from table import show
 
 import gripscale as gs
-from gripscale.case import read_case
-from gripscale.cli.inputs import study_rubber, study_surface
+from benchmarks.measure import name
+from benchmarks.table import show
+from gripscale.case import prepare_case
+from gripscale.wave import FiniteStrainBlock, Load, Mesh, Sine, WaveProblem
+from tests.verification.families import ROOT
 
-CASE = problems.ROOT / "examples" / "road_and_tread" / "case.toml"
-FINE: Mesh = (256, 30, 1)
+CASE = ROOT / "examples" / "road_and_tread" / "case.toml"
+FINE = Mesh(256, 30)
 REPEATS = 3
 MOST_SECONDS, AIM_SECONDS, MOST_MEGABYTES = 60.0, 10.0, 1000.0
 
@@ -68,7 +67,7 @@ def _whole_command(console: Console) -> None:
         megabytes.append(float(launched.stdout.split()[-1]) / 1024.0)
     show(
         console,
-        f"gripscale run {CASE.relative_to(problems.ROOT)}: files in, tables and figures out",
+        f"gripscale run {CASE.relative_to(ROOT)}: files in, tables and figures out",
         ["", "measured", "asked"],
         [
             ["time, median", f"{statistics.median(seconds):.1f} s", f"< {MOST_SECONDS:.0f} s"],
@@ -80,52 +79,42 @@ def _whole_command(console: Console) -> None:
 
 
 def _chains() -> list[Chain]:
-    file = read_case(CASE)
-    rubber = study_rubber(file.case.rubber, file.resolve).rubber
-    sines = study_surface(file.case.surface, file.resolve).sines
-    load = file.case.load
+    case = prepare_case(CASE)
+    load = case.file.case.load
     chains = []
-    for title, speed in (("dynamic", load.speed), ("static", 0.0)):
+    for title, speed in case.planned():
         marks = [time.perf_counter()]
         default = gs.predict(
-            rubber,
-            sines,
+            case.rubber.rubber,
+            case.surface.sines,
             pressure=load.pressure,
             speed=speed,
             footprint=load.footprint,
             load_time=load.load_time,
             on_scale=lambda _, marks=marks: marks.append(time.perf_counter()),
         )
-        fine = [_again(rubber, scale) for scale in default.scales]
+        fine = [_again(scale) for scale in default.scales]
         seconds = [b - a for a, b in pairwise(marks)]
         chains.append(Chain(title, default, fine, seconds))
     return chains
 
 
-def _again(rubber: gs.Rubber, scale: gs.ScaleResult) -> gs.ScaleResult:
+def _again(scale: gs.ScaleResult) -> gs.ScaleResult:
     """Solve the same wave under the same load on the fine mesh."""
-    call = partial(
-        gs.solve_scale,
-        rubber,
-        wavelength=scale.wavelength,
-        amplitude=scale.amplitude,
-        pressure=scale.pressure_received,
-        speed=scale.speed,
-        load_time=scale.load_time,
-        **problems.options(FINE),
-    )
-    return solve_all([call])[0][0]
+    load = Load(scale.pressure_received, scale.speed, scale.load_time)
+    wave = Sine(scale.wavelength, scale.amplitude)
+    return FiniteStrainBlock(FINE).solve(WaveProblem(scale.rubber, wave, load))
 
 
 def _waves(console: Console, chain: Chain) -> None:
-    moving = chain.default.speed > 0.0
+    moving = chain.default.load.speed > 0.0
     rows, products = [], [1.0, 1.0]
     for i, (scale, fine) in enumerate(zip(chain.default.scales, chain.fine, strict=True)):
         products = [products[0] * scale.contact_fraction, products[1] * fine.contact_fraction]
         row = [
             f"{i + 1}: {scale.wavelength * 1e3:.3g} mm",
             f"{scale.amplitude / scale.wavelength:.3f}",
-            f"{scale.pressure_received / float(chain.default.modulus[i]):.2f}",
+            f"{scale.pressure_received / scale.modulus:.2f}",
             f"{chain.seconds[i]:.2f}",
             f"{scale.newton_iterations}",
             f"{scale.contact_fraction:.4f}",

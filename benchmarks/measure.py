@@ -1,19 +1,16 @@
-"""Processor time and memory of one call, and what several solutions err together."""
+"""Processor time and memory of one solution."""
 
 from __future__ import annotations
 
 import ctypes
 import time
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
-from gripscale import ScaleResult
-
-Mesh = tuple[int, int, int]
-"""Columns, rows, element order."""
+from gripscale.wave import FiniteStrainBlock, Mesh, WaveResult
+from tests.verification.families import Family
 
 
 @dataclass(frozen=True)
@@ -36,48 +33,33 @@ class Cost:
 HEADINGS = ["CPU s", "peak MB", "Newton"]
 
 
-def solve_all(calls: Sequence[Callable[[], ScaleResult]]) -> tuple[list[ScaleResult], Cost]:
-    """Run every call; all must converge."""
+def solve_all(family: Family, mesh: Mesh) -> tuple[list[WaveResult], Cost]:
+    """Solve every wave of a family; all must converge."""
     results, seconds = [], []
     reset_peak()
     before = _status("VmRSS")
-    for call in calls:
+    block = FiniteStrainBlock(replace(mesh, depth=family.depth))
+    for problem in family.problems:
         start = time.process_time()
-        result = call()
+        result = block.solve(problem)
         seconds.append(time.process_time() - start)
         if not result.converged:
-            raise RuntimeError(f"benchmark case did not converge: {result.status}; {result}")
+            raise RuntimeError(f"benchmark wave did not converge: {result.status}; {result}")
         results.append(result)
     iterations = float(np.median([result.newton_iterations for result in results]))
     peak = peak_since_reset() - before / 1024.0
     return results, Cost(float(np.median(seconds)), peak, iterations)
 
 
-def root_mean_square(errors: Sequence[float]) -> float:
-    """Return the rms of `errors`."""
-    return float(np.sqrt(np.mean(np.square(errors))))
-
-
-def worst(errors: Sequence[float]) -> float:
-    """Return the largest magnitude of `errors`."""
-    return float(np.abs(errors).max())
-
-
 def name(mesh: Mesh) -> str:
     """Return "columns x rows", with the order if it is not one."""
-    columns, rows, order = mesh
-    return f"{columns}x{rows}" + ("" if order == 1 else f" order {order}")
+    order = "" if mesh.element_order == 1 else f" order {mesh.element_order}"
+    return f"{mesh.columns}x{mesh.rows}{order}"
 
 
 def unknowns(mesh: Mesh) -> int:
     """Return the number of displacement unknowns."""
-    columns, rows, order = mesh
-    return 2 * order * columns * order * rows
-
-
-def rate(columns: Sequence[float], errors: Sequence[float]) -> float:
-    """Return the order of convergence: error ~ columns^-rate, least squares in logarithms."""
-    return float(-np.polyfit(np.log(columns), np.log(errors), 1)[0])
+    return 2 * mesh.element_order**2 * mesh.columns * mesh.rows
 
 
 def reset_peak() -> None:

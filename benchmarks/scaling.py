@@ -11,16 +11,17 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import problems
-from measure import peak_since_reset, reset_peak
 from rich.console import Console
-from table import show
 
 import gripscale as gs
-from gripscale.figures.style import BLUE, GREEN, GREY, WIDE, save_figure, sheet, styled
+from benchmarks.measure import peak_since_reset, reset_peak
+from benchmarks.table import show
+from gripscale.figures.palette import BLUE, GREEN, GREY, WIDE
+from gripscale.figures.style import save_figure, sheet, styled
+from tests.verification.families import WAVELENGTH, tread
 
 COLUMNS = [34, 50, 66, 98, 130, 194, 258, 386]
-"""Twice an odd number: such a mesh is a ladder of one, and a warm start iterates on it alone."""
+"""Twice an odd number: such a mesh is alone in its sequence, and a warm start stays on it."""
 ROW_EXPONENT = 0.585
 SHORTEST, LONGEST = 0.25, 2.0
 """Seconds over which a measurement is repeated; the median counts."""
@@ -97,8 +98,8 @@ def run(console: Console, figure: Path) -> None:
                 *("full ms", "cheap ms", "outcome ms", "elimination GFlop", "GFlop/s"),
             ],
             rows,
-            "Cold: the march of the load on this mesh alone, without the ladder that the default "
-            "mesh uses. Full: one iteration with a fresh factorisation, assembly and contact "
+            "Cold: the load raised on this mesh alone, without the sequence that the default "
+            "mesh has. Full: one iteration with a fresh factorisation, assembly and contact "
             "included; cheap: one with the block kept; outcome: friction, edges, stretches and the "
             "handing over of the fields. GFlop/s: the elimination's flops over the time of all of "
             "a full iteration. Exponent: by unknowns, least squares over the last four meshes.",
@@ -122,9 +123,9 @@ def _cost(kind: str, columns: int) -> Cost:
         factor: float, tolerance: float, start: gs.ScaleResult | None = None
     ) -> gs.ScaleResult:
         return gs.solve_scale(
-            problems.tread(),
-            wavelength=problems.WAVELENGTH,
-            amplitude=0.16 * problems.WAVELENGTH,
+            tread(),
+            wavelength=WAVELENGTH,
+            amplitude=0.16 * WAVELENGTH,
             pressure=factor * pressure,
             speed=speed,
             load_time=5e-3,

@@ -8,16 +8,15 @@ from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 
 import numpy as np
-import problems
-from measure import peak_since_reset, reset_peak
 from rich.console import Console
-from table import show
 
 import gripscale as gs
-from gripscale.case import read_case
-from gripscale.cli.inputs import study_rubber, study_surface
+from benchmarks.measure import peak_since_reset, reset_peak
+from benchmarks.table import show
+from gripscale.case import prepare_case
+from tests.verification.families import ROOT
 
-CASE = problems.ROOT / "examples" / "road_and_tread" / "case.toml"
+CASE = ROOT / "examples" / "road_and_tread" / "case.toml"
 TOLERANCE = 0.01
 SPEEDS = [float(v) for v in np.geomspace(0.003, 30.0, 20)]
 THREADS = 2
@@ -34,11 +33,10 @@ def run(console: Console) -> None:
 
 @cache
 def _case() -> tuple[gs.Rubber, gs.SineStack, dict[str, object]]:
-    file = read_case(CASE)
-    load = file.case.load
-    rubber = study_rubber(file.case.rubber, file.resolve).rubber
-    sines = study_surface(file.case.surface, file.resolve).sines
-    return rubber, sines, {"pressure": load.pressure, "footprint": load.footprint}
+    case = prepare_case(CASE)
+    load = case.file.case.load
+    loads = {"pressure": load.pressure, "footprint": load.footprint}
+    return case.rubber.rubber, case.surface.sines, loads
 
 
 def _one_wave(console: Console) -> None:

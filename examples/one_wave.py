@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 import gripscale as gs
 from gripscale.figures import block_figure, save_figure
 from gripscale.theory import solve_half_plane
+from gripscale.wave.dataset import waves_to_dataset
 
 WAVELENGTH, PRESSURE, SPEED = 5e-3, 1.25e6, 10.0  # [m], [Pa] at slope 1, [m/s]
 SLOPES = (0.05, 0.3, 0.6, 0.9)  # largest slope of the wave, 2 pi amplitude / wavelength
@@ -43,7 +44,7 @@ def main(folder: str = "results/examples", columns: str = "128") -> None:
             f" {block.friction:16.4f} {plane.friction:10.4f}  {block.max_stretch:.2f}"
             f" {block.status}"
         )
-    save_figure(block_figure(block), target, "one_wave_block")
+    save_figure(block_figure(waves_to_dataset([block])), target, "one_wave_block")
     figure = Figure(figsize=(4.6, 3.2), layout="constrained")
     axes = figure.subplots()
     slope, block_friction, plane_friction = np.array(rows).T

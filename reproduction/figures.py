@@ -10,21 +10,20 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from gripscale.dataset import LW
 from gripscale.errors import InputError
-from gripscale.figures.paper_chains import Quantity, chains_figure
-from gripscale.figures.paper_inputs import (
+from gripscale.study.software import software
+from gripscale.surface import SelfAffineFit, SineStack, fit_self_affine
+from gripscale.wave.dataset import LW
+from reproduction import judge_area, judge_friction, judge_inputs
+from reproduction.draw_inputs import (
     correlations_figure,
     factors_figure,
     master_curves_figure,
 )
-from gripscale.reproduce import judge_area, judge_friction, judge_inputs
-from gripscale.reproduce.bench import DENSE, ROAD, TREAD, Bench
-from gripscale.reproduce.chains import Solved
-from gripscale.reproduce.statement import Statement
-from gripscale.study.assemble import wave_numbers
-from gripscale.study.task import software
-from gripscale.surface import SelfAffineFit, SineStack, fit_self_affine
+from reproduction.draw_predictions import Quantity, predictions_figure
+from reproduction.inputs import DENSE, ROAD, TREAD, Inputs
+from reproduction.panels import Solved
+from reproduction.statement import Statement
 
 TITLES = {
     "fig2": "Master curves of the compounds",
@@ -44,7 +43,7 @@ TITLES = {
 """All figures, with what stands above them."""
 
 FEWEST_WAVES = 3
-"""Converged waves a chain must have for its figure to be judged."""
+"""Converged waves a prediction must have for its figure to be judged."""
 
 INPUT_FIGURES = ("fig2", "fig3b", "fig4")
 
@@ -58,27 +57,27 @@ class Made:
     statements: list[Statement]
 
 
-def make(name: str, bench: Bench, solved: Solved, rest: Solved) -> Made:
-    """Return a figure from its chains; `rest` are those of Fig. 5a, which 5b compares with."""
+def make(name: str, inputs: Inputs, solved: Solved, rest: Solved) -> Made:
+    """Return a figure from its predictions; `rest` are those of Fig. 5a, which 5b compares with."""
     if name in INPUT_FIGURES:
-        made = {"fig2": _fig2, "fig3b": _fig3b, "fig4": _fig4}[name](bench)
+        made = {"fig2": _fig2, "fig3b": _fig3b, "fig4": _fig4}[name](inputs)
     else:
         figure = _picture(name, solved)
-        made = Made(figure, _chains_data(solved), _judge(name, bench, solved, rest))
+        made = Made(figure, _predictions_data(solved), _judge(name, inputs, solved, rest))
     attrs = {"title": f"{name}: {TITLES[name]}", "after": LW, "software": software()}
-    surfaces = "; ".join(f"{road}: {each.source}" for road, each in bench.roads.items())
-    rubbers = "; ".join(f"{rubber}: {each.source}" for rubber, each in bench.rubbers.items())
+    surfaces = "; ".join(f"{name}: {each.source}" for name, each in inputs.surfaces.items())
+    rubbers = "; ".join(f"{rubber}: {each.source}" for rubber, each in inputs.rubbers.items())
     said = json.dumps([[s.said, s.where, s.number, s.verdict] for s in made.statements])
     data = made.data.assign_attrs(attrs, surfaces=surfaces, rubbers=rubbers, statements=said)
     return Made(made.figure, data, made.statements)
 
 
-def self_affine(bench: Bench) -> dict[str, SelfAffineFit]:
+def self_affine(inputs: Inputs) -> dict[str, SelfAffineFit]:
     """Return the power laws of the surfaces that have one."""
     fits = {}
-    for road in bench.roads:
+    for road in inputs.surfaces:
         try:
-            fits[road] = fit_self_affine(bench.correlation(road))
+            fits[road] = fit_self_affine(inputs.correlation(road))
         except InputError:
             continue
     return fits
@@ -86,15 +85,15 @@ def self_affine(bench: Bench) -> dict[str, SelfAffineFit]:
 
 def _picture(name: str, solved: Solved) -> Figure:
     if name == "fig9b":
-        (state, chains), *_ = solved.items()
-        both = {f"friction, {state}": chains, f"contact area, {state}": chains}
-        return chains_figure(both, ("running_friction", "area"), TITLES[name])
+        (state, predictions), *_ = solved.items()
+        both = {f"friction, {state}": predictions, f"contact area, {state}": predictions}
+        return predictions_figure(both, ("running_friction", "area"), TITLES[name])
     quantity: Quantity = "friction" if name in ("fig8a", "fig8b", "fig9a") else "area"
     ordered = name in ("fig6a", "fig8b")
-    return chains_figure(solved, [quantity] * len(solved), TITLES[name], ordered=ordered)
+    return predictions_figure(solved, [quantity] * len(solved), TITLES[name], ordered=ordered)
 
 
-def _judge(name: str, bench: Bench, solved: Solved, rest: Solved) -> list[Statement]:
+def _judge(name: str, inputs: Inputs, solved: Solved, rest: Solved) -> list[Statement]:
     judges: Mapping[str, Callable[[], list[Statement]]] = {
         "fig5a": lambda: judge_area.judge_progression(name, solved),
         "fig5b": lambda: [
@@ -106,15 +105,15 @@ def _judge(name: str, bench: Bench, solved: Solved, rest: Solved) -> list[Statem
         "fig7a": lambda: judge_area.judge_surfaces(name, solved),
         "fig7b": lambda: judge_area.judge_surfaces(name, solved),
         "fig8a": lambda: judge_friction.judge_factors_friction(solved),
-        "fig8b": lambda: judge_friction.judge_speed_friction(solved, bench),
-        "fig9a": lambda: judge_friction.judge_compounds(solved, bench),
-        "fig9b": lambda: judge_friction.judge_surface_friction(solved, bench),
+        "fig8b": lambda: judge_friction.judge_speed_friction(solved, inputs),
+        "fig9a": lambda: judge_friction.judge_compounds(solved, inputs),
+        "fig9b": lambda: judge_friction.judge_surface_friction(solved, inputs),
     }
     failed = [
-        f"{panel}, {line}: {chain.attrs['case_status']}"
+        f"{panel}, {line}: {prediction.prediction_status.item()}"
         for panel, lines in solved.items()
-        for line, chain in lines.items()
-        if chain.sizes["scale"] < FEWEST_WAVES
+        for line, prediction in lines.items()
+        if prediction.sizes["scale"] < FEWEST_WAVES
     ]
     if failed:
         criterion = f"at least {FEWEST_WAVES} waves of every chain converge"
@@ -122,58 +121,63 @@ def _judge(name: str, bench: Bench, solved: Solved, rest: Solved) -> list[Statem
     return judges[name]()
 
 
-def _chains_data(solved: Solved) -> xr.Dataset:
-    """Return the chains of a figure over panel, line and wave."""
+def _predictions_data(solved: Solved) -> xr.Dataset:
+    """Return the numbers per wave and the status of the predictions, by panel and line."""
     rows = []
     for panel, lines in solved.items():
-        for line, chain in lines.items():
-            row = chain[wave_numbers(chain)].astype(float).drop_attrs(deep=False).drop_encoding()
-            labels = {"panel": panel, "line": line, "case_status": chain.attrs["case_status"]}
+        for line, found in lines.items():
+            names = [
+                name
+                for name, values in found.data_vars.items()
+                if values.dims == ("scale",) and np.issubdtype(values.dtype, np.number)
+            ]
+            row = found[[*names, "prediction_status"]].drop_attrs(deep=False).drop_encoding()
+            labels = {"panel": panel, "line": line}
             rows.append(row.assign({k: ((), np.array(v, dtype=object)) for k, v in labels.items()}))
-    return xr.concat(rows, dim="chain", join="outer", coords="minimal", compat="override")
+    return xr.concat(rows, dim="prediction", join="outer", coords="minimal", compat="override")
 
 
-def _fig2(bench: Bench) -> Made:
+def _fig2(inputs: Inputs) -> Made:
     omega = np.geomspace(1e-2, 1e13, 451)
     attrs = {"units": "Pa", "long_name": "Young's modulus of the Prony series"}
-    modulus = np.array([r.complex_modulus(omega) for r in bench.rubbers.values()])
+    modulus = np.array([r.complex_modulus(omega) for r in inputs.rubbers.values()])
     data = xr.Dataset(
         {
             "storage_modulus": (("rubber", "angular_frequency"), modulus.real, attrs),
             "loss_modulus": (("rubber", "angular_frequency"), modulus.imag, attrs),
-            "measured_storage_modulus": ("measured", bench.master.storage, {"units": "Pa"}),
-            "measured_loss_modulus": ("measured", bench.master.loss, {"units": "Pa"}),
+            "measured_storage_modulus": ("measured", inputs.master.storage, {"units": "Pa"}),
+            "measured_loss_modulus": ("measured", inputs.master.loss, {"units": "Pa"}),
         },
         coords={
-            "rubber": np.array(list(bench.rubbers), dtype=object),
+            "rubber": np.array(list(inputs.rubbers), dtype=object),
             "angular_frequency": ("angular_frequency", omega, {"units": "rad/s"}),
-            "measured": ("measured", bench.master.angular_frequency, {"units": "rad/s"}),
+            "measured": ("measured", inputs.master.angular_frequency, {"units": "rad/s"}),
         },
     )
-    figure = master_curves_figure(bench.rubbers, {TREAD: bench.master})
-    return Made(figure, data, judge_inputs.judge_master_curves(bench))
+    figure = master_curves_figure(inputs.rubbers, {TREAD: inputs.master})
+    return Made(figure, data, judge_inputs.judge_master_curves(inputs))
 
 
-def _fig3b(bench: Bench) -> Made:
-    curves = {road: bench.correlation(road) for road in (ROAD, DENSE)}
-    fits = self_affine(bench)
+def _fig3b(inputs: Inputs) -> Made:
+    curves = {road: inputs.correlation(road) for road in (ROAD, DENSE)}
+    fits = self_affine(inputs)
     data: dict[str, xr.DataArray] = {}
     for i, (road, curve) in enumerate(curves.items(), start=1):
         data[f"C_z_{i}"] = _curve(curve.lag, curve.value, f"lag_{i}", road)
         if road in fits:
             data[f"eq_6_{i}"] = _curve(curve.lag, fits[road].evaluate(curve.lag), f"lag_{i}", road)
     figure = correlations_figure(curves, fits)
-    return Made(figure, xr.Dataset(data), judge_inputs.judge_correlation(bench))
+    return Made(figure, xr.Dataset(data), judge_inputs.judge_correlation(inputs))
 
 
-def _fig4(bench: Bench) -> Made:
-    curves = {road: bench.correlation(road) for road in (DENSE, ROAD)}
+def _fig4(inputs: Inputs) -> Made:
+    curves = {road: inputs.correlation(road) for road in (DENSE, ROAD)}
     stacks: dict[str, dict[str, SineStack]] = {}
     data: dict[str, xr.DataArray] = {}
     for i, (road, curve) in enumerate(curves.items(), start=1):
-        two, one = judge_inputs.single_factor(bench, road)
+        two, one = judge_inputs.single_factor(inputs, road)
         stacks[road] = {
-            **bench.magnified(road),
+            **inputs.magnified(road),
             f"{two.s_wavelength:.2f}/{two.s_amplitude:.2f}, all fitted": two,
             f"{one.s_wavelength:.2f}, one factor": one,
         }
@@ -182,7 +186,7 @@ def _fig4(bench: Bench) -> Made:
             waves = stack.height_difference(curve.lag)
             data[f"C_z_{i}_waves_{j}"] = _curve(curve.lag, waves, f"lag_{i}", f"{road}, {name}")
     figure = factors_figure(curves, stacks)
-    return Made(figure, xr.Dataset(data), judge_inputs.judge_factors(bench))
+    return Made(figure, xr.Dataset(data), judge_inputs.judge_factors(inputs))
 
 
 def _curve(lag: np.ndarray, value: np.ndarray, dim: str, of: str) -> xr.DataArray:

@@ -10,9 +10,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from gripscale.reproduce.bench import DENSE, ROAD, SBR, SPEED, TREAD
-from gripscale.reproduce.chains import STATIC, Solved, speed_name
-from gripscale.reproduce.statement import Statement
+from reproduction.inputs import DENSE, ROAD, SBR, SPEED, TREAD
+from reproduction.panels import STATIC, Solved, speed_name
+from reproduction.statement import Statement
 
 Array = NDArray[np.float64]
 
@@ -25,11 +25,11 @@ def judge_progression(figure: str, solved: Solved) -> list[Statement]:
     """Judge whether the area goes the same way for all factors and settles (Figs 5a and 5b)."""
     state = "static" if figure == "fig5a" else f"{SPEED * 1e3:g} mm/s"
     statements = []
-    for road, chains in solved.items():
-        x = _common(chains.values())
-        curves = np.array([_area_at(chain, x) for chain in chains.values()])
+    for road, predictions in solved.items():
+        x = _common(predictions.values())
+        curves = np.array([_area_at(prediction, x) for prediction in predictions.values()])
         spread, good = _spread(curves), _spread(curves[:-1])
-        steepest = max(float((chain.slope).max()) for chain in chains.values())
+        steepest = max(float((prediction.slope).max()) for prediction in predictions.values())
         why = (
             f"different inputs: without the pair that fits worst the others are {good:.0%} apart; "
             f"its last wave is too steep (slope {steepest:.1f}) for so few waves on this road"
@@ -46,7 +46,7 @@ def judge_progression(figure: str, solved: Solved) -> list[Statement]:
                 "" if spread <= SAME else why,
             )
         )
-        slopes = {name: _slopes(chain) for name, chain in chains.items()}
+        slopes = {name: _slopes(prediction) for name, prediction in predictions.items()}
         flatter = all(each[-1] < each[0] for each in slopes.values())
         statements.append(
             Statement(
@@ -87,18 +87,18 @@ def judge_motion(rest: Solved, moving: Solved) -> list[Statement]:
 
 def judge_speed(solved: Solved) -> list[Statement]:
     """Judge whether the area falls with speed, most at micro scale (Fig. 6a)."""
-    chains = [chain for name, chain in solved[TREAD].items() if name != STATIC]
-    falls = all((_ratio(slow, fast) < 1.0).all() for slow, fast in pairwise(chains))
-    left = _ratio(chains[0], chains[-1])
+    predictions = [prediction for name, prediction in solved[TREAD].items() if name != STATIC]
+    falls = all((_ratio(slow, fast) < 1.0).all() for slow, fast in pairwise(predictions))
+    left = _ratio(predictions[0], predictions[-1])
     return [
         Statement(
             "fig6a",
             "contact area falls with speed, most at micro scale",
-            f"{ROAD}, {TREAD}, {len(chains)} speeds over four decades",
+            f"{ROAD}, {TREAD}, {len(predictions)} speeds over four decades",
             "running area falls from speed to speed at every wave, and what is left of it from "
             "the slowest to the fastest falls from the first wave to the last",
-            f"left: {left[0]:.2f} at {float(chains[0].wavelength[0]) * 1e3:.3g} mm, "
-            f"{left[-1]:.2f} at {float(chains[0].wavelength[left.size - 1]) * 1e3:.3g} mm",
+            f"left: {left[0]:.2f} at {float(predictions[0].wavelength[0]) * 1e3:.3g} mm, "
+            f"{left[-1]:.2f} at {float(predictions[0].wavelength[left.size - 1]) * 1e3:.3g} mm",
             falls and bool(left[-1] < left[0]),
         )
     ]
@@ -124,9 +124,9 @@ def judge_stiffness(solved: Solved) -> list[Statement]:
 
 def judge_surfaces(figure: str, solved: Solved) -> list[Statement]:
     """Judge whether surfaces differ at macro scale, less with the micro scale (Figs 7a, 7b)."""
-    (state, chains), *_ = solved.items()
+    (state, predictions), *_ = solved.items()
     macro, whole = (
-        abs(math.log(_down_to(chains[DENSE], end) / _down_to(chains[ROAD], end)))
+        abs(math.log(_down_to(predictions[DENSE], end) / _down_to(predictions[ROAD], end)))
         for end in (MICRO, 0.0)
     )
     holds = whole < (1.0 - LESS) * macro
@@ -149,25 +149,27 @@ def _spread(curves: Array) -> float:
     return float((curves.max(axis=0) / curves.min(axis=0)).max() - 1.0)
 
 
-def _common(chains: Collection[xr.Dataset]) -> Array:
-    """Return wavelengths from the first wave down to the last one all chains have [m]."""
-    first, last = (max(float(chain.wavelength[at]) for chain in chains) for at in (0, -1))
+def _common(predictions: Collection[xr.Dataset]) -> Array:
+    """Return wavelengths from the first wave down to the last one all predictions have [m]."""
+    first, last = (
+        max(float(prediction.wavelength[at]) for prediction in predictions) for at in (0, -1)
+    )
     return np.geomspace(first, last, 40)
 
 
-def _kept(chain: xr.Dataset) -> tuple[Array, Array]:
+def _kept(prediction: xr.Dataset) -> tuple[Array, Array]:
     """Return wavelength [m] and running area of the waves."""
-    return chain.wavelength.values, chain.running_contact_fraction.values
+    return prediction.wavelength.values, prediction.running_contact_fraction.values
 
 
-def _area_at(chain: xr.Dataset, wavelength: Array) -> Array:
+def _area_at(prediction: xr.Dataset, wavelength: Array) -> Array:
     """Return the running area between waves, straight in logarithms."""
-    own, area = _kept(chain)
+    own, area = _kept(prediction)
     return np.asarray(np.exp(np.interp(-np.log(wavelength), -np.log(own), np.log(area))))
 
 
-def _slopes(chain: xr.Dataset) -> Array:
-    own, area = _kept(chain)
+def _slopes(prediction: xr.Dataset) -> Array:
+    own, area = _kept(prediction)
     return np.asarray(np.diff(np.log(area)) / np.diff(np.log(own)))
 
 
@@ -176,7 +178,7 @@ def _ratio(rest: xr.Dataset, moving: xr.Dataset) -> Array:
     return np.asarray(moving.running_contact_fraction / rest.running_contact_fraction)
 
 
-def _down_to(chain: xr.Dataset, smallest: float) -> float:
+def _down_to(prediction: xr.Dataset, smallest: float) -> float:
     """Return the running area of the waves longer than `smallest` [m]."""
-    own, area = _kept(chain)
+    own, area = _kept(prediction)
     return float(area[own >= smallest][-1])

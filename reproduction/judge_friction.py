@@ -9,9 +9,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from gripscale.reproduce.bench import DENSE, FAST, FASTEST, ROAD, SBR, SPEED, TREAD, Bench
-from gripscale.reproduce.chains import Solved, speed_name
-from gripscale.reproduce.statement import Statement
+from reproduction.inputs import DENSE, FAST, FASTEST, ROAD, SBR, SPEED, TREAD, Inputs
+from reproduction.panels import Solved, speed_name
+from reproduction.statement import Statement
 
 Array = NDArray[np.float64]
 
@@ -23,15 +23,15 @@ SCATTER = 0.1
 
 def judge_factors_friction(solved: Solved) -> list[Statement]:
     """Judge whether the worst fit has its own friction at small waves only (Fig. 8a)."""
-    return [_departure(road, chains) for road, chains in solved.items()]
+    return [_departure(road, predictions) for road, predictions in solved.items()]
 
 
-def _departure(road: str, chains: dict[str, xr.Dataset]) -> Statement:
-    *good, worst = chains.values()
+def _departure(road: str, predictions: dict[str, xr.Dataset]) -> Statement:
+    *good, worst = predictions.values()
     own, friction = _kept(worst)
-    shared = own >= max(_kept(chain)[0][-1] for chain in good) * (1.0 - 1e-9)
+    shared = own >= max(_kept(prediction)[0][-1] for prediction in good) * (1.0 - 1e-9)
     x = own[shared]
-    others = np.array([_friction_at(chain, x) for chain in good])
+    others = np.array([_friction_at(prediction, x) for prediction in good])
     away = friction[shared] / others.mean(axis=0) - 1.0
     apart = others.max(axis=0) / others.min(axis=0) - 1.0
     departs = abs(away[-1]) > max(ALIKE, 2.0 * apart[-1])
@@ -49,12 +49,12 @@ def _departure(road: str, chains: dict[str, xr.Dataset]) -> Statement:
     )
 
 
-def judge_speed_friction(solved: Solved, bench: Bench) -> list[Statement]:
+def judge_speed_friction(solved: Solved, inputs: Inputs) -> list[Statement]:
     """Judge whether friction rises to a maximum, sooner the faster (Fig. 8b)."""
     statements = []
-    for rubber, chains in solved.items():
-        peaks = {name: _peak(chain) for name, chain in chains.items()}
-        rises = all(_rises(chain, peaks[name][0]) for name, chain in chains.items())
+    for rubber, predictions in solved.items():
+        peaks = {name: _peak(prediction) for name, prediction in predictions.items()}
+        rises = all(_rises(prediction, peaks[name][0]) for name, prediction in predictions.items())
         statements.append(
             Statement(
                 "fig8b",
@@ -63,23 +63,23 @@ def judge_speed_friction(solved: Solved, bench: Bench) -> list[Statement]:
                 "up to the maximum every wave has more friction than the first (within "
                 f"{SCATTER:.0%}), and the maximum is not the first, at every speed",
                 ", ".join(
-                    f"{name}: {float(chain.friction[0]):.3f} to {_highest(chain):.3f}"
-                    for name, chain in chains.items()
+                    f"{name}: {float(prediction.friction[0]):.3f} to {_highest(prediction):.3f}"
+                    for name, prediction in predictions.items()
                 ),
                 rises,
             )
         )
-        statements.append(_sooner(rubber, peaks, bench))
+        statements.append(_sooner(rubber, peaks, inputs))
     return statements
 
 
-def _sooner(rubber: str, peaks: dict[str, tuple[int, float, bool]], bench: Bench) -> Statement:
+def _sooner(rubber: str, peaks: dict[str, tuple[int, float, bool]], inputs: Inputs) -> Statement:
     wavelengths = [peak[1] for peak in peaks.values()]
     inside = {name: peak[1] for name, peak in peaks.items() if peak[2]}
     ordered = all(later >= sooner for sooner, later in pairwise(wavelengths))
     holds = ordered and len(inside) >= 2 and len(set(inside.values())) >= 2
     omega = np.geomspace(1e-2, 1e12, 2000)
-    loss = bench.rubbers[rubber].loss_factor(omega)
+    loss = inputs.rubbers[rubber].loss_factor(omega)
     place = 2.0 * math.pi * FASTEST / omega[int(loss.argmax())]
     why = (
         "different inputs: the loss factor of this compound has its maximum at "
@@ -103,25 +103,25 @@ def _sooner(rubber: str, peaks: dict[str, tuple[int, float, bool]], bench: Bench
     )
 
 
-def judge_compounds(solved: Solved, bench: Bench) -> list[Statement]:
+def judge_compounds(solved: Solved, inputs: Inputs) -> list[Statement]:
     """Judge the friction of the compounds along the waves (Fig. 9a).
 
     The fastest speed is beyond the paper's: there the waves reach what they do not at its speeds.
     """
     statements = []
     for speed in (SPEED, FAST):
-        chains = solved[speed_name(speed)]
+        predictions = solved[speed_name(speed)]
         where = f"{ROAD}, {speed * 1e3:g} mm/s, {SBR} against {TREAD}"
-        statements.append(_alike(where, _lead(chains)))
-        statements.append(_lossier(where, chains))
+        statements.append(_alike(where, _lead(predictions)))
+        statements.append(_lossier(where, predictions))
     for speed in (SPEED, FAST, FASTEST):
-        statements.append(_again(speed, solved, bench))
+        statements.append(_again(speed, solved, inputs))
     return statements
 
 
-def _lead(chains: dict[str, xr.Dataset]) -> Array:
+def _lead(predictions: dict[str, xr.Dataset]) -> Array:
     """Return by how much the SBR is ahead at each wave."""
-    return np.asarray(chains[SBR].friction - chains[TREAD].friction)
+    return np.asarray(predictions[SBR].friction - predictions[TREAD].friction)
 
 
 def _alike(where: str, lead: Array) -> Statement:
@@ -136,9 +136,9 @@ def _alike(where: str, lead: Array) -> Statement:
     )
 
 
-def _lossier(where: str, chains: dict[str, xr.Dataset]) -> Statement:
-    lead = _lead(chains)[1:]
-    ratio = np.asarray(chains[SBR].loss_factor / chains[TREAD].loss_factor)[1:]
+def _lossier(where: str, predictions: dict[str, xr.Dataset]) -> Statement:
+    lead = _lead(predictions)[1:]
+    ratio = np.asarray(predictions[SBR].loss_factor / predictions[TREAD].loss_factor)[1:]
     told = np.abs(np.log(ratio)) > math.log(1.0 + LOSSIER)
     ahead = np.sign(lead) == np.sign(np.log(ratio))
     return Statement(
@@ -153,15 +153,15 @@ def _lossier(where: str, chains: dict[str, xr.Dataset]) -> Statement:
     )
 
 
-def _again(speed: float, solved: Solved, bench: Bench) -> Statement:
-    chains, fastest = solved[speed_name(speed)], _lead(solved[speed_name(FASTEST)])
-    lead = _lead(chains)
+def _again(speed: float, solved: Solved, inputs: Inputs) -> Statement:
+    predictions, fastest = solved[speed_name(speed)], _lead(solved[speed_name(FASTEST)])
+    lead = _lead(predictions)
     omega = np.geomspace(1e-2, 1e12, 2000)
-    modulus = bench.rubbers[SBR].complex_modulus(omega)
+    modulus = inputs.rubbers[SBR].complex_modulus(omega)
     highest = float(omega[int(modulus.imag.argmax())])
     lossiest = float(omega[int((modulus.imag / modulus.real).argmax())])
     ratio = float(abs(lead[-1]) / np.abs(lead).max())
-    smallest = float(chains[TREAD].wavelength[lead.size - 1])
+    smallest = float(predictions[TREAD].wavelength[lead.size - 1])
     why = (
         f"different inputs: E'' of the {SBR} has its maximum at {highest:.1e} rad/s, its loss "
         f"factor at {lossiest:.1e} rad/s; at this speed waves of "
@@ -181,14 +181,17 @@ def _again(speed: float, solved: Solved, bench: Bench) -> Statement:
     )
 
 
-def judge_surface_friction(solved: Solved, bench: Bench) -> list[Statement]:
+def judge_surface_friction(solved: Solved, inputs: Inputs) -> list[Statement]:
     """Judge whether the steeper surface has more friction with less area (Fig. 9b)."""
-    (state, chains), *_ = solved.items()
+    (state, predictions), *_ = solved.items()
     steep = {
-        r: float(np.mean(s.sines.amplitude / s.sines.wavelength)) for r, s in bench.roads.items()
+        r: float(np.mean(s.sines.amplitude / s.sines.wavelength))
+        for r, s in inputs.surfaces.items()
     }
-    friction = {r: float(chain.running_friction[-1]) for r, chain in chains.items()}
-    area = {r: float(chain.running_contact_fraction[-1]) for r, chain in chains.items()}
+    friction = {r: float(prediction.running_friction[-1]) for r, prediction in predictions.items()}
+    area = {
+        r: float(prediction.running_contact_fraction[-1]) for r, prediction in predictions.items()
+    }
     holds = steep[ROAD] > steep[DENSE] and (
         friction[ROAD] > friction[DENSE] and area[ROAD] < area[DENSE]
     )
@@ -208,29 +211,29 @@ def judge_surface_friction(solved: Solved, bench: Bench) -> list[Statement]:
     ]
 
 
-def _kept(chain: xr.Dataset) -> tuple[Array, Array]:
+def _kept(prediction: xr.Dataset) -> tuple[Array, Array]:
     """Return wavelength [m] and friction of the waves."""
-    return chain.wavelength.values, chain.friction.values
+    return prediction.wavelength.values, prediction.friction.values
 
 
-def _friction_at(chain: xr.Dataset, wavelength: Array) -> Array:
+def _friction_at(prediction: xr.Dataset, wavelength: Array) -> Array:
     """Return the friction of a wave between waves, straight over the logarithm of wavelength."""
-    own, friction = _kept(chain)
+    own, friction = _kept(prediction)
     return np.asarray(np.interp(-np.log(wavelength), -np.log(own), friction))
 
 
-def _peak(chain: xr.Dataset) -> tuple[int, float, bool]:
+def _peak(prediction: xr.Dataset) -> tuple[int, float, bool]:
     """Return place and wavelength [m] of the largest friction, and if smaller waves follow."""
-    own, friction = _kept(chain)
+    own, friction = _kept(prediction)
     at = int(friction.argmax())
     return at, float(own[at]), at < own.size - 1
 
 
-def _rises(chain: xr.Dataset, peak: int) -> bool:
+def _rises(prediction: xr.Dataset, peak: int) -> bool:
     """Return whether no wave from the first to the peak has clearly less than the first."""
-    friction = chain.friction.values[: peak + 1]
+    friction = prediction.friction.values[: peak + 1]
     return peak > 0 and bool((friction >= (1.0 - SCATTER) * friction[0]).all())
 
 
-def _highest(chain: xr.Dataset) -> float:
-    return float(_kept(chain)[1].max())
+def _highest(prediction: xr.Dataset) -> float:
+    return float(_kept(prediction)[1].max())

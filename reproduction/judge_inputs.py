@@ -7,25 +7,25 @@ import math
 import numpy as np
 
 from gripscale.errors import InputError
-from gripscale.reproduce.bench import DENSE, PAPER_FACTORS, ROAD, SBR, TREAD, Bench
-from gripscale.reproduce.statement import Statement
 from gripscale.rubber import springpot_modulus
 from gripscale.surface import SineStack, fit_self_affine, fit_sines
+from reproduction.inputs import DENSE, PAPER_FACTORS, ROAD, SBR, TREAD, Inputs
+from reproduction.statement import Statement
 
 MODULUS_ERROR = 0.10
 POWER_LAW_DECADES, POWER_LAW_RESIDUAL = 1.0, 0.02
 TWO_FACTORS_RESIDUAL, ONE_FACTOR_RATIO = 0.1, 1.5
 
 
-def judge_master_curves(bench: Bench) -> list[Statement]:
+def judge_master_curves(inputs: Inputs) -> list[Statement]:
     """Judge whether a generalized Maxwell solid has the moduli of each compound (Fig. 2)."""
-    sbr = bench.rubbers[SBR]
+    sbr = inputs.rubbers[SBR]
     low, high = sbr.valid_band or (1e-2, 1e10)
     omega = np.geomspace(low, high, 200)
     ratio = sbr.complex_modulus(omega)
     wanted = springpot_modulus(omega)
     errors = {
-        TREAD: (bench.prony.rms_storage, bench.prony.rms_loss),
+        TREAD: (inputs.prony.rms_storage, inputs.prony.rms_loss),
         SBR: (_rms(ratio.real / wanted.real), _rms(ratio.imag / wanted.imag)),
     }
     return [
@@ -42,19 +42,19 @@ def judge_master_curves(bench: Bench) -> list[Statement]:
     ]
 
 
-def judge_correlation(bench: Bench) -> list[Statement]:
+def judge_correlation(inputs: Inputs) -> list[Statement]:
     """Judge whether C_z is a power law below a cut-off and constant above it (Fig. 3b)."""
-    return [_self_affine(bench, road) for road in (ROAD, DENSE)]
+    return [_self_affine(inputs, road) for road in (ROAD, DENSE)]
 
 
-def _self_affine(bench: Bench, road: str) -> Statement:
+def _self_affine(inputs: Inputs, road: str) -> Statement:
     said = "C_z is a power law below a cut-off and constant above it (eq. 6)"
     criterion = (
         f"straight within {POWER_LAW_RESIDUAL:g} decades rms (5 %) over at least "
         f"{POWER_LAW_DECADES:g} decade of lag, and a plateau"
     )
     try:
-        fit = fit_self_affine(bench.correlation(road))
+        fit = fit_self_affine(inputs.correlation(road))
     except InputError as error:
         return Statement("fig3b", said, road, criterion, "no fit", False, str(error))
     decades = math.log10(fit.lag_max / fit.lag_min)
@@ -67,12 +67,12 @@ def _self_affine(bench: Bench, road: str) -> Statement:
     return Statement("fig3b", said, road, criterion, number, holds)
 
 
-def single_factor(bench: Bench, road: str) -> tuple[SineStack, SineStack]:
+def single_factor(inputs: Inputs, road: str) -> tuple[SineStack, SineStack]:
     """Return waves fitted with two factors and with one, same number and smallest wavelength."""
-    stack = next(iter(bench.magnified(road).values()))
+    stack = next(iter(inputs.magnified(road).values()))
     both = [
         fit_sines(
-            bench.correlation(road),
+            inputs.correlation(road),
             scales=len(stack),
             smallest_wavelength=float(stack.wavelength[-1]),
             single_factor=single,
@@ -82,13 +82,13 @@ def single_factor(bench: Bench, road: str) -> tuple[SineStack, SineStack]:
     return both[0], both[1]
 
 
-def judge_factors(bench: Bench) -> list[Statement]:
+def judge_factors(inputs: Inputs) -> list[Statement]:
     """Judge whether two factors fit C_z and one does not, and the order of the pairs (Fig. 4)."""
     statements = []
     for road in (DENSE, ROAD):
-        two, one = (float(stack.residual or math.nan) for stack in single_factor(bench, road))
-        statements.append(_one_or_two(bench, road, two, one))
-    residuals = {name: s.residual or math.nan for name, s in bench.magnified(DENSE).items()}
+        two, one = (float(stack.residual or math.nan) for stack in single_factor(inputs, road))
+        statements.append(_one_or_two(inputs, road, two, one))
+    residuals = {name: s.residual or math.nan for name, s in inputs.magnified(DENSE).items()}
     worst = max(residuals, key=lambda name: residuals[name])
     last = "/".join(f"{part:g}" for part in PAPER_FACTORS[-1])
     statements.append(
@@ -104,8 +104,8 @@ def judge_factors(bench: Bench) -> list[Statement]:
     return statements
 
 
-def _one_or_two(bench: Bench, road: str, two: float, one: float) -> Statement:
-    stack = bench.roads[road].sines
+def _one_or_two(inputs: Inputs, road: str, two: float, one: float) -> Statement:
+    stack = inputs.surfaces[road].sines
     exponent = math.log(stack.s_amplitude or 1.0) / math.log(stack.s_wavelength or math.e)
     holds = two <= TWO_FACTORS_RESIDUAL and one >= ONE_FACTOR_RATIO * two
     paper = math.log(PAPER_FACTORS[0][1]) / math.log(PAPER_FACTORS[0][0])

@@ -1,4 +1,4 @@
-"""Reproducing the paper's figures: chains solved once, pictures, data and judged statements."""
+"""Reproducing the paper's figures: predictions made once, pictures, data and judged statements."""
 
 from __future__ import annotations
 
@@ -6,33 +6,31 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from gripscale import checks, dataset
-from gripscale.figures.style import save_figure
-from gripscale.reproduce.bench import bench as read_bench
-from gripscale.reproduce.chains import Panels, panels_of, results_of
-from gripscale.reproduce.figures import TITLES, make
-from gripscale.reproduce.statement import Statement, write_statements
-from gripscale.study import Store, Task, solve_all
-from gripscale.study.solving import OnCase
+from gripscale import checks, netcdf
+from gripscale.figures import save_figure
+from gripscale.study import Progress, Store, Task, solve_all
+from reproduction.figures import TITLES, make
+from reproduction.inputs import DATA, read_inputs
+from reproduction.panels import Panels, panels_of, results_of
+from reproduction.statement import Statement, write_statements
 
 FIGURES = tuple(TITLES)
 """Names of the figures, in order."""
 
 NEEDED_TOO = {"fig5b": ("fig5a",)}
-"""Figures whose chains another one is compared with."""
+"""Figures whose predictions another one is compared with."""
 
 
 def reproduce(
     figures: Sequence[str] = ("all",),
-    output: str | Path = "reproduction",
+    output: str | Path = "results/reproduction",
     *,
     data: str | Path | None = None,
     workers: int | None = None,
     client: Any = None,
-    on_case: OnCase | None = None,
-    on_statement: Callable[[Statement], None] | None = None,
+    on_task: Callable[[Progress], None] | None = None,
 ) -> list[Statement]:
-    """Make figures of Lind & Wangenheim 2014 with the inputs of `gripscale.reproduce.bench`.
+    """Make figures of Lind & Wangenheim 2014 with the inputs of `reproduction.inputs`.
 
     Parameters
     ----------
@@ -40,14 +38,12 @@ def reproduce(
         Names of `FIGURES`, or "all".
     output
         Folder that gets `fig5a.png`, `fig5a.pdf` and `fig5a.nc` and so on, the judged statements
-        as `statements.md` and `statements.json`, and the solved chains in `cases`: what is there
-        is not solved again.
+        as `statements.md` and `statements.json`, and `predictions`: what is there is not solved
+        again.
     data
-        Folder of the example data; by default the one beside an installation from source.
-    workers, client, on_case
+        Folder of the example data; by default the one beside this folder.
+    workers, client, on_task
         As for `gripscale.study.solve_all`.
-    on_statement
-        Called with each statement as it is judged.
 
     Returns
     -------
@@ -60,21 +56,18 @@ def reproduce(
         An unknown figure, data that are not there, a result that cannot be written.
     """
     names = chosen(figures)
-    bench = read_bench(None if data is None else Path(data))
-    wanted = {name: panels_of(name, bench) for name in _with_needed(names)}
-    store = Store(Path(output) / "cases")
-    solved = solve_all(_labelled(wanted), store, workers=workers, client=client, on_case=on_case)
+    inputs = read_inputs(DATA if data is None else Path(data))
+    wanted = {name: panels_of(name, inputs) for name in _with_needed(names)}
+    store = Store(Path(output) / "predictions")
+    solved = solve_all(_labelled(wanted), store, workers=workers, client=client, on_task=on_task)
     results = {name: results_of(panels, solved) for name, panels in wanted.items()}
     statements: list[Statement] = []
     for name in names:
         rest = results.get("fig5a", {})
-        made = make(name, bench, results[name], rest)
+        made = make(name, inputs, results[name], rest)
         save_figure(made.figure, Path(output), name)
-        dataset.save(made.data, Path(output) / f"{name}.nc")
+        netcdf.save(made.data, Path(output) / f"{name}.nc")
         statements.extend(made.statements)
-        for statement in made.statements:
-            if on_statement is not None:
-                on_statement(statement)
     write_statements(statements, Path(output))
     return statements
 

@@ -1,34 +1,39 @@
-//! Contact of a finite-strain viscoelastic rubber block with one rigid sine wave.
+//! Contact of a finite-strain viscoelastic rubber block with one period of a rigid profile.
 //!
-//! The rooms, each using only what stands above it:
-//! `error`, `element`, `cell` (mesh), `network` and `hyperelastic` (material at a point), `memory`
-//! (Maxwell history), `linear` (faer), `assembly`, `wave`, `active_set`, `surface_contact` and
-//! `newton` (one load), `march` (raising it), `transfer` (between meshes), `outcome`, `ladder` and
-//! `scale` (one wave, from inputs to solution), `networks` and `transient` (sliding in time),
-//! `python` (bindings, no numerics).
+//! A user needs `problem` (what is solved), `settings` (how), `steady::solve` and
+//! `transient::solve`, and `solution`, `status` and `error` (what comes back). The other rooms are
+//! public for the tests alone. Each uses only what stands before it:
+//!
+//! | room | what |
+//! |---|---|
+//! | `error`, `status`, `settings` | refusals, endings, every constant of the solver |
+//! | `linear` | the one file with faer: dense LU, elimination of node layers |
+//! | `material` | kinematics, stress, strain energies, Maxwell elements and what they remember |
+//! | `fem` | element, mesh, block, element rows with their memory coupling |
+//! | `contact` | profile, linearised contact, complementarity, edges between nodes |
+//! | `outcome` | contact, friction and stretches of a state |
+//! | `problem`, `model` | one wave in SI units, checked; the same in kernel units |
+//! | `solve` | Newton, load stepping, mesh sequence, transfer between meshes |
+//! | `solution`, `steady`, `transient` | one wave solved; steady sliding; sliding in time |
+//! | `python` | bindings, no numerics |
 //!
 //! Conventions: inside, lengths are in wavelengths and stresses in units of |G*(2 pi v / lambda)|;
-//! x along sliding (the rubber moves in +x over the wave, whose frame is used), z up, rubber above,
-//! pressure positive in compression, friction positive when it opposes the sliding.
+//! x along sliding (the rubber moves in +x over the profile, whose frame is used), z up, rubber
+//! above, pressure positive in compression, friction positive when it opposes the sliding.
 
-pub mod active_set;
-pub mod assembly;
-pub mod cell;
-pub mod element;
+pub mod contact;
 pub mod error;
-pub mod hyperelastic;
-pub mod ladder;
+pub mod fem;
 pub mod linear;
-pub mod march;
-pub mod memory;
-pub mod network;
-pub mod networks;
-pub mod newton;
+pub mod material;
+pub mod model;
 pub mod outcome;
+pub mod problem;
 #[cfg(feature = "python")]
 mod python;
-pub mod scale;
-pub mod surface_contact;
-pub mod transfer;
+pub mod settings;
+pub mod solution;
+pub mod solve;
+pub mod status;
+pub mod steady;
 pub mod transient;
-pub mod wave;

@@ -33,17 +33,11 @@ pub fn column(values: &[f64]) -> Mat<f64> {
 
 /// The entries of one column.
 pub fn column_mut(matrix: &mut Mat<f64>, index: usize) -> &mut [f64] {
-    match matrix.col_mut(index).try_as_col_major_mut() {
-        Some(column) => column.as_slice_mut(),
-        None => &mut [],
-    }
+    matrix.col_as_slice_mut(index)
 }
 
 pub fn column_ref(matrix: &Mat<f64>, index: usize) -> &[f64] {
-    match matrix.col(index).try_as_col_major() {
-        Some(column) => column.as_slice(),
-        None => &[],
-    }
+    matrix.col_as_slice(index)
 }
 
 /// target = left right.
@@ -86,26 +80,24 @@ pub struct Reduced {
 }
 
 impl Elimination {
-    /// Factor the block; `row(r)` builds the matrix of element row r.
-    pub fn new(rows: usize, layer: usize, mut row: impl FnMut(usize) -> Mat<f64>) -> Self {
-        let mut kept = Vec::with_capacity(rows);
-        let mut above: Option<Mat<f64>> = None;
-        for r in (0..rows).rev() {
-            let mut matrix = row(r);
-            let top = matrix.nrows() - layer;
-            let size = if above.is_some() { matrix.nrows() } else { top };
-            if let Some(schur) = above.take() {
-                add_block(&mut matrix, top, &schur);
-            }
-            let (row, schur) = eliminate_row(&matrix, layer, size - layer);
-            kept.push(row);
-            above = Some(schur);
+    /// Factor a block whose layers have `layer` unknowns, from the matrices of its element rows:
+    /// the uppermost, its last layer the fixed lid, and those below from the top down.
+    pub fn new(layer: usize, uppermost: Mat<f64>, below: impl Iterator<Item = Mat<f64>>) -> Self {
+        let (row, mut surface_matrix) =
+            eliminate_row(&uppermost, layer, uppermost.nrows() - 2 * layer);
+        let mut rows = vec![row];
+        for mut matrix in below {
+            let upper = matrix.nrows() - layer;
+            add_block(&mut matrix, upper, &surface_matrix);
+            let (row, schur) = eliminate_row(&matrix, layer, upper);
+            rows.push(row);
+            surface_matrix = schur;
         }
-        kept.reverse();
+        rows.reverse();
         Self {
-            rows: kept,
+            rows,
             layer,
-            surface_matrix: above.unwrap_or_else(|| Mat::zeros(layer, layer)),
+            surface_matrix,
         }
     }
 
@@ -116,11 +108,10 @@ impl Elimination {
         for (row, right) in self.rows.iter().zip(rights).rev() {
             let upper = row.lower_upper.ncols();
             let mut offset = Mat::from_fn(upper, 1, |i, _| right[self.layer + i]);
-            if let Some(top) = upper.checked_sub(self.layer) {
-                if row.couples_lid(right.len()) {
-                    for (i, value) in above.iter().enumerate() {
-                        offset[(top + i, 0)] += value;
-                    }
+            if self.layer + upper == right.len() {
+                // The uppermost layer is free: another row stands on it.
+                for (i, value) in above.iter().enumerate() {
+                    offset[(upper - self.layer + i, 0)] += value;
                 }
             }
             if let Some(factor) = &row.factor {
@@ -152,13 +143,6 @@ impl Elimination {
             }
         }
         all
-    }
-}
-
-impl EliminatedRow {
-    /// Whether the row's uppermost layer is free, with another row above it.
-    fn couples_lid(&self, full: usize) -> bool {
-        self.lower_upper.ncols() + self.lower_upper.nrows() == full
     }
 }
 

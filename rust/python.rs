@@ -1,272 +1,249 @@
 //! Python bindings: arguments in, arrays out, the interpreter released in between. No numerics.
 
-use numpy::{PyArray1, PyArray2};
-use pyo3::exceptions::PyValueError;
-use pyo3::prelude::*;
+use std::collections::BTreeMap;
 
-use crate::error::KernelError;
-use crate::hyperelastic::Energy;
-use crate::newton::{Ending, Limits};
-use crate::scale::{Scale, Solution};
-use crate::transient::Stage;
+use numpy::{PyArray1, PyArray2};
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyMapping;
+
+use crate::contact::profile::Heights;
+use crate::error::{unknown, KernelError};
+use crate::material::energy::{Energy, Parameters};
+use crate::problem::{Load, MeshSize, Problem, Profile, Rubber};
+use crate::settings::Settings;
+use crate::solution::Solution;
+use crate::status::Status;
+use crate::steady;
+use crate::transient::{self, Moment, Stage};
 
 impl From<KernelError> for PyErr {
     fn from(error: KernelError) -> Self {
-        PyValueError::new_err(error.to_string())
+        let text = error.to_string();
+        match error {
+            KernelError::Internal(_) => PyRuntimeError::new_err(text),
+            _ => PyValueError::new_err(text),
+        }
     }
+}
+
+/// One `#[pymethods]` block of getters, `name: type = value of the Solution`.
+macro_rules! getters {
+    ($($name:ident: $kind:ty = $value:expr;)+) => {
+        #[pymethods]
+        impl PySolution {
+            $(#[getter]
+            fn $name<'py>(&self, py: Python<'py>) -> PyResult<$kind> {
+                let value: fn(&Solution, Python<'py>) -> PyResult<$kind> = $value;
+                value(&self.0, py)
+            })+
+        }
+    };
 }
 
 /// Contact and friction of one wave, lengths in wavelengths and stresses in Pa.
 #[pyclass(frozen, name = "Solution")]
 struct PySolution(Solution);
 
-#[pymethods]
-impl PySolution {
-    #[getter]
-    fn status(&self) -> &'static str {
-        status(self.0.report.ending)
-    }
-    #[getter]
-    fn residual(&self) -> f64 {
-        self.0.report.residual
-    }
-    #[getter]
-    fn newton_iterations(&self) -> usize {
-        self.0.count.iterations
-    }
-    #[getter]
-    fn load_steps(&self) -> usize {
-        self.0.count.steps
-    }
-    #[getter]
-    fn load_reached(&self) -> f64 {
-        self.0.load_reached
-    }
-    #[getter]
-    fn approach(&self) -> f64 {
-        self.0.state.approach
-    }
-    #[getter]
-    fn contact_fraction(&self) -> f64 {
-        self.0.outcome.contact_fraction
-    }
-    #[getter]
-    fn contacts(&self) -> Vec<(f64, f64)> {
-        self.0.outcome.contacts.clone()
-    }
-    #[getter]
-    fn friction(&self) -> f64 {
-        self.0.outcome.friction
-    }
-    #[getter]
-    fn friction_from_dissipation(&self) -> f64 {
-        self.0.outcome.friction_from_dissipation
-    }
-    #[getter]
-    fn contact_fraction_error(&self) -> f64 {
-        self.0.contact_fraction_error
-    }
-    #[getter]
-    fn friction_error(&self) -> f64 {
-        self.0.friction_error
-    }
-    #[getter]
-    fn columns(&self) -> usize {
-        self.0.cell.columns
-    }
-    #[getter]
-    fn rows(&self) -> usize {
-        self.0.cell.rows
-    }
-    #[getter]
-    fn min_stretch(&self) -> f64 {
-        self.0.outcome.min_stretch
-    }
-    #[getter]
-    fn max_stretch(&self) -> f64 {
-        self.0.outcome.max_stretch
-    }
-    #[getter]
-    fn x<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_slice(py, &self.0.outcome.x)
-    }
-    #[getter]
-    fn pressure<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        let scaled = self
-            .0
-            .outcome
-            .pressure
-            .iter()
-            .map(|p| p * self.0.stress_unit);
-        PyArray1::from_iter(py, scaled)
-    }
-    #[getter]
-    fn mesh_x<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        self.mesh(py, |point| point.0)
-    }
-    #[getter]
-    fn mesh_z<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        self.mesh(py, |point| point.1)
-    }
+type Vector<'py> = Bound<'py, PyArray1<f64>>;
+type Table<'py> = Bound<'py, PyArray2<f64>>;
+
+getters! {
+    status: &'static str = |s, _| Ok(s.finest.report.status.word());
+    residual: f64 = |s, _| Ok(s.finest.report.residual);
+    newton_iterations: usize = |s, _| Ok(s.counts.iterations);
+    load_steps: usize = |s, _| Ok(s.counts.load_steps);
+    load_reached: f64 = |s, _| Ok(s.finest.load_reached);
+    approach: f64 = |s, _| Ok(s.finest.state.approach);
+    contact_fraction: f64 = |s, _| Ok(s.finest.outcome.contact_fraction);
+    contacts: Vec<(f64, f64)> = |s, _| Ok(s.finest.outcome.contacts.clone());
+    friction: f64 = |s, _| Ok(s.finest.outcome.friction);
+    friction_from_dissipation: f64 = |s, _| Ok(s.finest.outcome.friction_from_dissipation);
+    contact_fraction_error: f64 = |s, _| Ok(s.finest.contact_fraction_error);
+    friction_error: f64 = |s, _| Ok(s.finest.friction_error);
+    columns: usize = |s, _| Ok(s.finest.mesh.columns);
+    rows: usize = |s, _| Ok(s.finest.mesh.rows);
+    min_stretch: f64 = |s, _| Ok(s.finest.outcome.min_stretch);
+    max_stretch: f64 = |s, _| Ok(s.finest.outcome.max_stretch);
+    x: Vector<'py> = |s, py| Ok(PyArray1::from_slice(py, &s.finest.outcome.x));
+    pressure: Vector<'py> = |s, py| {
+        let pascals = s.finest.outcome.pressure.iter().map(|p| p * s.stress_unit);
+        Ok(PyArray1::from_iter(py, pascals))
+    };
+    mesh_x: Table<'py> = |s, py| mesh(s, py, |point| point.0);
+    mesh_z: Table<'py> = |s, py| mesh(s, py, |point| point.1);
 }
 
-impl PySolution {
-    fn mesh<'py>(
-        &self,
-        py: Python<'py>,
-        part: impl Fn(&(f64, f64)) -> f64,
-    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let layers: Vec<Vec<f64>> = self
-            .0
-            .mesh()
-            .iter()
-            .map(|layer| layer.iter().map(&part).collect())
-            .collect();
-        Ok(PyArray2::from_vec2(py, &layers)?)
-    }
+fn mesh<'py>(
+    solution: &Solution,
+    py: Python<'py>,
+    part: fn(&(f64, f64)) -> f64,
+) -> PyResult<Table<'py>> {
+    let layers = solution.node_positions();
+    let layers: Vec<Vec<f64>> = layers
+        .iter()
+        .map(|layer| layer.iter().map(part).collect())
+        .collect();
+    Ok(PyArray2::from_vec2(py, &layers)?)
 }
 
-fn status(ending: Ending) -> &'static str {
-    match ending {
-        Ending::Converged => "converged",
-        Ending::IterationLimit => "iteration limit",
-        Ending::ElementInverted => "element inverted",
-        Ending::NoActiveSet => "no active set",
-        Ending::NotFinite => "not finite",
-        Ending::Fold => "fold in the load path",
-        Ending::ToleranceNotMet => "tolerance not met",
-    }
-}
-
-/// The strain energy by its name and two coefficients.
-fn energy(name: &str, first: f64, second: f64) -> Result<Energy, KernelError> {
-    match name {
-        "neo_hookean" => Ok(Energy::NeoHookean),
-        "mooney_rivlin" => Ok(Energy::MooneyRivlin { share: first }),
-        "yeoh" => Ok(Energy::Yeoh {
-            second: first,
-            third: second,
-        }),
-        other => Err(KernelError::UnknownName {
-            name: "strain energy",
-            expected: "neo_hookean, mooney_rivlin, yeoh",
-            value: other.to_owned(),
-        }),
-    }
-}
-
-/// The inputs of one wave in SI units, shear moduli; a dictionary on the Python side.
+/// Dictionaries of the Python side, in SI units with shear moduli.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
-struct Inputs {
-    strain_energy: (String, f64, f64),
+struct RubberItems {
     equilibrium_modulus: f64,
     moduli: Vec<f64>,
     relaxation_times: Vec<f64>,
     bulk_modulus: f64,
+    strain_energy: (String, Parameters),
+}
+
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+struct ProfileItems {
+    kind: String,
     wavelength: f64,
     amplitude: f64,
+}
+
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+struct LoadItems {
     pressure: f64,
     speed: f64,
     load_time: f64,
-    depth: f64,
-    columns: usize,
-    rows: usize,
-    order: usize,
-    tolerance: Option<f64>,
-    iterations: usize,
-    budget: usize,
-    residual_tolerance: f64,
-    step: f64,
 }
 
-impl Inputs {
-    fn scale(self) -> Result<Scale, KernelError> {
-        Ok(Scale {
-            energy: energy(
-                &self.strain_energy.0,
-                self.strain_energy.1,
-                self.strain_energy.2,
-            )?,
-            equilibrium_modulus: self.equilibrium_modulus,
-            moduli: self.moduli,
-            relaxation_times: self.relaxation_times,
-            bulk_modulus: self.bulk_modulus,
-            wavelength: self.wavelength,
-            amplitude: self.amplitude,
-            pressure: self.pressure,
-            speed: self.speed,
-            load_time: self.load_time,
-            depth: self.depth,
-            columns: self.columns,
-            rows: self.rows,
-            order: self.order,
-            tolerance: self.tolerance,
-            limits: Limits {
-                iterations: self.iterations,
-                budget: self.budget,
-                tolerance: self.residual_tolerance,
-                step: self.step,
-            },
-        })
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+struct MeshItems {
+    columns: usize,
+    rows: usize,
+    depth: f64,
+    element_order: usize,
+}
+
+/// What slides on what: a problem without its load.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+struct BodyItems {
+    rubber: RubberItems,
+    profile: ProfileItems,
+    mesh: MeshItems,
+}
+
+impl BodyItems {
+    fn checked(self) -> Result<(Rubber, Profile, MeshSize), KernelError> {
+        let (items, mesh) = (self.rubber, self.mesh);
+        let (kind, parameters) = items.strain_energy;
+        let rubber = Rubber::new(
+            Energy::new(&kind, &parameters)?,
+            items.equilibrium_modulus,
+            items.moduli,
+            items.relaxation_times,
+            items.bulk_modulus,
+        )?;
+        let heights = match self.profile.kind.as_str() {
+            "sine" => Heights::sine(self.profile.amplitude)?,
+            other => return Err(unknown("the kind of a profile", other, &["sine"])),
+        };
+        let profile = Profile::new(self.profile.wavelength, heights)?;
+        let mesh = MeshSize::new(mesh.columns, mesh.rows, mesh.depth, mesh.element_order)?;
+        Ok((rubber, profile, mesh))
     }
 }
 
-/// Solve one wave, from another solution if one is given.
-#[pyfunction]
-fn solve_scale(
-    py: Python<'_>,
-    inputs: Inputs,
-    start: Option<Bound<'_, PySolution>>,
-) -> PyResult<PySolution> {
-    let scale = inputs.scale()?;
-    let start = start.as_ref().map(|solution| &solution.get().0);
-    Ok(PySolution(py.detach(|| scale.solve(start))?))
+/// The defaults with the changes in a mapping from names to numbers.
+fn settings(changes: &Bound<'_, PyMapping>) -> PyResult<Settings> {
+    let changes: Vec<(String, f64)> = changes.items()?.extract()?;
+    let changes = changes.iter().map(|(name, value)| (name.as_str(), *value));
+    Ok(Settings::new(changes)?)
 }
 
-/// Slide through stages (duration, speed, pressure). Returns status, iterations and one row per
-/// moment: time, distance, speed, pressure, friction, contact fraction, approach.
+/// Solve one wave at rest or in steady sliding; `start`, any other solution, is a first guess.
 #[pyfunction]
-fn run_stages<'py>(
+fn solve_steady(
+    py: Python<'_>,
+    problem: &Bound<'_, PyAny>,
+    settings: &Bound<'_, PyMapping>,
+    tolerance: Option<f64>,
+    start: Option<Bound<'_, PySolution>>,
+) -> PyResult<PySolution> {
+    let (rubber, profile, mesh) = problem.extract::<BodyItems>()?.checked()?;
+    let load: LoadItems = problem.get_item("load")?.extract()?;
+    let problem = Problem {
+        rubber,
+        profile,
+        load: Load::new(load.pressure, load.speed, load.load_time)?,
+        mesh,
+    };
+    let settings = self::settings(settings)?;
+    let start = start.as_ref().map(|solution| &solution.get().0);
+    let solve = || steady::solve(&problem, &settings, tolerance, start);
+    Ok(PySolution(py.detach(solve)?))
+}
+
+/// Slide through stages (duration, speed, pressure), from rest or from a `start` of the same rubber
+/// and profile. Returns status, iterations and one row per moment: time, distance, speed, pressure,
+/// friction, contact fraction, approach.
+#[pyfunction]
+fn solve_transient<'py>(
     py: Python<'py>,
-    inputs: Inputs,
+    problem: BodyItems,
+    settings: &Bound<'py, PyMapping>,
     stages: Vec<(f64, f64, f64)>,
     start: Option<Bound<'py, PySolution>>,
-) -> PyResult<(&'static str, usize, Bound<'py, PyArray2<f64>>)> {
-    let scale = inputs.scale()?;
+) -> PyResult<(&'static str, usize, Table<'py>)> {
+    let (rubber, profile, mesh) = problem.checked()?;
+    let settings = self::settings(settings)?;
     let start = start.as_ref().map(|solution| &solution.get().0);
-    let stages: Vec<Stage> = stages
-        .into_iter()
-        .map(|(duration, speed, pressure)| Stage {
-            duration,
-            speed,
-            pressure,
-        })
-        .collect();
-    let run = py.detach(|| scale.run(&stages, start))?;
-    let moments: Vec<Vec<f64>> = run
-        .moments
-        .iter()
-        .map(|m| {
-            vec![
-                m.time,
-                m.distance,
-                m.speed,
-                m.pressure,
-                m.friction,
-                m.contact_fraction,
-                m.approach,
-            ]
-        })
-        .collect();
-    let table = PyArray2::from_vec2(py, &moments)?;
-    Ok((status(run.report.ending), run.count.iterations, table))
+    let stage = |(duration, speed, pressure)| Stage {
+        duration,
+        speed,
+        pressure,
+    };
+    let stages: Vec<Stage> = stages.into_iter().map(stage).collect();
+    let solve = || transient::solve(&rubber, &profile, &mesh, &settings, &stages, start);
+    let run = py.detach(solve)?;
+    let row = |m: &Moment| {
+        vec![
+            m.time,
+            m.distance,
+            m.speed,
+            m.pressure,
+            m.friction,
+            m.contact_fraction,
+            m.approach,
+        ]
+    };
+    let rows: Vec<Vec<f64>> = run.moments.iter().map(row).collect();
+    let table = PyArray2::from_vec2(py, &rows)?;
+    Ok((run.status.word(), run.counts.iterations, table))
+}
+
+/// Name, default and one sentence of every setting.
+#[pyfunction]
+fn default_settings() -> Vec<(&'static str, f64, &'static str)> {
+    Settings::default().list()
+}
+
+/// Every word that `Solution.status` can be.
+#[pyfunction]
+fn statuses() -> Vec<&'static str> {
+    Status::ALL.iter().map(|status| status.word()).collect()
+}
+
+/// Parameters of every strain energy by its name.
+#[pyfunction]
+fn strain_energies() -> BTreeMap<&'static str, Vec<&'static str>> {
+    let kinds = Energy::KINDS.iter();
+    kinds.map(|&(kind, names)| (kind, names.to_vec())).collect()
 }
 
 #[pymodule(name = "_kernel")]
-fn kernel(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add_class::<PySolution>()?;
-    module.add_function(wrap_pyfunction!(solve_scale, module)?)?;
-    module.add_function(wrap_pyfunction!(run_stages, module)?)?;
-    Ok(())
+mod kernel {
+    #[pymodule_export]
+    use super::{
+        default_settings, solve_steady, solve_transient, statuses, strain_energies, PySolution,
+    };
 }

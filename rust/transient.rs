@@ -1,29 +1,25 @@
 //! Sliding in time: the frame of the wave, one column per step, the networks carried exactly.
 //!
-//! The speed is that of the rubber's surface over the wave: the crest follows the mean horizontal
-//! displacement of the surface, as in the steady state, which is the limit of a long run.
+//! The speed is that of the rubber's surface over the wave: the profile follows the mean horizontal
+//! displacement of the surface, as in the steady state, which is the limit of a long run. Times are
+//! in seconds.
 
 use std::f64::consts::TAU;
 
-use crate::assembly::{Block, Memory};
-use crate::cell::Cell;
-use crate::error::{positive, KernelError};
-use crate::march::{climb, Count};
-use crate::memory::Maxwell;
-use crate::networks::Networks;
-use crate::newton::{Ending, Kept, Problem, Report, State};
-use crate::outcome::{EdgeLaw, Outcome};
-use crate::scale::{Scale, Solution};
-use crate::wave::Wave;
-
-/// Steps of a dwell at rest, their lengths growing geometrically.
-const DWELL_STEPS: usize = 40;
-/// First step of a dwell over its duration.
-const DWELL_FIRST: f64 = 1e-4;
-/// Longest way of one stage in wavelengths.
-const LONGEST: f64 = 10_000.0;
-/// A step that fails is tried again with its load change cut into this many parts.
-const PARTS: usize = 8;
+use crate::contact::{PressedBlock, State};
+use crate::error::{finite, positive, KernelError};
+use crate::fem::block::{Memory, RowState};
+use crate::fem::mesh::Mesh;
+use crate::material::carried_history::{CarriedHistory, Points};
+use crate::model::Model;
+use crate::outcome::Outcome;
+use crate::problem::{MeshSize, Profile, Rubber};
+use crate::settings::Settings;
+use crate::solution::Solution;
+use crate::solve::load_stepping::{raise, Counts};
+use crate::solve::newton::{self, Factored, Report};
+use crate::solve::transfer::transfer;
+use crate::status::Status;
 
 /// A stretch of time with constant speed [m/s] and pressure [Pa].
 #[derive(Debug, Clone, Copy)]
@@ -48,258 +44,251 @@ pub struct Moment {
     pub approach: f64,
 }
 
+/// What a programme of stages gave; if it ended early, the moments before are valid.
 #[derive(Debug, Clone)]
 pub struct Run {
     pub moments: Vec<Moment>,
-    pub report: Report,
-    pub count: Count,
+    pub status: Status,
+    pub counts: Counts,
 }
 
-impl Scale {
-    fn check_stage(&self, stage: &Stage) -> Result<(), KernelError> {
-        positive("duration", stage.duration)?;
-        positive("pressure", stage.pressure)?;
-        if !stage.speed.is_finite() {
-            return Err(KernelError::NotFinite {
-                name: "speed",
-                value: stage.speed,
-            });
-        }
-        let wavelengths = stage.duration * (stage.speed / self.wavelength).abs();
-        if wavelengths <= LONGEST {
-            return Ok(());
-        }
-        Err(KernelError::TooLong {
-            longest: LONGEST,
-            wavelengths,
-        })
+/// Slide through `stages`, from rest or from a steady or static `start` of the same rubber and
+/// profile; its load and mesh may be others.
+pub fn solve(
+    rubber: &Rubber,
+    profile: &Profile,
+    mesh: &MeshSize,
+    settings: &Settings,
+    stages: &[Stage],
+    start: Option<&Solution>,
+) -> Result<Run, KernelError> {
+    for stage in stages {
+        check_stage(stage, profile, settings)?;
     }
+    if let Some(start) = start {
+        check_start(start, rubber, profile)?;
+    }
+    // Stresses in units of the modulus that the start's motion meets, or the fastest stage's.
+    let fastest = stages
+        .iter()
+        .fold(0.0_f64, |v, stage| v.max(stage.speed.abs()));
+    let start_speed = start.map_or(0.0, |start| start.problem.load.speed);
+    let speed = if start_speed > 0.0 {
+        start_speed
+    } else {
+        fastest
+    };
+    let model = Model::new(rubber, profile, 1.0, TAU * speed / profile.wavelength);
+    let mesh = Mesh::new(mesh);
+    let mut integration = Integration::new(&model, &mesh, settings, profile.wavelength, start);
+    let status = integration.through(stages, start.is_some());
+    Ok(Run {
+        moments: integration.moments,
+        status,
+        counts: integration.counts,
+    })
+}
 
-    /// Slide through `stages`, from rest or from a steady `start` found with the same inputs.
-    pub fn run(&self, stages: &[Stage], start: Option<&Solution>) -> Result<Run, KernelError> {
-        self.check()?;
-        for stage in stages {
-            self.check_stage(stage)?;
-        }
-        let cell = Cell::new(self.order, self.columns, self.rows, self.depth)?;
-        let mut maxwell = Maxwell {
-            equilibrium: self.equilibrium_modulus,
-            moduli: self.moduli.clone(),
-            times: self.relaxation_times.clone(),
-        };
-        let unit = maxwell.magnitude(TAU * self.speed / self.wavelength);
-        maxwell.equilibrium /= unit;
-        maxwell.moduli.iter_mut().for_each(|g| *g /= unit);
-        let mut mover = Mover {
-            scale: self,
-            cell: &cell,
-            maxwell: &maxwell,
-            unit,
-            count: Count::default(),
-            moments: Vec::new(),
-            time: 0.0,
-            distance: 0.0,
-            kept: None,
-        };
-        let report = mover.all(stages, start);
-        Ok(Run {
-            moments: mover.moments,
-            report,
-            count: mover.count,
-        })
+fn check_stage(stage: &Stage, profile: &Profile, settings: &Settings) -> Result<(), KernelError> {
+    positive("duration", stage.duration)?;
+    positive("pressure", stage.pressure)?;
+    finite("speed", stage.speed)?;
+    let wavelengths = stage.duration * (stage.speed / profile.wavelength).abs();
+    let longest = settings.longest_stage;
+    if wavelengths <= longest {
+        return Ok(());
+    }
+    Err(KernelError::TooLong {
+        longest,
+        wavelengths,
+    })
+}
+
+fn check_start(start: &Solution, rubber: &Rubber, profile: &Profile) -> Result<(), KernelError> {
+    match start.finest.report.status {
+        Status::Converged | Status::ToleranceNotMet => start.problem.check_same(rubber, profile),
+        other => Err(KernelError::UnsolvedStart(other.word())),
     }
 }
 
-struct Mover<'a> {
-    scale: &'a Scale,
-    cell: &'a Cell,
-    maxwell: &'a Maxwell,
-    unit: f64,
-    count: Count,
+struct Integration<'a> {
+    model: &'a Model,
+    mesh: &'a Mesh,
+    settings: &'a Settings,
+    wavelength: f64,
+    state: State,
+    networks: CarriedHistory,
+    /// The factored block of the last step, good enough for the next one as a rule.
+    kept: Option<Factored>,
+    counts: Counts,
     moments: Vec<Moment>,
     time: f64,
     distance: f64,
-    /// The factored block of the last step, good enough for the next one as a rule.
-    kept: Option<Kept>,
 }
 
-impl Mover<'_> {
-    fn problem<'m>(&'m self, memory: &'m Memory) -> Problem<'m> {
-        Problem {
-            block: Block {
-                cell: self.cell,
-                energy: self.scale.energy,
-                equilibrium: self.maxwell.equilibrium,
-                memory,
-                bulk_modulus: self.scale.bulk_modulus / self.unit,
+impl<'a> Integration<'a> {
+    fn new(
+        model: &'a Model,
+        mesh: &'a Mesh,
+        settings: &'a Settings,
+        wavelength: f64,
+        start: Option<&Solution>,
+    ) -> Self {
+        let state = start.map_or_else(
+            || State::at_rest(mesh),
+            |start| {
+                let (from, stress) = (&start.finest, start.stress_unit / model.stress_unit);
+                transfer(&from.mesh, &from.state, mesh, stress)
             },
-            wave: Wave {
-                amplitude: self.scale.amplitude / self.scale.wavelength,
-            },
+        );
+        let y = remembered(&model.pressed(mesh, &Memory::Relaxed), &state);
+        Self {
+            networks: networks(model, mesh, wavelength, y, start),
+            model,
+            mesh,
+            settings,
+            wavelength,
+            state,
+            kept: None,
+            counts: Counts::default(),
+            moments: Vec::new(),
+            time: 0.0,
+            distance: 0.0,
         }
     }
 
-    fn all(&mut self, stages: &[Stage], start: Option<&Solution>) -> Report {
-        let mut report = Report {
-            ending: Ending::Converged,
-            iterations: 0,
-            residual: 0.0,
-        };
-        let (mut state, mut networks) = match start {
-            Some(solution) => self.steady(solution),
-            None => self.rest(),
-        };
-        let mut pressed = start.is_some();
+    fn through(&mut self, stages: &[Stage], mut pressed: bool) -> Status {
         for stage in stages {
             if !pressed {
-                report = self.press(&mut state, &mut networks, stage.pressure);
-                pressed = true;
-                if report.ending != Ending::Converged {
-                    return report;
+                let report = self.press(stage.pressure);
+                if report.status != Status::Converged {
+                    return report.status;
                 }
-                self.record(&state, stage);
+                self.record(stage);
+                pressed = true;
             }
             for dt in self.steps(stage) {
-                report = self.step(&mut state, &mut networks, stage, dt);
-                if report.ending != Ending::Converged {
-                    return report;
+                let report = self.step(stage, dt);
+                if report.status != Status::Converged {
+                    return report.status;
                 }
-                self.record(&state, stage);
+                self.record(stage);
             }
         }
-        report
-    }
-
-    fn rest(&self) -> (State, Networks) {
-        let state = State::at_rest(self.cell);
-        let rows = self.problem(&Memory::Relaxed).row_states(&state.field);
-        let networks = Networks::at_rest(&rows, self.cell.columns, self.maxwell);
-        (state, networks)
-    }
-
-    fn steady(&self, solution: &Solution) -> (State, Networks) {
-        let stress = solution.stress_unit / self.unit;
-        let state = crate::transfer::transfer(&solution.cell, &solution.state, self.cell, stress);
-        let rows = self.problem(&Memory::Relaxed).row_states(&state.field);
-        let passage = self.scale.wavelength / self.scale.speed;
-        let mut maxwell = self.maxwell.clone();
-        maxwell.times.iter_mut().for_each(|time| *time /= passage);
-        let load_time = self.scale.load_time / passage;
-        let networks = Networks::steady(&rows, self.cell.columns, &maxwell, load_time);
-        (state, networks)
+        Status::Converged
     }
 
     /// Put the load on at once: the networks answer as springs.
-    fn press(&mut self, state: &mut State, networks: &mut Networks, pressure: f64) -> Report {
-        let memory = Memory::Given(networks.known_part(self.maxwell, 0.0));
-        let mut count = self.count;
-        let load = pressure / self.unit;
-        let problem = self.problem(&memory);
-        let (report, _) = climb(&problem, state, load, &self.scale.limits, &mut count);
-        let rows = problem.row_states(&state.field);
-        networks.advance(&rows, self.maxwell, 0.0);
-        self.count = count;
+    fn press(&mut self, pressure: f64) -> Report {
+        let memory = Memory::Given(self.networks.known_part(&self.model.maxwell, 0.0));
+        let pressed = self.model.pressed(self.mesh, &memory);
+        let load = pressure / self.model.stress_unit;
+        let counts = &mut self.counts;
+        let (report, _) = raise(&pressed, &mut self.state, load, self.settings, counts);
+        let y = remembered(&pressed, &self.state);
+        self.networks.advance(y, &self.model.maxwell, 0.0);
         report
     }
 
     /// Lengths of the time steps of a stage: one column each, or growing in a dwell.
     fn steps(&self, stage: &Stage) -> Vec<f64> {
         if stage.speed == 0.0 {
-            let ratio = DWELL_FIRST.powf(-1.0 / (DWELL_STEPS - 1) as f64);
-            let ends = (0..DWELL_STEPS).map(|i| DWELL_FIRST * ratio.powi(i as i32));
+            let (count, first) = (self.settings.dwell_steps, self.settings.dwell_first);
+            let ratio = first.powf(-1.0 / (count - 1) as f64);
             let mut before = 0.0;
-            return ends
-                .map(|end| {
-                    let step = stage.duration * (end - before);
-                    before = end;
-                    step
-                })
-                .collect();
+            let step = |i: usize| {
+                let end = first * ratio.powi(i as i32);
+                let step = stage.duration * (end - before);
+                before = end;
+                step
+            };
+            return (0..count).map(step).collect();
         }
-        let dt = self.scale.wavelength / (self.cell.columns as f64 * stage.speed.abs());
+        let dt = self.wavelength / (self.mesh.columns as f64 * stage.speed.abs());
         vec![dt; (stage.duration / dt).round().max(1.0) as usize]
     }
 
-    fn step(
-        &mut self,
-        state: &mut State,
-        networks: &mut Networks,
-        stage: &Stage,
-        dt: f64,
-    ) -> Report {
+    fn step(&mut self, stage: &Stage, dt: f64) -> Report {
         if stage.speed != 0.0 {
-            networks.carry(stage.speed > 0.0);
+            self.networks.carry(stage.speed > 0.0);
         }
         self.time += dt;
         self.distance += stage.speed * dt;
-        let memory = Memory::Given(networks.known_part(self.maxwell, dt));
-        let load = stage.pressure / self.unit;
-        let mut count = self.count;
-        let mut kept = self.kept.take();
-        let problem = self.problem(&memory);
-        let report = settle(&problem, &mut kept, state, load, self.scale, &mut count);
-        let rows = problem.row_states(&state.field);
-        networks.advance(&rows, self.maxwell, dt);
-        self.count = count;
-        self.kept = kept;
+        let memory = Memory::Given(self.networks.known_part(&self.model.maxwell, dt));
+        let pressed = self.model.pressed(self.mesh, &memory);
+        let report = self.follow(&pressed, stage.pressure / self.model.stress_unit);
+        let y = remembered(&pressed, &self.state);
+        self.networks.advance(y, &self.model.maxwell, dt);
         report
     }
 
-    fn edge_law(&self, stage: &Stage) -> EdgeLaw {
-        if stage.speed == 0.0 {
-            return EdgeLaw::ELASTIC;
+    /// Newton from the last step's state; if that fails, the load is led to its new value in parts,
+    /// and at last raised anew.
+    fn follow(&mut self, pressed: &PressedBlock<'_>, load: f64) -> Report {
+        let (settings, counts) = (self.settings, &mut self.counts);
+        let from: f64 = self.state.force.iter().sum();
+        let mut trial = self.state.clone();
+        let mut report = newton::solve(pressed, &mut self.kept, &mut trial, load, settings);
+        counts.iterations += report.iterations;
+        counts.load_steps += 1;
+        if report.status != Status::Converged {
+            trial = self.state.clone();
+            for part in 1..=settings.load_parts {
+                let between = from + (load - from) * part as f64 / settings.load_parts as f64;
+                report = newton::solve(pressed, &mut None, &mut trial, between, settings);
+                counts.iterations += report.iterations;
+                if report.status != Status::Converged {
+                    break;
+                }
+            }
         }
-        let wave = 4.0 * self.scale.wavelength / self.cell.layer_nodes() as f64;
-        let (storage, loss) = self.maxwell.complex_modulus(TAU * stage.speed.abs() / wave);
-        EdgeLaw::new(storage, loss, stage.speed > 0.0)
+        if report.status != Status::Converged {
+            trial = State::at_rest(self.mesh);
+            report = raise(pressed, &mut trial, load, settings, counts).0;
+        }
+        self.state = trial;
+        report
     }
 
-    fn record(&mut self, state: &State, stage: &Stage) {
-        let memory = Memory::Relaxed;
-        let problem = self.problem(&memory);
-        let outcome = Outcome::of(&problem, state, self.edge_law(stage));
-        let moment = Moment {
+    fn record(&mut self, stage: &Stage) {
+        let pressed = self.model.pressed(self.mesh, &Memory::Relaxed);
+        let law = self
+            .model
+            .edge_law(self.mesh, stage.speed / self.wavelength);
+        let outcome = Outcome::of(&pressed, &self.state, law);
+        self.moments.push(Moment {
             time: self.time,
             distance: self.distance,
             speed: stage.speed,
             pressure: stage.pressure,
             friction: outcome.friction,
             contact_fraction: outcome.contact_fraction,
-            approach: state.approach,
-        };
-        self.moments.push(moment);
+            approach: self.state.approach,
+        });
     }
 }
 
-/// Newton from the last step's state; if that fails, the load is led to its new value in parts.
-fn settle(
-    problem: &Problem<'_>,
-    kept: &mut Option<Kept>,
-    state: &mut State,
-    load: f64,
-    scale: &Scale,
-    count: &mut Count,
-) -> Report {
-    let from: f64 = state.force.iter().sum();
-    let mut trial = state.clone();
-    let mut report = problem.solve_with(kept, &mut trial, load, &scale.limits);
-    count.iterations += report.iterations;
-    count.steps += 1;
-    if report.ending != Ending::Converged {
-        trial = state.clone();
-        for part in 1..=PARTS {
-            let between = from + (load - from) * part as f64 / PARTS as f64;
-            report = problem.solve(&mut trial, between, &scale.limits);
-            count.iterations += report.iterations;
-            if report.ending != Ending::Converged {
-                break;
-            }
-        }
-    }
-    if report.ending != Ending::Converged {
-        trial = State::at_rest(problem.block.cell);
-        report = climb(problem, &mut trial, load, &scale.limits, count).0;
-    }
-    *state = trial;
-    report
+/// States of the networks at the beginning: relaxed at rest and in static contact, else those of
+/// the steady state.
+fn networks(
+    model: &Model,
+    mesh: &Mesh,
+    wavelength: f64,
+    y: Points,
+    start: Option<&Solution>,
+) -> CarriedHistory {
+    let load = start.map(|start| start.problem.load);
+    let Some(load) = load.filter(|load| load.speed > 0.0) else {
+        return CarriedHistory::relaxed(y, mesh.columns, &model.maxwell);
+    };
+    let passage = wavelength / load.speed;
+    let mut maxwell = model.maxwell.clone();
+    maxwell.times.iter_mut().for_each(|time| *time /= passage);
+    CarriedHistory::steady(y, mesh.columns, &maxwell, load.load_time / passage)
+}
+
+/// What the temporary networks remember of the deformation in `state`.
+fn remembered(pressed: &PressedBlock<'_>, state: &State) -> Points {
+    let rows = pressed.row_states(&state.field);
+    rows.iter().map(RowState::remembered).collect()
 }

@@ -1,9 +1,17 @@
+from collections.abc import Mapping
 from typing import TypedDict, final, type_check_only
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Solution", "run_stages", "solve_scale"]
+__all__ = [
+    "Solution",
+    "default_settings",
+    "solve_steady",
+    "solve_transient",
+    "statuses",
+    "strain_energies",
+]
 
 @final
 class Solution:
@@ -49,28 +57,54 @@ class Solution:
     def mesh_z(self) -> NDArray[np.float64]: ...
 
 @type_check_only
-class Inputs(TypedDict):
-    strain_energy: tuple[str, float, float]
+class Rubber(TypedDict):
     equilibrium_modulus: float
     moduli: list[float]
     relaxation_times: list[float]
     bulk_modulus: float
+    strain_energy: tuple[str, dict[str, float]]
+
+@type_check_only
+class Profile(TypedDict):
+    kind: str
     wavelength: float
     amplitude: float
+
+@type_check_only
+class Load(TypedDict):
     pressure: float
     speed: float
     load_time: float
-    depth: float
+
+@type_check_only
+class Mesh(TypedDict):
     columns: int
     rows: int
-    order: int
-    tolerance: float | None
-    iterations: int
-    budget: int
-    residual_tolerance: float
-    step: float
+    depth: float
+    element_order: int
 
-def solve_scale(inputs: Inputs, start: Solution | None) -> Solution: ...
-def run_stages(
-    inputs: Inputs, stages: list[tuple[float, float, float]], start: Solution | None
+@type_check_only
+class Body(TypedDict):
+    rubber: Rubber
+    profile: Profile
+    mesh: Mesh
+
+@type_check_only
+class Problem(Body):
+    load: Load
+
+def solve_steady(
+    problem: Problem,
+    settings: Mapping[str, float],
+    tolerance: float | None,
+    start: Solution | None,
+) -> Solution: ...
+def solve_transient(
+    problem: Body,
+    settings: Mapping[str, float],
+    stages: list[tuple[float, float, float]],
+    start: Solution | None,
 ) -> tuple[str, int, NDArray[np.float64]]: ...
+def default_settings() -> list[tuple[str, float, str]]: ...
+def statuses() -> list[str]: ...
+def strain_energies() -> dict[str, list[str]]: ...

@@ -12,7 +12,7 @@ from gripscale.errors import FileError
 if TYPE_CHECKING:
     import xarray as xr
 
-ENGINE: Final = "h5netcdf"
+ENGINE: Final = "netcdf4"
 
 
 def save(
@@ -44,7 +44,7 @@ def load(path: str | Path) -> xr.Dataset:
     place = _there(path)
     try:
         return xr.load_dataset(place, engine=ENGINE)
-    except (OSError, ValueError, KeyError) as error:
+    except (OSError, ValueError, KeyError, RuntimeError) as error:
         raise FileError(f"{place} cannot be read as a netCDF result: {error}") from error
 
 
@@ -59,7 +59,7 @@ def load_tree(path: str | Path) -> xr.DataTree:
     try:
         with xr.open_datatree(place, engine=ENGINE) as tree:
             return tree.load()
-    except (OSError, ValueError, KeyError) as error:
+    except (OSError, ValueError, KeyError, RuntimeError) as error:
         raise FileError(f"{place} cannot be read as a netCDF result: {error}") from error
 
 

@@ -41,7 +41,8 @@ fn elimination_solves_the_assembled_system() {
             }
         }
         let expected = linear::solve_dense(&full, &total).unwrap();
-        let elimination = Elimination::new(rows, LAYER, |r| row(order + 1, r));
+        let below = (0..rows - 1).rev().map(|r| row(order + 1, r));
+        let elimination = Elimination::new(LAYER, row(order + 1, rows - 1), below);
         let rights: Vec<Vec<f64>> = (0..rows).map(|r| right(order + 1, r)).collect();
         let reduced = elimination.reduce(&rights);
         let surface =

@@ -1,14 +1,116 @@
 //! The kernel's test ladder, from shape functions to whole waves, in one binary.
 
-mod contact_problem;
-mod element_and_cell;
+mod complementarity;
+mod element_and_mesh;
 mod elimination;
+mod energy;
 mod hostile_input;
 mod material_point;
-mod memory;
-mod sliding_in_time;
+mod mesh_sequence;
+mod profile;
+mod settings;
+mod sliding_history;
+mod steady;
 mod tangent;
-mod whole_wave;
+mod transient;
+
+use gripscale_kernel::contact::profile::Heights;
+use gripscale_kernel::error::KernelError;
+use gripscale_kernel::fem::mesh::Mesh;
+use gripscale_kernel::material::energy::Energy;
+use gripscale_kernel::problem::{Load, MeshSize, Problem, Profile, Rubber};
+use gripscale_kernel::settings::Settings;
+use gripscale_kernel::solution::Solution;
+use gripscale_kernel::transient::{Run, Stage};
+
+/// The inputs of one wave, changed field by field by the tests; unit wavelength and modulus.
+#[derive(Clone)]
+pub struct Case {
+    pub energy: (&'static str, Vec<(&'static str, f64)>),
+    pub equilibrium_modulus: f64,
+    pub moduli: Vec<f64>,
+    pub relaxation_times: Vec<f64>,
+    pub bulk_modulus: f64,
+    pub wavelength: f64,
+    pub amplitude: f64,
+    pub pressure: f64,
+    pub speed: f64,
+    pub load_time: f64,
+    pub depth: f64,
+    pub columns: usize,
+    pub rows: usize,
+    pub order: usize,
+    pub settings: Settings,
+    pub tolerance: Option<f64>,
+}
+
+impl Case {
+    pub fn elastic(amplitude: f64, pressure: f64) -> Self {
+        Self {
+            energy: ("neo_hookean", vec![]),
+            equilibrium_modulus: 1.0,
+            moduli: vec![],
+            relaxation_times: vec![],
+            bulk_modulus: 1000.0,
+            wavelength: 1.0,
+            amplitude,
+            pressure,
+            speed: 0.0,
+            load_time: f64::INFINITY,
+            depth: 1.5,
+            columns: 64,
+            rows: 14,
+            order: 1,
+            settings: Settings::default(),
+            tolerance: None,
+        }
+    }
+
+    pub fn problem(&self) -> Result<Problem, KernelError> {
+        Ok(Problem {
+            rubber: Rubber::new(
+                new_energy(self.energy.0, &self.energy.1)?,
+                self.equilibrium_modulus,
+                self.moduli.clone(),
+                self.relaxation_times.clone(),
+                self.bulk_modulus,
+            )?,
+            profile: Profile::new(self.wavelength, Heights::sine(self.amplitude)?)?,
+            load: Load::new(self.pressure, self.speed, self.load_time)?,
+            mesh: MeshSize::new(self.columns, self.rows, self.depth, self.order)?,
+        })
+    }
+
+    pub fn solve(&self, start: Option<&Solution>) -> Result<Solution, KernelError> {
+        let problem = self.problem()?;
+        gripscale_kernel::steady::solve(&problem, &self.settings, self.tolerance, start)
+    }
+
+    pub fn run(&self, stages: &[Stage], start: Option<&Solution>) -> Result<Run, KernelError> {
+        let Problem {
+            rubber,
+            profile,
+            mesh,
+            ..
+        } = self.problem()?;
+        gripscale_kernel::transient::solve(&rubber, &profile, &mesh, &self.settings, stages, start)
+    }
+}
+
+pub fn mesh(columns: usize, rows: usize, depth: f64, order: usize) -> Mesh {
+    Mesh::new(&MeshSize::new(columns, rows, depth, order).unwrap())
+}
+
+fn new_energy(kind: &str, parameters: &[(&str, f64)]) -> Result<Energy, KernelError> {
+    let parameters = parameters
+        .iter()
+        .map(|&(name, value)| (name.to_owned(), value));
+    Energy::new(kind, &parameters.collect())
+}
+
+pub fn energy(kind: &str, parameters: &[(&str, f64)]) -> Energy {
+    new_energy(kind, parameters).unwrap()
+}
 
 /// A reproducible pseudo-random number in [-1, 1) (splitmix64), for fields without structure.
 pub fn noise(index: usize) -> f64 {

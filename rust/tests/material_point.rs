@@ -1,20 +1,20 @@
-//! The material at a point: derivatives against finite differences, energy, closed forms.
+//! The material at a point: derivatives against finite differences, closed forms.
 
 use crate::noise;
-use gripscale_kernel::hyperelastic::Energy;
-use gripscale_kernel::memory::Maxwell;
-use gripscale_kernel::network::{
-    self, contract, isochoric, jacobian, remembered, remembered_slope, stress, tangent, UNIT,
+use gripscale_kernel::material::kinematics::{
+    contract, isochoric, jacobian, remembered, remembered_slope, UNIT,
 };
+use gripscale_kernel::material::maxwell::Maxwell;
+use gripscale_kernel::material::stress::{memory_slope, stress, tangent};
 
-const F: [f64; 4] = [1.3, 0.4, -0.25, 0.7];
+pub const F: [f64; 4] = [1.3, 0.4, -0.25, 0.7];
 const H: [f64; 4] = [1.2, 0.8, -0.3, 1.1];
-const STEP: f64 = 1e-6;
+pub const STEP: f64 = 1e-6;
 
 /// Central differences of smooth functions at step 1e-6 are right to about 1e-9.
-const CLOSE: f64 = 1e-8;
+pub const CLOSE: f64 = 1e-8;
 
-fn moved(f: &[f64; 4], k: usize, by: f64) -> [f64; 4] {
+pub fn moved(f: &[f64; 4], k: usize, by: f64) -> [f64; 4] {
     let mut out = *f;
     out[k] += by;
     out
@@ -35,7 +35,7 @@ fn tangent_equals_finite_differences_of_the_stress() {
 
 #[test]
 fn memory_slopes_equal_finite_differences() {
-    let by_h = network::memory_slope(&F);
+    let by_h = memory_slope(&F);
     let by_f = remembered_slope(&F);
     for k in 0..4 {
         let high = stress(&F, &moved(&H, k, STEP), 0.7);
@@ -119,66 +119,4 @@ fn step_relaxation_follows_the_closed_form() {
         let expected = maxwell.relaxation_modulus(time) * (s - s.powi(-3));
         assert!((nominal - expected).abs() < 1e-13 * expected);
     }
-}
-
-/// Second invariant of Cbar.
-fn second_invariant(c: &[f64; 4]) -> f64 {
-    let trace = c[0] + c[1] + c[3];
-    0.5 * (trace * trace - contract(c, c))
-}
-
-/// P = dW/dF for each strain energy written out.
-#[test]
-fn stress_of_each_strain_energy_is_the_slope_of_its_energy() {
-    let density = |energy: Energy, f: &[f64; 4]| {
-        let c = isochoric(f);
-        let first = c[0] + c[1] + c[3] - 3.0;
-        match energy {
-            Energy::NeoHookean => 0.5 * first,
-            Energy::MooneyRivlin { share } => {
-                0.5 * (1.0 - share) * first + 0.5 * share * (second_invariant(&c) - 3.0)
-            }
-            Energy::Yeoh { second, third } => {
-                0.5 * (first + second * first.powi(2) + third * first.powi(3))
-            }
-        }
-    };
-    for energy in [
-        Energy::NeoHookean,
-        Energy::MooneyRivlin { share: 0.4 },
-        Energy::Yeoh {
-            second: -0.2,
-            third: 0.05,
-        },
-    ] {
-        let p = stress(&F, &energy.network(&F), 0.0);
-        for k in 0..4 {
-            let high = density(energy, &moved(&F, k, STEP));
-            let low = density(energy, &moved(&F, k, -STEP));
-            assert!((p[k] - (high - low) / (2.0 * STEP)).abs() < CLOSE);
-        }
-    }
-}
-
-/// Incompressible plane-strain stretch s: Mooney-Rivlin is neo-Hookean (I1 = I2), and
-/// Yeoh's nominal stress is (1 + 2 c2 I + 3 c3 I^2) (s - s^-3) with I = s^2 + s^-2 - 2.
-#[test]
-fn plane_strain_stretch_follows_the_closed_forms() {
-    let s: f64 = 1.6;
-    let f = [s, 0.0, 0.0, 1.0 / s];
-    let nominal = |energy: Energy| {
-        let h = energy.network(&f);
-        let pressure = -stress(&f, &h, 0.0)[3] / s;
-        stress(&f, &h, pressure)[0]
-    };
-    let neo_hookean = s - s.powi(-3);
-    assert!((nominal(Energy::NeoHookean) - neo_hookean).abs() < 1e-14);
-    assert!((nominal(Energy::MooneyRivlin { share: 0.7 }) - neo_hookean).abs() < 1e-14);
-    let invariant = s * s + s.powi(-2) - 2.0;
-    let factor = 1.0 - 2.0 * 0.1 * invariant + 3.0 * 0.03 * invariant * invariant;
-    let yeoh = nominal(Energy::Yeoh {
-        second: -0.1,
-        third: 0.03,
-    });
-    assert!((yeoh - factor * neo_hookean).abs() < 1e-14);
 }

@@ -1,33 +1,33 @@
 //! The whole tangent of one element row, local and along the stream, against finite differences.
 
-use crate::noise;
-use gripscale_kernel::assembly::{Block, Field, Memory};
-use gripscale_kernel::cell::Cell;
-use gripscale_kernel::hyperelastic::Energy;
+use crate::{energy, mesh, noise};
+use gripscale_kernel::fem::block::{Block, Field, Memory};
 use gripscale_kernel::linear;
-use gripscale_kernel::memory::{History, Maxwell};
+use gripscale_kernel::material::energy::Energy;
+use gripscale_kernel::material::maxwell::Maxwell;
+use gripscale_kernel::material::sliding_history::SlidingHistory;
 
 fn worst_error(order: usize, energy: Energy, memory: bool) -> f64 {
-    let cell = Cell::new(order, 6, 3, 0.8).unwrap();
+    let mesh = mesh(6, 3, 0.8, order);
     let maxwell = Maxwell {
         equilibrium: 1.0,
         moduli: vec![2.0, 6.0],
         times: vec![0.05, 0.4],
     };
     let memory = if memory {
-        Memory::Sliding(History::sliding(cell.columns, &maxwell, 0.7))
+        Memory::Sliding(SlidingHistory::new(mesh.columns, &maxwell, 0.7))
     } else {
         Memory::Relaxed
     };
     let block = Block {
-        cell: &cell,
+        mesh: &mesh,
         energy,
         equilibrium: maxwell.equilibrium,
         memory: &memory,
         bulk_modulus: 30.0,
     };
     let row = 1;
-    let mut field = Field::at_rest(&cell);
+    let mut field = Field::at_rest(&mesh);
     for (i, u) in field.u.iter_mut().enumerate() {
         *u = 0.03 * noise(i);
     }
@@ -49,7 +49,7 @@ fn worst_error(order: usize, energy: Energy, memory: bool) -> f64 {
     };
     let step = 1e-6;
     let (high, low) = (forces(step), forces(-step));
-    let offset = row * order * cell.layer_size();
+    let offset = row * order * mesh.layer_size();
     let local = linear::column(&direction[offset..offset + high.len()]);
     let mut slope = linear::Matrix::zeros(high.len(), 1);
     linear::product(&mut slope, &matrix, &local);
@@ -60,20 +60,19 @@ fn worst_error(order: usize, energy: Energy, memory: bool) -> f64 {
     })
 }
 
-const ENERGIES: [Energy; 3] = [
-    Energy::NeoHookean,
-    Energy::MooneyRivlin { share: 0.3 },
-    Energy::Yeoh {
-        second: -0.1,
-        third: 0.02,
-    },
-];
+fn energies() -> [Energy; 3] {
+    [
+        energy("neo_hookean", &[]),
+        energy("mooney_rivlin", &[("share", 0.3)]),
+        energy("yeoh", &[("second", -0.1), ("third", 0.02)]),
+    ]
+}
 
 /// 1e-6 is asked for; central differences at this step are right to about 1e-9.
 #[test]
 fn local_tangent_equals_finite_differences() {
     for order in [1, 2] {
-        for energy in ENERGIES {
+        for energy in energies() {
             let error = worst_error(order, energy, false);
             assert!(error < 1e-7, "order {order}, {energy:?}: {error}");
         }
@@ -83,7 +82,7 @@ fn local_tangent_equals_finite_differences() {
 #[test]
 fn streamline_tangent_equals_finite_differences() {
     for order in [1, 2] {
-        for energy in ENERGIES {
+        for energy in energies() {
             let error = worst_error(order, energy, true);
             assert!(error < 1e-7, "order {order}, {energy:?}: {error}");
         }

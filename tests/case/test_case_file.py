@@ -3,12 +3,27 @@
 from __future__ import annotations
 
 import math
+import tomllib
 from pathlib import Path
+from typing import Any
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
-from gripscale.case import parse_quantity, read_case
+from gripscale.case import (
+    Case,
+    Load,
+    RubberSource,
+    Solver,
+    Surface,
+    prepare_rubber,
+    read_case,
+    validate,
+)
 from gripscale.errors import FileError, InputError
+from gripscale.rubber import NeoHookean, Yeoh
+from gripscale.units import parse_quantity
 
 GOOD = """
 [surface]
@@ -153,6 +168,38 @@ WRONG = [
     ),
     ("[load]", "[[load]]", "expected a table"),
     (GOOD, "", "[surface] is missing; expected a table with files,"),
+    ("scales = 8", "scales = 8\ncrop = [1, 2, 3]", "crop = [1, 2, 3]: expected at most 2 items"),
+    ("scales = 8", "scales = 8\nspike_slope = inf", "spike_slope = inf: expected a finite number"),
+    ("scales = 8", 'scales = 8\nspike_slope = "2"', "spike_slope = '2': expected a number"),
+    ("scales = 8", "scales = 8\nx_unit = 3", "[surface] x_unit = 3: expected a string"),
+    ("[load]", "[solver]\ntolerance = 1\n[load]", "tolerance = 1: expected less than 1"),
+    (
+        '"dma.txt"',
+        '"dma.txt"\nstrain_energy = "yeoh"',
+        "[rubber] strain_energy = 'yeoh': expected a table such as { kind = ",
+    ),
+    (
+        '"dma.txt"',
+        '"dma.txt"\nstrain_energy = { kind = "ogden" }',
+        "[rubber] strain_energy: kind must be one of neo_hookean, mooney_rivlin, yeoh; got 'ogden'",
+    ),
+    (
+        '"dma.txt"',
+        '"dma.txt"\nstrain_energy = { kind = "yeoh", second = 1, fourth = 2 }',
+        "[rubber] strain_energy: yeoh takes the parameters second, third; got second, fourth",
+    ),
+    (
+        '"dma.txt"',
+        '"dma.txt"\nstrain_energy = { kind = "mooney_rivlin", share = "half" }',
+        "[rubber] strain_energy: share must be a finite number; got 'half'",
+    ),
+    (
+        '"dma.txt"',
+        '"dma.txt"\nstrain_energy = { kind = "yeoh", second = 1, third = 1 }\n'
+        '[solver]\nmodel = "half_plane"',
+        ": strain_energy of [rubber] has no effect at small strain; expected model =",
+    ),
+    ('"dma.txt"', '"dma.txt"\ncolumns = [0, 1.5, 2]', "columns[1] = 1.5: expected the name of a"),
 ]
 
 
@@ -166,6 +213,64 @@ def test_wrong_case_is_one_sentence(tmp_path: Path, old: str, new: str, words: s
     assert words in message
     assert message.startswith(f"{path}: ")
     assert "\n" not in message
+
+
+ANYTHING = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=4) | st.dates(),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=4), inner),
+    max_leaves=4,
+)
+KEYS = [
+    (table, key)
+    for table, model in (("surface", Surface), ("rubber", RubberSource), ("load", Load))
+    for key in model.model_fields
+] + [("solver", key) for key in Solver.model_fields]
+
+
+def complaint(tables: dict[str, Any]) -> str:
+    try:
+        validate(Case, tables, "here")
+    except InputError as error:
+        return str(error)
+    return ""
+
+
+@given(st.sampled_from(KEYS), ANYTHING)
+@settings(max_examples=400, deadline=None, derandomize=True)
+def test_no_value_gets_anything_but_a_sentence_of_ours(place: tuple[str, str], value: Any) -> None:
+    tables = {"solver": {}, **tomllib.loads(GOOD)}
+    tables[place[0]][place[1]] = value
+    said = complaint(tables)
+    assert said == "" or (said.startswith("here: ") and "Input should" not in said)
+    assert "\n" not in said
+
+
+@pytest.mark.parametrize("source", ['file = "dma.txt"', 'name = "styrene_butadiene"'])
+def test_a_case_names_a_strain_energy(tmp_path: Path, source: str) -> None:
+    text = GOOD.replace('file = "dma.txt"', source)
+    assert read_case(written(tmp_path, text)).case.rubber.strain_energy == NeoHookean()
+    stated = source + '\nstrain_energy = { kind = "yeoh", second = -0.1, third = 0.02 }'
+    case = read_case(written(tmp_path, text.replace(source, stated))).case
+    assert case.rubber.strain_energy == Yeoh(-0.1, 0.02)
+
+
+def test_the_rubber_of_a_case_has_its_strain_energy(tmp_path: Path) -> None:
+    rows = [f"{10.0**i} {2 + i} {1 + 0.1 * i}" for i in range(6)]
+    (tmp_path / "dma.txt").write_text("\n".join(["f (Hz)  E' (MPa)  E'' (MPa)", *rows]))
+    for source in ({"file": "dma.txt"}, {"name": "styrene_butadiene"}):
+        made = {
+            law: prepare_rubber(RubberSource(**source, strain_energy=law), tmp_path.joinpath).rubber
+            for law in (NeoHookean(), Yeoh(-0.1, 0.02))
+        }
+        assert all(rubber.strain_energy == law for law, rubber in made.items())
+        plain, other = (rubber.to_dict() | {"strain_energy": 0} for rubber in made.values())
+        assert plain == other
+
+
+def test_one_item_is_not_plural() -> None:
+    tables = tomllib.loads(GOOD)
+    tables["surface"]["files"] = []
+    assert complaint(tables).endswith("files = []: expected at least 1 item")
 
 
 def test_text_that_is_no_toml_is_named_with_its_line(tmp_path: Path) -> None:

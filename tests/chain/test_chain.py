@@ -111,7 +111,7 @@ def test_half_plane_neither_gives_nor_takes_a_start() -> None:
     plane = predict(rubber, one, solver=solve_half_plane, **LOAD)
     with pytest.raises(InputError, match="start must be None: the half-plane model"):
         predict(rubber, one, solver=solve_half_plane, start=plane, **LOAD)
-    with pytest.raises(InputError, match="a result of the finite-strain block .* half_plane"):
+    with pytest.raises(InputError, match=r"a result of the finite-strain block .* half_plane"):
         predict(rubber, one, start=plane, **LOAD)
 
 

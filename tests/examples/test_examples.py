@@ -7,12 +7,24 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
+
+from gripscale import netcdf
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 COARSE = "64"
 """Columns of the mesh where an example takes them."""
 TESTED_ELSEWHERE = {"finite_strain_rubber"}
+
+
+def start(name: str, folder: Path, *arguments: str) -> str:
+    """Run an example in `folder`; return what it prints."""
+    command = [sys.executable, "-W", "error", str(EXAMPLES / f"{name}.py"), *arguments]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert not done.stderr
+    return done.stdout
 
 
 @pytest.fixture
@@ -21,17 +33,12 @@ def run(tmp_path):
 
     def run(name: str, *arguments: str) -> str:
         figures = tmp_path / "figures"
-        command = [sys.executable, "-W", "error", str(EXAMPLES / f"{name}.py"), str(figures)]
-        done = subprocess.run(
-            [*command, *arguments], cwd=tmp_path, capture_output=True, text=True, check=False
-        )
-        assert done.returncode == 0, done.stderr
-        assert not done.stderr
+        printed = start(name, tmp_path, str(figures), *arguments)
         assert [path.name for path in tmp_path.iterdir()] == ["figures"]
         saved = list(figures.glob(f"{name}*.png"))
         assert saved
         assert min(path.stat().st_size for path in saved) > 10_000
-        return done.stdout
+        return printed
 
     return run
 
@@ -101,3 +108,42 @@ def test_measured_surface(run):
     residuals = [float(value) for value in re.findall(r"residual ([\d.]+)", printed)]
     assert residuals[0] > residuals[1] > 0.0
     assert residuals[2] < 0.06
+
+
+def test_toy_model(tmp_path):
+    printed = start("toy_model", tmp_path, "out")
+    rows = [line.split() for line in printed.splitlines() if "converged" in line]
+    assert [row[:4] for row in rows] == [
+        [speed, "m/s", pressure, "MPa"] for speed in ("0.01", "10") for pressure in ("0.1", "0.3")
+    ]
+    area = [float(row[4]) for row in rows]
+    # In proportion to the load, and the less the faster: the rubber is stiffer.
+    assert area[1] / area[0] == pytest.approx(3.0, rel=0.01)
+    assert area[3] / area[2] == pytest.approx(3.0, rel=0.01)
+    assert area[2] < area[0]
+    assert len(list((tmp_path / "out" / "toy_model" / "predictions").glob("*.nc"))) == 4
+
+
+def test_toy_condition(tmp_path):
+    printed = start("toy_condition", tmp_path, "out")
+    pairs = re.findall(r"mm: friction ([\d.]+), ([\d.]+)", printed)
+    plain, warm = np.array(pairs, dtype=float).T
+    # Warmed by the waves above only; below its loss peak a warmer rubber has less friction.
+    assert len(plain) == 3
+    assert warm[0] == plain[0]
+    assert (warm[1:] < 0.9 * plain[1:]).all()
+    # The study solves the same chain again.
+    slow, fast = (float(value) for value in re.findall(r"m/s: friction ([\d.]+)", printed))
+    assert fast == pytest.approx(warm.sum(), abs=2e-4)
+    assert slow < fast
+
+
+def test_run_case(tmp_path):
+    printed = start("run_case", tmp_path, str(EXAMPLES / "three_waves" / "case.toml"), "out")
+    area, friction = numbers(r"A_r/A_0 = ([\d.]+), mu = ([\d.]+)", printed)
+    data = netcdf.load(tmp_path / "out" / "dynamic.nc")
+    assert area == pytest.approx(float(data.total_contact_fraction), abs=1e-4)
+    assert friction == pytest.approx(float(data.total_friction), abs=1e-3)
+    assert 0.0 < area < 1.0
+    assert 0.0 < friction < 1.0
+    assert "3 waves on unfilled styrene-butadiene rubber" in printed

@@ -8,11 +8,13 @@ from pathlib import Path
 import matplotlib as mpl
 import numpy as np
 import pytest
+import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.markers import TICKDOWN
 
-from gripscale.chain import Prediction
-from gripscale.errors import FileError
+from gripscale.case.drawn import envelope, sine_curves, trace
+from gripscale.errors import FileError, InputError
 from gripscale.figures import (
     block_figure,
     blocks_figure,
@@ -23,8 +25,8 @@ from gripscale.figures import (
     save_figure,
 )
 from gripscale.figures.profile import kept_points
+from gripscale.figures.style import short_number
 from gripscale.rubber import MasterCurve, Rubber, fit_prony_report
-from gripscale.scale import ScaleResult
 from gripscale.surface import (
     Profile,
     SelfAffineFit,
@@ -61,7 +63,7 @@ def complete(figure: Figure) -> None:
 
 
 def test_contact_is_drawn_against_falling_wavelength_in_mm(
-    make_prediction: Callable[..., Prediction],
+    make_prediction: Callable[..., xr.Dataset],
 ) -> None:
     figure = contact_figure({"dynamic": make_prediction(), "static": make_prediction(speed=0.0)})
     complete(figure)
@@ -77,45 +79,83 @@ def test_contact_is_drawn_against_falling_wavelength_in_mm(
     assert right < 1.25
 
 
-def test_failed_wave_is_not_drawn_as_a_result(make_prediction: Callable[..., Prediction]) -> None:
+def test_failed_wave_is_not_drawn_as_a_result(make_prediction: Callable[..., xr.Dataset]) -> None:
     figure = contact_figure({"dynamic": make_prediction(status="iteration limit")})
     for label in ("dynamic, running", "dynamic, each wave"):
         assert np.isnan(curve(figure.axes[0], label)[1]).tolist() == [False, False, True]
 
 
-def test_block_touches_its_wave(make_wave: Callable[..., ScaleResult]) -> None:
+def test_model_without_waves_is_a_level_line(
+    make_prediction: Callable[..., xr.Dataset], without_waves: xr.Dataset
+) -> None:
+    figure = contact_figure({"chain": make_prediction(), "toy": without_waves})
+    complete(figure)
+    assert set(curve(figure.axes[0], "toy, total")[1]) == {0.05}
+    assert set(curve(figure.axes[1], "toy, total")[1]) == {0.6}
+    alone = contact_figure({"toy": without_waves})
+    alone.draw_without_rendering()
+    assert [len(axes.lines) for axes in alone.axes] == [1, 1]
+    assert blocks_figure(without_waves).axes == []
+
+
+def test_block_touches_its_wave(make_wave: Callable[..., xr.Dataset]) -> None:
     figure = block_figure(make_wave(4e-3))
     complete(figure)
     pressure, block = figure.axes
     assert pressure.lines[0].get_ydata().max() == pytest.approx(1.0)  # MPa
-    surface = block.lines[1].get_xydata()  # the middle of three periods
-    gap = surface[:, 1] - 0.1 * np.cos(2 * np.pi * surface[:, 0])
+    x, z = curve(block, "surface")
+    assert x.min() <= -0.5
+    assert x.max() >= 0.5
+    gap = z - 0.1 * np.cos(2 * np.pi * x)
     assert gap.min() == pytest.approx(0.0, abs=1e-12)
-    assert block.get_box_aspect() == pytest.approx(np.ptp(block.get_ylim()))
+    frame = block.get_window_extent()
+    scale = frame.height / np.ptp(block.get_ylim()), frame.width / np.ptp(block.get_xlim())
+    assert scale[0] == pytest.approx(scale[1], rel=1e-9)  # to scale
 
 
-def test_lifted_mesh_is_set_down_on_the_wave(make_wave: Callable[..., ScaleResult]) -> None:
-    from dataclasses import replace
+def test_pressure_is_drawn_over_one_closed_period(make_wave: Callable[..., xr.Dataset]) -> None:
+    data = make_wave(4e-3)
+    x, pressure = block_figure(data).axes[0].lines[0].get_data()
+    assert [x[0], x[-1]] == [-0.5, 0.5]
+    assert (np.diff(x) >= 0.0).all()
+    assert pressure[0] == pressure[-1]
+    expected = np.maximum(np.cos(2 * np.pi * np.asarray(x)), 0.0)
+    np.testing.assert_allclose(pressure, expected, atol=1e-12)
 
-    scale = make_wave(4e-3)
-    assert scale.deformed_mesh is not None
-    x, z = scale.deformed_mesh
-    figure = block_figure(replace(scale, deformed_mesh=(x, z + 1.0)))
-    np.testing.assert_allclose(figure.axes[1].lines[1].get_ydata(), 0.1, rtol=1e-9)
+
+def test_mesh_is_drawn_where_it_is(make_wave: Callable[..., xr.Dataset]) -> None:
+    axes = block_figure(make_wave(4e-3)).axes[1]
+    x, z = curve(axes, "mesh")
+    known = np.isfinite(x)
+    levels = 0.1 + np.linspace(0.0, 1.5, 7)
+    off_line = np.abs(x[known] * 32 - np.round(x[known] * 32))
+    assert np.minimum(off_line, np.abs(z[known][:, None] - levels).min(axis=1)).max() < 1e-9
+    assert z[known].max() > axes.get_ylim()[1]  # up to the edge
+    assert (np.count_nonzero(~known)) >= 32 + 4  # a gap after each line
+
+
+def test_lifted_mesh_is_set_down_on_the_wave(make_wave: Callable[..., xr.Dataset]) -> None:
+    figure = block_figure(make_wave(4e-3, lifted=1.0))
+    np.testing.assert_allclose(curve(figure.axes[1], "surface")[1], 0.1, rtol=1e-9)
+
+
+def test_wave_that_is_not_there_is_refused(make_prediction: Callable[..., xr.Dataset]) -> None:
+    with pytest.raises(InputError, match="wave must be a whole number from 1 to 3; got 4"):
+        block_figure(make_prediction(), 4)
 
 
 @pytest.mark.parametrize("count", [1, 4, 5, 8])
-def test_every_wave_has_its_block(make_prediction: Callable[..., Prediction], count: int) -> None:
-    figure = blocks_figure(make_prediction(count=count).scales)
+def test_every_wave_has_its_block(make_prediction: Callable[..., xr.Dataset], count: int) -> None:
+    figure = blocks_figure(make_prediction(count=count))
     complete(figure)
     assert len(figure.axes) == 2 * count
     assert [a.get_title(loc="left") for a in figure.axes[::2]] == [
-        f"$\\lambda$ = {20 / 4.0**i:.3g} mm\n$A$ = {2 / 4.0**i:.3g} mm\n$p$ = 0.3 MPa, contact 0.50"
+        f"λ = {20 / 4.0**i:.3g} mm\nA = {2 / 4.0**i:.3g} mm\np = 0.3 MPa, contact 0.50"
         for i in range(count)
     ]
 
 
-def test_failed_wave_says_so(make_wave: Callable[..., ScaleResult]) -> None:
+def test_failed_wave_says_so(make_wave: Callable[..., xr.Dataset]) -> None:
     figure = block_figure(make_wave(4e-3, "iteration limit", mesh=False))
     complete(figure)
     assert "iteration limit" in figure.axes[0].get_title(loc="left")
@@ -161,6 +201,26 @@ def test_named_rubber_needs_no_points() -> None:
     complete(master_curve_figure(Rubber(5e6, [4e6], [1e-2])))
 
 
+def test_envelope_keeps_extremes_and_gaps() -> None:
+    z = np.array([1.0, 3.0, np.nan, 2.0, np.nan, np.nan, 5.0, 4.0])
+    middle, lowest, highest = envelope(np.arange(8.0), z, 4)
+    assert middle.tolist() == [0.5, 2.5, 4.5, 6.5]
+    np.testing.assert_array_equal(lowest, [1.0, 2.0, np.nan, 4.0])
+    np.testing.assert_array_equal(highest, [3.0, 2.0, np.nan, 5.0])
+    np.testing.assert_array_equal(trace(middle, lowest, highest)[1][:4], [1.0, 3.0, 2.0, 2.0])
+    few = envelope([0.0, 1.0], [7.0, 8.0], 3)
+    np.testing.assert_array_equal(few, [[0.0, 1.0, np.nan], [7.0, 8.0, np.nan], [7.0, 8.0, np.nan]])
+
+
+def test_first_wave_counts_by_its_mean_beyond_a_quarter_of_its_length() -> None:
+    fitted, pure = sine_curves(STACK, [2e-3, 10e-3, 21e-3])
+    np.testing.assert_allclose(pure[:2], STACK.height_difference([2e-3, 10e-3]), rtol=1e-14)
+    assert fitted[0] == pytest.approx(pure[0], rel=1e-14)
+    second = 2.0 * np.sin(np.pi * 10.0 / 5.0) ** 2 * 0.5e-3**2
+    assert fitted[1] == pytest.approx(2e-3**2 + second, rel=1e-12)
+    assert np.isnan([fitted[2], pure[2]]).all()
+
+
 def test_profile_shows_what_cleaning_removed() -> None:
     raw = spiky()
     cleaned, _ = clean(raw, crop=(10e-3, 190e-3))
@@ -171,12 +231,15 @@ def test_profile_shows_what_cleaning_removed() -> None:
     figure = profile_figure([(raw, cleaned), (raw, cleaned)])
     complete(figure)
     assert len(figure.axes) == 6
+    shown = figure.axes[2].lines[0].get_ydata() * 1e-3
+    assert np.nanmin(shown) == pytest.approx(np.nanmin(cleaned.z), rel=1e-12)
+    assert np.nanmax(shown) == pytest.approx(np.nanmax(cleaned.z), rel=1e-12)
     removed = figure.axes[0].lines[1]
     assert len(removed.get_xdata()) == (~kept & np.isfinite(raw.z)).sum()
 
 
 def test_saving_gives_both_kinds_and_leaves_matplotlib_alone(
-    tmp_path: Path, make_wave: Callable[..., ScaleResult]
+    tmp_path: Path, make_wave: Callable[..., xr.Dataset]
 ) -> None:
     before = dict(mpl.rcParams)
     paths = save_figure(block_figure(make_wave(4e-3)), tmp_path, "block")
@@ -187,7 +250,29 @@ def test_saving_gives_both_kinds_and_leaves_matplotlib_alone(
 
 
 def test_folder_that_is_not_there_is_named(
-    tmp_path: Path, make_wave: Callable[..., ScaleResult]
+    tmp_path: Path, make_wave: Callable[..., xr.Dataset]
 ) -> None:
     with pytest.raises(FileError, match=r"nowhere/block\.png cannot be written"):
         save_figure(block_figure(make_wave(4e-3)), tmp_path / "nowhere", "block")
+
+
+def test_logarithmic_axes_are_marked_between_the_powers_of_ten_once(
+    tmp_path: Path, make_prediction: Callable[..., xr.Dataset]
+) -> None:
+    figure = contact_figure({"dynamic": make_prediction()})
+    for _ in range(2):
+        save_figure(figure, tmp_path, "contact")
+    marks = [line for line in figure.artists if line.get_marker() == TICKDOWN]
+    assert len(marks) == 2  # below each panel
+    wavelength = np.asarray(marks[0].get_xdata())
+    low, high = sorted(figure.axes[0].get_xlim())
+    expected = [m * 10.0**n for n in (-1, 0, 1) for m in range(2, 10)]
+    np.testing.assert_allclose(wavelength, [x for x in expected if low <= x <= high])
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [(0.001, "0.001"), (2.5, "2.5"), (1e4, "10000"), (1e-5, "10⁻⁵"), (2e12, "2·10¹²"), (0.0, "0")],
+)
+def test_numbers_of_axes_stay_short(value: float, text: str) -> None:
+    assert short_number(value) == text

@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-from typer.testing import CliRunner
 
-from gripscale import dataset
-from gripscale.cli import app, draw
+from gripscale import netcdf
+from gripscale.case import run_case
+from gripscale.model import TOTALS
 from gripscale.rubber import Rubber
 
 CASE = """\
@@ -67,12 +67,16 @@ def run_folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     """The results folder of a real run, without its printed figures."""
     folder = tmp_path_factory.mktemp("somewhere-private")
     write_inputs(folder)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(draw, "save_figure", lambda *_: [])
-        done = CliRunner().invoke(app, ["run", str(folder / "case.toml")])
-    assert done.exit_code == 0, done.output
+    assert run_case(folder / "case.toml", output=folder / "results").converged
     yield folder / "results"
     shutil.rmtree(folder)
+
+
+def read(path: Path) -> tuple[xr.Dataset, dict[str, xr.Dataset]]:
+    """Return a prediction and the groups beside it."""
+    tree = netcdf.load_tree(path)
+    groups = {name: part.to_dataset(inherit=False) for name, part in tree.children.items()}
+    return tree.to_dataset(), groups
 
 
 Change = Callable[[xr.Dataset], xr.Dataset]
@@ -80,43 +84,41 @@ Change = Callable[[xr.Dataset], xr.Dataset]
 
 @pytest.fixture
 def changed_run(run_folder: Path, tmp_path: Path) -> Callable[..., Path]:
-    """Copy the run with its chains passed through a function; meshes, slow to draw, stay out."""
+    """Copy the run, predictions passed through a function; meshes, slow to draw, stay out."""
 
     def change(edit: Change, *names: str) -> Path:
         target = tmp_path / "changed"
         target.mkdir()
         for name in ("dynamic", "static"):
-            source = run_folder / f"{name}.nc"
-            data = dataset.load(source)
+            data, groups = read(run_folder / f"{name}.nc")
             data = edit(data) if name in names else data
-            groups = dataset.load_groups(source)
-            groups["solver"] = groups["solver"].drop_vars(["mesh_x", "mesh_z"])
-            dataset.save(data, target / f"{name}.nc", groups)
+            netcdf.save(data.drop_vars(["mesh_x", "mesh_z"]), target / f"{name}.nc", groups)
         return target
 
     return change
 
 
 def fail_second_wave(data: xr.Dataset) -> xr.Dataset:
-    """Return a chain that ended at its second wave."""
+    """Return a prediction that ended at its second wave."""
     cut = data.isel(scale=slice(0, 2)).copy(deep=True)
-    status = ["converged", "iteration limit at 40 % of the pressure"]
-    cut["status"] = ("scale", np.array(status, dtype=object))
+    cut["status"] = ("scale", np.array(["converged", "iteration limit"], dtype=object))
+    cut["load_reached"].values[1] = 0.4
     for name in ("running_contact_fraction", "running_friction"):
         cut[name].values[1] = np.nan
-    cut.attrs |= {"contact_fraction": np.nan, "friction": np.nan, "converged": 0}
-    return cut
+    for name in TOTALS:
+        cut[name] = np.nan
+    return cut.assign(prediction_status="wave 2 of 3 did not converge: iteration limit")
 
 
 @pytest.fixture
 def failed_folder(changed_run: Callable[..., Path]) -> Path:
-    """The run with a dynamic chain that failed at its second wave."""
+    """The run with a dynamic prediction that failed at its second wave."""
     return changed_run(fail_second_wave, "dynamic")
 
 
 @pytest.fixture(scope="session")
 def study_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A study over two speeds and two rubbers, one case of which failed."""
+    """A study over two speeds and two rubbers, one prediction of which failed."""
     speed, rubber, scale = [0.03, 3.0], ["tread", "<b>SBR</b>"], [1, 2, 3]
     shape = (2, 2, 3)
     axes, waves = ("speed", "rubber"), ("speed", "rubber", "scale")
@@ -129,7 +131,7 @@ def study_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
         {
             "total_contact_fraction": (axes, running[:, :, -1]),
             "total_friction": (axes, friction[:, :, -1]),
-            "case_status": (axes, status),
+            "prediction_status": (axes, status),
             "wavelength": (waves, np.broadcast_to([1e-2, 2e-3, 4e-4], shape)),
             "contact_fraction": (waves, area),
             "running_contact_fraction": (waves, running),
@@ -146,4 +148,4 @@ def study_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
         attrs={"title": "Study of <contact>", "case": CASE, "version_gripscale": "0.1.0"},
     )
     data["speed"].attrs |= {"units": "m/s", "long_name": "sliding speed"}
-    return dataset.save(data, tmp_path_factory.mktemp("study") / "study.nc")
+    return netcdf.save(data, tmp_path_factory.mktemp("study") / "study.nc")

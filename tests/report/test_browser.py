@@ -14,10 +14,9 @@ from typing import Any
 import numpy as np
 import pytest
 from PIL import Image
-from typer.testing import CliRunner
 
-from gripscale.cli import app, draw
-from gripscale.html_report import write_report
+from gripscale.case import run_case
+from gripscale.report import write_report
 
 from .conftest import CASE
 
@@ -263,10 +262,7 @@ def test_smallest_case_has_no_empty_figure(browser: Any, tmp_path: Path, speed: 
         f'[load]\npressure = "3 bar"\nspeed = {speed}\nfootprint = "100 mm"\n'
         '[solver]\nmodel = "half_plane"\npoints = 64\n'
     )
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(draw, "save_figure", lambda *_: [])
-        done = CliRunner().invoke(app, ["run", str(tmp_path / "case.toml")])
-    assert done.exit_code == 0, done.output
+    assert run_case(tmp_path / "case.toml", output=tmp_path / "results").converged
     with visit(browser, write_report(tmp_path / "results")) as seen:
         drawn(seen)
         assert check_figures(seen) >= 7

@@ -1,13 +1,11 @@
-"""`gripscale report`, and what `gripscale run` records for it."""
+"""`gripscale report`."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
 from typer.testing import CliRunner
 
-from gripscale import dataset
 from gripscale.cli import app
 
 
@@ -39,21 +37,3 @@ def test_place_that_cannot_be_written_is_named(run_folder: Path, tmp_path: Path)
     done = CliRunner().invoke(app, ["report", str(run_folder), "--output", str(target)])
     assert done.exit_code == 2
     assert "cannot be written" in done.stderr
-
-
-def test_run_records_inputs_and_meshes_beside_the_chain(run_folder: Path) -> None:
-    groups = dataset.load_groups(run_folder / "dynamic.nc")
-    inputs, solver = groups["inputs"], groups["solver"]
-    assert inputs.sizes["wave"] == 3
-    assert inputs.sizes["profile"] == 2
-    np.testing.assert_allclose(inputs.attrs["sines_s_wavelength"], 3.0, rtol=1e-12)
-    assert inputs.sizes["row"] == 60
-    lowest, highest = inputs["read_lowest"].values, inputs["read_highest"].values
-    known = np.isfinite(lowest)
-    assert (lowest[known] <= highest[known]).all()
-    heights = np.loadtxt(run_folder.parent / "road.txt", skiprows=1)[:, 1] * 1e-3
-    np.testing.assert_allclose(np.nanmax(highest[0]), heights.max(), rtol=1e-12)
-    np.testing.assert_allclose(np.nanmin(lowest[0]), heights.min(), rtol=1e-12)
-    assert solver["mesh_x"].shape == (3, 9, 33)
-    assert (solver["columns"] == 32).all()
-    assert "mesh_x" not in dataset.load(run_folder / "dynamic.nc")

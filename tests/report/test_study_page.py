@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from gripscale.html_report import write_report
+from gripscale.report import write_report
 
 from .reading import Page
 
@@ -23,14 +23,14 @@ def test_axes_and_their_values_are_named(page: Page) -> None:
     assert rows[1][-1] == "tread, <b>SBR</b>"
 
 
-def test_totals_have_every_case_and_no_empty_cell(page: Page) -> None:
+def test_totals_have_every_prediction_and_no_empty_cell(page: Page) -> None:
     rows = page.body("totals")
     assert len(rows) == 4
     assert all(cell for row in rows for cell in row)
     assert rows[3][2] == "–"
 
 
-def test_failed_case_is_loud(page: Page) -> None:
+def test_failed_prediction_is_loud(page: Page) -> None:
     alerts = [a for _, a in page.tags if a.get("role") == "alert"]
     assert len(alerts) == 1
     assert "speed 3, rubber <b>SBR</b>: NOT converged: wave 3 of 3" in page.text

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from gripscale.reproduce.bench import Bench
-from gripscale.reproduce.bench import bench as read_bench
+from reproduction.inputs import Inputs, read_inputs
 
 
 @pytest.fixture(scope="session")
-def bench() -> Bench:
-    return read_bench()
+def inputs() -> Inputs:
+    return read_inputs()

@@ -1,4 +1,4 @@
-"""Each statement is judged by its number: made-up chains that keep it, and ones that break it."""
+"""Each statement is judged by its number: made-up numbers that keep it, and ones that break it."""
 
 from __future__ import annotations
 
@@ -7,16 +7,16 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gripscale.reproduce import judge_area, judge_friction
-from gripscale.reproduce.bench import DENSE, FAST, FASTEST, ROAD, SBR, SPEED, TREAD
-from gripscale.reproduce.chains import Solved, speed_name
-from gripscale.reproduce.statement import Statement, as_markdown
+from reproduction import judge_area, judge_friction
+from reproduction.inputs import DENSE, FAST, FASTEST, ROAD, SBR, SPEED, TREAD
+from reproduction.panels import Solved, speed_name
+from reproduction.statement import Statement, as_markdown
 
 WAVELENGTHS = 20e-3 / 3.0 ** np.arange(5)
 
 
-def chain(area: Any, friction: Any = None, factor: float = 3.0, **per_wave: Any) -> xr.Dataset:
-    """Return a chain with the given running areas and frictions of the waves."""
+def prediction(area: Any, friction: Any = None, factor: float = 3.0, **per_wave: Any) -> xr.Dataset:
+    """Return a prediction with the given running areas and frictions of the waves."""
     area = np.asarray(area, dtype=float)
     friction = np.zeros(area.size) if friction is None else np.asarray(friction, dtype=float)
     columns = {
@@ -29,7 +29,7 @@ def chain(area: Any, friction: Any = None, factor: float = 3.0, **per_wave: Any)
     }
     data = {name: ("scale", values) for name, values in columns.items()}
     scale = np.arange(1, area.size + 1)
-    return xr.Dataset(data, coords={"scale": scale}, attrs={"case_status": "converged"})
+    return xr.Dataset(data | {"prediction_status": "converged"}, coords={"scale": scale})
 
 
 def verdicts(statements: list[Statement]) -> list[bool]:
@@ -45,8 +45,8 @@ SETTLING = [0.3, 0.15, 0.11, 0.095, 0.09]
 
 
 def three(worst: list[float]) -> Solved:
-    good = chain(SETTLING)
-    return {DENSE: {"a": good, "b": good, "c": chain(worst)}}
+    good = prediction(SETTLING)
+    return {DENSE: {"a": good, "b": good, "c": prediction(worst)}}
 
 
 def test_progression() -> None:
@@ -60,18 +60,18 @@ def test_progression() -> None:
 
 
 def test_motion() -> None:
-    rest = {DENSE: {"a": chain(SETTLING)}}
-    moving = {DENSE: {"a": chain([0.2, 0.08, 0.05, 0.035])}}  # its last wave failed
+    rest = {DENSE: {"a": prediction(SETTLING)}}
+    moving = {DENSE: {"a": prediction([0.2, 0.08, 0.05, 0.035])}}  # its last wave failed
     assert verdicts(judge_area.judge_motion(rest, moving)) == [True]
     assert verdicts(judge_area.judge_motion(moving, rest)) == [False]
-    flatter = {DENSE: {"a": chain([0.1, 0.08, 0.07, 0.068, 0.067])}}
+    flatter = {DENSE: {"a": prediction([0.1, 0.08, 0.07, 0.068, 0.067])}}
     assert verdicts(judge_area.judge_motion(rest, flatter)) == [False]
 
 
 def test_speed_and_area() -> None:
     def over_speed(*areas: list[float]) -> Solved:
-        static = {"static": chain([0.01, 0.01, 0.01])}
-        return {TREAD: static | {f"{i} mm/s": chain(area) for i, area in enumerate(areas)}}
+        static = {"static": prediction([0.01, 0.01, 0.01])}
+        return {TREAD: static | {f"{i} mm/s": prediction(area) for i, area in enumerate(areas)}}
 
     falling = over_speed([0.3, 0.1, 0.05], [0.25, 0.08, 0.03], [0.2, 0.06])
     assert verdicts(judge_area.judge_speed(falling)) == [True]
@@ -81,8 +81,8 @@ def test_speed_and_area() -> None:
 
 def test_stiffness() -> None:
     def compounds(modulus: list[float], area: list[float]) -> Solved:
-        sbr = chain([0.5, 0.3], modulus=[1e6, 2e6])
-        return {speed_name(SPEED): {TREAD: chain(area, modulus=modulus), SBR: sbr}}
+        sbr = prediction([0.5, 0.3], modulus=[1e6, 2e6])
+        return {speed_name(SPEED): {TREAD: prediction(area, modulus=modulus), SBR: sbr}}
 
     assert verdicts(judge_area.judge_stiffness(compounds([5e6, 6e6], [0.2, 0.1]))) == [True]
     assert verdicts(judge_area.judge_stiffness(compounds([5e6, 6e6], [0.2, 0.4]))) == [False]
@@ -90,18 +90,18 @@ def test_stiffness() -> None:
 
 
 def test_surfaces() -> None:
-    coarse = chain([0.2, 0.1, 0.06, 0.05, 0.04])
+    coarse = prediction([0.2, 0.1, 0.06, 0.05, 0.04])
     for last, holds in ((0.055, True), (0.0785, False), (0.2, False)):
-        dense = chain([0.4, 0.2, 0.12, 0.1, last])
+        dense = prediction([0.4, 0.2, 0.12, 0.1, last])
         solved = {"300 mm/s": {ROAD: coarse, DENSE: dense}}
         assert verdicts(judge_area.judge_surfaces("fig7a", solved)) == [holds]
 
 
 def test_worst_fit_departs_at_small_waves_only() -> None:
-    good = chain(SETTLING, [0.02, 0.03, 0.05, 0.08, 0.12])
+    good = prediction(SETTLING, [0.02, 0.03, 0.05, 0.08, 0.12])
 
     def with_worst(*friction: float) -> Solved:
-        worst = chain([0.3, 0.1, 0.05], friction, factor=9.0)
+        worst = prediction([0.3, 0.1, 0.05], friction, factor=9.0)
         return {DENSE: {"a": good, "b": good, "c": worst}}
 
     assert verdicts(judge_friction.judge_factors_friction(with_worst(0.02, 0.055, 0.2))) == [True]
@@ -109,9 +109,9 @@ def test_worst_fit_departs_at_small_waves_only() -> None:
     assert verdicts(judge_friction.judge_factors_friction(with_worst(0.02, 0.09, 0.2))) == [False]
 
 
-def test_maximum_of_friction_comes_sooner(bench: Any) -> None:
+def test_maximum_of_friction_comes_sooner(inputs: Any) -> None:
     def speeds(*frictions: list[float]) -> Solved:
-        lines = {f"{i} mm/s": chain(SETTLING, each) for i, each in enumerate(frictions)}
+        lines = {f"{i} mm/s": prediction(SETTLING, each) for i, each in enumerate(frictions)}
         return {SBR: lines}
 
     slow, middle, fast = (
@@ -120,41 +120,41 @@ def test_maximum_of_friction_comes_sooner(bench: Any) -> None:
         [0.05, 0.08, 0.1, 0.09, 0.07],
     )
     judge = judge_friction.judge_speed_friction
-    assert verdicts(judge(speeds(slow, middle, fast), bench)) == [True, True]
-    assert verdicts(judge(speeds(slow, fast, middle), bench)) == [True, False]
-    rises, sooner = judge(speeds(slow, slow), bench)
+    assert verdicts(judge(speeds(slow, middle, fast), inputs)) == [True, True]
+    assert verdicts(judge(speeds(slow, fast, middle), inputs)) == [True, False]
+    rises, sooner = judge(speeds(slow, slow), inputs)
     assert (rises.holds, sooner.holds) == (True, False)
     assert "different inputs: the loss factor of this compound" in sooner.why_not
-    assert verdicts(judge(speeds([0.05, 0.02, 0.06, 0.07, 0.08], fast), bench))[0] is False
+    assert verdicts(judge(speeds([0.05, 0.02, 0.06, 0.07, 0.08], fast), inputs))[0] is False
 
 
-def test_compounds(bench: Any) -> None:
+def test_compounds(inputs: Any) -> None:
     def at(lead: list[float], loss: list[float]) -> dict[str, xr.Dataset]:
         tread = np.full(5, 0.1)
         return {
-            TREAD: chain(SETTLING, tread, loss_factor=np.full(5, 0.2)),
-            SBR: chain(SETTLING, tread + lead, loss_factor=loss),
+            TREAD: prediction(SETTLING, tread, loss_factor=np.full(5, 0.2)),
+            SBR: prediction(SETTLING, tread + lead, loss_factor=loss),
         }
 
     lossier = [0.2, 0.19, 0.3, 0.4, 0.5]
     together = at([0.01, -0.01, 0.1, 0.2, 0.02], lossier)
     names = [speed_name(speed) for speed in (SPEED, FAST, FASTEST)]
     judge = judge_friction.judge_compounds
-    assert verdicts(judge(dict.fromkeys(names, together), bench)) == [True] * 7
+    assert verdicts(judge(dict.fromkeys(names, together), inputs)) == [True] * 7
     apart = at([0.1, -0.01, -0.1, 0.15, 0.2], lossier)
-    judged = judge({names[0]: apart, names[1]: together, names[2]: together}, bench)
+    judged = judge({names[0]: apart, names[1]: together, names[2]: together}, inputs)
     assert verdicts(judged) == [False, False, True, True, False, True, True]
     assert "the lead falls from 0.200 to 0.020" in judged[4].why_not
 
 
-def test_steeper_surface(bench: Any) -> None:
+def test_steeper_surface(inputs: Any) -> None:
     def surfaces(coarse: xr.Dataset, dense: xr.Dataset) -> Solved:
         return {"300 mm/s": {ROAD: coarse, DENSE: dense}}
 
-    more, less = chain([0.2, 0.05], [0.1, 0.2]), chain([0.3, 0.1], [0.05, 0.1])
+    more, less = prediction([0.2, 0.05], [0.1, 0.2]), prediction([0.3, 0.1], [0.05, 0.1])
     judge = judge_friction.judge_surface_friction
-    assert verdicts(judge(surfaces(more, less), bench)) == [True]
-    assert verdicts(judge(surfaces(less, more), bench)) == [False]
+    assert verdicts(judge(surfaces(more, less), inputs)) == [True]
+    assert verdicts(judge(surfaces(less, more), inputs)) == [False]
 
 
 def test_table_holds_every_statement() -> None:

@@ -1,43 +1,46 @@
-"""`gripscale reproduce` from the inputs to figures, data and judged statements."""
+"""The reproduction, from the inputs to figures, data and judged statements."""
 
 from __future__ import annotations
 
 import json
+import re
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+from typer.testing import CliRunner, Result
 
-from gripscale import dataset
+import gripscale
+from gripscale import netcdf
 from gripscale.cli import app
 from gripscale.errors import FileError, InputError
-from gripscale.reproduce import FIGURES, reproduce
-from gripscale.reproduce.bench import DENSE, PAPER_FACTORS, ROAD, TREAD, Bench
-from gripscale.reproduce.bench import bench as read_bench
-from gripscale.reproduce.chains import panels_of
 from gripscale.study import Progress
+from reproduction.__main__ import main
+from reproduction.inputs import DENSE, PAPER_FACTORS, ROAD, TREAD, Inputs, read_inputs
+from reproduction.panels import panels_of
+from reproduction.run import FIGURES, reproduce
 
 
-def test_inputs_are_the_stated_ones(bench: Bench) -> None:
-    dense = bench.magnified(DENSE)
+def test_inputs_are_the_stated_ones(inputs: Inputs) -> None:
+    dense = inputs.magnified(DENSE)
     assert list(dense) == ["3.5/2.4", "3/2.2", "6/3"]
-    coarse = bench.magnified(ROAD)
+    coarse = inputs.magnified(ROAD)
     for stacks in (dense, coarse):
         for stack, (s_wavelength, _) in zip(stacks.values(), PAPER_FACTORS, strict=True):
             assert stack.s_wavelength == pytest.approx(s_wavelength)
             assert stack.wavelength[-1] >= 0.1e-3 * (1.0 - 1e-9)
         assert len({float(stack.wavelength[0]) for stack in stacks.values()}) == 1
         assert len({float(stack.amplitude[0]) for stack in stacks.values()}) == 1
-    assert "synthetic" in bench.roads[DENSE].source
-    assert "not stated" in bench.rubbers[TREAD].source
+    assert "synthetic" in inputs.surfaces[DENSE].source
+    assert "not stated" in inputs.rubbers[TREAD].source
 
 
-def test_no_chain_is_solved_twice(bench: Bench) -> None:
+def test_no_chain_is_solved_twice(inputs: Inputs) -> None:
     keys = [
         task.key
         for figure in FIGURES
-        for lines in panels_of(figure, bench).values()
+        for lines in panels_of(figure, inputs).values()
         for task in lines.values()
     ]
     assert len(keys) == 48
@@ -46,15 +49,15 @@ def test_no_chain_is_solved_twice(bench: Bench) -> None:
 
 def test_figure_with_chains_is_made_once_and_read_again(tmp_path: Path) -> None:
     told: list[Progress] = []
-    statements = reproduce(["fig7a", "fig9b"], tmp_path, on_case=told.append)
+    statements = reproduce(["fig7a", "fig9b"], tmp_path, on_task=told.append)
     assert len(told) == 2
     assert [s.figure for s in statements] == ["fig7a", "fig9b"]
     assert all(s.holds for s in statements)
     for name in ("fig7a", "fig9b"):
         assert all((tmp_path / f"{name}.{kind}").stat().st_size > 5000 for kind in ("png", "pdf"))
-        data = dataset.load(tmp_path / f"{name}.nc")
+        data = netcdf.load(tmp_path / f"{name}.nc")
         assert data.line.values.tolist() == [ROAD, DENSE]
-        assert data.case_status.values.tolist() == ["converged"] * 2
+        assert data.prediction_status.values.tolist() == ["converged"] * 2
         assert data.sizes["scale"] == 8
         assert np.isnan(data.friction[1, 7])
         assert data.friction.attrs["units"] == "1"
@@ -63,19 +66,19 @@ def test_figure_with_chains_is_made_once_and_read_again(tmp_path: Path) -> None:
     assert [row["verdict"] for row in table] == ["holds", "holds"]
     assert "2 of 2 statements hold" in (tmp_path / "statements.md").read_text()
     told.clear()
-    reproduce(["fig9b"], tmp_path, on_case=told.append)
+    reproduce(["fig9b"], tmp_path, on_task=told.append)
     assert [t.stored for t in told] == [True, True]
 
 
-def test_inputs_from_the_command_line(tmp_path: Path) -> None:
-    asked = ["reproduce", "fig4", "fig2", "fig3b", "--output", str(tmp_path)]
-    result = CliRunner().invoke(app, asked, env={"COLUMNS": "100"})
-    assert result.exit_code == 0, result.output
-    assert "Reproducing fig2, fig3b, fig4" in result.stdout
-    assert "6 of 7 statements hold" in result.stdout
-    assert "fig4: DOES NOT HOLD: two magnification factors" in result.stdout
-    assert "why: different inputs: amplitudes fall as wavelength^0.9" in result.stdout
-    data = dataset.load(tmp_path / "fig3b.nc")
+def test_inputs_from_the_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["fig4", "fig2", "fig3b", "--output", str(tmp_path)]) == 0
+    printed = capsys.readouterr().out
+    assert "Reproducing fig2, fig3b, fig4" in printed
+    assert "6 of 7 statements hold" in printed
+    assert "fig4: DOES NOT HOLD: two magnification factors" in printed
+    assert "why: different inputs: amplitudes fall as wavelength^0.9" in printed
+    assert max(map(len, printed.splitlines())) <= 100
+    data = netcdf.load(tmp_path / "fig3b.nc")
     assert data.C_z_1.attrs == {
         "units": "m^2",
         "long_name": "height difference correlation",
@@ -84,12 +87,40 @@ def test_inputs_from_the_command_line(tmp_path: Path) -> None:
     assert {p.suffix for p in tmp_path.glob("fig4.*")} == {".nc", ".pdf", ".png"}
 
 
-def test_unknown_figure_and_missing_data_are_one_sentence(tmp_path: Path) -> None:
+def test_unknown_figure_and_missing_data_are_one_sentence(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     with pytest.raises(InputError, match=r"figure must be one of all, fig2, .*; got 'fig1'"):
         reproduce(["fig1"], tmp_path)
     with pytest.raises(FileError, match=r"does not exist; give the folder examples/data .* --data"):
-        read_bench(tmp_path)
+        read_inputs(tmp_path)
     for wrong in (["fig1"], ["fig2", "--data", str(tmp_path)]):
-        result = CliRunner().invoke(app, ["reproduce", *wrong, "--output", str(tmp_path / "out")])
-        assert result.exit_code == 2
-        assert len(result.stderr.splitlines()) == 1
+        assert main([*wrong, "--output", str(tmp_path / "out")]) == 2
+        assert len(capsys.readouterr().err.splitlines()) == 1
+
+
+def test_nothing_hidden_and_nothing_of_the_command_line_is_used() -> None:
+    hidden = re.compile(r"^(?:from|import) gripscale(?:\.cli|\S*\._)|import .*\b_\w", re.MULTILINE)
+    for path in Path(sys.modules["reproduction"].__path__[0]).glob("*.py"):
+        assert not hidden.search(path.read_text(encoding="utf-8")), path.name
+
+
+def shell(*arguments: str) -> Result:
+    return CliRunner().invoke(app, ["reproduce", *arguments])
+
+
+def test_gripscale_reproduce_hands_over_in_a_clone(tmp_path: Path) -> None:
+    done = shell("fig2", "--output", str(tmp_path))
+    assert done.exit_code == 0, done.output
+    assert "2 of 2 statements hold" in done.output
+    assert shell("fig1").exit_code == 2
+    assert "figures of Lind & Wangenheim 2014" in " ".join(shell("--help").output.split())
+
+
+def test_the_wheel_alone_says_where_the_reproduction_is(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(gripscale, "__file__", str(tmp_path / "lib" / "gripscale" / "__init__.py"))
+    done = shell("fig2")
+    assert done.exit_code == 2
+    assert re.fullmatch(r"error: .* get the source of gripscale .*\n", done.stderr)

@@ -1,6 +1,7 @@
 """The Maxwell solid against its own integral definition, limits and bad input."""
 
 import dataclasses
+import json
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 from gripscale.errors import InputError
-from gripscale.rubber import Rubber
+from gripscale.rubber import MooneyRivlin, NeoHookean, Rubber, Yeoh
 
 SERIES = st.lists(st.tuples(st.floats(1e3, 1e9), st.floats(1e-12, 1e6)), min_size=0, max_size=8)
 
@@ -103,6 +104,41 @@ def test_equality_hash_and_immutability():
         first.name = "y"  # type: ignore[misc]
     with pytest.raises(ValueError, match="read-only"):
         first.moduli[0] = 0.0
+
+
+@pytest.mark.parametrize("law", [NeoHookean(), MooneyRivlin(0.1), Yeoh(-0.1, 0.02)])
+@pytest.mark.parametrize("band", [None, (0.1, 1e5 / 3)])
+def test_a_rubber_as_a_dictionary_is_the_rubber(law, band):
+    """Every number, exactly, also through text."""
+    rubber = Rubber(
+        2e6 / 3,
+        [1e6 / 7, 3e6],
+        [1e-12 / 3, 0.1],
+        bulk_modulus=1.7e9,
+        name="tread",
+        source="bench",
+        valid_band=band,
+        strain_energy=law,
+    )
+    values = rubber.to_dict()
+    assert values["moduli"] == [1e6 / 7, 3e6]
+    assert values["strain_energy"] == {"kind": law.kind, **law.parameters()}
+    assert Rubber.from_dict(json.loads(json.dumps(values))) == rubber
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"colour": "black"}, "values must have the keys equilibrium_modulus, .* 'colour'"),
+        ({"strain_energy": {"kind": "ogden"}}, "kind must be one of neo_hookean"),
+        ({"strain_energy": {}}, "kind must be one of neo_hookean.* got None"),
+        ({"strain_energy": "yeoh"}, "strain_energy must be a mapping with its kind; got 'yeoh'"),
+        ({"moduli": [-1.0]}, "moduli must be greater than zero"),
+    ],
+)
+def test_a_dictionary_of_something_else_is_refused(change, message):
+    with pytest.raises(InputError, match=message):
+        Rubber.from_dict({**Rubber(1e6).to_dict(), **change})
 
 
 @pytest.mark.parametrize(

@@ -94,3 +94,14 @@ def test_waves_by_hand_are_cut_off() -> None:
     assert len(road.varied(waves=2).sines) == 2
     assert len(road.varied(smallest_wavelength=1e-3).sines) == 3
     assert road.varied(factors=(3.0, 2.0)).sines.residual is None
+
+
+def test_varied_rubber_keeps_what_the_case_says_beside_its_curve(measured: Path) -> None:
+    energy = 'strain_energy = { kind = "yeoh", second = -0.1, third = 0.02 }\n[load]'
+    measured.write_text(measured.read_text().replace("[load]", energy))
+    file = read_case(measured)
+    dma = EXAMPLE.parents[1] / "data" / "rubber" / "measured_dma.txt"
+    for value in ("case", "styrene_butadiene", str(dma)):
+        rubber = rubber_of(value, file)
+        assert rubber.strain_energy == gs.rubber.Yeoh(-0.1, 0.02)
+        assert rubber.bulk_modulus == 1.5e9

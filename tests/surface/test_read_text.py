@@ -5,7 +5,6 @@ from hypothesis import strategies as st
 
 from gripscale.errors import FileError, InputError
 from gripscale.surface import read_profile, read_profiles
-from gripscale.surface.text_table import parse_number
 
 from .surface_cases import ROAD
 
@@ -68,7 +67,7 @@ def test_units_come_from_titles_or_arguments_and_must_agree(tmp_path):
         read_profile(titled, x_unit="m")
     with pytest.raises(FileError, match="column 1 names no unit"):
         read_profile(bare)
-    with pytest.raises(InputError, match="z_unit must be a unit of length"):
+    with pytest.raises(InputError, match=r"z_unit must be one of m, .* got 'furlong'"):
         read_profile(bare, x_unit="mm", z_unit="furlong")
 
 
@@ -144,8 +143,3 @@ def test_no_content_breaks_the_reader(tmp_path_factory, junk):
     path = written(tmp_path_factory.mktemp("junk"), junk)
     with pytest.raises((FileError, InputError)):
         read_profile(path)
-
-
-@pytest.mark.parametrize("cell", ["1_000", "0x1", "infinity", "1e", "1.2.3", "١"])
-def test_only_plain_numbers_are_numbers(cell):
-    assert parse_number(cell) is None

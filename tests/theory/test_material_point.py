@@ -7,9 +7,16 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp, trapezoid
 
 from gripscale.errors import InputError
-from gripscale.rubber import MooneyRivlin, NeoHookean, Rubber, Yeoh
+from gripscale.rubber import (
+    MooneyRivlin,
+    NeoHookean,
+    Rubber,
+    Yeoh,
+    simple_shear_stress,
+    uniaxial_stress,
+)
 from gripscale.rubber.material_point import network_states
-from gripscale.theory import simple_shear_stress, step_relaxation_stress, uniaxial_stress
+from gripscale.theory import step_relaxation_stress
 
 LAWS = [NeoHookean(), MooneyRivlin(0.4), Yeoh(-0.05, 0.004)]
 SERIES = {"moduli": [3e6, 5e6, 2e6], "relaxation_times": [0.03, 0.4, 5.0]}

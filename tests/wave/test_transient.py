@@ -1,97 +1,25 @@
-"""Sliding in time: its limit is the steady state, and its programme does what it says."""
+"""Sliding in time: a programme does what it says."""
 
 import numpy as np
 import pytest
 
 import gripscale as gs
 from gripscale import Stage, TransientResult, solve_transient
+from tests.verification.transient_cases import PASSAGE, PLAIN, SPEED, TransientCase
 
-WAVELENGTH = 1e-3
-SPEED = 1.0
-PASSAGE = WAVELENGTH / SPEED
-RELAXED = 3e6
 MESH = {"columns": 96, "rows": 14}
 
 
-def rubber(moduli, passages):
-    return gs.Rubber(
-        RELAXED,
-        [ratio * RELAXED for ratio in moduli],
-        [time * PASSAGE for time in passages],
-        bulk_modulus=1e9,
-    )
-
-
-def load(material, slope, ratio):
-    """Wave and pressure for A/lambda and p/|E*(w_1)|."""
-    modulus = abs(material.complex_modulus(2 * np.pi / PASSAGE))
-    return {"wavelength": WAVELENGTH, "amplitude": slope * WAVELENGTH}, ratio * modulus
-
-
-@pytest.mark.parametrize(
-    ("slope", "ratio", "moduli", "passages"),
-    [
-        (0.01, 0.02, [2.0], [0.1]),
-        (0.01, 0.01, [9.0], [0.05]),
-        (0.05, 0.1, [1.0, 1.0], [0.03, 0.3]),
-        (0.1, 0.1, [2.0], [0.1]),
-        (0.1, 0.3, [4.0], [0.2]),
-        (0.2, 0.1, [2.0, 1.0], [0.05, 0.2]),
-        (0.2, 0.3, [2.0], [0.2]),
-        (0.3, 0.2, [1.0], [0.1]),
-    ],
-)
-def test_the_steady_state_is_the_limit(slope, ratio, moduli, passages):
-    material = rubber(moduli, passages)
-    wave, pressure = load(material, slope, ratio)
-    steady = gs.solve_scale(material, **wave, pressure=pressure, speed=SPEED, **MESH)
-    run = solve_transient(material, **wave, stages=[Stage(5 * PASSAGE, SPEED, pressure)], **MESH)
-    assert steady.converged
-    assert run.converged
-    # Memory between columns is linear here and a Fourier series there: (k h)^2-sized differences.
-    assert run.friction[-1] == pytest.approx(steady.friction, rel=0.005)
-    assert run.contact_fraction[-1] == pytest.approx(steady.contact_fraction, abs=0.005)
-
-
-@pytest.mark.parametrize("passages", [2, 5])
-def test_long_relaxation_times_agree_at_the_load_time(passages):
-    """A relaxation time of 50 passages is at rest in the mean state, as `load_time` says.
-
-    The slow network also remembers where along the wave each point was when the load came on: a
-    disturbance that goes round with the rubber and decays with its relaxation time. Friction at
-    one moment is off by it (1 % here); its mean over a passage is not.
-    """
-    material = rubber([2.0, 3.0], [0.1, 50.0])
-    wave, pressure = load(material, 0.1, 0.1)
-    time = passages * PASSAGE
-    steady = gs.solve_scale(
-        material, **wave, pressure=pressure, speed=SPEED, load_time=time, **MESH
-    )
-    run = solve_transient(material, **wave, stages=[Stage(time, SPEED, pressure)], **MESH)
-    friction, _, _ = run.cycle()["friction"]
-    assert friction == pytest.approx(steady.friction, rel=0.005)
-    assert run.contact_fraction[-1] == pytest.approx(steady.contact_fraction, abs=0.005)
-
-
 def test_a_steady_start_stays_steady():
-    material = rubber([2.0], [0.1])
-    wave, pressure = load(material, 0.1, 0.1)
-    steady = gs.solve_scale(material, **wave, pressure=pressure, speed=SPEED, **MESH)
-    stage = Stage(PASSAGE / 4, SPEED, pressure)
-    run = solve_transient(material, **wave, stages=[stage], start=steady, **MESH)
+    steady = PLAIN.steady(**MESH)
+    run = PLAIN.run(PLAIN.stage(0.25), start=steady, **MESH)
     assert np.ptp(run.friction) < 0.005 * steady.friction
     assert run.friction[0] == pytest.approx(steady.friction, rel=0.005)
 
 
 def test_start_stop_and_reversal():
-    material = rubber([2.0], [0.1])
-    wave, pressure = load(material, 0.1, 0.1)
-    stages = [
-        Stage(2 * PASSAGE, SPEED, pressure),
-        Stage(3 * PASSAGE, 0.0, pressure),
-        Stage(2 * PASSAGE, -SPEED, pressure),
-    ]
-    run = solve_transient(material, **wave, stages=stages, columns=64, rows=12)
+    stages = PLAIN.stage(2), PLAIN.stage(3, 0.0), PLAIN.stage(2, -SPEED)
+    run = PLAIN.run(*stages, columns=64, rows=12)
     assert run.converged
     forward = run.friction[run.speed > 0][-1]
     dwell = run.friction[run.speed == 0][-1]
@@ -111,20 +39,15 @@ def test_start_stop_and_reversal():
 
 
 def test_a_step_in_speed_goes_from_one_steady_state_to_the_other():
-    material = rubber([4.0], [0.05])
-    wave, pressure = load(material, 0.1, 0.1)
-    stages = [Stage(2 * PASSAGE, SPEED, pressure), Stage(PASSAGE, 4 * SPEED, pressure)]
-    run = solve_transient(material, **wave, stages=stages, **MESH)
+    case = TransientCase(0.1, 0.1, (4.0,), (0.05,))
+    run = case.run(case.stage(2), case.stage(1, 4 * SPEED), **MESH)
     for speed in (SPEED, 4 * SPEED):
-        steady = gs.solve_scale(material, **wave, pressure=pressure, speed=speed, **MESH)
+        steady = case.steady(speed, **MESH)
         assert run.friction[run.speed == speed][-1] == pytest.approx(steady.friction, rel=0.005)
 
 
 def test_cycle_gives_mean_and_range_of_the_last_stretch():
-    material = rubber([2.0], [0.1])
-    wave, pressure = load(material, 0.1, 0.1)
-    stages = [Stage(3 * PASSAGE, SPEED, pressure)]
-    run = solve_transient(material, **wave, stages=stages, columns=32, rows=8)
+    run = PLAIN.run(PLAIN.stage(3), columns=32, rows=8)
     mean, least, largest = run.cycle()["friction"]
     assert run.verdict() == "steady"
     assert least <= mean <= largest

@@ -8,7 +8,6 @@ from .models import Surface as Surface
 from .prepare import PreparedRubber as PreparedRubber
 from .prepare import prepare_rubber as prepare_rubber
 from .prepare import prepare_surface as prepare_surface
-from .quantity import parse_quantity as parse_quantity
 from .read import CaseFile as CaseFile
 from .read import read_case as read_case
 from .read import validate as validate

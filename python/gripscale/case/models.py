@@ -6,15 +6,22 @@ Lengths in m, pressures in Pa, speeds in m/s and times in s once read.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from itertools import pairwise
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    InstanceOf,
+    model_validator,
+)
 
-from gripscale.case.quantity import Length, Position, Pressure, Speed, Temperature, parse_quantity
-from gripscale.rubber import FREQUENCY_UNITS, MODULUS_UNITS
-from gripscale.surface.units import METRES
+from gripscale.case.quantity import Length, Position, Pressure, Speed, Temperature
+from gripscale.rubber.strain_energy import NeoHookean, StrainEnergy, strain_energy_from_dict
+from gripscale.units import listed, parse_quantity, spelled
 
 NAMED_RUBBERS = ("styrene_butadiene",)
 
@@ -34,16 +41,34 @@ def _load_time(value: Any) -> float | str:
     return seconds
 
 
-def _among(names: Iterable[str]) -> AfterValidator:
-    """Return a validator that accepts only one of `names`."""
-    known = list(names)
+def _unit(kind: str) -> AfterValidator:
+    """Return a validator that accepts only a unit of `kind`."""
 
     def check(value: str) -> str:
-        if value not in known:
-            raise ValueError(f"expected one of {', '.join(known)}")
+        if spelled(value, kind) is None:
+            raise ValueError(f"expected one of {listed(kind)}")
         return value
 
     return AfterValidator(check)
+
+
+def _column(value: Any) -> str | int:
+    """Accept the name or the position of a column."""
+    if isinstance(value, bool) or not isinstance(value, str | int):
+        raise ValueError("expected the name of a column or its number from 0")
+    return value
+
+
+def _strain_energy(value: Any) -> StrainEnergy:
+    """Accept a table such as { kind = "yeoh", second = -0.1, third = 0.02 }."""
+    if isinstance(value, StrainEnergy):
+        return value
+    if not isinstance(value, dict):
+        raise ValueError('expected a table such as { kind = "mooney_rivlin", share = 0.2 }')
+    return strain_energy_from_dict(value)
+
+
+Column = Annotated[str | int, BeforeValidator(_column)]
 
 
 class Table(BaseModel):
@@ -64,8 +89,8 @@ class Surface(Table):
 
     files: list[str] | None = Field(default=None, min_length=1)
     sines: list[Wave] | None = Field(default=None, min_length=1)
-    x_unit: Annotated[str, _among(METRES)] | None = None
-    z_unit: Annotated[str, _among(METRES)] | None = None
+    x_unit: Annotated[str, _unit("length")] | None = None
+    z_unit: Annotated[str, _unit("length")] | None = None
     direction: Literal["x", "y"] = "x"
     reader: Literal["auto", "text", "instrument"] = "auto"
     crop: Annotated[list[Position], Field(min_length=2, max_length=2)] | None = None
@@ -109,15 +134,18 @@ class RubberSource(Table):
 
     file: str | None = None
     name: Literal["styrene_butadiene"] | None = None
-    frequency_unit: Annotated[str, _among(FREQUENCY_UNITS)] | None = None
-    modulus_unit: Annotated[str, _among(MODULUS_UNITS)] | None = None
+    frequency_unit: Annotated[str, _unit("frequency")] | None = None
+    modulus_unit: Annotated[str, _unit("modulus")] | None = None
     modulus: Literal["E", "G"] | None = None
-    columns: Annotated[list[str | int], Field(min_length=3, max_length=3)] | None = None
+    columns: Annotated[list[Column], Field(min_length=3, max_length=3)] | None = None
     reference_temperature: Temperature | None = None
     source: str = ""
     terms: int | None = Field(default=None, ge=1, le=200)
     outlier_threshold: float | None = Field(default=None, gt=0.0)
     bulk_modulus: Pressure | None = None
+    strain_energy: Annotated[InstanceOf[StrainEnergy], BeforeValidator(_strain_energy)] = (
+        NeoHookean()
+    )
 
     @model_validator(mode="after")
     def _one_source(self) -> RubberSource:
@@ -125,7 +153,7 @@ class RubberSource(Table):
             raise ValueError(
                 f"expected either file (a master curve) or name ({', '.join(NAMED_RUBBERS)})"
             )
-        foreign = self.model_fields_set - {"name", "bulk_modulus", "file"}
+        foreign = self.model_fields_set - {"name", "bulk_modulus", "strain_energy", "file"}
         if self.name is not None and foreign:
             raise ValueError(f"{min(foreign)} belongs to a measured file, not to a named rubber")
         return self
@@ -180,3 +208,12 @@ class Case(Table):
     load: Load
     solver: Solver = Solver()
     output: Output = Output()
+
+    @model_validator(mode="after")
+    def _energy_of_the_model(self) -> Case:
+        if self.solver.model == "half_plane" and self.rubber.strain_energy != NeoHookean():
+            raise ValueError(
+                "strain_energy of [rubber] has no effect at small strain; expected "
+                'model = "finite_strain" with it'
+            )
+        return self

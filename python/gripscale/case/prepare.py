@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -103,7 +103,7 @@ def prepare_rubber(source: RubberSource, resolve: Resolve = Path) -> PreparedRub
     """
     stiffness = {} if source.bulk_modulus is None else {"bulk_modulus": source.bulk_modulus}
     if source.file is None:
-        rubber = styrene_butadiene(**stiffness)
+        rubber = replace(styrene_butadiene(**stiffness), strain_energy=source.strain_energy)
         return PreparedRubber(rubber, rubber.source)
     path = resolve(source.file)
     master = read_master_curve(
@@ -119,6 +119,7 @@ def prepare_rubber(source: RubberSource, resolve: Resolve = Path) -> PreparedRub
         {} if source.outlier_threshold is None else {"outlier_threshold": source.outlier_threshold}
     )
     rubber, report = fit_prony_report(master, terms=source.terms, **stiffness, **choice)
+    rubber = replace(rubber, strain_energy=source.strain_energy)
     return PreparedRubber(rubber, master.source, master, report)
 
 

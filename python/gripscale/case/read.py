@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import difflib
-import re
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -17,18 +16,24 @@ from gripscale.errors import FileError, InputError
 
 M = TypeVar("M", bound=BaseModel)
 
-_WORDS = [
-    (r"^Input should (be|have)", "expected"),
-    (r"^List should have", "expected"),
-    (r", not \d+$| after validation", ""),
-    ("a valid integer.*", "a whole number"),
-    ("a valid (dictionary|.*instance of).*", "a table"),
-    ("a valid (string|list|number|boolean)", r"a \1"),
-    ("boolean", "true or false"),
-    ("a true", "true"),
-    ("greater than or equal to", "at least"),
-    ("less than or equal to", "at most"),
-]
+_EXPECTED = {
+    "bool_type": "true or false",
+    "finite_number": "a finite number",
+    "float_type": "a number",
+    "greater_than": "greater than {gt:g}",
+    "greater_than_equal": "at least {ge:g}",
+    "int_type": "a whole number",
+    "less_than": "less than {lt:g}",
+    "less_than_equal": "at most {le:g}",
+    "list_type": "a list",
+    "literal_error": "{expected}",
+    "model_type": "a table",
+    "multiple_of": "a multiple of {multiple_of:g}",
+    "string_type": "a string",
+    "too_long": "at most {max_length} items",
+    "too_short": "at least {min_length} items",
+}
+"""What was expected instead of a value that pydantic refused with an error of this type."""
 
 
 @dataclass(frozen=True)
@@ -100,7 +105,7 @@ def _place(loc: tuple[int | str, ...], *, in_table: bool) -> str:
     """Return `[table] key[index]` for pydantic's location."""
     words = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in loc)
     words = words.removeprefix(".")
-    if not in_table:
+    if not (in_table and words):
         return words
     table, _, key = words.partition(".")
     return f"[{table}] {key}".strip()
@@ -138,11 +143,12 @@ def _model_in(annotation: Any) -> type[BaseModel] | None:
 
 
 def _expected(complaint: Any) -> str:
-    """Return pydantic's message in the words of this package."""
-    message = str(complaint["msg"]).removeprefix("Value error, ")
-    for pattern, words in _WORDS:
-        message = re.sub(pattern, words, message)
-    return message[:1].lower() + message[1:]
+    """Return what was expected instead, in the words of this package."""
+    context = complaint.get("ctx", {})
+    if complaint["type"] == "value_error":
+        return str(context["error"])
+    words = _EXPECTED[complaint["type"]].format(**context)
+    return f"expected {words.removesuffix('s') if words.endswith(' 1 items') else words}"
 
 
 def _short(value: Any) -> str:

@@ -1,15 +1,14 @@
 """What a run writes beside its chain, so that a report needs nothing but the result file.
 
 Group `inputs`: the input files with their checksums, the profiles as drawn, their cleaning, the
-height difference correlation and its fits, the master curve and its Prony series.
+height difference correlation and its fits, the master curve and its Prony series, the curves as the
+fits themselves evaluate them.
 """
 
 from __future__ import annotations
 
 import hashlib
-import math
 from collections.abc import Sequence
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -17,25 +16,27 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from gripscale.case.drawn import band, close_up, envelope, excited, sine_curves
 from gripscale.case.prepare import PreparedRubber
 from gripscale.case.read import CaseFile
 from gripscale.case.results import CaseResults
-from gripscale.surface import HeightDifference, Measured, PreparedSurface, Profile
-from gripscale.surface.text_table import read_bytes
+from gripscale.rubber import Rubber
+from gripscale.surface import HeightDifference, Measured, PreparedSurface, SineStack
+from gripscale.textfile import read_bytes
 
 Variables = dict[str, Any]
-BINS = 1200
-"""Pieces a profile is cut into for drawing; each keeps its lowest and its highest height."""
-CLOSE_UP = 30e-3
-"""Length of the piece of a profile that is kept point by point [m]."""
+POINTS = 600
+"""Points of a curve that is drawn."""
 
 
 def inputs(results: CaseResults) -> xr.Dataset:
     """Return everything a report says about the inputs of a case."""
     surface = results.surface
-    parts = [_waves(surface), _files(results.file), _rubber(results.rubber)]
+    excitation = excited(results.file.case.load.speed, surface.sines)
+    parts = [_waves(surface), _files(results.file), _rubber(results.rubber, excitation)]
     if surface.measured is not None and surface.correlation is not None:
-        parts += [_profiles(surface.measured), _correlation(surface.correlation, surface.measured)]
+        parts.append(_profiles(surface.measured))
+        parts.append(_correlation(surface.correlation, surface.measured, surface.sines))
     data: Variables = {}
     attrs: Variables = {}
     for more_data, more_attrs in parts:
@@ -63,10 +64,7 @@ def _files(file: CaseFile) -> tuple[Variables, Variables]:
 def _waves(surface: PreparedSurface) -> tuple[Variables, Variables]:
     sines = surface.sines
     low, high = sines.lag_range or (None, None)
-    return {
-        "wave_wavelength": ("wave", np.asarray(sines.wavelength), {"units": "m"}),
-        "wave_amplitude": ("wave", np.asarray(sines.amplitude), {"units": "m"}),
-    }, {
+    return {}, {
         "sines_s_wavelength": sines.s_wavelength,
         "sines_s_amplitude": sines.s_amplitude,
         "sines_residual_decades": sines.residual,
@@ -92,10 +90,10 @@ def _profiles(measured: Measured) -> tuple[Variables, Variables]:
     notes = [[step.note for step in report] for report in measured.cleaning]
     data["cleaning_note"] = (("profile", "cleaning_step"), _texts(notes))
     for name, profiles in (("read", raw), ("cleaned", cleaned)):
-        drawn = np.array([_envelope(profile) for profile in profiles])
+        drawn = np.array([envelope(profile.x, profile.z) for profile in profiles])
         for i, part in enumerate(("x", "lowest", "highest")):
             data[f"{name}_{part}"] = (("profile", "bin"), drawn[:, i], {"units": "m"})
-    pieces = [_close_up(profile) for profile in cleaned]
+    pieces = [close_up(profile) for profile in cleaned]
     longest = min(piece.shape[1] for piece in pieces)
     for i, part in enumerate("xz"):
         values = np.array([piece[i, :longest] for piece in pieces])
@@ -103,33 +101,29 @@ def _profiles(measured: Measured) -> tuple[Variables, Variables]:
     return data, {}
 
 
-def _envelope(profile: Profile) -> NDArray[np.float64]:
-    """Return middle [m], lowest and highest height [m] of `BINS` pieces; NaN where none is."""
-    edges = np.linspace(0, len(profile), min(BINS, len(profile)) + 1).astype(int)
-    out = np.full((3, BINS), math.nan)
-    for i, (first, past) in enumerate(pairwise(edges)):
-        heights = profile.z[first:past]
-        heights = heights[np.isfinite(heights)]
-        out[0, i] = profile.x[first:past].mean()
-        if heights.size:
-            out[1:, i] = heights.min(), heights.max()
-    return out
-
-
-def _close_up(profile: Profile) -> NDArray[np.float64]:
-    """Return distance and height [m] of a piece from the middle, point by point."""
-    start = 0.5 * (profile.x[0] + profile.x[-1])
-    inside = (profile.x >= start) & (profile.x <= start + CLOSE_UP)
-    return np.array([profile.x[inside], profile.z[inside]])
-
-
-def _correlation(hdc: HeightDifference, measured: Measured) -> tuple[Variables, Variables]:
+def _correlation(
+    hdc: HeightDifference, measured: Measured, sines: SineStack
+) -> tuple[Variables, Variables]:
+    """Return C_z as measured and as fitted, the waves also at lags between the measured ones."""
     fit = measured.self_affine
-    data: Variables = {"lag": ("lag", np.asarray(hdc.lag), {"units": "m"})}
-    for name in ("value", "lower", "upper"):
-        values = np.asarray(getattr(hdc, name))
-        data[f"correlation_{name}"] = ("lag", values, {"units": "m^2"})
+    lag = np.asarray(hdc.lag)
+    fine = np.geomspace(lag[0], min(float(sines.wavelength[0]), lag[-1]), POINTS)
+    curves: dict[str, Any] = {
+        "correlation_value": hdc.value,
+        "correlation_lower": hdc.lower,
+        "correlation_upper": hdc.upper,
+        "correlation_sines": sine_curves(sines, lag)[0],
+    }
+    if fit is not None:
+        curves["correlation_self_affine"] = fit.evaluate(lag)
+    data: Variables = {"lag": ("lag", lag, {"units": "m"})}
+    data |= {name: ("lag", np.asarray(v), {"units": "m^2"}) for name, v in curves.items()}
     data["correlation_pairs"] = ("lag", np.asarray(hdc.pairs))
+    data["fine_lag"] = ("fine_lag", fine, {"units": "m"})
+    for name, values in zip(
+        ("fine_sines", "fine_pure_sines"), sine_curves(sines, fine), strict=True
+    ):
+        data[name] = ("fine_lag", values, {"units": "m^2"})
     if fit is None:
         return data, {"no_self_affine": measured.no_self_affine}
     return data, {
@@ -142,7 +136,9 @@ def _correlation(hdc: HeightDifference, measured: Measured) -> tuple[Variables, 
     }
 
 
-def _rubber(prepared: PreparedRubber) -> tuple[Variables, Variables]:
+def _rubber(
+    prepared: PreparedRubber, excitation: NDArray[np.float64]
+) -> tuple[Variables, Variables]:
     rubber, master, fit = prepared.rubber, prepared.master, prepared.fit
     low, high = rubber.valid_band or (None, None)
     attrs: Variables = {
@@ -153,7 +149,9 @@ def _rubber(prepared: PreparedRubber) -> tuple[Variables, Variables]:
         "band_low_rad_per_s": low,
         "band_high_rad_per_s": high,
     }
-    data: Variables = {}
+    omega = band(rubber, master, excitation, POINTS)
+    data: Variables = {"series_omega": ("series_omega", omega, {"units": "rad/s"})}
+    data |= _series("series", "series_omega", rubber, omega)
     if len(rubber.moduli):
         times = np.asarray(rubber.relaxation_times)
         data["term_relaxation_time"] = ("term", times, {"units": "s"})
@@ -164,6 +162,7 @@ def _rubber(prepared: PreparedRubber) -> tuple[Variables, Variables]:
         for name, unit in columns.items():
             values = np.asarray(getattr(master, name))
             data[f"master_{name}"] = ("row", values, {"units": unit})
+        data |= _series("master_series", "row", rubber, master.angular_frequency)
     if master is not None and fit is not None:
         out = np.isin(master.frequency, fit.outlier_frequency)
         data["master_left_out"] = ("row", out.astype(np.int8))
@@ -177,6 +176,15 @@ def _rubber(prepared: PreparedRubber) -> tuple[Variables, Variables]:
             "prony_consistent": int(fit.consistent),
         }
     return data, attrs
+
+
+def _series(name: str, along: str, rubber: Rubber, omega: NDArray[np.float64]) -> dict[str, Any]:
+    """Return storage and loss modulus of the Prony series at `omega` [rad/s]."""
+    modulus = rubber.complex_modulus(omega)
+    return {
+        f"{name}_storage": (along, modulus.real, {"units": "Pa"}),
+        f"{name}_loss": (along, modulus.imag, {"units": "Pa"}),
+    }
 
 
 def _texts(values: Sequence[Any]) -> NDArray[np.object_]:

@@ -3,8 +3,8 @@
     real area    A_r/A_0  = prod A_i / lambda_i
     friction     mu_r     = sum mu_i
 
-Lind & Wangenheim 2014, IMECE2014-37998, equations 2 and 3. The friction sum conserves energy because
-the pressure on a wave times the area fraction above it is the nominal pressure.
+Lind & Wangenheim 2014, IMECE2014-37998, equations 2 and 3. The friction sum conserves energy,
+because the pressure on a wave times the area fraction above it is the nominal pressure.
 """
 
 from __future__ import annotations

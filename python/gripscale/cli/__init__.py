@@ -13,7 +13,7 @@ import typer
 from gripscale.cli.fit_rubber import fit_rubber
 from gripscale.cli.fit_surface import fit_surface
 from gripscale.cli.report import report
-from gripscale.cli.reproduce import reproduce
+from gripscale.cli.reproduce import PASS_ON, reproduce
 from gripscale.cli.run import run
 from gripscale.cli.study import study
 from gripscale.versions import version_of
@@ -28,7 +28,7 @@ app = typer.Typer(
 app.command("run")(run)
 app.command("report")(report)
 app.command("study")(study)
-app.command("reproduce")(reproduce)
+app.command("reproduce", context_settings=PASS_ON)(reproduce)
 app.command("fit-surface")(fit_surface)
 app.command("fit-rubber")(fit_rubber)
 

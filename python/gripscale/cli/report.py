@@ -30,7 +30,7 @@ def report(
     ] = None,
 ) -> None:
     """Write one HTML page with inputs, results, figures and evidence; it needs no network."""
-    from gripscale.html_report import write_report
+    from gripscale.report import write_report
 
     page = write_report(result, output)
     say(screen(), f"Report, {page.stat().st_size / 1e6:.1f} MB, is {page}")

@@ -3,146 +3,177 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
-from gripscale.figures.style import BLUE, FAINT, GREY, INK, MEGA, ORANGE, WIDE, styled
-from gripscale.scale import ScaleResult
+from gripscale import checks
+from gripscale.figures.palette import BLUE, FAINT, GREY, INK, MEGA, MILLI, ORANGE, WIDE
+from gripscale.figures.style import DPI, styled
+from gripscale.figures.view import PredictionView
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 Array = NDArray[np.float64]
 MESH_DEPTH = 0.55
 """Depth of the block that is shown [wavelengths]."""
+PRESSURE = 0.42
+"""Height of a panel of pressure over its width."""
+LEFT, RIGHT, BETWEEN = 0.6, 0.22, 0.42
+"""Beside the panels: for the labels of the first, at the end, for numbers between two [inch]."""
+HEAD, MIDDLE, FOOT, LAST = 0.5, 0.2, 0.22, 0.22
+"""Of a row of panels: its titles, between pressure and block, numbers; below the last [inch]."""
 
 
 @styled
-def block_figure(scale: ScaleResult) -> Figure:
-    """Draw one wave: contact pressure above the deformed mesh and the rigid sine."""
-    return _draw([scale], columns=1, width=4.2)
+def block_figure(prediction: xr.Dataset, wave: int = 1) -> Figure:
+    """Draw one wave: contact pressure above the deformed mesh and the rigid sine.
+
+    Parameters
+    ----------
+    prediction
+        Dataset over `scale`, of a prediction or of `gripscale.wave.dataset.waves_to_dataset`.
+    wave
+        Number of the wave, from 1.
+
+    Raises
+    ------
+    InputError
+        If there is no such wave.
+    """
+    view = PredictionView(prediction)
+    number = checks.whole("wave", wave, least=1, most=max(view.waves, 1))
+    return _draw(view, [number - 1], columns=1, width=4.2)
 
 
 @styled
-def blocks_figure(scales: Sequence[ScaleResult]) -> Figure:
-    """Draw every wave of a chain, largest first, four side by side."""
-    return _draw(scales, columns=4, width=WIDE)
+def blocks_figure(prediction: xr.Dataset) -> Figure:
+    """Draw every wave of a prediction, largest first, four side by side."""
+    view = PredictionView(prediction)
+    return _draw(view, range(view.waves), columns=4, width=WIDE)
 
 
-def _draw(scales: Sequence[ScaleResult], columns: int, width: float) -> Figure:
-    columns = min(columns, max(len(scales), 1))
-    rows = max(math.ceil(len(scales) / columns), 1)
-    low, high = _window(scales)
-    panel = width / columns
-    inside = panel - 0.46  # what tick labels leave of a panel [inch]
-    height = rows * (inside * (0.42 + high - low) + 0.86) + 0.25
-    figure = Figure(figsize=(width, height), layout="constrained")
-    ratios = [0.42, high - low] * rows
-    grid = figure.add_gridspec(2 * rows, columns, height_ratios=ratios)
-    for i, scale in enumerate(scales):
-        row, column = divmod(i, columns)
-        above = figure.add_subplot(grid[2 * row, column])
-        below = figure.add_subplot(grid[2 * row + 1, column], sharex=above)
-        _pressure(above, scale)
-        _block(below, scale, (low, high))
-        above.set_title(_caption(scale), loc="left", fontsize=7.0)
-        above.set_box_aspect(0.42)
-        below.set_box_aspect(high - low)
-        if i == 0:
-            _annotate(above, below, scale)
+def _draw(view: PredictionView, waves: Any, columns: int, width: float) -> Figure:
+    """Place the panels by hand: they are alike, and a layout engine takes as long as drawing."""
+    columns = min(columns, max(len(waves), 1))
+    rows = max(math.ceil(len(waves) / columns), 1)
+    low, high = _window(view, waves)
+    inside = (width - LEFT - RIGHT - (columns - 1) * BETWEEN) / columns
+    row_height = HEAD + inside * (PRESSURE + high - low) + MIDDLE + FOOT
+    height = rows * row_height + LAST
+    figure = Figure(figsize=(width, height), dpi=DPI)
+
+    def panel(left: float, top: float, high: float) -> Axes:
+        return figure.add_axes(
+            (left / width, 1 - (top + high) / height, inside / width, high / height)
+        )
+
+    for place, i in enumerate(waves):
+        row, column = divmod(place, columns)
+        left, top = LEFT + column * (inside + BETWEEN), row * row_height + HEAD
+        above = panel(left, top, inside * PRESSURE)
+        below = panel(left, top + inside * PRESSURE + MIDDLE, inside * (high - low))
+        _pressure(above, view, i)
+        _block(below, view, i, (low, high))
+        above.set_title(_caption(view, i), loc="left", y=1.0, fontsize=7.0, parse_math=False)
+        if place == 0:
+            _annotate(above, below, view, i)
         if column == 0:
             above.set_ylabel("$p_c$ [MPa]")
             below.set_ylabel("$z/\\lambda$ [-]")
         else:
-            below.tick_params(labelleft=False)
-        if i + columns >= len(scales):
+            below.set_yticks([])  # those of the first block hold along the row
+        if place + columns >= len(waves):
             below.set_xlabel("$x/\\lambda$ [-]")
     return figure
 
 
-def _window(scales: Sequence[ScaleResult]) -> tuple[float, float]:
+def _window(view: PredictionView, waves: Any) -> tuple[float, float]:
     """Return the heights shown [wavelengths]: the deepest valley and a part of the block."""
-    steepest = max((scale.amplitude / scale.wavelength for scale in scales), default=0.1)
-    meshed = any(scale.deformed_mesh is not None for scale in scales)
+    if not len(waves):
+        return -0.16, 0.16
+    steepest = max(_ratio(view, i) for i in waves)
+    meshed = any(view.mesh_along(i) is not None for i in waves)
     return -steepest - 0.06, steepest + (MESH_DEPTH if meshed else 0.06)
 
 
-def _caption(scale: ScaleResult) -> str:
-    state = "" if scale.converged else f"\n{scale.status}"
+def _ratio(view: PredictionView, i: int) -> float:
+    return float(view.column("amplitude")[i] / view.column("wavelength")[i])
+
+
+def _caption(view: PredictionView, i: int) -> str:
+    def value(name: str, unit: float) -> str:
+        return f"{view.column(name)[i] / unit:.3g}"
+
+    state = "" if view.converged[i] else f"\n{view.why(i)}"
     return (
-        f"$\\lambda$ = {scale.wavelength * 1e3:.3g} mm\n"
-        f"$A$ = {scale.amplitude * 1e3:.3g} mm\n"
-        f"$p$ = {scale.pressure_received / MEGA:.3g} MPa, contact {scale.contact_fraction:.2f}"
-        f"{state}"
+        f"λ = {value('wavelength', MILLI)} mm\n"
+        f"A = {value('amplitude', MILLI)} mm\n"
+        f"p = {value('pressure_received', MEGA)} MPa, "
+        f"contact {view.column('contact_fraction')[i]:.2f}{state}"
     )
 
 
-def _pressure(axes: Axes, scale: ScaleResult) -> None:
+def _pressure(axes: Axes, view: PredictionView, i: int) -> None:
     """Draw the contact pressure [MPa] and its mean along one wavelength."""
-    x, pressure = _unrolled(scale.x, scale.pressure, scale.wavelength)
-    axes.fill_between(x / scale.wavelength, pressure / MEGA, color=ORANGE, alpha=0.35, lw=0)
-    axes.plot(x / scale.wavelength, pressure / MEGA, color=ORANGE, lw=1.0)
-    axes.axhline(scale.pressure_received / MEGA, color=GREY, lw=0.8, ls=(0, (4, 2)))
+    x, pressure = view.pressure_along(i)
+    axes.fill_between(x, pressure / MEGA, color=ORANGE, alpha=0.35, lw=0)
+    axes.plot(x, pressure / MEGA, color=ORANGE, lw=1.0)
+    axes.axhline(view.column("pressure_received")[i] / MEGA, color=GREY, lw=0.8, ls=(0, (4, 2)))
     axes.set_ylim(bottom=0.0)
-    axes.tick_params(labelbottom=False)
+    axes.set_xlim(-0.5, 0.5)
+    axes.set_xticks([])  # those of the block below hold here, too
+    axes.yaxis.set_major_locator(MaxNLocator(2, steps=[1, 2, 5, 10], min_n_ticks=2))
 
 
-def _block(axes: Axes, scale: ScaleResult, window: tuple[float, float]) -> None:
+def _block(axes: Axes, view: PredictionView, i: int, window: tuple[float, float]) -> None:
     """Draw the rigid wave and, if the solver returned it, the deformed mesh."""
-    ratio = scale.amplitude / scale.wavelength
-    x = np.linspace(-0.5, 0.5, 400)
-    wave = ratio * np.cos(2.0 * math.pi * x)
+    x = np.linspace(-0.5, 0.5, 200)
+    wave = _ratio(view, i) * np.cos(2.0 * math.pi * x)
     axes.fill_between(x, wave, window[0], color=FAINT, lw=0)
-    if scale.deformed_mesh is not None:
-        _mesh(axes, *_in_contact(scale, *scale.deformed_mesh))
-    axes.plot(x, wave, color=INK, lw=0.9)
+    mesh = view.mesh_along(i)
+    if mesh is not None:
+        _mesh(axes, *mesh, top=window[1])
+    axes.plot(x, wave, color=INK, lw=0.9, label="wave")
     axes.set_xlim(-0.5, 0.5)
     axes.set_ylim(*window)
     axes.set_xticks([-0.5, 0.0, 0.5], ["-0.5", "0", "0.5"])
     axes.grid(False)
 
 
-def _annotate(above: Axes, below: Axes, scale: ScaleResult) -> None:
+def _annotate(above: Axes, below: Axes, view: PredictionView, i: int) -> None:
     """Name the dashed line and, where the rubber slides, its direction (along x)."""
-    mean = (-0.48, scale.pressure_received / MEGA)
+    mean = (-0.48, view.column("pressure_received")[i] / MEGA)
     above.annotate("mean", mean, (0, 2), textcoords="offset points", color=GREY, fontsize=6.5)
-    if scale.speed > 0.0:
+    if view.column("sliding_speed")[i] > 0.0:
         box = {"facecolor": "white", "edgecolor": "none", "pad": 1.5}
-        place: dict[str, Any] = {
-            "transform": below.transAxes,
-            "fontsize": 7.0,
-            "va": "top",
-            "bbox": box,
-        }
-        below.text(0.05, 0.95, "rubber slides $\\rightarrow$", **place)
+        place: dict[str, Any] = {"fontsize": 7.0, "va": "top", "bbox": box}
+        text = "rubber slides $\\rightarrow$"
+        below.text(0.05, 0.95, text, transform=below.transAxes, **place)
 
 
-def _mesh(axes: Axes, x: Array, z: Array) -> None:
-    """Draw the mesh lines over three wavelengths, thinned where they would merge."""
-    columns = max((x.shape[1] - 1) // 32, 1)
-    layers = max(x.shape[0] // 24, 1)
-    lines: list[Array] = []
-    for shift in (-1.0, 0.0, 1.0):
-        grid = np.stack([x + shift, z], axis=-1)
-        lines.extend(grid[::layers])
-        lines.extend(grid[:, :-1:columns].transpose(1, 0, 2))
-        edge = np.concatenate([grid[0], grid[-1][::-1]])
-        axes.fill(edge[:, 0], edge[:, 1], color=BLUE, alpha=0.10, lw=0)
-        axes.plot(grid[0, :, 0], grid[0, :, 1], color=BLUE, lw=1.2)
-    axes.add_collection(LineCollection(lines, colors=BLUE, linewidths=0.3, alpha=0.6))
+def _mesh(axes: Axes, x: Array, z: Array, top: float) -> None:
+    """Draw the part of the periodic mesh that is seen, thinned where its lines would merge."""
+    every = max((x.shape[1] - 1) // 32, 1)
+    x = np.hstack([x[:, :-1] - 1.0, x[:, :-1], x + 1.0])
+    z = np.hstack([z[:, :-1], z[:, :-1], z])
+    seen = np.flatnonzero((x.max(axis=0) >= -0.5) & (x.min(axis=0) <= 0.5))
+    first, last = max(seen[0] - 1, 0), seen[-1] + 2
+    rows = int(np.argmax(z.min(axis=1) > top)) + 1 if (z.min(axis=1) > top).any() else len(z)
+    upright = np.arange(first, last)[np.arange(first, last) % every == 0]
+    level = slice(None, rows, max(x.shape[0] // 24, 1))
+    edge = [np.append(v[0, first:last], v[rows - 1, first:last][::-1]) for v in (x, z)]
+    lines = [np.append(_joined(v[level, first:last]), _joined(v[:rows, upright].T)) for v in (x, z)]
+    axes.fill(*edge, color=BLUE, alpha=0.10, lw=0)
+    axes.plot(*lines, color=BLUE, lw=0.3, alpha=0.6, label="mesh")
+    axes.plot(x[0, first:last], z[0, first:last], color=BLUE, lw=1.2, label="surface")
 
 
-def _in_contact(scale: ScaleResult, x: Array, z: Array) -> tuple[Array, Array]:
-    """Return the mesh in wavelengths, moved vertically until its surface touches the wave."""
-    wave = scale.amplitude * np.cos(2.0 * math.pi * x[0] / scale.wavelength)
-    return x / scale.wavelength, (z - np.min(z[0] - wave)) / scale.wavelength
-
-
-def _unrolled(x: Array, values: Array, period: float) -> tuple[Array, Array]:
-    """Return periodic `values` in order of `x` over the three periods around the crest."""
-    order = np.argsort(np.mod(x, period))
-    once, kept = np.mod(x, period)[order], values[order]
-    return np.concatenate([once - period, once, once + period]), np.tile(kept, 3)
+def _joined(rows: Array) -> Array:
+    """Return the rows as one, NaN after each: one line with gaps draws as fast as a single one."""
+    return np.hstack([rows, np.full((len(rows), 1), math.nan)]).ravel()

@@ -14,10 +14,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from gripscale.figures.style import BLUE, COLOURS, GREY, INK, MILLI, NARROW, ORANGE, sheet, styled
+from gripscale.case.drawn import sine_curves
+from gripscale.figures.palette import BLUE, COLOURS, GREY, INK, MILLI, NARROW, ORANGE, SQUARE_MM
+from gripscale.figures.style import log_axis, sheet, styled
 from gripscale.surface import HeightDifference, SelfAffineFit, SineStack
-
-SQUARE_MM = 1e-6
 
 
 @styled
@@ -34,14 +34,15 @@ def correlation_figure(
         curve = self_affine.evaluate(measured.lag) / SQUARE_MM
         text = f"self-affine, $H$ = {self_affine.hurst:.2f}"
         axes.plot(measured.lag / MILLI, curve, color=ORANGE, ls=(0, (4, 2)), label=text)
-    lag = np.geomspace(measured.lag[0], measured.lag[-1], 1500)
+    lag = np.geomspace(measured.lag[0], measured.lag[-1], 1000)
     for (name, stack), colour in zip(sines.items(), [BLUE, *COLOURS[2:]], strict=False):
         _waves(axes, stack, lag, name, colour)
-    axes.set(xscale="log", yscale="log", xlabel="lag $l$ [mm]")
+    log_axis(axes, "x")
+    log_axis(axes, "y")
+    axes.set_xlabel("lag $l$ [mm]")
     axes.set_ylabel("height difference correlation $C_z$ [mm$^2$]")
     value = measured.value / SQUARE_MM
     axes.set_ylim(0.3 * value[value > 0.0].min(), 3.0 * value.max())
-    axes.xaxis.set_major_formatter(lambda number, _: f"{number:g}")
     axes.legend(loc="lower right")
     return figure
 
@@ -56,10 +57,9 @@ def _measured(axes: Axes, measured: HeightDifference) -> None:
 
 def _waves(axes: Axes, stack: SineStack, lag: NDArray[np.float64], name: str, colour: str) -> None:
     """Draw the waves up to the first wavelength as fitted and as pure sines; mark wavelengths."""
-    first = stack.wavelength[0]
-    lag = lag[lag <= first]
-    fitted = _as_fitted(stack, lag) / SQUARE_MM
-    pure = np.where(lag > 0.25 * first, stack.height_difference(lag) / SQUARE_MM, np.nan)
+    lag = lag[lag <= stack.wavelength[0]]
+    fitted, pure = (curve / SQUARE_MM for curve in sine_curves(stack, lag))
+    pure[lag <= 0.25 * stack.wavelength[0]] = np.nan  # the same as fitted
     axes.plot(lag / MILLI, fitted, color=colour, label=name)
     axes.plot(lag / MILLI, pure, color=colour, lw=0.8, ls=(0, (1, 1.5)))
     axes.plot(
@@ -72,11 +72,3 @@ def _waves(axes: Axes, stack: SineStack, lag: NDArray[np.float64], name: str, co
         transform=axes.get_xaxis_transform(),
         label="their wavelengths",
     )
-
-
-def _as_fitted(stack: SineStack, lag: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return C_z [m^2] with the first wave by its mean beyond a quarter of its length."""
-    first = SineStack(wavelength=stack.wavelength[:1], amplitude=stack.amplitude[:1])
-    held = np.minimum(lag, 0.25 * stack.wavelength[0])
-    rest = stack.height_difference(lag) - first.height_difference(lag)
-    return np.asarray(rest + first.height_difference(held))

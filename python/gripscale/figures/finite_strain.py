@@ -9,7 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from gripscale.errors import InputError
-from gripscale.figures.style import COLOURS, GREY, WIDE, sheet, styled
+from gripscale.figures.palette import COLOURS, GREY, WIDE
+from gripscale.figures.style import sheet, styled
 from gripscale.rubber import FiniteStrainFit, UniaxialTest, uniaxial_stress
 
 KILO = 1e3

@@ -10,7 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
-from gripscale.figures.style import BLUE, GREEN, GREY, INK, MEGA, NARROW, ORANGE, sheet, styled
+from gripscale.case.drawn import band
+from gripscale.figures.palette import BLUE, GREEN, GREY, INK, MEGA, NARROW, ORANGE
+from gripscale.figures.style import log_axis, sheet, styled
 from gripscale.rubber import MasterCurve, PronyFit, Rubber
 
 Array = NDArray[np.float64]
@@ -42,7 +44,9 @@ def master_curve_figure(
     _series(moduli, loss, rubber, master, omega)
     if master is not None:
         _points(moduli, loss, master, fit)
-    moduli.set(xscale="log", yscale="log", ylabel="modulus $E'$, $E''$ [MPa]")
+    log_axis(loss, "x")
+    log_axis(moduli, "y")
+    moduli.set_ylabel("modulus $E'$, $E''$ [MPa]")
     loss.set_ylabel("loss factor [-]")
     loss.set_xlabel("angular frequency $\\omega$ [rad/s]")
     loss.set_ylim(bottom=0.0)
@@ -60,15 +64,7 @@ def _series(
     excitation: Array,
 ) -> None:
     """Draw E', E'' and E''/E' of the Prony series over everything that is shown."""
-    ends = [*excitation]
-    if rubber.valid_band is not None:
-        ends.extend(rubber.valid_band)
-    if master is not None:
-        ends.extend(master.angular_frequency[[0, -1]])
-    if not ends:
-        ends.extend(1.0 / rubber.relaxation_times)
-    low, high = min(ends, default=1.0), max(ends, default=1.0)
-    omega = np.geomspace(low / 3.0, high * 3.0, 600)
+    omega = band(rubber, master, excitation, 600)
     modulus = rubber.complex_modulus(omega)
     moduli.plot(omega, modulus.real / MEGA, color=BLUE, label="$E'$, Prony series")
     moduli.plot(omega, modulus.imag / MEGA, color=ORANGE, label="$E''$, Prony series")

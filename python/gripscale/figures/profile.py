@@ -10,11 +10,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from gripscale.figures.style import BLUE, GREY, MILLI, ORANGE, WIDE, sheet, styled
+from gripscale.case.drawn import CLOSE_UP, close_up, envelope, trace
+from gripscale.figures.palette import BLUE, GREY, MILLI, ORANGE, WIDE
+from gripscale.figures.style import sheet, styled
 from gripscale.surface.profile import Profile
 
-CLOSE_UP = 30e-3
-"""Length of the piece shown close up [m]."""
+THIN: Any = {"lw": 0.45, "rasterized": True}
+PIECES = 5000
+"""Pieces a profile is drawn in: several to a pixel, so that most gaps are still seen."""
 
 
 @styled
@@ -54,7 +57,7 @@ def kept_points(raw: Profile, cleaned: Profile) -> NDArray[np.bool_]:
 def _as_read(axes: Axes, raw: Profile, cleaned: Profile) -> None:
     kept = kept_points(raw, cleaned)
     x, z = raw.x / MILLI, raw.z / MILLI
-    axes.plot(x, np.where(kept, z, np.nan), color=GREY, lw=0.5, rasterized=True, label="kept")
+    axes.plot(*_outline(x, np.where(kept, z, np.nan)), color=GREY, label="kept", **THIN)
     gone = ~kept & np.isfinite(raw.z)
     dots: dict[str, Any] = {"color": ORANGE, "rasterized": True, "zorder": 1.5}
     axes.plot(x[gone], z[gone], ".", ms=1.0, mew=0.0, **dots)
@@ -62,17 +65,20 @@ def _as_read(axes: Axes, raw: Profile, cleaned: Profile) -> None:
 
 
 def _cleaned(axes: Axes, cleaned: Profile) -> None:
-    axes.plot(cleaned.x / MILLI, cleaned.z / MILLI, color=BLUE, lw=0.4, rasterized=True)
+    axes.plot(*_outline(cleaned.x / MILLI, cleaned.z / MILLI), color=BLUE, **THIN)
+
+
+def _outline(x: NDArray[np.float64], z: NDArray[np.float64]) -> tuple[Any, Any]:
+    """Return what a line of all points would show, in so few that it is quickly drawn."""
+    return trace(*envelope(x, z, PIECES))
 
 
 def _close_up(axes: Axes, raw: Profile, cleaned: Profile) -> None:
     """Draw a piece from the middle, with the removed points at their cleaned level."""
-    start = 0.5 * (cleaned.x[0] + cleaned.x[-1])
-    inside = (cleaned.x >= start) & (cleaned.x <= start + CLOSE_UP)
-    x, z = cleaned.x[inside], cleaned.z[inside]
+    x, z = close_up(cleaned)
     axes.plot(x / MILLI, z / MILLI, color=BLUE, lw=0.9, label="cleaned")
     both = np.interp(cleaned.x, raw.x, raw.z) - cleaned.z  # the trend, where a height is left
     trend = np.polyfit(cleaned.x[np.isfinite(both)], both[np.isfinite(both)], 1)
-    piece = (raw.x >= start) & (raw.x <= start + CLOSE_UP) & ~kept_points(raw, cleaned)
+    piece = (raw.x >= x[0]) & (raw.x <= x[0] + CLOSE_UP) & ~kept_points(raw, cleaned)
     level = raw.z[piece] - np.polyval(trend, raw.x[piece])
     axes.plot(raw.x[piece] / MILLI, level / MILLI, ".", color=ORANGE, ms=2.5)

@@ -26,7 +26,7 @@ def draw(result: xr.Dataset, target: Path) -> None:
     axis = (numbers or dimensions(result))[0]
     for title, piece in list(pieces(result, axis))[:MOST_PIECES]:
         end = f"_{re.sub(r'[^A-Za-z0-9.]+', '_', title)}" if title else ""
-        if not (piece.case_status == "converged").any():
+        if "wavelength" not in piece or not (piece.prediction_status == "converged").any():
             continue
         save_figure(wavelength_figure(piece, axis, title), target, f"wavelength{end}")
         if not numbers:

@@ -11,10 +11,10 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogLocator, NullFormatter
 from numpy.typing import NDArray
 
-from gripscale.figures.style import COLOURS, MILLI
+from gripscale.figures.palette import COLOURS, MILLI
+from gripscale.figures.style import log_axis
 from gripscale.study.display import LABELS, dimensions, name_of
 
 Array = NDArray[np.float64]
@@ -26,9 +26,7 @@ def along(axes: Axes, result: xr.Dataset, name: str) -> Array:
     values = np.asarray(result[name].values / divisor, dtype=float)
     axes.set_xlabel(label)
     if values.min() > 0.0 and values.max() > 20.0 * values.min():
-        axes.set_xscale("log")
-        if values.max() < 1e4 * values.min():
-            axes.xaxis.set_major_formatter(lambda number, _: f"{number:g}")
+        log_axis(axes, "x")
     axes.set_xlim(values.min(), values.max())
     return values
 
@@ -69,13 +67,3 @@ def legend_beside(
     """Put a legend to the right of all panels."""
     place: Any = "outside right center"
     figure.legend(handles, labels, loc=place, title=title, alignment="left")
-
-
-def area_axis(axes: Axes) -> None:
-    """Make the upright axis one of relative area: logarithmic, with enough numbers to read it."""
-    axes.set_yscale("log")
-    low, high = axes.get_ylim()
-    steps = (1.0, 2.0, 5.0) if high < 500.0 * low else (1.0,)
-    axes.yaxis.set_major_locator(LogLocator(subs=steps, numticks=20))
-    axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
-    axes.yaxis.set_minor_formatter(NullFormatter())

@@ -9,8 +9,9 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
+from gripscale.figures.palette import INK, NARROW
 from gripscale.figures.study_axes import along, legend_beside
-from gripscale.figures.style import INK, NARROW, sheet, styled
+from gripscale.figures.style import power_of_ten, sheet, styled
 
 LEAST_SHARE = 0.005
 """Decades that never reach this share of the friction are not drawn."""
@@ -32,7 +33,7 @@ def decades_figure(result: xr.Dataset, axis: str, title: str = "") -> Figure:
     shades = mpl.colormaps["cividis"](np.linspace(0.0, 1.0, max(share.sizes["decade"], 2)))
     for row, time, colour in zip(share.values, share.decade.values, shades, strict=False):
         lower, upper = upper, upper + np.nan_to_num(row)
-        label = f"$10^{{{round(math.log10(time))}}}$"
+        label = power_of_ten(round(math.log10(time)))
         axes.fill_between(x, lower, upper, color=colour, lw=0.3, ec="white", label=label)
     axes.plot(x, upper, color=INK, lw=0.8)
     axes.set_ylim(0.0, 1.0)

@@ -8,15 +8,15 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
+from gripscale.figures.palette import INK, WIDE
 from gripscale.figures.study_axes import (
     Array,
     along,
-    area_axis,
     colours,
     legend_beside,
     wavelength_names,
 )
-from gripscale.figures.style import INK, WIDE, sheet, styled
+from gripscale.figures.style import area_axis, sheet, styled
 
 HEIGHT = 3.4
 

@@ -9,8 +9,9 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from gripscale.figures.study_axes import along, area_axis, colours
-from gripscale.figures.style import BLUE, INK, WIDE, sheet, styled
+from gripscale.figures.palette import BLUE, INK, WIDE
+from gripscale.figures.study_axes import along, colours
+from gripscale.figures.style import area_axis, sheet, styled
 from gripscale.study.display import WORDS, dimensions, name_of, numeric
 
 
@@ -19,7 +20,7 @@ def totals_figure(result: xr.Dataset) -> Figure:
     """Draw A_r/A_0 and friction over the first numeric axis, a line for each value of the other.
 
     Without a numeric axis they are drawn as points over the names of the first one. Contact at
-    rest is dashed where it was solved. Chains that did not converge leave gaps.
+    rest is dashed where it was solved. Predictions that did not converge leave gaps.
     """
     figure, panels = sheet(WIDE, 3.1, 1, 2, gap=0.06)
     area, friction = panels[0]

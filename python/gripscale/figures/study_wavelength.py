@@ -1,4 +1,4 @@
-"""Contact area and friction against wavelength for each chain of a study (figures 5 to 9 of LW)."""
+"""Contact area and friction against wavelength over a study (figures 5 to 9 of LW)."""
 
 from __future__ import annotations
 
@@ -6,8 +6,9 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from gripscale.figures.study_axes import area_axis, colours, legend_beside
-from gripscale.figures.style import MILLI, WIDE, falling_wavelength, sheet, styled
+from gripscale.figures.palette import MILLI, WIDE
+from gripscale.figures.study_axes import colours, legend_beside
+from gripscale.figures.style import area_axis, falling_wavelength, sheet, styled
 from gripscale.study.display import name_of
 
 MOST_NAMES = 12
@@ -22,11 +23,11 @@ def wavelength_figure(result: xr.Dataset, axis: str, title: str = "") -> Figure:
     shades = colours(result.sizes[axis], ordered=ordered)
     every = -(-len(shades) // MOST_NAMES)
     for i, colour in enumerate(shades):
-        chain = result.isel({axis: i})
-        x = chain.wavelength / MILLI
+        one = result.isel({axis: i})
+        x = one.wavelength / MILLI
         label = name_of(result, axis, i) if i % every == 0 else None
-        area.plot(x, chain.running_contact_fraction, "o-", ms=3.0, color=colour, label=label)
-        friction.plot(x, chain.running_friction, "o-", ms=3.0, color=colour)
+        area.plot(x, one.running_contact_fraction, "o-", ms=3.0, color=colour, label=label)
+        friction.plot(x, one.running_friction, "o-", ms=3.0, color=colour)
     area.set_ylim(top=1.15)
     area_axis(area)
     area.set_ylabel("relative contact area, running [-]")

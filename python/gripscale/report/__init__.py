@@ -33,7 +33,7 @@ def write_report(result: str | Path, output: str | Path | None = None) -> Path:
         If the libraries of `gripscale[report]` are not installed.
     """
     try:
-        from gripscale.html_report.build import build
+        from gripscale.report.build import build
     except ModuleNotFoundError as error:
         if (error.name or "").partition(".")[0] not in EXTRA:
             raise

@@ -16,12 +16,12 @@ from bokeh.resources import Resources
 from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 from markupsafe import Markup
 
-from gripscale.dataset import write_whole
 from gripscale.errors import FileError
-from gripscale.html_report.elements import Page
-from gripscale.html_report.run_page import run_page
-from gripscale.html_report.source import Run, read_result
-from gripscale.html_report.study_page import study_page
+from gripscale.netcdf import write_whole
+from gripscale.report.elements import Page
+from gripscale.report.run_page import run_page
+from gripscale.report.source import Run, read_result
+from gripscale.report.study_page import study_page
 
 REPORT = "report.html"
 
@@ -65,7 +65,7 @@ def _figure(name: str, model: Any) -> dict[str, Any]:
 @lru_cache(maxsize=1)
 def _template() -> Template:
     environment = Environment(
-        loader=PackageLoader("gripscale.html_report"),
+        loader=PackageLoader("gripscale.report"),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,
@@ -84,7 +84,7 @@ def _bokeh() -> str:
 
 
 def _own(name: str) -> str:
-    return files("gripscale.html_report").joinpath("templates", name).read_text(encoding="utf-8")
+    return files("gripscale.report").joinpath("templates", name).read_text(encoding="utf-8")
 
 
 def _policy(*scripts: str) -> str:

@@ -10,28 +10,33 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gripscale.html_report.elements import Facts, Heading, Table
-from gripscale.html_report.numbers import NONE, number, percent, whole
-from gripscale.html_report.source import Run
+from gripscale.figures.palette import MEGA, MILLI
+from gripscale.report.elements import Facts, Heading, Table
+from gripscale.report.numbers import NONE, number, percent, whole
+from gripscale.report.source import Run
 
-MILLI, MEGA, GIGA, BAR = 1e-3, 1e6, 1e9, 1e5
+GIGA, BAR = 1e9, 1e5
 
 
 def load_facts(run: Run) -> Facts:
     """Return load, rubber, surface and model in words."""
-    attrs, moving = run.attrs, [chain for chain in run.chains if chain.moving]
-    speeds = ", ".join(f"{number(chain.speed)} m/s" for chain in moving) or "none"
-    if any(not chain.moving for chain in run.chains):
-        speeds += "; and at rest (relaxed rubber)"
-    pressure = attrs.get("nominal_pressure_Pa", math.nan)
+    attrs, data = run.attrs, run.data
+    speeds = ", ".join(f"{number(one.speed)} m/s" for one in run.predictions if one.moving)
+    if any(not one.moving for one in run.predictions):
+        speeds = f"{speeds or 'none'}; and at rest (relaxed rubber)"
+    pressure, footprint = float(data["nominal_pressure"]), float(data["footprint"])
+    model = str(attrs.get("model", NONE))
+    if "wave_solver" in data:
+        solvers = dict.fromkeys(str(name) for name in data["wave_solver"].values)
+        model += f", waves by {', '.join(solvers)}"
     return Facts(
         "Load and model",
         [
             ("Nominal pressure", f"{number(pressure, MEGA)} MPa ({number(pressure, BAR)} bar)"),
             ("Sliding speed", speeds),
-            ("Footprint", f"{number(attrs.get('footprint_m', math.nan), MILLI)} mm"),
+            ("Footprint", f"{number(footprint, MILLI)} mm"),
             ("Rubber", rubber_source(run)),
-            ("Model of a wave", str(attrs.get("model", NONE)).replace("_", " ")),
+            ("Model", model.replace("_", " ")),
             ("Strain energy", str(run.inputs.attrs.get("strain_energy", NONE)).removesuffix("()")),
             ("Method", str(attrs.get("method", NONE))),
         ],
@@ -104,10 +109,10 @@ def cleaning_tables(inputs: xr.Dataset) -> list[Table]:
     return tables
 
 
-def surface_facts(inputs: xr.Dataset) -> list[Facts]:
-    """Return what the fits to the height difference correlation found."""
+def surface_facts(inputs: xr.Dataset, count: int) -> list[Facts]:
+    """Return what the fits to the height difference correlation found, with `count` waves."""
     get = inputs.attrs.get
-    waves = [("Waves", str(inputs.sizes["wave"]))]
+    waves = [("Waves", str(count))]
     for key, label in (
         ("s_wavelength", "Factor of wavelength"),
         ("s_amplitude", "Factor of amplitude"),
@@ -138,9 +143,9 @@ def _span(get: Any, first: str, last: str) -> str:
     return f"{number(low, MILLI)} to {number(high, MILLI)} mm"
 
 
-def waves_table(inputs: xr.Dataset) -> Table:
-    """Return the sine waves."""
-    lengths, heights = inputs["wave_wavelength"].values, inputs["wave_amplitude"].values
+def waves_table(data: xr.Dataset) -> Table:
+    """Return the sine waves of a prediction."""
+    lengths, heights = data["sines_wavelength"].values, data["sines_amplitude"].values
     rows = [
         [str(i + 1), number(w, MILLI, 4), number(a, MILLI, 4), number(2.0 * math.pi * a / w)]
         for i, (w, a) in enumerate(zip(lengths, heights, strict=True))

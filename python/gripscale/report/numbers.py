@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from gripscale.report import significant
+from gripscale.report.tables import significant
 
 NONE = "–"
 """What a cell shows where there is no number."""

@@ -5,20 +5,18 @@ from __future__ import annotations
 import shlex
 from pathlib import PurePath
 
-import numpy as np
-
-from gripscale import dataset
-from gripscale.html_report import input_tables as inputs
-from gripscale.html_report.blocks import blocks_image
-from gripscale.html_report.charts.contact import contact_charts
-from gripscale.html_report.charts.rubber import rubber_charts
-from gripscale.html_report.charts.surface import correlation_charts, profile_charts
-from gripscale.html_report.charts.verification import verification_charts
-from gripscale.html_report.elements import Code, Element, Facts, Notice, Page, Section, Table, Text
-from gripscale.html_report.equations import equations
-from gripscale.html_report.notices import cards, notices
-from gripscale.html_report.source import Run
-from gripscale.html_report.wave_tables import wave_tables
+from gripscale.report import input_tables as inputs
+from gripscale.report.blocks import blocks_image
+from gripscale.report.charts.contact import contact_charts
+from gripscale.report.charts.rubber import rubber_charts
+from gripscale.report.charts.surface import correlation_charts, profile_charts
+from gripscale.report.charts.verification import verification_charts
+from gripscale.report.elements import Code, Element, Facts, Notice, Page, Section, Table, Text
+from gripscale.report.equations import equations
+from gripscale.report.notices import cards, notices
+from gripscale.report.source import Run
+from gripscale.report.wave_tables import wave_tables
+from gripscale.versions import versions
 
 METHOD = (
     "The measured surface is approximated by superposed sine waves. On each wave, largest first, "
@@ -36,7 +34,7 @@ def run_page(run: Run) -> Page:
     """Return the report of `run`."""
     case = PurePath(str(run.attrs.get("case_file", ""))).name
     command = shlex.join(["gripscale", "run", case or "case.toml"])
-    tables = {table.name: table for table in wave_tables(run.chains)}
+    tables = {table.name: table for table in wave_tables(run.by_wave)}
     sections = [
         Section("inputs", "Inputs and their origin", _origin(run)),
         Section("surface", "Surface", _surface(run)),
@@ -51,7 +49,7 @@ def run_page(run: Run) -> Page:
     ]
     return Page(
         f"Contact and friction: {case or 'result'}",
-        "; ".join(chain.title for chain in run.chains),
+        "; ".join(one.title for one in run.predictions),
         notices(run),
         cards(run),
         [section for section in sections if section.elements],
@@ -67,52 +65,57 @@ def _origin(run: Run) -> list[Element]:
 
 def _surface(run: Run) -> list[Element]:
     record = run.inputs
-    if "wave_wavelength" not in record:
+    if "sines_wavelength" not in run.data or not record.data_vars:
         return []
     elements: list[Element] = []
     if "profile_name" in record:
         elements += [*inputs.cleaning_tables(record), *profile_charts(record)]
     if "lag" in record:
-        elements += [*inputs.surface_facts(record), *correlation_charts(record)]
+        count = run.data.sizes["wave"]
+        elements += [*inputs.surface_facts(record, count), *correlation_charts(record)]
     else:
         elements.append(Text("The sine waves are stated in the case; no surface was measured."))
-    return [*elements, inputs.waves_table(record)]
+    return [*elements, inputs.waves_table(run.data)]
 
 
 def _rubber(run: Run) -> list[Element]:
     record = run.inputs
     if "equilibrium_modulus_Pa" not in record.attrs:
         return []
-    moving = [chain.column("angular_frequency") for chain in run.chains if chain.moving]
-    excitation = moving[0] if moving else np.zeros(0)
-    elements: list[Element] = [inputs.rubber_facts(record), *rubber_charts(record, excitation)]
+    moving = [one for one in run.by_wave if one.moving]
+    charts = rubber_charts(record, moving[0] if moving else None)
+    elements: list[Element] = [inputs.rubber_facts(record), *charts]
     if "term_modulus" in record:
         elements.append(inputs.prony_table(record))
     return elements
 
 
 def _results(run: Run, tables: dict[str, Table]) -> list[Element]:
+    if not run.by_wave:
+        return [Text("The model does not go wave by wave; its totals stand above.")]
     names = [name for name in ("load", "contact", "further") if name in tables]
     shown: list[Element] = [tables[name] for name in names]
-    if any(not chain.moving for chain in run.chains):
+    if any(not one.moving for one in run.by_wave):
         shown.insert(0, Text("Nothing slides at rest: the columns of friction are left out there."))
-    return [*shown, *contact_charts(run.chains)]
+    return [*shown, *contact_charts(run.by_wave)]
 
 
 def _blocks(run: Run) -> list[Element]:
     needed = ("surface_x", "surface_pressure", "mesh_x")
-    drawn = [chain for chain in run.chains if all(chain.has(name) for name in needed)]
+    drawn = [one for one in run.predictions if all(one.has(name) for name in needed)]
     if not drawn:
         return [Text("The result holds no deformed meshes.")]
-    return [blocks_image(chain) for chain in drawn]
+    return [blocks_image(one) for one in drawn]
 
 
 def _verification(run: Run, tables: dict[str, Table]) -> list[Element]:
+    if not run.by_wave:
+        return []
     bad: list[Element] = [notice for notice in notices(run) if notice.level == "error"]
     if not bad:
         bad = [Notice("good", "Every wave converged.")]
     shown = [tables[name] for name in ("errors", "solution", "mesh") if name in tables]
-    return [*bad, Text(EVIDENCE), *shown, *verification_charts(run.chains)]
+    return [*bad, Text(EVIDENCE), *shown, *verification_charts(run.by_wave)]
 
 
 def method_elements() -> list[Element]:
@@ -124,7 +127,7 @@ def rerun_elements(attrs: dict[object, object], case: str, command: str) -> list
     """Return versions, and the case file with the command that runs it."""
     names = [str(name) for name in attrs if str(name).startswith("version_")]
     solved = [(name.removeprefix("version_"), str(attrs[name])) for name in sorted(names)]
-    here = ", ".join(f"{name} {version}" for name, version in dataset.versions().items())
+    here = ", ".join(f"{name} {version}" for name, version in versions().items())
     elements: list[Element] = [Facts("Solved with", [*solved, ("This page written by", here)])]
     if "case" in attrs:
         name = case or "case.toml"

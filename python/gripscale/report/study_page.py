@@ -1,4 +1,4 @@
-"""The report of a study: what was varied, totals of every case, curves over the axes."""
+"""The report of a study: what was varied, totals of every prediction, curves over the axes."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gripscale.html_report.charts.study import study_charts
-from gripscale.html_report.elements import Card, Element, Facts, Heading, Notice, Page, Section
-from gripscale.html_report.elements import Table as PageTable
-from gripscale.html_report.input_tables import without_folder
-from gripscale.html_report.numbers import NONE, number
-from gripscale.html_report.run_page import method_elements, rerun_elements
-from gripscale.html_report.source import Study
+from gripscale.report.charts.study import study_charts
+from gripscale.report.elements import Card, Element, Facts, Heading, Notice, Page, Section
+from gripscale.report.elements import Table as PageTable
+from gripscale.report.input_tables import without_folder
+from gripscale.report.numbers import NONE, number
+from gripscale.report.run_page import method_elements, rerun_elements
+from gripscale.report.source import Study
 
 NAMED_FAILURES = 12
-"""Failed cases named one by one at the head of the page."""
+"""Failed predictions named one by one at the head of the page."""
 
 
 def study_page(study: Study) -> Page:
@@ -29,7 +29,7 @@ def study_page(study: Study) -> Page:
     failed = list(_failures(study))
     sections = [
         Section("axes", "What was varied", [_axes(study), *_facts(data)]),
-        Section("totals", "Totals of every case", _totals(study)),
+        Section("totals", "Totals of every prediction", _totals(study)),
         Section("curves", "Curves", study_charts(study)),
         Section("method", "Method", method_elements()),
         Section("again", "Software", rerun_elements(data.attrs, "", _command(study))),
@@ -57,7 +57,7 @@ def _plain(value: Any) -> str:
 
 
 def totals_of(study: Study) -> list[str]:
-    """Return the names of what there is one number or text of per case."""
+    """Return the names of what there is one number or text of per prediction."""
     axes = set(study.axes)
     return [
         str(name)
@@ -100,16 +100,16 @@ def _totals(study: Study) -> list[Element]:
     ]
     rows: list[list[str]] = []
     bad: set[tuple[int, int]] = set()
-    for i, (place, case) in enumerate(_cases(study)):
-        values = [case[name].values[()] for name in names]
+    for i, (place, one) in enumerate(_predictions(study)):
+        values = [one[name].values[()] for name in names]
         rows.append([*place, *(cell(value) for value in values)])
-        if any(name.endswith("status") and not _good(case, name) for name in names):
+        if any(name.endswith("status") and not _good(one, name) for name in names):
             bad |= {(i, j) for j in range(len(headings))}
-    caption = f"Totals of all {len(rows)} cases"
+    caption = f"Totals of all {len(rows)} predictions"
     return [PageTable("totals", caption, headings, rows, bad=frozenset(bad))]
 
 
-def _cases(study: Study) -> Iterator[tuple[list[str], xr.Dataset]]:
+def _predictions(study: Study) -> Iterator[tuple[list[str], xr.Dataset]]:
     """Yield every point of the study: its place on the axes in words, and its Dataset."""
     sizes = [study.data.sizes[name] for name in study.axes]
     for index in product(*(range(size) for size in sizes)):
@@ -140,21 +140,21 @@ def _words(study: Study, name: str) -> bool:
     return name in study.data.variables and study.data[name].dtype.kind not in "fiub"
 
 
-def _good(case: xr.Dataset, name: str) -> bool:
-    return str(case[name].values[()]) == "converged"
+def _good(one: xr.Dataset, name: str) -> bool:
+    return str(one[name].values[()]) == "converged"
 
 
 def _failures(study: Study) -> Iterator[str]:
-    """Yield a sentence for each case with a status that is not `converged`, or a NaN total."""
+    """Yield a sentence for each prediction that is not `converged`, or has a NaN total."""
     names = totals_of(study)
     states = [name for name in names if name.endswith("status")]
     totals = [n for n in names if n == "total_contact_fraction" or n == "contact_fraction"]
-    for place, case in _cases(study):
+    for place, one in _predictions(study):
         where = ", ".join(f"{n} {v}" for n, v in zip(study.axes, place, strict=True))
         for name in states:
-            if not _good(case, name):
-                yield f"{where}: NOT converged: {cell(case[name].values[()])}"
-        if not states and any(math.isnan(float(case[name])) for name in totals):
+            if not _good(one, name):
+                yield f"{where}: NOT converged: {cell(one[name].values[()])}"
+        if not states and any(math.isnan(float(one[name])) for name in totals):
             yield f"{where}: no total"
 
 
@@ -167,8 +167,8 @@ def _notices(failed: Sequence[str]) -> list[Notice]:
 
 
 def _cards(study: Study, failed: int) -> list[Card]:
-    cases = math.prod(study.data.sizes[name] for name in study.axes)
+    count = math.prod(study.data.sizes[name] for name in study.axes)
     return [
-        Card("Cases", str(cases), " × ".join(study.axes)),
+        Card("Predictions", str(count), " × ".join(study.axes)),
         Card("Not converged", str(failed), "see the table of totals", bad=failed > 0),
     ]

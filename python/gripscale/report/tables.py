@@ -6,6 +6,7 @@ import io
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from rich import box
 from rich.console import Console, Group
@@ -13,10 +14,11 @@ from rich.measure import Measurement
 from rich.table import Table
 from rich.text import Text
 
-from gripscale.chain import Prediction
-from gripscale.scale import ScaleResult
+from gripscale.figures.palette import MEGA, MILLI
+from gripscale.figures.view import CONVERGED, PredictionView
 
-MILLI, MEGA = 1e-3, 1e6
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 @dataclass(frozen=True)
@@ -25,11 +27,7 @@ class Column:
 
     heading: str
     unit: str
-    cell: Callable[[Prediction, int], str]
-
-
-def _of_scale(value: Callable[[ScaleResult], str]) -> Callable[[Prediction, int], str]:
-    return lambda prediction, i: value(prediction.scales[i])
+    cell: Callable[[PredictionView, int], str]
 
 
 def significant(value: float, digits: int = 3) -> str:
@@ -50,43 +48,49 @@ def _area(value: float) -> str:
     return "-" if math.isnan(value) else f"{value:.4f}" if value >= 1e-3 else f"{value:.1e}"
 
 
-def _moving(value: Callable[[Prediction, int], str]) -> Callable[[Prediction, int], str]:
+def _of(name: str, show: Callable[[float], str]) -> Callable[[PredictionView, int], str]:
+    return lambda view, i: show(float(view.column(name)[i]))
+
+
+def _moving(cell: Callable[[PredictionView, int], str]) -> Callable[[PredictionView, int], str]:
     """Leave a column of friction empty where nothing slides."""
-    return lambda prediction, i: value(prediction, i) if prediction.speed > 0.0 else "-"
+    return lambda view, i: cell(view, i) if view.moving else "-"
 
 
-def _loss_factor(prediction: Prediction, i: int) -> str:
-    return f"{float(prediction.loss_factor[i]):.2f}{'*' if prediction.outside_band[i] else ' '}"
+def _in(unit: float) -> Callable[[float], str]:
+    return lambda value: significant(value / unit)
 
 
-def _stretches(scale: ScaleResult) -> str:
-    if math.isnan(scale.min_stretch) or math.isnan(scale.max_stretch):
-        return "-"
-    return f"{scale.min_stretch:.2f}-{scale.max_stretch:.2f}"
+def _loss_factor(view: PredictionView, i: int) -> str:
+    star = "*" if view.column("outside_band")[i] else " "
+    return f"{view.column('loss_factor')[i]:.2f}{star}"
 
 
-WAVE = Column("#", "", lambda p, i: f"{i + 1}")
-LENGTH = Column("λ", "mm", _of_scale(lambda s: significant(s.wavelength / MILLI)))
+def _stretches(view: PredictionView, i: int) -> str:
+    least, largest = view.column("min_stretch")[i], view.column("max_stretch")[i]
+    return "-" if math.isnan(least) or math.isnan(largest) else f"{least:.2f}-{largest:.2f}"
+
+
+WAVE = Column("#", "", lambda view, i: f"{i + 1}")
+LENGTH = Column("λ", "mm", _of("wavelength", _in(MILLI)))
 LOAD = [
-    Column("A", "mm", _of_scale(lambda s: significant(s.amplitude / MILLI))),
-    Column(
-        "slope", "2πA/λ", _of_scale(lambda s: f"{2 * math.pi * s.amplitude / s.wavelength:.2f}")
-    ),
-    Column("p", "MPa", _of_scale(lambda s: significant(s.pressure_received / MEGA))),
-    Column("|E*|", "MPa", lambda p, i: significant(float(p.modulus[i]) / MEGA)),
-    Column("tan δ", "", _moving(lambda p, i: _loss_factor(p, i))),
+    Column("A", "mm", _of("amplitude", _in(MILLI))),
+    Column("slope", "2πA/λ", _of("slope", "{:.2f}".format)),
+    Column("p", "MPa", _of("pressure_received", _in(MEGA))),
+    Column("|E*|", "MPa", _of("modulus", _in(MEGA))),
+    Column("tan δ", "", _moving(_loss_factor)),
 ]
 CONTACT = [
-    Column("area", "wave", _of_scale(lambda s: _fixed(s.contact_fraction))),
-    Column("area", "run.", lambda p, i: _area(float(p.running_contact_fraction[i]))),
-    Column("μ", "wave", _moving(_of_scale(lambda s: _fixed(s.friction)))),
-    Column("μ", "run.", _moving(lambda p, i: _fixed(float(p.running_friction[i])))),
-    Column("μ", "diss.", _moving(_of_scale(lambda s: _fixed(s.friction_from_dissipation)))),
+    Column("area", "wave", _of("contact_fraction", _fixed)),
+    Column("area", "run.", _of("running_contact_fraction", _area)),
+    Column("μ", "wave", _moving(_of("friction", _fixed))),
+    Column("μ", "run.", _moving(_of("running_friction", _fixed))),
+    Column("μ", "diss.", _moving(_of("friction_from_dissipation", _fixed))),
 ]
 EVIDENCE = [
-    Column("stretch", "min-max", _of_scale(_stretches)),
-    Column("iter.", "", _of_scale(lambda s: f"{s.newton_iterations}")),
-    Column("status", "", _of_scale(lambda s: s.status)),
+    Column("stretch", "min-max", _stretches),
+    Column("iter.", "", _of("newton_iterations", "{:.0f}".format)),
+    Column("status", "", lambda view, i: view.why(i)),
 ]
 
 
@@ -99,49 +103,52 @@ OUTSIDE_BAND = (
 )
 
 
-def prediction_table(prediction: Prediction, title: str, width: int) -> Group:
-    """Return one table per wave of `prediction`, or two under each other where one is too wide.
+def prediction_table(data: xr.Dataset, title: str, width: int) -> Group:
+    """Return one table per wave of a prediction, or two under each other where one is too wide.
 
     Parameters
     ----------
-    prediction
-        What to show.
+    data
+        The answer of any model; of one without waves only the totals are shown.
     title
         Printed above it.
     width
         Characters available.
     """
+    view = PredictionView(data)
     everything = [WAVE, LENGTH, *LOAD, *CONTACT, *EVIDENCE]
-    whole = (_table(prediction, everything, padding) for padding in (1, 0))
+    whole = (_table(view, everything, padding) for padding in (1, 0) if view.waves)
     tables = [table for table in whole if _width(table) <= width][:1]
-    if not tables:
+    if view.waves and not tables:
         halves = ([*LOAD], [*CONTACT, *EVIDENCE])
-        tables = [_table(prediction, [WAVE, LENGTH, *half], 1) for half in halves]
-    below = [totals(prediction), *_notes(prediction)]
+        tables = [_table(view, [WAVE, LENGTH, *half], 1) for half in halves]
+    below = [totals(data), *_notes(view)]
     return Group(Text(title, style="bold"), *tables, *map(Text, below))
 
 
-def totals(prediction: Prediction) -> str:
-    """Return the sentence with the real contact area and the friction of all waves."""
-    count = len(prediction.scales)
-    waves = f"{count} wave{'s' if count != 1 else ''}"
-    if not prediction.converged:
-        return f"No totals: wave {count} did not converge ({prediction.scales[-1].status})."
-    area = f"real contact area A_r/A_0 = {_area(prediction.contact_fraction)}"
-    if prediction.speed == 0.0:
-        return f"{waves}: {area}; no friction at rest."
-    return (
-        f"{waves}: {area}, friction mu = {_fixed(prediction.friction)} "
-        f"({_fixed(prediction.friction_from_dissipation)} from dissipation)."
-    )
+def totals(data: xr.Dataset) -> str:
+    """Return the sentence with the real contact area and the friction of a prediction."""
+    view = PredictionView(data)
+    if not view.converged.all():
+        return f"No totals: wave {view.waves} did not converge ({view.why(view.waves - 1)})."
+    if not view.waves and view.status != CONVERGED:
+        return f"No totals: {view.status}."
+    waves = f"{view.waves} wave{'s' if view.waves != 1 else ''}: " if view.waves else ""
+    area = f"{waves}real contact area A_r/A_0 = {_area(view.total('contact_fraction'))}"
+    if not view.moving:
+        return f"{area}; no friction at rest."
+    lost = _fixed(view.total("friction_from_dissipation"))
+    return f"{area}, friction mu = {_fixed(view.total('friction'))} ({lost} from dissipation)."
 
 
-def _notes(prediction: Prediction) -> Iterator[str]:
+def _notes(view: PredictionView) -> Iterator[str]:
     """Yield how far the two friction measures are apart, and the warning of the stars."""
-    if prediction.speed > 0.0 and prediction.converged:
-        apart = max(scale.friction_mismatch for scale in prediction.scales)
+    if not view.waves:
+        return
+    if view.moving and view.converged.all():
+        apart = view.column("friction_mismatch").max()
         yield f"The two friction coefficients of a wave are at most {apart:.2%} apart."
-    if prediction.outside_band.any():
+    if view.column("outside_band").any():
         yield OUTSIDE_BAND
 
 
@@ -165,7 +172,7 @@ def _width(table: Table) -> int:
     return Measurement.get(paper, paper.options, table).maximum
 
 
-def _table(prediction: Prediction, columns: Sequence[Column], padding: int) -> Table:
+def _table(view: PredictionView, columns: Sequence[Column], padding: int) -> Table:
     table = Table(box=box.SIMPLE_HEAD, padding=(0, padding, 0, 0), pad_edge=False)
     for column in columns:
         words = column.heading == "status"
@@ -175,7 +182,7 @@ def _table(prediction: Prediction, columns: Sequence[Column], padding: int) -> T
             no_wrap=not words,
             overflow="fold",
         )
-    for i, scale in enumerate(prediction.scales):
-        style = None if scale.converged else "bold red"
-        table.add_row(*(column.cell(prediction, i) for column in columns), style=style)
+    for i, good in enumerate(view.converged):
+        cells = (column.cell(view, i) for column in columns)
+        table.add_row(*cells, style=None if good else "bold red")
     return table

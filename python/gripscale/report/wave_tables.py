@@ -1,18 +1,16 @@
-"""The tables per wave: every column of the result, the chains side by side."""
+"""The tables per wave: every column of the result, the predictions side by side."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from itertools import chain as joined
 
 import numpy as np
 
-from gripscale.html_report.elements import Heading, Table
-from gripscale.html_report.numbers import NONE, number, percent, whole
-from gripscale.html_report.source import Chain
-
-MILLI, MEGA = 1e-3, 1e6
+from gripscale.figures.palette import MEGA, MILLI
+from gripscale.figures.view import PredictionView
+from gripscale.report.elements import Heading, Table
+from gripscale.report.numbers import NONE, number, percent, whole
 
 
 @dataclass(frozen=True)
@@ -45,6 +43,7 @@ WAVE = [
 ]
 LOAD = [
     Column("pressure_received", "p", "MPa", _in(MEGA)),
+    Column("sliding_speed", "v", "m/s", moving_only=True),
     Column("load_time", "load time", "s"),
     Column("angular_frequency", "ω", "rad/s", moving_only=True),
     Column("modulus", "|E*|", "MPa", _in(MEGA)),
@@ -79,32 +78,29 @@ MESH = [
     Column("indentation", "indentation", "mm", _in(MILLI)),
     Column("load_reached", "load reached", "", percent),
 ]
-NOT_SHOWN = {"scale", "status", "surface_x", "surface_pressure", "mesh_x", "mesh_z"}
 NOTE = f"{NONE}: not reached, not defined, or not usable because the wave did not converge."
 
 
-def wave_tables(chains: Sequence[Chain]) -> list[Table]:
+def wave_tables(predictions: Sequence[PredictionView]) -> list[Table]:
     """Return the tables of load, contact, errors, solution and mesh, and of any further column."""
+    if not predictions:
+        return []
     tables = [
-        _table("load", "What each wave receives, and the rubber there", chains, LOAD),
-        _table("contact", "Contact and friction of each wave", chains, CONTACT),
-        _table("errors", "Errors and stretches of each wave", chains, ERRORS),
-        _table("solution", "Solution of each wave", chains, SOLUTION, status=True),
-        _table("mesh", "Mesh of each wave", chains, MESH),
-        _table("further", "Further columns of the result", chains, _further(chains)),
+        _table("load", "What each wave receives, and the rubber there", predictions, LOAD),
+        _table("contact", "Contact and friction of each wave", predictions, CONTACT),
+        _table("errors", "Errors and stretches of each wave", predictions, ERRORS),
+        _table("solution", "Solution of each wave", predictions, SOLUTION, status=True),
+        _table("mesh", "Mesh of each wave", predictions, MESH),
+        _table("further", "Further columns of the result", predictions, _further(predictions)),
     ]
     return [table for table in tables if len(table.headings) > 2]
 
 
-def _further(chains: Sequence[Chain]) -> list[Column]:
+def _further(predictions: Sequence[PredictionView]) -> list[Column]:
     """Return a column for every number per wave that no other table shows."""
-    known = {
-        column.name for column in [*WAVE, *LOAD, *CONTACT, *ERRORS, *SOLUTION, *MESH]
-    } | NOT_SHOWN
+    known = {column.name for column in [*WAVE, *LOAD, *CONTACT, *ERRORS, *SOLUTION, *MESH]}
     found: dict[str, Column] = {}
-    for name, variable in joined.from_iterable(
-        [*chain.data.data_vars.items(), *chain.solver.data_vars.items()] for chain in chains
-    ):
+    for name, variable in (item for one in predictions for item in one.data.data_vars.items()):
         if name not in known and variable.dims == ("scale",) and variable.dtype.kind in "fiu":
             unit = str(variable.attrs.get("units", ""))
             found.setdefault(
@@ -116,27 +112,27 @@ def _further(chains: Sequence[Chain]) -> list[Column]:
 def _table(
     name: str,
     caption: str,
-    chains: Sequence[Chain],
+    predictions: Sequence[PredictionView],
     columns: Sequence[Column],
     *,
     status: bool = False,
 ) -> Table:
-    shown = [[c for c in columns if _applies(chain, c)] for chain in chains]
+    shown = [[c for c in columns if _applies(one, c)] for one in predictions]
     own = WAVE if name == "load" else WAVE[:1]
     headings = [Heading("wave"), *(Heading(c.heading, c.unit) for c in own)]
     groups = [("", len(headings))]
-    for chain, each in zip(chains, shown, strict=True):
+    for one, each in zip(predictions, shown, strict=True):
         headings += [Heading(c.heading, c.unit) for c in each]
         headings += [Heading("status", words=True)] * status
-        groups.append((chain.title, len(each) + status))
-    longest = max(chains, key=lambda chain: chain.waves)
+        groups.append((one.title, len(each) + status))
+    longest = max(predictions, key=lambda one: one.waves)
     rows = []
     for i in range(longest.waves):
         row = [str(i + 1), *(c.show(float(longest.column(c.name)[i])) for c in own)]
-        for chain, each in zip(chains, shown, strict=True):
-            row += _cells(chain, each, i, status=status)
+        for one, each in zip(predictions, shown, strict=True):
+            row += _cells(one, each, i, status=status)
         rows.append(row)
-    bad = _failed(chains, [count for _, count in groups])
+    bad = _failed(predictions, [count for _, count in groups])
     used = [(label, count) for label, count in groups if count]
     if len(used) == 1:
         headings = headings[:1]
@@ -144,27 +140,29 @@ def _table(
     return Table(name, caption, headings, rows, used, bad, note)
 
 
-def _failed(chains: Sequence[Chain], counts: Sequence[int]) -> frozenset[tuple[int, int]]:
+def _failed(
+    predictions: Sequence[PredictionView], counts: Sequence[int]
+) -> frozenset[tuple[int, int]]:
     """Return the cells of waves that did not converge, and the numbers of those waves."""
     bad = set()
     first = counts[0]
-    for chain, count in zip(chains, counts[1:], strict=True):
-        for i in map(int, np.flatnonzero(~chain.converged)):
+    for one, count in zip(predictions, counts[1:], strict=True):
+        for i in map(int, np.flatnonzero(~one.converged)):
             bad |= {(i, 0), *((i, first + j) for j in range(count))}
         first += count
     return frozenset(bad)
 
 
-def _applies(chain: Chain, column: Column) -> bool:
-    return chain.has(column.name) and (chain.moving or not column.moving_only)
+def _applies(one: PredictionView, column: Column) -> bool:
+    return one.has(column.name) and (one.moving or not column.moving_only)
 
 
-def _cells(chain: Chain, columns: Sequence[Column], i: int, *, status: bool) -> list[str]:
-    """Return the cells of wave `i`, which this chain may not have reached."""
-    if i >= chain.waves:
+def _cells(one: PredictionView, columns: Sequence[Column], i: int, *, status: bool) -> list[str]:
+    """Return the cells of wave `i`, which this prediction may not have reached."""
+    if i >= one.waves:
         return [NONE] * len(columns) + ["not reached"] * status
-    cells = [column.show(float(chain.column(column.name)[i])) for column in columns]
+    cells = [column.show(float(one.column(column.name)[i])) for column in columns]
     if status:
-        state = str(chain.data["status"].values[i])
-        cells.append(state if chain.converged[i] else f"NOT CONVERGED: {state}")
+        state = one.why(i)
+        cells.append(state if one.converged[i] else f"NOT CONVERGED: {state}")
     return cells

@@ -4,99 +4,31 @@ On given relaxation times the nominal stress of a material point is linear in it
 
     P(t) = sum_k c_k P_k(s) + sum_i G_i (s A_i,11 - s^-2 A_i,22)
 
-    neo-Hookean    c = G_inf
-    Mooney-Rivlin  c = G_inf (1 - share), G_inf share
-    Yeoh           c = G_inf, G_inf c2, G_inf c3
-
-so that the least squares of P over the peak stress of each test, each test counting alike, is a
-convex problem with bounds (moduli not negative, c2 free) and one minimum: no start values, no
-local minima. Bounded-variable least squares: P. B. Stark & R. L. Parker, Comput. Stat. 10 (1995)
-129.
+(P_k and c_k are the strain energy's: `StrainEnergy.basis`), so that the least squares of P over the
+peak stress of each test, each test counting alike, is a convex problem with bounds and one minimum:
+no start values, no local minima. Bounded-variable least squares: P. B. Stark & R. L. Parker,
+Comput. Stat. 10 (1995) 129.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
-from importlib import import_module
-from pathlib import Path
+from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
-from scipy.integrate import trapezoid
-from scipy.optimize import lsq_linear
 
 from gripscale import checks
-from gripscale.errors import FileError, InputError
-from gripscale.rubber.header import MODULUS_UNITS
+from gripscale.errors import InputError
 from gripscale.rubber.material import Rubber
 from gripscale.rubber.material_point import uniaxial_network_stresses, uniaxial_stress
-from gripscale.rubber.strain_energy import MooneyRivlin, NeoHookean, StrainEnergy, Yeoh
-
-Array = NDArray[np.float64]
-
-ENERGIES = ("neo_hookean", "mooney_rivlin", "yeoh")
-"""Strain energies a fit knows."""
+from gripscale.rubber.strain_energy import STRAIN_ENERGIES, StrainEnergy
+from gripscale.rubber.uniaxial_test import Array, UniaxialTest
 
 _LEAST_EQUILIBRIUM = 1e-3
 """The fitted G_inf is at least this share of the smallest peak stress: a rubber must have one."""
 
 _FASTEST = 0.01
 """Shortest fitted relaxation time, as a share of the shortest test."""
-
-
-@dataclass(frozen=True, init=False, eq=False)
-class UniaxialTest:
-    """A measured history of stretch with its nominal stress.
-
-    Parameters
-    ----------
-    name : str
-        What the test is called in messages and figures.
-    time : array_like, shape (samples,)
-        Rising [s], at least two samples.
-    stretch : array_like, shape (samples,)
-        Deformed over undeformed length [-], above zero; 1 at rest before the first sample.
-    stress : array_like, shape (samples,)
-        Nominal stress [Pa], somewhere above zero.
-
-    Raises
-    ------
-    InputError
-        If the lengths differ or a value is out of range.
-    """
-
-    name: str
-    time: Array = field(repr=False)
-    stretch: Array = field(repr=False)
-    stress: Array = field(repr=False)
-
-    def __init__(self, name: str, time: ArrayLike, stretch: ArrayLike, stress: ArrayLike) -> None:
-        object.__setattr__(self, "name", str(name))
-        object.__setattr__(self, "time", checks.vector("time", time, unit="s"))
-        object.__setattr__(self, "stretch", checks.positive_vector("stretch", stretch))
-        object.__setattr__(self, "stress", checks.vector("stress", stress, unit="Pa"))
-        lengths = len(self.time), len(self.stretch), len(self.stress)
-        if len(set(lengths)) != 1 or lengths[0] < 2:
-            raise InputError(
-                f"{name}: time, stretch and stress must have the same length, at least 2; "
-                f"got {lengths[0]}, {lengths[1]} and {lengths[2]}"
-            )
-        if (np.diff(self.time) <= 0.0).any():
-            at = int(np.argmax(np.diff(self.time) <= 0.0)) + 1
-            raise InputError(f"{name}: time must rise [s]; got {self.time[at]:g} at index {at}")
-        if self.peak <= 0.0:
-            raise InputError(f"{name}: stress must be above zero [Pa] somewhere")
-
-    @property
-    def peak(self) -> float:
-        """Largest nominal stress [Pa]."""
-        return float(self.stress.max())
-
-    @property
-    def duration(self) -> float:
-        """From the first sample to the last [s]."""
-        return float(self.time[-1] - self.time[0])
 
 
 @dataclass(frozen=True)
@@ -137,6 +69,8 @@ def work_error(rubber: Rubber, test: UniaxialTest) -> float:
     For a loop that ends free of stress this is the work lost, as heat or in networks still
     stretched. Trapezoidal rule on the samples, the same for both.
     """
+    from scipy.integrate import trapezoid
+
     predicted = uniaxial_stress(rubber, test.time, test.stretch)
     return float(trapezoid(predicted, test.stretch) / trapezoid(test.stress, test.stretch)) - 1
 
@@ -155,7 +89,7 @@ def fit_finite_strain(
     tests : sequence of UniaxialTest
         At least one. Each counts by its error relative to its own peak stress.
     energy : str
-        Strain energy of the permanent network: "neo_hookean", "mooney_rivlin" or "yeoh".
+        Kind of strain energy of the permanent network, one of `STRAIN_ENERGIES`.
     terms : int
         Number of temporary networks, 1 to 40, their relaxation times log-spaced over `band`.
     band : tuple of two floats, optional
@@ -173,62 +107,14 @@ def fit_finite_strain(
     """
     if len(tests) == 0:
         raise InputError("tests must hold at least one UniaxialTest; got none")
-    checks.one_of("energy", energy, ENERGIES)
+    law = STRAIN_ENERGIES[checks.one_of("energy", energy, STRAIN_ENERGIES)]
     times = _relaxation_times(tests, checks.whole("terms", terms, least=1, most=40), band)
-    left = np.vstack([_columns(energy, times, test) * _weight(test) for test in tests])
+    left = np.vstack([_columns(law, times, test) * _weight(test) for test in tests])
     right = np.concatenate([test.stress * _weight(test) for test in tests])
     lower = np.zeros(left.shape[1])
+    lower[: len(law.least_coefficients)] = law.least_coefficients
     lower[0] = _LEAST_EQUILIBRIUM * min(test.peak for test in tests)
-    if energy == "yeoh":
-        lower[1] = -np.inf
-    return FiniteStrainFit(_rubber(energy, _solve(left, right, lower), times), tuple(tests))
-
-
-def read_uniaxial_test(path: str | Path, *, stress_unit: str = "Pa") -> UniaxialTest:
-    """Read a test from the first sheet of an Excel file: time [s], stretch [-], nominal stress.
-
-    Parameters
-    ----------
-    path : str or Path
-        An xlsx file whose first three columns hold numbers in every row; no header.
-    stress_unit : str
-        Unit of the third column, e.g. "kPa".
-
-    Raises
-    ------
-    FileError
-        If openpyxl is missing (`pip install gripscale[formats]`) or the file is not as expected.
-    InputError
-        If the unit is unknown.
-    """
-    checks.one_of("stress_unit", stress_unit, MODULUS_UNITS)
-    path = Path(path)
-    rows = _first_sheet(path)
-    try:
-        if any(len(row) < 3 for row in rows):
-            raise InputError("a row has fewer than three cells")
-        table = np.array([row[:3] for row in rows], dtype=float).reshape(len(rows), 3)
-        stress = table[:, 2] * MODULUS_UNITS[stress_unit]
-        return UniaxialTest(path.stem, table[:, 0], table[:, 1], stress)
-    except (TypeError, ValueError) as error:
-        raise FileError(f"{path}: expected rows of time, stretch, stress ({error})") from error
-
-
-def _first_sheet(path: Path) -> list[tuple[object, ...]]:
-    if not path.is_file():
-        raise FileError(f"{path}: no such file")
-    try:
-        openpyxl = import_module("openpyxl")
-    except ImportError as error:
-        raise FileError(f"{path}: xlsx needs openpyxl: pip install gripscale[formats]") from error
-    try:
-        book = openpyxl.load_workbook(path, read_only=True, data_only=True)
-    except Exception as error:  # openpyxl, zipfile and the XML parser fail each in their own way
-        raise FileError(f"{path}: expected an xlsx file ({type(error).__name__})") from error
-    try:
-        return list(book.worksheets[0].iter_rows(values_only=True))
-    finally:
-        book.close()
+    return FiniteStrainFit(_rubber(law, _solve(left, right, lower), times), tuple(tests))
 
 
 def _relaxation_times(
@@ -249,46 +135,28 @@ def _weight(test: UniaxialTest) -> float:
     return float(1.0 / (test.peak * np.sqrt(len(test.time))))
 
 
-def _columns(energy: str, times: Array, test: UniaxialTest) -> Array:
+def _columns(law: type[StrainEnergy], times: Array, test: UniaxialTest) -> Array:
     """Return the nominal stress per unit of each fitted coefficient [-], shape (samples, all)."""
     stretch = test.stretch
     networks = uniaxial_network_stresses(times, test.time, stretch)
     hooke = stretch - stretch**-2
-    return np.column_stack([*(hooke * f for f in _factors(energy, stretch)), networks])
-
-
-def _factors(energy: str, stretch: Array) -> list[Array]:
-    """Return P_k over s - s^-2 of the coefficients c_k [-]."""
-    if energy == "neo_hookean":
-        return [NeoHookean().uniaxial_factor(stretch)]
-    if energy == "mooney_rivlin":
-        return [MooneyRivlin(share).uniaxial_factor(stretch) for share in (0.0, 1.0)]
-    gauss = Yeoh(0.0, 0.0).uniaxial_factor(stretch)
-    square, cube = Yeoh(1.0, 0.0), Yeoh(0.0, 1.0)
-    return [gauss, *(law.uniaxial_factor(stretch) - gauss for law in (square, cube))]
+    return np.column_stack([*(hooke * factor for factor in law.basis(stretch)), networks])
 
 
 def _solve(left: Array, right: Array, lower: Array) -> Array:
     """Return the bounded least-squares solution, columns scaled to unit length."""
+    from scipy.optimize import lsq_linear
+
     scale = np.linalg.norm(left, axis=0)
     bounds = (lower * scale, np.full(len(scale), np.inf))
     found = lsq_linear(left / scale, right, bounds, method="bvls", tol=1e-14)
     return np.asarray(found.x / scale, dtype=float)
 
 
-def _rubber(energy: str, found: Array, times: Array) -> Rubber:
+def _rubber(law: type[StrainEnergy], found: Array, times: Array) -> Rubber:
     """Return the rubber of the fitted coefficients, without elements of zero modulus."""
     count = len(found) - len(times)
-    shear, law = _permanent(energy, found[:count])
+    shear, energy = law.from_coefficients(found[:count].tolist())
     moduli = found[count:]
     used = moduli > 1e-9 * (shear + moduli.sum())
-    return Rubber(3.0 * shear, 3.0 * moduli[used], times[used], strain_energy=law)
-
-
-def _permanent(energy: str, c: Array) -> tuple[float, StrainEnergy]:
-    """Return G_inf [Pa] and the strain energy of the coefficients c_k [Pa]."""
-    if energy == "neo_hookean":
-        return float(c[0]), NeoHookean()
-    if energy == "mooney_rivlin":
-        return float(c.sum()), MooneyRivlin(float(c[1] / c.sum()))
-    return float(c[0]), Yeoh(float(c[1] / c[0]), float(c[2] / c[0]))
+    return Rubber(3.0 * shear, 3.0 * moduli[used], times[used], strain_energy=energy)

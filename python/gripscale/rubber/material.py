@@ -11,14 +11,16 @@ incompressible limit; the few per cent by which a finite K changes it enter thro
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gripscale import checks
 from gripscale.errors import InputError
-from gripscale.rubber.strain_energy import MooneyRivlin, NeoHookean, StrainEnergy, Yeoh
+from gripscale.rubber.strain_energy import NeoHookean, StrainEnergy, strain_energy_from_dict
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -45,7 +47,7 @@ class Rubber:
         What the rubber is and where its numbers come from.
     valid_band : tuple of two floats, optional
         Lowest and highest angular frequency the numbers rest on [rad/s].
-    strain_energy : NeoHookean, MooneyRivlin or Yeoh
+    strain_energy : StrainEnergy
         Strain energy of the permanent network at finite strain.
 
     Raises
@@ -124,12 +126,25 @@ class Rubber:
             self.strain_energy,
         )
 
-    def to_dict(self):
-        return {"equilibrium_modulus": self.equilibrium_modulus, "moduli": self.moduli.tolist(), "relaxation_times": self.relaxation_times.tolist(), "bulk_modulus": self.bulk_modulus, "name": self.name, "source": self.source, "valid_band": self.valid_band}
+    def to_dict(self) -> dict[str, Any]:
+        """Return all numbers and names, arrays as lists and the strain energy by its kind."""
+        values = {field.name: getattr(self, field.name) for field in fields(self)}
+        energy = self.strain_energy
+        return values | {
+            "moduli": self.moduli.tolist(),
+            "relaxation_times": self.relaxation_times.tolist(),
+            "valid_band": None if self.valid_band is None else list(self.valid_band),
+            "strain_energy": {"kind": energy.kind, **energy.parameters()},
+        }
 
     @classmethod
-    def from_dict(cls, d):
-        return cls(**d)
+    def from_dict(cls, values: Mapping[str, Any]) -> Rubber:
+        """Return the rubber of `to_dict`, exactly; raise `InputError` if a key is another."""
+        known = [field.name for field in fields(cls)]
+        if set(values) != set(known):
+            raise InputError(f"values must have the keys {', '.join(known)}; got {list(values)}")
+        energy = strain_energy_from_dict(values["strain_energy"])
+        return cls(**{**values, "strain_energy": energy})
 
     @property
     def glassy_modulus(self) -> float:
@@ -214,8 +229,8 @@ def _finite(name: str, value: ArrayLike, unit: str) -> Array:
 
 
 def _energy(value: StrainEnergy) -> StrainEnergy:
-    if not isinstance(value, NeoHookean | MooneyRivlin | Yeoh):
-        raise InputError(f"strain_energy must be NeoHookean, MooneyRivlin or Yeoh; got {value!r}")
+    if not isinstance(value, StrainEnergy):
+        raise InputError(f"strain_energy must be a StrainEnergy, such as Yeoh; got {value!r}")
     return value
 
 

@@ -25,7 +25,6 @@ from numpy.typing import ArrayLike, NDArray
 from gripscale import checks
 from gripscale.errors import InputError
 from gripscale.rubber.material import Rubber
-from gripscale.rubber.strain_energy import StrainEnergy, Yeoh
 
 Array = NDArray[np.float64]
 
@@ -87,7 +86,7 @@ def simple_shear_stress(rubber: Rubber, time: ArrayLike, shear: ArrayLike) -> Ar
     """
     amount = checks.vector("shear", shear)
     elapsed = _times(time, amount, "shear")
-    permanent = _shear_factor(rubber.strain_energy, amount) * amount
+    permanent = rubber.strain_energy.shear_factor(amount) * amount
     states = network_states(rubber.relaxation_times, elapsed, -amount[:, None], rest=(0.0,))
     temporary = (amount[:, None] + states[..., 0]) @ rubber.shear_moduli
     return np.asarray(rubber.equilibrium_shear_modulus * permanent + temporary)
@@ -144,14 +143,6 @@ def _weights(step: Array) -> tuple[Array, Array]:
     left = np.where(small, step * (0.5 - step * (1 / 3 - step / 8)), mean - np.exp(-x))
     arrived = np.where(small, step * (0.5 - step * (1 / 6 - step / 24)), 1.0 - mean)
     return left, arrived
-
-
-def _shear_factor(energy: StrainEnergy, shear: Array) -> Array:
-    """Return dW/dg over G_inf g [-], where I1 - 3 = I2 - 3 = g^2."""
-    if isinstance(energy, Yeoh):
-        strain = shear**2
-        return np.asarray(1.0 + 2.0 * energy.second * strain + 3.0 * energy.third * strain**2)
-    return np.ones_like(shear)
 
 
 def _times(time: ArrayLike, driven: Array, name: str) -> Array:

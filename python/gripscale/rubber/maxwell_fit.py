@@ -16,7 +16,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import nnls
 
 Array = NDArray[np.float64]
 
@@ -57,6 +56,8 @@ def fit_spectrum(
 
     `omega` [rad/s], `storage` and `loss` [Pa] have shape (rows,), `omega` ascending.
     """
+    from scipy.optimize import nnls
+
     floor = _LEAST_EQUILIBRIUM * float(storage.min())
     scale = np.interp(-np.log(times), np.log(omega), storage)
     left = np.vstack(

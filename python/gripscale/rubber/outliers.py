@@ -7,7 +7,7 @@ more than `threshold` times the typical scatter, both
 - in the data divided by a Maxwell fit (so that curvature of a smooth spectrum is no outlier).
 
 The line is the median of pairwise slopes (P. K. Sen, J. Am. Stat. Assoc. 63 (1968) 1379,
-doi:10.1080/01621459.1968.10480934); the scatter is 1.4826 times the median absolute deviation.
+doi:10.1080/01621459.1968.10480934); the scatter is 1.4826 times the median distance from it.
 The fit alone would not do: measured E' and E'' are often not Kramers-Kronig consistent, and the
 joint fit then misses both by more than their scatter.
 """
@@ -81,16 +81,15 @@ def screen(
 
 def _deviation(position: Array, value: Array, kept: NDArray[np.bool_]) -> Array:
     """Return each value minus the straight line through its nearest kept neighbours."""
+    from scipy.stats import theilslopes
+
     result = np.empty_like(value)
     members = np.flatnonzero(kept)
     for row in range(len(value)):
         near = _nearest(members[members != row], row)
-        first, second = np.triu_indices(len(near), 1)
-        run = position[near][second] - position[near][first]
-        rise = value[near][second] - value[near][first]
-        slope = float(np.median(rise[run > 0.0] / run[run > 0.0])) if (run > 0.0).any() else 0.0
-        level = np.median(value[near] - slope * (position[near] - position[row]))
-        result[row] = value[row] - level
+        run, rise = position[near] - position[row], value[near]
+        slope = theilslopes(rise, run).slope if np.ptp(run) > 0.0 else 0.0
+        result[row] = value[row] - np.median(rise - slope * run)
     return result
 
 

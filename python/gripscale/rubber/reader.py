@@ -6,34 +6,18 @@ into the Young's modulus of the incompressible solid by E = 3 G.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from pathlib import Path
-
-import numpy as np
-from numpy.typing import NDArray
 
 from gripscale import checks
 from gripscale.errors import FileError, InputError
-from gripscale.rubber.header import (
-    FREQUENCY_UNITS,
-    MODULUS_UNITS,
-    Column,
-    modulus_kind,
-    quantity,
-    read_header,
-)
-from gripscale.rubber.master_curve import MasterCurve
+from gripscale.rubber.header import modulus_kind, quantity
+from gripscale.rubber.master_curve import Array, MasterCurve
+from gripscale.textfile import TextTable, read_table
+from gripscale.units import in_si, listed, spelled
 
 _QUANTITIES = ("frequency", "storage", "loss")
-_COMMENT = ("#", "%", "!")
-
-
-@dataclass(frozen=True)
-class _Table:
-    header: list[Column] | None
-    rows: NDArray[np.float64]
-    line_numbers: list[int]
+_FEWEST_ROWS = 2
 
 
 def read_master_curve(
@@ -49,8 +33,7 @@ def read_master_curve(
 ) -> MasterCurve:
     """Read storage and loss modulus against frequency from a text or CSV file.
 
-    Columns are separated by blanks, tabs, commas or semicolons; lines starting with #, % or ! are
-    comments; the header may be a comment. What the header states need not be given; what is given
+    The rules of `gripscale.textfile` hold. What the header states need not be given; what is given
     goes before the header.
 
     Parameters
@@ -83,118 +66,63 @@ def read_master_curve(
         If a unit, the kind of modulus or the columns are neither stated nor given.
     """
     place = Path(path)
-    expected = [column for column in columns or () if isinstance(column, str)]
-    table = _parse(place, expected)
-    chosen = _choose(place, table, columns)
-    to_hertz = FREQUENCY_UNITS[
-        _unit(place, table, chosen[:1], "frequency_unit", frequency_unit, FREQUENCY_UNITS)
-    ]
-    to_pascal = MODULUS_UNITS[
-        _unit(place, table, chosen[1:], "modulus_unit", modulus_unit, MODULUS_UNITS)
-    ]
-    to_young = 3.0 if _kind(place, table, chosen[1:], modulus) == "G" else 1.0
-    frequency, storage, loss = table.rows[:, chosen].T
-    _check_positive(place, table, chosen)
+    table = _table(place, [column for column in columns or () if isinstance(column, str)])
+    chosen = _choose(table, columns)
+    hertz = _unit(table, chosen[:1], "frequency", frequency_unit)
+    pascal = _unit(table, chosen[1:], "modulus", modulus_unit)
+    to_young = 3.0 if _kind(table, chosen[1:], modulus) == "G" else 1.0
+    frequency, storage, loss = (
+        _positive(table, column, wanted) for column, wanted in zip(chosen, _QUANTITIES, strict=True)
+    )
     return MasterCurve(
-        frequency * to_hertz,
-        storage * to_pascal * to_young,
-        loss * to_pascal * to_young,
+        in_si(frequency, hertz, "frequency"),
+        in_si(storage, pascal, "modulus") * to_young,
+        in_si(loss, pascal, "modulus") * to_young,
         reference_temperature=reference_temperature,
         name=place.stem if name is None else name,
         source=source,
     )
 
 
-def _parse(place: Path, expected: list[str]) -> _Table:
-    header_lines: list[str] = []
-    rows: list[list[float]] = []
-    numbers: list[int] = []
-    for at, line in enumerate(_text(place).splitlines(), start=1):
-        bare = line.strip()
-        comment = bare.startswith(_COMMENT)
-        if not bare or (comment and rows):
-            continue
-        cells = _cells(bare)
-        if not rows and (comment or _number(cells[0]) is None):
-            header_lines.append(bare.lstrip("".join(_COMMENT)))
-            continue
-        rows.append(_row(place, at, cells, len(rows[0]) if rows else None))
-        numbers.append(at)
-    if len(rows) < 2:
+def _table(place: Path, expected: list[str]) -> TextTable:
+    what = "frequency, storage and loss"
+    table = read_table(
+        place,
+        f"at least {_FEWEST_ROWS} rows of {what}",
+        kinds=("frequency", "modulus"),
+        named=lambda name: quantity(name) is not None or name in expected,
+    )
+    if len(table.columns) < len(_QUANTITIES):
         raise FileError(
-            f"{place}: expected at least 2 rows of frequency, storage and loss; got {len(rows)}"
+            f"{place}, line {table.line_numbers[0]}: expected at least 3 columns "
+            f"(frequency, storage, loss); got {len(table.columns)}"
         )
-    count = len(rows[0])
-    if count < 3:
+    if len(table.rows) < _FEWEST_ROWS:
         raise FileError(
-            f"{place}, line {numbers[0]}: expected at least 3 columns "
-            f"(frequency, storage, loss); got {count}"
+            f"{place}: expected at least {_FEWEST_ROWS} rows of {what}; got {len(table.rows)}"
         )
-    return _Table(read_header(header_lines, count, expected), np.array(rows), numbers)
+    return table
 
 
-def _text(place: Path) -> str:
-    try:
-        raw = place.read_bytes()
-    except OSError as error:
-        raise FileError(f"{place}: cannot be read ({error.strerror or error})") from error
-    if b"\0" in raw:
-        raise FileError(f"{place}: expected a text file; got binary data")
-    try:
-        return raw.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        return raw.decode("latin-1")
-
-
-def _cells(line: str) -> list[str]:
-    for separator in ("\t", ";"):
-        if separator in line:
-            return [cell.strip() for cell in line.strip(separator).split(separator)]
-    by_comma = [cell.strip() for cell in line.rstrip(",").split(",")]
-    if len(by_comma) > 1 and not any(len(cell.split()) > 1 for cell in by_comma):
-        return by_comma
-    return line.split()
-
-
-def _number(cell: str) -> float | None:
-    try:
-        return float(cell.replace(",", ".") if cell.count(",") == 1 else cell)
-    except ValueError:
-        return None
-
-
-def _row(place: Path, at: int, cells: list[str], count: int | None) -> list[float]:
-    if count is not None and len(cells) != count:
-        raise FileError(f"{place}, line {at}: expected {count} numbers; got {len(cells)}")
-    values = []
-    for cell in cells:
-        value = _number(cell)
-        if value is None or not np.isfinite(value):
-            raise FileError(f"{place}, line {at}: expected a finite number; got {cell!r}")
-        values.append(value)
-    return values
-
-
-def _choose(place: Path, table: _Table, columns: Sequence[str | int] | None) -> list[int]:
-    count = table.rows.shape[1]
-    header = table.header
+def _choose(table: TextTable, columns: Sequence[str | int] | None) -> list[int]:
+    """Return the columns of frequency, storage and loss."""
     if columns is not None:
-        return [_position(place, table, column) for column in _three(columns)]
-    if header is None:
-        if count == 3:
+        return [_position(table, column) for column in _three(columns)]
+    count = len(table.columns)
+    if not table.names:
+        if count == len(_QUANTITIES):
             return [0, 1, 2]
         raise InputError(
-            f"{place}: columns must name frequency, storage and loss, because the file has "
+            f"{table.path}: columns must name frequency, storage and loss, because the file has "
             f"{count} columns and no header that does; got nothing"
         )
     found = []
     for wanted in _QUANTITIES:
-        hits = [i for i, column in enumerate(header) if quantity(column.name) == wanted]
+        hits = [i for i, name in enumerate(table.names) if quantity(name) == wanted]
         if len(hits) != 1:
-            names = ", ".join(column.name for column in header)
             raise InputError(
-                f"{place}: columns must name frequency, storage and loss, because {len(hits)} "
-                f"header names mean {wanted}; the header has {names}"
+                f"{table.path}: columns must name frequency, storage and loss, because {len(hits)} "
+                f"header names mean {wanted}; the header has {', '.join(table.names)}"
             )
         found.append(hits[0])
     return found
@@ -209,58 +137,54 @@ def _three(columns: Sequence[str | int]) -> Sequence[str | int]:
     return columns
 
 
-def _position(place: Path, table: _Table, column: str | int) -> int:
-    count = table.rows.shape[1]
+def _position(table: TextTable, column: str | int) -> int:
     if isinstance(column, int):
-        return checks.whole("columns", column, least=0, most=count - 1)
-    names = [] if table.header is None else [known.name for known in table.header]
-    if names.count(column) != 1:
-        known = ", ".join(names) or "no names"
+        return checks.whole("columns", column, least=0, most=len(table.columns) - 1)
+    if table.names.count(column) != 1:
+        known = ", ".join(table.names) or "no names"
         raise InputError(
-            f"{place}: columns must be among the header's names ({known}); got {column!r}"
+            f"{table.path}: columns must be among the header's names ({known}); got {column!r}"
         )
-    return names.index(column)
+    return table.names.index(column)
 
 
-def _unit(
-    place: Path,
-    table: _Table,
-    chosen: list[int],
-    argument: str,
-    given: str | None,
-    known: Mapping[str, float],
-) -> str:
+def _unit(table: TextTable, chosen: list[int], kind: str, given: str | None) -> str:
+    """Return the unit of the `chosen` columns: the caller's, or else the one the header states."""
     if given is not None:
-        return checks.one_of(argument, given, known)
-    stated = {table.header[i].unit for i in chosen} if table.header else {None}
+        in_si(1.0, given, kind, f"{kind}_unit")
+        return given
+    written = (table.columns[i].unit for i in chosen)
+    stated = {spelled(unit, kind) or unit for unit in written}
     unit = stated.pop()
-    if stated or unit is None or unit not in known:
-        what = "no unit" if unit is None and not stated else repr(unit)
+    if unit is None or stated or spelled(unit, kind) is None:
+        what = "no unit" if unit is None else repr(unit)
         raise InputError(
-            f"{place}: {argument} must be given ({', '.join(known)}), because the header states "
+            f"{table.path}: {kind}_unit must be given ({listed(kind)}), because the header states "
             f"{'different units' if stated else what}"
         )
     return unit
 
 
-def _kind(place: Path, table: _Table, chosen: list[int], given: str | None) -> str:
+def _kind(table: TextTable, chosen: list[int], given: str | None) -> str:
+    """Return E or G, whichever modulus the `chosen` columns hold."""
     if given is not None:
         return checks.one_of("modulus", given, ("E", "G"))
-    stated = {modulus_kind(table.header[i].name) for i in chosen} if table.header else {None}
+    stated = {modulus_kind(table.columns[i].name) for i in chosen}
     kind = stated.pop()
     if stated or kind is None:
         raise InputError(
-            f"{place}: modulus must be given (E for Young's or G for shear), because the header "
-            "does not tell"
+            f"{table.path}: modulus must be given (E for Young's or G for shear), because the "
+            "header does not tell"
         )
     return kind
 
 
-def _check_positive(place: Path, table: _Table, chosen: list[int]) -> None:
-    for wanted, column in zip(_QUANTITIES, chosen, strict=True):
-        bad = np.flatnonzero(table.rows[:, column] <= 0.0)
-        if bad.size:
+def _positive(table: TextTable, column: int, wanted: str) -> Array:
+    """Return a column whose numbers are all above zero."""
+    values = table.numbers(column, "a finite number")
+    for number, value in zip(table.line_numbers, values, strict=True):
+        if value <= 0.0:
             raise FileError(
-                f"{place}, line {table.line_numbers[bad[0]]}: expected a {wanted} above zero; "
-                f"got {table.rows[bad[0], column]:g}"
+                f"{table.path}, line {number}: expected a {wanted} above zero; got {value:g}"
             )
+    return values

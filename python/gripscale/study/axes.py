@@ -17,8 +17,8 @@ from typing import Any
 import numpy as np
 
 from gripscale import checks
-from gripscale.case import parse_quantity
 from gripscale.errors import InputError
+from gripscale.units import parse_quantity
 
 MOST_VALUES = 1000
 MOST_AXES = 2

@@ -52,20 +52,22 @@ def rubber_of(value: Any, file: CaseFile) -> Rubber:
     """Return the rubber an axis names.
 
     `value` is "case", a rubber known by name, another case (its [rubber] is taken), a master
-    curve (with the bulk modulus of the case), or a `Rubber`.
+    curve (with the bulk modulus and the strain energy of the case), or a `Rubber`.
     """
     if isinstance(value, Rubber):
         return value
     if value == "case":
         return case_rubber(file)
-    bulk = file.case.rubber.bulk_modulus
-    stiffness = {} if bulk is None else {"bulk_modulus": bulk}
+    case = file.case.rubber
+    own: dict[str, Any] = {"strain_energy": case.strain_energy}
+    if case.bulk_modulus is not None:
+        own["bulk_modulus"] = case.bulk_modulus
     if value in NAMED_RUBBERS:
-        return _rubber({"name": value, **stiffness})
+        return _rubber({"name": value, **own})
     path = _found("rubber", value, file, ("case", *NAMED_RUBBERS))
     if path.suffix == ".toml":
         return case_rubber(read_case(path))
-    return _rubber({"file": str(path), **stiffness})
+    return _rubber({"file": str(path), **own})
 
 
 def _found(name: str, value: Any, file: CaseFile, known: tuple[str, ...]) -> Path:

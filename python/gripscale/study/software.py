@@ -1,4 +1,4 @@
-"""The fingerprint of what turns inputs into results: the compiled kernel and every numeric module."""
+"""The fingerprint of what turns inputs into results: compiled kernel and numeric modules."""
 
 from __future__ import annotations
 

@@ -126,8 +126,8 @@ class Study:
         Parameters
         ----------
         folder
-            Gets `study.nc`, and the predictions in `predictions`. Several studies may share one folder for
-            their predictions, one after the other; the last one's Dataset stays.
+            Gets `study.nc`, and the predictions in `predictions`. Several studies may share one
+            folder for their predictions, one after the other; the last one's Dataset stays.
         workers, client, on_task
             As for `solve_all`.
 

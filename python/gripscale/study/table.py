@@ -51,8 +51,8 @@ def study_table(result: xr.Dataset) -> Table:
 
 
 def _largest(chain: xr.Dataset) -> str:
-    """Return the wavelength of the wave with the most friction."""
-    if not float(chain.total_friction) > 1e-9:
+    """Return the wavelength of the wave with the most friction, if there are waves."""
+    if "wavelength" not in chain or not float(chain.total_friction) > 1e-9:
         return "-"
     wavelength = float(chain.wavelength[int(np.nanargmax(chain.friction.values))])
     return f"{wavelength * 1e3:.3g} mm"

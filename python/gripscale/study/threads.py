@@ -1,4 +1,4 @@
-"""Solving many tasks in threads or on a cluster: what the store has is read, the rest is solved and stored as it comes.
+"""Solving many tasks: what the store has is read, the rest is solved and stored as it comes.
 
 Results are written by the calling thread only, in whatever order they come; a result depends on
 its task alone, so neither the order nor the number of workers changes a bit of it.

@@ -14,7 +14,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
 
 from gripscale import checks
 from gripscale.errors import InputError
@@ -225,12 +224,14 @@ def _curve(lag: FloatArray, sums: FloatArray, counts: FloatArray) -> HeightDiffe
 
 def _jackknife_spread(sums: FloatArray, pairs: FloatArray, used: NDArray[np.bool_]) -> FloatArray:
     """Return the half width of the band in log C_z from the sums without each block."""
+    from scipy.stats import t
+
     usable = used & (pairs > 0) & (sums > 0.0)
     n = usable.sum(axis=0)
     logs = np.log(np.where(usable, sums, 1.0) / np.where(usable, pairs, 1.0))
     mean = logs.sum(axis=0, where=usable) / np.maximum(n, 1)
     scatter = np.square(logs - mean).sum(axis=0, where=usable)
     deviation = np.sqrt((n - 1) / np.maximum(n, 1) * scatter)
-    quantile = stats.t.ppf(0.5 + BAND_LEVEL / 2.0, np.maximum(n - 1, 1))
+    quantile = t.ppf(0.5 + BAND_LEVEL / 2.0, np.maximum(n - 1, 1))
     spread = quantile * deviation
     return np.where((n >= 2) & (spread < WIDEST_BAND), spread, np.nan)

@@ -15,9 +15,10 @@ from typing import Any
 import numpy as np
 
 from gripscale.errors import FileError, InputError
+from gripscale.surface.length_unit import length_unit
 from gripscale.surface.profile import FloatArray, Profile
-from gripscale.surface.text_table import read_bytes
-from gripscale.surface.units import known_unit, metres_per
+from gripscale.textfile import read_bytes
+from gripscale.units import in_si
 
 
 @dataclass(frozen=True)
@@ -63,6 +64,8 @@ def read_instrument_file(path: Path, *, x_unit: str | None, z_unit: str | None) 
         If a unit is unknown or contradicts the file.
     """
     raw = read_bytes(path)
+    if not raw.strip():
+        raise FileError(f"{path}: expected a surface; got an empty file")
     open_topography = _open_topography(path)
     # Its readers warn about pictures, missing dates and the like, none of which is the caller's.
     with warnings.catch_warnings():
@@ -87,8 +90,9 @@ def read_instrument_file(path: Path, *, x_unit: str | None, z_unit: str | None) 
                 f"{path}: expected a surface in a known instrument format; "
                 f"SurfaceTopography cannot read it ({type(error).__name__})"
             ) from error
-    sizes = _metres(path, "x_unit", x_unit, unit), _metres(path, "z_unit", z_unit, unit)
-    return _height_field(path, heights, positions, sizes)
+    x_unit = length_unit(path, "the file", unit, "x_unit", x_unit)
+    z_unit = length_unit(path, "the file", unit, "z_unit", z_unit)
+    return _height_field(path, heights, positions, x_unit, z_unit)
 
 
 def _open_topography(path: Path) -> Any:
@@ -104,25 +108,13 @@ def _open_topography(path: Path) -> Any:
     return open_topography
 
 
-def _metres(path: Path, name: str, given: str | None, in_file: str | None) -> float:
-    found = known_unit(in_file)
-    size = None if given is None else metres_per(given, name)
-    if found is None and size is None:
-        raise FileError(
-            f"{path}: the file names no unit of length (it says {in_file!r}); give {name}"
-        )
-    if found is not None and size is not None and metres_per(found) != size:
-        raise InputError(f"{name} is {given!r}, but {path} says {found!r}; give one of them")
-    return size if size is not None else metres_per(str(found))
-
-
 def _height_field(
-    path: Path, heights: FloatArray, positions: Any, sizes: tuple[float, float]
+    path: Path, heights: FloatArray, positions: Any, x_unit: str, z_unit: str
 ) -> HeightField:
-    x_size, z_size = sizes
-    if heights.ndim == 1:
-        return HeightField(z_size * heights[:, None], x_size * np.asarray(positions), None)
-    if heights.ndim != 2 or min(heights.shape) == 0:
+    if heights.ndim not in (1, 2) or min(heights.shape) == 0:
         raise FileError(f"{path}: expected a line or a map; got heights of shape {heights.shape}")
-    x, y = (np.asarray(axis, dtype=float) for axis in positions)
-    return HeightField(z_size * heights, x_size * x[:, 0], x_size * y[0, :])
+    heights = in_si(heights, z_unit, "length")
+    if heights.ndim == 1:
+        return HeightField(heights[:, None], in_si(np.asarray(positions), x_unit, "length"), None)
+    x, y = (in_si(np.asarray(axis, dtype=float), x_unit, "length") for axis in positions)
+    return HeightField(heights, x[:, 0], y[0, :])

@@ -140,4 +140,6 @@ def _judged(correlation: HeightDifference, stack: SineStack) -> SineStack:
 
 
 def _beyond_the_largest(largest: float, smallest: float | None) -> str:
-    return f"smallest_wavelength must not exceed the largest wave, {largest:g} m; got {smallest:g} m"
+    return (
+        f"smallest_wavelength must not exceed the largest wave, {largest:g} m; got {smallest:g} m"
+    )

@@ -12,7 +12,7 @@ from gripscale.errors import FileError, InputError
 from gripscale.surface.instrument_file import HeightField, read_instrument_file
 from gripscale.surface.profile import Profile
 from gripscale.surface.text_profile import read_text_profile
-from gripscale.surface.units import metres_per
+from gripscale.units import in_si
 
 TEXT_SUFFIXES = ("", ".dat", ".txt", ".csv", ".tsv", ".prn")
 
@@ -101,7 +101,7 @@ def _check_arguments(
     checks.one_of("reader", reader, ("auto", "text", "instrument"))
     for name, unit in (("x_unit", x_unit), ("z_unit", z_unit)):
         if unit is not None:
-            metres_per(unit, name)
+            in_si(1.0, unit, "length", name)
     try:
         return Path(path)
     except TypeError as error:

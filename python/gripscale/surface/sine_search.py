@@ -11,7 +11,6 @@ from dataclasses import dataclass, field, replace
 from itertools import product
 
 import numpy as np
-from scipy.optimize import least_squares
 
 from gripscale.surface.plateau import log_weights
 from gripscale.surface.profile import FloatArray
@@ -114,6 +113,8 @@ def fitted_curve(logs: FloatArray, waves: int, lag: FloatArray) -> FloatArray:
 
 def search(target: Target, trial: Trial, refined: int = 10) -> Found | None:
     """Return the closest waves, refining the best `refined` starts; None if limits exclude all."""
+    from scipy.optimize import least_squares
+
     logs_wanted = np.log10(target.value)
 
     def residuals(unknowns: FloatArray) -> FloatArray:

@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gripscale import _kernel, checks
 from gripscale.errors import InputError
+from gripscale.rubber import Rubber
 from gripscale.wave.mesh import Mesh
-from gripscale.wave.problem import WaveProblem
+from gripscale.wave.problem import Sine, WaveProblem
 from gripscale.wave.result import WaveResult
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 Solution = _kernel.Solution
 T = TypeVar("T")
@@ -25,26 +23,22 @@ T = TypeVar("T")
 @lru_cache(maxsize=1)
 def default_settings() -> Mapping[str, float]:
     """Return every constant of the solver with its default, by name."""
-    return {
-        "max_iterations": 40.0,
-        "residual_tolerance": 1e-8,
-        "iteration_budget": 500.0,
-        "largest_step": 0.4,
-    }
+    return {name: value for name, value, _ in _kernel.default_settings()}
 
 
 def describe_settings() -> str:
     """Return name, default and meaning of every constant of the solver, one a line."""
-    return "\n".join(
-        f"{name} = {value:g}: {text}" for name, value, text in _kernel.default_settings()
-    )
+    listed = _kernel.default_settings()
+    return "\n".join(f"{name} = {value:g}: {text}" for name, value, text in listed)
 
 
 def checked_settings(settings: Mapping[str, float]) -> Mapping[str, float]:
-    """Return what differs from the defaults; raise `InputError` for an unknown name or value."""
-    for name in settings:
-        checks.one_of("setting", name, default_settings())
-    return {name: checks.positive(name, value) for name, value in settings.items()}
+    """Return what differs from the defaults; raise `InputError` for an unknown name or no number.
+
+    The kernel refuses what is out of its range.
+    """
+    checks.known("setting", settings, default_settings())
+    return {name: checks.number(name, value) for name, value in settings.items()}
 
 
 def solve_steady(
@@ -55,21 +49,25 @@ def solve_steady(
     start: Solution | None,
 ) -> Solution:
     """Return the static or steadily sliding solution; `start` is a first guess."""
-    return _asked(
-        lambda: _kernel.solve_scale(_inputs(problem, mesh) | _extra(settings, tolerance), start)
-    )
+    load = problem.load
+    inputs: _kernel.Problem = {
+        **_body(problem.rubber, problem.profile, mesh),
+        "load": {"pressure": load.pressure, "speed": load.speed, "load_time": load.load_time},
+    }
+    return _asked(lambda: _kernel.solve_steady(inputs, settings, tolerance, start))
 
 
 def solve_transient(
-    problem: WaveProblem,
+    rubber: Rubber,
+    profile: Sine,
     mesh: Mesh,
     settings: Mapping[str, float],
     stages: Sequence[tuple[float, float, float]],
     start: Solution | None,
 ) -> tuple[str, int, NDArray[np.float64]]:
     """Return status, iterations and a row of numbers for each moment of a programme in time."""
-    inputs = _inputs(problem, mesh) | _extra(settings, None)
-    return _asked(lambda: _kernel.run_stages(inputs, list(stages), start))
+    body = _body(rubber, profile, mesh)
+    return _asked(lambda: _kernel.solve_transient(body, settings, list(stages), start))
 
 
 def solution_of(start: WaveResult) -> Solution:
@@ -86,33 +84,26 @@ def solution_of(start: WaveResult) -> Solution:
     )
 
 
-def _inputs(problem: WaveProblem, mesh: Mesh) -> Any:
-    rubber, profile, load = problem.rubber, problem.profile, problem.load
+def _body(rubber: Rubber, profile: Sine, mesh: Mesh) -> _kernel.Body:
     return {
-        "strain_energy": rubber.strain_energy.coefficients(),
-        "equilibrium_modulus": rubber.equilibrium_modulus / 3.0,
-        "moduli": (rubber.moduli / 3.0).tolist(),
-        "relaxation_times": rubber.relaxation_times.tolist(),
-        "bulk_modulus": rubber.bulk_modulus,
-        "wavelength": profile.wavelength,
-        "amplitude": profile.amplitude,
-        "pressure": load.pressure,
-        "speed": load.speed,
-        "load_time": load.load_time,
-        "depth": mesh.depth,
-        "columns": mesh.columns,
-        "rows": mesh.rows,
-        "order": mesh.element_order,
-    }
-
-
-def _extra(settings: Any, tolerance: Any) -> Any:
-    return {
-        "tolerance": tolerance,
-        "iterations": int(settings.get("max_iterations", 40)),
-        "budget": 500,
-        "residual_tolerance": settings.get("residual_tolerance", 1e-8),
-        "step": 0.4,
+        "rubber": {
+            "equilibrium_modulus": rubber.equilibrium_modulus / 3.0,
+            "moduli": (rubber.moduli / 3.0).tolist(),
+            "relaxation_times": rubber.relaxation_times.tolist(),
+            "bulk_modulus": rubber.bulk_modulus,
+            "strain_energy": (rubber.strain_energy.kind, rubber.strain_energy.parameters()),
+        },
+        "profile": {
+            "kind": "sine",
+            "wavelength": profile.wavelength,
+            "amplitude": profile.amplitude,
+        },
+        "mesh": {
+            "columns": mesh.columns,
+            "rows": mesh.rows,
+            "depth": mesh.depth,
+            "element_order": mesh.element_order,
+        },
     }
 
 

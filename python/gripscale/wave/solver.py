@@ -13,7 +13,7 @@ F = TypeVar("F", bound=Callable[..., WaveResult])
 
 @runtime_checkable
 class WaveSolver(Protocol):
-    """Solves one wave; how (mesh, accuracy) are its own fields, so that it can be kept and compared.
+    """Solves one wave; how it does it (mesh, accuracy) is in its own fields.
 
     A frozen dataclass whose fields decide its results together with the problem: studies name
     their results by them.

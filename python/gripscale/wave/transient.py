@@ -7,7 +7,6 @@ The steady state of `gripscale.solve_scale` is the limit of a long run.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -20,7 +19,7 @@ from gripscale.errors import InputError
 from gripscale.rubber import Rubber
 from gripscale.wave import kernel
 from gripscale.wave.block import FiniteStrainBlock
-from gripscale.wave.problem import Load, Sine, WaveProblem
+from gripscale.wave.problem import Sine
 from gripscale.wave.result import WaveResult
 from gripscale.wave.status import Status
 
@@ -167,14 +166,11 @@ def solve_transient(
             f"rows; got {options['tolerance']!r}"
         )
     first = None if start is None else kernel.solution_of(start)
-    speed = max(abs(stage.speed) for stage in stages) if start is None else start.speed
-    load_time = math.inf if start is None else start.load_time
-    load = Load(stages[0].pressure, speed, load_time)
-    problem = WaveProblem(rubber, Sine(wavelength, amplitude), load)
+    profile = Sine(wavelength, amplitude)
     block = FiniteStrainBlock.of(depth=depth, columns=columns, rows=rows, **options)
     programme = [(stage.duration, stage.speed, stage.pressure) for stage in stages]
     status, iterations, table = kernel.solve_transient(
-        problem, block.mesh, block.settings, programme, first
+        rubber, profile, block.mesh, block.settings, programme, first
     )
     time, distance, speeds, pressure, friction, fraction, approach = table.reshape(-1, 7).T
     return TransientResult(

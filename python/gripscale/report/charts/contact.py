@@ -9,7 +9,9 @@ import numpy as np
 from bokeh.plotting import figure as Figure
 from numpy.typing import NDArray
 
-from gripscale.html_report.charts.look import (
+from gripscale.figures.palette import MEGA, MILLI
+from gripscale.figures.view import PredictionView
+from gripscale.report.charts.look import (
     COLOURS,
     RED,
     curve,
@@ -20,32 +22,30 @@ from gripscale.html_report.charts.look import (
     single,
     whole_decades,
 )
-from gripscale.html_report.elements import Chart
-from gripscale.html_report.source import Chain
+from gripscale.report.elements import Chart
 
 Array = NDArray[np.float64]
-MILLI, MEGA = 1e-3, 1e6
 WAVELENGTH = "wavelength λ [mm]"
 TIPS = [("λ", "@x mm"), ("value", "@y")]
 
 
-def contact_charts(chains: Sequence[Chain]) -> list[Chart]:
+def contact_charts(predictions: Sequence[PredictionView]) -> list[Chart]:
     """Return area, friction, pressure, modulus and the pressure along the waves."""
-    charts = [_area(chains)]
-    if any(chain.moving for chain in chains):
-        charts.append(_friction([chain for chain in chains if chain.moving]))
-    charts.append(_load(chains))
-    if any(chain.shows("max_stretch") for chain in chains):
-        charts.append(_stretch(chains))
-    charts.extend(_along(chain) for chain in chains if chain.has("surface_pressure"))
+    charts = [_area(predictions)]
+    if any(one.moving for one in predictions):
+        charts.append(_friction([one for one in predictions if one.moving]))
+    charts.append(_load(predictions))
+    if any(one.shows("max_stretch") for one in predictions):
+        charts.append(_stretch(predictions))
+    charts.extend(_along(one) for one in predictions if one.has("surface_pressure"))
     return charts
 
 
-def _area(chains: Sequence[Chain]) -> Chart:
-    figure = plot(WAVELENGTH, "relative contact area [-]", log="y", wavelengths=_waves(chains))
+def _area(predictions: Sequence[PredictionView]) -> Chart:
+    figure = plot(WAVELENGTH, "relative contact area [-]", log="y", wavelengths=_waves(predictions))
     pairs = ("running_contact_fraction", "contact_fraction")
-    _both(figure, chains, *pairs)
-    whole_decades(figure, *(chain.usable(name) for chain in chains for name in pairs))
+    _both(figure, predictions, *pairs)
+    whole_decades(figure, *(one.usable(name) for one in predictions for name in pairs))
     return Chart(
         "contact-area",
         "Relative contact area: A_r/A_0 down to each wave (filled), and of each wave (open).",
@@ -54,10 +54,12 @@ def _area(chains: Sequence[Chain]) -> Chart:
     )
 
 
-def _friction(chains: Sequence[Chain]) -> Chart:
-    figure = plot(WAVELENGTH, "friction coefficient [-]", wavelengths=_waves(chains))
-    _both(figure, chains, "running_friction", "friction")
-    figure.y_range.update(start=min(0.0, *(float(np.nanmin(c.column("friction"))) for c in chains)))
+def _friction(predictions: Sequence[PredictionView]) -> Chart:
+    figure = plot(WAVELENGTH, "friction coefficient [-]", wavelengths=_waves(predictions))
+    _both(figure, predictions, "running_friction", "friction")
+    figure.y_range.update(
+        start=min(0.0, *(float(np.nanmin(c.column("friction"))) for c in predictions))
+    )
     return Chart(
         "friction",
         "Friction coefficient: sum down to each wave (filled), and of each wave (open).",
@@ -66,17 +68,17 @@ def _friction(chains: Sequence[Chain]) -> Chart:
     )
 
 
-def _both(figure: Figure, chains: Sequence[Chain], running: str, each: str) -> None:
+def _both(figure: Figure, predictions: Sequence[PredictionView], running: str, each: str) -> None:
     """Draw the running value and that of each wave; what did not converge is a red cross."""
-    for chain, colour in zip(chains, COLOURS, strict=False):
-        x = chain.column("wavelength") / MILLI
-        name = chain.name
-        dots = [curve(figure, x, chain.usable(running), colour, f"{name}, down to the wave")]
+    for one, colour in zip(predictions, COLOURS, strict=False):
+        x = one.column("wavelength") / MILLI
+        name = one.name
+        dots = [curve(figure, x, one.usable(running), colour, f"{name}, down to the wave")]
         options: dict[str, Any] = {"fill": "white", "dash": "dashed"}
         label = f"{name}, each wave"
-        dots.append(curve(figure, x, chain.usable(each), colour, label, **options))
+        dots.append(curve(figure, x, one.usable(each), colour, label, **options))
         hover(figure, dots, TIPS)
-        failed(figure, x[~chain.converged], chain.column(each)[~chain.converged])
+        failed(figure, x[~one.converged], one.column(each)[~one.converged])
 
 
 def failed(figure: Figure, x: Array, y: Array) -> None:
@@ -87,18 +89,18 @@ def failed(figure: Figure, x: Array, y: Array) -> None:
         figure.scatter(x[shown], y[shown], legend_label="not converged", **look)
 
 
-def _load(chains: Sequence[Chain]) -> Chart:
-    figure = plot(WAVELENGTH, "pressure, modulus [MPa]", log="y", wavelengths=_waves(chains))
-    for chain, colour in zip(chains, COLOURS, strict=False):
-        x = chain.column("wavelength") / MILLI
-        pressure, modulus = chain.column("pressure_received"), chain.column("modulus")
-        label = f"{chain.name}, mean pressure"
+def _load(predictions: Sequence[PredictionView]) -> Chart:
+    figure = plot(WAVELENGTH, "pressure, modulus [MPa]", log="y", wavelengths=_waves(predictions))
+    for one, colour in zip(predictions, COLOURS, strict=False):
+        x = one.column("wavelength") / MILLI
+        pressure, modulus = one.column("pressure_received"), one.column("modulus")
+        label = f"{one.name}, mean pressure"
         dots = [curve(figure, x, pressure / MEGA, colour, label)]
         options: dict[str, Any] = {"fill": "white", "dash": "dashed"}
-        dots.append(curve(figure, x, modulus / MEGA, colour, f"{chain.name}, |E*|", **options))
+        dots.append(curve(figure, x, modulus / MEGA, colour, f"{one.name}, |E*|", **options))
         hover(figure, dots, TIPS)
     names = ("pressure_received", "modulus")
-    whole_decades(figure, *(chain.column(name) / MEGA for chain in chains for name in names))
+    whole_decades(figure, *(one.column(name) / MEGA for one in predictions for name in names))
     return Chart(
         "load",
         "What each wave receives: mean pressure (filled) against the modulus of the rubber there "
@@ -108,14 +110,14 @@ def _load(chains: Sequence[Chain]) -> Chart:
     )
 
 
-def _stretch(chains: Sequence[Chain]) -> Chart:
-    figure = plot(WAVELENGTH, "principal stretch [-]", wavelengths=_waves(chains))
-    for chain, colour in zip(chains, COLOURS, strict=False):
-        x = chain.column("wavelength") / MILLI
-        largest, least = chain.usable("max_stretch"), chain.usable("min_stretch")
-        dots = [curve(figure, x, largest, colour, f"{chain.name}, largest")]
+def _stretch(predictions: Sequence[PredictionView]) -> Chart:
+    figure = plot(WAVELENGTH, "principal stretch [-]", wavelengths=_waves(predictions))
+    for one, colour in zip(predictions, COLOURS, strict=False):
+        x = one.column("wavelength") / MILLI
+        largest, least = one.usable("max_stretch"), one.usable("min_stretch")
+        dots = [curve(figure, x, largest, colour, f"{one.name}, largest")]
         options: dict[str, Any] = {"fill": "white", "dash": "dashed"}
-        dots.append(curve(figure, x, least, colour, f"{chain.name}, smallest", **options))
+        dots.append(curve(figure, x, least, colour, f"{one.name}, smallest", **options))
         hover(figure, dots, TIPS)
     return Chart(
         "stretch",
@@ -125,29 +127,26 @@ def _stretch(chains: Sequence[Chain]) -> Chart:
     )
 
 
-def _along(chain: Chain) -> Chart:
+def _along(one: PredictionView) -> Chart:
     figure = plot("x/λ [-], crest at 0", "contact pressure [MPa]", height=380)
-    wavelength, colours = chain.column("wavelength"), shades(chain.waves)
-    x, pressure = chain.column("surface_x"), chain.column("surface_pressure")
-    for i in range(chain.waves):
-        known = np.isfinite(x[i])
-        phase = np.mod(x[i][known] / wavelength[i] + 0.5, 1.0) - 0.5
-        order = np.argsort(phase)
-        state = "" if chain.converged[i] else ", not converged"
+    wavelength, colours = one.column("wavelength"), shades(one.waves)
+    for i in range(one.waves):
+        phase, pressure = one.pressure_along(i)
+        state = "" if one.converged[i] else ", not converged"
         figure.line(
-            single(phase[order]),
-            single(pressure[i][known][order] / MEGA),
-            color=colours[i] if chain.converged[i] else RED,
+            single(phase),
+            single(pressure / MEGA),
+            color=colours[i] if one.converged[i] else RED,
             line_width=1.6,
             legend_label=f"{i + 1}: {wavelength[i] / MILLI:.3g} mm{state}",
         )
     return Chart(
-        f"pressure-{chain.name}",
-        f"{chain.title}: contact pressure along each wave. Click a wave to hide it.",
-        f"Contact pressure along each wave of the {chain.name} chain.",
+        f"pressure-{one.name}",
+        f"{one.title}: contact pressure along each wave. Click a wave to hide it.",
+        f"Contact pressure along each wave of the {one.name} prediction.",
         legend(figure),
     )
 
 
-def _waves(chains: Sequence[Chain]) -> Array:
-    return np.concatenate([chain.column("wavelength") for chain in chains]) / MILLI
+def _waves(predictions: Sequence[PredictionView]) -> Array:
+    return np.concatenate([one.column("wavelength") for one in predictions]) / MILLI

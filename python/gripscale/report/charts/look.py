@@ -15,7 +15,7 @@ from bokeh.palettes import Viridis256
 from bokeh.plotting import figure as Figure
 from numpy.typing import ArrayLike
 
-from gripscale.figures.style import BLUE, COLOURS, FAINT, GREEN, GREY, INK, ORANGE
+from gripscale.figures.palette import BLUE, COLOURS, FAINT, GREEN, GREY, INK, ORANGE
 
 __all__ = ["BLUE", "COLOURS", "FAINT", "GREEN", "GREY", "INK", "ORANGE", "RED", "plot"]
 

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from bokeh.plotting import figure as Figure
 from numpy.typing import NDArray
 
-from gripscale.html_report.charts.look import (
+from gripscale.figures.palette import MEGA
+from gripscale.figures.view import PredictionView
+from gripscale.report.charts.look import (
     BLUE,
     GREEN,
     INK,
@@ -19,64 +22,34 @@ from gripscale.html_report.charts.look import (
     plot,
     single,
 )
-from gripscale.html_report.elements import Chart
-from gripscale.rubber import Rubber
+from gripscale.report.elements import Chart
 
 Array = NDArray[np.float64]
-MEGA = 1e6
 OMEGA = "angular frequency ω [rad/s]"
 
 
-def rubber_of(inputs: xr.Dataset) -> Rubber:
-    """Return the rubber the run recorded."""
-    terms = "term_modulus" in inputs
-    return Rubber(
-        float(inputs.attrs["equilibrium_modulus_Pa"]),
-        inputs["term_modulus"].values if terms else (),
-        inputs["term_relaxation_time"].values if terms else (),
-        bulk_modulus=float(inputs.attrs["bulk_modulus_Pa"]),
-    )
-
-
-def rubber_charts(inputs: xr.Dataset, excitation: Array) -> list[Chart]:
+def rubber_charts(inputs: xr.Dataset, excited: PredictionView | None) -> list[Chart]:
     """Return moduli, loss factor and, where it was measured, the residuals of the fit.
 
-    `excitation` are the angular frequencies of the waves [rad/s].
+    `excited` is the prediction whose waves are marked, if any.
     """
-    rubber = rubber_of(inputs)
-    omega = _band(inputs, rubber, excitation)
-    charts = [_moduli(inputs, rubber, omega, excitation)]
-    charts.append(_loss_factor(inputs, rubber, omega, excitation))
+    charts = [_moduli(inputs, excited), _loss_factor(inputs, excited)]
     if "master_frequency" in inputs:
-        charts.append(_residuals(inputs, rubber))
+        charts.append(_residuals(inputs))
     if "term_modulus" in inputs:
         charts.append(_spectrum(inputs))
     return charts
 
 
-def _band(inputs: xr.Dataset, rubber: Rubber, excitation: Array) -> Array:
-    """Return the angular frequencies to draw: all measured, all excited, or all terms."""
-    ends = [*excitation[excitation > 0.0]]
-    ends += [inputs.attrs[k] for k in inputs.attrs if k.startswith("band_")]
-    if "master_frequency" in inputs:
-        ends += [*(2.0 * math.pi * inputs["master_frequency"].values[[0, -1]])]
-    ends = ends or [*(1.0 / rubber.relaxation_times)] or [1.0]
-    return np.geomspace(min(ends) / 3.0, max(ends) * 3.0, 400)
-
-
-def _moduli(inputs: xr.Dataset, rubber: Rubber, omega: Array, excitation: Array) -> Chart:
+def _moduli(inputs: xr.Dataset, excited: PredictionView | None) -> Chart:
     figure = plot(OMEGA, "modulus [MPa]", log="xy", height=400)
-    modulus = rubber.complex_modulus(omega)
-    curves = (
-        ("E′", BLUE, modulus.real, "master_storage"),
-        ("E″", ORANGE, modulus.imag, "master_loss"),
-    )
-    for name, colour, values, measured in curves:
-        label = f"{name}, Prony series"
-        figure.line(omega, single(values / MEGA), color=colour, line_width=1.8, legend_label=label)
-        if measured in inputs:
-            _points(figure, inputs, inputs[measured].values / MEGA, colour, name)
-    _marks(figure, excitation, np.abs(rubber.complex_modulus(excitation)) / MEGA)
+    for name, colour, part in (("E′", BLUE, "storage"), ("E″", ORANGE, "loss")):
+        _line(
+            figure, inputs, inputs[f"series_{part}"].values / MEGA, colour, f"{name}, Prony series"
+        )
+        if f"master_{part}" in inputs:
+            _points(figure, inputs, inputs[f"master_{part}"].values / MEGA, colour, name)
+    _marks(figure, excited, "modulus", MEGA)
     return Chart(
         "master-curve",
         "Storage and loss modulus: measured, and the Prony series that is solved with. "
@@ -86,22 +59,25 @@ def _moduli(inputs: xr.Dataset, rubber: Rubber, omega: Array, excitation: Array)
     )
 
 
-def _loss_factor(inputs: xr.Dataset, rubber: Rubber, omega: Array, excitation: Array) -> Chart:
+def _loss_factor(inputs: xr.Dataset, excited: PredictionView | None) -> Chart:
     figure = plot(OMEGA, "loss factor E″/E′ [-]", log="x", height=400)
-    modulus = rubber.complex_modulus(omega)
-    values = single(modulus.imag / modulus.real)
-    figure.line(omega, values, color=GREEN, line_width=1.8, legend_label="Prony series")
+    factor = inputs["series_loss"].values / inputs["series_storage"].values
+    _line(figure, inputs, factor, GREEN, "Prony series")
     if "master_loss" in inputs:
         measured = inputs["master_loss"].values / inputs["master_storage"].values
         _points(figure, inputs, measured, GREEN, "")
-    at = rubber.complex_modulus(excitation)
-    _marks(figure, excitation, at.imag / at.real)
+    _marks(figure, excited, "loss_factor", 1.0)
     return Chart(
         "loss-factor",
         "Loss factor: measured, Prony series, and at the frequencies of the waves.",
         "Loss factor against angular frequency.",
         legend(figure),
     )
+
+
+def _line(figure: Figure, inputs: xr.Dataset, values: Array, colour: str, label: str) -> None:
+    omega = inputs["series_omega"].values
+    figure.line(omega, single(values), color=colour, line_width=1.8, legend_label=label)
 
 
 def _points(figure: Figure, inputs: xr.Dataset, values: Array, colour: str, name: str) -> None:
@@ -130,30 +106,22 @@ def _left_out(inputs: xr.Dataset) -> NDArray[np.bool_]:
     return np.asarray(inputs["master_left_out"].values != 0)
 
 
-def _marks(figure: Figure, omega: Array, values: Array) -> None:
-    if (omega > 0.0).any():
-        figure.scatter(
-            omega,
-            values,
-            marker="diamond",
-            size=9,
-            line_color=INK,
-            fill_color="white",
-            legend_label="waves",
-        )
+def _marks(figure: Figure, excited: PredictionView | None, name: str, unit: float) -> None:
+    """Mark what the rubber is like on the waves."""
+    if excited is not None:
+        look: dict[str, Any] = {"marker": "diamond", "size": 9, "line_color": INK}
+        omega, values = excited.column("angular_frequency"), excited.column(name) / unit
+        figure.scatter(omega, values, fill_color="white", legend_label="waves", **look)
 
 
-def _residuals(inputs: xr.Dataset, rubber: Rubber) -> Chart:
+def _residuals(inputs: xr.Dataset) -> Chart:
     figure = plot(OMEGA, "Prony series / measured − 1 [%]", log="x")
     kept = ~_left_out(inputs)
     omega = 2.0 * math.pi * inputs["master_frequency"].values[kept]
-    modulus = rubber.complex_modulus(omega)
     figure.line(omega[[0, -1]], [0.0, 0.0], color=INK, line_width=1)
-    for name, colour, fit, column in (
-        ("E′", BLUE, modulus.real, "master_storage"),
-        ("E″", ORANGE, modulus.imag, "master_loss"),
-    ):
-        error = 100.0 * (fit / inputs[column].values[kept] - 1.0)
+    for name, colour, part in (("E′", BLUE, "storage"), ("E″", ORANGE, "loss")):
+        fit, measured = inputs[f"master_series_{part}"].values, inputs[f"master_{part}"].values
+        error = 100.0 * (fit / measured - 1.0)[kept]
         figure.scatter(omega, error, size=5, color=colour, legend_label=name)
     return Chart(
         "prony-residual",

@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from gripscale.html_report.charts.look import (
+from gripscale.report.charts.look import (
     COLOURS,
     curve,
     hover,
@@ -20,8 +20,8 @@ from gripscale.html_report.charts.look import (
     shades,
     whole_decades,
 )
-from gripscale.html_report.elements import Chart
-from gripscale.html_report.source import Study
+from gripscale.report.elements import Chart
+from gripscale.report.source import Study
 
 MOST_CURVES = 12
 """Curves in one figure; of more, so many evenly spaced ones are drawn."""

@@ -8,7 +8,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from gripscale.html_report.charts.look import (
+from gripscale.case.drawn import trace
+from gripscale.figures.palette import MILLI, SQUARE_MM
+from gripscale.report.charts.look import (
     BLUE,
     GREY,
     INK,
@@ -19,11 +21,10 @@ from gripscale.html_report.charts.look import (
     positive,
     single,
 )
-from gripscale.html_report.elements import Chart
-from gripscale.surface import SelfAffineFit, SineStack
+from gripscale.report.elements import Chart
 
 Array = NDArray[np.float64]
-MILLI, SQUARE_MM = 1e-3, 1e-6
+SELF_AFFINE = "correlation_self_affine"
 
 
 def profile_charts(inputs: xr.Dataset) -> list[Chart]:
@@ -39,7 +40,7 @@ def profile_charts(inputs: xr.Dataset) -> list[Chart]:
 def _whole(one: xr.Dataset, i: int, name: str) -> Chart:
     figure = plot("distance x [mm]", "height z [mm]", height=300)
     for part, colour, label in (("read", GREY, "as read"), ("cleaned", BLUE, "cleaned")):
-        x, z = _trace(one, part)
+        x, z = trace(*(one[f"{part}_{name}"].values for name in ("x", "lowest", "highest")))
         figure.line(single(x / MILLI), single(z / MILLI), color=colour, legend_label=label)
     return Chart(
         f"profile-{i + 1}",
@@ -63,13 +64,6 @@ def _close_up(one: xr.Dataset, i: int, name: str) -> Chart:
     )
 
 
-def _trace(one: xr.Dataset, part: str) -> tuple[Array, Array]:
-    """Return the envelope as one line that runs from lowest to highest in each piece."""
-    x = np.repeat(one[f"{part}_x"].values, 2)
-    z = np.column_stack([one[f"{part}_lowest"].values, one[f"{part}_highest"].values]).ravel()
-    return x, z
-
-
 def correlation_charts(inputs: xr.Dataset) -> list[Chart]:
     """Return C_z with its fits, and the ratio of each fit to the measured curve."""
     lag, value = inputs["lag"].values, inputs["correlation_value"].values
@@ -91,31 +85,21 @@ def _correlation(inputs: xr.Dataset, lag: Array, value: Array) -> Chart:
     look: dict[str, Any] = {"size": 5, "color": INK, "legend_label": "measured"}
     dots = figure.scatter(lag / MILLI, positive(value) / SQUARE_MM, **look)
     hover(figure, [dots], [("lag", "@x{0.0000} mm"), ("C_z", "@y mm²")])
-    fine = np.geomspace(lag[0], _first_wavelength(inputs, lag[-1]), 600)
-    waves = _waves(inputs).height_difference(np.minimum(fine, fine[-1]))
-    figure.line(
-        fine / MILLI,
-        single(positive(held(inputs, fine)) / SQUARE_MM),
-        color=BLUE,
-        line_width=1.8,
-        legend_label="sine waves, as fitted",
-    )
-    figure.line(
-        fine / MILLI,
-        single(positive(waves) / SQUARE_MM),
-        color=BLUE,
-        line_dash="dotted",
-        legend_label="pure sine waves",
-    )
-    law = self_affine(inputs)
-    if law is not None:
+    fine = inputs["fine_lag"].values / MILLI
+    for name, label, look in (
+        ("fine_sines", "sine waves, as fitted", {"line_width": 1.8}),
+        ("fine_pure_sines", "pure sine waves", {"line_dash": "dotted"}),
+    ):
+        values = single(positive(inputs[name].values) / SQUARE_MM)
+        figure.line(fine, values, color=BLUE, legend_label=label, **look)
+    if SELF_AFFINE in inputs:
         figure.line(
             lag / MILLI,
-            law.evaluate(lag) / SQUARE_MM,
+            inputs[SELF_AFFINE].values / SQUARE_MM,
             color=ORANGE,
             line_width=1.8,
             line_dash="dashed",
-            legend_label=f"self-affine, H = {law.hurst:.2f}",
+            legend_label=f"self-affine, H = {inputs.attrs['self_affine_hurst']:.2f}",
         )
     figure.y_range.update(start=0.3 * float(np.min(value[value > 0.0])) / SQUARE_MM)
     figure.y_range.update(end=3.0 * float(value.max()) / SQUARE_MM)
@@ -130,15 +114,15 @@ def _correlation(inputs: xr.Dataset, lag: Array, value: Array) -> Chart:
 
 def _correlation_residual(inputs: xr.Dataset, lag: Array, value: Array) -> Chart:
     figure = plot("lag l [mm]", "log₁₀ (fit / measured)", log="x", height=400)
-    usable = (value > 0.0) & (lag <= _first_wavelength(inputs, lag[-1]))
-    low, high = inputs.attrs.get("sines_lag_min_m"), inputs.attrs.get("sines_lag_max_m")
-    fits = [("sine waves", BLUE, held(inputs, lag), low, high)]
-    law = self_affine(inputs)
-    if law is not None:
-        fits.append(("self-affine", ORANGE, law.evaluate(lag), law.lag_min, law.lag_max))
+    sines = inputs["correlation_sines"].values
+    usable = (value > 0.0) & np.isfinite(sines)
+    fits = [("sine waves", BLUE, sines, *_fitted_lags(inputs, "sines"))]
+    if SELF_AFFINE in inputs:
+        law = inputs[SELF_AFFINE].values
+        fits.append(("self-affine", ORANGE, law, *_fitted_lags(inputs, "self_affine")))
     figure.line(lag[[0, -1]] / MILLI, [0.0, 0.0], color=INK, line_width=1)
     for name, colour, fit, first, last in fits:
-        inside = usable & (lag >= (first or 0.0)) & (lag <= (last or np.inf))
+        inside = usable & (lag >= first) & (lag <= last)
         for rows, fill, label in ((inside, colour, "fitted"), (usable & ~inside, None, "not")):
             figure.scatter(
                 lag[rows] / MILLI,
@@ -156,35 +140,7 @@ def _correlation_residual(inputs: xr.Dataset, lag: Array, value: Array) -> Chart
     )
 
 
-def held(inputs: xr.Dataset, lag: Array) -> Array:
-    """Return C_z [m^2] of the waves as `fit_sines` uses it: the first one held at its mean."""
-    waves = _waves(inputs)
-    first = SineStack(wavelength=waves.wavelength[:1], amplitude=waves.amplitude[:1])
-    rest = waves.height_difference(lag) - first.height_difference(lag)
-    return np.asarray(
-        rest + first.height_difference(np.minimum(lag, 0.25 * float(waves.wavelength[0])))
-    )
-
-
-def self_affine(inputs: xr.Dataset) -> SelfAffineFit | None:
-    """Return the self-affine fit the run found, if it found one."""
-    attrs = inputs.attrs
-    if "self_affine_hurst" not in attrs:
-        return None
-    return SelfAffineFit(
-        hurst=float(attrs["self_affine_hurst"]),
-        xi_parallel=float(attrs["self_affine_xi_parallel_m"]),
-        xi_perpendicular=float(attrs["self_affine_xi_perpendicular_m"]),
-        lag_min=float(attrs["self_affine_lag_min_m"]),
-        lag_max=float(attrs["self_affine_lag_max_m"]),
-        residual=float(attrs["self_affine_residual_decades"]),
-    )
-
-
-def _waves(inputs: xr.Dataset) -> SineStack:
-    wavelength, amplitude = inputs["wave_wavelength"].values, inputs["wave_amplitude"].values
-    return SineStack(wavelength=wavelength, amplitude=amplitude)
-
-
-def _first_wavelength(inputs: xr.Dataset, longest: float) -> float:
-    return min(float(inputs["wave_wavelength"].values[0]), float(longest))
+def _fitted_lags(inputs: xr.Dataset, fit: str) -> tuple[float, float]:
+    """Return the lags that counted in a fit [m]; all where that is not recorded."""
+    low, high = (inputs.attrs.get(f"{fit}_lag_{end}_m") for end in ("min", "max"))
+    return low or 0.0, high or np.inf

@@ -1,0 +1,1 @@
+"""Time and memory, with accuracy beside them: `python -m benchmarks [SUBJECT ...]`."""

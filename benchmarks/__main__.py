@@ -1,0 +1,50 @@
+"""`make bench`: time and memory, subject by subject, with accuracy beside them.
+
+python -m benchmarks [SUBJECT ...] [--figures FOLDER]
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from rich.console import Console
+
+from benchmarks import case, machine, random_loads, scaling, sweep, transient, waves
+
+WIDTH = 150
+SUBJECTS: dict[str, Callable[[Console, Path], None]] = {
+    "waves": lambda console, _: waves.run(console),
+    "random_loads": lambda console, _: random_loads.run(console),
+    "case": lambda console, _: case.run(console),
+    "transient": lambda console, _: transient.run(console),
+    "sweep": lambda console, _: sweep.run(console),
+    "scaling": lambda console, figures: scaling.run(console, figures / "cost.png"),
+}
+
+
+def main() -> None:
+    """Run the chosen subjects, all by default."""
+    parser = argparse.ArgumentParser(description="Time and memory, subject by subject.")
+    parser.add_argument("subjects", nargs="*", metavar="SUBJECT", help=", ".join(SUBJECTS))
+    parser.add_argument(
+        "--figures", type=Path, default=Path("results/bench"), help="folder for the figures"
+    )
+    arguments = parser.parse_args()
+    unknown = sorted(set(arguments.subjects) - set(SUBJECTS))
+    if unknown:
+        parser.error(f"unknown subject {unknown[0]!r}; expected one of {', '.join(SUBJECTS)}")
+    console = Console(width=WIDTH, highlight=False)
+    console.print(f"{machine.describe()}\n")
+    start = time.perf_counter()
+    for subject in arguments.subjects or SUBJECTS:
+        mark = time.perf_counter()
+        SUBJECTS[subject](console, arguments.figures)
+        console.print(f"{subject}: {time.perf_counter() - mark:.0f} s\n", style="dim")
+    console.print(f"All in {time.perf_counter() - start:.0f} s")
+
+
+if __name__ == "__main__":
+    main()

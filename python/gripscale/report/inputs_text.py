@@ -1,0 +1,82 @@
+"""What a run says about its inputs: cleaning, correlation, sine waves, Prony series."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from gripscale.figures.palette import MEGA, MILLI
+from gripscale.report.tables import significant
+
+if TYPE_CHECKING:
+    from gripscale.case.prepare import PreparedRubber
+    from gripscale.rubber import Rubber
+    from gripscale.surface import PreparedSurface, SineStack
+
+
+def surface_lines(surface: PreparedSurface) -> Iterator[str]:
+    """Yield what was read and removed, the fits, and the sine waves."""
+    measured = surface.measured
+    if measured is not None:
+        for (raw, cleaned), report in zip(measured.profiles, measured.cleaning, strict=True):
+            yield f"{raw.name or raw.source}: {len(cleaned)} points, step {raw.step / MILLI:.4g} mm"
+            yield from (f"  {line}" for line in str(report).splitlines())
+        if measured.self_affine is None:
+            yield f"not self-affine: {measured.no_self_affine}"
+        else:
+            fit = measured.self_affine
+            yield (
+                f"self-affine from {fit.lag_min / MILLI:.3g} to {fit.lag_max / MILLI:.3g} mm: "
+                f"H = {fit.hurst:.3f}, D = {fit.fractal_dimension:.3f}, "
+                f"xi_parallel = {fit.xi_parallel / MILLI:.3g} mm, "
+                f"xi_perpendicular = {fit.xi_perpendicular / MILLI:.3g} mm"
+            )
+    yield sines_line(surface.sines)
+
+
+def sines_line(sines: SineStack) -> str:
+    """Return the stack of sine waves in one sentence."""
+    largest, smallest = sines.wavelength[0] / MILLI, sines.wavelength[-1] / MILLI
+    text = f"{len(sines)} sine waves from {largest:.3g} to {smallest:.3g} mm"
+    if sines.s_wavelength is not None and sines.s_amplitude is not None:
+        text += f", s_wavelength = {sines.s_wavelength:.3f}, s_amplitude = {sines.s_amplitude:.3f}"
+    if sines.residual is not None:
+        text += f", residual {sines.residual:.3f} decades of C_z"
+    return text
+
+
+def waves_table(sines: SineStack) -> Iterator[str]:
+    """Yield the waves, one a line."""
+    yield f"{'wave':>4} {'wavelength [mm]':>16} {'amplitude [mm]':>15} {'slope':>7}"
+    for i, (wavelength, amplitude) in enumerate(
+        zip(sines.wavelength, sines.amplitude, strict=True)
+    ):
+        yield (
+            f"{i + 1:>4} {wavelength / MILLI:>16.4g} {amplitude / MILLI:>15.4g} "
+            f"{sines.slope[i]:>7.3f}"
+        )
+
+
+def rubber_lines(prepared: PreparedRubber) -> Iterator[str]:
+    """Yield what the rubber is and how well its Prony series fits."""
+    rubber = prepared.rubber
+    relaxed, glassy, bulk = (
+        significant(modulus / MEGA)
+        for modulus in (rubber.equilibrium_modulus, rubber.glassy_modulus, rubber.bulk_modulus)
+    )
+    yield (
+        f"{rubber.name or 'rubber'}: E from {relaxed} MPa (relaxed) to {glassy} MPa (glassy), "
+        f"bulk modulus {bulk} MPa"
+    )
+    if prepared.fit is not None:
+        yield from prepared.fit.summary().splitlines()
+    if prepared.source:
+        yield f"source: {prepared.source}"
+
+
+def prony_table(rubber: Rubber) -> Iterator[str]:
+    """Yield the Maxwell elements, one a line."""
+    yield f"{'term':>4} {'relaxation time [s]':>20} {'modulus [MPa]':>14}"
+    pairs = zip(rubber.relaxation_times, rubber.moduli, strict=True)
+    for i, (time, modulus) in enumerate(pairs):
+        yield f"{i + 1:>4} {time:>20.4g} {modulus / MEGA:>14.5g}"

@@ -1,0 +1,290 @@
+"""Tables of numbers in text files: one set of rules for every instrument's export.
+
+- UTF-8, UTF-16 (with a byte order mark) or latin-1; any line ends. Control codes mean binary data.
+- Lines that begin with #, % or ! are comments. Titles may stand in one.
+- Cells are parted by tabs, semicolons, commas or blanks: by the first of these that makes numbers
+  of all cells of a line. That line is the first row; every later line must have as many cells.
+- The decimal sign is the point or, where commas do not part the cells, the comma; not both.
+- Empty cells, nan, n/a, - and the like are missing values.
+- The last line above the rows that names as many columns holds the titles. A unit stands in
+  brackets, behind a slash or a blank, or in a line of units.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import sys
+from collections.abc import Callable, Collection
+from dataclasses import dataclass
+from decimal import Decimal
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gripscale.errors import FileError
+from gripscale.units import spelled
+
+_LINE_END = re.compile(r"\r*\n|\r")
+_COMMENT = ("#", "%", "!")
+_MISSING = {"", "nan", "na", "n/a", "null", "none", "-", "--", "---", "bad"}
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
+_COMMA_NUMBER = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?", re.ASCII)
+_SEPARATORS = ("\t", ";", ",", None)
+_TITLE_SEPARATORS = (r"\t", r";", r",", r"\s{2,}", r"\s+")
+_CUT = re.compile(r"\s*[\[(]\s*([^\[\]()]+?)\s*[\])]|[\s/_,]+(?=(.+))")
+_STATED = re.compile(r"(.*?)(?:\s*[\[(]\s*([^\[\]()]+?)\s*[\])]|\s+/\s*(\S+))\s*")
+_TITLES_IN_BRACKETS = re.compile(r"[^()\[\]]+[(\[][^()\[\]]*[)\]]")
+
+
+Line = tuple[int, str]
+"""A line with its number in the file, from 1."""
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column as its title names it; the unit is the file's own word for it."""
+
+    name: str = ""
+    unit: str | None = None
+
+
+@dataclass(frozen=True)
+class TextTable:
+    """Rows of cells as printed, the titles above them, and the line each row stood in."""
+
+    path: Path
+    columns: list[Column]
+    """One a column, nameless where the file has no titles."""
+    rows: list[list[str]]
+    line_numbers: list[int]
+    decimal: str
+
+    @property
+    def names(self) -> list[str]:
+        """The names of the columns; empty if the file has no titles."""
+        names = [column.name for column in self.columns]
+        return names if any(names) else []
+
+    def numbers(self, column: int, expected: str, *, missing: bool = False) -> NDArray[np.float64]:
+        """Return a column of numbers, NaN where a value is `missing` and may be.
+
+        Raises `FileError` with the line of the first other cell and what was `expected`.
+        """
+        values = np.empty(len(self.rows))
+        for at, row in enumerate(self.rows):
+            value = parse_number(self._with_point(row[column]))
+            if value is None or not (math.isfinite(value) or (missing and math.isnan(value))):
+                raise FileError(
+                    f"{self.path}, line {self.line_numbers[at]}: expected {expected}; "
+                    f"got {row[column]!r}"
+                )
+            values[at] = value
+        return values
+
+    def resolution(self, column: int) -> float:
+        """Return the last decimal place to which any number of a column is printed, as 0.001."""
+        cells = (Decimal(self._with_point(row[column])).as_tuple().exponent for row in self.rows)
+        return float(10.0 ** min(place for place in cells if isinstance(place, int)))
+
+    def _with_point(self, cell: str) -> str:
+        return cell.replace(",", ".") if self.decimal == "," else cell
+
+
+def read_table(
+    path: Path, expected: str, *, kinds: Collection[str], named: Callable[[str], bool]
+) -> TextTable:
+    """Read the rows of a text file and the titles above them.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+        The file.
+    expected : str
+        What the rows hold, for messages.
+    kinds : collection of str
+        Kinds of units (see `gripscale.units`) the titles may name.
+    named : callable
+        Whether a text is the name of a column. A line with such a name, or with a known unit,
+        holds the titles.
+
+    Raises
+    ------
+    FileError
+        If the file cannot be read, is not text or has no rows; if a row has another number of
+        cells than the first; if the decimal sign changes. The message names path and line.
+    """
+    lines = [
+        (number, line)
+        for number, line in enumerate(_LINE_END.split(read_text(path)), start=1)
+        if line.strip()
+    ]
+    if not lines:
+        raise FileError(f"{path}: expected {expected}; got 0 in an empty file")
+    first, separator = _first_row(path, lines, expected)
+    numbers = [number for number, line in lines[first:] if not _is_comment(line)]
+    rows = [_cells(line, separator) for _, line in lines[first:] if not _is_comment(line)]
+    count = len(rows[0])
+    _check_faults(path, lines[:first], separator, range(count, count + 1))
+    _check_lengths(path, rows, numbers)
+    decimal = _decimal_sign(path, rows, numbers)
+    rows = _without_empty_columns(rows)
+    columns = _columns([line for _, line in lines[:first]], len(rows[0]), kinds, named)
+    return TextTable(path, columns, rows, numbers, decimal)
+
+
+def read_bytes(path: Path) -> bytes:
+    """Return the content of a file; raise `FileError` if it cannot be read."""
+    if path.is_dir():
+        raise FileError(f"{path}: expected a file; got a directory")
+    try:
+        return path.read_bytes()
+    except FileNotFoundError as error:
+        raise FileError(f"{path}: cannot be read (no such file)") from error
+    except (OSError, ValueError) as error:
+        raise FileError(f"{path}: cannot be read ({error})") from error
+
+
+def read_text(path: Path) -> str:
+    """Return the text of a file; raise `FileError` if it is unreadable or binary."""
+    raw = read_bytes(path)
+    if raw.startswith((b"\xff\xfe", b"\xfe\xff")):
+        return raw.decode("utf-16", errors="replace")
+    if any(raw[:4096].count(code) for code in (*range(9), *range(14, 32))):
+        raise FileError(f"{path}: expected a text file; got binary data")
+    try:
+        return raw.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return raw.decode("latin-1")
+
+
+def parse_number(cell: str) -> float | None:
+    """Return the number a cell holds, or None if it holds none; missing values are NaN."""
+    if cell.lower() in _MISSING:
+        return float("nan")
+    return float(cell) if _NUMBER.fullmatch(cell) else None
+
+
+def _first_row(path: Path, lines: list[Line], expected: str) -> tuple[int, str | None]:
+    """Return the index of the first line of numbers, and what parts its cells."""
+    for at, (_, line) in enumerate(lines):
+        for separator in () if _is_comment(line) else _SEPARATORS:
+            cells = _cells(line, separator)
+            if len(cells) >= 2 and any(map(_is_number, cells)) and all(map(_fits, cells)):
+                return at, separator
+    for separator in _SEPARATORS:
+        _check_faults(path, lines, separator, range(2, sys.maxsize))
+    number, line = lines[0]
+    raise FileError(
+        f"{path}: expected {expected}; found none from line {number} ({line.strip()[:40]!r}) on"
+    )
+
+
+def _is_comment(line: str) -> bool:
+    return line.lstrip().startswith(_COMMENT)
+
+
+def _is_number(cell: str) -> bool:
+    return bool(_NUMBER.fullmatch(cell) or _COMMA_NUMBER.fullmatch(cell))
+
+
+def _fits(cell: str) -> bool:
+    """Return whether a cell may stand in a row of numbers."""
+    return cell.lower() in _MISSING or _is_number(cell)
+
+
+def _cells(line: str, separator: str | None) -> list[str]:
+    return [cell.strip().strip('"').strip() for cell in line.strip(" \r\n").split(separator)]
+
+
+def _check_faults(path: Path, lines: list[Line], separator: str | None, counts: range) -> None:
+    """Refuse a line that begins as a row of so many cells, but has a word in another cell."""
+    for number, line in lines:
+        cells = _cells(line, separator)
+        if not _is_comment(line) and len(cells) in counts and _is_number(cells[0]):
+            fault = next(at for at, cell in enumerate(cells) if not _fits(cell))
+            raise FileError(
+                f"{path}, line {number}: expected a number in column {fault + 1}; "
+                f"got {cells[fault]!r}"
+            )
+
+
+def _check_lengths(path: Path, rows: list[list[str]], numbers: list[int]) -> None:
+    for number, row in zip(numbers, rows, strict=True):
+        if len(row) != len(rows[0]):
+            raise FileError(
+                f"{path}, line {number}: expected {len(rows[0])} columns as in line "
+                f"{numbers[0]}; got {len(row)}"
+            )
+
+
+def _decimal_sign(path: Path, rows: list[list[str]], numbers: list[int]) -> str:
+    """Return the sign all numbers of the file use."""
+    comma = _first_cell(rows, lambda cell: "," in cell and bool(_COMMA_NUMBER.fullmatch(cell)))
+    if comma is None:
+        return "."
+    point = _first_cell(rows, lambda cell: "." in cell and bool(_NUMBER.fullmatch(cell)))
+    if point is None:
+        return ","
+    (first, one), (second, other) = sorted((comma, point))
+    raise FileError(
+        f"{path}, line {numbers[second]}: expected one decimal sign throughout; got {other!r} "
+        f"after {one!r} in line {numbers[first]}"
+    )
+
+
+def _first_cell(rows: list[list[str]], fits: Callable[[str], bool]) -> tuple[int, str] | None:
+    return next(((at, cell) for at, row in enumerate(rows) for cell in row if fits(cell)), None)
+
+
+def _without_empty_columns(rows: list[list[str]]) -> list[list[str]]:
+    """Drop the empty cells that separators at the ends of all lines make."""
+    first = 0 if any(row[0] for row in rows) else 1
+    last = len(rows[0]) - (0 if any(row[-1] for row in rows) else 1)
+    return rows if last - first == len(rows[0]) else [row[first:last] for row in rows]
+
+
+def _columns(
+    above: list[str], count: int, kinds: Collection[str], named: Callable[[str], bool]
+) -> list[Column]:
+    """Return what the lines `above` the rows say of the columns."""
+    columns, units = [Column()] * count, [""] * count
+    for cells in filter(None, (_titles(line, count) for line in above)):
+        bare = [cell.strip("()[] ") for cell in cells]
+        if any(_known(cell, kinds) for cell in bare):
+            units = bare
+            continue
+        found = [_column(cell, kinds) for cell in cells]
+        if any(named(column.name) or _known(column.unit, kinds) for column in found):
+            columns = found
+    return [
+        Column(column.name, column.unit or unit or None)
+        for column, unit in zip(columns, units, strict=True)
+    ]
+
+
+def _titles(line: str, count: int) -> list[str] | None:
+    """Return the line cut into `count` titles, or None if it cannot be."""
+    line = line.strip(" ").lstrip("".join(_COMMENT)).strip(" ")
+    for text in (line, line.strip(" \t;,")):
+        for separator in _TITLE_SEPARATORS:
+            cells = [cell.strip().strip('"').strip() for cell in re.split(separator, text)]
+            if len(cells) == count:
+                return cells
+    cells = [cell.strip(" ,;\t") for cell in _TITLES_IN_BRACKETS.findall(line)]
+    return cells if len(cells) == count else None
+
+
+def _column(title: str, kinds: Collection[str]) -> Column:
+    """Return the name and the unit of a title: x [mm], x / mm or, of known units, x mm or x_mm."""
+    for cut in _CUT.finditer(title):
+        unit = cut[1] or cut[2]
+        if _known(unit, kinds):
+            return Column(title[: cut.start()], unit)
+    stated = _STATED.fullmatch(title)
+    return Column(stated[1], stated[2] or stated[3]) if stated else Column(title)
+
+
+def _known(unit: str | None, kinds: Collection[str]) -> bool:
+    return any(spelled(unit, kind) for kind in kinds)

@@ -1,0 +1,95 @@
+//! The rubber block: its unknowns, what it is made of, and where unknowns stand in an element row.
+
+use super::mesh::Mesh;
+use crate::material::carried_history::Points;
+use crate::material::energy::Energy;
+use crate::material::kinematics::{Gradient, Symmetric};
+use crate::material::sliding_history::SlidingHistory;
+
+/// Displacements (all layers, lid included) and pressure modes `[row][column][mode]`.
+#[derive(Debug, Clone)]
+pub struct Field {
+    pub u: Vec<f64>,
+    pub pressure: Vec<f64>,
+}
+
+impl Field {
+    pub fn at_rest(mesh: &Mesh) -> Self {
+        Self {
+            u: vec![0.0; mesh.layers() * mesh.layer_size()],
+            pressure: vec![0.0; mesh.rows * mesh.columns * mesh.modes()],
+        }
+    }
+}
+
+/// What the temporary networks add to H.
+#[derive(Debug, Clone)]
+pub enum Memory {
+    /// Nothing: the relaxed rubber.
+    Relaxed,
+    /// Steady sliding: all points of a line remember one another.
+    Sliding(SlidingHistory),
+    /// A given contribution of the networks.
+    Given(Points),
+}
+
+/// The rubber in a mesh: what assembly needs beyond the field.
+pub struct Block<'a> {
+    pub mesh: &'a Mesh,
+    pub energy: Energy,
+    /// Shear modulus of the permanent network.
+    pub equilibrium: f64,
+    pub memory: &'a Memory,
+    pub bulk_modulus: f64,
+}
+
+/// Kinematics and memory at the Gauss points of one element row: `[line][column * points + point]`.
+#[derive(Debug, Clone)]
+pub struct RowState {
+    pub gradient: Vec<Vec<Gradient>>,
+    pub h: Vec<Vec<Symmetric>>,
+}
+
+impl Block<'_> {
+    pub(super) fn points(&self) -> usize {
+        self.mesh.order + 1
+    }
+
+    /// Gauss points of element `column`: point of the element, its line, its place along the line.
+    pub(super) fn gauss_points(
+        &self,
+        column: usize,
+    ) -> impl Iterator<Item = (usize, usize, usize)> {
+        let n = self.points();
+        (0..n).flat_map(move |line| (0..n).map(move |i| (line * n + i, line, column * n + i)))
+    }
+
+    /// Positions in the row system of the local unknowns of element `column`.
+    pub(super) fn local_unknowns(&self, column: usize) -> Vec<usize> {
+        let order = self.mesh.order;
+        let mut out = Vec::with_capacity(2 * self.mesh.elements[0].nodes());
+        for layer in 0..=order {
+            for sub in 0..=order {
+                let at = layer * self.mesh.layer_size();
+                let node = order * column + sub;
+                out.extend([at + self.mesh.place(node, 0), at + self.mesh.place(node, 1)]);
+            }
+        }
+        out
+    }
+
+    pub(super) fn row_offset(&self, row: usize) -> usize {
+        row * self.mesh.order * self.mesh.layer_size()
+    }
+
+    pub(super) fn element_pressure<'f>(
+        &self,
+        field: &'f Field,
+        row: usize,
+        column: usize,
+    ) -> &'f [f64] {
+        let modes = self.mesh.modes();
+        let at = (row * self.mesh.columns + column) * modes;
+        &field.pressure[at..at + modes]
+    }
+}

@@ -1,0 +1,8 @@
+//! The block in finite elements: element rows with a dense memory along x, pressures condensed.
+
+pub mod assembly;
+pub mod block;
+pub mod element;
+mod memory_tangent;
+pub mod mesh;
+mod row_state;

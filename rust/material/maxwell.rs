@@ -1,0 +1,81 @@
+//! The generalized Maxwell model: a spring beside springs in series with dashpots.
+//!
+//! Relaxation modulus and complex modulus are
+//!     G(t) = G_inf + sum G_i exp(-t / tau_i),   G*(w) = G_inf + sum G_i i w tau_i / (1 + i w tau_i)
+//! and tau dA/dt = Y - A of one element is integrated exactly over a step x = dt / tau in which Y is
+//! linear (Taylor, Pister & Goudreau, Int. J. Numer. Methods Eng. 2 (1970) 45):
+//!     A_new = exp(-x) A_old + leaving(x) Y_old + arriving(x) Y_new.
+
+/// Shear moduli and relaxation times, in units of the caller.
+#[derive(Debug, Clone)]
+pub struct Maxwell {
+    pub equilibrium: f64,
+    pub moduli: Vec<f64>,
+    pub times: Vec<f64>,
+}
+
+impl Maxwell {
+    /// Relaxation modulus G(t); t may be infinite.
+    pub fn relaxation_modulus(&self, time: f64) -> f64 {
+        let decayed = |(g, tau): (&f64, &f64)| g * (-time / tau).exp();
+        self.equilibrium
+            + self
+                .moduli
+                .iter()
+                .zip(&self.times)
+                .map(decayed)
+                .sum::<f64>()
+    }
+
+    /// Complex modulus G*(omega) = G_inf + sum G_i (i w tau) / (1 + i w tau), as (real, imaginary).
+    pub fn complex_modulus(&self, omega: f64) -> (f64, f64) {
+        let mut value = (self.equilibrium, 0.0);
+        for (&g, &tau) in self.moduli.iter().zip(&self.times) {
+            let x = omega * tau;
+            value.0 += g * x * x / (1.0 + x * x);
+            value.1 += g * x / (1.0 + x * x);
+        }
+        value
+    }
+
+    pub fn magnitude(&self, omega: f64) -> f64 {
+        let (storage, loss) = self.complex_modulus(omega);
+        storage.hypot(loss)
+    }
+}
+
+/// A along the line for Y = 1 in column 0, linear to zero in its neighbours, going round for ever.
+pub fn recurrence(columns: usize, time: f64) -> Vec<f64> {
+    let step = 1.0 / (columns as f64 * time);
+    let decay = (-step).exp();
+    let mut a = vec![0.0; columns];
+    a[0] = arriving(step);
+    for column in 1..columns {
+        a[column] = decay * a[column - 1] + if column == 1 { leaving(step) } else { 0.0 };
+    }
+    // What is left on return to column 0 decays round and round again.
+    let mut again = decay * a[columns - 1] / -(-1.0 / time).exp_m1();
+    for value in &mut a {
+        *value += again;
+        again *= decay;
+    }
+    a
+}
+
+/// Weight of the point arrived at: 1 - (1 - exp(-x)) / x.
+pub fn arriving(x: f64) -> f64 {
+    if x < 1e-3 {
+        x * (0.5 - x * (1.0 / 6.0 - x / 24.0))
+    } else {
+        1.0 + (-x).exp_m1() / x
+    }
+}
+
+/// Weight of the point left: (1 - exp(-x)) / x - exp(-x).
+pub fn leaving(x: f64) -> f64 {
+    if x < 1e-3 {
+        x * (0.5 - x * (1.0 / 3.0 - x / 8.0))
+    } else {
+        -(-x).exp_m1() / x - (-x).exp()
+    }
+}

@@ -1,0 +1,80 @@
+//! What the temporary networks remember in steady sliding: a convolution along a line of points.
+//!
+//! The rubber flows through the fixed mesh in +x with speed v, so each temporary network obeys
+//!     tau_i v dA_i/dx = Y - A_i,   periodic in x           (Lubliner 1985, steady in the wave's frame)
+//! and H = G_inf b + (G(t) - G_inf) I + sum over points of weight * Y, where the mean state relaxes
+//! only for the load time t: the mean of A_i is (1 - e_i) mean(Y) + e_i I with e_i = exp(-t / tau_i).
+//!
+//! The weights follow from the Fourier series, where harmonic k is multiplied by the complex modulus
+//! G*(2 pi k v / lambda); the exact recurrence between neighbouring points is kept as a check.
+
+use super::maxwell::{recurrence, Maxwell};
+
+/// Weights between equally placed points of the columns of one line (they form a circulant matrix).
+///
+/// Each Gauss point of a column and its images in the other columns are an equidistant sampling of
+/// the line, so the weights depend on the distance in columns alone.
+#[derive(Debug, Clone)]
+pub struct SlidingHistory {
+    /// What the temporary networks add to the mean state, G(load time) - G_inf.
+    pub frozen_modulus: f64,
+    /// `stress[m]`: weight of Y in column e - m in H in column e.
+    pub stress: Vec<f64>,
+    /// The same for the energy lost per sliding distance, 1/2 sum weight Y : Cbar.
+    pub dissipation: Vec<f64>,
+}
+
+impl SlidingHistory {
+    /// Memory of steady sliding; `load_time` in passage times.
+    ///
+    /// Harmonic k of Y is multiplied by G(t) - G*(omega_k), the mean by nothing.
+    pub fn new(columns: usize, maxwell: &Maxwell, load_time: f64) -> Self {
+        let mean = maxwell.relaxation_modulus(load_time);
+        let glassy = maxwell.relaxation_modulus(0.0);
+        let (mut stress, mut dissipation) = (vec![0.0; columns], vec![0.0; columns]);
+        for harmonic in 1..=columns / 2 {
+            let omega = std::f64::consts::TAU * harmonic as f64;
+            let (storage, loss) = maxwell.complex_modulus(omega);
+            // The Nyquist harmonic appears once and is real; all others come with their conjugate.
+            let nyquist = 2 * harmonic == columns;
+            let share = if nyquist { 1.0 } else { 2.0 } / columns as f64;
+            for column in 0..columns {
+                let (sine, cosine) = (omega * column as f64 / columns as f64).sin_cos();
+                let odd = if nyquist { 0.0 } else { sine };
+                stress[column] += share * ((mean - storage) * cosine + loss * odd);
+                dissipation[column] += share * omega * ((glassy - storage) * odd - loss * cosine);
+            }
+        }
+        Self::without_local_part(mean - maxwell.equilibrium, stress, dissipation)
+    }
+
+    /// The same by the exact recurrence of each Maxwell element from column to column,
+    ///     A_(j+1) = e^-h A_j + leaving(h) Y_j + arriving(h) Y_(j+1),   h = column / (v tau),
+    /// closed periodically, for Y linear in between: an independent evaluation of second order.
+    pub fn by_recurrence(columns: usize, maxwell: &Maxwell, load_time: f64) -> Self {
+        let mean = maxwell.relaxation_modulus(load_time);
+        let (mut stress, mut dissipation) = (vec![0.0; columns], vec![0.0; columns]);
+        for (&modulus, &time) in maxwell.moduli.iter().zip(&maxwell.times) {
+            let kept = (-load_time / time).exp() / columns as f64;
+            for (m, weight) in recurrence(columns, time).into_iter().enumerate() {
+                stress[m] += modulus * (weight - kept);
+                dissipation[m] += modulus * (weight - f64::from(m == 0)) / time;
+            }
+        }
+        Self::without_local_part(mean - maxwell.equilibrium, stress, dissipation)
+    }
+
+    /// Take out the weight of each point on itself, which DEV would remove, to avoid cancellation.
+    fn without_local_part(
+        frozen_modulus: f64,
+        mut stress: Vec<f64>,
+        dissipation: Vec<f64>,
+    ) -> Self {
+        stress[0] = 0.0;
+        Self {
+            frozen_modulus,
+            stress,
+            dissipation,
+        }
+    }
+}

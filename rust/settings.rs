@@ -1,0 +1,112 @@
+//! Every constant of the solver that may be tuned, with its default, its range and what it does.
+
+use crate::error::{between, unknown, whole, KernelError};
+
+/// A kind of number that a setting can be.
+trait Setting: Copy + std::fmt::Debug {
+    fn read(name: &str, value: f64, least: Self, most: Self) -> Result<Self, KernelError>;
+    fn number(self) -> f64;
+}
+
+impl Setting for usize {
+    fn read(name: &str, value: f64, least: Self, most: Self) -> Result<Self, KernelError> {
+        whole(name, value, least, most)
+    }
+
+    fn number(self) -> f64 {
+        self as f64
+    }
+}
+
+impl Setting for f64 {
+    fn read(name: &str, value: f64, least: Self, most: Self) -> Result<Self, KernelError> {
+        between(name, value, least, most)
+    }
+
+    fn number(self) -> f64 {
+        self
+    }
+}
+
+/// One line declares a setting: name, kind, default, range, and its sentence.
+macro_rules! settings {
+    ($($name:ident: $kind:ty = $default:literal in $least:literal..=$most:literal, $doc:literal;)+) => {
+        /// Settings within their ranges; only `Settings::new` changes one.
+        #[derive(Debug, Clone, Copy, PartialEq)]
+        pub struct Settings {
+            $(#[doc = $doc] pub(crate) $name: $kind,)+
+        }
+
+        impl Default for Settings {
+            fn default() -> Self {
+                Self { $($name: $default,)+ }
+            }
+        }
+
+        impl Settings {
+            /// Name, value and sentence of every setting.
+            pub fn list(&self) -> Vec<(&'static str, f64, &'static str)> {
+                vec![$((stringify!($name), self.$name.number(), $doc),)+]
+            }
+
+            fn set(&mut self, name: &str, value: f64) -> Result<(), KernelError> {
+                match name {
+                    $(stringify!($name) => {
+                        self.$name = Setting::read(stringify!($name), value, $least, $most)?;
+                    })+
+                    _ => return Err(unknown("setting", name, &[$(stringify!($name)),+])),
+                }
+                Ok(())
+            }
+        }
+    };
+}
+
+settings! {
+    max_iterations: usize = 40 in 1..=1000, "Newton iterations in one load step.";
+    residual_tolerance: f64 = 1e-8 in 1e-15..=1.0, "Largest residual force over the load, and gap over half the profile's range [-].";
+    largest_step: f64 = 0.4 in 1e-6..=100.0, "Largest change of the displacement gradient in one Newton iteration [-].";
+    smallest_volume_ratio: f64 = 0.05 in 1e-6..=0.9, "A Newton step may leave no Gauss point with a smaller ratio of volumes [-].";
+    step_halvings: usize = 8 in 1..=50, "Lengths tried for one Newton step, each half of the one before.";
+    patience: usize = 12 in 1..=1000, "Newton iterations without a smaller residual after which a load step is given up.";
+    reuse_below: f64 = 0.1 in 1e-15..=1.0, "A factored tangent is used again only while the residual is below this [-].";
+    reuse_reduction: f64 = 0.3 in 1e-6..=1.0, "A factored tangent is used again while each residual is below this share of the last [-].";
+
+    active_set_rounds: usize = 60 in 0..=10_000, "Changes of the whole active set before nodes change sides one by one.";
+    single_node_rounds: usize = 2000 in 1..=100_000, "Changes of single nodes of the active set.";
+    active_set_tolerance: f64 = 1e-12 in 1e-15..=1e-3, "Largest tension and overlap, in units of the mean contact force and the largest gap [-].";
+
+    iteration_budget: usize = 500 in 1..=100_000, "Newton iterations while the load is raised once.";
+    most_load_steps: usize = 300 in 1..=10_000, "Load steps while the load is raised once.";
+    first_load: f64 = 0.02 in 1e-6..=1.0, "First pressure over that of full contact [-]: contact a tenth of the wave, small strain.";
+    first_load_cut: f64 = 0.3 in 0.01..=0.9, "A first pressure that fails is tried again at this share [-].";
+    smallest_first_load: f64 = 1e-7 in 1e-15..=1e-2, "No first pressure is tried below this share of the pressure or of that of full contact [-].";
+    largest_growth: f64 = 3.0 in 1.1..=100.0, "Largest ratio of a pressure to the one before [-].";
+    smallest_growth: f64 = 1.001 in 1.000001..=1.1, "A load path that needs a smaller ratio stands at a fold [-].";
+    growth_gain: f64 = 1.5 in 1.0..=10.0, "Power that raises the ratio of pressures after an easy load step [-].";
+    growth_cut: f64 = 0.4 in 0.01..=0.9, "Power that cuts the ratio of pressures after a load step that failed [-].";
+    easy_iterations: usize = 7 in 1..=1000, "Newton iterations of an easy load step.";
+
+    coarsest_nodes: usize = 32 in 8..=2048, "Fewest nodes along the wave on the coarsest mesh of a sequence.";
+    finest_columns: usize = 512 in 4..=1024, "Most columns of the mesh that a tolerance refines to.";
+    row_exponent: f64 = 0.585 in 0.01..=1.0, "Rows grow with this power of the columns [-]: by 1.5 for every doubling.";
+    edge_error: f64 = 0.15 in 1e-6..=10.0, "Node spacings to which both contact edges together are known [-].";
+    error_safety: f64 = 1.5 in 1.0..=100.0, "Estimated error of the contact fraction over its change between meshes [-].";
+    friction_noise: f64 = 1e-9 in 1e-15..=1e-2, "Friction coefficient below which it is round-off [-].";
+
+    dwell_steps: usize = 40 in 2..=10_000, "Time steps of a dwell, their lengths growing geometrically.";
+    dwell_first: f64 = 1e-4 in 1e-12..=0.5, "First time step of a dwell over its duration [-].";
+    longest_stage: f64 = 10_000.0 in 1.0..=1e6, "Longest way of one stage [wavelengths].";
+    load_parts: usize = 8 in 1..=1000, "Parts a change of load is cut into where a time step fails.";
+}
+
+impl Settings {
+    /// The defaults with `changes` of (name, value).
+    pub fn new<'n>(changes: impl IntoIterator<Item = (&'n str, f64)>) -> Result<Self, KernelError> {
+        let mut settings = Self::default();
+        for (name, value) in changes {
+            settings.set(name, value)?;
+        }
+        Ok(settings)
+    }
+}

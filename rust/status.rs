@@ -1,0 +1,32 @@
+//! How a solution ended: converged, or why its numbers are not to be trusted.
+
+macro_rules! statuses {
+    ($($(#[$doc:meta])* $name:ident = $word:literal,)+) => {
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub enum Status {
+            $($(#[$doc])* $name,)+
+        }
+
+        impl Status {
+            pub const ALL: &'static [Self] = &[$(Self::$name),+];
+
+            pub fn word(self) -> &'static str {
+                match self {
+                    $(Self::$name => $word,)+
+                }
+            }
+        }
+    };
+}
+
+statuses! {
+    Converged = "converged",
+    IterationLimit = "iteration limit",
+    ElementInverted = "element inverted",
+    NoActiveSet = "no active set",
+    NotFinite = "not finite",
+    /// The load can be raised no further, in however small steps.
+    Fold = "fold in the load path",
+    /// Solved, but the finest mesh allowed does not meet the accuracy asked for.
+    ToleranceNotMet = "tolerance not met",
+}

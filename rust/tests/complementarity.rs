@@ -1,0 +1,99 @@
+//! The dense contact problem: its conditions hold, and the answer is that of trying every set.
+
+use gripscale_kernel::contact::complementarity::{solve, Contact};
+use gripscale_kernel::linear::{solve_dense, Matrix};
+use gripscale_kernel::settings::Settings;
+use proptest::prelude::*;
+
+/// A smooth, slightly unsymmetric compliance as contact has: decaying with distance.
+fn compliance(n: usize, skew: f64) -> Matrix<f64> {
+    Matrix::from_fn(n, n, |i, j| {
+        let distance = i as f64 - j as f64;
+        (-distance.abs() / 2.0).exp() * (1.0 + skew * distance / n as f64)
+    })
+}
+
+fn fulfils(c: &Matrix<f64>, free: &[f64], load: f64, contact: &Contact) -> bool {
+    let n = free.len();
+    let total: f64 = contact.force.iter().sum();
+    let scale = load.max(1.0);
+    (total - load).abs() < 1e-9 * scale
+        && (0..n).all(|i| {
+            let pushed: f64 = (0..n).map(|j| c[(i, j)] * contact.force[j]).sum();
+            let gap = free[i] + pushed - contact.approach;
+            let open = !contact.active[i];
+            contact.force[i] >= -1e-9 * scale
+                && gap >= -1e-9 * scale
+                && (if open {
+                    contact.force[i] == 0.0
+                } else {
+                    gap.abs() < 1e-9 * scale
+                })
+        })
+}
+
+/// Every active set by brute force: how many fulfil the conditions, and the approach of the first.
+fn brute_force(c: &Matrix<f64>, free: &[f64], load: f64) -> Vec<f64> {
+    let n = free.len();
+    let mut found = Vec::new();
+    for mask in 1u32..1 << n {
+        let set: Vec<usize> = (0..n).filter(|i| mask >> i & 1 == 1).collect();
+        let m = set.len();
+        let matrix = Matrix::from_fn(m + 1, m + 1, |i, j| {
+            if i < m && j < m {
+                c[(set[i], set[j])]
+            } else if i == m && j == m {
+                0.0
+            } else if i < m {
+                -1.0
+            } else {
+                1.0
+            }
+        });
+        let mut right: Vec<f64> = set.iter().map(|&i| -free[i]).collect();
+        right.push(load);
+        let Some(x) = solve_dense(&matrix, &right) else {
+            continue;
+        };
+        let mut contact = Contact {
+            force: vec![0.0; n],
+            approach: x[m],
+            active: vec![false; n],
+        };
+        for (&i, &f) in set.iter().zip(&x) {
+            contact.force[i] = f;
+            contact.active[i] = true;
+        }
+        if fulfils(c, free, load, &contact) {
+            found.push(contact.approach);
+        }
+    }
+    found
+}
+
+proptest! {
+    #[test]
+    fn the_answer_is_that_of_trying_every_set(
+        free in prop::collection::vec(-1.0_f64..1.0, 2..9),
+        load in 1e-3_f64..10.0,
+        skew in -0.5_f64..0.5,
+        start in prop::collection::vec(any::<bool>(), 9),
+    ) {
+        let c = compliance(free.len(), skew);
+        let contact = solve(&c, &free, load, &start[..free.len()], &Settings::default()).unwrap();
+        prop_assert!(fulfils(&c, &free, load, &contact));
+        let all = brute_force(&c, &free, load);
+        prop_assert!(all.iter().any(|d| (d - contact.approach).abs() < 1e-8));
+    }
+
+    #[test]
+    fn many_nodes_from_any_start(
+        free in prop::collection::vec(-1.0_f64..1.0, 60),
+        load in 1e-3_f64..100.0,
+        start in prop::collection::vec(any::<bool>(), 60),
+    ) {
+        let c = compliance(60, 0.3);
+        let contact = solve(&c, &free, load, &start, &Settings::default()).unwrap();
+        prop_assert!(fulfils(&c, &free, load, &contact));
+    }
+}

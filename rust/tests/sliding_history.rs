@@ -1,0 +1,104 @@
+//! Memory along a line: complex modulus, recurrence against Fourier, load time, dissipation.
+
+use std::f64::consts::TAU;
+
+use gripscale_kernel::material::maxwell::Maxwell;
+use gripscale_kernel::material::sliding_history::SlidingHistory;
+
+fn rubber() -> Maxwell {
+    Maxwell {
+        equilibrium: 1.0,
+        moduli: vec![2.0, 5.0, 3.0],
+        times: vec![0.02, 0.15, 4.0],
+    }
+}
+
+fn apply(weights: &[f64], y: &[f64]) -> Vec<f64> {
+    let n = weights.len();
+    (0..n)
+        .map(|e| (0..n).map(|m| weights[m] * y[(e + n - m) % n]).sum())
+        .collect()
+}
+
+/// H of Y = cos(k x) is -(G* - G(t)) of it, up to the local part, which is the same at all harmonics.
+#[test]
+fn a_harmonic_is_multiplied_by_the_complex_modulus() {
+    let (n, maxwell) = (64, rubber());
+    let history = SlidingHistory::new(n, &maxwell, f64::INFINITY);
+    let multiplier = |harmonic: usize| {
+        let y: Vec<f64> = (0..n)
+            .map(|e| (TAU * (harmonic * e) as f64 / n as f64).cos())
+            .collect();
+        let h = apply(&history.stress, &y);
+        // cos -> (real part) cos - (imaginary part) sin
+        (h[0], -h[n / (4 * harmonic)])
+    };
+    let first = multiplier(1);
+    for harmonic in [2, 4, 8] {
+        let (real, imaginary) = multiplier(harmonic);
+        let (storage, loss) = maxwell.complex_modulus(TAU * harmonic as f64);
+        let (storage_1, loss_1) = maxwell.complex_modulus(TAU);
+        assert!((real - first.0 + (storage - storage_1)).abs() < 1e-12);
+        assert!((imaginary + loss).abs() < 1e-12 && (first.1 + loss_1).abs() < 1e-12);
+    }
+}
+
+/// The two evaluations differ by the square of the column width over the shortest scale.
+#[test]
+fn recurrence_and_fourier_agree_in_second_order() {
+    let maxwell = rubber();
+    let difference = |n: usize| {
+        let y: Vec<f64> = (0..n)
+            .map(|e| (0.5 * (TAU * e as f64 / n as f64).cos()).exp())
+            .collect();
+        let a = SlidingHistory::new(n, &maxwell, 0.4);
+        let b = SlidingHistory::by_recurrence(n, &maxwell, 0.4);
+        // The local part is free: compare after removing each field's own multiple of Y.
+        let strip = |h: Vec<f64>| {
+            let factor = h[0] / y[0];
+            h.iter()
+                .zip(&y)
+                .map(|(h, y)| h - factor * y)
+                .collect::<Vec<_>>()
+        };
+        let (stress_a, stress_b) = (strip(apply(&a.stress, &y)), strip(apply(&b.stress, &y)));
+        let lost_a = apply(&a.dissipation, &y);
+        let lost_b = apply(&b.dissipation, &y);
+        let far = |a: &[f64], b: &[f64]| {
+            a.iter()
+                .zip(b)
+                .fold(0.0_f64, |m, (x, y)| m.max((x - y).abs()))
+        };
+        (far(&stress_a, &stress_b), far(&lost_a, &lost_b))
+    };
+    let (coarse, fine) = (difference(64), difference(128));
+    assert!(coarse.0 < 0.02 && coarse.1 < 0.3, "{coarse:?}");
+    assert!(
+        fine.0 < 0.3 * coarse.0 && fine.1 < 0.3 * coarse.1,
+        "{coarse:?} {fine:?}"
+    );
+}
+
+/// Energy lost by Y = cos x against C = sin x per wavelength is positive and pi G'' per unit area.
+#[test]
+fn dissipation_is_that_of_the_loss_modulus() {
+    let (n, maxwell) = (64, rubber());
+    let history = SlidingHistory::new(n, &maxwell, f64::INFINITY);
+    let angle = |e: usize| TAU * e as f64 / n as f64;
+    // Small strain: Y = I - 2 strain, Cbar = I + 2 strain.
+    let strain: Vec<f64> = (0..n).map(|e| angle(e).cos()).collect();
+    let y: Vec<f64> = strain.iter().map(|s| -2.0 * s).collect();
+    let rate = apply(&history.dissipation, &y);
+    let lost: f64 = rate
+        .iter()
+        .zip(&strain)
+        .map(|(r, s)| 0.5 * r * 2.0 * s / n as f64)
+        .sum();
+    // integral of stress d(strain)/dx with stress = 2 G* strain: 2 G'' k / 2 per wavelength.
+    let (_, loss) = maxwell.complex_modulus(TAU);
+    assert!(
+        (lost - loss * TAU).abs() < 1e-11 * lost,
+        "{lost} {}",
+        loss * TAU
+    );
+}

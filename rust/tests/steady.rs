@@ -1,0 +1,92 @@
+//! Whole waves against closed forms (K. L. Johnson, "Contact Mechanics" (1985), section 13.2).
+
+use std::f64::consts::{PI, TAU};
+
+use gripscale_kernel::solution::Solution;
+use gripscale_kernel::status::Status;
+
+use crate::Case;
+
+fn solved(case: &Case) -> Solution {
+    let solution = case.solve(None).unwrap();
+    assert_eq!(solution.finest.report.status, Status::Converged);
+    solution
+}
+
+/// Westergaard: fraction (2/pi) asin sqrt(p/p*), p* = pi E' A / lambda. Edges are found to about a
+/// seventh of the node spacing each, 0.004 of 64 columns together.
+#[test]
+fn elastic_contact_fraction_is_westergaards() {
+    let amplitude = 1e-3;
+    let full = 4.0 * PI * amplitude;
+    for (ratio, fraction) in [(0.1, 0.2048), (0.3, 0.3690), (0.5, 0.5), (0.8, 0.7048)] {
+        for order in [1, 2] {
+            let mut case = Case::elastic(amplitude, ratio * full);
+            case.order = order;
+            case.columns /= order;
+            case.rows /= order;
+            let outcome = solved(&case).finest.outcome;
+            let error = (outcome.contact_fraction - fraction).abs();
+            assert!(error < 0.005, "order {order}, p/p* {ratio}: {error}");
+            assert!(outcome.friction.abs() < 1e-9);
+        }
+    }
+}
+
+/// mu = k^2 A^2 E'' / (4 (1 - nu^2) p) = k^2 A^2 G'' / p for nu = 1/2, and contact is full.
+/// The bulk modulus is high enough that nu = 1/2 holds to 1e-4.
+#[test]
+fn full_contact_friction_is_that_of_the_loss_modulus() {
+    let amplitude = 1e-3;
+    let mut case = Case::elastic(amplitude, 0.2);
+    case.speed = 2.0;
+    case.moduli = vec![2.0, 4.0];
+    case.relaxation_times = vec![0.02, 0.3];
+    case.bulk_modulus = 1e5;
+    let outcome = solved(&case).finest.outcome;
+    let omega = TAU * case.speed;
+    let loss: f64 = case
+        .moduli
+        .iter()
+        .zip(&case.relaxation_times)
+        .map(|(g, t)| g * omega * t / (1.0 + (omega * t).powi(2)))
+        .sum();
+    let expected = (TAU * amplitude).powi(2) * loss / case.pressure;
+    assert_eq!(outcome.contact_fraction, 1.0);
+    // 64 columns resolve the first harmonic to about (k h)^2 / 6 = 0.2 %.
+    let errors =
+        [outcome.friction, outcome.friction_from_dissipation].map(|mu| mu / expected - 1.0);
+    assert!(errors.iter().all(|e| e.abs() < 0.005), "{errors:?}");
+}
+
+/// Finite strain, A / lambda = 0.1: fractions converged with two other codes (+-0.0002).
+#[test]
+fn finite_strain_contact_fraction_is_that_of_other_codes() {
+    for (ratio, fraction) in [(0.1, 0.20589), (0.5, 0.50448), (0.9, 0.77240)] {
+        let mut case = Case::elastic(0.1, ratio * 4.0 * PI * 0.1);
+        case.depth = 1.0;
+        let error = (solved(&case).finest.outcome.contact_fraction - fraction).abs();
+        assert!(error < 0.004, "p/p* {ratio}: {error}");
+    }
+}
+
+/// Both friction measures agree at large strain, the better the finer the mesh.
+#[test]
+fn friction_is_the_energy_lost() {
+    let mismatch = |columns: usize, rows: usize| {
+        let mut case = Case::elastic(0.2, 1.5);
+        case.speed = 1.0;
+        case.moduli = vec![2.0, 4.0];
+        case.relaxation_times = vec![0.02, 0.2];
+        case.load_time = 1.0;
+        (case.columns, case.rows) = (columns, rows);
+        let outcome = solved(&case).finest.outcome;
+        assert!(outcome.max_stretch > 1.3);
+        (outcome.friction_from_dissipation / outcome.friction - 1.0).abs()
+    };
+    let (coarse, fine) = (mismatch(24, 8), mismatch(64, 14));
+    assert!(
+        coarse < 0.03 && fine < 0.01 && fine < coarse,
+        "{coarse} {fine}"
+    );
+}

@@ -1,0 +1,161 @@
+//! Stepping in time with the recurrence's own memory lands on the steady state of the same memory.
+
+use std::f64::consts::TAU;
+
+use gripscale_kernel::settings::Settings;
+use gripscale_kernel::status::Status;
+use gripscale_kernel::transient::Stage;
+
+use crate::Case;
+
+/// Friction and contact fraction of a long run against the steady solution of the same mesh.
+#[test]
+fn a_long_run_ends_in_the_steady_state() {
+    let mut case = Case::elastic(0.1, 0.3);
+    case.speed = 1.0;
+    case.moduli = vec![2.0];
+    case.relaxation_times = vec![0.1];
+    let steady = case.solve(None).unwrap();
+    let stage = Stage {
+        duration: 4.0,
+        speed: 1.0,
+        pressure: case.pressure,
+    };
+    let run = case.run(&[stage], None).unwrap();
+    assert_eq!(run.status, Status::Converged);
+    let last = run.moments.last().unwrap();
+    assert_eq!(run.moments.len(), 4 * case.columns + 1);
+    // Memory linear between 64 columns against its Fourier series: (k h)^2 / 6 = 0.2 %.
+    assert!((last.friction / steady.finest.outcome.friction - 1.0).abs() < 0.005);
+    assert!((last.contact_fraction - steady.finest.outcome.contact_fraction).abs() < 0.002);
+}
+
+/// Pressed at once, the rubber answers with its glassy modulus; at rest it relaxes to the soft one.
+#[test]
+fn a_dwell_relaxes_from_the_glassy_to_the_equilibrium_contact() {
+    let mut case = Case::elastic(1e-3, 0.3 * 2.0 * TAU * 1e-3);
+    case.moduli = vec![3.0];
+    case.relaxation_times = vec![1.0];
+    case.speed = 1.0;
+    let stage = Stage {
+        duration: 60.0,
+        speed: 0.0,
+        pressure: case.pressure,
+    };
+    let run = case.run(&[stage], None).unwrap();
+    let mut elastic = case.clone();
+    elastic.speed = 0.0;
+    let soft = elastic.solve(None).unwrap().finest.outcome.contact_fraction;
+    elastic.equilibrium_modulus = 4.0;
+    let stiff = elastic.solve(None).unwrap().finest.outcome.contact_fraction;
+    let (first, last) = (run.moments[0], run.moments[run.moments.len() - 1]);
+    assert!((first.contact_fraction - stiff).abs() < 1e-3);
+    assert!((last.contact_fraction - soft).abs() < 1e-3);
+    assert!((last.time - 60.0).abs() < 1e-9 && last.friction.abs() < 1e-9);
+}
+
+fn lossy() -> Case {
+    let mut case = Case::elastic(0.1, 0.3);
+    case.moduli = vec![2.0];
+    case.relaxation_times = vec![0.1];
+    (case.columns, case.rows) = (32, 8);
+    case
+}
+
+/// In static contact the networks are relaxed: a dwell stays there, and sliding on from there ends
+/// where sliding from rest does.
+#[test]
+fn a_run_starts_from_static_contact() {
+    let mut case = lossy();
+    let start = case.solve(None).unwrap();
+    case.speed = 1.0;
+    let dwell = Stage {
+        duration: 1.0,
+        speed: 0.0,
+        pressure: case.pressure,
+    };
+    let slide = Stage {
+        duration: 2.0,
+        speed: 1.0,
+        ..dwell
+    };
+    let run = case.run(&[dwell, slide], Some(&start)).unwrap();
+    assert_eq!(run.status, Status::Converged);
+    let still = start.finest.outcome.contact_fraction;
+    for moment in &run.moments[..40] {
+        // The state is one of equilibrium: nothing moves but by the residual, 1e-8.
+        assert!((moment.contact_fraction - still).abs() < 1e-7 && moment.friction.abs() < 1e-7);
+    }
+    let from_rest = case.run(&[dwell, slide], None).unwrap();
+    let (last, other) = (
+        run.moments.last().unwrap(),
+        from_rest.moments.last().unwrap(),
+    );
+    // After 20 relaxation times nothing is left of the beginning.
+    assert!((last.friction - other.friction).abs() < 1e-6 && last.friction > 0.01);
+}
+
+/// Pressure, mesh and speed may be others; rubber and profile must be the start's.
+#[test]
+fn a_start_of_another_rubber_or_profile_is_refused_by_name() {
+    let mut case = lossy();
+    case.speed = 1.0;
+    let start = case.solve(None).unwrap();
+    let stage = Stage {
+        duration: 0.1,
+        speed: 2.0,
+        pressure: 1.1 * case.pressure,
+    };
+    let mut other_mesh = case.clone();
+    (other_mesh.columns, other_mesh.rows) = (16, 6);
+    let run = other_mesh.run(&[stage], Some(&start)).unwrap();
+    assert_eq!(run.status, Status::Converged);
+    let refusal = |change: fn(&mut Case)| {
+        let mut other = case.clone();
+        change(&mut other);
+        other.run(&[stage], Some(&start)).unwrap_err().to_string()
+    };
+    let same = "start must be of the same rubber and profile; its";
+    assert_eq!(
+        refusal(|c| c.wavelength = 2.0),
+        format!("{same} wavelength is 1.0, not 2.0")
+    );
+    assert_eq!(
+        refusal(|c| c.moduli = vec![2.5]),
+        format!("{same} moduli is [2.0], not [2.5]")
+    );
+    for (change, name) in [
+        (
+            (|c| c.equilibrium_modulus = 1.5) as fn(&mut Case),
+            "equilibrium_modulus",
+        ),
+        (|c| c.relaxation_times = vec![0.2], "relaxation_times"),
+        (|c| c.bulk_modulus = 999.0, "bulk_modulus"),
+        (|c| c.amplitude = 0.11, "profile"),
+        (
+            |c| c.energy = ("mooney_rivlin", vec![("share", 0.1)]),
+            "strain_energy",
+        ),
+    ] {
+        assert!(
+            refusal(change).starts_with(&format!("{same} {name} is ")),
+            "{name}"
+        );
+    }
+}
+
+/// A state that was never found is nothing to start from.
+#[test]
+fn a_start_that_did_not_converge_is_refused() {
+    let mut case = lossy();
+    case.speed = 1.0;
+    case.settings = Settings::new([("max_iterations", 1.0)]).unwrap();
+    let start = case.solve(None).unwrap();
+    let stage = Stage {
+        duration: 0.1,
+        speed: 1.0,
+        pressure: case.pressure,
+    };
+    let refusal = case.run(&[stage], Some(&start)).unwrap_err().to_string();
+    assert!(refusal.starts_with("start must be a solution that converged; its status is"));
+}

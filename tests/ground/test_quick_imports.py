@@ -1,0 +1,39 @@
+"""What a room needs only in one function it must not load when it is imported."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import gripscale
+
+# A bare parent package, so that only the room itself is loaded.
+PROGRAM = """
+import importlib, sys, types
+parent = types.ModuleType("gripscale")
+parent.__path__ = [sys.argv[1]]
+sys.modules["gripscale"] = parent
+importlib.import_module(sys.argv[2])
+print(*sorted({name.partition(".")[0] for name in sys.modules}))
+"""
+
+
+@pytest.mark.parametrize(
+    ("room", "light"),
+    [
+        ("gripscale.surface", {"numpy"}),
+        ("gripscale.rubber", {"numpy"}),
+        ("gripscale.case", set()),
+        ("gripscale.case.read", {"numpy", "pydantic"}),
+    ],
+)
+def test_a_room_loads_only_what_it_must(room: str, light: set[str]) -> None:
+    folder = str(Path(gripscale.__file__).parent)
+    done = subprocess.run(
+        [sys.executable, "-c", PROGRAM, folder, room], capture_output=True, text=True, check=True
+    )
+    heavy = {"numpy", "scipy", "xarray", "pandas", "matplotlib", "pydantic", "typer", "rich"}
+    assert set(done.stdout.split()) & heavy == light

@@ -1,0 +1,183 @@
+"""Text files of every shape, read alike whether they hold a profile or a master curve."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from gripscale.errors import FileError
+from gripscale.rubber import MasterCurve, read_master_curve
+from gripscale.surface import Profile, read_profile
+from gripscale.textfile import parse_number, read_table
+
+# The first row of each holds whole numbers only, which look alike with either decimal sign.
+ROAD = [(0, 1), *((0.5 * i, 0.25 * (-1) ** i) for i in range(1, 20))]
+DMA = [(1, 2, 1), (2.5, 3.5, 0.5), (10.25, 4, 0.75)]
+ROAD_TITLES, DMA_TITLES = ("x", "z"), ("f", "E'", "E''")
+ROAD_UNITS, DMA_UNITS = ("mm", "µm"), ("Hz", "MPa", "MPa")
+
+
+def lines_of(titles: Any, units: Any, rows: Any, separator: str, decimal: str) -> list[str]:
+    named = [f"{title} [{unit}]" for title, unit in zip(titles, units, strict=True)]
+    cells = [[f"{value:g}".replace(".", decimal) for value in row] for row in rows]
+    return [separator.join(row) for row in (named, *cells)]
+
+
+def files(folder: Path, shape: Any, *, separator: str = ";", decimal: str = ".") -> list[Path]:
+    """Write the road and the DMA; `shape` makes bytes or a text of lines."""
+    paths = []
+    for name, *what in (
+        ("road.txt", ROAD_TITLES, ROAD_UNITS, ROAD),
+        ("dma.txt", DMA_TITLES, DMA_UNITS, DMA),
+    ):
+        shaped = shape(lines_of(*what, separator, decimal))
+        path = folder / name
+        path.write_bytes(shaped if isinstance(shaped, bytes) else shaped.encode())
+        paths.append(path)
+    return paths
+
+
+def as_meant(profile: Profile, curve: MasterCurve) -> None:
+    x, z = np.array(ROAD).T
+    assert profile.x == pytest.approx(1e-3 * x, rel=1e-14)
+    assert profile.z == pytest.approx(1e-6 * z, rel=1e-14)
+    frequency, storage, loss = np.array(DMA).T
+    assert curve.frequency == pytest.approx(frequency, rel=1e-14)
+    assert curve.storage == pytest.approx(1e6 * storage, rel=1e-14)
+    assert curve.loss == pytest.approx(1e6 * loss, rel=1e-14)
+
+
+def line_of_units(lines: list[str]) -> str:
+    words = lines[0].replace("]", "").split(";")
+    names, units = zip(*(word.split(" [") for word in words), strict=True)
+    return "\n".join([";".join(names), ";".join(units), *lines[1:]])
+
+
+SHAPES = {
+    "utf-8": lambda lines: "\n".join(lines),
+    "byte order mark": lambda lines: "\n".join(lines).encode("utf-8-sig"),
+    "utf-16": lambda lines: "\r\n".join(lines).encode("utf-16"),
+    "utf-16, big end first": lambda lines: b"\xfe\xff" + "\n".join(lines).encode("utf-16-be"),
+    "latin-1": lambda lines: "\n".join(lines).encode("latin-1"),
+    "doubled carriage returns": lambda lines: "\r\r\n".join(lines),
+    "bare carriage returns": lambda lines: "\r".join(lines),
+    "blank lines": lambda lines: "\n\n".join(lines),
+    "comments among the rows": lambda lines: "\n".join([*lines[:3], "# a % b ! c", *lines[3:]]),
+    "titles in a comment": lambda lines: "% " + "\n".join(lines),
+    "a preamble": lambda lines: "\n".join(["Rig 7", "Date;1/2/2020", *lines]),
+    "a line of units": line_of_units,
+    "units behind a slash": lambda lines: "\n".join(lines).replace(" [", " / ").replace("]", ""),
+    "units behind a blank": lambda lines: "\n".join(lines).replace(" [", " ").replace("]", ""),
+    "separators at the ends": lambda lines: ";\n".join(lines) + ";",
+    "separators around the rows": lambda lines: "\n".join(
+        [lines[0], *(f";{line};" for line in lines[1:])]
+    ),
+    "quotes": lambda lines: "\n".join(f'"{line}"'.replace(";", '";"') for line in lines),
+    "numbered rows": lambda lines: "\n".join(
+        f"{i or 'no.'};{line}" for i, line in enumerate(lines)
+    ),
+    "remarks": lambda lines: "\n".join(f"{line};-" for line in lines),
+}
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("decimal", [".", ","])
+def test_both_readers_understand(tmp_path: Path, shape: str, decimal: str) -> None:
+    road, dma = files(tmp_path, SHAPES[shape], decimal=decimal)
+    as_meant(read_profile(road), read_master_curve(dma))
+
+
+@pytest.mark.parametrize(
+    ("separator", "decimal"),
+    [(",", "."), (", ", "."), (";", ","), ("; ", ","), ("\t", "."), ("\t", ","), ("  ", ",")],
+)
+def test_every_separator_with_its_decimal_signs(
+    tmp_path: Path, separator: str, decimal: str
+) -> None:
+    road, dma = files(tmp_path, "\n".join, separator=separator, decimal=decimal)
+    as_meant(read_profile(road), read_master_curve(dma))
+
+
+def third_line(new: str) -> Any:
+    """Replace the second row's first cell, 0.5 or 2.5."""
+    return lambda lines: (
+        "\n".join([*lines[:2], ";".join([new, *lines[2].split(";")[1:]])])
+        + ("\n" + "\n".join(lines[3:]))
+    )
+
+
+REFUSED = {
+    "nothing": (lambda _: "", "got 0 in an empty file"),
+    "words": (lambda _: "a\nb\n", r"found none from line 1 \('a'\) on"),
+    "utf-16 without its mark": (lambda lines: "\n".join(lines).encode("utf-16-le"), "got binary"),
+    "two decimal signs": (
+        third_line("2,5"),
+        r"line \d: expected one decimal sign throughout; got '\S+' after '\S+' in line 3",
+    ),
+    "thousands": (third_line("1,234.5"), r"line 3: expected a .*; got '1,234\.5'"),
+    "underscores": (third_line("1_000"), "line 3: expected a .*; got '1_000'"),
+    "foreign digits": (third_line("١"), "line 3: expected a .*; got '١'"),
+    "infinity": (third_line("inf"), "line 3: expected a .*; got 'inf'"),
+    "beyond floating point": (third_line("1e999"), "line 3: expected a .*; got '1e999'"),
+    "nothing where a number must be": (third_line(""), "line 3: expected a .*; got ''"),
+    "a long row": (
+        lambda lines: "\n".join(lines) + "\n1;1;1;1;1",
+        r"line \d+: expected \d columns as in line 2; got 5",
+    ),
+    "a word in every row": (
+        lambda lines: "\n".join([lines[0], *(f"{line};ok" for line in lines[1:])]),
+        r"line 2: expected a number in column \d; got 'ok'",
+    ),
+    "a fault in the first row": (
+        lambda lines: "\n".join([lines[0], lines[1].rpartition(";")[0] + ";O.1", *lines[2:]]),
+        r"line 2: expected a number in column \d; got 'O\.1'",
+    ),
+}
+
+
+@pytest.mark.parametrize("shape", REFUSED)
+def test_both_readers_refuse(tmp_path: Path, shape: str) -> None:
+    make, says = REFUSED[shape]
+    road, dma = files(tmp_path, make)
+    for path, read in ((road, read_profile), (dma, read_master_curve)):
+        with pytest.raises(FileError, match=says) as caught:
+            read(path)
+        assert str(path) in str(caught.value)
+
+
+def test_commas_in_remarks_are_no_decimal_signs(tmp_path: Path) -> None:
+    path = tmp_path / "remarks.txt"
+    path.write_text("1.5;-;2.5\n2.5;wet, 3,5 C;3.5\n")
+    table = read_table(path, "numbers", kinds=(), named=bool)
+    assert table.decimal == "."
+    assert table.numbers(2, "a number").tolist() == [2.5, 3.5]
+
+
+@pytest.mark.parametrize(
+    ("title", "name", "unit"),
+    [
+        ("Frequency (Hz)", "Frequency", "Hz"),
+        ("E'_MPa", "E'", "MPa"),
+        ("E'/MPa", "E'", "MPa"),
+        ("omega rad/s", "omega", "rad/s"),
+        ("E' (1 Hz) [N/mm²]", "E' (1 Hz)", "N/mm²"),
+        ("loss [psi]", "loss", "psi"),
+        ("loss / psi", "loss", "psi"),
+        ("loss psi", "loss psi", None),
+        ("G'/G''", "G'/G''", None),
+    ],
+)
+def test_titles(tmp_path: Path, title: str, name: str, unit: str | None) -> None:
+    path = tmp_path / "titles.txt"
+    path.write_text(f"{title};frequency\n1;2\n", encoding="utf-8")
+    named = {"frequency"}.__contains__
+    table = read_table(path, "numbers", kinds=("frequency", "modulus"), named=named)
+    assert (table.columns[0].name, table.columns[0].unit) == (name, unit)
+
+
+@pytest.mark.parametrize("cell", ["1_000", "0x1", "infinity", "1e", "1.2.3", "١", "1,5"])
+def test_only_plain_numbers_are_numbers(cell: str) -> None:
+    assert parse_number(cell) is None

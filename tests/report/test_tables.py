@@ -1,0 +1,160 @@
+"""The table a person reads: its numbers, its units, its width."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from gripscale.chain import Prediction
+from gripscale.model import TOTALS, NominalLoad, answer
+from gripscale.report.tables import as_text, prediction_table, significant, totals
+from gripscale.rubber import Rubber
+from gripscale.surface import SineStack
+from gripscale.wave import WaveResult
+from gripscale.wave.status import Status
+
+
+class Spring(Rubber):
+    """A rubber with E* = 4 MPa + 3 MPa i at any frequency, so that |E*| is 5 MPa."""
+
+    def complex_modulus(self, omega: Any) -> Any:
+        return np.full(np.shape(omega), 4e6 + 3e6j)
+
+    def outside_band(self, omega: Any) -> Any:
+        return np.abs(omega) > 2 * np.pi * 100.0
+
+
+RUBBER = Spring(5e6, [1e6], [1.0])
+SINES = SineStack(wavelength=[16e-3, 4e-3, 1e-3], amplitude=[1e-3, 0.5e-3, 0.125e-3])
+
+
+def wave(i: int, speed: float, status: str = "converged") -> WaveResult:
+    """Return one of three waves with powers of two in contact and friction."""
+    friction = 0.125 * 2**i if speed > 0.0 else 0.0
+    return WaveResult(
+        wavelength=SINES.wavelength[i],
+        amplitude=SINES.amplitude[i],
+        pressure_received=[3e5, 6e5, 2.4e6][i],
+        speed=speed,
+        load_time=1.0,
+        contact_fraction=0.5 ** (i + 1),
+        friction=friction,
+        friction_from_dissipation=0.75 * friction,
+        status=Status(status),
+        newton_iterations=5 + i,
+        residual=1e-10,
+        min_stretch=0.5,
+        max_stretch=1.5,
+        x=np.linspace(-0.5, 0.5, 4) * SINES.wavelength[i],
+        pressure=np.full(4, 3e5),
+        rubber=RUBBER,
+    )
+
+
+def solved(speed: float = 0.25, statuses: tuple[str, ...] = ("converged",) * 3) -> xr.Dataset:
+    waves = [wave(i, speed, status) for i, status in enumerate(statuses)]
+    return Prediction(RUBBER, SINES, NominalLoad(3e5, speed, 0.1), waves, 3).to_dataset()
+
+
+def row(text: str, wave: int) -> list[str]:
+    return next(line.split() for line in text.splitlines() if line.split()[:1] == [str(wave)])
+
+
+def test_a_wave_fills_its_row() -> None:
+    text = as_text(prediction_table(solved(), "Dynamic", 120), width=120)
+    assert row(text, 2) == [
+        *("2", "4.00", "0.500", "0.79", "0.600", "5.00", "0.75*"),
+        *("0.250", "0.1250", "0.250", "0.375", "0.188", "0.50-1.50", "6", "converged"),
+    ]
+    assert "3 waves: real contact area A_r/A_0 = 0.0156, friction mu = 0.875" in text
+    assert "(0.656 from dissipation)" in text
+    assert "at most 25.00% apart" in text
+    assert "* the wave, or a harmonic of it" in text
+
+
+@pytest.mark.parametrize("width", [80, 100, 120])
+def test_nothing_is_cut_off(width: int) -> None:
+    text = as_text(prediction_table(solved(), "Dynamic", width), width=width)
+    assert max(map(len, text.splitlines())) <= width
+    assert "…" not in text
+    for cell in ("0.600", "5.00", "0.1250", "0.375", "0.188", "0.50-1.50", "converged"):
+        assert cell in text
+
+
+def test_hundred_columns_hold_one_table_and_eighty_two() -> None:
+    headings = [
+        as_text(prediction_table(solved(), "Dynamic", width), width=width).count("#")
+        for width in (100, 80)
+    ]
+    assert headings == [1, 2]
+
+
+def test_nothing_at_rest_has_friction() -> None:
+    text = as_text(prediction_table(solved(speed=0.0), "Static", 120), width=120)
+    assert row(text, 1)[6] == "-"
+    assert row(text, 1)[9:12] == ["-", "-", "-"]
+    assert "no friction at rest" in text
+
+
+def test_failed_wave_has_no_totals() -> None:
+    failed = solved(statuses=("converged", "iteration limit"))
+    assert totals(failed) == "No totals: wave 2 did not converge (iteration limit)."
+    assert "iteration limit" in as_text(prediction_table(failed, "Dynamic", 100), width=100)
+    reached = failed.assign(load_reached=("scale", [1.0, 0.4]))
+    assert totals(reached).endswith("(iteration limit at 40 % of the pressure).")
+
+
+@pytest.mark.parametrize("width", [80, 100])
+def test_long_status_is_wrapped_not_cut_off(width: int) -> None:
+    status = "active set not settled after 200 iterations, and the load step was cut 14 times"
+    failed = solved(statuses=("converged", "iteration limit"))
+    failed["status"].values[1] = status
+    text = as_text(prediction_table(failed, "Dynamic", width), width=width)
+    table = text[: text.index("No totals")]
+    assert set(status.split()) <= set(table.split())
+    assert max(map(len, table.splitlines())) <= width
+
+
+def test_model_without_waves_shows_its_totals() -> None:
+    numbers = dict(zip(TOTALS, (0.0123, 0.456, 0.451), strict=True))
+    load = NominalLoad(3e5, 0.3, 0.1)
+    data = answer(xr.Dataset(), numbers, "converged", "toy", load)
+    sentence = "real contact area A_r/A_0 = 0.0123, friction mu = 0.456 (0.451 from dissipation)."
+    assert as_text(prediction_table(data, "Toy", 100)) == f"Toy\n{sentence}\n"
+    failed = answer(xr.Dataset(), dict.fromkeys(TOTALS, np.nan), "no contact", "toy", load)
+    assert totals(failed) == "No totals: no contact."
+
+
+def test_tables_need_no_drawing_library() -> None:
+    code = (
+        "import sys, gripscale.report.tables, gripscale.report\n"
+        "print(sorted({'matplotlib', 'bokeh', 'scipy', 'xarray', 'jinja2'} & set(sys.modules)))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "[]\n"
+
+
+def test_brackets_are_text_not_markup() -> None:
+    assert as_text("lag [mm], [bold]", "x") == "lag [mm], [bold]\nx\n"
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (0.0, "0"),
+        (0.079281, "0.0793"),
+        (26.99, "27.0"),
+        (4545.0, "4545"),
+        (1.5e-7, "1.50e-07"),
+        (2.5e9, "2.50e+09"),
+        (float("nan"), "-"),
+        (float("inf"), "inf"),
+    ],
+)
+def test_significant_digits(value: float, text: str) -> None:
+    assert significant(value) == text

@@ -1,0 +1,79 @@
+"""Every strain energy of the list: slopes, small strain, names, and what is refused."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from gripscale.errors import InputError
+from gripscale.rubber import (
+    STRAIN_ENERGIES,
+    MooneyRivlin,
+    NeoHookean,
+    Rubber,
+    StrainEnergy,
+    Yeoh,
+    strain_energy,
+)
+
+LAWS = [NeoHookean(), MooneyRivlin(0.3), Yeoh(-0.06, 0.005)]
+
+
+def test_every_kind_is_tried_here() -> None:
+    assert {law.kind for law in LAWS} == set(STRAIN_ENERGIES)
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_a_law_is_made_from_its_kind_and_parameters(law: StrainEnergy) -> None:
+    assert strain_energy(law.kind, **law.parameters()) == law
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_the_shear_modulus_at_small_strain_is_one(law: StrainEnergy) -> None:
+    """Factors depart from 1 by the strain at most, times the parameters' order 1."""
+    assert law.uniaxial_factor([1.0 - 1e-9, 1.0, 1.0 + 1e-9]) == pytest.approx([1] * 3, abs=1e-8)
+    assert law.shear_factor([-1e-9, 0.0, 1e-9]) == pytest.approx([1] * 3, abs=1e-14)
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_coefficients_give_the_law_and_its_stress(law: StrainEnergy) -> None:
+    """G times the factor is the sum of c_k times the basis, whatever c_k is; sums of three."""
+    stretch = np.linspace(0.5, 3.0, 26)
+    basis = np.array(type(law).basis(stretch))
+    factor = 2e6 * law.uniaxial_factor(stretch)
+    found = np.linalg.lstsq(basis.T, factor, rcond=None)[0]
+    shear, same = type(law).from_coefficients(found.tolist())
+    assert found @ basis == pytest.approx(factor, rel=1e-12)
+    assert shear == pytest.approx(2e6, rel=1e-10)
+    assert same.parameters() == pytest.approx(law.parameters(), rel=1e-9)
+    assert len(type(law).least_coefficients) == len(basis)
+    assert (found >= type(law).least_coefficients).all()
+
+
+@pytest.mark.parametrize(
+    ("kind", "parameters", "says"),
+    [
+        ("ogden", {}, "kind must be one of neo_hookean, mooney_rivlin, yeoh; got 'ogden'"),
+        ("yeoh", {"second": 0.1}, "yeoh takes the parameters second, third; got second"),
+        ("yeoh", {}, "yeoh takes the parameters second, third; got none"),
+        ("neo_hookean", {"share": 0.1}, "neo_hookean takes no parameters; got share"),
+        ("mooney_rivlin", {"share": "half"}, "share must be a finite number; got 'half'"),
+        ("mooney_rivlin", {"share": np.nan}, "share must be a finite number; got nan"),
+        ("mooney_rivlin", {"share": 1.5}, "share must be from 0 to 1; got 1.5"),
+        ("mooney_rivlin", {"share": -0.1}, "share must be from 0 to 1; got -0.1"),
+    ],
+)
+def test_what_is_no_strain_energy_is_named(
+    kind: str, parameters: dict[str, float], says: str
+) -> None:
+    with pytest.raises(InputError, match=says):
+        strain_energy(kind, **parameters)
+
+
+def test_a_rubber_takes_any_law_and_nothing_else() -> None:
+    class Stiffer(NeoHookean):
+        kind = "stiffer"
+
+    assert Rubber(1e6, strain_energy=Stiffer()).strain_energy == Stiffer()
+    with pytest.raises(InputError, match=r"strain_energy must be a StrainEnergy.* got 'yeoh'"):
+        Rubber(1e6, strain_energy="yeoh")  # type: ignore[arg-type]

@@ -1,0 +1,38 @@
+"""Every wave of the shipped case against the same wave, under the same load, on a fine mesh."""
+
+import pytest
+
+from gripscale.case import run_case
+from gripscale.wave import FiniteStrainBlock, Load, Mesh, Sine, WaveProblem
+from tests.verification.families import ROOT
+
+CASE = ROOT / "examples" / "road_and_tread" / "case.toml"
+FINE = FiniteStrainBlock(Mesh(256, 30))
+
+
+def again(scale):
+    """Solve a wave of a prediction on the fine mesh."""
+    sine = Sine(scale.wavelength, scale.amplitude)
+    load = Load(scale.pressure_received, scale.speed, scale.load_time)
+    return FINE.solve(WaveProblem(scale.rubber, sine, load))
+
+
+@pytest.mark.verification
+def test_every_wave_is_near_the_fine_mesh():
+    """Friction within 0.5 %, contact fraction within 0.005, and both within their own estimates."""
+    results = run_case(CASE)
+    assert results.converged
+    for prediction in (results.dynamic, results.static):
+        assert len(prediction.scales) == 8
+        fine = [again(scale) for scale in prediction.scales]
+        for one, finer in zip(prediction.scales, fine, strict=True):
+            assert finer.converged
+            area = abs(one.contact_fraction - finer.contact_fraction)
+            assert area <= min(0.005, one.contact_fraction_error)
+            if prediction is results.dynamic:
+                friction = abs(one.friction - finer.friction)
+                assert friction < min(0.005 * finer.friction, one.friction_error)
+                assert one.friction_mismatch < 0.02
+                assert finer.friction_mismatch < 0.001
+        total = sum(finer.friction for finer in fine)
+        assert prediction.friction == pytest.approx(total, rel=0.005, abs=1e-9)
