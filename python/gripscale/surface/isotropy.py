@@ -19,7 +19,6 @@ the first equation instead, and not negative.
 from __future__ import annotations
 
 import numpy as np
-from scipy import optimize, special
 
 from gripscale import checks
 from gripscale.errors import InputError
@@ -58,6 +57,9 @@ def areal_spectrum(
     InputError
         If `hurst` is not above 0 and up to 1, or there are fewer than four points.
     """
+    from scipy.optimize import nnls
+    from scipy.special import gamma
+
     mean = spectrum.averaged(per_decade)
     q, density = mean.wavenumber, mean.density
     if q.size < _TAIL_POINTS or not (density > 0.0).all():
@@ -69,13 +71,13 @@ def areal_spectrum(
         exponent = checks.positive("hurst", hurst)
         if exponent > 1.0:
             raise InputError(f"hurst must be at most 1; got {hurst:g}")
-        ratio = special.gamma(exponent + 0.5) / special.gamma(exponent + 1.0)
+        ratio = gamma(exponent + 0.5) / gamma(exponent + 1.0)
         areal = density / (2.0 * np.sqrt(np.pi) * q * ratio)
     else:
         certainty = np.sqrt(mean.width) / density
         size = density / q
         matrix = certainty[:, None] * _seen_by_lines(q, density) * size
-        areal = size * optimize.nnls(matrix, certainty * density)[0]
+        areal = size * nnls(matrix, certainty * density)[0]
     return ArealSpectrum(q, areal, mean.interpolated)
 
 
@@ -99,9 +101,11 @@ def _seen_beyond(q: FloatArray, density: FloatArray) -> FloatArray:
 
     4 int_Q^inf C q dq / sqrt(q^2 - k^2) = 2 C(Q) Q (Q/k)^s B(k^2/Q^2; s/2, 1/2), C ~ q^(-1 - s).
     """
+    from scipy.special import beta, betainc
+
     fall = np.log(density[-_TAIL_POINTS] / density[-1]) / np.log(q[-1] / q[-_TAIL_POINTS])
     s = max(float(fall), _SLOWEST_FALL)
-    incomplete = special.betainc(s / 2.0, 0.5, (q / q[-1]) ** 2) * special.beta(s / 2.0, 0.5)
+    incomplete = betainc(s / 2.0, 0.5, (q / q[-1]) ** 2) * beta(s / 2.0, 0.5)
     added = np.zeros((q.size, q.size))
     added[:, -1] = 2.0 * q[-1] * (q[-1] / q) ** s * incomplete
     return added

@@ -58,7 +58,7 @@ def profile_spectrum(
     InputError
         If the steps differ, the window does not fit or a word is unknown.
     """
-    from scipy import signal  # slow to import
+    from scipy import signal
 
     profiles = _profiles(profile)
     step = profiles[0].step

@@ -23,7 +23,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import special
 
 from gripscale import checks, model, versions
 from gripscale.errors import InputError
@@ -222,12 +221,14 @@ class _Integrals:
 
     def at_nodes(self, intervals: int) -> tuple[Array, Array]:
         """Return P and mu at the nodes, by the trapezoidal rule in log q."""
+        from scipy.special import erf
+
         log_q = divided(np.log(self.nodes), intervals)
         q = np.exp(log_q)
         stiff, lossy = self.over_angles(q, _ANGLES + intervals)
         weight = q**4 * self.spectrum.at(q)  # q^3 C dq with dq = q d(log q)
         with np.errstate(divide="ignore"):
-            area = special.erf(1.0 / np.sqrt(running_integral(weight * stiff / 2.0, log_q)))
+            area = erf(1.0 / np.sqrt(running_integral(weight * stiff / 2.0, log_q)))
         factor = self.gamma + (1.0 - self.gamma) * area**2
         friction = running_integral(weight * lossy * factor * area / 2.0, log_q)
         return area[::intervals], friction[::intervals]
