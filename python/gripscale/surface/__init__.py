@@ -2,27 +2,35 @@
 
 from gripscale.surface.cleaning import CleaningReport, StepReport, clean
 from gripscale.surface.height_difference import HeightDifference, height_difference
+from gripscale.surface.isotropy import areal_spectrum
+from gripscale.surface.periodogram import map_spectrum, profile_spectrum
 from gripscale.surface.prepared import Measured, PreparedSurface
 from gripscale.surface.profile import Profile
 from gripscale.surface.read import read_profile, read_profiles
 from gripscale.surface.self_affine import SelfAffineFit, fit_self_affine
 from gripscale.surface.sine_fit import fit_sines
 from gripscale.surface.sines import SineStack
+from gripscale.surface.spectrum import ArealSpectrum, ProfileSpectrum
 from gripscale.surface.synthetic import self_affine_profile, sine_profile
 
 __all__ = [
+    "ArealSpectrum",
     "CleaningReport",
     "HeightDifference",
     "Measured",
     "PreparedSurface",
     "Profile",
+    "ProfileSpectrum",
     "SelfAffineFit",
     "SineStack",
     "StepReport",
+    "areal_spectrum",
     "clean",
     "fit_self_affine",
     "fit_sines",
     "height_difference",
+    "map_spectrum",
+    "profile_spectrum",
     "read_profile",
     "read_profiles",
     "self_affine_profile",

@@ -6,6 +6,12 @@ from .half_plane import solve_half_plane as solve_half_plane
 from .hertz import contact_half_width as contact_half_width
 from .hertz import crest_radius as crest_radius
 from .hertz import largest_pressure as largest_pressure
+from .klueppel_heinrich import KlueppelHeinrichResult as KlueppelHeinrichResult
+from .klueppel_heinrich import klueppel_heinrich as klueppel_heinrich
+from .models import KlueppelHeinrich as KlueppelHeinrich
+from .models import Persson as Persson
+from .persson import PerssonResult as PerssonResult
+from .persson import persson as persson
 from .slab import slab_compliance as slab_compliance
 from .uniaxial import step_relaxation_stress as step_relaxation_stress
 from .westergaard import contact_fraction as contact_fraction

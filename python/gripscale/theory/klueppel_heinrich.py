@@ -1,0 +1,227 @@
+"""The theory of Klueppel and Heinrich: hysteresis friction by the loss under a self-affine surface.
+
+    mu     = 1/2 delta/(p_0 v) int dw w E''(w) S(w),     w = 2 pi v/lambda from xi_par to lambda_min
+    delta  = b z_p
+    S(w)   = S_0 (w/w_min)^(-(2H + 1)),   S_0 = H xi_perp^2/(2 pi v xi_par),   w_min = 2 pi v/xi_par
+
+M. Klueppel & G. Heinrich, Rubber Chem. Technol. 73 (2000) 578, doi:10.5254/1.3547607: a layer of
+mean thickness delta, b times the mean penetration depth z_p, is strained at random as the rubber
+passes the surface.
+
+What was confirmed and what was not: the integral and delta = b z_p are as the literature quotes
+them; the paper itself could not be consulted. The integral is a number only if S is the spectrum of
+a strain [s]. It is taken here as the one-sided spectrum of the heights over xi_par^2,
+
+    int_(w_min)^inf S dw = (xi_perp^2/2)/xi_par^2,      xi_perp^2/2 the variance of the heights,
+
+which fixes S_0; another reference length changes mu by a factor that does not depend on load or
+speed, which b carries. The theory's own rules for z_p (Greenwood & Williamson) and for lambda_min
+(the energy criterion of A. Le Gal & M. Klueppel, J. Phys.: Condens. Matter 20 (2008) 015007,
+doi:10.1088/0953-8984/20/01/015007) carry constants that could not be confirmed: both lengths are
+stated by the caller. Of contact area nothing is said here.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gripscale import checks, model, versions
+from gripscale.errors import InputError
+from gripscale.model import NominalLoad
+from gripscale.rubber import Rubber
+from gripscale.surface.height_difference import HeightDifference, height_difference
+from gripscale.surface.profile import Profile
+from gripscale.surface.self_affine import SelfAffineFit, fit_self_affine
+from gripscale.theory.quadrature import divided, refined, running_integral
+from gripscale.wave.status import Status
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Array = NDArray[np.float64]
+
+SOURCE = "Klueppel & Heinrich 2000, Rubber Chem. Technol. 73, 578"
+TOLERANCE = 1e-6
+"""Error of the integral up to which a result is converged, relative."""
+
+_NODES = 33
+"""Wavelengths at which the running friction is told."""
+
+_COARSEST, _FINEST = 4, 1024
+"""Intervals between them, doubled from the first to the last."""
+
+_VARIABLES = (
+    ("wavelength", "scale", "m", "wavelength"),
+    ("running_friction", "scale", "1", "friction coefficient so far"),
+    ("layer_ratio", (), "1", "thickness of the strained layer over penetration depth"),
+    ("penetration_depth", (), "m", "mean penetration depth"),
+    ("friction_error", (), "1", "estimated error of the friction coefficient"),
+)
+"""What a result is made of: name, dimension, unit, meaning."""
+
+
+@dataclass(frozen=True)
+class KlueppelHeinrichResult:
+    """Hysteresis friction of a self-affine surface, down to each wavelength (m, Pa, m/s)."""
+
+    rubber: Rubber
+    surface: SelfAffineFit
+    load: NominalLoad
+    layer_ratio: float
+    penetration_depth: float
+    wavelength: Array = field(repr=False)
+    """Falling, from the cut-off length of the surface to the smallest one asked for."""
+    running_friction: Array = field(repr=False)
+    """Friction coefficient of the waves down to each wavelength [-]."""
+    friction_error: float
+    """Change of the friction coefficient when the resolution was doubled last [-]."""
+
+    @property
+    def contact_fraction(self) -> float:
+        """NaN: see the head of the module."""
+        return math.nan
+
+    @property
+    def friction(self) -> float:
+        """Friction coefficient [-]."""
+        return float(self.running_friction[-1])
+
+    @property
+    def status(self) -> Status:
+        """`converged` if doubling the resolution changed friction by less than `TOLERANCE`."""
+        met = self.friction_error <= TOLERANCE * self.friction
+        return Status.CONVERGED if met else Status.TOLERANCE_NOT_MET
+
+    @property
+    def converged(self) -> bool:
+        """Whether the numbers may be used."""
+        return self.status == Status.CONVERGED
+
+    def to_dataset(self) -> xr.Dataset:
+        """Return everything as a labelled Dataset over `scale`, the wavelengths."""
+        import xarray as xr
+
+        from gripscale.wave.dataset import labelled
+
+        data = {
+            name: labelled(dims, getattr(self, name), unit, text, SOURCE)
+            for name, dims, unit, text in _VARIABLES
+        }
+        number = np.arange(1, self.wavelength.size + 1)
+        coordinate = labelled("scale", number, "1", "number of the wavelength", SOURCE)
+        friction = self.friction if self.converged else math.nan
+        totals = {
+            "total_contact_fraction": self.contact_fraction,
+            "total_friction": friction,
+            "total_friction_from_dissipation": friction,
+        }
+        result = xr.Dataset(data, coords={"scale": coordinate}).assign_attrs(
+            title="Hysteresis friction of rubber on a self-affine surface",
+            rubber=f"{self.rubber.name}; {self.rubber.source}".strip("; "),
+            rubber_parameters=json.dumps(self.rubber.to_dict()),
+            method=SOURCE,
+            **versions.attributes(),
+        )
+        return model.answer(result, totals, str(self.status), "klueppel_heinrich", self.load)
+
+
+def klueppel_heinrich(
+    rubber: Rubber,
+    surface: SelfAffineFit | HeightDifference | Profile | Sequence[Profile],
+    *,
+    pressure: float,
+    speed: float,
+    layer_ratio: float,
+    penetration_depth: float,
+    smallest_wavelength: float,
+    footprint: float | None = None,
+) -> KlueppelHeinrichResult:
+    """Return the hysteresis friction of a self-affine surface by Klueppel and Heinrich.
+
+    Parameters
+    ----------
+    rubber : Rubber
+        The sliding rubber.
+    surface : SelfAffineFit, HeightDifference or Profile(s)
+        Of profiles only the upper part counts, see `upper_part`; a correlation is taken as it is.
+    pressure, speed : float
+        Nominal pressure [Pa], above zero, and sliding speed [m/s]; at zero there is no friction.
+    layer_ratio : float
+        b, thickness of the strained layer over penetration depth [-]. A free parameter of the
+        theory: fitted to friction measured with the same rubber and surface, not known beforehand.
+    penetration_depth : float
+        Mean depth z_p to which the surface's tops enter the rubber, under this load and at this
+        speed [m].
+    smallest_wavelength : float
+        Smallest wave that counts [m].
+    footprint : float, optional
+        Length of the nominal contact [m]: recorded, without effect; the cut-off length of the
+        surface by default.
+
+    Returns
+    -------
+    KlueppelHeinrichResult
+        Its `contact_fraction` is NaN.
+
+    Raises
+    ------
+    InputError
+        If an argument is out of its range, or the surface is not self-affine.
+    """
+    fit = _self_affine(surface)
+    ratio = checks.positive("layer_ratio", layer_ratio)
+    depth = checks.positive("penetration_depth", penetration_depth, unit="m")
+    smallest = checks.positive("smallest_wavelength", smallest_wavelength, unit="m")
+    if smallest >= fit.xi_parallel:
+        raise InputError(
+            "smallest_wavelength must be below the cut-off length of the surface, "
+            f"{fit.xi_parallel:.4g} m; got {smallest:.4g}"
+        )
+    load = NominalLoad(pressure, speed, fit.xi_parallel if footprint is None else footprint)
+    wavelength = np.geomspace(fit.xi_parallel, smallest, _NODES)
+
+    def at(intervals: int) -> tuple[Array]:
+        log_q = divided(np.log(2.0 * np.pi / wavelength), intervals)
+        q = np.exp(log_q)
+        loss = rubber.complex_modulus(q * load.speed).imag
+        # delta/(2 p v) w E'' S dw, with S dw = v S d q the share of strain at q, and w = q v
+        work = 0.5 * ratio * depth / load.pressure * q * loss * _strain_spectrum(q, fit)
+        return (running_integral(work * q, log_q)[::intervals],)
+
+    (friction,), (error,) = refined(at, _COARSEST, _FINEST, TOLERANCE)
+    return KlueppelHeinrichResult(rubber, fit, load, ratio, depth, wavelength, friction, error)
+
+
+def upper_part(profile: Profile) -> Profile:
+    """Return the profile with the heights below their median missing: the valleys touch nothing."""
+    return replace(profile, z=np.where(profile.z >= np.nanmedian(profile.z), profile.z, np.nan))
+
+
+def _self_affine(
+    surface: SelfAffineFit | HeightDifference | Profile | Sequence[Profile],
+) -> SelfAffineFit:
+    if isinstance(surface, SelfAffineFit):
+        return surface
+    if not isinstance(surface, HeightDifference):
+        profiles = [surface] if isinstance(surface, Profile) else list(surface)
+        if not all(isinstance(one, Profile) for one in profiles):
+            raise InputError(
+                "surface must be a SelfAffineFit, a HeightDifference or profiles; "
+                f"got {surface!r:.80}"
+            )
+        surface = height_difference([upper_part(one) for one in profiles])
+    return fit_self_affine(surface)
+
+
+def _strain_spectrum(q: Array, fit: SelfAffineFit) -> Array:
+    """Return v S at the frequency q v [m]: the spectrum of the strain over the wavenumber q."""
+    first = 2.0 * np.pi / fit.xi_parallel
+    level = fit.hurst * fit.xi_perpendicular**2 / (2.0 * np.pi * fit.xi_parallel)
+    return np.asarray(level * (q / first) ** (-(2.0 * fit.hurst + 1.0)))

@@ -1,0 +1,141 @@
+"""The theories as models over measured profiles, to be compared, varied, drawn and reported."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from gripscale.errors import InputError
+from gripscale.model import NominalLoad
+from gripscale.rubber import Rubber
+from gripscale.surface.periodogram import profile_spectrum
+from gripscale.surface.prepared import Measured, PreparedSurface
+from gripscale.surface.profile import Profile
+from gripscale.surface.sines import SineStack
+from gripscale.theory.klueppel_heinrich import klueppel_heinrich
+from gripscale.theory.persson import persson
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+@dataclass(frozen=True)
+class Persson:
+    """Persson's theory, with the profiles as lines on an isotropic surface.
+
+    Parameters
+    ----------
+    smallest_wavelength : float, optional
+        Smallest wave that counts [m]; that of the surface's sine waves by default.
+    gamma : float
+        See `persson`.
+    window : float, optional
+        See `profile_spectrum` [m].
+    """
+
+    name: ClassVar[str] = "persson"
+
+    smallest_wavelength: float | None = None
+    gamma: float = 0.5
+    window: float | None = None
+
+    def relevant(self, surface: PreparedSurface) -> PreparedSurface:
+        """Return the cleaned profiles of `surface` and its smallest wave."""
+        return _relevant(surface)
+
+    def predict(
+        self,
+        rubber: Rubber,
+        surface: PreparedSurface,
+        load: NominalLoad,
+        *,
+        on_progress: Callable[[Any], None] | None = None,
+    ) -> xr.Dataset:
+        """Return the answer as a Dataset; `on_progress` gets the `PerssonResult`.
+
+        Raises `InputError` if the surface was not measured, or not down to the smallest wave.
+        """
+        result = persson(
+            rubber,
+            profile_spectrum(_cleaned(surface, self.name), window=self.window),
+            pressure=load.pressure,
+            speed=load.speed,
+            smallest_wavelength=_smallest(self.smallest_wavelength, surface),
+            gamma=self.gamma,
+        )
+        return _answered(replace(result, load=load), on_progress)
+
+
+@dataclass(frozen=True)
+class KlueppelHeinrich:
+    """The theory of Klueppel and Heinrich, of the upper part of the profiles.
+
+    Parameters
+    ----------
+    layer_ratio, penetration_depth : float
+        See `klueppel_heinrich`; the depth [m] is the same at every load.
+    smallest_wavelength : float, optional
+        Smallest wave that counts [m]; that of the surface's sine waves by default.
+    """
+
+    name: ClassVar[str] = "klueppel_heinrich"
+
+    layer_ratio: float
+    penetration_depth: float
+    smallest_wavelength: float | None = None
+
+    def relevant(self, surface: PreparedSurface) -> PreparedSurface:
+        """Return the cleaned profiles of `surface` and its smallest wave."""
+        return _relevant(surface)
+
+    def predict(
+        self,
+        rubber: Rubber,
+        surface: PreparedSurface,
+        load: NominalLoad,
+        *,
+        on_progress: Callable[[Any], None] | None = None,
+    ) -> xr.Dataset:
+        """Return the answer as a Dataset; `on_progress` gets the `KlueppelHeinrichResult`.
+
+        Raises `InputError` if the surface was not measured or its upper part is not self-affine.
+        """
+        result = klueppel_heinrich(
+            rubber,
+            _cleaned(surface, self.name),
+            pressure=load.pressure,
+            speed=load.speed,
+            layer_ratio=self.layer_ratio,
+            penetration_depth=self.penetration_depth,
+            smallest_wavelength=_smallest(self.smallest_wavelength, surface),
+        )
+        return _answered(replace(result, load=load), on_progress)
+
+
+def _answered(result: Any, on_progress: Callable[[Any], None] | None) -> xr.Dataset:
+    if on_progress is not None:
+        on_progress(result)
+    data: xr.Dataset = result.to_dataset()
+    return data
+
+
+def _smallest(stated: float | None, surface: PreparedSurface) -> float:
+    return float(surface.sines.wavelength[-1]) if stated is None else stated
+
+
+def _cleaned(surface: PreparedSurface, name: str) -> list[Profile]:
+    if surface.measured is None:
+        raise InputError(
+            f"{name} needs measured profiles; got a surface of sine waves only ({surface.source})"
+        )
+    return [cleaned for _, cleaned in surface.measured.profiles]
+
+
+def _relevant(surface: PreparedSurface) -> PreparedSurface:
+    """Return nothing of `surface` but its cleaned profiles and its smallest wavelength."""
+    smallest = SineStack(surface.sines.wavelength[-1:], surface.sines.wavelength[-1:])
+    if surface.measured is None:
+        return PreparedSurface(smallest, source="")
+    lines = [(cleaned, cleaned) for _, cleaned in surface.measured.profiles]
+    return PreparedSurface(smallest, source="", measured=Measured(lines, [], None, ""))

@@ -1,0 +1,251 @@
+"""Persson's theory: contact area and hysteresis friction of a randomly rough surface.
+
+    G(q) = 1/8 int_q0^q dk k^3 C(k) int_0^2pi dphi |M(k v cos phi)|^2 / p_0^2
+    P(q) = erf(1/(2 sqrt G(q)))                                    A/A_0 seen down to q
+    S(q) = gamma + (1 - gamma) P(q)^2
+    mu   = 1/2 int_q0^q1 dq q^3 C(q) S(q) P(q) int_0^2pi dphi cos phi Im M(q v cos phi) / p_0
+
+with the areal spectrum C, M = E*/(1 - nu^2) and sliding along phi = 0. Source: B. N. J. Persson,
+J. Chem. Phys. 115 (2001) 3840, doi:10.1063/1.1388626; the factor S, for the smaller deformation
+inside asperity contacts, M. Scaraggi & B. N. J. Persson, J. Phys.: Condens. Matter 27 (2015)
+105102, doi:10.1088/0953-8984/27/10/105102, which finds gamma about 1/2.
+
+Exact limits: full contact (P = 1) is the sum of all waves, each with its closed form; light elastic
+contact is A/A_0 = sqrt(8/pi) p_0/(M h'), with h' the rms gradient of the surface, from
+G = (M h'/p_0)^2/8 and erf(x) = 2 x/sqrt(pi).
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gripscale import checks, model, versions
+from gripscale.errors import InputError
+from gripscale.model import NominalLoad
+from gripscale.rubber import Rubber
+from gripscale.surface.isotropy import areal_spectrum
+from gripscale.surface.spectrum import ArealSpectrum, ProfileSpectrum, last_wavenumber
+from gripscale.theory.quadrature import divided, filled_in, refined, running_integral
+from gripscale.wave.status import Status
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Array = NDArray[np.float64]
+
+SOURCE = "Persson 2001, J. Chem. Phys. 115, 3840"
+TOLERANCE = 1e-4
+"""Error of the integrals up to which a result is converged, relative."""
+
+_VARIABLES = (
+    ("wavelength", "scale", "m", "wavelength"),
+    ("running_contact_fraction", "scale", "1", "real over nominal contact area so far"),
+    ("running_friction", "scale", "1", "friction coefficient so far"),
+    ("rms_gradient", (), "1", "areal root mean square gradient"),
+    ("profile_rms_slope", (), "1", "root mean square slope of lines"),
+    ("contact_fraction_error", (), "1", "estimated error of the contact fraction"),
+    ("friction_error", (), "1", "estimated error of the friction coefficient"),
+    ("gamma", (), "1", "share of the deformation left in small contacts"),
+)
+"""What a result is made of: name, dimension, unit, meaning."""
+
+_COARSEST, _FINEST = 4, 128
+"""Intervals between neighbouring points of the spectrum, doubled from the first to the last."""
+
+_WIDEST = 0.25
+"""Widest step of log q on the coarsest grid, times the intervals there."""
+
+_ANGLES = 12
+"""Angles of a quarter turn beyond the number of intervals."""
+
+
+@dataclass(frozen=True)
+class PerssonResult:
+    """Contact and friction of a randomly rough surface, down to each wavelength.
+
+    All lengths in m, pressures in Pa, speeds in m/s; numbers along `wavelength` have its shape.
+    """
+
+    rubber: Rubber
+    load: NominalLoad
+    gamma: float
+    wavelength: Array = field(repr=False)
+    """Falling, from the largest wave of the spectrum to the smallest one asked for."""
+    running_contact_fraction: Array = field(repr=False)
+    """A/A_0 down to each wavelength, P(q) [-]."""
+    running_friction: Array = field(repr=False)
+    """Friction coefficient of the waves down to each wavelength [-]."""
+    rms_gradient: float
+    """Of the surface, down to the smallest wavelength: areal [-]."""
+    profile_rms_slope: float
+    """Of lines through the same waves: the areal number over sqrt(2) [-]."""
+    contact_fraction_error: float
+    """Change of the contact fraction when the resolution was doubled last [-]."""
+    friction_error: float
+    """Change of the friction coefficient when the resolution was doubled last [-]."""
+
+    @property
+    def contact_fraction(self) -> float:
+        """Real over nominal contact area [-]."""
+        return float(self.running_contact_fraction[-1])
+
+    @property
+    def friction(self) -> float:
+        """Friction coefficient [-]."""
+        return float(self.running_friction[-1])
+
+    @property
+    def status(self) -> Status:
+        """`converged` if doubling the resolution changed both numbers by less than `TOLERANCE`."""
+        area = self.contact_fraction_error <= TOLERANCE * self.contact_fraction
+        friction = self.friction_error <= TOLERANCE * abs(self.friction)
+        return Status.CONVERGED if area and friction else Status.TOLERANCE_NOT_MET
+
+    @property
+    def converged(self) -> bool:
+        """Whether the numbers may be used."""
+        return self.status == Status.CONVERGED
+
+    def to_dataset(self) -> xr.Dataset:
+        """Return everything as a labelled Dataset over `scale`, the points of the spectrum."""
+        import xarray as xr
+
+        from gripscale.wave.dataset import labelled
+
+        data = {
+            name: labelled(dims, getattr(self, name), unit, text, SOURCE)
+            for name, dims, unit, text in _VARIABLES
+        }
+        number = np.arange(1, self.wavelength.size + 1)
+        coordinate = labelled("scale", number, "1", "number of the wavelength", SOURCE)
+        totals = {
+            "total_contact_fraction": self.contact_fraction,
+            "total_friction": self.friction,
+            "total_friction_from_dissipation": self.friction,
+        }
+        if not self.converged:
+            totals = dict.fromkeys(totals, float("nan"))
+        result = xr.Dataset(data, coords={"scale": coordinate}).assign_attrs(
+            title="Real contact area and friction of rubber on a randomly rough surface",
+            rubber=f"{self.rubber.name}; {self.rubber.source}".strip("; "),
+            rubber_parameters=json.dumps(self.rubber.to_dict()),
+            method=SOURCE,
+            **versions.attributes(),
+        )
+        return model.answer(result, totals, str(self.status), "persson", self.load)
+
+
+def persson(
+    rubber: Rubber,
+    spectrum: ArealSpectrum | ProfileSpectrum,
+    *,
+    pressure: float,
+    speed: float,
+    smallest_wavelength: float | None = None,
+    gamma: float = 0.5,
+    footprint: float | None = None,
+) -> PerssonResult:
+    """Return contact and friction of a randomly rough surface by Persson's theory.
+
+    Parameters
+    ----------
+    rubber : Rubber
+        The sliding half-space, at small strain.
+    spectrum : ArealSpectrum or ProfileSpectrum
+        Of the surface; of a line, `areal_spectrum` makes it that of an isotropic surface.
+    pressure, speed : float
+        Nominal pressure [Pa], above zero, and sliding speed [m/s]; zero is static contact of the
+        relaxed rubber, without friction.
+    smallest_wavelength : float, optional
+        Smallest wave that counts [m]; that of the spectrum by default.
+    gamma : float
+        Share of the deformation that is left where contact is small, 0 to 1.
+    footprint : float, optional
+        Length of the nominal contact [m]: recorded, without effect; the largest wave by default.
+
+    Returns
+    -------
+    PerssonResult
+        A `status` other than "converged" says that the integrals are not accurate.
+
+    Raises
+    ------
+    InputError
+        If an argument is out of its range.
+    """
+    if isinstance(spectrum, ProfileSpectrum):
+        spectrum = areal_spectrum(spectrum)
+    if not isinstance(spectrum, ArealSpectrum):
+        raise InputError(
+            f"spectrum must be an ArealSpectrum or a ProfileSpectrum; got {spectrum!r:.80}"
+        )
+    share = checks.not_negative("gamma", gamma)
+    if share > 1.0:
+        raise InputError(f"gamma must be at most 1; got {gamma:g}")
+    last = last_wavenumber(spectrum.wavenumber, smallest_wavelength)
+    points = np.append(spectrum.wavenumber[spectrum.wavenumber < last], last)
+    nodes = np.exp(filled_in(np.log(points), _WIDEST))
+    load = NominalLoad(pressure, speed, 2.0 * np.pi / nodes[0] if footprint is None else footprint)
+    integrals = _Integrals(rubber, spectrum, load, share, nodes)
+    (area, friction), (area_error, friction_error) = refined(
+        integrals.at_nodes, _COARSEST, _FINEST, TOLERANCE
+    )
+    return PerssonResult(
+        rubber=rubber,
+        load=load,
+        gamma=share,
+        wavelength=2.0 * np.pi / nodes,
+        running_contact_fraction=area,
+        running_friction=friction,
+        rms_gradient=spectrum.rms_gradient(smallest_wavelength),
+        profile_rms_slope=spectrum.profile_rms_slope(smallest_wavelength),
+        contact_fraction_error=area_error,
+        friction_error=friction_error,
+    )
+
+
+@dataclass(frozen=True)
+class _Integrals:
+    """The integrals of the theory over the wavenumbers of `nodes` [rad/m]."""
+
+    rubber: Rubber
+    spectrum: ArealSpectrum
+    load: NominalLoad
+    gamma: float
+    nodes: Array
+
+    def at_nodes(self, intervals: int) -> tuple[Array, Array]:
+        """Return P and mu at the nodes, by the trapezoidal rule in log q."""
+        from scipy.special import erf
+
+        log_q = divided(np.log(self.nodes), intervals)
+        q = np.exp(log_q)
+        stiff, lossy = self.over_angles(q, _ANGLES + intervals)
+        weight = q**4 * self.spectrum.at(q)  # q^3 C dq with dq = q d(log q)
+        with np.errstate(divide="ignore"):
+            area = erf(1.0 / np.sqrt(running_integral(weight * stiff / 2.0, log_q)))
+        factor = self.gamma + (1.0 - self.gamma) * area**2
+        friction = running_integral(weight * lossy * factor * area / 2.0, log_q)
+        return area[::intervals], friction[::intervals]
+
+    def over_angles(self, q: Array, count: int) -> tuple[Array, Array]:
+        """Return int |M/p_0|^2 dphi and int cos(phi) Im M/p_0 dphi over a turn, at each `q`.
+
+        Both are four times a quarter turn. With cos(phi) = sin(psi) and psi = pi/2 s^4 Gauss points
+        in s are dense where the frequency q v sin(psi) runs through many decades.
+        """
+        abscissae, weights = np.polynomial.legendre.leggauss(count)
+        s = 0.5 * (1.0 + abscissae)
+        stiff, lossy = np.zeros(q.size), np.zeros(q.size)
+        for cosine, width in zip(
+            np.sin(0.5 * np.pi * s**4), 4.0 * np.pi * s**3 * weights, strict=True
+        ):
+            modulus = self.rubber.plane_strain_modulus(q * self.load.speed * cosine)
+            stiff += width * np.abs(modulus / self.load.pressure) ** 2
+            lossy += width * cosine * modulus.imag / self.load.pressure
+        return stiff, lossy

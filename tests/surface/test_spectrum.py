@@ -1,0 +1,235 @@
+"""Power spectra against Parseval, closed forms, a ring of waves and a surface made to measure."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy import integrate
+
+from gripscale.errors import InputError
+from gripscale.surface import (
+    ArealSpectrum,
+    Profile,
+    ProfileSpectrum,
+    areal_spectrum,
+    map_spectrum,
+    profile_spectrum,
+)
+
+STEP = 1e-4
+HURST = 0.8
+
+
+def wavy(points: int = 4000, waves: int = 40, amplitude: float = 2e-4) -> Profile:
+    """Return a cosine that fits the line a whole number of times."""
+    x = STEP * np.arange(points)
+    return Profile(x, amplitude * np.cos(2 * np.pi * waves * np.arange(points) / points))
+
+
+def rough(points: int = 4096, seed: int = 1) -> Profile:
+    return Profile(STEP * np.arange(points), np.random.default_rng(seed).normal(0, 1e-4, points))
+
+
+def isotropic_map(size: int, step: float, seed: int) -> tuple[np.ndarray, ArealSpectrum]:
+    """Return one period of a surface with random phases, and the spectrum it was made of.
+
+    Flat up to 8 waves a side, C ~ q^(-2 - 2H) above, nothing beyond a quarter of the sampling.
+    """
+    unit = 2 * np.pi / (size * step)
+    number = np.fft.fftfreq(size, 1 / size)
+    q = unit * np.hypot(number[:, None], number)
+    knee, last = 8 * unit, unit * size / 4
+
+    def density(at: np.ndarray) -> np.ndarray:
+        flat = 1e-16 * np.maximum(at / knee, 1.0) ** (-2 - 2 * HURST)
+        return np.where((at > 0.5 * unit) & (at <= last), flat, 0.0)
+
+    noise = np.fft.fft2(np.random.default_rng(seed).standard_normal((size, size)))
+    heights = np.fft.ifft2(np.sqrt(density(q)) * noise / np.abs(noise)).real * size**2 * unit
+    points = np.geomspace(unit, last, 200)
+    return heights, ArealSpectrum(points, density(points))
+
+
+def test_a_wave_carries_its_variance_at_its_wavenumber():
+    """Parseval: exact for a line of whole periods, to rounding."""
+    found = profile_spectrum(wavy(), taper="none")
+    carried = found.density * found.width
+    assert found.wavenumber[np.argmax(carried)] == pytest.approx(2 * np.pi * 40 / (4000 * STEP))
+    assert carried.max() == pytest.approx(0.5 * 2e-4**2, rel=1e-12, abs=0)
+    assert found.rms_height == pytest.approx(2e-4 / np.sqrt(2), rel=1e-12, abs=0)
+    k = 2 * np.pi * 40 / (4000 * STEP)
+    assert found.rms_slope() == pytest.approx(k * found.rms_height, rel=1e-9, abs=0)
+    assert found.rms_slope(2.1 * np.pi / k) == pytest.approx(0.0, abs=1e-12)
+
+
+@pytest.mark.parametrize("points", [4096, 4097])
+def test_the_sum_is_the_variance(points):
+    profile = rough(points)
+    found = profile_spectrum(profile, taper="none")
+    assert found.rms_height**2 == pytest.approx(profile.z.var(), rel=1e-12, abs=0)
+    assert found.averaged(5).rms_height == pytest.approx(found.rms_height, rel=1e-12, abs=0)
+    assert len(found.averaged(5).wavenumber) < 20
+
+
+def test_windows_with_a_taper_keep_the_variance_of_noise():
+    """White noise: its rms height is known to 1/sqrt(2 x 4096) = 1.1 % (one sigma); times three."""
+    found = profile_spectrum(rough(), window=0.02)
+    assert found.rms_height == pytest.approx(1e-4, rel=0.033, abs=0)
+    assert 2 * np.pi / found.wavenumber[0] == pytest.approx(0.02)
+
+
+def test_a_slope_of_the_line_is_not_spread_over_small_waves():
+    """A straight line has no waves; its jump from end to end would have them all."""
+    x = STEP * np.arange(4096)
+    tilted = Profile(x, 0.1 * x)
+    assert profile_spectrum(tilted).rms_height < 1e-12
+    assert profile_spectrum(tilted, taper="none").rms_height > 0.01
+
+
+def test_several_profiles_are_averaged_by_their_length():
+    first, second = wavy(4000), wavy(2000, 20, 4e-4)
+    found = profile_spectrum([first, second], window=2000 * STEP, taper="none")
+    mean = (2 * 0.5 * 2e-4**2 + 0.5 * 4e-4**2) / 3
+    assert found.rms_height**2 == pytest.approx(mean, rel=1e-9, abs=0)
+
+
+def test_missing_heights_are_interpolated_and_counted():
+    """Every 50th height of a wave of 100 steps: the chord is off by (2 pi/100)^2/2 of it there."""
+    z = wavy().z.copy()
+    z[5::50] = np.nan
+    found = profile_spectrum(Profile(STEP * np.arange(4000), z), taper="none")
+    assert found.interpolated == pytest.approx(0.02)
+    assert found.rms_height == pytest.approx(2e-4 / np.sqrt(2), rel=1e-3, abs=0)
+
+
+def test_a_map_of_one_wave_has_its_variance_in_one_ring():
+    """A ring of n waves: density is the mean over its plane waves, so 2 pi q C dq is the variance
+    to the difference between 2 pi n and the number of plane waves in the ring, 1/n or so."""
+    n = 256
+    z = 1e-4 * np.cos(2 * np.pi * (30 * np.arange(n)[:, None] + 40 * np.arange(n)) / n)
+    found = map_spectrum(z, x_step=STEP, y_step=STEP, taper="none", per_decade=1000)
+    ring = 2 * np.pi / (n * STEP)
+    assert found.wavenumber[np.argmax(found.density)] == pytest.approx(50 * ring, rel=0.01, abs=0)
+    assert found.rms_height**2 == pytest.approx(0.5e-8, rel=0.1, abs=0)
+
+
+def test_the_spectrum_of_a_map_is_that_it_was_made_of():
+    """Amplitudes are exact, only phases random: what is left is the curvature of C within a ring,
+    and the rings cut by the spectrum's end. A window sees the waves that fall under it."""
+    z, truth = isotropic_map(512, STEP, 0)
+    found = map_spectrum(z, x_step=STEP, y_step=STEP, taper="none", per_decade=40)
+    inner = (found.wavenumber > 10 * truth.wavenumber[0]) & (
+        found.wavenumber < 0.97 * truth.wavenumber[-1]
+    )
+    assert inner.sum() > 30
+    assert found.density[inner] == pytest.approx(truth.at(found.wavenumber[inner]), rel=0.01, abs=0)
+    gx, gy = (np.fft.ifft2(np.fft.fft2(z) * 1j * k).real for k in _wavenumbers(512))
+    rms = np.sqrt(np.mean(gx**2 + gy**2))
+    assert found.rms_gradient() == pytest.approx(rms, rel=0.005, abs=0)
+    assert found.profile_rms_slope() == pytest.approx(np.sqrt(np.mean(gx**2)), rel=0.005, abs=0)
+    tilted = z + 0.05 * STEP * np.arange(512)[:, None]
+    measured = map_spectrum(tilted, x_step=STEP, y_step=STEP, per_decade=10)
+    assert measured.rms_gradient() == pytest.approx(rms, rel=0.05, abs=0)
+
+
+def _wavenumbers(size: int) -> tuple[np.ndarray, np.ndarray]:
+    k = 2 * np.pi * np.fft.fftfreq(size, STEP)
+    k[size // 2] = 0.0
+    return k[:, None], k
+
+
+def test_missing_heights_of_a_map_are_interpolated_along_x():
+    x = np.arange(64.0)
+    z = np.cos(2 * np.pi * x / 64)[:, None] * np.ones(32)
+    z[10, ::2] = np.nan
+    found = map_spectrum(z, x_step=STEP, y_step=STEP, taper="none")
+    assert found.interpolated == pytest.approx(1 / 128)
+    z[:, 3] = np.nan
+    with pytest.raises(InputError, match="along every line; got none at y 3"):
+        map_spectrum(z, x_step=STEP, y_step=STEP)
+
+
+@pytest.mark.parametrize("hurst", [0.3, 0.5, 0.8, 1.0])
+def test_both_ways_to_the_surface_agree_on_a_power_law(hurst):
+    """q^3 C linear in log q between ten points a decade follows a power of up to 1 to h^2/12, h =
+    0.23: 0.5 %."""
+    q = np.geomspace(1e2, 1e5, 31)
+    lines = ProfileSpectrum(q, 1e-12 * q ** (-1 - 2 * hurst))
+    general, closed = areal_spectrum(lines), areal_spectrum(lines, hurst=hurst)
+    assert general.density == pytest.approx(closed.density, rel=5e-3, abs=0)
+    naive = lines.density / (2 * np.pi * q)
+    assert closed.density / naive == pytest.approx(
+        np.full(31, {0.3: 1.366, 0.5: np.pi / 2, 0.8: 1.839, 1.0: 2.0}[hurst]), rel=1e-3
+    )
+
+
+def test_the_closed_form_is_the_integral_it_comes_from():
+    """C_1(k) = 4 int C q dq/sqrt(q^2 - k^2) with q = k cosh(t), of C = c q^(-2 - 2H)."""
+    lines = _power_law()
+    k = lines.wavenumber[7]
+    seen, _ = integrate.quad(lambda t: np.cosh(t) ** (-1 - 2 * HURST), 0, 30)
+    areal = areal_spectrum(lines, hurst=HURST).density[7]
+    assert 4 * areal * k * seen == pytest.approx(lines.density[7], rel=1e-7, abs=0)
+
+
+def _power_law() -> ProfileSpectrum:
+    q = np.geomspace(1e2, 1e5, 31)
+    return ProfileSpectrum(q, 1e-12 * q ** (-1 - 2 * HURST))
+
+
+def test_lines_of_an_isotropic_map_lead_back_to_its_spectrum():
+    """All 512 lines of a map with a knee and an end. Their mean knows no phases: what is left is
+    the sum over plane waves in place of the integral, and ten points a decade: 4 % of C at single
+    points, 0.2 % of the moments."""
+    z, truth = isotropic_map(512, STEP, 3)
+    x = STEP * np.arange(512)
+    lines = profile_spectrum([Profile(x, line) for line in z.T], taper="none")
+    keep = lines.wavenumber < 1.02 * truth.wavenumber[-1]
+    seen = ProfileSpectrum(lines.wavenumber[keep], lines.density[keep], lines.width[keep])
+    found = areal_spectrum(seen)
+    assert found.rms_gradient() == pytest.approx(truth.rms_gradient(), rel=0.005, abs=0)
+    assert found.profile_rms_slope() == pytest.approx(lines.rms_slope(), rel=0.005, abs=0)
+    inner = (found.wavenumber > 1e3) & (found.wavenumber < 1e4)
+    assert inner.sum() >= 8
+    assert found.density[inner] == pytest.approx(truth.at(found.wavenumber[inner]), rel=0.05, abs=0)
+
+
+def test_the_areal_gradient_is_sqrt_two_times_the_slope_of_lines():
+    spectrum = areal_spectrum(_power_law(), hurst=HURST)
+    for smallest in (None, 1e-3):
+        ratio = spectrum.rms_gradient(smallest) / spectrum.profile_rms_slope(smallest)
+        assert ratio == pytest.approx(np.sqrt(2))
+
+
+def test_moments_of_a_power_law():
+    """2 pi int q^3 C dq in closed form; the interpolation's own error as above."""
+    c, h = 1e-10, 0.8
+    q = np.geomspace(1e2, 1e5, 61)
+    spectrum = ArealSpectrum(q, c * q ** (-2 - 2 * h))
+    for last, smallest in ((1e5, None), (1e4, 2 * np.pi / 1e4)):
+        square = 2 * np.pi * c * (last ** (2 - 2 * h) - 1e2 ** (2 - 2 * h)) / (2 - 2 * h)
+        assert spectrum.rms_gradient(smallest) ** 2 == pytest.approx(square, rel=1e-3, abs=0)
+    square = 2 * np.pi * c * (1e2 ** (-2 * h) - 1e5 ** (-2 * h)) / (2 * h)
+    assert spectrum.rms_height**2 == pytest.approx(square, rel=5e-3, abs=0)
+    assert (spectrum.at([50.0, 2e5]) == 0.0).all()
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: ProfileSpectrum([1.0, 2.0], [1.0]), "the same length, at least 2; got 2 and 1"),
+        (lambda: ArealSpectrum([2.0, 1.0], [1.0, 1.0]), "wavenumber must increase; got 1 rad/m"),
+        (lambda: ArealSpectrum([1.0, 2.0], [1.0, -1.0]), "density must not be negative; got -1"),
+        (lambda: ProfileSpectrum([1.0, 2.0], [1.0, 1.0], [1.0]), "width must have 2 entries"),
+        (lambda: profile_spectrum([]), "profile must be a Profile or a list"),
+        (lambda: profile_spectrum(rough(), window=1.0), "window must be from 0.0016 m to 0.4096 m"),
+        (lambda: profile_spectrum(rough(), taper="welch"), "taper must be one of hann, none"),
+        (lambda: map_spectrum([1.0], x_step=1, y_step=1), r"of shape \(nx, ny\)"),
+        (lambda: areal_spectrum(_power_law(), hurst=1.1), "hurst must be at most 1; got 1.1"),
+        (lambda: areal_spectrum(ProfileSpectrum([1.0, 2.0], [1.0, 1.0])), "at least 4 points"),
+        (lambda: _power_law().rms_slope(1e-6), "smallest_wavelength must be among those"),
+    ],
+)
+def test_bad_input(make, message):
+    with pytest.raises(InputError, match=message):
+        make()
