@@ -2,6 +2,7 @@
 
 from gripscale.surface.cleaning import CleaningReport, StepReport, clean
 from gripscale.surface.height_difference import HeightDifference, height_difference
+from gripscale.surface.height_map import HeightMap
 from gripscale.surface.prepared import Measured, PreparedSurface
 from gripscale.surface.profile import Profile
 from gripscale.surface.read import read_profile, read_profiles
@@ -13,6 +14,7 @@ from gripscale.surface.synthetic import self_affine_profile, sine_profile
 __all__ = [
     "CleaningReport",
     "HeightDifference",
+    "HeightMap",
     "Measured",
     "PreparedSurface",
     "Profile",
