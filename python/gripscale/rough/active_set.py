@@ -13,7 +13,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gripscale.rough.gap_solver import close_gap
 from gripscale.rough.grid import Array, Mask

@@ -1,8 +1,8 @@
 """Real contact area from the points in contact, corrected for the grid.
 
 Line: a contact ends between its last closed and the first open point. Near the end of a smooth
-contact the gap grows as (distance)^(3/2), so gap^(2/3) at the two nearest open points extrapolates to
-zero there, as in `gripscale.theory.periodic_contact`.
+contact the gap grows as (distance)^(3/2), so gap^(2/3) at the two nearest open points extrapolates
+to zero there, as in `gripscale.theory.periodic_contact`.
 
 Map: counted points overestimate the area by a share of the border. With n_s the number of
 neighbouring pairs of points of which one is in contact and one is not,

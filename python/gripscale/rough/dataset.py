@@ -74,7 +74,7 @@ def by_wavelength(contact: RoughContact) -> xr.Dataset:
 
 
 def to_dataset(contact: RoughContact, *, fields: bool) -> xr.Dataset:
-    """Return the numbers of `contact`, by octave, by grid, and with `fields` what lies on the grid."""
+    """Return the numbers of `contact`, by octave and by grid, and its `fields` on the last grid."""
     data = {
         name: labelled((), float(getattr(contact, name)), unit, text, SOURCE)
         for name, (unit, text) in NUMBERS.items()
@@ -82,7 +82,7 @@ def to_dataset(contact: RoughContact, *, fields: bool) -> xr.Dataset:
     octaves = by_wavelength(contact).rename(contact_fraction="contact_fraction_without_shorter")
     data |= {
         (name if name.startswith("contact") else f"octave_{name}"): values
-        for name, values in octaves.data_vars.items()
+        for name, values in ((str(key), octaves[key]) for key in octaves.data_vars)
     }
     for name in (entry.name for entry in dataclasses.fields(GridRecord)):
         values = [float(getattr(grid, name)) for grid in contact.grids]

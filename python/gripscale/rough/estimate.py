@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import pairwise
 
 from gripscale.rough.grids import GridRecord
 
@@ -34,5 +35,5 @@ def errors(same_surface: Sequence[GridRecord]) -> tuple[float, float]:
 
 
 def _from_changes(values: Sequence[float]) -> float:
-    changes = [abs(b - a) for a, b in zip(values[:-1], values[1:], strict=True)]
+    changes = [abs(b - a) for a, b in pairwise(values)]
     return max(_SHARE ** (1 + age) * change for age, change in enumerate(reversed(changes[-2:])))

@@ -117,7 +117,7 @@ def close_gap(
 def gmres(
     operator: Callable[[AnyArray], AnyArray], right: AnyArray, target: float, most: int
 ) -> AnyArray:
-    """Return x that leaves |right - operator(x)| at `target`, or at its least after `most` products.
+    """Return x with |right - operator(x)| at `target`, or at its least after `most` products.
 
     `right` has unit length. Arnoldi vectors by modified Gram-Schmidt, least squares by rotations.
     """

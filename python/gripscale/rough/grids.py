@@ -1,7 +1,7 @@
 """From coarse grids with few waves to fine grids with all of them, each starting from the last.
 
-A grid has four points in the shortest wave it is given; the next has half the spacing and waves half
-as long. The last waves come in on the grid before their own already, with two points each, so that
+A grid has four points in the shortest wave it is given; the next has half the spacing and waves
+half as long. The last waves come in on the grid before their own already, with two points each, so that
 two grids solve the same surface and show what the spacing does. Finer grids follow if asked for.
 
 A grid starts from the pressure p and gap g of the last, with the new roughness dh pressed flat:
@@ -12,7 +12,6 @@ its stiffest wave.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -147,9 +146,9 @@ class Climb:
 
     def _expected(self, response: Response, height: Array) -> Array:
         assert self.last is not None
-        carried = (self.last.contact.pressure, self.last.contact.gap, self.last.height)
+        carried = [self.last.contact.pressure, self.last.contact.gap, self.last.height]
         if self.last.height.shape != height.shape:
-            carried = tuple(doubled(values) for values in carried)
+            carried = [doubled(values) for values in carried]
         pressure, gap, before = carried
         opening = _OPENING / response.smallest_compliance * np.maximum(gap, 0.0)
         return np.asarray(pressure - opening + response.pressure(height - before))

@@ -20,7 +20,7 @@ import numpy as np
 import scipy.fft
 from numpy.typing import NDArray
 
-from gripscale.rough.grid import Grid
+from gripscale.rough.grid import Array, Grid
 from gripscale.rubber import Rubber
 
 AnyArray = NDArray[np.floating]
@@ -98,8 +98,8 @@ class Response:
         single = pressure.dtype == np.float32
         return self._filtered(pressure, self.compliance_single if single else self.compliance)
 
-    def full_contact(self, height: AnyArray, mean: float) -> AnyArray:
-        """Return the pressure [Pa] of `mean` that follows `height` [m] everywhere, in tension too."""
+    def full_contact(self, height: Array, mean: float) -> Array:
+        """Return the pressure [Pa] of `mean` that follows `height` [m] everywhere, by tension too."""
         spectrum = scipy.fft.rfftn(height, workers=self.workers)
         spectrum.flat[0] = 0.0
         np.divide(spectrum, self.compliance, out=spectrum, where=self.compliance != 0.0)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from gripscale.rough.grid import Array, Grid, Mask
 from gripscale.rough.grids import GridRecord
@@ -103,7 +103,7 @@ class RoughContact:
 
     @property
     def patches(self) -> Array:
-        """Size of each contact patch, largest first: lengths [m] on a line, areas [m^2] on a map."""
+        """Size of each contact patch, largest first: length [m] on a line, area [m^2] on a map."""
         return np.asarray(patch_points(self.active) * math.prod(self.grid.spacing))
 
     @property
@@ -131,7 +131,7 @@ class RoughContact:
         return by_wavelength(self)
 
     def to_dataset(self, *, fields: bool = True) -> xr.Dataset:
-        """Return everything as a labelled Dataset; without `fields`, without what lies on the grid."""
+        """Return everything as a labelled Dataset, with `fields` what lies on the grid too."""
         from gripscale.rough.dataset import to_dataset
 
         return to_dataset(self, fields=fields)
@@ -141,4 +141,5 @@ class RoughContact:
         return lost_by_harmonic(HalfSpace(self.rubber, self.speed), self.grid, self.pressure)
 
     def _positions(self, axis: int) -> Array:
-        return self.origin[axis] + self.grid.spacing[axis] * np.arange(self.grid.shape[axis])
+        place = self.grid.spacing[axis] * np.arange(self.grid.shape[axis], dtype=float)
+        return np.asarray(self.origin[axis] + place)

@@ -1,4 +1,4 @@
-"""Surfaces to compare a measured one with: superposed sines, and the same spectrum with new phases."""
+"""Surfaces to compare with: superposed sines, and a measured spectrum with random phases."""
 
 from __future__ import annotations
 

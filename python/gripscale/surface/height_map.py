@@ -1,4 +1,4 @@
-"""A surface map: heights at equidistant points along x and along y, some of them perhaps missing."""
+"""A surface map: heights at equidistant points along x and y, some of them perhaps missing."""
 
 from __future__ import annotations
 
@@ -85,13 +85,13 @@ def _axis(name: str, values: FloatArray) -> FloatArray:
     axis = checks.vector(name, values, unit="m")
     if axis.size < FEWEST_POINTS:
         raise InputError(
-            f"a map must have at least {FEWEST_POINTS} points each way; got {axis.size} along {name}"
+            f"a map must have at least {FEWEST_POINTS} points a way; got {axis.size} along {name}"
         )
     at = uneven_step(axis)
     if at is not None:
         raise InputError(
             f"{name} must increase in equal steps, within {STEP_TOLERANCE:g} of the mean "
-            f"{_mean_step(axis):.6g} m; got a step of {axis[at + 1] - axis[at]:.6g} m after index {at}"
+            f"{_mean_step(axis):.6g} m; got {axis[at + 1] - axis[at]:.6g} m after index {at}"
         )
     return axis
 
