@@ -56,7 +56,7 @@ def joined(z: Array) -> Array:
 
 
 def _interpolated(z: Array) -> tuple[Array, Array]:
-    """Return `z` filled along its last axis, and the gaps' widths in steps (empty rows: infinite)."""
+    """Return `z` filled along its last axis, and the gaps' widths in steps (inf in empty rows)."""
     values, width = np.zeros(z.shape), np.full(z.shape, np.inf)
     place = np.arange(z.shape[-1])
     for index in np.ndindex(z.shape[:-1]):

@@ -2,7 +2,8 @@
 
 With d_n the change from n/2 to n points in the smallest wave, the error at n is estimated as
 
-    contact fraction    max(c d_n, c^2 d_(n/2)),         friction    the same, and |mu - mu_diss|,
+    contact fraction    max(c d_n, c^2 d_(n/2)), and in quadrature where borders lie between points
+    friction            the same max, or |mu - mu_diss| if larger,
 
 c = 0.3: halving the spacing divides errors by two at least (measured on random surfaces; tests hold
 the estimates to grids four times finer), and one small change may be chance.
@@ -29,7 +30,9 @@ def errors(same_surface: Sequence[GridRecord]) -> tuple[float, float]:
         return 0.0, 0.0
     if len(same_surface) == 1:
         return math.nan, math.nan
-    area = _from_changes([grid.contact_fraction for grid in same_surface])
+    area = math.hypot(
+        _from_changes([grid.contact_fraction for grid in same_surface]), last.border_error
+    )
     traction = _from_changes([grid.friction for grid in same_surface])
     return area, max(traction, abs(last.friction - last.friction_from_dissipation))
 

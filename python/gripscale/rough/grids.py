@@ -1,8 +1,8 @@
 """From coarse grids with few waves to fine grids with all of them, each starting from the last.
 
 A grid has four points in the shortest wave it is given; the next has half the spacing and waves
-half as long. The last waves come in on the grid before their own already, with two points each, so that
-two grids solve the same surface and show what the spacing does. Finer grids follow if asked for.
+half as long. The last waves come in on the grid before their own already, with two points each, so
+that two grids solve the same surface and show what the spacing does. Finer grids follow if needed.
 
 A grid starts from the pressure p and gap g of the last, with the new roughness dh pressed flat:
 p + S dh - s g, S being the inverse of the half-space's response and s a stiffness of the order of
@@ -18,7 +18,7 @@ import numpy as np
 import scipy.fft
 
 from gripscale.rough.active_set import GridContact, solve_grid
-from gripscale.rough.area import contact_fraction
+from gripscale.rough.area import border_error, contact_fraction
 from gripscale.rough.grid import Array, Grid, doubled
 from gripscale.rough.half_space import HalfSpace, Response
 from gripscale.rough.heights import PeriodicHeights
@@ -49,6 +49,8 @@ class GridRecord:
     cut_off: float
     """Shortest wave of the surface on it [m]."""
     contact_fraction: float
+    border_error: float
+    """Of the contact fraction: where borders lie between points [-]."""
     friction: float
     """From the contact traction."""
     friction_from_dissipation: float
@@ -120,6 +122,7 @@ class Climb:
             level.grid.shape[0],
             level.cut_off,
             contact_fraction(contact.active, contact.gap),
+            border_error(contact.active),
             friction_from_traction(level.grid, contact.pressure, height),
             float(lost_by_harmonic(self.body, level.grid, contact.pressure).sum()),
             contact.iterations,

@@ -99,7 +99,7 @@ class Response:
         return self._filtered(pressure, self.compliance_single if single else self.compliance)
 
     def full_contact(self, height: Array, mean: float) -> Array:
-        """Return the pressure [Pa] of `mean` that follows `height` [m] everywhere, by tension too."""
+        """Return the pressure [Pa] of `mean` that follows `height` [m] everywhere, tension too."""
         spectrum = scipy.fft.rfftn(height, workers=self.workers)
         spectrum.flat[0] = 0.0
         np.divide(spectrum, self.compliance, out=spectrum, where=self.compliance != 0.0)
