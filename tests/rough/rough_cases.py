@@ -32,7 +32,7 @@ def grooves(along: str, points: int = 256) -> HeightMap:
 
 
 def isotropic_heights(points=128, length=0.0256, rms=3e-4, shortest=8e-4, seed=3):
-    """Gaussian heights [m], random phases, flat spectrum up to half the length and H = 0.8 below."""
+    """Gaussian heights [m]: flat spectrum for waves above half the length, H = 0.8 below."""
     q1 = 2 * np.pi * np.fft.fftfreq(points, length / points)
     q = np.hypot(q1[:, None], q1[None, :])
     amplitude = np.where(
@@ -100,15 +100,13 @@ class RandomCase:
 
 
 def random_case(seed: int, points_of_line=4096, points_of_map=64) -> RandomCase:
-    """Return 1 to 24 Maxwell terms on a line or map, some flat-topped; speeds over seven decades."""
+    """Return 1 to 24 Maxwell terms on a line or map, some flat-topped, at 1e-5 to 100 m/s."""
     random = np.random.default_rng(seed)
     terms = int(random.integers(1, 25))
     relaxed = 10 ** random.uniform(5, 7)
     times = 10 ** random.uniform(-8, 2, terms)
     moduli = relaxed * 10 ** random.uniform(-2, 3, terms)
-    rubber = gs.Rubber(
-        relaxed, moduli, times, bulk_modulus=max(2e9, 2 * (relaxed + moduli.sum()))
-    )
+    rubber = gs.Rubber(relaxed, moduli, times, bulk_modulus=max(2e9, 2 * (relaxed + moduli.sum())))
     shape = (points_of_line,) if random.random() < 0.5 else (points_of_map, points_of_map)
     grid = Grid(shape, (0.05,) * len(shape))
     hurst, corner = random.uniform(0.3, 1.0), 2 * np.pi / 0.05 * 10 ** random.uniform(0, 1)

@@ -67,8 +67,8 @@ def test_standing_still_is_westergaard(kind, load):
 
 @pytest.mark.parametrize("row", table("zener_sliding_half_plane.csv")[::9])
 def test_reference_table_of_the_zener_half_plane(row):
-    """Friction to 0.5 % and the table's own error, the difference of its two grids; contact fraction
-    to 0.003."""
+    """Friction to 0.5 % and the table's own error, the difference of its two grids; fraction to
+    0.003."""
     stiffening, load, phase = list(row.values())[:3]
     found = solve(
         sine(),
@@ -112,7 +112,7 @@ def test_a_line_of_one_sine_is_the_half_plane_model():
 
 @pytest.mark.parametrize("kind", ["line", "map"])
 def test_full_contact_is_the_closed_form(kind):
-    """p_q = h_q/K_q, mu = sum of q_x |q| Im M |h_q|^2 / 2 p_0: exact for the waves of the surface."""
+    """p_q = h_q/K_q, mu = sum of q_x |q| Im M |h_q|^2 / 2 p_0: exact on any grid."""
     surface = isotropic_map(64, shortest=1.6e-3)
     z = surface.z if kind == "map" else surface.z[:, 0]
     x = surface.x

@@ -1,4 +1,4 @@
-"""Random rubbers on random surfaces: contacts are found, and estimated errors cover the true ones."""
+"""Random rubbers on random surfaces: contacts are found, estimated errors cover the true ones."""
 
 from __future__ import annotations
 

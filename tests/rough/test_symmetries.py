@@ -81,9 +81,9 @@ def test_the_work_of_friction_is_lost_in_the_rubber(kind):
 
 @pytest.mark.parametrize("seed", range(6))
 def test_contact_conditions_hold(seed):
-    """p >= 0, gap >= 0, p gap = 0, mean p given. The pressure missing, 1e-6, leaves a gap magnified by
-    how much softer the longest wave is than the shortest, some hundred times: 1e-4 of the rms
-    height."""
+    """p >= 0, gap >= 0, p gap = 0, mean p given. The pressure missing, 1e-6, leaves a gap that is
+    larger by how much softer the longest wave is than the shortest, some hundred times: 1e-4 of
+    the rms height."""
     case = random_case(seed)
     found = case.solve(tolerance=None)
     assert found.status == "converged"

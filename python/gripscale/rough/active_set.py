@@ -71,7 +71,7 @@ def solve_grid(
         patience = PATIENCE if count < fewest else patience - 1
         if patience < 0:
             wrong &= excess >= np.median(excess[wrong])
-        tolerance = _next_tolerance(tolerance, count / len(where), count <= 0.5 * fewest)
+        tolerance = _next_tolerance(tolerance, count / len(where), count < fewest)
         fewest = min(fewest, count)
         active = active ^ wrong
     return GridContact(
@@ -94,6 +94,6 @@ def _loaded(pressure: Array, load: float) -> Array:
     return np.asarray(positive * (load / total))
 
 
-def _next_tolerance(tolerance: float, changed: float, halved: bool) -> float:
-    wanted = min(tolerance if halved else 0.1 * tolerance, TIGHTENING * changed)
+def _next_tolerance(tolerance: float, changed: float, fewer: bool) -> float:
+    wanted = min(tolerance if fewer else 0.1 * tolerance, TIGHTENING * changed)
     return max(wanted, TOLERANCE)

@@ -54,7 +54,7 @@ def by_wavelength(contact: RoughContact) -> xr.Dataset:
     fraction = np.full(order.size, np.nan)
     for grid in contact.grids:
         place = round(float(octave.max() - np.log2(grid.cut_off / contact.smallest_wavelength)))
-        if 0 <= place < order.size:
+        if grid.settled and 0 <= place < order.size:
             fraction[place] = grid.contact_fraction
     wavelength = contact.smallest_wavelength * 2.0**order
     return xr.Dataset(

@@ -40,7 +40,7 @@ class DirectContact:
     smallest_wavelength : float, optional
         Shorter waves are left out [m]; by default shorter than the smallest sine wave of the
         surface, so that chain and direct contact see the same roughness.
-    tolerance : float, optional
+    tolerance, most_points
         See `solve_rough_contact`.
     """
 
@@ -48,6 +48,7 @@ class DirectContact:
 
     smallest_wavelength: float | None = None
     tolerance: float | None = 0.02
+    most_points: int = 2**22
 
     def relevant(self, surface: PreparedSurface) -> PreparedSurface:
         """Return nothing of `surface` but its cleaned profiles and where its waves end."""
@@ -84,6 +85,7 @@ class DirectContact:
                 speed=load.speed,
                 smallest_wavelength=self.smallest_wavelength or self._end_of(surface, profile),
                 tolerance=self.tolerance,
+                most_points=self.most_points,
             )
             contacts.append(contact)
             if on_progress is not None:

@@ -138,7 +138,9 @@ def _result(
 
 
 def _same_surface(grids: list[GridRecord]) -> list[GridRecord]:
-    return [grid for grid in grids if grid.cut_off == grids[-1].cut_off]
+    """Return the last grid, and those before it that settled with all waves on them."""
+    whole = [grid for grid in grids if grid.cut_off == grids[-1].cut_off]
+    return [grid for grid in whole[:-1] if grid.settled] + whole[-1:]
 
 
 def _met(same_surface: list[GridRecord], goal: float) -> bool:
