@@ -23,8 +23,9 @@ TOLERANCE = 1e-6
 LOOSEST = 1e-2
 TIGHTENING = 1e-2
 """Missing pressure allowed, over the share of points that changed sides last."""
-PATIENCE = 6
-"""Iterations without fewer wrong points before only the worst of them may change sides."""
+PATIENCE, GIVING_UP = 6, 18
+"""Iterations without fewer wrong points before only the worse half of them may change sides, and
+before it is no use."""
 
 
 @dataclass(frozen=True)
@@ -54,7 +55,7 @@ def solve_grid(
     flat, shape = height.reshape(-1), height.shape
     pressure, active = start.reshape(-1), start.reshape(-1) > 0.0
     load, stiffest = float(start.sum()), response.smallest_compliance
-    tolerance, products, fewest, patience = LOOSEST, 0, flat.size + 1, PATIENCE
+    tolerance, products, fewest, waited = LOOSEST, 0, flat.size + 1, 0
     for iteration in range(1, most_iterations + 1):
         where = np.flatnonzero(active)
         closed = close_gap(response, where, flat[where], _loaded(pressure[where], load), tolerance)
@@ -66,10 +67,11 @@ def solve_grid(
         excess = -np.where(active, pressure, gap / stiffest)
         wrong = excess > tolerance * np.sqrt(np.mean(closed.pressure**2))
         count = int(wrong.sum())
-        if (count == 0 and tolerance <= TOLERANCE) or iteration == most_iterations:
+        waited = 0 if count < fewest else waited + 1
+        solved = count == 0 and tolerance <= TOLERANCE
+        if solved or iteration == most_iterations or waited > GIVING_UP:
             break
-        patience = PATIENCE if count < fewest else patience - 1
-        if patience < 0:
+        if waited > PATIENCE:
             wrong &= excess >= np.median(excess[wrong])
         tolerance = _next_tolerance(tolerance, count / len(where), count < fewest)
         fewest = min(fewest, count)

@@ -5,7 +5,7 @@ With d_n the change from n/2 to n points in the smallest wave, the error at n is
     contact fraction    max(c d_n, c^2 d_(n/2)), and in quadrature where borders lie between points
     friction            the same max, or |mu - mu_diss| if larger,
 
-c = 0.3: halving the spacing divides errors by two at least (measured on random surfaces; tests hold
+c = 0.4: halving the spacing divides errors by two at least (measured on random surfaces; tests hold
 the estimates to grids four times finer), and one small change may be chance.
 """
 
@@ -17,7 +17,7 @@ from itertools import pairwise
 
 from gripscale.rough.grids import GridRecord
 
-_SHARE = 0.3
+_SHARE = 0.4
 
 
 def errors(same_surface: Sequence[GridRecord]) -> tuple[float, float]:

@@ -12,7 +12,8 @@ Preconditioned from the left with S_AA, and freed of u_0 by the projection
 this is Q K_AA p = Q h_A for corrections p of zero sum, and Q (h_A - K_AA p) is, to first order, the
 pressure still missing. GMRES (Y. Saad & M. H. Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856,
 doi:10.1137/0907058) runs in single precision on what is missing, taken anew in double precision
-after each run (iterative refinement), so that single precision costs no accuracy.
+after each run (iterative refinement), so that single precision costs no accuracy. A few
+points are solved for directly.
 """
 
 from __future__ import annotations
@@ -34,6 +35,8 @@ the points in contact are kept. Very lossy rubber needs some hundred."""
 REDUCTION = 1e-4
 """Least reduction asked of one run: more would be lost in single precision."""
 RUNS = 5
+FEW = 600
+"""Points in contact up to which the system is solved directly."""
 
 
 @dataclass(frozen=True)
@@ -100,6 +103,8 @@ def close_gap(
     points = PointsInContact(response, where)
     pressure = start.copy()
     size, most = float(np.linalg.norm(pressure)), SHORTEST
+    if len(where) <= FEW:
+        pressure = _direct(response, where, height, float(start.sum()))
     for run in range(RUNS + 1):
         gap = height - points.displacement(pressure)
         lacking = points.missing(gap - gap.mean())
@@ -112,6 +117,18 @@ def close_gap(
             most = min(2 * most, LONGEST)
         pressure += (start.sum() - pressure.sum()) / len(pressure)
     return ClosedGap(pressure, norm / size, points.products)
+
+
+def _direct(response: Response, where: Index, height: Array, load: float) -> Array:
+    """Return the pressure by elimination, the rigid approach and the load as a border."""
+    shape, size = response.grid.shape, len(where)
+    place = np.unravel_index(where, shape)
+    apart = [(axis[:, None] - axis) % n for axis, n in zip(place, shape, strict=True)]
+    stiffest = response.smallest_compliance  # scales the border
+    system = np.full((size + 1, size + 1), stiffest)
+    system[:size, :size] = response.influence[tuple(apart)]
+    system[size, size] = 0.0
+    return np.asarray(np.linalg.solve(system, np.append(height, stiffest * load))[:size])
 
 
 def gmres(

@@ -15,6 +15,7 @@ the rigid approach). A wavenumber along x that is its own opposite on the grid h
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 import scipy.fft
@@ -87,6 +88,11 @@ class Response:
         softest.flat[0] = np.abs(compliance).max()
         stiffness = (1.0 / softest).astype(np.complex64)
         return cls(grid, workers, compliance, compliance.astype(np.complex64), stiffness)
+
+    @cached_property
+    def influence(self) -> Array:
+        """Displacement under unit pressure at the first point [m/Pa], shape of the grid."""
+        return np.asarray(scipy.fft.irfftn(self.compliance, s=self.grid.shape))
 
     @property
     def smallest_compliance(self) -> float:
