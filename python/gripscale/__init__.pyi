@@ -1,3 +1,4 @@
+from . import rough as rough
 from . import rubber as rubber
 from . import surface as surface
 from . import theory as theory
@@ -8,11 +9,14 @@ from .errors import ConvergenceError as ConvergenceError
 from .errors import FileError as FileError
 from .errors import GripscaleError as GripscaleError
 from .errors import InputError as InputError
+from .rough.result import RoughContact as RoughContact
+from .rough.solve import solve_rough_contact as solve_rough_contact
 from .rubber import MasterCurve as MasterCurve
 from .rubber import Rubber as Rubber
 from .rubber import fit_prony as fit_prony
 from .rubber import read_master_curve as read_master_curve
 from .surface import HeightDifference as HeightDifference
+from .surface import HeightMap as HeightMap
 from .surface import Profile as Profile
 from .surface import SelfAffineFit as SelfAffineFit
 from .surface import SineStack as SineStack

@@ -2,6 +2,7 @@
 
 from gripscale.surface.cleaning import CleaningReport, StepReport, clean
 from gripscale.surface.height_difference import HeightDifference, height_difference
+from gripscale.surface.height_map import HeightMap
 from gripscale.surface.isotropy import areal_spectrum
 from gripscale.surface.periodogram import map_spectrum, profile_spectrum
 from gripscale.surface.prepared import Measured, PreparedSurface
@@ -17,6 +18,7 @@ __all__ = [
     "ArealSpectrum",
     "CleaningReport",
     "HeightDifference",
+    "HeightMap",
     "Measured",
     "PreparedSurface",
     "Profile",

@@ -1,0 +1,9 @@
+from .grids import GridRecord as GridRecord
+from .model import DirectContact as DirectContact
+from .result import RoughContact as RoughContact
+from .solve import solve_rough_contact as solve_rough_contact
+from .surfaces import random_phases as random_phases
+from .surfaces import surface_of_sines as surface_of_sines
+from .windows import WindowContacts as WindowContacts
+from .windows import solve_windows as solve_windows
+from .windows import windows as windows

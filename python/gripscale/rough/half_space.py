@@ -1,0 +1,124 @@
+"""A sliding viscoelastic half-space on a periodic grid: from pressure to displacement, and back.
+
+Geometry: small strain, no friction in the contact; the rubber lies above and slides towards +x with
+speed v over a rigid surface at rest. A harmonic exp(i q . r) that stands still on the surface is
+met by the rubber at the angular frequency q_x v, so
+
+    u(q) = K(q) p(q),    K = 2 / (|q| M(q_x v)),    M = E*/(1 - nu^2),    M(-w) = conj M(w),
+
+with u positive where the pressure lifts the rubber: K. L. Johnson, Contact Mechanics (1985), sec.
+13.2, doi:10.1017/CBO9781139171731, with the complex modulus in place of the elastic one. A line is
+plane strain, a map three-dimensional: the same equation. The mean displacement is left open (it is
+the rigid approach). A wavenumber along x that is its own opposite on the grid has a real M.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+import scipy.fft
+from numpy.typing import NDArray
+
+from gripscale.rough.grid import Array, Grid
+from gripscale.rubber import Rubber
+
+AnyArray = NDArray[np.floating]
+ComplexArray = NDArray[np.complex128]
+SingleComplexArray = NDArray[np.complex64]
+
+
+@dataclass(frozen=True)
+class HalfSpace:
+    """Rubber at a speed, seen from the surface it slides over.
+
+    Parameters
+    ----------
+    rubber : Rubber
+        The half-space.
+    speed : float
+        Sliding speed [m/s]; zero is the relaxed rubber.
+    loss : float
+        Share of the loss angle that is kept at unchanged |M|, 0 to 1; 1 is the rubber itself.
+    """
+
+    rubber: Rubber
+    speed: float
+    loss: float = 1.0
+
+    def modulus(self, grid: Grid) -> ComplexArray:
+        """Return M [Pa] at the wavenumbers along x, broadcastable to the spectrum of `grid`."""
+        value = self.rubber.plane_strain_modulus(self.speed * grid.along)
+        if self.loss != 1.0:
+            value = np.abs(value) * np.exp(1j * self.loss * np.angle(value))
+        return np.where(grid.own_opposite, np.abs(value), value)
+
+    def compliance(self, grid: Grid) -> ComplexArray:
+        """Return K(q) [m/Pa] over the spectrum of `grid`, zero for the mean."""
+        number = grid.wavenumber.copy()
+        number.flat[0] = 1.0
+        compliance = np.asarray(2.0 / (number * self.modulus(grid)))
+        compliance.flat[0] = 0.0
+        return compliance
+
+
+@dataclass(frozen=True)
+class Response:
+    """The half-space on one grid, ready to be multiplied with.
+
+    Displacements are exact in the precision of the pressure they are asked for; pressures only
+    condition and start iterations and are in single precision.
+    """
+
+    grid: Grid
+    workers: int
+    compliance: ComplexArray = field(repr=False)
+    compliance_single: SingleComplexArray = field(repr=False)
+    stiffness: SingleComplexArray = field(repr=False)
+
+    @classmethod
+    def of(cls, body: HalfSpace, grid: Grid, workers: int) -> Response:
+        """Return the response of `body` on `grid`.
+
+        The mean, which has no stiffness, is given that of the softest wave.
+        """
+        compliance = body.compliance(grid)
+        softest = compliance.copy()
+        softest.flat[0] = np.abs(compliance).max()
+        stiffness = (1.0 / softest).astype(np.complex64)
+        return cls(grid, workers, compliance, compliance.astype(np.complex64), stiffness)
+
+    @cached_property
+    def influence(self) -> Array:
+        """Displacement under unit pressure at the first point [m/Pa], shape of the grid."""
+        return np.asarray(scipy.fft.irfftn(self.compliance, s=self.grid.shape))
+
+    @property
+    def smallest_compliance(self) -> float:
+        """|K| of the stiffest wave of the grid [m/Pa]."""
+        return float(1.0 / np.abs(self.stiffness).max())
+
+    def displacement(self, pressure: AnyArray) -> AnyArray:
+        """Return the displacement [m] under `pressure` [Pa], of zero mean, shape of the grid."""
+        single = pressure.dtype == np.float32
+        return self._filtered(pressure, self.compliance_single if single else self.compliance)
+
+    def full_contact(self, height: Array, mean: float) -> Array:
+        """Return the pressure [Pa] of `mean` that follows `height` [m] everywhere, tension too."""
+        spectrum = scipy.fft.rfftn(height, workers=self.workers)
+        spectrum.flat[0] = 0.0
+        np.divide(spectrum, self.compliance, out=spectrum, where=self.compliance != 0.0)
+        spectrum.flat[0] = mean * height.size
+        return np.asarray(scipy.fft.irfftn(spectrum, s=height.shape, workers=self.workers))
+
+    def pressure(self, displacement: AnyArray) -> AnyArray:
+        """Return the pressure [Pa] that gives `displacement` [m] everywhere, shape of the grid."""
+        return self._filtered(displacement.astype(np.float32, copy=False), self.stiffness)
+
+    def _filtered(self, values: AnyArray, transfer: ComplexArray | SingleComplexArray) -> AnyArray:
+        spectrum = scipy.fft.rfftn(values, workers=self.workers)
+        spectrum *= transfer
+        return np.asarray(
+            scipy.fft.irfftn(spectrum, s=values.shape, workers=self.workers, overwrite_x=True)
+        )

@@ -1,0 +1,131 @@
+"""The direct contact as one of the models that can be compared, varied, drawn and reported."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from gripscale import model
+from gripscale.errors import InputError
+from gripscale.rough.result import RoughContact
+from gripscale.rough.solve import solve_rough_contact
+from gripscale.surface import PreparedSurface, Profile, SineStack
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from gripscale.model import NominalLoad
+    from gripscale.rubber import Rubber
+
+TOTALS = {
+    "total_contact_fraction": "contact_fraction",
+    "total_friction": "friction",
+    "total_friction_from_dissipation": "friction_from_dissipation",
+}
+"""Attribute of the contact of a profile behind each total."""
+
+
+@dataclass(frozen=True)
+class DirectContact:
+    """Every cleaned profile solved whole, averaged by length.
+
+    Footprint and load time have no part in it: in small strain the mean state does nothing.
+
+    Parameters
+    ----------
+    smallest_wavelength : float, optional
+        Shorter waves are left out [m]; by default shorter than the smallest sine wave of the
+        surface, so that chain and direct contact see the same roughness.
+    tolerance, most_points
+        See `solve_rough_contact`.
+    """
+
+    name: ClassVar[str] = "direct"
+
+    smallest_wavelength: float | None = None
+    tolerance: float | None = 0.02
+    most_points: int = 2**22
+
+    def relevant(self, surface: PreparedSurface) -> PreparedSurface:
+        """Return nothing of `surface` but its cleaned profiles and where its waves end."""
+        measured = surface.measured
+        if measured is not None:
+            pairs = [(cleaned, cleaned) for _, cleaned in measured.profiles]
+            measured = replace(
+                measured, profiles=pairs, cleaning=[], self_affine=None, no_self_affine=""
+            )
+        last = SineStack(surface.sines.wavelength[-1:], surface.sines.amplitude[-1:])
+        return PreparedSurface(last, source="", measured=measured)
+
+    def predict(
+        self,
+        rubber: Rubber,
+        surface: PreparedSurface,
+        load: NominalLoad,
+        *,
+        on_progress: Callable[[Any], None] | None = None,
+    ) -> xr.Dataset:
+        """Return the answer, with each profile over `profile`; `on_progress` gets each contact.
+
+        Raises
+        ------
+        InputError
+            If the surface was not measured: waves stated by hand have no profile.
+        """
+        contacts = []
+        for profile in _profiles(surface):
+            contact = solve_rough_contact(
+                rubber,
+                profile,
+                pressure=load.pressure,
+                speed=load.speed,
+                smallest_wavelength=self.smallest_wavelength or self._end_of(surface, profile),
+                tolerance=self.tolerance,
+                most_points=self.most_points,
+            )
+            contacts.append(contact)
+            if on_progress is not None:
+                on_progress(contact)
+        lengths = np.array([contact.grid.lengths[0] for contact in contacts])
+        return self._answer(contacts, lengths / lengths.sum(), load)
+
+    def _end_of(self, surface: PreparedSurface, profile: Profile) -> float:
+        """Return the smallest sine wave [m], or two steps where it is an extrapolation."""
+        return max(float(surface.sines.wavelength[-1]), 2.0 * profile.step)
+
+    def _answer(
+        self, contacts: list[RoughContact], weight: np.ndarray, load: NominalLoad
+    ) -> xr.Dataset:
+        import xarray as xr
+
+        bad = [
+            f"profile {number} of {len(contacts)}: {contact.status}"
+            for number, contact in enumerate(contacts, start=1)
+            if not contact.converged
+        ]
+        totals = {
+            total: math.nan
+            if bad
+            else float(weight @ [getattr(contact, name) for contact in contacts])
+            for total, name in TOTALS.items()
+        }
+        # what has a size of its own, profile by profile, is in the result of the profile
+        parts = [
+            contact.to_dataset(fields=False).drop_dims(["patch", "grid"]) for contact in contacts
+        ]
+        data = xr.concat(parts, dim="profile", join="outer", combine_attrs="override")
+        data["weight"] = ("profile", weight, {"units": "1", "long_name": "share of the length"})
+        return model.answer(data, totals, "; ".join(bad) or "converged", self.name, load)
+
+
+def _profiles(surface: PreparedSurface) -> list[Profile]:
+    if surface.measured is None:
+        raise InputError(
+            "the direct contact needs a measured profile; got sine waves stated by hand, which "
+            "have none (gripscale.rough.surface_of_sines makes one)"
+        )
+    return [cleaned for _, cleaned in surface.measured.profiles]

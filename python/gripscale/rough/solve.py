@@ -1,0 +1,190 @@
+"""The direct contact: a whole measured surface in one contact problem.
+
+A linear viscoelastic half-space in steady sliding is one convolution (`half_space`), so that the
+contact with all waves of a surface at once can be solved: no random phases, no separate scales.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Callable
+
+import numpy as np
+
+from gripscale import checks
+from gripscale.errors import InputError
+from gripscale.rough.estimate import errors
+from gripscale.rough.grids import Climb, GridRecord, LevelContact, finer, levels
+from gripscale.rough.half_space import HalfSpace
+from gripscale.rough.heights import PeriodicHeights, periodic_heights
+from gripscale.rough.result import RoughContact
+from gripscale.rubber import Rubber
+from gripscale.surface import HeightMap, Profile
+from gripscale.wave.status import Status
+
+FEWEST_IN_CONTACT = 8
+LEAST_FRICTION = 0.01
+"""Friction below which its error is compared with the tolerance times this."""
+
+
+def solve_rough_contact(
+    rubber: Rubber,
+    surface: Profile | HeightMap,
+    *,
+    pressure: float,
+    speed: float,
+    smallest_wavelength: float | None = None,
+    periodic: bool = False,
+    tolerance: float | None = 0.02,
+    workers: int | None = None,
+    most_points: int = 2**22,
+    most_iterations: int = 60,
+    on_grid: Callable[[GridRecord], None] | None = None,
+) -> RoughContact:
+    """Return contact and friction of a whole surface: small strain, frictionless contact.
+
+    Parameters
+    ----------
+    rubber : Rubber
+        The half-space; only shear relaxes.
+    surface : Profile or HeightMap
+        A line (plane strain) or a map (sliding along its x). Missing heights are interpolated.
+    pressure : float
+        Nominal pressure [Pa], above zero.
+    speed : float
+        Sliding speed [m/s]; zero is static contact of the relaxed rubber.
+    smallest_wavelength : float, optional
+        Shorter waves of the surface are left out [m]: at least two steps of it; four by default.
+    periodic : bool
+        Take the surface as one period as it stands. Otherwise its ends are joined by subtracting
+        the smooth part that carries the jump between them; for a line, the straight line through
+        its ends.
+    tolerance : float, optional
+        Estimated relative error to reach in contact fraction and friction (friction below 0.01 is
+        held to the tolerance times 0.01). None: four points in the smallest wave, whatever the
+        errors.
+    workers : int, optional
+        Threads of the Fourier transforms of a map; by default as many as there are processors.
+    most_points : int
+        Points a grid may have. A grid takes about 90 bytes a point and 4 bytes per point in contact
+        and product of the linear solver, of which there are 10 to 60 at a time.
+    most_iterations : int
+        Active-set iterations allowed on each grid.
+    on_grid : callable, optional
+        Called with the `GridRecord` of each grid as it is solved.
+
+    Returns
+    -------
+    RoughContact
+        A `status` other than "converged" says why not to trust the numbers.
+
+    Raises
+    ------
+    InputError
+        If an argument is out of its range, or the first full grid has more than `most_points`.
+    """
+    load = checks.positive("pressure", pressure, unit="Pa")
+    body = HalfSpace(rubber, checks.not_negative("speed", speed, unit="m/s"))
+    goal = math.inf if tolerance is None else checks.positive("tolerance", tolerance)
+    heights = periodic_heights(surface, smallest_wavelength=smallest_wavelength, periodic=periodic)
+    plan = levels(heights)
+    _check_size(plan[-1].grid.points, most_points, heights.smallest_wavelength)
+    threads = _threads(workers) if len(heights.grid.shape) > 1 else 1
+    climb = Climb(body, heights, load, threads, most_iterations)
+    grids: list[GridRecord] = []
+    while plan:
+        solved = climb.solve(plan.pop(0))
+        grids.append(solved.record)
+        if on_grid is not None:
+            on_grid(solved.record)
+        following = finer(solved.level)
+        if not plan and not _met(_same_surface(grids), goal):
+            plan += [following] if following.grid.points <= most_points else []
+    return _result(body, heights, load, solved, grids, goal)
+
+
+def _result(
+    body: HalfSpace,
+    heights: PeriodicHeights,
+    load: float,
+    solved: LevelContact,
+    grids: list[GridRecord],
+    goal: float,
+) -> RoughContact:
+    contact, found = solved.contact, solved.record
+    area_error, friction_error = errors(_same_surface(grids))
+    return RoughContact(
+        rubber=body.rubber,
+        nominal_pressure=load,
+        speed=body.speed,
+        smallest_wavelength=heights.smallest_wavelength,
+        contact_fraction=found.contact_fraction,
+        friction=found.friction,
+        friction_from_dissipation=found.friction_from_dissipation,
+        contact_fraction_error=area_error,
+        friction_error=friction_error,
+        status=_status(solved, grids, goal),
+        residuals=_residuals(solved, load),
+        full_contact=found.full,
+        grid=solved.level.grid,
+        origin=heights.origin,
+        height=solved.height,
+        pressure=np.maximum(contact.pressure, 0.0),
+        gap=np.where(contact.active, 0.0, np.maximum(contact.gap, 0.0)),
+        measured=heights.measured_on(solved.level.grid.shape),
+        grids=grids,
+    )
+
+
+def _same_surface(grids: list[GridRecord]) -> list[GridRecord]:
+    """Return the last grid, and those before it that settled with all waves on them."""
+    whole = [grid for grid in grids if grid.cut_off == grids[-1].cut_off]
+    return [grid for grid in whole[:-1] if grid.settled] + whole[-1:]
+
+
+def _met(same_surface: list[GridRecord], goal: float) -> bool:
+    """Return whether the last grid is fine enough, or too bad for a finer one to help."""
+    last = same_surface[-1]
+    if not last.settled or (math.isinf(goal) and last.in_contact >= FEWEST_IN_CONTACT):
+        return True
+    area, friction = errors(same_surface)
+    return (
+        area <= goal * last.contact_fraction
+        and friction <= goal * max(abs(last.friction_from_dissipation), LEAST_FRICTION)
+        and last.in_contact >= FEWEST_IN_CONTACT
+    )
+
+
+def _status(solved: LevelContact, grids: list[GridRecord], goal: float) -> Status:
+    pressure, last = solved.contact.pressure, grids[-1]
+    if not np.isfinite(pressure).all():
+        return Status.NOT_FINITE
+    if not last.settled:
+        return Status.ACTIVE_SET_NOT_SETTLED
+    if last.in_contact < FEWEST_IN_CONTACT:
+        return Status.CONTACT_TOO_NARROW
+    return Status.CONVERGED if _met(_same_surface(grids), goal) else Status.TOLERANCE_NOT_MET
+
+
+def _residuals(solved: LevelContact, load: float) -> dict[str, float]:
+    contact, size = solved.contact, float(np.sqrt(np.mean(solved.height**2)))
+    left = np.where(contact.active, np.abs(contact.gap), np.maximum(-contact.gap, 0.0))
+    return {
+        "pressure": contact.missing,
+        "gap": float(left.max() / size) if size > 0.0 else 0.0,
+        "load": abs(float(contact.pressure.mean()) / load - 1.0),
+    }
+
+
+def _check_size(points: int, most: int, smallest: float) -> None:
+    if points > most:
+        raise InputError(
+            f"most_points must be at least {points}, four points in each wave of {smallest:.4g} m; "
+            f"got {most}: raise it, take a larger smallest_wavelength or a part of the surface"
+        )
+
+
+def _threads(workers: int | None) -> int:
+    available = os.cpu_count() or 1
+    return available if workers is None else checks.whole("workers", workers, least=1, most=1024)

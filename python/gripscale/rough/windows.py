@@ -1,0 +1,114 @@
+"""How far one measurement speaks for the surface: the contact of its windows, and their scatter."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy import stats
+
+from gripscale import checks
+from gripscale.errors import InputError
+from gripscale.rough.grid import Array
+from gripscale.rough.result import RoughContact
+from gripscale.rough.solve import solve_rough_contact
+from gripscale.rubber import Rubber
+from gripscale.surface import HeightMap, Profile
+from gripscale.surface.profile import FEWEST_POINTS
+
+LEAST_VALID = 0.5
+"""Share of heights a window must have."""
+
+
+@dataclass(frozen=True)
+class WindowContacts:
+    """Contacts of the windows of one surface."""
+
+    contacts: list[RoughContact]
+
+    def values(self, name: str) -> Array:
+        """Return `contact_fraction`, `friction` ... of each window that converged."""
+        return np.array([float(getattr(c, name)) for c in self.contacts if c.converged])
+
+    def mean(self, name: str) -> float:
+        """Return the mean over windows: pressure and size are the same, so it is the surface's."""
+        values = self.values(name)
+        return float(values.mean()) if values.size else math.nan
+
+    def scatter(self, name: str) -> float:
+        """Return the standard deviation from window to window; NaN for fewer than two."""
+        values = self.values(name)
+        return float(values.std(ddof=1)) if values.size > 1 else math.nan
+
+    def confidence_interval(
+        self, name: str, *, level: float = 0.95, seed: int = 0
+    ) -> tuple[float, float]:
+        """Return the interval of the mean by a block bootstrap, the windows being the blocks.
+
+        Percentiles of 9999 resamples (B. Efron & R. Tibshirani, An Introduction to the Bootstrap,
+        1993, ch. 13); NaN for fewer than three windows. Too narrow if windows are shorter than the
+        surface's longest correlation, or few.
+        """
+        values = self.values(name)
+        if values.size < 3:
+            return math.nan, math.nan
+        found = stats.bootstrap(
+            (values,),
+            np.mean,
+            confidence_level=level,
+            method="percentile",
+            rng=np.random.default_rng(seed),
+        )
+        return float(found.confidence_interval.low), float(found.confidence_interval.high)
+
+
+def windows(surface: Profile | HeightMap, length: float) -> list[Profile | HeightMap]:
+    """Return the surface cut along x into as many windows of `length` [m] as fit, centred.
+
+    Windows with fewer than half their heights are left out.
+
+    Raises
+    ------
+    InputError
+        If a window would have fewer than 16 points or be longer than the surface, or none is left.
+    """
+    step = float((surface.x[-1] - surface.x[0]) / (surface.x.size - 1))
+    points = round(checks.positive("length", length, unit="m") / step)
+    if not FEWEST_POINTS <= points <= surface.x.size:
+        raise InputError(
+            f"length must be from {FEWEST_POINTS * step:.4g} m to {surface.x.size * step:.4g} m, "
+            f"the surface's; got {length:.4g} m"
+        )
+    number = surface.x.size // points
+    first = (surface.x.size - number * points) // 2
+    parts = [slice(first + i * points, first + (i + 1) * points) for i in range(number)]
+    kept = [part for part in parts if np.isfinite(surface.z[part]).mean() >= LEAST_VALID]
+    if not kept:
+        raise InputError(f"length {length:.4g} m leaves no window with half of its heights")
+    if isinstance(surface, Profile):
+        return [Profile(surface.x[part], surface.z[part], surface.name) for part in kept]
+    return [HeightMap(surface.x[part], surface.y, surface.z[part], surface.name) for part in kept]
+
+
+def solve_windows(
+    rubber: Rubber, surface: Profile | HeightMap, length: float, **load: Any
+) -> WindowContacts:
+    """Return the direct contact of each of the `windows` of `surface`.
+
+    Parameters
+    ----------
+    rubber, **load
+        As for `solve_rough_contact`; `periodic` makes no sense here.
+    surface, length
+        As for `windows`.
+
+    Raises
+    ------
+    InputError
+        As these do.
+    """
+    return WindowContacts(
+        [solve_rough_contact(rubber, window, **load) for window in windows(surface, length)]
+    )

@@ -1,0 +1,113 @@
+"""A surface map: heights at equidistant points along x and y, some of them perhaps missing."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gripscale import checks
+from gripscale.errors import InputError
+from gripscale.surface.profile import FEWEST_POINTS, STEP_TOLERANCE, uneven_step
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class HeightMap:
+    """Heights of a surface over a rectangle, at equidistant points each way.
+
+    Parameters
+    ----------
+    x : array_like, shape (nx,)
+        Distance along the way of sliding [m], strictly increasing, equidistant within 0.1 % of
+        the step.
+    y : array_like, shape (ny,)
+        Distance across it [m], likewise; its step may differ from that of x.
+    z : array_like, shape (nx, ny)
+        Height [m], positive upwards; NaN where the height is missing.
+    name : str, optional
+        What the map is called in tables and figures.
+    source : str, optional
+        Where it comes from, such as a file name.
+
+    Raises
+    ------
+    InputError
+        If x, y or z are not such numbers, their shapes differ, there are fewer than 16 points a
+        way, or no height is left.
+    """
+
+    x: FloatArray
+    y: FloatArray
+    z: FloatArray
+    name: str = ""
+    source: str = ""
+
+    def __post_init__(self) -> None:
+        x, y = _axis("x", self.x), _axis("y", self.y)
+        z = _heights(self.z)
+        if z.shape != (x.size, y.size):
+            raise InputError(
+                f"z must have shape ({x.size}, {y.size}), heights along x and then y; got {z.shape}"
+            )
+        if np.isnan(z).all():
+            raise InputError(f"z must have some heights; got {z.size} points, all missing")
+        for field, values in (("x", x), ("y", y), ("z", z)):
+            values.flags.writeable = False
+            object.__setattr__(self, field, values)
+
+    @property
+    def step(self) -> tuple[float, float]:
+        """Mean distance between neighbouring points along x and y [m]."""
+        return _mean_step(self.x), _mean_step(self.y)
+
+    @property
+    def length(self) -> tuple[float, float]:
+        """Distance from the first to the last point along x and y [m]."""
+        return float(self.x[-1] - self.x[0]), float(self.y[-1] - self.y[0])
+
+    @property
+    def missing(self) -> int:
+        """Number of points whose height is missing."""
+        return int(np.isnan(self.z).sum())
+
+    def __repr__(self) -> str:
+        (dx, dy), (nx, ny) = self.step, self.z.shape
+        return (
+            f"HeightMap({self.name or 'unnamed'}: {nx} x {ny} points, steps {dx:.4g} m and "
+            f"{dy:.4g} m, {self.missing} missing)"
+        )
+
+
+def _axis(name: str, values: FloatArray) -> FloatArray:
+    axis = checks.vector(name, values, unit="m")
+    if axis.size < FEWEST_POINTS:
+        raise InputError(
+            f"a map must have at least {FEWEST_POINTS} points a way; got {axis.size} along {name}"
+        )
+    at = uneven_step(axis)
+    if at is not None:
+        raise InputError(
+            f"{name} must increase in equal steps, within {STEP_TOLERANCE:g} of the mean "
+            f"{_mean_step(axis):.6g} m; got {axis[at + 1] - axis[at]:.6g} m after index {at}"
+        )
+    return axis
+
+
+def _heights(values: FloatArray) -> FloatArray:
+    expected = "z must be a table of heights [m], numbers or NaN, with two dimensions"
+    try:
+        z = np.array(values, dtype=float)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{expected}; got {values!r:.80}") from error
+    if z.ndim != 2:
+        raise InputError(f"{expected}; got {z.ndim} dimensions")
+    if np.isinf(z).any():
+        raise InputError(f"{expected}; got {z[np.isinf(z)][0]}")
+    return z
+
+
+def _mean_step(axis: FloatArray) -> float:
+    return float((axis[-1] - axis[0]) / (axis.size - 1))

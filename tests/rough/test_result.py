@@ -1,0 +1,189 @@
+"""What a direct contact tells, as a result, a Dataset and a model, and what it refuses."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import gripscale as gs
+from gripscale.errors import InputError
+from gripscale.model import TOTALS, Model, NominalLoad
+from gripscale.rough import DirectContact
+from gripscale.rough.patches import patch_points
+from gripscale.surface import (
+    HeightMap,
+    Measured,
+    PreparedSurface,
+    Profile,
+    SineStack,
+    self_affine_profile,
+)
+
+from .rough_cases import ZENER, isotropic_map, solve
+
+FOUND = solve(isotropic_map(64, shortest=1.6e-3), tolerance=0.05)
+PROFILES = [self_affine_profile(0.8, 5e-3, 5e-4, length, 1e-4, seed=4) for length in (0.1, 0.2)]
+SURFACE = PreparedSurface(
+    SineStack([1e-2, 1e-3], [1e-3, 1e-4]),
+    "made",
+    measured=Measured([(profile, profile) for profile in PROFILES], [], None, ""),
+)
+LOAD = NominalLoad(pressure=1e5, speed=0.3, footprint=0.1)
+
+
+def test_patches_join_across_the_period():
+    active = np.zeros((8, 8), dtype=bool)
+    active[0, 0] = active[-1, 0] = active[0, -1] = active[-1, -1] = True  # one, at the corners
+    active[3:5, 3:6] = True
+    active[6, 6] = True
+    assert patch_points(active).tolist() == [6, 4, 1]
+    assert patch_points(np.array([1, 0, 1, 1, 0, 1], dtype=bool)).tolist() == [2, 2]
+    assert patch_points(np.ones(5, dtype=bool)).tolist() == [5]
+
+
+def test_patches_and_pressures_add_up():
+    cell = np.prod(FOUND.grid.spacing)
+    assert FOUND.patches.sum() == pytest.approx(FOUND.active.sum() * cell)
+    quartiles = FOUND.pressure_quantiles([0.0, 0.5, 1.0])
+    assert 0.0 < quartiles[0] < quartiles[1] < quartiles[2] == FOUND.pressure.max()
+    assert FOUND.missing_share == 0.0
+
+
+def test_steep_contact_is_noted():
+    flat, steep = FOUND, solve(isotropic_map(64, shortest=1.6e-3, rms=3e-3), tolerance=None)
+    assert flat.slope_in_contact < 0.5
+    assert flat.notes == []
+    assert steep.slope_in_contact > 0.5
+    assert "small strain is no longer fair" in steep.notes[0]
+
+
+def test_the_dataset_holds_the_result(tmp_path):
+    data = FOUND.to_dataset()
+    assert float(data["contact_fraction"]) == FOUND.contact_fraction
+    assert data["pressure"].dims == ("x", "y")
+    np.testing.assert_array_equal(data["gap"], FOUND.gap)
+    np.testing.assert_array_equal(data["x"], FOUND.x)
+    assert data["octave_friction"].dims == ("wavelength",)
+    assert data["status"].item() == "converged"
+    assert all({"units", "long_name", "source"} <= set(v.attrs) for v in data.data_vars.values())
+    assert "pressure" not in FOUND.to_dataset(fields=False)
+    gs_file = tmp_path / "direct.nc"
+    data.to_netcdf(gs_file, engine="h5netcdf")
+    assert gs_file.stat().st_size > 0
+
+
+def test_area_by_octave_is_that_of_the_smoothed_surface():
+    """Its definition: the contact without the shorter waves, on four points in the shortest."""
+    surface = isotropic_map(128, shortest=8e-4)
+    found = solve(surface, tolerance=None)
+    octaves = found.friction_by_wavelength["contact_fraction"].dropna("wavelength")
+    assert octaves.sizes["wavelength"] >= 3
+    assert octaves.values[-1] == found.contact_fraction
+    second = float(octaves["wavelength"][-2])
+    smooth = solve(surface, smallest_wavelength=second, tolerance=None)
+    assert octaves.values[-2] == pytest.approx(smooth.contact_fraction, rel=1e-6)
+
+
+def test_progress_is_told_grid_by_grid_and_can_be_broken_off():
+    seen = []
+    solve(isotropic_map(64), tolerance=None, on_grid=seen.append)
+    assert [grid.points for grid in seen] == sorted(grid.points for grid in seen)
+    assert len(seen) >= 2
+
+    def stop(_):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        solve(isotropic_map(64), on_grid=stop)
+
+
+def test_the_tolerance_is_met_or_the_status_says_so():
+    surface = isotropic_map(64, shortest=1.6e-3)
+    fine = solve(surface, tolerance=0.01, most_points=2**20)
+    assert fine.converged
+    assert fine.contact_fraction_error <= 0.01 * fine.contact_fraction
+    assert fine.friction_error <= 0.01 * fine.friction_from_dissipation
+    coarse = solve(surface, tolerance=0.001, most_points=64**2)
+    assert coarse.status == "tolerance not met"
+
+
+def test_a_contact_of_few_points_is_too_narrow():
+    x = np.arange(64) * 1e-4
+    found = solve(
+        Profile(x, 1e-4 * np.cos(2 * np.pi * x / 64e-4)),
+        pressure=0.1,
+        tolerance=None,
+        speed=0.0,
+        most_points=128,
+    )
+    assert found.status == "contact too narrow"
+
+
+def test_the_model_averages_profiles_by_length():
+    model = DirectContact(smallest_wavelength=1e-3, tolerance=0.05)
+    assert isinstance(model, Model)
+    seen = []
+    data = model.predict(ZENER, SURFACE, LOAD, on_progress=seen.append)
+    assert set(TOTALS) <= set(data)
+    assert data["prediction_status"].item() == "converged"
+    assert data.attrs["model"] == "direct"
+    lengths = np.array([len(profile) for profile in PROFILES])
+    expected = np.average([contact.friction for contact in seen], weights=lengths)
+    assert float(data["total_friction"]) == pytest.approx(expected, rel=1e-12)
+    np.testing.assert_array_equal(data["friction"], [contact.friction for contact in seen])
+    again = model.predict(ZENER, model.relevant(SURFACE), LOAD)
+    assert float(again["total_friction"]) == float(data["total_friction"])
+
+
+def test_the_model_ends_where_the_waves_end_and_refuses_waves_alone():
+    data = DirectContact(tolerance=None).predict(ZENER, SURFACE, LOAD)
+    np.testing.assert_allclose(data["smallest_wavelength"], 1e-3)
+    with pytest.raises(InputError, match="needs a measured profile; got sine waves"):
+        DirectContact().predict(ZENER, PreparedSurface(SURFACE.sines, "by hand"), LOAD)
+
+
+def test_a_profile_that_fails_makes_the_totals_nan():
+    failing = DirectContact(smallest_wavelength=1e-3, tolerance=1e-9, most_points=2**12)
+    load = NominalLoad(pressure=1e3, speed=0.0, footprint=0.1)
+    short = PreparedSurface(
+        SURFACE.sines, "made", measured=Measured([(PROFILES[0], PROFILES[0])], [], None, "")
+    )
+    data = failing.predict(ZENER, short, load)
+    assert np.isnan(float(data["total_friction"]))
+    assert data["prediction_status"].item() == "profile 1 of 1: tolerance not met"
+
+
+X = np.arange(64) * 1e-4
+WAVE = Profile(X, 1e-5 * np.cos(2 * np.pi * X / 64e-4))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ({"pressure": 0.0}, r"pressure must be greater than zero \[Pa\]; got 0"),
+        ({"pressure": np.nan}, "pressure must be a finite number"),
+        ({"speed": -1.0}, "speed must not be negative"),
+        ({"tolerance": 0.0}, "tolerance must be greater than zero"),
+        ({"smallest_wavelength": 1e-4}, "from 0.0002 m, two steps of the surface, to 0.0064 m"),
+        ({"smallest_wavelength": 1e-2}, "its length; got 0.01 m"),
+        ({"most_points": 10}, "most_points must be at least 128, four points in each wave"),
+        ({"workers": 0}, "workers must be a whole number"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(arguments, words):
+    surface = isotropic_map(64) if "workers" in arguments else WAVE
+    with pytest.raises(InputError, match=words):
+        solve(surface, **arguments)
+
+
+def test_what_is_no_surface_is_refused():
+    with pytest.raises(InputError, match="surface must be a Profile or a HeightMap; got ndarray"):
+        solve(WAVE.z)
+    with pytest.raises(InputError, match="at least 16 points a way; got 1"):
+        HeightMap(X, X[:1], WAVE.z[:, None])
+
+
+def test_a_flat_surface_is_full_contact():
+    found = gs.solve_rough_contact(ZENER, Profile(X, 0 * X), pressure=1e5, speed=1.0)
+    assert (found.contact_fraction, found.friction) == (1.0, 0.0)
+    assert found.converged

@@ -1,0 +1,154 @@
+"""Measured surfaces made periodic: gaps, ends, cut-off, any size, windows; and synthetic ones."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import gripscale as gs
+from gripscale.errors import InputError
+from gripscale.rough import random_phases, solve_windows, surface_of_sines, windows
+from gripscale.rough.ends import filled, joined
+from gripscale.rough.heights import periodic_heights
+from gripscale.surface import HeightMap, Profile, SineStack, height_difference, self_affine_profile
+
+from .rough_cases import ZENER, isotropic_map, solve
+
+LINE = self_affine_profile(0.8, 5e-3, 1e-3, 0.2, 1e-4, seed=4)
+
+
+def test_gaps_are_filled_along_both_ways():
+    """A tilted plane is filled exactly: it is linear along x and along y."""
+    x, y = np.arange(20.0), np.arange(24.0)
+    plane = 0.3 * x[:, None] - 0.2 * y[None, :]
+    z = plane.copy()
+    z[5:9, 6:11] = np.nan
+    z[12, :] = np.nan
+    found, measured = filled(z)
+    np.testing.assert_allclose(found, plane, atol=1e-12)
+    np.testing.assert_array_equal(measured, ~np.isnan(z))
+
+
+def test_the_nearer_neighbours_count_more():
+    z = np.zeros((20, 20))
+    z[10, 2:18] = np.nan  # one step wide across, sixteen along
+    z[9, :], z[11, :], z[10, :2], z[10, 18:] = 1.0, 1.0, 0.0, 0.0
+    found, _ = filled(z)
+    assert found[10, 10] == pytest.approx((1 / 3 * 1.0 + 0.0 / 18) / (1 / 3 + 1 / 18), rel=1e-12)
+
+
+def test_ends_of_a_line_are_joined_by_a_straight_line():
+    z = joined(LINE.z)
+    taken = LINE.z - z
+    assert np.ptp(np.diff(taken)) < 1e-9 * np.ptp(LINE.z)
+    assert abs(z[0] - z[-1]) <= 1.5 * np.abs(np.diff(LINE.z)).max()
+
+
+def test_a_tilt_of_a_map_is_taken_out_and_the_middle_is_left():
+    surface = isotropic_map(64)
+    tilted = surface.z + 0.05 * surface.x[:, None] - 0.02 * surface.y[None, :]
+    change = joined(tilted) - (surface.z - surface.z.mean())
+    assert np.abs(change[16:48, 16:48]).max() < 0.1 * surface.z.std()
+
+
+def test_the_way_ends_are_joined_does_not_matter():
+    """Mirrored, the line repeats without a jump; half of it slides backwards, so at rest. Contact
+    fraction 0.07 from some ten asperities a side: the ends are one of them."""
+    load = {"rubber": ZENER, "speed": 0.0, "pressure": 5e4, "smallest_wavelength": 1e-3}
+    plain = solve(LINE, periodic=False, **load)
+    double = np.concatenate((LINE.z, LINE.z[::-1]))
+    mirror = solve(Profile(np.arange(double.size) * LINE.step, double), **load)
+    assert plain.contact_fraction == pytest.approx(mirror.contact_fraction, rel=0.1)
+
+
+def test_waves_below_the_cut_off_are_gone_whatever_their_direction():
+    surface = isotropic_map(64, shortest=8e-4)
+    heights = periodic_heights(surface, smallest_wavelength=3.2e-3, periodic=True)
+    z = heights.on((96, 80))
+    number = heights.grid.wavenumber
+    kept = heights.spectrum[number <= 2 * np.pi / 3.2e-3 * (1 + 1e-9)]
+    assert 0 < kept.size < heights.spectrum.size
+    one = np.fft.rfft2(z) / z.size
+    across = np.hypot(*np.meshgrid(np.fft.fftfreq(96) * 96, np.arange(41), indexing="ij"))
+    assert np.abs(one[across > 0.0256 / 3.2e-3 + 1e-6]).max() < 1e-18
+    assert z.std() > 0.5 * surface.z.std()
+
+
+@pytest.mark.parametrize("points", [127, 128, 131])
+def test_any_number_of_points_will_do(points):
+    """The same three waves sampled in three ways: the same contact, to the linear solver."""
+    x = np.arange(points) * 0.02 / points
+    z = sum(1e-4 / n * np.cos(2 * np.pi * n * x / 0.02 + n) for n in (1, 3, 7))
+    found = solve(Profile(x, z), smallest_wavelength=1e-3, tolerance=None)
+    assert found.friction == pytest.approx(REFERENCE.friction, rel=1e-4)
+    assert found.grid.shape == REFERENCE.grid.shape
+
+
+def _three_waves():
+    x = np.arange(256) * 0.02 / 256
+    z = sum(1e-4 / n * np.cos(2 * np.pi * n * x / 0.02 + n) for n in (1, 3, 7))
+    return solve(Profile(x, z), smallest_wavelength=1e-3, tolerance=None)
+
+
+REFERENCE = _three_waves()
+
+
+def test_contact_on_missing_heights_is_counted():
+    x = np.arange(512) * 1e-4
+    z = 1e-4 * np.cos(2 * np.pi * x / x.size * 1e4 * 4)
+    whole = Profile(x, z)
+    holes = Profile(x, np.where(z < -0.9e-4, np.nan, z))
+    tops = Profile(x, np.where((x < 0.0128) & (z > 0.9e-4), np.nan, z))
+    load = {"pressure": 1e4, "smallest_wavelength": 2e-3}
+    assert solve(whole, **load).missing_share == 0.0
+    assert solve(holes, **load).missing_share == 0.0
+    # one top of four, made flat and so carrying less than the others
+    assert 0.1 < solve(tops, **load).missing_share < 0.3
+
+
+def test_windows_have_the_same_contact_within_their_scatter():
+    load = {"pressure": 5e4, "speed": 0.3, "smallest_wavelength": 2e-3, "tolerance": 0.1}
+    parts = solve_windows(ZENER, LINE, 0.02, **load)
+    assert len(parts.contacts) == 10
+    low, high = parts.confidence_interval("friction")
+    assert low < parts.mean("friction") < high
+    assert high - low < 4 * parts.scatter("friction")
+    whole = gs.solve_rough_contact(ZENER, LINE, **load)
+    assert parts.mean("friction") == pytest.approx(
+        whole.friction, abs=4 * parts.scatter("friction") / np.sqrt(10)
+    )
+
+
+def test_windows_leave_out_what_is_mostly_missing():
+    z = LINE.z.copy()
+    z[:200] = np.nan
+    pieces = windows(Profile(LINE.x, z), 0.02)
+    assert len(pieces) == 9
+    assert pieces[0].x[0] == pytest.approx(LINE.x[200])
+    surface = isotropic_map(64)
+    assert [piece.z.shape for piece in windows(surface, 0.0128)] == [(32, 64), (32, 64)]
+    with pytest.raises(InputError, match=r"length must be from 0\.0016 m"):
+        windows(LINE, 1.0)
+
+
+def test_random_phases_keep_the_height_difference_correlation():
+    drawn = random_phases(LINE, seed=1)
+    lags = height_difference(LINE).lag
+    keep = lags < 2e-3
+    before = height_difference(Profile(LINE.x, joined(LINE.z))).value[keep]
+    after = height_difference(drawn).value[keep]
+    # open ends count differently: one pair in a hundred at the longest lag
+    np.testing.assert_allclose(after, before, rtol=0.1)
+    assert np.corrcoef(drawn.z, LINE.z)[0, 1] < 0.5
+    assert isinstance(random_phases(isotropic_map(64), seed=1), HeightMap)
+
+
+def test_surface_of_sines_has_their_slopes():
+    stack = SineStack([0.01, 0.003], [1e-3, 2e-4])
+    surface = surface_of_sines(stack, 0.05, seed=2)
+    spectrum = 2 * np.abs(np.fft.rfft(surface.z)) / len(surface)
+    counts = np.flatnonzero(spectrum > 1e-12)
+    np.testing.assert_array_equal(counts, [5, 17])
+    np.testing.assert_allclose(spectrum[counts] * counts / 0.05, stack.amplitude / stack.wavelength)
+    with pytest.raises(InputError, match="length must be at least the largest wavelength"):
+        surface_of_sines(stack, 0.005, seed=1)

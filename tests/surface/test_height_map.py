@@ -1,0 +1,51 @@
+"""A height map: what it keeps, and what it refuses."""
+
+import numpy as np
+import pytest
+
+from gripscale.errors import InputError
+from gripscale.surface import HeightMap
+
+X, Y = np.arange(20) * 1e-4, np.arange(30) * 2e-4
+Z = np.outer(np.sin(X * 1e4), np.cos(Y * 1e4))
+
+
+def test_a_map_knows_its_steps_and_gaps():
+    z = Z.copy()
+    z[3, 4] = np.nan
+    surface = HeightMap(X, Y, z, name="slab")
+    assert surface.step == pytest.approx((1e-4, 2e-4))
+    assert surface.length == pytest.approx((19e-4, 58e-4))
+    assert surface.missing == 1
+    assert repr(surface) == (
+        "HeightMap(slab: 20 x 30 points, steps 0.0001 m and 0.0002 m, 1 missing)"
+    )
+
+
+def test_a_map_does_not_change():
+    z = Z.copy()
+    surface = HeightMap(X, Y, z)
+    z[0, 0] = 7.0
+    assert surface.z[0, 0] != 7.0
+    with pytest.raises(ValueError, match="read-only"):
+        surface.z[0, 0] = 1.0
+
+
+@pytest.mark.parametrize(
+    ("x", "y", "z", "words"),
+    [
+        (X[:1], Y, Z[:1], "at least 16 points a way; got 1 along x"),
+        (X, Y[:15], Z[:, :15], "got 15 along y"),
+        (X, Y, Z.T, r"z must have shape \(20, 30\), heights along x and then y; got \(30, 20\)"),
+        (X, Y, Z[0], "two dimensions; got 1"),
+        (X, Y, "rough", "z must be a table of heights"),
+        (X, Y, np.full(Z.shape, np.nan), "some heights; got 600 points, all missing"),
+        (X, Y, np.where(Z > 0.9, np.inf, Z), "numbers or NaN.*got inf"),
+        (X**2, Y, Z, "x must increase in equal steps"),
+        (X[::-1], Y, Z, "x must increase"),
+        (np.where(X > 0, X, np.nan), Y, Z, "x must be a list of finite numbers"),
+    ],
+)
+def test_what_is_no_map_is_refused(x, y, z, words):
+    with pytest.raises(InputError, match=words):
+        HeightMap(x, y, z)
