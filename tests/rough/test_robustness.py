@@ -44,11 +44,11 @@ def test_estimates_cover_the_errors_of_many():
 
 @pytest.mark.verification
 def test_a_thousand_random_cases_are_solved():
-    """99 %; the rest has loss angles next to a right angle, and says that it did not settle."""
+    """All were when measured; loss angles next to a right angle may fail and must then say so."""
     statuses = [random_case(seed).solve(tolerance=None).status for seed in range(1000)]
     solved = [status == "converged" for status in statuses]
     assert set(statuses) <= {"converged", "active set not settled", "contact too narrow"}
-    assert sum(solved) >= 990
+    assert sum(solved) >= 998
 
 
 def test_very_lossy_rubber_at_high_speed():
