@@ -13,11 +13,13 @@ from .rough_cases import random_case
 FRICTION_THAT_COUNTS = 1e-3
 
 
-def covered(seed: int, points_of_line: int, points_of_map: int) -> tuple[bool, bool]:
+def covered(
+    seed: int, points_of_line: int, points_of_map: int, most_points: int
+) -> tuple[bool, bool]:
     """Return whether the errors of area and friction are within the estimates, a grid four times
     finer being the truth."""
     case = random_case(seed, points_of_line, points_of_map)
-    found = case.solve(most_points=2**14)
+    found = case.solve(most_points=most_points)
     finer = case.finer_than(found, halvings=2)
     assert found.status in ("converged", "tolerance not met")
     area = abs(found.contact_fraction - finer.contact_fraction)
@@ -29,7 +31,7 @@ def covered(seed: int, points_of_line: int, points_of_map: int) -> tuple[bool, b
 
 def test_estimates_cover_the_errors():
     """Ten cases; an estimate that covers nine in ten may miss one or two of ten."""
-    area, friction = np.array([covered(seed, 1024, 32) for seed in range(10)]).T
+    area, friction = np.array([covered(seed, 1024, 32, 2**12) for seed in range(10)]).T
     assert area.sum() >= 8
     assert friction.sum() >= 8
 
@@ -37,18 +39,18 @@ def test_estimates_cover_the_errors():
 @pytest.mark.verification
 def test_estimates_cover_the_errors_of_many():
     """Forty cases: nine in ten."""
-    area, friction = np.array([covered(seed, 4096, 64) for seed in range(40)]).T
+    area, friction = np.array([covered(seed, 4096, 64, 2**14) for seed in range(40)]).T
     assert area.sum() >= 36
     assert friction.sum() >= 36
 
 
 @pytest.mark.verification
 def test_a_thousand_random_cases_are_solved():
-    """99 %; the rest has loss angles next to a right angle, and says that it did not settle."""
+    """All were when measured; loss angles next to a right angle may fail and must then say so."""
     statuses = [random_case(seed).solve(tolerance=None).status for seed in range(1000)]
     solved = [status == "converged" for status in statuses]
     assert set(statuses) <= {"converged", "active set not settled", "contact too narrow"}
-    assert sum(solved) >= 990
+    assert sum(solved) >= 998
 
 
 def test_very_lossy_rubber_at_high_speed():

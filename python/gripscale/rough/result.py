@@ -85,7 +85,9 @@ class RoughContact:
 
     @property
     def friction_mismatch(self) -> float:
-        """Relative difference of the two friction measures: the discretisation's own error."""
+        """Relative difference of the two friction measures, zero at rest."""
+        if self.speed == 0.0:
+            return 0.0
         scale = max(abs(self.friction), abs(self.friction_from_dissipation))
         difference = abs(self.friction - self.friction_from_dissipation)
         return difference / scale if scale > 0.0 else 0.0

@@ -67,8 +67,9 @@ def solve_rough_contact(
     workers : int, optional
         Threads of the Fourier transforms of a map; by default as many as there are processors.
     most_points : int
-        Points a grid may have. A grid takes about 90 bytes a point and 4 bytes per point in contact
-        and product of the linear solver, of which there are 10 to 60 at a time.
+        Points a grid may have. A solution takes about 150 bytes a point (150 MB for 1024 x 1024),
+        and 4 bytes for each point in contact and product of the linear solver, of which it keeps
+        10 to 60, in very lossy rubber 240.
     most_iterations : int
         Active-set iterations allowed on each grid.
     on_grid : callable, optional
