@@ -181,7 +181,8 @@ WRONG = [
     (
         '"dma.txt"',
         '"dma.txt"\nstrain_energy = { kind = "ogden" }',
-        "[rubber] strain_energy: kind must be one of neo_hookean, mooney_rivlin, yeoh, isihara; got 'ogden'",
+        "[rubber] strain_energy: kind must be one of neo_hookean, mooney_rivlin, yeoh, "
+        "isihara; got 'ogden'",
     ),
     (
         '"dma.txt"',

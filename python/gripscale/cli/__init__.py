@@ -10,6 +10,7 @@ from typing import Annotated
 
 import typer
 
+from gripscale.cli.compare import compare
 from gripscale.cli.fit_rubber import fit_rubber
 from gripscale.cli.fit_surface import fit_surface
 from gripscale.cli.report import report
@@ -26,6 +27,7 @@ app = typer.Typer(
     no_args_is_help=True,
 )
 app.command("run")(run)
+app.command("compare")(compare)
 app.command("report")(report)
 app.command("study")(study)
 app.command("reproduce", context_settings=PASS_ON)(reproduce)

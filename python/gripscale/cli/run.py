@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from gripscale.case import CaseResults, WaveSolved
+    from gripscale.case.compare import Rung
 
 REPORT_WIDTH = 110
 
@@ -34,6 +35,7 @@ def run(
 ) -> None:
     """Predict contact area and friction of a case: tables, figures and result files."""
     from gripscale.case import folder, prepare_case, read_case, run_case
+    from gripscale.case.compare import judged
     from gripscale.figures.beside import drawn_beside
 
     console = screen()
@@ -53,7 +55,8 @@ def run(
 
         with _spinner(console):
             run_case(results, output=target, on_wave=look)
-        _conclude(console, target, opening, results)
+            direct = judged(results)
+        _conclude(console, target, opening, results, direct)
     console.print()
     say(console, f"Results, report and figures are in {target}")
     _fail_if_any(results)
@@ -105,11 +108,18 @@ def _teller(console: Console, waves: int) -> Callable[[WaveSolved], None]:
     return tell
 
 
-def _conclude(console: Console, target: Path, opening: list[str], results: CaseResults) -> None:
-    """Print the tables and write them down."""
+def _conclude(
+    console: Console,
+    target: Path,
+    opening: list[str],
+    results: CaseResults,
+    direct: Rung | None,
+) -> None:
+    """Print the tables and what the chain is worth, and write them down."""
     from gripscale.case import folder
     from gripscale.case.results import title
     from gripscale.report import tables
+    from gripscale.report.comparison_table import judgement
 
     solved = {title(p.load.speed): p.to_dataset() for p in results.predictions.values()}
     for name, data in solved.items():
@@ -118,10 +128,16 @@ def _conclude(console: Console, target: Path, opening: list[str], results: CaseR
     if solved:
         console.print()
         say(console, tables.LEGEND)
+    judged = next(iter(results.predictions.values()), None)
+    last = [] if judged is None or direct is None else list(judgement(judged, direct))
+    if last:
+        console.print()
+    for line in last:
+        say(console, line)
     written = [tables.prediction_table(data, name, REPORT_WIDTH) for name, data in solved.items()]
     folder.write_text(
         target / "report.txt",
-        tables.as_text(*opening, "", *written, tables.LEGEND, width=REPORT_WIDTH),
+        tables.as_text(*opening, "", *written, tables.LEGEND, "", *last, width=REPORT_WIDTH),
     )
 
 

@@ -82,7 +82,7 @@ def to_dataset(contact: RoughContact, *, fields: bool) -> xr.Dataset:
     octaves = by_wavelength(contact).rename(contact_fraction="contact_fraction_without_shorter")
     data |= {
         (name if name.startswith("contact") else f"octave_{name}"): values
-        for name, values in ((str(key), octaves[key]) for key in octaves.data_vars)
+        for name, values in ((str(key), octaves[key].variable) for key in octaves.data_vars)
     }
     for name in (entry.name for entry in dataclasses.fields(GridRecord)):
         values = [float(getattr(grid, name)) for grid in contact.grids]
@@ -113,7 +113,7 @@ def to_dataset(contact: RoughContact, *, fields: bool) -> xr.Dataset:
     )
 
 
-def _fields(contact: RoughContact) -> dict[str, xr.DataArray]:
+def _fields(contact: RoughContact) -> dict[str, xr.Variable]:
     axes = ("x", "y")[: contact.height.ndim]
     coords = {axis: labelled(axis, getattr(contact, axis), "m", axis, SOURCE) for axis in axes}
     table = {
@@ -121,7 +121,7 @@ def _fields(contact: RoughContact) -> dict[str, xr.DataArray]:
         "pressure": ("Pa", "contact pressure", contact.pressure),
         "gap": ("m", "gap between rubber and surface", contact.gap),
     }
-    return {
-        name: labelled(axes, values, unit, text, SOURCE).assign_coords(coords)
+    return coords | {
+        name: labelled(axes, values, unit, text, SOURCE)
         for name, (unit, text, values) in table.items()
     }
