@@ -59,8 +59,8 @@ def test_rungs_are_the_models_themselves(inputs: Path) -> None:
     assert rungs["chain_half_plane"].mean("friction") == chain.friction_from_dissipation
     quick = judged(results)
     assert quick is not None
-    # Four points in the smallest wave against an estimated 2 %.
-    assert quick.mean("friction") == pytest.approx(rungs["direct"].mean("friction"), rel=0.06)
+    # Estimated errors of 10 % and 2 %.
+    assert quick.mean("friction") == pytest.approx(rungs["direct"].mean("friction"), rel=0.12)
 
 
 def test_waves_by_hand_have_no_profile_to_judge_by(tmp_path: Path) -> None:
