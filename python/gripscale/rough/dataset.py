@@ -23,7 +23,7 @@ from gripscale.rough.grids import GridRecord
 from gripscale.wave.dataset import labelled
 
 if TYPE_CHECKING:
-    from gripscale.rough.result import RoughContact
+    from gripscale.rough.solved import SolvedContact
 
 SOURCE = "gripscale direct contact"
 SHARES = (0.05, 0.25, 0.5, 0.75, 0.95, 0.99)
@@ -43,7 +43,7 @@ NUMBERS = {
 }
 
 
-def by_wavelength(contact: RoughContact) -> xr.Dataset:
+def by_wavelength(contact: SolvedContact) -> xr.Dataset:
     """Return friction and contact fraction over `wavelength`, from long to short."""
     number = np.broadcast_to(contact.grid.wavenumber, contact.grid.spectrum_shape).reshape(-1)[1:]
     lost = contact.lost_by_harmonic().reshape(-1)[1:]
@@ -73,7 +73,7 @@ def by_wavelength(contact: RoughContact) -> xr.Dataset:
     )
 
 
-def to_dataset(contact: RoughContact, *, fields: bool) -> xr.Dataset:
+def to_dataset(contact: SolvedContact, *, fields: bool) -> xr.Dataset:
     """Return the numbers of `contact`, by octave and by grid, and its `fields` on the last grid."""
     data = {
         name: labelled((), float(getattr(contact, name)), unit, text, SOURCE)
@@ -113,7 +113,7 @@ def to_dataset(contact: RoughContact, *, fields: bool) -> xr.Dataset:
     )
 
 
-def _fields(contact: RoughContact) -> dict[str, xr.Variable]:
+def _fields(contact: SolvedContact) -> dict[str, xr.Variable]:
     axes = ("x", "y")[: contact.height.ndim]
     coords = {axis: labelled(axis, getattr(contact, axis), "m", axis, SOURCE) for axis in axes}
     table = {
