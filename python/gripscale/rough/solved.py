@@ -16,9 +16,6 @@ from gripscale.rough.patches import patch_points
 from gripscale.rubber import Rubber
 from gripscale.wave.status import Status
 
-if TYPE_CHECKING:
-    pass
-
 STEEP = 0.5
 """Rms slope in the contact beyond which small strain is no longer fair."""
 
