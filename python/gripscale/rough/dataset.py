@@ -100,7 +100,7 @@ def to_dataset(contact: SolvedContact, *, fields: bool) -> xr.Dataset:
     data["status"] = labelled((), np.array(str(contact.status), dtype=object), "1", "", SOURCE)
     return xr.Dataset(
         data,
-        coords={"share": list(SHARES)},
+        coords={"share": list(SHARES), "wavelength": octaves["wavelength"].variable},
         attrs={
             "title": "Direct contact of rubber with a whole rough surface",
             "rubber": f"{contact.rubber.name}; {contact.rubber.source}".strip("; "),
