@@ -59,6 +59,19 @@ impl Profile {
             heights,
         })
     }
+
+    /// Refuse a mesh that cannot follow the smallest wave of the heights.
+    pub fn check_resolved(&self, mesh: &MeshSize) -> Result<(), KernelError> {
+        let fewest = self.heights.fewest_nodes().div_ceil(mesh.order);
+        if mesh.columns >= fewest {
+            return Ok(());
+        }
+        Err(KernelError::Refused {
+            name: "columns".to_owned(),
+            expected: format!("at least {fewest} to follow the smallest wave of the heights"),
+            value: mesh.columns.to_string(),
+        })
+    }
 }
 
 /// Mean pressure [Pa], sliding speed [m/s] and the time [s] the mean deformation has had to relax.

@@ -31,6 +31,7 @@ pub fn solve(
     start: Option<&Solution>,
 ) -> Result<Solution, KernelError> {
     positive("tolerance", tolerance.unwrap_or(1.0))?;
+    problem.profile.check_resolved(&problem.mesh)?;
     let passage = problem.profile.wavelength / problem.load.speed;
     let model = Model::new(&problem.rubber, &problem.profile, passage, TAU);
     let mut work = Work {
