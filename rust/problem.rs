@@ -112,11 +112,18 @@ impl Problem {
                 return Err(KernelError::OtherStart { name, start, here });
             }
         }
-        Ok(())
+        if self.profile.heights == profile.heights {
+            return Ok(());
+        }
+        Err(KernelError::OtherStart {
+            name: "profile",
+            start: format!("{:?}", self.profile.heights),
+            here: format!("{:?}", profile.heights),
+        })
     }
 }
 
-fn parts(rubber: &Rubber, profile: &Profile) -> [(&'static str, String); 7] {
+fn parts(rubber: &Rubber, profile: &Profile) -> [(&'static str, String); 6] {
     [
         ("strain_energy", format!("{:?}", rubber.energy)),
         (
@@ -127,6 +134,5 @@ fn parts(rubber: &Rubber, profile: &Profile) -> [(&'static str, String); 7] {
         ("relaxation_times", format!("{:?}", rubber.relaxation_times)),
         ("bulk_modulus", format!("{:?}", rubber.bulk_modulus)),
         ("wavelength", format!("{:?}", profile.wavelength)),
-        ("profile", format!("{:?}", profile.heights)),
     ]
 }

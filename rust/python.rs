@@ -123,11 +123,7 @@ impl ProfileItems {
     }
 }
 
-fn needed<T>(
-    owner: &'static str,
-    name: &'static str,
-    value: Option<T>,
-) -> Result<T, KernelError> {
+fn needed<T>(owner: &'static str, name: &'static str, value: Option<T>) -> Result<T, KernelError> {
     value.ok_or(KernelError::MissingParameter { owner, name })
 }
 

@@ -42,7 +42,8 @@ pub fn solve(
         counts: Counts::default(),
     };
     let start_columns = start.map(|solution| solution.finest.mesh.columns);
-    let sequence = MeshSequence::new(&problem.mesh, tolerance, start_columns, settings);
+    let fewest = problem.profile.heights.fewest_nodes();
+    let sequence = MeshSequence::new(&problem.mesh, tolerance, start_columns, fewest, settings);
     let on_mesh = |mesh: Mesh, coarse: Option<&MeshSolution>| work.on_mesh(mesh, coarse);
     let finest = sequence.solve(tolerance, settings, on_mesh)?;
     Ok(Solution {

@@ -1,5 +1,6 @@
 //! Sampled periodic heights as their trigonometric interpolant, measured from their mean.
 //!
+//! With N samples h_j at x = j/N,
 //!     h(x) = Re sum_n c_n exp(2 pi i n x),   c_n = 2/N sum_j h_j exp(-2 pi i n j / N),   n = 1 ... N/2
 //!
 //! Slope and curvature are derivatives of the same function, a sampled sine is the sine to round-off,
@@ -147,10 +148,10 @@ impl Harmonics {
 impl fmt::Debug for Harmonics {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (lowest, highest) = self.range;
-        let (count, first) = (self.len(), self.height(0.0));
+        let (count, height, slope) = (self.len(), self.height(0.0), self.slope(0.0));
         write!(
             f,
-            "sampled heights of {count} harmonics from {lowest:?} to {highest:?}, {first:?} at x = 0"
+            "sampled heights of {count} harmonics from {lowest:?} to {highest:?}, at x = 0 {height:?} with slope {slope:?}"
         )
     }
 }
