@@ -65,7 +65,8 @@ def test_a_sampled_sine_is_the_sine(order, speed):
     load = {"pressure": 1e6, "speed": speed, "element_order": order, **MESH}
     one = gs.solve_scale(RUBBER, **WAVE, **load)
     sampled = gs.solve_profile(RUBBER, sine(), periodic=True, **load)
-    assert one.converged and sampled.converged
+    assert one.converged
+    assert sampled.converged
     assert sampled.contact_fraction == pytest.approx(one.contact_fraction, abs=1e-9)
     assert sampled.friction == pytest.approx(one.friction, abs=1e-9)
     assert sampled.wavelength == pytest.approx(one.wavelength, rel=1e-12)
@@ -188,7 +189,7 @@ def test_heights_that_are_no_profile_are_refused():
 
 def test_the_half_plane_model_refuses_sampled_heights():
     problem = WaveProblem(RUBBER, SampledProfile(1e-3, sine().z), Load(1e5, 1.0))
-    with pytest.raises(gs.InputError, match="profile must be a Sine .* got a SampledProfile"):
+    with pytest.raises(gs.InputError, match=r"profile must be a Sine .* got a SampledProfile"):
         HalfPlane().solve(problem)
 
 
@@ -210,8 +211,8 @@ def test_windows_of_the_measured_road(station, first):
     z = np.fft.irfft(waves, len(window) - 1)
     periodic = gs.Profile(window.x[:-1], z)
     fraction, friction = half_plane(tread(), periodic, load)
-    assert one.contact_fraction == pytest.approx(fraction, rel=0.06)
-    assert one.friction == pytest.approx(friction, rel=0.06)
+    assert one.contact_fraction == pytest.approx(fraction, rel=0.04)
+    assert one.friction == pytest.approx(friction, rel=0.04)
 
 
 def detrended(window):
