@@ -175,6 +175,20 @@ def test_a_wave_beyond_the_finest_mesh_is_refused():
         gs.solve_profile(RUBBER, noisy, pressure=3e5, speed=0.3)
 
 
+@pytest.mark.parametrize("cut", [None, 2e-3])
+def test_a_profile_without_a_wave_left_is_refused(cut):
+    x = 1e-5 * np.arange(401)
+    ripple = 0.0 if cut is None else 1e-5 * np.sin(2.0 * np.pi * x / 1e-3)
+    with pytest.raises(gs.InputError, match="profile must have waves left without its tilt"):
+        gs.solve_profile(
+            RUBBER,
+            gs.Profile(x, 0.1 * x + ripple),
+            pressure=3e5,
+            speed=0.0,
+            smallest_wavelength=cut,
+        )
+
+
 def test_heights_that_are_no_profile_are_refused():
     for heights, sentence in (
         (np.zeros(7), "heights must be at least 8; got 7"),

@@ -21,12 +21,18 @@ from gripscale.wave.mesh import Mesh
 from gripscale.wave.problem import Load, SampledProfile, WaveProblem
 from gripscale.wave.result import WaveResult
 
+Array = NDArray[np.float64]
+
 COLUMNS = (64, 96, 128, 192, 256, 384, 512, 768, 1024)
 """Columns to choose from: all can be halved for the coarser meshes of a sequence."""
 COLUMNS_PER_WAVE = 8
 FEWEST_PER_WAVE = 6
 ROW_EXPONENT = 0.585
 """Rows grow with this power of the columns: by 1.5 for every doubling."""
+
+
+ROUND_OFF = 1e-12
+"""Share of the range of heights below which what is left of them is no profile."""
 
 
 def solve_profile(
@@ -125,24 +131,34 @@ def _one_period(profile: Profile, smallest: float | None, periodic: bool) -> Sam
     points = np.arange(len(profile), dtype=float)
     known = np.isfinite(profile.z)
     period = len(profile) * profile.step if periodic else profile.length
-    z: NDArray[np.float64] = np.interp(
+    z: Array = np.interp(
         points, points[known], profile.z[known], period=len(profile) if periodic else None
     )
     if not periodic:
         z = (z - np.linspace(z[0], z[-1], z.size))[:-1]
-    heights = SampledProfile(period, z)
-    if smallest is None:
-        return heights
+    if smallest is not None:
+        z = _cut_off(z, period, smallest)
+    left, there = np.ptp(z), np.ptp(profile.z[known])
+    if left <= ROUND_OFF * there:
+        raise InputError(
+            "profile must have waves left without its tilt and those below smallest_wavelength; "
+            f"got heights within {left:.3g} m of each other, {there:.3g} m before"
+        )
+    return SampledProfile(period, z)
+
+
+def _cut_off(z: Array, period: float, smallest: float) -> Array:
+    """Return heights of the same period without waves below the smallest."""
     cut = checks.positive("smallest_wavelength", smallest, unit="m")
     # Round-off must not drop a wave that is exactly the smallest.
-    waves = math.floor(min(period / cut * (1.0 + 1e-9), len(profile)))
+    waves = math.floor(min(period / cut * (1.0 + 1e-9), z.size))
     if waves < 1:
         raise InputError(
             f"smallest_wavelength must be at most the period {period:g} m; got {cut:g} m"
         )
-    kept = np.fft.rfft(heights.heights)[: waves + 1]
+    kept = np.fft.rfft(z)[: waves + 1]
     count = max(4 * (kept.size - 1), 16)
-    return SampledProfile(period, np.fft.irfft(kept, count) * (count / z.size))
+    return np.asarray(np.fft.irfft(kept, count) * (count / z.size))
 
 
 def _columns(heights: SampledProfile) -> int:
