@@ -59,6 +59,19 @@ impl Profile {
             heights,
         })
     }
+
+    /// Refuse a mesh that cannot follow the smallest wave of the heights.
+    pub fn check_resolved(&self, mesh: &MeshSize) -> Result<(), KernelError> {
+        let fewest = self.heights.fewest_nodes().div_ceil(mesh.order);
+        if mesh.columns >= fewest {
+            return Ok(());
+        }
+        Err(KernelError::Refused {
+            name: "columns".to_owned(),
+            expected: format!("at least {fewest} to follow the smallest wave of the heights"),
+            value: mesh.columns.to_string(),
+        })
+    }
 }
 
 /// Mean pressure [Pa], sliding speed [m/s] and the time [s] the mean deformation has had to relax.
@@ -99,11 +112,18 @@ impl Problem {
                 return Err(KernelError::OtherStart { name, start, here });
             }
         }
-        Ok(())
+        if self.profile.heights == profile.heights {
+            return Ok(());
+        }
+        Err(KernelError::OtherStart {
+            name: "profile",
+            start: format!("{:?}", self.profile.heights),
+            here: format!("{:?}", profile.heights),
+        })
     }
 }
 
-fn parts(rubber: &Rubber, profile: &Profile) -> [(&'static str, String); 7] {
+fn parts(rubber: &Rubber, profile: &Profile) -> [(&'static str, String); 6] {
     [
         ("strain_energy", format!("{:?}", rubber.energy)),
         (
@@ -114,6 +134,5 @@ fn parts(rubber: &Rubber, profile: &Profile) -> [(&'static str, String); 7] {
         ("relaxation_times", format!("{:?}", rubber.relaxation_times)),
         ("bulk_modulus", format!("{:?}", rubber.bulk_modulus)),
         ("wavelength", format!("{:?}", profile.wavelength)),
-        ("profile", format!("{:?}", profile.heights)),
     ]
 }

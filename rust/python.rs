@@ -103,7 +103,28 @@ struct RubberItems {
 struct ProfileItems {
     kind: String,
     wavelength: f64,
-    amplitude: f64,
+    #[pyo3(default)]
+    amplitude: Option<f64>,
+    #[pyo3(default)]
+    heights: Option<Vec<f64>>,
+}
+
+impl ProfileItems {
+    fn checked(self) -> Result<Profile, KernelError> {
+        let heights = match self.kind.as_str() {
+            "sine" => Heights::sine(needed("a sine", "amplitude", self.amplitude)?)?,
+            "sampled" => Heights::sampled(&needed("a sampled profile", "heights", self.heights)?)?,
+            other => {
+                let known = ["sine", "sampled"];
+                return Err(unknown("the kind of a profile", other, &known));
+            }
+        };
+        Profile::new(self.wavelength, heights)
+    }
+}
+
+fn needed<T>(owner: &'static str, name: &'static str, value: Option<T>) -> Result<T, KernelError> {
+    value.ok_or(KernelError::MissingParameter { owner, name })
 }
 
 #[derive(FromPyObject)]
@@ -143,13 +164,8 @@ impl BodyItems {
             items.relaxation_times,
             items.bulk_modulus,
         )?;
-        let heights = match self.profile.kind.as_str() {
-            "sine" => Heights::sine(self.profile.amplitude)?,
-            other => return Err(unknown("the kind of a profile", other, &["sine"])),
-        };
-        let profile = Profile::new(self.profile.wavelength, heights)?;
         let mesh = MeshSize::new(mesh.columns, mesh.rows, mesh.depth, mesh.element_order)?;
-        Ok((rubber, profile, mesh))
+        Ok((rubber, self.profile.checked()?, mesh))
     }
 }
 

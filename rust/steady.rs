@@ -31,6 +31,7 @@ pub fn solve(
     start: Option<&Solution>,
 ) -> Result<Solution, KernelError> {
     positive("tolerance", tolerance.unwrap_or(1.0))?;
+    problem.profile.check_resolved(&problem.mesh)?;
     let passage = problem.profile.wavelength / problem.load.speed;
     let model = Model::new(&problem.rubber, &problem.profile, passage, TAU);
     let mut work = Work {
@@ -41,7 +42,8 @@ pub fn solve(
         counts: Counts::default(),
     };
     let start_columns = start.map(|solution| solution.finest.mesh.columns);
-    let sequence = MeshSequence::new(&problem.mesh, tolerance, start_columns, settings);
+    let fewest = problem.profile.heights.fewest_nodes();
+    let sequence = MeshSequence::new(&problem.mesh, tolerance, start_columns, fewest, settings);
     let on_mesh = |mesh: Mesh, coarse: Option<&MeshSolution>| work.on_mesh(mesh, coarse);
     let finest = sequence.solve(tolerance, settings, on_mesh)?;
     Ok(Solution {

@@ -62,6 +62,7 @@ pub fn solve(
     stages: &[Stage],
     start: Option<&Solution>,
 ) -> Result<Run, KernelError> {
+    profile.check_resolved(mesh)?;
     for stage in stages {
         check_stage(stage, profile, settings)?;
     }

@@ -1,5 +1,5 @@
 from collections.abc import Mapping
-from typing import TypedDict, final, type_check_only
+from typing import Literal, TypedDict, final, type_check_only
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,10 +65,16 @@ class Rubber(TypedDict):
     strain_energy: tuple[str, dict[str, float]]
 
 @type_check_only
-class Profile(TypedDict):
-    kind: str
+class Sine(TypedDict):
+    kind: Literal["sine"]
     wavelength: float
     amplitude: float
+
+@type_check_only
+class Sampled(TypedDict):
+    kind: Literal["sampled"]
+    wavelength: float
+    heights: list[float]
 
 @type_check_only
 class Load(TypedDict):
@@ -86,7 +92,7 @@ class Mesh(TypedDict):
 @type_check_only
 class Body(TypedDict):
     rubber: Rubber
-    profile: Profile
+    profile: Sine | Sampled
     mesh: Mesh
 
 @type_check_only

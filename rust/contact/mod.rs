@@ -2,6 +2,7 @@
 
 pub mod complementarity;
 pub mod edges;
+pub mod harmonics;
 pub mod linearised;
 pub mod profile;
 

@@ -2,13 +2,19 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::harmonics::Harmonics;
 use crate::error::{positive, KernelError};
+
+/// Fewest nodes along the smallest wave of sampled heights.
+const NODES_PER_WAVE: usize = 6;
 
 /// Heights, in any unit of length; what a kind of profile is, only this file knows.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Heights {
     /// A cos(2 pi x), crest at x = 0.
     Sine { amplitude: f64 },
+    /// A periodic function through equidistant heights, the first at x = 0.
+    Sampled(Harmonics),
 }
 
 impl Heights {
@@ -16,37 +22,46 @@ impl Heights {
         positive("amplitude", amplitude).map(|amplitude| Self::Sine { amplitude })
     }
 
+    pub fn sampled(heights: &[f64]) -> Result<Self, KernelError> {
+        Harmonics::new(heights).map(Self::Sampled)
+    }
+
     /// The same heights in units of `length`.
     pub fn over(&self, length: f64) -> Self {
-        match *self {
+        match self {
             Self::Sine { amplitude } => Self::Sine {
                 amplitude: amplitude / length,
             },
+            Self::Sampled(harmonics) => Self::Sampled(harmonics.over(length)),
         }
     }
 
     pub fn height(&self, x: f64) -> f64 {
-        match *self {
+        match self {
             Self::Sine { amplitude } => amplitude * (TAU * x).cos(),
+            Self::Sampled(harmonics) => harmonics.height(x),
         }
     }
 
     pub fn slope(&self, x: f64) -> f64 {
-        match *self {
+        match self {
             Self::Sine { amplitude } => -amplitude * TAU * (TAU * x).sin(),
+            Self::Sampled(harmonics) => harmonics.slope(x),
         }
     }
 
     pub fn curvature(&self, x: f64) -> f64 {
-        match *self {
+        match self {
             Self::Sine { amplitude } => -amplitude * TAU * TAU * (TAU * x).cos(),
+            Self::Sampled(harmonics) => harmonics.curvature(x),
         }
     }
 
     /// Smallest and largest height.
     pub fn range(&self) -> (f64, f64) {
-        match *self {
-            Self::Sine { amplitude } => (-amplitude, amplitude),
+        match self {
+            Self::Sine { amplitude } => (-amplitude, *amplitude),
+            Self::Sampled(harmonics) => harmonics.range(),
         }
     }
 
@@ -58,8 +73,19 @@ impl Heights {
 
     /// Mean pressure that closes the gap of a half-plane with nu = 1/2 and unit shear modulus, for
     /// heights in periods: 4 pi A of a sine (K. L. Johnson, "Contact Mechanics" (1985), section
-    /// 13.2), and of heights with the same range in one wave the order of magnitude.
+    /// 13.2).
     pub fn full_contact_pressure(&self) -> f64 {
-        4.0 * PI * self.half_range()
+        match self {
+            Self::Sine { amplitude } => 4.0 * PI * amplitude,
+            Self::Sampled(harmonics) => harmonics.full_contact_pressure(),
+        }
+    }
+
+    /// Nodes along the period below which a mesh cannot follow the smallest wave.
+    pub fn fewest_nodes(&self) -> usize {
+        match self {
+            Self::Sine { .. } => 0,
+            Self::Sampled(harmonics) => NODES_PER_WAVE * harmonics.len(),
+        }
     }
 }

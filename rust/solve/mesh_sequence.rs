@@ -30,15 +30,19 @@ pub struct MeshSequence(pub Vec<MeshSize>);
 
 impl MeshSequence {
     /// Up to the mesh asked for, or with a tolerance beyond it; less of it is needed where a
-    /// solution on `start_columns` is there to start from.
+    /// solution on `start_columns` is there to start from. No mesh has less than half of the
+    /// `fewest_nodes` that resolve the profile: it would find contacts that are not there, and
+    /// finer meshes may keep them.
     pub fn new(
         finest: &MeshSize,
         tolerance: Option<f64>,
         start_columns: Option<usize>,
+        fewest_nodes: usize,
         settings: &Settings,
     ) -> Self {
+        let coarsest = settings.coarsest_nodes.max(fewest_nodes / 2);
         let mut columns = vec![finest.columns];
-        while columns[0] % 4 == 0 && finest.order * columns[0] / 2 >= settings.coarsest_nodes {
+        while columns[0] % 4 == 0 && finest.order * columns[0] / 2 >= coarsest {
             columns.insert(0, columns[0] / 2);
         }
         if tolerance.is_some() {

@@ -36,6 +36,7 @@ proptest! {
             bulk_modulus: numbers[1],
             wavelength: numbers[2],
             amplitude: numbers[3],
+            heights: (rows % 2 == 1).then(|| numbers.clone()),
             pressure: numbers[4],
             speed: numbers[5],
             load_time: numbers[6],

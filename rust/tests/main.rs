@@ -33,6 +33,8 @@ pub struct Case {
     pub bulk_modulus: f64,
     pub wavelength: f64,
     pub amplitude: f64,
+    /// Samples in place of the sine.
+    pub heights: Option<Vec<f64>>,
     pub pressure: f64,
     pub speed: f64,
     pub load_time: f64,
@@ -54,6 +56,7 @@ impl Case {
             bulk_modulus: 1000.0,
             wavelength: 1.0,
             amplitude,
+            heights: None,
             pressure,
             speed: 0.0,
             load_time: f64::INFINITY,
@@ -66,6 +69,13 @@ impl Case {
         }
     }
 
+    fn heights(&self) -> Result<Heights, KernelError> {
+        match &self.heights {
+            Some(samples) => Heights::sampled(samples),
+            None => Heights::sine(self.amplitude),
+        }
+    }
+
     pub fn problem(&self) -> Result<Problem, KernelError> {
         Ok(Problem {
             rubber: Rubber::new(
@@ -75,7 +85,7 @@ impl Case {
                 self.relaxation_times.clone(),
                 self.bulk_modulus,
             )?,
-            profile: Profile::new(self.wavelength, Heights::sine(self.amplitude)?)?,
+            profile: Profile::new(self.wavelength, self.heights()?)?,
             load: Load::new(self.pressure, self.speed, self.load_time)?,
             mesh: MeshSize::new(self.columns, self.rows, self.depth, self.order)?,
         })

@@ -108,6 +108,11 @@ class HalfPlane:
                 "start must be None: the half-plane model is solved on nested grids and starts "
                 f"from nothing; got a result of {start.model}"
             )
+        if not isinstance(problem.profile, Sine):
+            raise InputError(
+                "profile must be a Sine for the half-plane model of one wave; "
+                f"got a {type(problem.profile).__name__}"
+            )
         wave = _Wave(problem.profile, problem.load, self.points)
 
         def modulus(number: Array) -> ComplexArray:

@@ -4,8 +4,10 @@ from .kernel import default_settings as default_settings
 from .kernel import describe_settings as describe_settings
 from .mesh import Mesh as Mesh
 from .problem import Load as Load
+from .problem import SampledProfile as SampledProfile
 from .problem import Sine as Sine
 from .problem import WaveProblem as WaveProblem
+from .profile import solve_profile as solve_profile
 from .result import WaveResult as WaveResult
 from .solver import WaveSolver as WaveSolver
 from .status import Status as Status

@@ -180,6 +180,10 @@ def _result(problem: WaveProblem, mesh: Mesh, solution: kernel.Solution) -> Wave
             solution.mesh_z * profile.wavelength,
         ),
         details={
+            "contact_edges": [
+                (start * profile.wavelength, end * profile.wavelength)
+                for start, end in solution.contacts
+            ],
             "load_steps": solution.load_steps,
             "load_reached": solution.load_reached,
             "indentation": solution.approach * profile.wavelength,

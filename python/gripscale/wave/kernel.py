@@ -13,7 +13,7 @@ from gripscale import _kernel, checks
 from gripscale.errors import InputError
 from gripscale.rubber import Rubber
 from gripscale.wave.mesh import Mesh
-from gripscale.wave.problem import Sine, WaveProblem
+from gripscale.wave.problem import SampledProfile, Sine, WaveProblem
 from gripscale.wave.result import WaveResult
 
 Solution = _kernel.Solution
@@ -59,7 +59,7 @@ def solve_steady(
 
 def solve_transient(
     rubber: Rubber,
-    profile: Sine,
+    profile: Sine | SampledProfile,
     mesh: Mesh,
     settings: Mapping[str, float],
     stages: Sequence[tuple[float, float, float]],
@@ -84,7 +84,7 @@ def solution_of(start: WaveResult) -> Solution:
     )
 
 
-def _body(rubber: Rubber, profile: Sine, mesh: Mesh) -> _kernel.Body:
+def _body(rubber: Rubber, profile: Sine | SampledProfile, mesh: Mesh) -> _kernel.Body:
     return {
         "rubber": {
             "equilibrium_modulus": rubber.equilibrium_modulus / 3.0,
@@ -93,11 +93,7 @@ def _body(rubber: Rubber, profile: Sine, mesh: Mesh) -> _kernel.Body:
             "bulk_modulus": rubber.bulk_modulus,
             "strain_energy": (rubber.strain_energy.kind, rubber.strain_energy.parameters()),
         },
-        "profile": {
-            "kind": "sine",
-            "wavelength": profile.wavelength,
-            "amplitude": profile.amplitude,
-        },
+        "profile": _heights(profile),
         "mesh": {
             "columns": mesh.columns,
             "rows": mesh.rows,
@@ -105,6 +101,13 @@ def _body(rubber: Rubber, profile: Sine, mesh: Mesh) -> _kernel.Body:
             "element_order": mesh.element_order,
         },
     }
+
+
+def _heights(profile: Sine | SampledProfile) -> _kernel.Sine | _kernel.Sampled:
+    wavelength = profile.wavelength
+    if isinstance(profile, Sine):
+        return {"kind": "sine", "wavelength": wavelength, "amplitude": profile.amplitude}
+    return {"kind": "sampled", "wavelength": wavelength, "heights": profile.heights.tolist()}
 
 
 def _asked(call: Callable[[], T]) -> T:

@@ -8,8 +8,16 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from gripscale import checks
+from gripscale.errors import InputError
 from gripscale.rubber import Rubber
+
+FEWEST_HEIGHTS = 8
+SMALLEST_SHARE = 1e-9
+"""Waves beyond the last with this share of the largest amplitude are round-off."""
 
 
 @dataclass(frozen=True)
@@ -35,6 +43,51 @@ class Sine:
     def __post_init__(self) -> None:
         _set(self, wavelength=checks.positive("wavelength", self.wavelength, unit="m"))
         _set(self, amplitude=checks.positive("amplitude", self.amplitude, unit="m"))
+
+
+@dataclass(frozen=True, eq=False)
+class SampledProfile:
+    """Heights at equal steps over one period; between them the trigonometric interpolant.
+
+    Parameters
+    ----------
+    wavelength : float
+        The period [m], above zero.
+    heights : array_like, shape (points,)
+        Heights at x = 0, wavelength/points, ... [m], at least 8; their mean is taken off.
+
+    Raises
+    ------
+    InputError
+        If the period is no number above zero, or the heights are too few, not finite, or all equal.
+    """
+
+    wavelength: float
+    heights: NDArray[np.float64]
+
+    def __post_init__(self) -> None:
+        heights = checks.vector("heights", self.heights, unit="m")
+        if heights.size < FEWEST_HEIGHTS:
+            raise InputError(f"heights must be at least {FEWEST_HEIGHTS}; got {heights.size}")
+        if np.ptp(heights) == 0.0:
+            raise InputError(f"heights must differ; got {heights.size} times {heights[0]:g} m")
+        heights -= heights.mean()
+        heights.flags.writeable = False
+        _set(self, wavelength=checks.positive("wavelength", self.wavelength, unit="m"))
+        object.__setattr__(self, "heights", heights)
+
+    @property
+    def amplitude(self) -> float:
+        """Half the difference of largest and smallest height [m], on sixteen times finer steps."""
+        count = self.heights.size
+        fine = np.fft.irfft(np.fft.rfft(self.heights), 16 * count) * 16.0
+        return float(np.ptp(fine)) / 2.0
+
+    @property
+    def waves(self) -> int:
+        """Number of its smallest wave: whole waves in the period."""
+        size = np.abs(np.fft.rfft(self.heights))
+        return int(np.flatnonzero(size > SMALLEST_SHARE * size.max())[-1])
 
 
 @dataclass(frozen=True)
@@ -71,7 +124,7 @@ class WaveProblem:
     """What a solver of one wave is asked."""
 
     rubber: Rubber
-    profile: Sine
+    profile: Sine | SampledProfile
     load: Load
 
     @property

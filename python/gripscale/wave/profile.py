@@ -1,0 +1,173 @@
+"""The finite-strain block on one period of a measured profile: every wave of it at once.
+
+The profile is made periodic, cut off below the smallest wavelength, and pressed into one block:
+no separation of scales, no random phases, and no small strain.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gripscale import checks
+from gripscale.errors import InputError
+from gripscale.rubber import Rubber
+from gripscale.surface.profile import Profile
+from gripscale.wave.block import FiniteStrainBlock
+from gripscale.wave.mesh import Mesh
+from gripscale.wave.problem import Load, SampledProfile, WaveProblem
+from gripscale.wave.result import WaveResult
+
+Array = NDArray[np.float64]
+
+COLUMNS = (64, 96, 128, 192, 256, 384, 512, 768, 1024)
+"""Columns to choose from: all can be halved for the coarser meshes of a sequence."""
+COLUMNS_PER_WAVE = 8
+FEWEST_PER_WAVE = 6
+ROW_EXPONENT = 0.585
+"""Rows grow with this power of the columns: by 1.5 for every doubling."""
+
+
+ROUND_OFF = 1e-12
+"""Share of the range of heights below which what is left of them is no profile."""
+
+
+def solve_profile(
+    rubber: Rubber,
+    profile: Profile,
+    *,
+    pressure: float,
+    speed: float,
+    load_time: float = math.inf,
+    smallest_wavelength: float | None = None,
+    periodic: bool = False,
+    depth: float = Mesh.depth,
+    columns: int | None = None,
+    rows: int | None = None,
+    element_order: int = Mesh.element_order,
+    tolerance: float | None = None,
+    start: WaveResult | None = None,
+    max_iterations: int | None = None,
+    residual_tolerance: float | None = None,
+) -> WaveResult:
+    """Press a rubber block on one period of a profile, slide it, and find contact and friction.
+
+    As `gripscale.solve_scale`, on sampled heights in place of one sine. Missing heights are
+    interpolated linearly.
+
+    Parameters
+    ----------
+    rubber : Rubber
+        The viscoelastic solid.
+    profile : Profile
+        Heights of one period [m]; the rubber slides along its x.
+    pressure : float
+        Mean pressure on the lid [Pa].
+    speed : float
+        Sliding speed [m/s]; 0 is static contact of the fully relaxed rubber.
+    load_time : float
+        Time the mean deformation has had to relax [s]; infinity by default.
+    smallest_wavelength : float, optional
+        Shorter waves are left out [m]; by default all that the profile holds are kept.
+    periodic : bool
+        Whether the profile is one period as it stands, its last point one step before the first of
+        the next period. Otherwise the line through its end points, which then coincide, is
+        subtracted.
+    depth : float
+        Height of the block in periods.
+    columns, rows : int, optional
+        Elements along and across the block; by default 8 columns along the smallest wave, rounded
+        up to a number of few factors and at most 1024, and rows to suit.
+    element_order : int
+        1: bilinear with one pressure; 2: biquadratic with linear discontinuous pressure.
+    tolerance : float, optional
+        As in `gripscale.solve_scale`.
+    start : WaveResult, optional
+        A result of the block to start from, of any profile, load and rubber.
+    max_iterations : int, optional
+        Newton iterations allowed in one load step.
+    residual_tolerance : float, optional
+        Largest residual force over the applied force, and gap over half the range of heights [-].
+
+    Returns
+    -------
+    WaveResult
+        Its `wavelength` is the period, its `amplitude` half the range of heights; x starts at the
+        first point. `details` also has the `contact_edges` [m], `missing_share` of the points, and
+        the `smallest_wavelength` that was kept [m].
+
+    Raises
+    ------
+    InputError
+        If a value is not a number or out of its range, or the smallest wave needs more columns.
+    """
+    if not isinstance(profile, Profile):
+        raise InputError(f"profile must be a gripscale.Profile; got {type(profile).__name__}")
+    heights = _one_period(profile, smallest_wavelength, periodic)
+    chosen = _columns(heights) if columns is None else columns
+    share = checks.positive("columns", chosen) / Mesh.columns
+    block = FiniteStrainBlock.of(
+        columns=chosen,
+        rows=round(Mesh.rows * share**ROW_EXPONENT) if rows is None else rows,
+        depth=depth,
+        element_order=element_order,
+        tolerance=tolerance,
+        max_iterations=max_iterations,
+        residual_tolerance=residual_tolerance,
+    )
+    result = block.solve(WaveProblem(rubber, heights, Load(pressure, speed, load_time)), start)
+    told = {
+        "missing_share": profile.missing / len(profile),
+        "smallest_wavelength": heights.wavelength / heights.waves,
+    }
+    return replace(result, details={**result.details, **told})
+
+
+def _one_period(profile: Profile, smallest: float | None, periodic: bool) -> SampledProfile:
+    """Return the heights without gaps and tilt, and without waves below the smallest."""
+    points = np.arange(len(profile), dtype=float)
+    known = np.isfinite(profile.z)
+    period = len(profile) * profile.step if periodic else profile.length
+    z: Array = np.interp(
+        points, points[known], profile.z[known], period=len(profile) if periodic else None
+    )
+    if not periodic:
+        z = (z - np.linspace(z[0], z[-1], z.size))[:-1]
+    if smallest is not None:
+        z = _cut_off(z, period, smallest)
+    left, there = np.ptp(z), np.ptp(profile.z[known])
+    if left <= ROUND_OFF * there:
+        raise InputError(
+            "profile must have waves left without its tilt and those below smallest_wavelength; "
+            f"got heights within {left:.3g} m of each other, {there:.3g} m before"
+        )
+    return SampledProfile(period, z)
+
+
+def _cut_off(z: Array, period: float, smallest: float) -> Array:
+    """Return heights of the same period without waves below the smallest."""
+    cut = checks.positive("smallest_wavelength", smallest, unit="m")
+    # Round-off must not drop a wave that is exactly the smallest.
+    waves = math.floor(min(period / cut * (1.0 + 1e-9), z.size))
+    if waves < 1:
+        raise InputError(
+            f"smallest_wavelength must be at most the period {period:g} m; got {cut:g} m"
+        )
+    kept = np.fft.rfft(z)[: waves + 1]
+    count = max(4 * (kept.size - 1), 16)
+    return np.asarray(np.fft.irfft(kept, count) * (count / z.size))
+
+
+def _columns(heights: SampledProfile) -> int:
+    """Return 8 columns along the smallest wave, rounded up, or all there are if they suffice."""
+    if FEWEST_PER_WAVE * heights.waves > COLUMNS[-1]:
+        least = FEWEST_PER_WAVE * heights.wavelength / COLUMNS[-1]
+        raise InputError(
+            f"smallest_wavelength must be at least {least:.4g} m, {FEWEST_PER_WAVE} of "
+            f"{COLUMNS[-1]} columns; got waves down to {heights.wavelength / heights.waves:.4g} m"
+        )
+    wanted = COLUMNS_PER_WAVE * heights.waves
+    return next((count for count in COLUMNS if count >= wanted), COLUMNS[-1])

@@ -1,0 +1,234 @@
+"""The finite-strain block on one period of sampled heights: known sines, half-plane, road."""
+
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import gripscale as gs
+from gripscale.theory.half_plane import HalfPlane
+from gripscale.theory.periodic_contact import contact_edges, nodes, solve_periodic_contact
+from gripscale.wave import Load, SampledProfile, WaveProblem
+
+DATA = Path(__file__).parents[2] / "examples" / "data"
+RUBBER = gs.Rubber(3e6, [6e6, 9e6], [2e-5, 2e-4], bulk_modulus=1e9)
+WAVE = {"wavelength": 1e-3, "amplitude": 1.5e-4}
+MESH = {"columns": 64, "rows": 14}
+PERIOD = 38.4e-3
+
+
+def sine(points=48, shift=0.0):
+    """Samples of the wave, moved by `shift` wavelengths."""
+    x = WAVE["wavelength"] * np.arange(points) / points
+    phase = 2.0 * np.pi * (x / WAVE["wavelength"] - shift)
+    return gs.Profile(x, WAVE["amplitude"] * np.cos(phase))
+
+
+@cache
+def tread():
+    return gs.fit_prony(gs.read_master_curve(DATA / "rubber" / "measured_dma.txt"))
+
+
+def sum_of_sines(waves, points=512):
+    """Profile of (number, amplitude [m], phase [rad]) over one period of 38.4 mm."""
+    angle = 2.0 * np.pi * np.arange(points) / points
+    z = sum(a * np.cos(n * angle + phase) for n, a, phase in waves)
+    return gs.Profile(PERIOD * angle / (2.0 * np.pi), z)
+
+
+def half_plane(rubber, profile, load, points=1024):
+    """Contact fraction and friction of one period of `profile` at small strain."""
+    amplitudes = np.fft.rfft(profile.z) / len(profile)
+    number = np.arange(amplitudes.size)
+    first = 2.0 * np.pi / (len(profile) * profile.step)
+
+    def height(angle):
+        return 2.0 * (amplitudes[1:] * np.exp(1j * np.outer(angle, number[1:]))).sum(axis=1).real
+
+    def compliance(m):
+        modulus = rubber.plane_strain_modulus(m * first * load["speed"])
+        return 2.0 * load["pressure"] / (first * m * modulus)
+
+    contact = solve_periodic_contact(compliance, height, points, 200)
+    assert contact.settled
+    turned = 1j * number[1:] * amplitudes[1:] * np.exp(1j * np.outer(nodes(points), number[1:]))
+    slope = 2.0 * first * turned.sum(axis=1).real
+    length = sum(end - start for start, end in contact_edges(contact))
+    return length / (2.0 * np.pi), float((contact.pressure * slope).mean())
+
+
+@pytest.mark.parametrize("order", [1, 2])
+@pytest.mark.parametrize("speed", [0.0, 1.0])
+def test_a_sampled_sine_is_the_sine(order, speed):
+    """To round-off: the residual, where Newton stops, is the same in both."""
+    load = {"pressure": 1e6, "speed": speed, "element_order": order, **MESH}
+    one = gs.solve_scale(RUBBER, **WAVE, **load)
+    sampled = gs.solve_profile(RUBBER, sine(), periodic=True, **load)
+    assert one.converged
+    assert sampled.converged
+    assert sampled.contact_fraction == pytest.approx(one.contact_fraction, abs=1e-9)
+    assert sampled.friction == pytest.approx(one.friction, abs=1e-9)
+    assert sampled.wavelength == pytest.approx(one.wavelength, rel=1e-12)
+    assert sampled.amplitude == pytest.approx(one.amplitude, rel=1e-12)
+    assert sampled.model == one.model
+    assert sampled.details["smallest_wavelength"] == pytest.approx(1e-3)
+    np.testing.assert_allclose(sampled.pressure, one.pressure, atol=1.0)
+
+
+def test_where_the_profile_starts_does_not_matter():
+    """By whole columns to round-off; between them by what the mesh leaves open.
+
+    Both edges of a contact together are known to 0.15 of the node spacing: 0.0023 at 64 columns.
+    """
+    load = {"pressure": 1e6, "speed": 1.0, "periodic": True, **MESH}
+    first = gs.solve_profile(RUBBER, sine(), **load)
+    on_nodes = gs.solve_profile(RUBBER, sine(shift=5 / 64), **load)
+    assert on_nodes.contact_fraction == pytest.approx(first.contact_fraction, abs=1e-6)
+    assert on_nodes.friction == pytest.approx(first.friction, abs=1e-6)
+    between = gs.solve_profile(RUBBER, sine(shift=5.4 / 64), **load)
+    assert between.contact_fraction == pytest.approx(first.contact_fraction, abs=0.0023)
+    assert between.friction == pytest.approx(first.friction, rel=0.005)
+    (start, end), (later, later_end) = (r.details["contact_edges"][0] for r in (first, on_nodes))
+    assert later_end - later == pytest.approx(end - start, rel=1e-6)
+    assert (later - start) % 1e-3 == pytest.approx(5e-3 / 64, rel=1e-6)
+
+
+CASES = [
+    ([(1, 2.4e-3, 0.0), (2, 1.2e-3, 2.1)], 192),
+    ([(1, 2.4e-3, 0.0), (4, 6e-4, 1.0)], 256),
+    ([(1, 2.4e-3, 0.0), (2, 1.0e-3, 4.0), (5, 4.0e-4, 1.0)], 256),
+]
+
+
+@pytest.mark.parametrize(("waves", "columns"), CASES)
+def test_several_waves_at_once_are_near_the_half_plane(waves, columns):
+    """Slopes to 0.8 with a tenth of the period in contact: finite strain is worth 2 % at most."""
+    load = {"pressure": 3e5, "speed": 0.3}
+    profile = sum_of_sines(waves)
+    block = gs.solve_profile(tread(), profile, periodic=True, columns=columns, **load)
+    fraction, friction = half_plane(tread(), profile, load)
+    assert block.converged
+    assert block.contact_fraction == pytest.approx(fraction, rel=0.03)
+    assert block.friction == pytest.approx(friction, rel=0.03)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_the_work_of_friction_is_the_energy_lost(seed):
+    """Random sums of 2 to 4 sines, slopes near 0.2 each: within 3 % at 20 columns a wave."""
+    random = np.random.default_rng(seed)
+    numbers = [1, 2, 5, 9][: 2 + seed % 3]
+    waves = [(n, 1.2e-3 / n, random.uniform(0.0, 2.0 * np.pi)) for n in numbers]
+    one = gs.solve_profile(
+        tread(), sum_of_sines(waves), periodic=True, columns=192, pressure=3e5, speed=0.3
+    )
+    assert one.converged
+    assert one.friction > 0.03
+    assert one.friction_mismatch < 0.03
+
+
+def test_gaps_tilt_and_short_waves_are_taken_out():
+    """A tilted sine of 4 waves with a short ripple and a hole where it is straight."""
+    x = np.linspace(0.0, 4e-3, 4 * 96 + 1)
+    z = 1e-4 * np.sin(2.0 * np.pi * x / 1e-3)
+    dirty = z + 0.1 * x + 2e-6 * np.sin(2.0 * np.pi * x / 1e-4)
+    dirty[[95, 97]] = np.nan
+    load = {"pressure": 1e6, "speed": 1.0, "columns": 128, "rows": 10}
+    clean = gs.solve_profile(RUBBER, gs.Profile(x, z), **load)
+    taken = gs.solve_profile(RUBBER, gs.Profile(x, dirty), smallest_wavelength=1e-3, **load)
+    assert taken.wavelength == pytest.approx(4e-3)
+    assert taken.details["missing_share"] == pytest.approx(2 / 385)
+    assert taken.details["smallest_wavelength"] == pytest.approx(1e-3)
+    # The bridged holes are 1e-6 m wrong at most on 1 % of the points.
+    assert taken.amplitude == pytest.approx(clean.amplitude, rel=1e-3)
+    assert taken.contact_fraction == pytest.approx(clean.contact_fraction, abs=2e-3)
+    assert len(taken.details["contact_edges"]) == 4
+
+
+def test_columns_follow_the_smallest_wave():
+    rough = sum_of_sines([(1, 1e-3, 0.0), (10, 1e-5, 0.0)])
+    one = gs.solve_profile(RUBBER, rough, periodic=True, pressure=3e5, speed=0.0)
+    assert (one.details["columns"], one.details["rows"]) == (96, 17)
+
+
+REFUSED = [
+    ({"profile": np.zeros(20)}, "profile must be a gripscale.Profile; got ndarray"),
+    ({"smallest_wavelength": 0.05}, "smallest_wavelength must be at most the period 0.0384 m"),
+    ({"smallest_wavelength": -1.0}, "smallest_wavelength must be greater than zero"),
+    ({"columns": 16}, "columns must be at least 30 to follow the smallest wave of the heights"),
+    ({"columns": 2000}, "columns must be a whole number from 4 to 1024; got 2000"),
+    ({"pressure": 0.0}, "pressure must be greater than zero"),
+]
+
+
+@pytest.mark.parametrize(("change", "sentence"), REFUSED)
+def test_bad_input_is_named(change, sentence):
+    good = {"profile": sum_of_sines(CASES[2][0]), "pressure": 3e5, "speed": 0.3, "periodic": True}
+    with pytest.raises(gs.InputError, match=sentence):
+        gs.solve_profile(RUBBER, **(good | change))
+
+
+def test_a_wave_beyond_the_finest_mesh_is_refused():
+    noisy = gs.Profile(1e-5 * np.arange(2000), 1e-6 * np.random.default_rng(0).normal(size=2000))
+    sentence = r"must be at least 0\.0001171 m, 6 of 1024 columns; got waves down to 2\.0.*e-05 m"
+    with pytest.raises(gs.InputError, match=sentence):
+        gs.solve_profile(RUBBER, noisy, pressure=3e5, speed=0.3)
+
+
+@pytest.mark.parametrize("cut", [None, 2e-3])
+def test_a_profile_without_a_wave_left_is_refused(cut):
+    x = 1e-5 * np.arange(401)
+    ripple = 0.0 if cut is None else 1e-5 * np.sin(2.0 * np.pi * x / 1e-3)
+    with pytest.raises(gs.InputError, match="profile must have waves left without its tilt"):
+        gs.solve_profile(
+            RUBBER,
+            gs.Profile(x, 0.1 * x + ripple),
+            pressure=3e5,
+            speed=0.0,
+            smallest_wavelength=cut,
+        )
+
+
+def test_heights_that_are_no_profile_are_refused():
+    for heights, sentence in (
+        (np.zeros(7), "heights must be at least 8; got 7"),
+        (np.full(9, 0.5), "heights must differ; got 9 times 0.5 m"),
+        (np.full(9, np.nan), "heights must be a list of finite numbers"),
+    ):
+        with pytest.raises(gs.InputError, match=sentence):
+            SampledProfile(1e-3, heights)
+    with pytest.raises(gs.InputError, match="wavelength must be greater than zero"):
+        SampledProfile(0.0, np.arange(9.0))
+
+
+def test_the_half_plane_model_refuses_sampled_heights():
+    problem = WaveProblem(RUBBER, SampledProfile(1e-3, sine().z), Load(1e5, 1.0))
+    with pytest.raises(gs.InputError, match=r"profile must be a Sine .* got a SampledProfile"):
+        HalfPlane().solve(problem)
+
+
+@pytest.mark.verification
+@pytest.mark.parametrize(("station", "first"), [(0, 7901), (1, 23809)])
+def test_windows_of_the_measured_road(station, first):
+    """Down to 2 mm: near the half-plane, and the two frictions near each other on a fine mesh."""
+    road, _ = gs.clean(
+        gs.read_profile(DATA / "road" / f"20211011_aylesbury_dec_station_{station}.dat")
+    )
+    points = slice(first, first + round(PERIOD / road.step) + 1)
+    window = gs.Profile(road.x[points], road.z[points])
+    load = {"pressure": 3e5, "speed": 0.3}
+    one = gs.solve_profile(tread(), window, smallest_wavelength=2e-3, columns=384, **load)
+    assert one.converged
+    assert one.friction_mismatch < 0.03
+    waves = np.fft.rfft(detrended(window))
+    waves[20:] = 0.0
+    z = np.fft.irfft(waves, len(window) - 1)
+    periodic = gs.Profile(window.x[:-1], z)
+    fraction, friction = half_plane(tread(), periodic, load)
+    assert one.contact_fraction == pytest.approx(fraction, rel=0.04)
+    assert one.friction == pytest.approx(friction, rel=0.04)
+
+
+def detrended(window):
+    z = np.interp(window.x, window.x[np.isfinite(window.z)], window.z[np.isfinite(window.z)])
+    return (z - np.linspace(z[0], z[-1], z.size))[:-1]
