@@ -180,7 +180,7 @@ def _ladder(
     own = list(_each(surface, surface.measured))
     drawn = [
         _of(surface, random_phases(cleaned, seed))
-        for _, cleaned in surface.measured.profiles
+        for cleaned in surface.measured.cleaned
         for seed in range(seeds)
     ]
     yield "random_phases", "profile with random phases", [(direct, one) for one in drawn]
@@ -204,12 +204,10 @@ def _sample(results: CaseResults, model: Model, surface: PreparedSurface) -> Sam
 
 def _each(surface: PreparedSurface, measured: Measured) -> Iterator[PreparedSurface]:
     """Yield `surface` with one of its profiles after the other."""
-    for _, cleaned in measured.profiles:
+    for cleaned in measured.cleaned:
         yield _of(surface, cleaned)
 
 
 def _of(surface: PreparedSurface, line: Profile) -> PreparedSurface:
     """Return the waves of `surface` with `line` as the only profile."""
-    return PreparedSurface(
-        surface.sines, line.name, measured=Measured([(line, line)], [], None, "")
-    )
+    return PreparedSurface(surface.sines, line.name, measured=Measured.of([line]))

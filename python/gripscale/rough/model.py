@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -13,7 +13,7 @@ from gripscale import model
 from gripscale.errors import InputError
 from gripscale.rough.result import RoughContact
 from gripscale.rough.solve import solve_rough_contact
-from gripscale.surface import PreparedSurface, Profile, SineStack
+from gripscale.surface import Measured, PreparedSurface, Profile, SineStack
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -52,12 +52,7 @@ class DirectContact:
 
     def relevant(self, surface: PreparedSurface) -> PreparedSurface:
         """Return nothing of `surface` but its cleaned profiles and where its waves end."""
-        measured = surface.measured
-        if measured is not None:
-            pairs = [(cleaned, cleaned) for _, cleaned in measured.profiles]
-            measured = replace(
-                measured, profiles=pairs, cleaning=[], self_affine=None, no_self_affine=""
-            )
+        measured = surface.measured and Measured.of(surface.measured.cleaned)
         last = SineStack(surface.sines.wavelength[-1:], surface.sines.amplitude[-1:])
         return PreparedSurface(last, source="", measured=measured)
 
@@ -128,4 +123,4 @@ def _profiles(surface: PreparedSurface) -> list[Profile]:
             "the direct contact needs a measured profile; got sine waves stated by hand, which "
             "have none (gripscale.rough.surface_of_sines makes one)"
         )
-    return [cleaned for _, cleaned in surface.measured.profiles]
+    return surface.measured.cleaned

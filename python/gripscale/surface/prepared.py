@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -19,13 +19,23 @@ from gripscale.surface.sines import SineStack
 
 @dataclass(frozen=True)
 class Measured:
-    """Profiles as read and cleaned, their height difference correlation and its fit."""
+    """Profiles as read and cleaned, what cleaning did, and the fit to their correlation."""
 
     profiles: list[tuple[Profile, Profile]]
     cleaning: list[CleaningReport]
     self_affine: SelfAffineFit | None
     no_self_affine: str
     """Why there is no self-affine fit, or empty."""
+
+    @classmethod
+    def of(cls, lines: Sequence[Profile]) -> Measured:
+        """Return `lines` as they stand: nothing cleaned, nothing fitted."""
+        return cls([(line, line) for line in lines], [], None, "")
+
+    @property
+    def cleaned(self) -> list[Profile]:
+        """The profiles as cleaned."""
+        return [cleaned for _, cleaned in self.profiles]
 
 
 @dataclass(frozen=True)

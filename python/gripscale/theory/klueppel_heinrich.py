@@ -23,7 +23,6 @@ stated by the caller. Of contact area nothing is said here.
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
@@ -32,13 +31,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from gripscale import checks, model, versions
+from gripscale import checks
 from gripscale.errors import InputError
 from gripscale.model import NominalLoad
 from gripscale.rubber import Rubber
 from gripscale.surface.height_difference import HeightDifference, height_difference
 from gripscale.surface.profile import Profile
 from gripscale.surface.self_affine import SelfAffineFit, fit_self_affine
+from gripscale.theory.dataset import theory_dataset
 from gripscale.theory.quadrature import divided, refined, running_integral
 from gripscale.wave.status import Status
 
@@ -106,30 +106,13 @@ class KlueppelHeinrichResult:
 
     def to_dataset(self) -> xr.Dataset:
         """Return everything as a labelled Dataset over `scale`, the wavelengths."""
-        import xarray as xr
-
-        from gripscale.wave.dataset import labelled
-
-        data = {
-            name: labelled(dims, getattr(self, name), unit, text, SOURCE)
-            for name, dims, unit, text in _VARIABLES
-        }
-        number = np.arange(1, self.wavelength.size + 1)
-        coordinate = labelled("scale", number, "1", "number of the wavelength", SOURCE)
-        friction = self.friction if self.converged else math.nan
-        totals = {
-            "total_contact_fraction": self.contact_fraction,
-            "total_friction": friction,
-            "total_friction_from_dissipation": friction,
-        }
-        result = xr.Dataset(data, coords={"scale": coordinate}).assign_attrs(
+        return theory_dataset(
+            self,
+            _VARIABLES,
+            name="klueppel_heinrich",
             title="Hysteresis friction of rubber on a self-affine surface",
-            rubber=f"{self.rubber.name}; {self.rubber.source}".strip("; "),
-            rubber_parameters=json.dumps(self.rubber.to_dict()),
-            method=SOURCE,
-            **versions.attributes(),
+            source=SOURCE,
         )
-        return model.answer(result, totals, str(self.status), "klueppel_heinrich", self.load)
 
 
 def klueppel_heinrich(

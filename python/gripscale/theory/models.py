@@ -129,13 +129,11 @@ def _cleaned(surface: PreparedSurface, name: str) -> list[Profile]:
         raise InputError(
             f"{name} needs measured profiles; got a surface of sine waves only ({surface.source})"
         )
-    return [cleaned for _, cleaned in surface.measured.profiles]
+    return surface.measured.cleaned
 
 
 def _relevant(surface: PreparedSurface) -> PreparedSurface:
     """Return nothing of `surface` but its cleaned profiles and its smallest wavelength."""
     smallest = SineStack(surface.sines.wavelength[-1:], surface.sines.wavelength[-1:])
-    if surface.measured is None:
-        return PreparedSurface(smallest, source="")
-    lines = [(cleaned, cleaned) for _, cleaned in surface.measured.profiles]
-    return PreparedSurface(smallest, source="", measured=Measured(lines, [], None, ""))
+    measured = surface.measured and Measured.of(surface.measured.cleaned)
+    return PreparedSurface(smallest, source="", measured=measured)

@@ -17,19 +17,19 @@ G = (M h'/p_0)^2/8 and erf(x) = 2 x/sqrt(pi).
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gripscale import checks, model, versions
+from gripscale import checks
 from gripscale.errors import InputError
 from gripscale.model import NominalLoad
 from gripscale.rubber import Rubber
 from gripscale.surface.isotropy import areal_spectrum
 from gripscale.surface.spectrum import ArealSpectrum, ProfileSpectrum, last_wavenumber
+from gripscale.theory.dataset import theory_dataset
 from gripscale.theory.quadrature import divided, filled_in, refined, running_integral
 from gripscale.wave.status import Status
 
@@ -113,31 +113,13 @@ class PerssonResult:
 
     def to_dataset(self) -> xr.Dataset:
         """Return everything as a labelled Dataset over `scale`, the points of the spectrum."""
-        import xarray as xr
-
-        from gripscale.wave.dataset import labelled
-
-        data = {
-            name: labelled(dims, getattr(self, name), unit, text, SOURCE)
-            for name, dims, unit, text in _VARIABLES
-        }
-        number = np.arange(1, self.wavelength.size + 1)
-        coordinate = labelled("scale", number, "1", "number of the wavelength", SOURCE)
-        totals = {
-            "total_contact_fraction": self.contact_fraction,
-            "total_friction": self.friction,
-            "total_friction_from_dissipation": self.friction,
-        }
-        if not self.converged:
-            totals = dict.fromkeys(totals, float("nan"))
-        result = xr.Dataset(data, coords={"scale": coordinate}).assign_attrs(
+        return theory_dataset(
+            self,
+            _VARIABLES,
+            name="persson",
             title="Real contact area and friction of rubber on a randomly rough surface",
-            rubber=f"{self.rubber.name}; {self.rubber.source}".strip("; "),
-            rubber_parameters=json.dumps(self.rubber.to_dict()),
-            method=SOURCE,
-            **versions.attributes(),
+            source=SOURCE,
         )
-        return model.answer(result, totals, str(self.status), "persson", self.load)
 
 
 def persson(

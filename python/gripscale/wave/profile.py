@@ -16,6 +16,7 @@ from gripscale import checks
 from gripscale.errors import InputError
 from gripscale.rubber import Rubber
 from gripscale.surface.profile import Profile
+from gripscale.wave import kernel
 from gripscale.wave.block import FiniteStrainBlock
 from gripscale.wave.mesh import Mesh
 from gripscale.wave.problem import Load, SampledProfile, WaveProblem
@@ -27,8 +28,6 @@ COLUMNS = (64, 96, 128, 192, 256, 384, 512, 768, 1024)
 """Columns to choose from: all can be halved for the coarser meshes of a sequence."""
 COLUMNS_PER_WAVE = 8
 FEWEST_PER_WAVE = 6
-ROW_EXPONENT = 0.585
-"""Rows grow with this power of the columns: by 1.5 for every doubling."""
 
 
 ROUND_OFF = 1e-12
@@ -109,9 +108,10 @@ def solve_profile(
     heights = _one_period(profile, smallest_wavelength, periodic)
     chosen = _columns(heights) if columns is None else columns
     share = checks.positive("columns", chosen) / Mesh.columns
+    grows = kernel.default_settings()["row_exponent"]
     block = FiniteStrainBlock.of(
         columns=chosen,
-        rows=round(Mesh.rows * share**ROW_EXPONENT) if rows is None else rows,
+        rows=round(Mesh.rows * share**grows) if rows is None else rows,
         depth=depth,
         element_order=element_order,
         tolerance=tolerance,
