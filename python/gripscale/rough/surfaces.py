@@ -10,7 +10,6 @@ import scipy.fft
 from gripscale import checks
 from gripscale.errors import InputError
 from gripscale.rough.ends import filled, joined
-from gripscale.rough.grid import Array
 from gripscale.rough.heights import DEFAULT_STEPS, periodic_heights
 from gripscale.surface import HeightMap, Profile, SineStack
 from gripscale.surface.profile import FEWEST_POINTS
@@ -37,7 +36,7 @@ def one_period(line: Profile, smallest_wavelength: float | None = None) -> Profi
     period = heights.grid.lengths[0]
     waves = int(period / heights.smallest_wavelength * (1.0 + 1e-9))
     points = max(FEWEST_POINTS, DEFAULT_STEPS * waves)
-    x: Array = heights.origin[0] + np.arange(points) * (period / points)
+    x = heights.origin[0] + np.linspace(0.0, period, points, endpoint=False)
     return Profile(x, heights.on((points,)), line.name, source=line.source)
 
 
