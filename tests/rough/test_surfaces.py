@@ -8,33 +8,13 @@ import pytest
 import gripscale as gs
 from gripscale.errors import InputError
 from gripscale.rough import random_phases, solve_windows, surface_of_sines, windows
-from gripscale.rough.ends import filled, joined
+from gripscale.rough.ends import joined
 from gripscale.rough.heights import periodic_heights
 from gripscale.surface import HeightMap, Profile, SineStack, height_difference, self_affine_profile
 
 from .rough_cases import ZENER, isotropic_map, solve
 
 LINE = self_affine_profile(0.8, 5e-3, 1e-3, 0.2, 1e-4, seed=4)
-
-
-def test_gaps_are_filled_along_both_ways():
-    """A tilted plane is filled exactly: it is linear along x and along y."""
-    x, y = np.arange(20.0), np.arange(24.0)
-    plane = 0.3 * x[:, None] - 0.2 * y[None, :]
-    z = plane.copy()
-    z[5:9, 6:11] = np.nan
-    z[12, :] = np.nan
-    found, measured = filled(z)
-    np.testing.assert_allclose(found, plane, atol=1e-12)
-    np.testing.assert_array_equal(measured, ~np.isnan(z))
-
-
-def test_the_nearer_neighbours_count_more():
-    z = np.zeros((20, 20))
-    z[10, 2:18] = np.nan  # one step wide across, sixteen along
-    z[9, :], z[11, :], z[10, :2], z[10, 18:] = 1.0, 1.0, 0.0, 0.0
-    found, _ = filled(z)
-    assert found[10, 10] == pytest.approx((1 / 3 * 1.0 + 0.0 / 18) / (1 / 3 + 1 / 18), rel=1e-12)
 
 
 def test_ends_of_a_line_are_joined_by_a_straight_line():

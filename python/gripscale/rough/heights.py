@@ -9,9 +9,10 @@ import scipy.fft
 
 from gripscale import checks
 from gripscale.errors import InputError
-from gripscale.rough.ends import filled, joined
+from gripscale.rough.ends import joined
 from gripscale.rough.grid import Array, ComplexArray, Grid, Mask, resampled
 from gripscale.surface import HeightMap, Profile
+from gripscale.surface.gaps import filled
 
 DEFAULT_STEPS = 4
 """Steps of the surface in the smallest wave kept by default."""
@@ -61,14 +62,14 @@ def periodic_heights(
         raise InputError(f"surface must be a Profile or a HeightMap; got {type(surface).__name__}")
     steps = [float((a[-1] - a[0]) / (a.size - 1)) for a in axes]
     grid = Grid(surface.z.shape, tuple(d * a.size for d, a in zip(steps, axes, strict=True)))
-    z, measured = filled(surface.z)
+    z = filled(surface.z, tuple(steps), periodic=periodic)
     if not periodic:
         z = joined(z)
     return PeriodicHeights(
         grid,
         tuple(float(a[0]) for a in axes),
         np.asarray(scipy.fft.rfftn(z - z.mean())),
-        measured,
+        ~np.isnan(surface.z),
         _smallest(smallest_wavelength, max(steps), min(grid.lengths)),
     )
 

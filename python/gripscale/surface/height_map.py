@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from gripscale import checks
 from gripscale.errors import InputError
-from gripscale.surface.profile import FEWEST_POINTS, STEP_TOLERANCE, uneven_step
+from gripscale.surface.profile import FEWEST_POINTS, STEP_TOLERANCE, Profile, uneven_step
 
 FloatArray = NDArray[np.float64]
 
@@ -73,12 +73,41 @@ class HeightMap:
         """Number of points whose height is missing."""
         return int(np.isnan(self.z).sum())
 
+    def lines(self, direction: str = "x") -> list[Profile]:
+        """Return the lines of the map along "x" or "y" that have a height, in their order.
+
+        Raises
+        ------
+        InputError
+            If `direction` is another one.
+        """
+        along_x = checks.one_of("direction", direction, ("x", "y")) == "x"
+        place, heights = (self.x, self.z.T) if along_x else (self.y, self.z)
+        return [
+            Profile(place, line, *(label(text, number, direction) for text in self._labels))
+            for number, line in enumerate(heights)
+            if np.isfinite(line).any()
+        ]
+
+    def turned(self) -> HeightMap:
+        """Return the map turned by a quarter, for sliding along its y: x becomes y, and y is -x."""
+        return HeightMap(self.y, -self.x[::-1], self.z[::-1].T, *self._labels)
+
+    @property
+    def _labels(self) -> tuple[str, str]:
+        return self.name, self.source
+
     def __repr__(self) -> str:
         (dx, dy), (nx, ny) = self.step, self.z.shape
         return (
             f"HeightMap({self.name or 'unnamed'}: {nx} x {ny} points, steps {dx:.4g} m and "
             f"{dy:.4g} m, {self.missing} missing)"
         )
+
+
+def label(text: str, number: int, direction: str) -> str:
+    """Return what a line of a map is called, `text` being what the map is."""
+    return f"{text}, line {number} along {direction}".lstrip(", ")
 
 
 def _axis(name: str, values: FloatArray) -> FloatArray:
