@@ -84,18 +84,19 @@ class HeightMap:
         along_x = checks.one_of("direction", direction, ("x", "y")) == "x"
         place, heights = (self.x, self.z.T) if along_x else (self.y, self.z)
         return [
-            Profile(place, line, *(label(text, number, direction) for text in self._labels))
+            Profile(
+                place,
+                line,
+                line_label(self.name, number, direction),
+                line_label(self.source, number, direction),
+            )
             for number, line in enumerate(heights)
             if np.isfinite(line).any()
         ]
 
     def turned(self) -> HeightMap:
         """Return the map turned by a quarter, for sliding along its y: x becomes y, and y is -x."""
-        return HeightMap(self.y, -self.x[::-1], self.z[::-1].T, *self._labels)
-
-    @property
-    def _labels(self) -> tuple[str, str]:
-        return self.name, self.source
+        return HeightMap(self.y, -self.x[::-1], self.z[::-1].T, self.name, self.source)
 
     def __repr__(self) -> str:
         (dx, dy), (nx, ny) = self.step, self.z.shape
@@ -105,8 +106,8 @@ class HeightMap:
         )
 
 
-def label(text: str, number: int, direction: str) -> str:
-    """Return what a line of a map is called, `text` being what the map is."""
+def line_label(text: str, number: int, direction: str) -> str:
+    """Return what a line of a map is called, the map being called `text`."""
     return f"{text}, line {number} along {direction}".lstrip(", ")
 
 
