@@ -176,9 +176,9 @@ def test_what_is_no_map_is_refused(tmp_path, name, rows, given, error, words):
 def test_files_of_other_kinds_are_refused(tmp_path):
     with pytest.raises(FileError, match=r"expected a map; got a line, which gripscale\.read_prof"):
         gs.read_map(LINE)
-    with pytest.raises(InputError, match="step must be left out; .*al3d states the size"):
+    with pytest.raises(InputError, match=r"step must be left out; .*al3d states the size"):
         gs.read_map(AL3D, step=1e-6)
-    with pytest.raises(InputError, match="x_unit is 'mm', but .* says 'm'"):
+    with pytest.raises(InputError, match=r"x_unit is 'mm', but .* says 'm'"):
         gs.read_map(AL3D, x_unit="mm")
     with pytest.raises(FileError, match="no such file"):
         gs.read_map(tmp_path / "nowhere.xyz")
