@@ -4,6 +4,7 @@ from gripscale.surface.cleaning import CleaningReport, StepReport, clean
 from gripscale.surface.height_difference import HeightDifference, height_difference
 from gripscale.surface.height_map import HeightMap
 from gripscale.surface.isotropy import areal_spectrum
+from gripscale.surface.map_cleaning import clean_map
 from gripscale.surface.map_file import read_map
 from gripscale.surface.periodogram import map_spectrum, profile_spectrum
 from gripscale.surface.prepared import Measured, PreparedSurface
@@ -29,6 +30,7 @@ __all__ = [
     "StepReport",
     "areal_spectrum",
     "clean",
+    "clean_map",
     "fit_self_affine",
     "fit_sines",
     "height_difference",
