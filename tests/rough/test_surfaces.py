@@ -12,7 +12,7 @@ from gripscale.rough.ends import joined
 from gripscale.rough.heights import periodic_heights
 from gripscale.surface import HeightMap, Profile, SineStack, height_difference, self_affine_profile
 
-from .rough_cases import ZENER, isotropic_map, solve
+from .rough_cases import ZENER, isotropic_heights, isotropic_map, solve
 
 LINE = self_affine_profile(0.8, 5e-3, 1e-3, 0.2, 1e-4, seed=4)
 
@@ -109,6 +109,20 @@ def test_windows_leave_out_what_is_mostly_missing():
     assert [piece.z.shape for piece in windows(surface, 0.0128)] == [(32, 64), (32, 64)]
     with pytest.raises(InputError, match=r"length must be from 0\.0016 m"):
         windows(LINE, 1.0)
+
+
+def test_windows_of_a_map_along_both_ways():
+    z = isotropic_heights(64)
+    z[:16, 40:] = np.nan
+    surface = HeightMap(np.arange(64) * 4e-4, np.arange(64) * 2e-4, z, name="slab")
+    pieces = windows(surface, (16 * 4e-4, 20 * 2e-4))
+    assert [piece.z.shape for piece in pieces] == [(16, 20)] * 11  # 4 x 3, one of them empty
+    assert pieces[1].y[0] == pytest.approx(22 * 2e-4)
+    np.testing.assert_array_equal(pieces[-1].z, z[48:, 42:62])
+    with pytest.raises(InputError, match="one for a profile, and one or two for a map; got"):
+        windows(LINE, (0.02, 0.02))
+    with pytest.raises(InputError, match="leaves no window with half of its heights"):
+        windows(HeightMap(surface.x, surface.y, np.where(np.eye(64) > 0, z, np.nan)), 6.4e-3)
 
 
 def test_random_phases_keep_the_height_difference_correlation():
