@@ -20,8 +20,8 @@ def number(name: str, value: Any, *, unit: str = "", infinite: bool = False) -> 
         raise InputError(f"{expected}; got {value!r}")
     try:
         result = float(value)
-    except (TypeError, ValueError) as error:
-        raise InputError(f"{expected}; got {value!r}") from error
+    except (TypeError, ValueError, OverflowError) as error:  # an int may be beyond any float
+        raise InputError(f"{expected}; got {value!r:.80}") from error
     if math.isnan(result) or (math.isinf(result) and not infinite):
         raise InputError(f"{expected}; got {result}")
     return result
@@ -56,7 +56,7 @@ def vector(name: str, value: ArrayLike, *, unit: str = "", missing: bool = False
     expected = f"{name} must be a list of finite numbers{_in(unit)}"
     try:
         result = np.array(value, dtype=float)
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         raise InputError(f"{expected}; got {value!r:.80}") from error
     if result.ndim != 1:
         raise InputError(f"{expected} with one dimension; got {result.ndim} dimensions")
@@ -78,10 +78,24 @@ def positive_vector(name: str, value: ArrayLike, *, unit: str = "") -> NDArray[A
     return result
 
 
+def flag(name: str, value: Any) -> bool:
+    """Return `value`; raise `InputError` unless it is True or False."""
+    if not isinstance(value, bool | np.bool_):
+        raise InputError(f"{name} must be True or False; got {value!r:.80}")
+    return bool(value)
+
+
+def text(name: str, value: Any) -> str:
+    """Return `value`; raise `InputError` unless it is a text."""
+    if not isinstance(value, str):
+        raise InputError(f"{name} must be a text; got {value!r:.80}")
+    return value
+
+
 def one_of(name: str, value: Any, choices: Iterable[str]) -> str:
     """Return `value`; raise `InputError` unless it is one of the named `choices`."""
     known = list(choices)
-    if value not in known:
+    if not isinstance(value, str) or value not in known:
         raise InputError(f"{name} must be one of {', '.join(known)}; got {value!r}")
     return str(value)
 

@@ -75,8 +75,13 @@ def periodic_heights(
 
 
 def _smallest(given: float | None, step: float, length: float) -> float:
+    if FEWEST_STEPS * step > length:
+        raise InputError(
+            f"surface must be longer each way than {FEWEST_STEPS} of its steps, of which the "
+            f"largest is {step:.4g} m; got {length:.4g} m"
+        )
     if given is None:
-        return DEFAULT_STEPS * step
+        return min(DEFAULT_STEPS * step, length)
     smallest = checks.positive("smallest_wavelength", given, unit="m")
     if not FEWEST_STEPS * step * (1.0 - 1e-9) <= smallest <= length * (1.0 + 1e-9):
         raise InputError(

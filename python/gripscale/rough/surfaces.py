@@ -71,6 +71,8 @@ def random_phases(surface: Surface, seed: int) -> Surface:
         If `seed` is not a whole number that is not negative.
     """
     random = np.random.default_rng(checks.whole("seed", seed, least=0, most=2**32 - 1))
+    if not isinstance(surface, Profile | HeightMap):
+        raise InputError(f"surface must be a Profile or a HeightMap; got {type(surface).__name__}")
     steps = surface.step if isinstance(surface, HeightMap) else ()
     z = joined(filled(surface.z, steps))
     spectrum = scipy.fft.rfftn(random.standard_normal(z.shape))  # phases of a real surface

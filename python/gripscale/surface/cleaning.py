@@ -104,7 +104,7 @@ def clean(
         reports.append(report)
     profile, report = mark_dropouts(profile, valid_range)
     reports.append(report)
-    if remove_spikes:
+    if checks.flag("remove_spikes", remove_spikes):
         profile, report = mark_spikes(profile, slope=spike_slope, across_gaps=across_gaps)
         reports.append(report)
     profile, report = subtract_trend(profile, detrend)

@@ -36,7 +36,7 @@ class HeightMap:
     ------
     InputError
         If x, y or z are not such numbers, their shapes differ, there are fewer than 16 points a
-        way, or no height is left.
+        way, no height is left, or name or source is no text.
     """
 
     x: FloatArray
@@ -57,6 +57,8 @@ class HeightMap:
         for field, values in (("x", x), ("y", y), ("z", z)):
             values.flags.writeable = False
             object.__setattr__(self, field, values)
+        for field in ("name", "source"):
+            checks.text(field, getattr(self, field))
 
     @property
     def step(self) -> tuple[float, float]:
@@ -130,7 +132,7 @@ def _heights(values: FloatArray) -> FloatArray:
     expected = "z must be a table of heights [m], numbers or NaN, with two dimensions"
     try:
         z = np.array(values, dtype=float)
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         raise InputError(f"{expected}; got {values!r:.80}") from error
     if z.ndim != 2:
         raise InputError(f"{expected}; got {z.ndim} dimensions")

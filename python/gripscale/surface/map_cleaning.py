@@ -76,7 +76,7 @@ def clean_map(
     if trim is not None:
         surface, report = trim_map(surface, trim)
         reports.append(report)
-    if remove_spikes:
+    if checks.flag("remove_spikes", remove_spikes):
         surface, report = mark_map_spikes(surface, slope=spike_slope)
         reports.append(report)
     if form is not None:
