@@ -88,7 +88,7 @@ def contents(file: CaseFile) -> list[str]:
 
     Raises `FileError` if one cannot be read.
     """
-    named = [*(file.case.surface.files or []), *filter(None, [file.case.rubber.file])]
+    named = [*file.case.surface.measured_files, *filter(None, [file.case.rubber.file])]
     return [str(file.path), file.text, *(_digest(file.resolve(name)) for name in named)]
 
 

@@ -83,18 +83,23 @@ class HeightMap:
         InputError
             If `direction` is another one.
         """
+        checks.one_of("direction", direction, ("x", "y"))
+        some = np.isfinite(self.z).any(axis=0 if direction == "x" else 1)
+        return [self.line(int(number), direction) for number in np.flatnonzero(some)]
+
+    def line(self, number: int, direction: str = "x") -> Profile:
+        """Return one line along "x" or "y", counted from 0 across it.
+
+        Raises
+        ------
+        InputError
+            If there is no such line, or it has no height.
+        """
         along_x = checks.one_of("direction", direction, ("x", "y")) == "x"
         place, heights = (self.x, self.z.T) if along_x else (self.y, self.z)
-        return [
-            Profile(
-                place,
-                line,
-                line_label(self.name, number, direction),
-                line_label(self.source, number, direction),
-            )
-            for number, line in enumerate(heights)
-            if np.isfinite(line).any()
-        ]
+        chosen = checks.whole("number", number, least=0, most=len(heights) - 1)
+        labels = (line_label(text, chosen, direction) for text in (self.name, self.source))
+        return Profile(place, heights[chosen], *labels)
 
     def turned(self) -> HeightMap:
         """Return the map turned by a quarter, for sliding along its y: x becomes y, and y is -x."""
