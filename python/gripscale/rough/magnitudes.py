@@ -28,6 +28,15 @@ def half_space(rubber: Rubber, speed: float) -> HalfSpace:
 def check_magnitudes(body: HalfSpace, heights: PeriodicHeights, pressure: float) -> None:
     """Raise `InputError` for what is too large or too small to be calculated with."""
     grid = heights.grid
+    _within("the step of the surface", min(grid.spacing), "m")
+    _within("the length of the surface", max(grid.lengths), "m")
+    tallest = float(np.abs(heights.on(grid.shape)).max())
+    if not tallest <= max(grid.lengths):
+        raise InputError(
+            "the heights of the surface must stay below its length, "
+            f"{max(grid.lengths):.4g} m; got {tallest:.4g} m over the mean"
+        )
+    _within("pressure", pressure, "Pa")
     frequency = body.speed * float(grid.along.max())
     if frequency > MOST:
         raise InputError(
@@ -35,18 +44,10 @@ def check_magnitudes(body: HalfSpace, heights: PeriodicHeights, pressure: float)
             f"smallest wave of this surface; got {body.speed:g} m/s"
         )
     modulus = np.abs(body.modulus(grid))
-    for name, unit, value in (
-        ("pressure", "Pa", pressure),
-        ("the modulus of the rubber", "Pa", float(modulus.min())),
-        ("the modulus of the rubber", "Pa", float(modulus.max())),
-        ("the step of the surface", "m", min(grid.spacing)),
-        ("the length of the surface", "m", max(grid.lengths)),
-    ):
-        if not LEAST <= value <= MOST:
-            raise InputError(f"{name} must be from {LEAST:g} to {MOST:g} {unit}; got {value:g}")
-    tallest = float(np.abs(heights.on(grid.shape)).max())
-    if not tallest <= max(grid.lengths):
-        raise InputError(
-            "the heights of the surface must stay below its length, "
-            f"{max(grid.lengths):.4g} m; got {tallest:.4g} m over the mean"
-        )
+    for extreme in (modulus.min(), modulus.max()):
+        _within("the modulus of the rubber", float(extreme), "Pa")
+
+
+def _within(name: str, value: float, unit: str) -> None:
+    if not LEAST <= value <= MOST:
+        raise InputError(f"{name} must be from {LEAST:g} to {MOST:g} {unit}; got {value:g}")

@@ -101,7 +101,7 @@ def solve_rough_contact(
     threads = _threads(workers) if len(heights.grid.shape) > 1 else 1
     iterations = checks.whole("most_iterations", most_iterations, least=1, most=10**6)
     if on_grid is not None and not callable(on_grid):
-        raise InputError(f"on_grid must be a function or None; got {on_grid!r:.80}")
+        raise InputError(f"on_grid must be a function or None; got {checks.shown(on_grid)}")
     climb = Climb(body, heights, load, threads, iterations)
     grids: list[GridRecord] = []
     while plan:

@@ -91,7 +91,7 @@ def windows(
         raise InputError(f"surface must be a Profile or a HeightMap; got {type(surface).__name__}")
     if not 1 <= len(lengths) <= surface.z.ndim:
         raise InputError(
-            f"length must be one for a profile, and one or two for a map; got {length!r}"
+            f"length must be one of a profile, one or two of a map; got {checks.shown(length)}"
         )
     axes = [surface.x] if isinstance(surface, Profile) else [surface.x, surface.y]
     cuts = [_cut(axis, part) for axis, part in zip(axes, lengths, strict=False)]

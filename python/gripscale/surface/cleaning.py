@@ -236,9 +236,11 @@ def interval(name: str, limits: tuple[float, float]) -> tuple[float, float]:
     try:
         first, last = limits
     except (TypeError, ValueError) as error:
-        raise InputError(f"{name} must be two numbers [m]; got {limits!r}") from error
+        raise InputError(f"{name} must be two numbers [m]; got {checks.shown(limits)}") from error
     first = checks.number(f"{name}[0]", first, unit="m", infinite=True)
     last = checks.number(f"{name}[1]", last, unit="m", infinite=True)
     if first >= last:
-        raise InputError(f"{name} must have its first number below its second; got {limits!r}")
+        raise InputError(
+            f"{name} must have its first number below its second; got {checks.shown(limits)}"
+        )
     return first, last

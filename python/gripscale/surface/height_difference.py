@@ -159,7 +159,9 @@ def _profiles(profile: Profile | Sequence[Profile]) -> list[Profile]:
     given: object = [profile] if isinstance(profile, Profile) else profile
     profiles = list(given) if isinstance(given, Iterable) else []
     if not profiles or not all(isinstance(p, Profile) for p in profiles):
-        raise InputError(f"profile must be a Profile or a list of them; got {profile!r:.80}")
+        raise InputError(
+            f"profile must be a Profile or a list of them; got {checks.shown(profile)}"
+        )
     for at, other in enumerate(profiles):
         if abs(other.step - profiles[0].step) > 1e-3 * profiles[0].step:
             raise InputError(

@@ -138,7 +138,7 @@ def _heights(values: FloatArray) -> FloatArray:
     try:
         z = np.array(values, dtype=float)
     except (TypeError, ValueError, OverflowError) as error:
-        raise InputError(f"{expected}; got {values!r:.80}") from error
+        raise InputError(f"{expected}; got {checks.shown(values)}") from error
     if z.ndim != 2:
         raise InputError(f"{expected}; got {z.ndim} dimensions")
     if np.isinf(z).any():

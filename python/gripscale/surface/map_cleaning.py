@@ -90,7 +90,9 @@ def crop_map(
 ) -> tuple[HeightMap, StepReport]:
     """Keep the points within `limits` [m] along x and y, both included."""
     if not isinstance(limits, tuple | list) or len(limits) != 2:
-        raise InputError(f"crop must be limits along x and along y, or None; got {limits!r}")
+        raise InputError(
+            f"crop must be limits along x and along y, or None; got {checks.shown(limits)}"
+        )
     kept = []
     for name, axis, pair in zip("xy", (surface.x, surface.y), limits, strict=True):
         whole = (-math.inf, math.inf)

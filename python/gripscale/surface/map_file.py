@@ -86,6 +86,8 @@ def _instrument_map(
 def _steps(step: float | tuple[float, float]) -> tuple[float, float]:
     pair = (step, step) if not isinstance(step, tuple | list) else tuple(step)
     if len(pair) != 2:
-        raise InputError(f"step must be one distance [m], or that along x and y; got {step!r}")
+        raise InputError(
+            f"step must be one distance [m], or that along x and y; got {checks.shown(step)}"
+        )
     along, across = (checks.positive("step", value, unit="m") for value in pair)
     return along, across

@@ -151,7 +151,9 @@ def _plane_waves(
 def _profiles(profile: Profile | Sequence[Profile]) -> list[Profile]:
     profiles = [profile] if isinstance(profile, Profile) else list(profile)
     if not profiles or not all(isinstance(one, Profile) for one in profiles):
-        raise InputError(f"profile must be a Profile or a list of them; got {profile!r:.80}")
+        raise InputError(
+            f"profile must be a Profile or a list of them; got {checks.shown(profile)}"
+        )
     for at, one in enumerate(profiles):
         if abs(one.step - profiles[0].step) > 1e-3 * profiles[0].step:
             raise InputError(

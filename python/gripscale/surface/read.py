@@ -108,7 +108,7 @@ def file_place(
     try:
         return Path(path)
     except TypeError as error:
-        raise InputError(f"path must be the path of a file; got {path!r}") from error
+        raise InputError(f"path must be the path of a file; got {checks.shown(path)}") from error
 
 
 def is_text(path: Path, reader: str, suffixes: Collection[str] = TEXT_SUFFIXES) -> bool:
