@@ -86,23 +86,23 @@ def test_contact_on_missing_heights_is_counted():
     assert 0.1 < solve(tops, **load).missing_share < 0.3
 
 
-@pytest.mark.parametrize("missing", ["valleys", "patches"])
-def test_a_tenth_of_a_map_missing_changes_little(missing):
-    """Valleys, where dropouts are, carry little of the load; patches carry a tenth, smoother."""
-    surface = isotropic_map(64)
-    if missing == "valleys":
-        gaps = surface.z < np.quantile(surface.z, 0.1)
-    else:
-        field = isotropic_heights(64, shortest=3e-3, seed=9)
-        gaps = field > np.quantile(field, 0.9)
+@pytest.mark.parametrize(
+    ("missing", "share", "area", "friction"),
+    [("valleys", 0.0, 0.03, 0.01), ("single", 0.1, 0.05, 0.03)],
+)
+@pytest.mark.parametrize("seed", [3, 5])
+def test_a_tenth_of_a_map_missing_changes_little(missing, share, area, friction, seed):
+    """Valleys, where dropouts are, carry no load; single points a tenth of it. Of four maps area
+    changed by up to 2 and 3.4 %, friction by up to 0.2 and 2.3 %."""
+    surface = isotropic_map(64, seed=seed)
+    deep = surface.z < np.quantile(surface.z, 0.1)
+    gaps = deep if missing == "valleys" else np.random.default_rng(seed).random((64, 64)) < 0.1
     holed = HeightMap(surface.x, surface.y, np.where(gaps, np.nan, surface.z))
-    load = {"smallest_wavelength": 1.6e-3, "tolerance": None}
+    load = {"smallest_wavelength": 1.6e-3, "tolerance": None, "pressure": 1e5}
     whole, found = solve(surface, **load), solve(holed, **load)
-    assert found.missing_share <= (0.05 if missing == "valleys" else 0.15)
-    assert found.missing_share > 0.0
-    # measured: 3 and 9 % of the area on 256 x 256 points
-    assert found.contact_fraction == pytest.approx(whole.contact_fraction, rel=0.12)
-    assert found.friction == pytest.approx(whole.friction, rel=0.06)
+    assert found.missing_share == pytest.approx(share, abs=0.04)
+    assert found.contact_fraction == pytest.approx(whole.contact_fraction, rel=area)
+    assert found.friction == pytest.approx(whole.friction, rel=friction)
 
 
 def test_windows_have_the_same_contact_within_their_scatter():
