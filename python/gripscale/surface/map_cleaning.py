@@ -208,13 +208,14 @@ def subtract_form(surface: HeightMap, order: int = 1) -> tuple[HeightMap, StepRe
         for n in surface.z.shape
     )
     coefficient = np.zeros((highest + 1, highest + 1))
-    coefficient[*zip(*terms, strict=True)] = _least_squares(surface.z, along, across, terms)
-    mean, slopes = coefficient[0, 0], ""
+    level = float(np.nanmean(surface.z))  # instruments put their origin metres away
+    coefficient[*zip(*terms, strict=True)] = _least_squares(surface.z - level, along, across, terms)
+    mean, slopes = level + coefficient[0, 0], ""
     if highest:
         sizes = (0.5 * length for length in surface.length)
         along_x, along_y = (c / s for c, s in zip(coefficient[[1, 0], [0, 1]], sizes, strict=True))
         slopes = f", slopes {along_x:.4g} along x and {along_y:.4g} along y"
-    z = surface.z - along @ coefficient @ across.T
+    z = surface.z - level - along @ coefficient @ across.T
     return _changed(surface, "form", z=z, note=f"order {highest}: mean {mean:.4g} m{slopes}")
 
 
