@@ -87,4 +87,4 @@ def test_a_membrane_is_nearer_to_a_rough_surface_than_lines(gaps):
     holed = np.where(missing, np.nan, z)
     lines = np.stack([filled(line) for line in holed.T], axis=1)
     error, of_lines = (np.std((one - z)[missing]) for one in (filled(holed), lines))
-    assert error < 0.8 * of_lines
+    assert error < 0.9 * of_lines
