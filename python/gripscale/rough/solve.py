@@ -50,7 +50,8 @@ def solve_rough_contact(
     rubber : Rubber
         The half-space; only shear relaxes.
     surface : Profile or HeightMap
-        A line (plane strain) or a map (sliding along its x). Missing heights are interpolated.
+        A line (plane strain) or a map (sliding along its x). Missing heights are filled, linearly
+        along a line, as a membrane over the gaps of a map.
     pressure : float
         Nominal pressure [Pa], above zero.
     speed : float
@@ -62,9 +63,9 @@ def solve_rough_contact(
         the smooth part that carries the jump between them; for a line, the straight line through
         its ends.
     tolerance : float, optional
-        Estimated relative error to reach in contact fraction and friction (friction below 0.01 is
-        held to the tolerance times 0.01). None: four points in the smallest wave, whatever the
-        errors.
+        Estimated relative error to reach in contact fraction and friction, below 1 (friction below
+        0.01 is held to the tolerance times 0.01). None: four points in the smallest wave, whatever
+        the errors.
     workers : int, optional
         Threads of the Fourier transforms of a map; by default as many as there are processors.
     most_points : int
@@ -84,7 +85,8 @@ def solve_rough_contact(
     Raises
     ------
     InputError
-        If an argument is out of its range, or the first full grid has more than `most_points`.
+        If an argument is out of its range, the first full grid has more than `most_points`, or a
+        size is beyond what single precision can hold.
     """
     load = checks.positive("pressure", pressure, unit="Pa")
     body = half_space(rubber, speed)
