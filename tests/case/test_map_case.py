@@ -15,7 +15,7 @@ from gripscale.figures.case_all import surface_figures
 from gripscale.model import NominalLoad
 from gripscale.report.inputs_text import surface_lines
 from gripscale.rough import DirectContact
-from gripscale.study.inputs import contents
+from gripscale.study.inputs import contents, surface_of
 from gripscale.study.task import Task
 from gripscale.theory import HalfPlane
 from tests.rough.rough_cases import ZENER, isotropic_heights
@@ -116,6 +116,15 @@ def test_a_result_depends_on_the_map_and_on_nothing_else(case):
     before = contents(file)
     np.savetxt(file.resolve("road.txt"), 2e3 * road().T)
     assert contents(file) != before
+
+
+def test_a_study_varies_the_map(case, tmp_path):
+    file = case("form = 2")
+    np.savetxt(tmp_path / "other.txt", 2e3 * road().T)
+    other = surface_of("other.txt", file).measured.map
+    own = prepared(file).measured.map
+    assert np.nanstd(other.z) == pytest.approx(2.0 * np.nanstd(own.z), rel=0.02)
+    assert other.step == own.step
 
 
 def test_one_line_of_the_map_is_shown(case, tmp_path):

@@ -84,8 +84,8 @@ class Wave(Table):
     amplitude: Length = Field(description='a length such as "1 mm", half peak-to-valley')
 
 
-MAP_KEYS = frozenset({"step", "crop_across", "trim", "form"})
-PROFILE_KEYS = frozenset({"across_gaps", "detrend"})
+MAP_KEYS = ("step", "crop_across", "trim", "form")
+PROFILE_KEYS = ("across_gaps", "detrend")
 """Keys of [surface] that only a map, or only profiles have."""
 
 
@@ -130,10 +130,10 @@ class Surface(Table):
             )
         if self.sines is None and self.scales is None and self.smallest_wavelength is None:
             raise ValueError("expected scales (number of waves), smallest_wavelength, or both")
-        foreign = MAP_KEYS if self.map is None else PROFILE_KEYS
-        for name in sorted(foreign & self.model_fields_set):
-            of = "map" if self.map is None else "files"
-            raise ValueError(f"{name} belongs to a surface from {of}")
+        foreign, owner = (MAP_KEYS, "map") if self.map is None else (PROFILE_KEYS, "files")
+        for name in foreign:
+            if getattr(self, name) != type(self).model_fields[name].default:
+                raise ValueError(f"{name} belongs to a surface from {owner}")
         for name in ("crop", "crop_across", "valid_range"):
             limits = getattr(self, name)
             if limits is not None and limits[0] >= limits[1]:
