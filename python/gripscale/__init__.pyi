@@ -21,9 +21,11 @@ from .surface import Profile as Profile
 from .surface import SelfAffineFit as SelfAffineFit
 from .surface import SineStack as SineStack
 from .surface import clean as clean
+from .surface import clean_map as clean_map
 from .surface import fit_self_affine as fit_self_affine
 from .surface import fit_sines as fit_sines
 from .surface import height_difference as height_difference
+from .surface import read_map as read_map
 from .surface import read_profile as read_profile
 from .wave.block import solve_scale as solve_scale
 from .wave.profile import solve_profile as solve_profile

@@ -17,11 +17,11 @@ def number(name: str, value: Any, *, unit: str = "", infinite: bool = False) -> 
     """Return `value` as a float; raise `InputError` unless it is a finite (or allowed) number."""
     expected = f"{name} must be a finite number{_in(unit)}"
     if isinstance(value, bool | str | bytes):
-        raise InputError(f"{expected}; got {value!r}")
+        raise InputError(f"{expected}; got {shown(value)}")
     try:
         result = float(value)
-    except (TypeError, ValueError) as error:
-        raise InputError(f"{expected}; got {value!r}") from error
+    except (TypeError, ValueError, OverflowError) as error:  # an int may be beyond any float
+        raise InputError(f"{expected}; got {shown(value)}") from error
     if math.isnan(result) or (math.isinf(result) and not infinite):
         raise InputError(f"{expected}; got {result}")
     return result
@@ -47,7 +47,9 @@ def whole(name: str, value: Any, *, least: int, most: int) -> int:
     """Return `value` as an int; raise `InputError` unless it is whole and within its limits."""
     result = number(name, value)
     if result != math.floor(result) or not least <= result <= most:
-        raise InputError(f"{name} must be a whole number from {least} to {most}; got {value!r}")
+        raise InputError(
+            f"{name} must be a whole number from {least} to {most}; got {shown(value)}"
+        )
     return int(result)
 
 
@@ -56,8 +58,8 @@ def vector(name: str, value: ArrayLike, *, unit: str = "", missing: bool = False
     expected = f"{name} must be a list of finite numbers{_in(unit)}"
     try:
         result = np.array(value, dtype=float)
-    except (TypeError, ValueError) as error:
-        raise InputError(f"{expected}; got {value!r:.80}") from error
+    except (TypeError, ValueError, OverflowError) as error:
+        raise InputError(f"{expected}; got {shown(value)}") from error
     if result.ndim != 1:
         raise InputError(f"{expected} with one dimension; got {result.ndim} dimensions")
     bad = np.isinf(result) if missing else ~np.isfinite(result)
@@ -78,11 +80,25 @@ def positive_vector(name: str, value: ArrayLike, *, unit: str = "") -> NDArray[A
     return result
 
 
+def flag(name: str, value: Any) -> bool:
+    """Return `value`; raise `InputError` unless it is True or False."""
+    if not isinstance(value, bool | np.bool_):
+        raise InputError(f"{name} must be True or False; got {shown(value)}")
+    return bool(value)
+
+
+def text(name: str, value: Any) -> str:
+    """Return `value`; raise `InputError` unless it is a text."""
+    if not isinstance(value, str):
+        raise InputError(f"{name} must be a text; got {shown(value)}")
+    return value
+
+
 def one_of(name: str, value: Any, choices: Iterable[str]) -> str:
     """Return `value`; raise `InputError` unless it is one of the named `choices`."""
     known = list(choices)
-    if value not in known:
-        raise InputError(f"{name} must be one of {', '.join(known)}; got {value!r}")
+    if not isinstance(value, str) or value not in known:
+        raise InputError(f"{name} must be one of {', '.join(known)}; got {shown(value)}")
     return str(value)
 
 
@@ -94,6 +110,11 @@ def known(kind: str, given: Iterable[str], allowed: Iterable[str]) -> None:
             near = difflib.get_close_matches(name, names, n=1)
             hint = f"did you mean {near[0]}?" if near else f"expected one of {', '.join(names)}"
             raise InputError(f"unknown {kind} {name}; {hint}")
+
+
+def shown(value: Any) -> str:
+    """Return how a value is written in a message: on one line, not longer than it is read."""
+    return " ".join(repr(value).split())[:80]
 
 
 def _in(unit: str) -> str:

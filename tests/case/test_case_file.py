@@ -131,7 +131,11 @@ WRONG = [
     ),
     ('["road.dat"]', "[]", "[surface] files = []: expected at least 1 item"),
     ('["road.dat"]', '"road.dat"', "[surface] files = 'road.dat': expected a list"),
-    ('files = ["road.dat"]', "", "[surface]: expected either files (measured profiles) or sines"),
+    (
+        'files = ["road.dat"]',
+        "",
+        "[surface]: expected either files (measured profiles), map (a measured map) or sines",
+    ),
     (
         'files = ["road.dat"]\nscales = 8',
         "[[surface.sines]]\nwavelength = 1e-3\namplitud = 1e-4",

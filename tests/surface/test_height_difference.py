@@ -95,6 +95,16 @@ def test_band_covers_the_truth_as_often_as_it_says():
     assert 0.84 <= np.mean(inside) < 1.0
 
 
+def test_lines_side_by_side_are_one_block():
+    """Each line eight times over says no more than once, and the band is as wide."""
+    once = [self_affine_profile(0.8, 2e-3, 1e-3, 0.02, 1e-4, seed=seed) for seed in range(64)]
+    curve = height_difference(once)
+    again = height_difference([line for line in once for _ in range(8)])
+    np.testing.assert_allclose(again.value, curve.value)
+    np.testing.assert_allclose(again.upper, curve.upper)
+    assert np.array_equal(again.pairs, 8 * curve.pairs)
+
+
 def test_band_narrows_with_length():
     short, long = (
         height_difference(self_affine_profile(0.7, 1e-3, 1e-3, length, 1e-4, 5), max_lag=5e-4)

@@ -31,6 +31,38 @@ def test_a_map_does_not_change():
         surface.z[0, 0] = 1.0
 
 
+def test_lines_of_a_map():
+    z = Z.copy()
+    z[:, 4] = np.nan
+    z[2, 5] = np.nan
+    surface = HeightMap(X, Y, z, name="slab", source="slab.sur")
+    along_x, along_y = surface.lines(), surface.lines("y")
+    assert (len(along_x), len(along_y)) == (29, 20)  # the one without heights is left out
+    assert along_x[4].name == "slab, line 5 along x"
+    assert along_x[4].source == "slab.sur, line 5 along x"
+    assert along_x[4].missing == 1
+    np.testing.assert_array_equal(along_x[4].x, X)
+    np.testing.assert_array_equal(along_y[7].x, Y)
+    np.testing.assert_array_equal(along_y[7].z, z[7])
+    assert HeightMap(X, Y, Z).lines()[3].name == "line 3 along x"
+    with pytest.raises(InputError, match="direction must be one of x, y; got 'z'"):
+        surface.lines("z")
+
+
+def test_a_map_turns_by_a_quarter():
+    surface = HeightMap(X, Y, Z + X[:, None], name="slab")
+    turned = surface.turned()
+    assert turned.z.shape == (30, 20)
+    np.testing.assert_array_equal(turned.x, Y)
+    # a point at (x, y) is at (y, -x) now
+    i, j = 3, 8
+    at = np.argmin(np.abs(turned.y + X[i]))
+    assert turned.z[j, at] == surface.z[i, j]
+    whole = turned.turned().turned().turned()
+    np.testing.assert_allclose(whole.x, X)
+    np.testing.assert_array_equal(whole.z, surface.z)
+
+
 @pytest.mark.parametrize(
     ("x", "y", "z", "words"),
     [

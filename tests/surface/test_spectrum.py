@@ -138,15 +138,15 @@ def _wavenumbers(size: int) -> tuple[np.ndarray, np.ndarray]:
     return k[:, None], k
 
 
-def test_missing_heights_of_a_map_are_interpolated_along_x():
+def test_missing_heights_of_a_map_are_filled_and_counted():
     x = np.arange(64.0)
     z = np.cos(2 * np.pi * x / 64)[:, None] * np.ones(32)
+    whole = map_spectrum(z, x_step=STEP, y_step=STEP, taper="none")
     z[10, ::2] = np.nan
+    z[:, 3] = np.nan  # a whole line: its neighbours, which are the same, stand on both sides
     found = map_spectrum(z, x_step=STEP, y_step=STEP, taper="none")
-    assert found.interpolated == pytest.approx(1 / 128)
-    z[:, 3] = np.nan
-    with pytest.raises(InputError, match="along every line; got none at y 3"):
-        map_spectrum(z, x_step=STEP, y_step=STEP)
+    assert found.interpolated == pytest.approx((64 + 16) / (64 * 32))
+    assert found.density[0] == pytest.approx(whole.density[0], rel=1e-3, abs=0)
 
 
 @pytest.mark.parametrize("hurst", [0.3, 0.5, 0.8, 1.0])
@@ -225,6 +225,10 @@ def test_moments_of_a_power_law():
         (lambda: profile_spectrum(rough(), window=1.0), "window must be from 0.0016 m to 0.4096 m"),
         (lambda: profile_spectrum(rough(), taper="welch"), "taper must be one of hann, none"),
         (lambda: map_spectrum([1.0], x_step=1, y_step=1), r"of shape \(nx, ny\)"),
+        (
+            lambda: map_spectrum(np.full((16, 16), np.nan), x_step=1, y_step=1),
+            "z must have some heights; got 256 points, all missing",
+        ),
         (lambda: areal_spectrum(_power_law(), hurst=1.1), "hurst must be at most 1; got 1.1"),
         (lambda: areal_spectrum(ProfileSpectrum([1.0, 2.0], [1.0, 1.0])), "at least 4 points"),
         (lambda: _power_law().rms_slope(1e-6), "smallest_wavelength must be among those"),

@@ -84,21 +84,32 @@ class Wave(Table):
     amplitude: Length = Field(description='a length such as "1 mm", half peak-to-valley')
 
 
+MAP_KEYS = ("step", "crop_across", "trim", "form")
+PROFILE_KEYS = ("across_gaps", "detrend")
+"""Keys of [surface] that only a map, or only profiles have."""
+
+
 class Surface(Table):
-    """Measured profiles and how they become sine waves, or the waves themselves."""
+    """Measured profiles or a map and how they become sine waves, or the waves themselves."""
 
     files: list[str] | None = Field(default=None, min_length=1)
+    map: str | None = None
     sines: list[Wave] | None = Field(default=None, min_length=1)
     x_unit: Annotated[str, _unit("length")] | None = None
     z_unit: Annotated[str, _unit("length")] | None = None
     direction: Literal["x", "y"] = "x"
     reader: Literal["auto", "text", "instrument"] = "auto"
+    channel: Column | None = None
+    step: Annotated[list[Length], Field(min_length=2, max_length=2)] | None = None
     crop: Annotated[list[Position], Field(min_length=2, max_length=2)] | None = None
+    crop_across: Annotated[list[Position], Field(min_length=2, max_length=2)] | None = None
     valid_range: Annotated[list[Position], Field(min_length=2, max_length=2)] | None = None
+    trim: float = Field(default=0.5, ge=0.0, le=1.0, allow_inf_nan=False)
     remove_spikes: bool = True
     spike_slope: float = Field(default=3.0, gt=0.0, allow_inf_nan=False)
     across_gaps: bool = False
     detrend: Literal["linear", "mean", "none"] = "linear"
+    form: int = Field(default=1, ge=0, le=8)
     max_lag: Length | None = None
     scales: int | None = Field(default=None, ge=1, le=24)
     smallest_wavelength: Length | None = None
@@ -112,11 +123,19 @@ class Surface(Table):
 
     @model_validator(mode="after")
     def _one_source(self) -> Surface:
-        if (self.files is None) == (self.sines is None):
-            raise ValueError("expected either files (measured profiles) or sines (waves by hand)")
-        if self.files is not None and self.scales is None and self.smallest_wavelength is None:
+        if sum(source is not None for source in (self.files, self.map, self.sines)) != 1:
+            raise ValueError(
+                "expected either files (measured profiles), map (a measured map) or "
+                "sines (waves by hand)"
+            )
+        if self.sines is None and self.scales is None and self.smallest_wavelength is None:
             raise ValueError("expected scales (number of waves), smallest_wavelength, or both")
-        for name, limits in (("crop", self.crop), ("valid_range", self.valid_range)):
+        foreign, owner = (MAP_KEYS, "map") if self.map is None else (PROFILE_KEYS, "files")
+        for name in foreign:
+            if getattr(self, name) != type(self).model_fields[name].default:
+                raise ValueError(f"{name} belongs to a surface from {owner}")
+        for name in ("crop", "crop_across", "valid_range"):
+            limits = getattr(self, name)
             if limits is not None and limits[0] >= limits[1]:
                 raise ValueError(
                     f"{name} runs from {limits[0]:g} m to {limits[1]:g} m; "
@@ -127,6 +146,11 @@ class Surface(Table):
             if any(b >= a for a, b in pairwise(lengths)):
                 raise ValueError("expected sines in order of falling wavelength")
         return self
+
+    @property
+    def measured_files(self) -> list[str]:
+        """Names of the files it was measured in."""
+        return [self.map] if self.map is not None else self.files or []
 
 
 class RubberSource(Table):

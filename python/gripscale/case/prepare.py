@@ -21,15 +21,18 @@ from gripscale.rubber import (
 from gripscale.surface import (
     CleaningReport,
     HeightDifference,
+    HeightMap,
     Measured,
     PreparedSurface,
     Profile,
     SelfAffineFit,
     SineStack,
     clean,
+    clean_map,
     fit_self_affine,
     fit_sines,
     height_difference,
+    read_map,
     read_profile,
 )
 
@@ -60,7 +63,7 @@ class PreparedRubber:
 
 
 def prepare_surface(surface: Surface, resolve: Resolve = Path) -> PreparedSurface:
-    """Read, clean and describe the profiles of `surface`, or take its waves as stated.
+    """Read, clean and describe the profiles or the map of `surface`, or take its waves as stated.
 
     `resolve` turns the name of a file into its path.
 
@@ -72,7 +75,22 @@ def prepare_surface(surface: Surface, resolve: Resolve = Path) -> PreparedSurfac
             amplitude=np.array([wave.amplitude for wave in surface.sines]),
         )
         return PreparedSurface(stack, "sine waves stated in the case")
-    paths = [resolve(name) for name in surface.files or []]
+    paths = [resolve(name) for name in surface.measured_files]
+    measured = _map(surface, paths[0]) if surface.map else _profiles(surface, paths)
+    correlation = height_difference(measured.cleaned, max_lag=surface.max_lag)
+    self_affine, why_not = _self_affine(correlation)
+    fit = {key: getattr(surface, key) for key in FIT_KEYS}
+    return PreparedSurface(
+        fit_sines(correlation, **fit),
+        ", ".join(str(path) for path in paths),
+        correlation,
+        fit,
+        replace(measured, self_affine=self_affine, no_self_affine=why_not),
+    )
+
+
+def _profiles(surface: Surface, paths: list[Path]) -> Measured:
+    """Read and clean profiles."""
     profiles, reports = [], []
     for path in paths:
         raw = read_profile(
@@ -80,20 +98,50 @@ def prepare_surface(surface: Surface, resolve: Resolve = Path) -> PreparedSurfac
             x_unit=surface.x_unit,
             z_unit=surface.z_unit,
             direction=surface.direction,
+            channel=surface.channel,
             reader=surface.reader,
         )
         cleaned, report = _clean(raw, surface, path)
         profiles.append((raw, cleaned))
         reports.append(report)
-    correlation = height_difference([cleaned for _, cleaned in profiles], max_lag=surface.max_lag)
-    fit = {key: getattr(surface, key) for key in FIT_KEYS}
-    return PreparedSurface(
-        fit_sines(correlation, **fit),
-        ", ".join(str(path) for path in paths),
-        correlation,
-        fit,
-        Measured(profiles, reports, *_self_affine(correlation)),
+    return Measured(profiles, reports, None, "")
+
+
+def _map(surface: Surface, path: Path) -> Measured:
+    """Read and clean a map, turned so that its x is the way of sliding."""
+    raw = read_map(
+        path,
+        x_unit=surface.x_unit,
+        z_unit=surface.z_unit,
+        step=_pair(surface.step),
+        channel=surface.channel,
+        reader=surface.reader,
     )
+    raw = raw if surface.direction == "x" else raw.turned()
+    try:
+        cleaned, report = clean_map(
+            raw,
+            crop=(_pair(surface.crop), _pair(surface.crop_across)),
+            valid_range=_pair(surface.valid_range),
+            trim=surface.trim,
+            remove_spikes=surface.remove_spikes,
+            spike_slope=surface.spike_slope,
+            form=surface.form,
+        )
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from error
+    return Measured([_middle(raw, cleaned)], [report], None, "", cleaned)
+
+
+def _middle(raw: HeightMap, cleaned: HeightMap) -> tuple[Profile, Profile]:
+    """Return one line as read and as cleaned: the fullest, nearest to the middle, to be shown."""
+    away = np.abs(np.arange(cleaned.y.size) - cleaned.y.size // 2)
+    fullest = np.lexsort((away, np.isnan(cleaned.z).sum(axis=0)))[0]
+    one, other = (
+        surface.line(int(np.argmin(np.abs(surface.y - cleaned.y[fullest]))))
+        for surface in (raw, cleaned)
+    )
+    return one, replace(other, name=one.name, source=one.source)
 
 
 def prepare_rubber(source: RubberSource, resolve: Resolve = Path) -> PreparedRubber:

@@ -47,7 +47,7 @@ def inputs(results: CaseResults) -> xr.Dataset:
 
 def _files(file: CaseFile) -> tuple[Variables, Variables]:
     """Return names, sizes and checksums of the measured files of the case."""
-    surface, rubber = file.case.surface.files or [], file.case.rubber.file
+    surface, rubber = file.case.surface.measured_files, file.case.rubber.file
     named = [("surface", name) for name in surface]
     named += [("rubber", rubber)] if rubber is not None else []
     contents = [read_bytes(file.resolve(name)) for _, name in named]

@@ -157,9 +157,12 @@ class Climb:
         return np.asarray(pressure - opening + response.pressure(height - before))
 
     def _loaded(self, pressure: Array) -> Array:
-        """Return `pressure` without tension, scaled to the load."""
+        """Return `pressure` without tension, scaled to the load; even if there is none."""
         positive = np.maximum(pressure, 0.0)
-        return np.asarray(positive * (self.pressure / positive.mean()))
+        mean = positive.mean()
+        if mean == 0.0:
+            return np.full(pressure.shape, self.pressure)
+        return np.asarray(positive * (self.pressure / mean))
 
 
 def _filled(pressure: Array) -> GridContact:

@@ -9,9 +9,10 @@ import scipy.fft
 
 from gripscale import checks
 from gripscale.errors import InputError
-from gripscale.rough.ends import filled, joined
+from gripscale.rough.ends import joined
 from gripscale.rough.grid import Array, ComplexArray, Grid, Mask, resampled
 from gripscale.surface import HeightMap, Profile
+from gripscale.surface.gaps import filled
 
 DEFAULT_STEPS = 4
 """Steps of the surface in the smallest wave kept by default."""
@@ -61,21 +62,26 @@ def periodic_heights(
         raise InputError(f"surface must be a Profile or a HeightMap; got {type(surface).__name__}")
     steps = [float((a[-1] - a[0]) / (a.size - 1)) for a in axes]
     grid = Grid(surface.z.shape, tuple(d * a.size for d, a in zip(steps, axes, strict=True)))
-    z, measured = filled(surface.z)
+    z = filled(surface.z, tuple(steps), periodic=periodic)
     if not periodic:
         z = joined(z)
     return PeriodicHeights(
         grid,
         tuple(float(a[0]) for a in axes),
         np.asarray(scipy.fft.rfftn(z - z.mean())),
-        measured,
+        ~np.isnan(surface.z),
         _smallest(smallest_wavelength, max(steps), min(grid.lengths)),
     )
 
 
 def _smallest(given: float | None, step: float, length: float) -> float:
+    if FEWEST_STEPS * step > length:
+        raise InputError(
+            f"surface must be longer each way than {FEWEST_STEPS} of its steps, of which the "
+            f"largest is {step:.4g} m; got {length:.4g} m"
+        )
     if given is None:
-        return DEFAULT_STEPS * step
+        return min(DEFAULT_STEPS * step, length)
     smallest = checks.positive("smallest_wavelength", given, unit="m")
     if not FEWEST_STEPS * step * (1.0 - 1e-9) <= smallest <= length * (1.0 + 1e-9):
         raise InputError(

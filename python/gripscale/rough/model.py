@@ -13,7 +13,7 @@ from gripscale import model
 from gripscale.errors import InputError
 from gripscale.rough.result import RoughContact
 from gripscale.rough.solve import solve_rough_contact
-from gripscale.surface import Measured, PreparedSurface, Profile, SineStack
+from gripscale.surface import HeightMap, PreparedSurface, Profile, SineStack
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -31,7 +31,7 @@ TOTALS = {
 
 @dataclass(frozen=True)
 class DirectContact:
-    """Every cleaned profile solved whole, averaged by length.
+    """Every cleaned profile solved whole, averaged by length; of a map, the map.
 
     Footprint and load time have no part in it: in small strain the mean state does nothing.
 
@@ -51,8 +51,8 @@ class DirectContact:
     most_points: int = 2**22
 
     def relevant(self, surface: PreparedSurface) -> PreparedSurface:
-        """Return nothing of `surface` but its cleaned profiles and where its waves end."""
-        measured = surface.measured and Measured.of(surface.measured.cleaned)
+        """Return nothing of `surface` but what was measured and where its waves end."""
+        measured = surface.measured and surface.measured.bare()
         last = SineStack(surface.sines.wavelength[-1:], surface.sines.amplitude[-1:])
         return PreparedSurface(last, source="", measured=measured)
 
@@ -72,13 +72,13 @@ class DirectContact:
             If the surface was not measured: waves stated by hand have no profile.
         """
         contacts = []
-        for profile in _profiles(surface):
+        for measured in _measured(surface):
             contact = solve_rough_contact(
                 rubber,
-                profile,
+                measured,
                 pressure=load.pressure,
                 speed=load.speed,
-                smallest_wavelength=self.smallest_wavelength or self._end_of(surface, profile),
+                smallest_wavelength=self.smallest_wavelength or self._end_of(surface, measured),
                 tolerance=self.tolerance,
                 most_points=self.most_points,
             )
@@ -88,9 +88,9 @@ class DirectContact:
         lengths = np.array([contact.grid.lengths[0] for contact in contacts])
         return self._answer(contacts, lengths / lengths.sum(), load)
 
-    def _end_of(self, surface: PreparedSurface, profile: Profile) -> float:
+    def _end_of(self, surface: PreparedSurface, measured: Profile | HeightMap) -> float:
         """Return the smallest sine wave [m], or two steps where it is an extrapolation."""
-        return max(float(surface.sines.wavelength[-1]), 2.0 * profile.step)
+        return max(float(surface.sines.wavelength[-1]), 2.0 * float(np.max(measured.step)))
 
     def _answer(
         self, contacts: list[RoughContact], weight: np.ndarray, load: NominalLoad
@@ -117,10 +117,10 @@ class DirectContact:
         return model.answer(data, totals, "; ".join(bad) or "converged", self.name, load)
 
 
-def _profiles(surface: PreparedSurface) -> list[Profile]:
+def _measured(surface: PreparedSurface) -> list[Profile] | list[HeightMap]:
     if surface.measured is None:
         raise InputError(
             "the direct contact needs a measured profile; got sine waves stated by hand, which "
             "have none (gripscale.rough.surface_of_sines makes one)"
         )
-    return surface.measured.cleaned
+    return surface.measured.surfaces

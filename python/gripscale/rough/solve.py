@@ -18,6 +18,7 @@ from gripscale.rough.estimate import errors
 from gripscale.rough.grids import Climb, GridRecord, LevelContact, finer, levels
 from gripscale.rough.half_space import HalfSpace
 from gripscale.rough.heights import PeriodicHeights, periodic_heights
+from gripscale.rough.magnitudes import check_magnitudes, half_space
 from gripscale.rough.result import RoughContact
 from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Profile
@@ -49,7 +50,8 @@ def solve_rough_contact(
     rubber : Rubber
         The half-space; only shear relaxes.
     surface : Profile or HeightMap
-        A line (plane strain) or a map (sliding along its x). Missing heights are interpolated.
+        A line (plane strain) or a map (sliding along its x). Missing heights are filled, linearly
+        along a line, as a membrane over the gaps of a map.
     pressure : float
         Nominal pressure [Pa], above zero.
     speed : float
@@ -61,9 +63,9 @@ def solve_rough_contact(
         the smooth part that carries the jump between them; for a line, the straight line through
         its ends.
     tolerance : float, optional
-        Estimated relative error to reach in contact fraction and friction (friction below 0.01 is
-        held to the tolerance times 0.01). None: four points in the smallest wave, whatever the
-        errors.
+        Estimated relative error to reach in contact fraction and friction, below 1 (friction below
+        0.01 is held to the tolerance times 0.01). None: four points in the smallest wave, whatever
+        the errors.
     workers : int, optional
         Threads of the Fourier transforms of a map; by default as many as there are processors.
     most_points : int
@@ -83,16 +85,26 @@ def solve_rough_contact(
     Raises
     ------
     InputError
-        If an argument is out of its range, or the first full grid has more than `most_points`.
+        If an argument is out of its range, the first full grid has more than `most_points`, or a
+        size is beyond what single precision can hold.
     """
     load = checks.positive("pressure", pressure, unit="Pa")
-    body = HalfSpace(rubber, checks.not_negative("speed", speed, unit="m/s"))
-    goal = math.inf if tolerance is None else checks.positive("tolerance", tolerance)
-    heights = periodic_heights(surface, smallest_wavelength=smallest_wavelength, periodic=periodic)
+    body = half_space(rubber, speed)
+    goal = math.inf if tolerance is None else _tolerance(tolerance)
+    heights = periodic_heights(
+        surface,
+        smallest_wavelength=smallest_wavelength,
+        periodic=checks.flag("periodic", periodic),
+    )
+    check_magnitudes(body, heights, load)
     plan = levels(heights)
-    _check_size(plan[-1].grid.points, most_points, heights.smallest_wavelength)
+    most = checks.whole("most_points", most_points, least=1, most=2**40)
+    _check_size(plan[-1].grid.points, most, heights.smallest_wavelength)
     threads = _threads(workers) if len(heights.grid.shape) > 1 else 1
-    climb = Climb(body, heights, load, threads, most_iterations)
+    iterations = checks.whole("most_iterations", most_iterations, least=1, most=10**6)
+    if on_grid is not None and not callable(on_grid):
+        raise InputError(f"on_grid must be a function or None; got {checks.shown(on_grid)}")
+    climb = Climb(body, heights, load, threads, iterations)
     grids: list[GridRecord] = []
     while plan:
         solved = climb.solve(plan.pop(0))
@@ -101,7 +113,7 @@ def solve_rough_contact(
             on_grid(solved.record)
         following = finer(solved.level)
         if not plan and not _met(_same_surface(grids), goal):
-            plan += [following] if following.grid.points <= most_points else []
+            plan += [following] if following.grid.points <= most else []
     return _result(body, heights, load, solved, grids, goal)
 
 
@@ -184,6 +196,13 @@ def _check_size(points: int, most: int, smallest: float) -> None:
             f"most_points must be at least {points}, four points in each wave of {smallest:.4g} m; "
             f"got {most}: raise it, take a larger smallest_wavelength or a part of the surface"
         )
+
+
+def _tolerance(value: float) -> float:
+    goal = checks.positive("tolerance", value)
+    if goal >= 1.0:
+        raise InputError(f"tolerance must be below 1, being a relative error; got {goal:g}")
+    return goal
 
 
 def _threads(workers: int | None) -> int:

@@ -9,9 +9,10 @@ import scipy.fft
 
 from gripscale import checks
 from gripscale.errors import InputError
-from gripscale.rough.ends import filled, joined
+from gripscale.rough.ends import joined
 from gripscale.rough.heights import DEFAULT_STEPS, periodic_heights
 from gripscale.surface import HeightMap, Profile, SineStack
+from gripscale.surface.gaps import filled
 from gripscale.surface.profile import FEWEST_POINTS
 
 Surface = TypeVar("Surface", Profile, HeightMap)
@@ -92,7 +93,10 @@ def random_phases(surface: Surface, seed: int) -> Surface:
         If `seed` is not a whole number that is not negative.
     """
     random = np.random.default_rng(checks.whole("seed", seed, least=0, most=2**32 - 1))
-    z = joined(filled(surface.z)[0])
+    if not isinstance(surface, Profile | HeightMap):
+        raise InputError(f"surface must be a Profile or a HeightMap; got {type(surface).__name__}")
+    steps = surface.step if isinstance(surface, HeightMap) else ()
+    z = joined(filled(surface.z, steps))
     spectrum = scipy.fft.rfftn(random.standard_normal(z.shape))  # phases of a real surface
     size = np.abs(spectrum)
     spectrum *= np.abs(scipy.fft.rfftn(z)) / np.where(size > 0.0, size, 1.0)

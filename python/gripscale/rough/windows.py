@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -64,36 +65,70 @@ class WindowContacts:
         return float(found.confidence_interval.low), float(found.confidence_interval.high)
 
 
-def windows(surface: Profile | HeightMap, length: float) -> list[Profile | HeightMap]:
-    """Return the surface cut along x into as many windows of `length` [m] as fit, centred.
+def windows(
+    surface: Profile | HeightMap, length: float | tuple[float, float]
+) -> list[Profile | HeightMap]:
+    """Return the surface cut into as many windows as fit, centred.
 
     Windows with fewer than half their heights are left out.
+
+    Parameters
+    ----------
+    surface : Profile or HeightMap
+        The surface.
+    length : float or (float, float)
+        Length of the windows along x, and for a map along y [m]; of one length alone, the windows
+        of a map are as wide as the map.
 
     Raises
     ------
     InputError
-        If a window would have fewer than 16 points or be longer than the surface, or none is left.
+        If a window would have fewer than 16 points a way or be longer than the surface, or none is
+        left.
     """
-    step = float((surface.x[-1] - surface.x[0]) / (surface.x.size - 1))
-    points = round(checks.positive("length", length, unit="m") / step)
-    if not FEWEST_POINTS <= points <= surface.x.size:
+    lengths = tuple(length) if isinstance(length, tuple | list) else (length,)
+    if not isinstance(surface, Profile | HeightMap):
+        raise InputError(f"surface must be a Profile or a HeightMap; got {type(surface).__name__}")
+    if not 1 <= len(lengths) <= surface.z.ndim:
         raise InputError(
-            f"length must be from {FEWEST_POINTS * step:.4g} m to {surface.x.size * step:.4g} m, "
+            f"length must be one of a profile, one or two of a map; got {checks.shown(length)}"
+        )
+    axes = [surface.x] if isinstance(surface, Profile) else [surface.x, surface.y]
+    cuts = [_cut(axis, part) for axis, part in zip(axes, lengths, strict=False)]
+    places = [
+        place for place in product(*cuts) if np.isfinite(surface.z[place]).mean() >= LEAST_VALID
+    ]
+    if not places:
+        raise InputError(f"length {length} m leaves no window with half of its heights")
+    if isinstance(surface, Profile):
+        return [Profile(surface.x[p], surface.z[p], surface.name) for (p,) in places]
+    whole = slice(None)
+    return [
+        HeightMap(surface.x[p], surface.y[q], surface.z[p, q], surface.name)
+        for p, q in ((*place, whole)[:2] for place in places)
+    ]
+
+
+def _cut(axis: Array, length: float) -> list[slice]:
+    """Return the centred windows of `length` [m] along an axis."""
+    step = float((axis[-1] - axis[0]) / (axis.size - 1))
+    share = checks.positive("length", length, unit="m") / step
+    points = round(min(share, 2.0 * axis.size))
+    if not FEWEST_POINTS <= points <= axis.size:
+        raise InputError(
+            f"length must be from {FEWEST_POINTS * step:.4g} m to {axis.size * step:.4g} m, "
             f"the surface's; got {length:.4g} m"
         )
-    number = surface.x.size // points
-    first = (surface.x.size - number * points) // 2
-    parts = [slice(first + i * points, first + (i + 1) * points) for i in range(number)]
-    kept = [part for part in parts if np.isfinite(surface.z[part]).mean() >= LEAST_VALID]
-    if not kept:
-        raise InputError(f"length {length:.4g} m leaves no window with half of its heights")
-    if isinstance(surface, Profile):
-        return [Profile(surface.x[part], surface.z[part], surface.name) for part in kept]
-    return [HeightMap(surface.x[part], surface.y, surface.z[part], surface.name) for part in kept]
+    number = axis.size // points
+    first = (axis.size - number * points) // 2
+    return [slice(first + i * points, first + (i + 1) * points) for i in range(number)]
 
 
 def solve_windows(
-    rubber: Rubber, surface: Profile | HeightMap, length: float, **load: Any
+    rubber: Rubber,
+    surface: Profile | HeightMap,
+    length: float | tuple[float, float],
+    **load: Any,
 ) -> WindowContacts:
     """Return the direct contact of each of the `windows` of `surface`.
 

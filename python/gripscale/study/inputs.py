@@ -31,8 +31,8 @@ def surface_of(value: Any, file: CaseFile) -> PreparedSurface:
     """Return the surface an axis names.
 
     `value` is "case" (the case's own), a synthetic surface known by name, another case (its
-    [surface] is taken), a profile (read with all other settings of the case), a `SineStack`
-    or a `PreparedSurface`.
+    [surface] is taken), a profile or, of a case on a map, a map (read with all other settings of
+    the case), a `SineStack` or a `PreparedSurface`.
     """
     if isinstance(value, PreparedSurface):
         return value
@@ -45,10 +45,11 @@ def surface_of(value: Any, file: CaseFile) -> PreparedSurface:
     path = _found("surface", value, file, ("case", *SYNTHETIC_SURFACES))
     if path.suffix == ".toml":
         return case_surface(read_case(path))
-    own = file.case.surface.model_dump(exclude_none=True, exclude={"files", "sines"})
+    own = file.case.surface.model_dump(exclude_none=True, exclude={"files", "map", "sines"})
     if file.case.surface.sines is not None:
         own["scales"] = len(file.case.surface.sines)
-    return prepare_surface(validate(Surface, {**own, "files": [str(path)]}, "vary surface"))
+    source = {"files": [str(path)]} if file.case.surface.map is None else {"map": str(path)}
+    return prepare_surface(validate(Surface, own | source, "vary surface"))
 
 
 def rubber_of(value: Any, file: CaseFile) -> Rubber:
@@ -88,7 +89,7 @@ def contents(file: CaseFile) -> list[str]:
 
     Raises `FileError` if one cannot be read.
     """
-    named = [*(file.case.surface.files or []), *filter(None, [file.case.rubber.file])]
+    named = [*file.case.surface.measured_files, *filter(None, [file.case.rubber.file])]
     return [str(file.path), file.text, *(_digest(file.resolve(name)) for name in named)]
 
 

@@ -4,6 +4,8 @@ from gripscale.surface.cleaning import CleaningReport, StepReport, clean
 from gripscale.surface.height_difference import HeightDifference, height_difference
 from gripscale.surface.height_map import HeightMap
 from gripscale.surface.isotropy import areal_spectrum
+from gripscale.surface.map_cleaning import clean_map
+from gripscale.surface.map_file import read_map
 from gripscale.surface.periodogram import map_spectrum, profile_spectrum
 from gripscale.surface.prepared import Measured, PreparedSurface
 from gripscale.surface.profile import Profile
@@ -28,11 +30,13 @@ __all__ = [
     "StepReport",
     "areal_spectrum",
     "clean",
+    "clean_map",
     "fit_self_affine",
     "fit_sines",
     "height_difference",
     "map_spectrum",
     "profile_spectrum",
+    "read_map",
     "read_profile",
     "read_profiles",
     "self_affine_profile",

@@ -104,7 +104,7 @@ def clean(
         reports.append(report)
     profile, report = mark_dropouts(profile, valid_range)
     reports.append(report)
-    if remove_spikes:
+    if checks.flag("remove_spikes", remove_spikes):
         profile, report = mark_spikes(profile, slope=spike_slope, across_gaps=across_gaps)
         reports.append(report)
     profile, report = subtract_trend(profile, detrend)
@@ -114,7 +114,7 @@ def clean(
 
 def crop_profile(profile: Profile, limits: tuple[float, float]) -> tuple[Profile, StepReport]:
     """Keep the points whose distance lies within `limits` [m], both included."""
-    first, last = _interval("crop", limits)
+    first, last = interval("crop", limits)
     keep = (profile.x >= first) & (profile.x <= last)
     if keep.sum() < FEWEST_POINTS:
         raise InputError(
@@ -129,13 +129,18 @@ def mark_dropouts(
     profile: Profile, valid_range: tuple[float, float] | None = None
 ) -> tuple[Profile, StepReport]:
     """Count the heights already missing; mark those outside `valid_range` [m] as missing."""
-    note = f"{profile.missing} missing as measured"
+    z, note = believed(profile.z, valid_range)
+    return _changed(profile, "dropouts", z=z, note=note)
+
+
+def believed(z: FloatArray, valid_range: tuple[float, float] | None) -> tuple[FloatArray, str]:
+    """Return heights with those outside `valid_range` [m] missing, and a note of both."""
+    note = f"{int(np.isnan(z).sum())} missing as measured"
     if valid_range is None:
-        return _changed(profile, "dropouts", z=profile.z, note=note)
-    low, high = _interval("valid_range", valid_range)
-    z = profile.z.copy()
-    z[(z < low) | (z > high)] = np.nan  # comparisons with NaN are false: missing stays missing
-    return _changed(profile, "dropouts", z=z, note=f"{note}; kept {low:g} m to {high:g} m")
+        return z, note
+    low, high = interval("valid_range", valid_range)
+    inside = (z >= low) & (z <= high)  # comparisons with NaN are false: missing stays missing
+    return np.where(inside, z, np.nan), f"{note}; kept {low:g} m to {high:g} m"
 
 
 def mark_spikes(
@@ -226,13 +231,16 @@ def _changed(
     return new, StepReport(step, len(new), removed, made_missing, new.missing, note)
 
 
-def _interval(name: str, limits: tuple[float, float]) -> tuple[float, float]:
+def interval(name: str, limits: tuple[float, float]) -> tuple[float, float]:
+    """Return two limits [m], the first below the second; raise `InputError` for anything else."""
     try:
         first, last = limits
     except (TypeError, ValueError) as error:
-        raise InputError(f"{name} must be two numbers [m]; got {limits!r}") from error
+        raise InputError(f"{name} must be two numbers [m]; got {checks.shown(limits)}") from error
     first = checks.number(f"{name}[0]", first, unit="m", infinite=True)
     last = checks.number(f"{name}[1]", last, unit="m", infinite=True)
     if first >= last:
-        raise InputError(f"{name} must have its first number below its second; got {limits!r}")
+        raise InputError(
+            f"{name} must have its first number below its second; got {checks.shown(limits)}"
+        )
     return first, last

@@ -111,7 +111,8 @@ def height_difference(
     log C_z times Student's t for 95 % gives the band. Heights of one asperity are not independent,
     but blocks longer than the correlation length are nearly so: the band is to be trusted at lags
     well below the block length (length / `band_blocks`), and is too narrow above it, where
-    neighbouring blocks share heights.
+    neighbouring blocks share heights. Of more profiles than blocks, such as the lines of a map, as
+    many neighbours as there are to each block go together: lines side by side are not independent.
 
     Parameters
     ----------
@@ -142,6 +143,9 @@ def height_difference(
     centred = [p.z - np.nanmean(p.z) for p in profiles]
     starts = _block_starts([z.size for z in centred], blocks)
     sums, counts = _block_sums(centred, starts, shifts)
+    if len(profiles) > blocks:
+        first = np.linspace(0, len(sums), blocks, endpoint=False).astype(int)
+        sums, counts = (np.add.reduceat(values, first, axis=0) for values in (sums, counts))
     keep = counts.sum(axis=0) >= FEWEST_PAIRS
     if not keep.any():
         raise InputError(
@@ -155,7 +159,9 @@ def _profiles(profile: Profile | Sequence[Profile]) -> list[Profile]:
     given: object = [profile] if isinstance(profile, Profile) else profile
     profiles = list(given) if isinstance(given, Iterable) else []
     if not profiles or not all(isinstance(p, Profile) for p in profiles):
-        raise InputError(f"profile must be a Profile or a list of them; got {profile!r:.80}")
+        raise InputError(
+            f"profile must be a Profile or a list of them; got {checks.shown(profile)}"
+        )
     for at, other in enumerate(profiles):
         if abs(other.step - profiles[0].step) > 1e-3 * profiles[0].step:
             raise InputError(

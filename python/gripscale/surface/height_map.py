@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from gripscale import checks
 from gripscale.errors import InputError
-from gripscale.surface.profile import FEWEST_POINTS, STEP_TOLERANCE, uneven_step
+from gripscale.surface.profile import FEWEST_POINTS, STEP_TOLERANCE, Profile, uneven_step
 
 FloatArray = NDArray[np.float64]
 
@@ -36,7 +36,7 @@ class HeightMap:
     ------
     InputError
         If x, y or z are not such numbers, their shapes differ, there are fewer than 16 points a
-        way, or no height is left.
+        way, no height is left, or name or source is no text.
     """
 
     x: FloatArray
@@ -57,6 +57,8 @@ class HeightMap:
         for field, values in (("x", x), ("y", y), ("z", z)):
             values.flags.writeable = False
             object.__setattr__(self, field, values)
+        for field in ("name", "source"):
+            checks.text(field, getattr(self, field))
 
     @property
     def step(self) -> tuple[float, float]:
@@ -73,12 +75,47 @@ class HeightMap:
         """Number of points whose height is missing."""
         return int(np.isnan(self.z).sum())
 
+    def lines(self, direction: str = "x") -> list[Profile]:
+        """Return the lines of the map along "x" or "y" that have a height, in their order.
+
+        Raises
+        ------
+        InputError
+            If `direction` is another one.
+        """
+        checks.one_of("direction", direction, ("x", "y"))
+        some = np.isfinite(self.z).any(axis=0 if direction == "x" else 1)
+        return [self.line(int(number), direction) for number in np.flatnonzero(some)]
+
+    def line(self, number: int, direction: str = "x") -> Profile:
+        """Return one line along "x" or "y", counted from 0 across it.
+
+        Raises
+        ------
+        InputError
+            If there is no such line, or it has no height.
+        """
+        along_x = checks.one_of("direction", direction, ("x", "y")) == "x"
+        place, heights = (self.x, self.z.T) if along_x else (self.y, self.z)
+        chosen = checks.whole("number", number, least=0, most=len(heights) - 1)
+        labels = (line_label(text, chosen, direction) for text in (self.name, self.source))
+        return Profile(place, heights[chosen], *labels)
+
+    def turned(self) -> HeightMap:
+        """Return the map turned by a quarter, for sliding along its y: x becomes y, and y is -x."""
+        return HeightMap(self.y, -self.x[::-1], self.z[::-1].T, self.name, self.source)
+
     def __repr__(self) -> str:
         (dx, dy), (nx, ny) = self.step, self.z.shape
         return (
             f"HeightMap({self.name or 'unnamed'}: {nx} x {ny} points, steps {dx:.4g} m and "
             f"{dy:.4g} m, {self.missing} missing)"
         )
+
+
+def line_label(text: str, number: int, direction: str) -> str:
+    """Return what a line of a map is called, the map being called `text`."""
+    return f"{text}, line {number} along {direction}".lstrip(", ")
 
 
 def _axis(name: str, values: FloatArray) -> FloatArray:
@@ -100,8 +137,8 @@ def _heights(values: FloatArray) -> FloatArray:
     expected = "z must be a table of heights [m], numbers or NaN, with two dimensions"
     try:
         z = np.array(values, dtype=float)
-    except (TypeError, ValueError) as error:
-        raise InputError(f"{expected}; got {values!r:.80}") from error
+    except (TypeError, ValueError, OverflowError) as error:
+        raise InputError(f"{expected}; got {checks.shown(values)}") from error
     if z.ndim != 2:
         raise InputError(f"{expected}; got {z.ndim} dimensions")
     if np.isinf(z).any():

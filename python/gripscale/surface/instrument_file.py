@@ -1,4 +1,4 @@
-"""Profiles from instrument formats, read by SurfaceTopography (the extra `gripscale[formats]`).
+"""Instrument formats, read by SurfaceTopography (the extra `gripscale[formats]`).
 
 SurfaceTopography: https://github.com/ContactEngineering/SurfaceTopography,
 doi:10.1088/2051-672X/ac860a.
@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from gripscale.errors import FileError, InputError
+from gripscale.surface.height_map import line_label
 from gripscale.surface.length_unit import length_unit
 from gripscale.surface.profile import FloatArray, Profile
 from gripscale.textfile import read_bytes
@@ -37,17 +38,24 @@ class HeightField:
         """Return one line along a direction as a profile."""
         along = self.x if direction == "x" else self.y
         heights = self.heights[:, line] if direction == "x" else self.heights[line, :]
-        label = "" if self.y is None else f", line {line} along {direction}"
+        name, source = path.stem, str(path)
+        if self.y is not None:
+            name, source = (line_label(text, line, direction) for text in (name, source))
         try:
-            return Profile(
-                np.asarray(along), heights, name=f"{path.stem}{label}", source=f"{path}{label}"
-            )
+            return Profile(np.asarray(along), heights, name, source)
         except InputError as error:
-            raise FileError(f"{path}{label}: {error}") from error
+            raise FileError(f"{source}: {error}") from error
 
 
-def read_instrument_file(path: Path, *, x_unit: str | None, z_unit: str | None) -> HeightField:
-    """Read the default channel of an instrument file.
+def read_instrument_file(
+    path: Path,
+    *,
+    x_unit: str | None,
+    z_unit: str | None,
+    channel: str | int | None = None,
+    step: tuple[float, float] | None = None,
+) -> HeightField:
+    """Read the heights of an instrument file.
 
     Parameters
     ----------
@@ -55,13 +63,18 @@ def read_instrument_file(path: Path, *, x_unit: str | None, z_unit: str | None) 
         A line scan or a map in any format SurfaceTopography reads.
     x_unit, z_unit : str or None
         Units of distance and height, needed only where the file names none.
+    channel : str, int or None
+        Name or number, from 0, of the channel where several hold heights.
+    step : (float, float) or None
+        Steps along x and y [m], needed only where the file has none.
 
     Raises
     ------
     FileError
-        If SurfaceTopography is not installed, or cannot read the file.
+        If SurfaceTopography is not installed or cannot read the file, or the file has no heights
+        or no lateral size.
     InputError
-        If a unit is unknown or contradicts the file.
+        If an argument is wrong or contradicts the file.
     """
     raw = read_bytes(path)
     if not raw.strip():
@@ -73,9 +86,7 @@ def read_instrument_file(path: Path, *, x_unit: str | None, z_unit: str | None) 
         try:
             reader = open_topography(io.BytesIO(raw))
             try:
-                if reader.default_channel.physical_sizes is None:
-                    raise FileError(f"{path}: expected a lateral size; the file gives none")
-                topography = reader.topography()
+                topography = _topography(path, reader, channel, step)
                 heights: FloatArray = np.ma.filled(
                     np.ma.asarray(topography.heights(), dtype=float), np.nan
                 )
@@ -83,16 +94,47 @@ def read_instrument_file(path: Path, *, x_unit: str | None, z_unit: str | None) 
                 unit = topography.unit
             finally:
                 reader.close()
-        except FileError:
+        except (FileError, InputError):
             raise
         except Exception as error:  # each of its forty readers fails in its own way
             raise FileError(
                 f"{path}: expected a surface in a known instrument format; "
                 f"SurfaceTopography cannot read it ({type(error).__name__})"
             ) from error
-    x_unit = length_unit(path, "the file", unit, "x_unit", x_unit)
+    x_unit = "m" if step else length_unit(path, "the file", unit, "x_unit", x_unit)
     z_unit = length_unit(path, "the file", unit, "z_unit", z_unit)
     return _height_field(path, heights, positions, x_unit, z_unit)
+
+
+def _topography(
+    path: Path, reader: Any, channel: str | int | None, step: tuple[float, float] | None
+) -> Any:
+    """Return the heights of one channel, with its lateral size."""
+    chosen = _channel(path, reader.channels, channel)
+    if chosen.physical_sizes is not None:
+        if step is not None:
+            raise InputError(f"step must be left out; {path} states the size of its surface")
+        return chosen.topography()
+    if step is None:
+        raise FileError(f"{path}: expected a lateral size; the file gives none")
+    sizes = tuple(n * d for n, d in zip(chosen.nb_grid_pts, step, strict=False))
+    return chosen.topography(physical_sizes=sizes)
+
+
+def _channel(path: Path, channels: list[Any], wanted: str | int | None) -> Any:
+    """Return the one channel of heights, or the one of them that is `wanted`."""
+    known = [channel for channel in channels if channel.is_height_channel]
+    named = ", ".join(f"{channel.index} {channel.name!r}" for channel in known)
+    if not known:
+        others = ", ".join(repr(channel.name) for channel in channels)
+        raise FileError(f"{path}: expected a channel of heights; got {others or 'none'}")
+    if wanted is not None:
+        known = [channel for channel in known if wanted in (channel.name, channel.index)]
+        if not known:
+            raise InputError(f"channel of {path} must be one of {named}; got {wanted!r}")
+    if len(known) > 1:
+        raise FileError(f"{path}: expected one channel of heights; got {named}; give channel")
+    return known[0]
 
 
 def _open_topography(path: Path) -> Any:

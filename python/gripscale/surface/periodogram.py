@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike
 
 from gripscale import checks
 from gripscale.errors import InputError
+from gripscale.surface.gaps import filled
 from gripscale.surface.profile import FEWEST_POINTS, FloatArray, Profile
 from gripscale.surface.spectrum import PER_DECADE, ArealSpectrum, ProfileSpectrum, first_of_bins
 
@@ -69,10 +70,8 @@ def profile_spectrum(
     if window is not None:
         points = _points(shortest, step, window)
     detrend = partial(signal.detrend, type=trend)
-    powers = [
-        signal.welch(_filled(one.z), 1.0 / step, weights, points, detrend=detrend)[1]
-        for one in profiles
-    ]
+    heights = [filled(one.z, periodic=taper == "none") for one in profiles]
+    powers = [signal.welch(z, 1.0 / step, weights, points, detrend=detrend)[1] for z in heights]
     density = np.average(powers, axis=0, weights=[len(one) for one in profiles])
     q = 2.0 * np.pi / (points * step) * np.arange(1.0, points // 2 + 1)
     missing = sum(one.missing for one in profiles) / sum(len(one) for one in profiles)
@@ -95,7 +94,7 @@ def map_spectrum(
     Parameters
     ----------
     z : array_like, shape (nx, ny)
-        Heights [m]; missing ones are NaN and interpolated linearly along x.
+        Heights [m]; missing ones are NaN and filled as those of a membrane over the gap.
     x_step, y_step : float
         Steps of the map [m].
     taper : str
@@ -107,7 +106,7 @@ def map_spectrum(
     Raises
     ------
     InputError
-        If a value is out of range or a line along x has no height.
+        If a value is out of range or no height is there.
     """
     steps = (
         checks.positive("x_step", x_step, unit="m"),
@@ -116,8 +115,8 @@ def map_spectrum(
     heights = _heights(z)
     each = checks.whole("per_decade", per_decade, least=1, most=1000)
     checks.one_of("taper", taper, TAPERS)
-    filled = np.stack([_filled(line) for line in heights.T], axis=1)
-    power, q = _plane_waves(filled, steps, tapered=taper == "hann")
+    whole = filled(heights, steps, periodic=taper == "none")
+    power, q = _plane_waves(whole, steps, tapered=taper == "hann")
     ring = max(2.0 * np.pi / (n * step) for n, step in zip(heights.shape, steps, strict=True))
     number = np.rint(q / ring).astype(int)
     rings = int(np.pi / max(steps) / ring)
@@ -152,7 +151,9 @@ def _plane_waves(
 def _profiles(profile: Profile | Sequence[Profile]) -> list[Profile]:
     profiles = [profile] if isinstance(profile, Profile) else list(profile)
     if not profiles or not all(isinstance(one, Profile) for one in profiles):
-        raise InputError(f"profile must be a Profile or a list of them; got {profile!r:.80}")
+        raise InputError(
+            f"profile must be a Profile or a list of them; got {checks.shown(profile)}"
+        )
     for at, one in enumerate(profiles):
         if abs(one.step - profiles[0].step) > 1e-3 * profiles[0].step:
             raise InputError(
@@ -180,13 +181,6 @@ def _heights(z: ArrayLike) -> FloatArray:
             f"z must be heights of shape (nx, ny), at least {FEWEST_POINTS} each way [m]; "
             f"got shape {heights.shape}"
         )
-    bare = np.isnan(heights).all(axis=0)
-    if bare.any():
-        raise InputError(f"z must have heights along every line; got none at y {np.argmax(bare)}")
+    if np.isnan(heights).all():
+        raise InputError(f"z must have some heights; got {heights.size} points, all missing")
     return heights
-
-
-def _filled(z: FloatArray) -> FloatArray:
-    """Return heights with the missing ones interpolated linearly."""
-    known, at = np.isfinite(z), np.arange(z.size)
-    return np.interp(at, at[known], z[known])

@@ -11,6 +11,7 @@ import numpy as np
 from gripscale.errors import InputError
 from gripscale.surface.cleaning import CleaningReport
 from gripscale.surface.height_difference import HeightDifference
+from gripscale.surface.height_map import HeightMap
 from gripscale.surface.profile import Profile
 from gripscale.surface.self_affine import SelfAffineFit
 from gripscale.surface.sine_fit import fit_sines
@@ -19,23 +20,41 @@ from gripscale.surface.sines import SineStack
 
 @dataclass(frozen=True)
 class Measured:
-    """Profiles as read and cleaned, what cleaning did, and the fit to their correlation."""
+    """Profiles as read and cleaned, what cleaning did, and the fit to their correlation.
+
+    Of a map the profiles are one line to be shown; its lines and itself are as cleaned.
+    """
 
     profiles: list[tuple[Profile, Profile]]
     cleaning: list[CleaningReport]
     self_affine: SelfAffineFit | None
     no_self_affine: str
     """Why there is no self-affine fit, or empty."""
+    map: HeightMap | None = None
+    """The map, x along the way of sliding, or None for profiles."""
 
     @classmethod
-    def of(cls, lines: Sequence[Profile]) -> Measured:
-        """Return `lines` as they stand: nothing cleaned, nothing fitted."""
-        return cls([(line, line) for line in lines], [], None, "")
+    def of(cls, measured: Sequence[Profile] | HeightMap) -> Measured:
+        """Return profiles or a map as they stand: nothing cleaned, nothing fitted."""
+        if isinstance(measured, HeightMap):
+            return cls([], [], None, "", measured)
+        return cls([(line, line) for line in measured], [], None, "")
 
     @property
     def cleaned(self) -> list[Profile]:
-        """The profiles as cleaned."""
+        """The profiles as cleaned, or all lines of the map along the way of sliding."""
+        if self.map is not None:
+            return self.map.lines()
         return [cleaned for _, cleaned in self.profiles]
+
+    @property
+    def surfaces(self) -> list[Profile] | list[HeightMap]:
+        """What a contact can be solved on: the profiles as cleaned, or the map."""
+        return self.cleaned if self.map is None else [self.map]
+
+    def bare(self) -> Measured:
+        """Return what was measured, without how it was cleaned and what was fitted to it."""
+        return Measured.of(self.cleaned if self.map is None else self.map)
 
 
 @dataclass(frozen=True)

@@ -38,7 +38,7 @@ class Profile:
     ------
     InputError
         If x or z is not a list of numbers, their lengths differ, there are fewer than 16 points,
-        x does not increase in equal steps, or no height is left.
+        x does not increase in equal steps, no height is left, or name or source is no text.
     """
 
     x: FloatArray
@@ -56,6 +56,8 @@ class Profile:
         for field, values in (("x", x), ("z", z)):
             values.flags.writeable = False
             object.__setattr__(self, field, values)
+        for field in ("name", "source"):
+            checks.text(field, getattr(self, field))
 
     @property
     def step(self) -> float:

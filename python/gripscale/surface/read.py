@@ -1,8 +1,9 @@
-"""Read surface profiles from files: text by gripscale itself, instrument formats by an extra."""
+"""Read profiles from files: text by gripscale itself, instrument formats by an extra."""
 
 from __future__ import annotations
 
 import os
+from collections.abc import Collection
 from pathlib import Path
 
 import numpy as np
@@ -24,6 +25,7 @@ def read_profile(
     z_unit: str | None = None,
     direction: str = "x",
     line: int | None = None,
+    channel: str | int | None = None,
     reader: str = "auto",
 ) -> Profile:
     """Read one profile from a file.
@@ -40,6 +42,8 @@ def read_profile(
         Direction of the profile in a map.
     line : int, optional
         Which line of a map, counted from 0 across `direction`; the middle one by default.
+    channel : str or int, optional
+        Name or number, from 0, of the channel of an instrument file that has several of heights.
     reader : {"auto", "text", "instrument"}, optional
         How to read the file; "auto" goes by the suffix.
 
@@ -55,11 +59,12 @@ def read_profile(
     InputError
         If an argument is wrong or contradicts the file.
     """
-    place = _check_arguments(path, x_unit, z_unit, direction, reader)
-    if _is_text(place, reader):
+    checks.one_of("direction", direction, ("x", "y"))
+    place = file_place(path, x_unit, z_unit, reader)
+    if is_text(place, reader):
         _check_line(place, line, 1)
         return read_text_profile(place, x_unit=x_unit, z_unit=z_unit)
-    field = read_instrument_file(place, x_unit=x_unit, z_unit=z_unit)
+    field = read_instrument_file(place, x_unit=x_unit, z_unit=z_unit, channel=channel)
     _check_direction(place, field, direction)
     lines = field.lines(direction)
     chosen = _check_line(place, line, lines)
@@ -72,6 +77,7 @@ def read_profiles(
     x_unit: str | None = None,
     z_unit: str | None = None,
     direction: str = "x",
+    channel: str | int | None = None,
     reader: str = "auto",
 ) -> list[Profile]:
     """Read every profile of a file: all lines of a map along a direction, or the only one.
@@ -79,10 +85,11 @@ def read_profiles(
     Lines of a map on which no height was measured are left out. Parameters and errors are those
     of `read_profile`.
     """
-    place = _check_arguments(path, x_unit, z_unit, direction, reader)
-    if _is_text(place, reader):
+    checks.one_of("direction", direction, ("x", "y"))
+    place = file_place(path, x_unit, z_unit, reader)
+    if is_text(place, reader):
         return [read_text_profile(place, x_unit=x_unit, z_unit=z_unit)]
-    field = read_instrument_file(place, x_unit=x_unit, z_unit=z_unit)
+    field = read_instrument_file(place, x_unit=x_unit, z_unit=z_unit, channel=channel)
     _check_direction(place, field, direction)
     measured = np.isfinite(field.heights).any(axis=0 if direction == "x" else 1)
     if not measured.any():
@@ -90,14 +97,10 @@ def read_profiles(
     return [field.profile(place, direction, int(line)) for line in np.flatnonzero(measured)]
 
 
-def _check_arguments(
-    path: str | os.PathLike[str],
-    x_unit: str | None,
-    z_unit: str | None,
-    direction: str,
-    reader: str,
+def file_place(
+    path: str | os.PathLike[str], x_unit: str | None, z_unit: str | None, reader: str
 ) -> Path:
-    checks.one_of("direction", direction, ("x", "y"))
+    """Return the path, the other arguments being checked."""
     checks.one_of("reader", reader, ("auto", "text", "instrument"))
     for name, unit in (("x_unit", x_unit), ("z_unit", z_unit)):
         if unit is not None:
@@ -105,11 +108,12 @@ def _check_arguments(
     try:
         return Path(path)
     except TypeError as error:
-        raise InputError(f"path must be the path of a file; got {path!r}") from error
+        raise InputError(f"path must be the path of a file; got {checks.shown(path)}") from error
 
 
-def _is_text(path: Path, reader: str) -> bool:
-    return reader == "text" or (reader == "auto" and path.suffix.lower() in TEXT_SUFFIXES)
+def is_text(path: Path, reader: str, suffixes: Collection[str] = TEXT_SUFFIXES) -> bool:
+    """Return whether gripscale reads the file itself."""
+    return reader == "text" or (reader == "auto" and path.suffix.lower() in suffixes)
 
 
 def _check_direction(path: Path, field: HeightField, direction: str) -> None:

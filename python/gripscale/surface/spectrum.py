@@ -62,7 +62,9 @@ class ProfileSpectrum:
         if width.size == 0:
             width = np.diff(np.concatenate((q[:1], np.sqrt(q[1:] * q[:-1]), q[-1:])))
         if width.size != q.size or (width <= 0.0).any():
-            raise InputError(f"width must have {q.size} entries above zero; got {width!r:.80}")
+            raise InputError(
+                f"width must have {q.size} entries above zero; got {checks.shown(width)}"
+            )
         object.__setattr__(self, "width", width)
 
     @property

@@ -19,8 +19,8 @@ from gripscale.surface.profile import FEWEST_POINTS, FloatArray, Profile, uneven
 from gripscale.textfile import TextTable, read_table
 from gripscale.units import in_si
 
-_DISTANCE_TITLE = re.compile(r"^\W*(x\b|x_|dist|pos|length|lateral)", re.IGNORECASE)
-_HEIGHT_TITLE = re.compile(r"^\W*(z\b|z_|height|depth|elev|relative.height|profile)", re.IGNORECASE)
+DISTANCE_TITLE = re.compile(r"^\W*(x\b|x_|dist|pos|length|lateral)", re.IGNORECASE)
+HEIGHT_TITLE = re.compile(r"^\W*(z\b|z_|height|depth|elev|relative.height|profile)", re.IGNORECASE)
 
 
 def read_text_profile(path: Path, *, x_unit: str | None, z_unit: str | None) -> Profile:
@@ -49,11 +49,11 @@ def read_text_profile(path: Path, *, x_unit: str | None, z_unit: str | None) -> 
         path,
         "rows with two columns of numbers",
         kinds=("length",),
-        named=lambda name: bool(_DISTANCE_TITLE.match(name) or _HEIGHT_TITLE.match(name)),
+        named=lambda name: bool(DISTANCE_TITLE.match(name) or HEIGHT_TITLE.match(name)),
     )
     x_column, z_column = _columns(table)
-    x_unit = _unit(table, x_column, "x_unit", x_unit)
-    z_unit = _unit(table, z_column, "z_unit", z_unit)
+    x_unit = column_unit(table, x_column, "x_unit", x_unit)
+    z_unit = column_unit(table, z_column, "z_unit", z_unit)
     x = table.numbers(x_column, f"a distance in column {x_column + 1}")
     z = table.numbers(z_column, f"a number in column {z_column + 1}", missing=True)
     _check_complete(path, z)
@@ -67,8 +67,8 @@ def read_text_profile(path: Path, *, x_unit: str | None, z_unit: str | None) -> 
 
 def _columns(table: TextTable) -> tuple[int, int]:
     """Return which column is distance and which is height."""
-    distance = [i for i, name in enumerate(table.names) if _DISTANCE_TITLE.match(name)]
-    height = [i for i, name in enumerate(table.names) if _HEIGHT_TITLE.match(name)]
+    distance = [i for i, name in enumerate(table.names) if DISTANCE_TITLE.match(name)]
+    height = [i for i, name in enumerate(table.names) if HEIGHT_TITLE.match(name)]
     if len(distance) == 1 and len(height) == 1:
         return distance[0], height[0]
     if len(table.columns) == 2:
@@ -80,7 +80,8 @@ def _columns(table: TextTable) -> tuple[int, int]:
     )
 
 
-def _unit(table: TextTable, column: int, name: str, given: str | None) -> str:
+def column_unit(table: TextTable, column: int, name: str, given: str | None) -> str:
+    """Return the unit of a column: that of its title, or the one given for argument `name`."""
     part, stated = f"column {column + 1}", table.columns[column].unit
     how = "write it in the title, such as 'x [mm]', or give"
     return length_unit(table.path, part, stated, name, given, how=how)
@@ -94,19 +95,10 @@ def _check_complete(path: Path, z: FloatArray) -> None:
 
 
 def _equidistant(table: TextTable, column: int, x: FloatArray) -> FloatArray:
-    """Undo the rounding of printed distances: x_i = x_0 + i (x_N - x_0)/N.
-
-    A distance printed to a resolution q stands within q/2 of the true one, so both the point and
-    the line through the end points are uncertain: departures up to q are rounding. Anything
-    beyond is a step that truly differs, which is an error.
-    """
-    even = np.linspace(x[0], x[-1], x.size)
-    step = (x[-1] - x[0]) / (x.size - 1)
-    resolution = table.resolution(column)
-    rounded = np.abs(x - even).max() <= 1.01 * resolution and resolution <= 0.5 * step
-    if rounded and (np.diff(x) > 0.0).all():
+    even = unrounded(x, table.resolution(column))
+    if even is not None:
         return even
-    at = uneven_step(x)
+    at, step = uneven_step(x), (x[-1] - x[0]) / (x.size - 1)
     if at is not None:
         first, second = table.line_numbers[at], table.line_numbers[at + 1]
         raise FileError(
@@ -114,3 +106,16 @@ def _equidistant(table: TextTable, column: int, x: FloatArray) -> FloatArray:
             f"{step:.6g}; got {x[at]:.9g} (line {first}) then {x[at + 1]:.9g}"
         )
     return x
+
+
+def unrounded(x: FloatArray, resolution: float) -> FloatArray | None:
+    """Undo the rounding of printed distances: x_i = x_0 + i (x_N - x_0)/N.
+
+    A distance printed to a resolution q stands within q/2 of the true one, so both the point and
+    the line through the end points are uncertain: departures up to q are rounding. Returns None
+    where anything goes beyond: a step that truly differs, or too coarse a resolution.
+    """
+    even = np.linspace(x[0], x[-1], x.size)
+    step = (x[-1] - x[0]) / (x.size - 1)
+    rounded = np.abs(x - even).max() <= 1.01 * resolution and resolution <= 0.5 * step
+    return even if rounded and (np.diff(x) > 0.0).all() else None

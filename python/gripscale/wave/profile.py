@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from gripscale import checks
 from gripscale.errors import InputError
 from gripscale.rubber import Rubber
+from gripscale.surface.gaps import filled
 from gripscale.surface.profile import Profile
 from gripscale.wave import kernel
 from gripscale.wave.block import FiniteStrainBlock
@@ -128,17 +129,13 @@ def solve_profile(
 
 def _one_period(profile: Profile, smallest: float | None, periodic: bool) -> SampledProfile:
     """Return the heights without gaps and tilt, and without waves below the smallest."""
-    points = np.arange(len(profile), dtype=float)
-    known = np.isfinite(profile.z)
     period = len(profile) * profile.step if periodic else profile.length
-    z: Array = np.interp(
-        points, points[known], profile.z[known], period=len(profile) if periodic else None
-    )
+    z = filled(profile.z, periodic=periodic)
     if not periodic:
         z = (z - np.linspace(z[0], z[-1], z.size))[:-1]
     if smallest is not None:
         z = _cut_off(z, period, smallest)
-    left, there = np.ptp(z), np.ptp(profile.z[known])
+    left, there = np.ptp(z), float(np.nanmax(profile.z) - np.nanmin(profile.z))
     if left <= ROUND_OFF * there:
         raise InputError(
             "profile must have waves left without its tilt and those below smallest_wavelength; "

@@ -1,0 +1,32 @@
+"""The example of the page on inputs runs and prints what stands below it; its case is one."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from gripscale.case import Surface
+
+ROOT = Path(__file__).parents[2]
+PAGE = (ROOT / "docs" / "inputs.md").read_text(encoding="utf-8")
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
+
+
+def test_the_example_prints_what_stands_below_it(monkeypatch, capsys):
+    [(example, shown)] = re.findall(r"```python\n(.*?)```.*?```text\n(.*?)```", PAGE, re.DOTALL)
+    monkeypatch.chdir(ROOT)
+    exec(compile(example, "inputs.md", "exec"), {"__name__": "inputs"})
+    printed = capsys.readouterr().out
+    # The words exactly, the numbers to 1 %: the last digit shown, and processors round differently.
+    assert NUMBER.sub("#", printed) == NUMBER.sub("#", shown)
+    for got, stated in zip(NUMBER.findall(printed), NUMBER.findall(shown), strict=True):
+        assert float(got) == pytest.approx(float(stated), rel=0.01)
+
+
+def test_the_case_shown_is_one():
+    [table] = re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL)
+    surface = Surface(**tomllib.loads(table)["surface"])
+    assert surface.crop_across == pytest.approx([5e-3, 45e-3])
