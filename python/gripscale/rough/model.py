@@ -40,7 +40,7 @@ class DirectContact:
     smallest_wavelength : float, optional
         Shorter waves are left out [m]; by default shorter than the smallest sine wave of the
         surface, so that chain and direct contact see the same roughness.
-    tolerance, most_points
+    tolerance, most_points, periodic
         See `solve_rough_contact`.
     """
 
@@ -49,6 +49,7 @@ class DirectContact:
     smallest_wavelength: float | None = None
     tolerance: float | None = 0.02
     most_points: int = 2**22
+    periodic: bool = False
 
     def relevant(self, surface: PreparedSurface) -> PreparedSurface:
         """Return nothing of `surface` but what was measured and where its waves end."""
@@ -81,6 +82,7 @@ class DirectContact:
                 smallest_wavelength=self.smallest_wavelength or self._end_of(surface, measured),
                 tolerance=self.tolerance,
                 most_points=self.most_points,
+                periodic=self.periodic,
             )
             contacts.append(contact)
             if on_progress is not None:

@@ -3,6 +3,7 @@ from .block import solve_scale as solve_scale
 from .kernel import default_settings as default_settings
 from .kernel import describe_settings as describe_settings
 from .mesh import Mesh as Mesh
+from .model import BlockOnProfile as BlockOnProfile
 from .problem import Load as Load
 from .problem import SampledProfile as SampledProfile
 from .problem import Sine as Sine

@@ -1,0 +1,64 @@
+"""The block on whole profiles as a model: what it answers, and when it does not."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import gripscale as gs
+from gripscale.model import Model, NominalLoad
+from gripscale.surface import Measured, PreparedSurface, Profile, SineStack
+from gripscale.wave import BlockOnProfile
+
+RUBBER = gs.Rubber(1e6, [9e6], [1e-3])
+LOAD = NominalLoad(5e4, 0.1, 0.1)
+X = np.arange(64) * (20e-3 / 64)
+
+
+def line(phase: float, length: float = 20e-3) -> Profile:
+    place = 2.0 * np.pi * X / X[-1] * (63 / 64)
+    z = 2e-4 * np.cos(2.0 * place) + 5e-5 * np.cos(5.0 * place + phase)
+    return Profile(X * (length / 20e-3), z * (length / 20e-3))
+
+
+def surface_of(*lines: Profile) -> PreparedSurface:
+    sines = SineStack([10e-3, 4e-3], [2e-4, 5e-5])
+    return PreparedSurface(sines, "", measured=Measured.of(lines))
+
+
+def test_it_is_a_model():
+    assert isinstance(BlockOnProfile(), Model)
+
+
+def test_profiles_count_by_their_length():
+    answer = BlockOnProfile(periodic=True).predict(
+        RUBBER, surface_of(line(0.0), line(2.0, length=40e-3)), LOAD
+    )
+    each = [
+        gs.solve_profile(RUBBER, one, pressure=5e4, speed=0.1, load_time=1.0, periodic=True)
+        for one in (line(0.0), line(2.0, length=40e-3))
+    ]
+    assert answer.prediction_status == "converged"
+    np.testing.assert_array_equal(answer.friction, [one.friction for one in each])
+    expected = (each[0].friction + 2.0 * each[1].friction) / 3.0
+    assert float(answer.total_friction) == pytest.approx(expected, rel=1e-9)
+    assert float(answer.weight.sum()) == pytest.approx(1.0)
+
+
+def test_what_does_not_converge_is_named_and_has_no_totals():
+    hopeless = NominalLoad(1e9, 0.1, 0.1)
+    answer = BlockOnProfile(periodic=True).predict(RUBBER, surface_of(line(0.0)), hopeless)
+    assert np.isnan(answer.total_friction)
+    assert str(answer.prediction_status.item()).startswith("profile 1 of 1: ")
+
+
+def test_waves_by_hand_have_no_profile():
+    bare = PreparedSurface(SineStack([10e-3], [2e-4]), "")
+    with pytest.raises(gs.InputError, match="needs a profile"):
+        BlockOnProfile().predict(RUBBER, bare, LOAD)
+
+
+def test_only_the_profiles_matter():
+    relevant = BlockOnProfile().relevant(surface_of(line(0.0)))
+    assert relevant.correlation is None
+    assert len(relevant.sines) == 1
