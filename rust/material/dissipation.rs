@@ -12,20 +12,20 @@
 
 use super::maxwell::{decaying_moments, Maxwell};
 
-/// Coefficients of 1, u, u^2, u^3 in one column, u = 0 ... 1.
-type Cubic = [f64; 4];
+/// Coefficients of 1, u ... u^4 in one column, u = 0 ... 1.
+type Polynomial = [f64; 5];
 
-/// What one passage of f loses, for f a cubic in every column.
+/// What one passage of f loses, for f a polynomial in every column.
 #[derive(Debug, Clone)]
 pub struct Dissipation {
     /// `weights[m]`: loss by the coefficients of column m, counted back from the point.
-    weights: Vec<Cubic>,
+    weights: Vec<Polynomial>,
 }
 
 impl Dissipation {
     /// Exact integrals of the decaying exponentials; times of `maxwell` in passages.
     pub fn new(columns: usize, maxwell: &Maxwell) -> Self {
-        let mut weights = vec![[0.0; 4]; columns];
+        let mut weights = vec![[0.0; 5]; columns];
         for (&modulus, &time) in maxwell.moduli.iter().zip(&maxwell.times) {
             let step = 1.0 / (columns as f64 * time);
             if step.is_infinite() {
@@ -45,33 +45,31 @@ impl Dissipation {
 
     /// The loss for f, integrated over the block, m columns ago in `strain_since[m]`.
     pub fn lost(&self, strain_since: &[f64]) -> f64 {
-        let cubics = (0..strain_since.len()).map(|m| cubic(strain_since, m));
-        let lost = |(cubic, weight): (Cubic, &Cubic)| -> f64 {
-            cubic.iter().zip(weight).map(|(c, w)| c * w).sum()
+        let polynomials = (0..strain_since.len()).map(|m| polynomial(strain_since, m));
+        let lost = |(polynomial, weight): (Polynomial, &Polynomial)| -> f64 {
+            polynomial.iter().zip(weight).map(|(c, w)| c * w).sum()
         };
-        cubics.zip(&self.weights).map(lost).sum()
+        polynomials.zip(&self.weights).map(lost).sum()
     }
 }
 
-/// f in column m: nowhere below zero if it is not at the columns' ends.
-fn cubic(f: &[f64], m: usize) -> Cubic {
+/// f in column m, nowhere below zero if it is not at the columns' ends: beside s = 0, where f and its
+/// slope vanish, even in the distance from it; elsewhere the cubic of values and slopes.
+fn polynomial(f: &[f64], m: usize) -> Polynomial {
     let last = f.len() - 1;
     let bend = bend_at_zero(f);
     if m == 0 {
-        return [0.0, 0.0, bend, f[1] - bend];
+        return [0.0, 0.0, bend, 0.0, f[1] - bend];
     }
     if m == last {
-        // The mirror image, of u^2 (bend + (f - bend) u), in 1 - u.
+        // bend (1 - u)^2 + rest (1 - u)^4
         let rest = f[last] - bend;
-        return [f[last], -2.0 * bend - 3.0 * rest, bend + 3.0 * rest, -rest];
+        let (linear, square) = (-2.0 * bend - 4.0 * rest, bend + 6.0 * rest);
+        return [f[last], linear, square, -4.0 * rest, rest];
     }
     let (rise, from, to) = (f[m + 1] - f[m], slope(f, m), slope(f, m + 1));
-    [
-        f[m],
-        from,
-        3.0 * rise - 2.0 * from - to,
-        from + to - 2.0 * rise,
-    ]
+    let (square, cube) = (3.0 * rise - 2.0 * from - to, from + to - 2.0 * rise);
+    [f[m], from, square, cube, 0.0]
 }
 
 /// f / m^2 at m = 0, where f and its slope vanish: an even function to fourth order, from both sides.

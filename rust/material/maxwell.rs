@@ -80,15 +80,15 @@ pub fn leaving(x: f64) -> f64 {
     }
 }
 
-/// int_0^1 u^n exp(-x u) du for n = 0 ... 3.
-pub fn decaying_moments(x: f64) -> [f64; 4] {
+/// int_0^1 u^n exp(-x u) du for n = 0 ... 4.
+pub fn decaying_moments(x: f64) -> [f64; 5] {
     if x < 2.0 {
-        return [1.0, 2.0, 3.0, 4.0].map(|first| series(x, first));
+        return [1.0, 2.0, 3.0, 4.0, 5.0].map(|first| series(x, first));
     }
     // By parts; errors shrink by n/x.
     let end = (-x).exp();
-    let mut moments = [(1.0 - end) / x; 4];
-    for n in 1..4 {
+    let mut moments = [(1.0 - end) / x; 5];
+    for n in 1..5 {
         moments[n] = (n as f64 * moments[n - 1] - end) / x;
     }
     moments
