@@ -60,9 +60,7 @@ def road_windows(station: int, cut_off: float, count: int = 20) -> tuple[Profile
     return tuple(_window(road, station, first, points, cut_off) for first in chosen)
 
 
-def _window(
-    road: gs.Profile, station: int, first: int, points: int, cut_off: float
-) -> ProfileCase:
+def _window(road: gs.Profile, station: int, first: int, points: int, cut_off: float) -> ProfileCase:
     part = slice(first, first + points + 1)
     name = f"station {station} from {road.x[first]:.3f} m"
     return ProfileCase(name, gs.Profile(road.x[part], road.z[part]), 3e5, 0.3, False, cut_off)
