@@ -29,11 +29,7 @@ impl Outcome {
         let drag: f64 = (0..nodes)
             .map(|a| state.force[a] * pressed.heights.slope(x[a]))
             .sum();
-        let lost: f64 = rows
-            .iter()
-            .enumerate()
-            .map(|(row, row_state)| pressed.block.row_dissipation(row, row_state))
-            .sum();
+        let lost = pressed.block.dissipation(&rows);
         let (mut low, mut high) = (f64::INFINITY, 0.0_f64);
         for f in rows.iter().flat_map(|row| row.gradient.iter().flatten()) {
             let (least, most) = principal_stretches(f);

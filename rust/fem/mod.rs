@@ -2,6 +2,8 @@
 
 pub mod assembly;
 pub mod block;
+mod circular;
+mod dissipation;
 pub mod element;
 mod memory_tangent;
 pub mod mesh;

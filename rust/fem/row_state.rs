@@ -1,7 +1,8 @@
 //! Deformation gradients and remembered state at the Gauss points of one element row.
 
 use super::block::{Block, Memory, RowState};
-use crate::material::kinematics::{contract, isochoric, remembered, Gradient, Symmetric, UNIT};
+use super::circular::convolve;
+use crate::material::kinematics::{remembered, Gradient, Symmetric, UNIT};
 
 impl RowState {
     /// What the temporary networks remember of the row's deformation, `[line][column * points + point]`.
@@ -72,69 +73,4 @@ impl Block<'_> {
         }
         h
     }
-
-    /// Energy lost per sliding distance in one row: 1/2 sum weight Y : Cbar.
-    pub fn row_dissipation(&self, row: usize, state: &RowState) -> f64 {
-        let element = &self.mesh.elements[row];
-        let points = self.points();
-        let Memory::Sliding(history) = self.memory else {
-            return 0.0;
-        };
-        let mut lost = 0.0;
-        for (line, gradient) in state.gradient.iter().enumerate() {
-            let y: Vec<Symmetric> = gradient.iter().map(remembered).collect();
-            let rate = convolve(&history.dissipation, &y);
-            for (q, f) in gradient.iter().enumerate() {
-                let weight = element.weight[line * points + q % points];
-                lost += 0.5 * weight * contract(&rate[q], &isochoric(f));
-            }
-        }
-        lost
-    }
-}
-
-/// sum over columns e' of weights[e - e'] y(e'), for every point of a column by itself.
-fn convolve(weights: &[f64], y: &[Symmetric]) -> Vec<Symmetric> {
-    pulp::Arch::new().dispatch(|| convolve_vectorised(weights, y))
-}
-
-#[inline(always)]
-fn convolve_vectorised(weights: &[f64], y: &[Symmetric]) -> Vec<Symmetric> {
-    let columns = weights.len();
-    let points = y.len() / columns;
-    let turned: Vec<f64> = weights.iter().rev().copied().collect();
-    let mut out = vec![[0.0; 4]; y.len()];
-    // One component of one point, twice over, so that every sum runs over a contiguous slice.
-    let mut line = vec![0.0; 2 * columns];
-    for point in 0..points {
-        for k in 0..4 {
-            for (column, value) in line.iter_mut().enumerate() {
-                *value = y[column % columns * points + point][k];
-            }
-            for column in 0..columns {
-                let window = &line[column + 1..column + 1 + columns];
-                out[column * points + point][k] = dot_by_eights(&turned, window);
-            }
-        }
-    }
-    out
-}
-
-/// Dot product in eight running sums, which vectors can hold.
-#[inline(always)]
-fn dot_by_eights(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0; 8];
-    let (a_chunks, b_chunks) = (a.chunks_exact(8), b.chunks_exact(8));
-    let rest: f64 = a_chunks
-        .remainder()
-        .iter()
-        .zip(b_chunks.remainder())
-        .map(|(x, y)| x * y)
-        .sum();
-    for (x, y) in a_chunks.zip(b_chunks) {
-        for i in 0..8 {
-            sums[i] += x[i] * y[i];
-        }
-    }
-    sums.iter().sum::<f64>() + rest
 }

@@ -79,3 +79,27 @@ pub fn leaving(x: f64) -> f64 {
         -(-x).exp_m1() / x - (-x).exp()
     }
 }
+
+/// int_0^1 u^n exp(-x u) du for n = 0 ... 4.
+pub fn decaying_moments(x: f64) -> [f64; 5] {
+    if x < 2.0 {
+        return [1.0, 2.0, 3.0, 4.0, 5.0].map(|first| series(x, first));
+    }
+    // By parts; errors shrink by n/x.
+    let end = (-x).exp();
+    let mut moments = [(1.0 - end) / x; 5];
+    for n in 1..5 {
+        moments[n] = (n as f64 * moments[n - 1] - end) / x;
+    }
+    moments
+}
+
+/// sum_j (-x)^j / (j! (j + first)); terms fall below round-off within thirty for x < 2.
+fn series(x: f64, first: f64) -> f64 {
+    let (mut power, mut sum) = (1.0, 0.0);
+    for j in 0..30 {
+        sum += power / (f64::from(j) + first);
+        power *= -x / f64::from(j + 1);
+    }
+    sum
+}

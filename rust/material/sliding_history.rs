@@ -8,6 +8,7 @@
 //! The weights follow from the Fourier series, where harmonic k is multiplied by the complex modulus
 //! G*(2 pi k v / lambda); the exact recurrence between neighbouring points is kept as a check.
 
+use super::dissipation::Dissipation;
 use super::maxwell::{recurrence, Maxwell};
 
 /// Weights between equally placed points of the columns of one line (they form a circulant matrix).
@@ -20,8 +21,7 @@ pub struct SlidingHistory {
     pub frozen_modulus: f64,
     /// `stress[m]`: weight of Y in column e - m in H in column e.
     pub stress: Vec<f64>,
-    /// The same for the energy lost per sliding distance, 1/2 sum weight Y : Cbar.
-    pub dissipation: Vec<f64>,
+    pub dissipation: Dissipation,
 }
 
 impl SlidingHistory {
@@ -30,8 +30,7 @@ impl SlidingHistory {
     /// Harmonic k of Y is multiplied by G(t) - G*(omega_k), the mean by nothing.
     pub fn new(columns: usize, maxwell: &Maxwell, load_time: f64) -> Self {
         let mean = maxwell.relaxation_modulus(load_time);
-        let glassy = maxwell.relaxation_modulus(0.0);
-        let (mut stress, mut dissipation) = (vec![0.0; columns], vec![0.0; columns]);
+        let mut stress = vec![0.0; columns];
         for harmonic in 1..=columns / 2 {
             let omega = std::f64::consts::TAU * harmonic as f64;
             let (storage, loss) = maxwell.complex_modulus(omega);
@@ -42,10 +41,9 @@ impl SlidingHistory {
                 let (sine, cosine) = (omega * column as f64 / columns as f64).sin_cos();
                 let odd = if nyquist { 0.0 } else { sine };
                 stress[column] += share * ((mean - storage) * cosine + loss * odd);
-                dissipation[column] += share * omega * ((glassy - storage) * odd - loss * cosine);
             }
         }
-        Self::without_local_part(mean - maxwell.equilibrium, stress, dissipation)
+        Self::without_local_part(maxwell, mean, stress)
     }
 
     /// The same by the exact recurrence of each Maxwell element from column to column,
@@ -53,28 +51,23 @@ impl SlidingHistory {
     /// closed periodically, for Y linear in between: an independent evaluation of second order.
     pub fn by_recurrence(columns: usize, maxwell: &Maxwell, load_time: f64) -> Self {
         let mean = maxwell.relaxation_modulus(load_time);
-        let (mut stress, mut dissipation) = (vec![0.0; columns], vec![0.0; columns]);
+        let mut stress = vec![0.0; columns];
         for (&modulus, &time) in maxwell.moduli.iter().zip(&maxwell.times) {
             let kept = (-load_time / time).exp() / columns as f64;
             for (m, weight) in recurrence(columns, time).into_iter().enumerate() {
                 stress[m] += modulus * (weight - kept);
-                dissipation[m] += modulus * (weight - f64::from(m == 0)) / time;
             }
         }
-        Self::without_local_part(mean - maxwell.equilibrium, stress, dissipation)
+        Self::without_local_part(maxwell, mean, stress)
     }
 
     /// Take out the weight of each point on itself, which DEV would remove, to avoid cancellation.
-    fn without_local_part(
-        frozen_modulus: f64,
-        mut stress: Vec<f64>,
-        dissipation: Vec<f64>,
-    ) -> Self {
+    fn without_local_part(maxwell: &Maxwell, mean: f64, mut stress: Vec<f64>) -> Self {
         stress[0] = 0.0;
         Self {
-            frozen_modulus,
+            frozen_modulus: mean - maxwell.equilibrium,
+            dissipation: Dissipation::new(stress.len(), maxwell),
             stress,
-            dissipation,
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The kernel's test ladder, from shape functions to whole waves, in one binary.
 
 mod complementarity;
+mod dissipation;
 mod element_and_mesh;
 mod elimination;
 mod energy;

@@ -148,7 +148,7 @@ def test_gaps_tilt_and_short_waves_are_taken_out():
 def test_columns_follow_the_smallest_wave():
     rough = sum_of_sines([(1, 1e-3, 0.0), (10, 1e-5, 0.0)])
     one = gs.solve_profile(RUBBER, rough, periodic=True, pressure=3e5, speed=0.0)
-    assert (one.details["columns"], one.details["rows"]) == (96, 17)
+    assert (one.details["columns"], one.details["rows"]) == (128, 20)
 
 
 REFUSED = [

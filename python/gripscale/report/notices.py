@@ -11,9 +11,7 @@ from gripscale.report.elements import Card, Notice
 from gripscale.report.numbers import NONE, number, percent
 from gripscale.report.source import Run
 from gripscale.versions import versions
-
-LARGE_MISMATCH = 0.05
-"""Relative difference of the two frictions of a wave above which the page warns."""
+from gripscale.wave.result import LARGE_MISMATCH
 
 
 def notices(run: Run) -> list[Notice]:

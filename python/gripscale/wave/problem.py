@@ -83,6 +83,15 @@ class SampledProfile:
         fine = np.fft.irfft(np.fft.rfft(self.heights), 16 * count) * 16.0
         return float(np.ptp(fine)) / 2.0
 
+    def slope(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the slope dz/dx [-] of the interpolant at `x` [m], shape (points,)."""
+        count = self.heights.size
+        number = np.arange(1, count // 2 + 1)
+        turn = 2j * np.pi / self.wavelength * number
+        share = np.where(2 * number == count, 1.0, 2.0) / count
+        amplitudes = share * np.fft.rfft(self.heights)[number]
+        return np.asarray((np.exp(np.outer(x, turn)) @ (turn * amplitudes)).real)
+
     @property
     def waves(self) -> int:
         """Number of its smallest wave: whole waves in the period."""

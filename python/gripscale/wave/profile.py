@@ -25,9 +25,9 @@ from gripscale.wave.result import WaveResult
 
 Array = NDArray[np.float64]
 
-COLUMNS = (64, 96, 128, 192, 256, 384, 512, 768, 1024)
+COLUMNS = (128, 192, 256, 384, 512, 768, 1024)
 """Columns to choose from: all can be halved for the coarser meshes of a sequence."""
-COLUMNS_PER_WAVE = 8
+COLUMNS_PER_WAVE = 12
 FEWEST_PER_WAVE = 6
 
 
@@ -79,8 +79,8 @@ def solve_profile(
     depth : float
         Height of the block in periods.
     columns, rows : int, optional
-        Elements along and across the block; by default 8 columns along the smallest wave, rounded
-        up to a number of few factors and at most 1024, and rows to suit.
+        Elements along and across the block; by default 12 columns along the smallest wave, rounded
+        up to a number of few factors, from 128 to 1024, and rows to suit.
     element_order : int
         1: bilinear with one pressure; 2: biquadratic with linear discontinuous pressure.
     tolerance : float, optional
@@ -96,8 +96,9 @@ def solve_profile(
     -------
     WaveResult
         Its `wavelength` is the period, its `amplitude` half the range of heights; x starts at the
-        first point. `details` also has the `contact_edges` [m], `missing_share` of the points, and
-        the `smallest_wavelength` that was kept [m].
+        first point. `details` also has the `contact_edges` [m], `missing_share` of the points, the
+        `smallest_wavelength` that was kept [m], and the `contact_slope`, the largest slope under
+        the rubber.
 
     Raises
     ------
@@ -120,9 +121,11 @@ def solve_profile(
         residual_tolerance=residual_tolerance,
     )
     result = block.solve(WaveProblem(rubber, heights, Load(pressure, speed, load_time)), start)
+    pressed = result.x[result.pressure > 0.0]
     told = {
         "missing_share": profile.missing / len(profile),
         "smallest_wavelength": heights.wavelength / heights.waves,
+        "contact_slope": float(np.abs(heights.slope(pressed)).max(initial=0.0)),
     }
     return replace(result, details={**result.details, **told})
 
@@ -159,7 +162,7 @@ def _cut_off(z: Array, period: float, smallest: float) -> Array:
 
 
 def _columns(heights: SampledProfile) -> int:
-    """Return 8 columns along the smallest wave, rounded up, or all there are if they suffice."""
+    """Return 12 columns along the smallest wave, rounded up, or all there are if they suffice."""
     if FEWEST_PER_WAVE * heights.waves > COLUMNS[-1]:
         least = FEWEST_PER_WAVE * heights.wavelength / COLUMNS[-1]
         raise InputError(

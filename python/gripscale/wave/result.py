@@ -15,16 +15,21 @@ from gripscale.wave.status import Status
 
 Array = NDArray[np.float64]
 
+LARGE_MISMATCH = 0.05
+"""Relative difference of the two frictions above which a result is in doubt."""
+
 
 @dataclass(frozen=True)
 class WaveResult:
-    """Contact and friction of one wave, with the evidence for them.
+    """Contact and friction of one wave, or of one period of a profile, with the evidence for them.
 
     All lengths in m, pressures in Pa, speeds in m/s, angular frequencies in rad/s.
     """
 
     wavelength: float
+    """Of the wave; of a profile the period [m]."""
     amplitude: float
+    """Of the wave; of a profile half the range of heights [m]."""
     pressure_received: float
     """Mean pressure this wave was given [Pa]."""
     speed: float
@@ -43,7 +48,10 @@ class WaveResult:
     min_stretch: float
     max_stretch: float
     x: Array = field(repr=False)
-    """Deformed abscissa of the surface nodes in the frame of the wave (crest at 0) [m]."""
+    """Deformed abscissa of the surface nodes in the frame of the wave [m].
+
+    Zero is the crest of a sine, and the first height of a profile.
+    """
     pressure: Array = field(repr=False)
     """Contact pressure at `x` [Pa], zero out of contact."""
     rubber: Rubber | None = field(default=None, repr=False, compare=False)
@@ -77,11 +85,30 @@ class WaveResult:
 
     @property
     def why(self) -> str:
-        """The status, and how much of the pressure was reached before a failure."""
+        """The status, with the doubt about it or how much of the pressure a failure reached."""
+        if self.converged:
+            return f"{self.status}, but {self.doubt}" if self.doubt else str(self.status)
         reached = self.details.get("load_reached", math.nan)
-        if self.converged or not math.isfinite(reached):
+        if not math.isfinite(reached):
             return str(self.status)
         return f"{self.status} at {100.0 * reached:.3g} % of the pressure"
+
+    @property
+    def doubt(self) -> str:
+        """What the two frictions say against a converged wave: empty if within 5 %, or at rest.
+
+        Then the mesh does not follow the contact. The friction from the energy lost is then the
+        better of the two as a rule, and more columns better than both.
+        """
+        if not self.converged or self.speed == 0.0 or self.friction_mismatch <= LARGE_MISMATCH:
+            return ""
+        slope = self.details.get("contact_slope")
+        where = "" if slope is None else f" with contact on slopes up to {slope:.2g}"
+        return (
+            f"the two frictions, {self.friction:.3g} from traction and "
+            f"{self.friction_from_dissipation:.3g} from dissipation, differ{where}: "
+            "more columns are needed"
+        )
 
     @property
     def friction_mismatch(self) -> float:
@@ -92,12 +119,15 @@ class WaveResult:
 
     @property
     def slope(self) -> float:
-        """Largest slope of the wave, 2 pi amplitude / wavelength [-]."""
+        """Largest slope of a sine, 2 pi amplitude / wavelength [-].
+
+        Of a profile that of the sine of its period and range: the profile itself is steeper.
+        """
         return 2.0 * math.pi * self.amplitude / self.wavelength
 
     @property
     def angular_frequency(self) -> float:
-        """Fundamental excitation 2 pi speed / wavelength [rad/s]."""
+        """Fundamental excitation 2 pi speed / wavelength [rad/s], of the wave or the period."""
         return 2.0 * math.pi * self.speed / self.wavelength
 
     @property
@@ -116,7 +146,8 @@ class WaveResult:
         """Whether the wave excites the rubber beyond what was measured, where it slides.
 
         Looked at are the fundamental and its harmonic as long as the contact,
-        n = ceil(wavelength / contact length).
+        n = ceil(wavelength / contact length). The shorter waves of a profile excite it at higher
+        frequencies still, which this does not look at.
         """
         if self.speed == 0.0 or self.rubber is None:
             return False

@@ -1,0 +1,94 @@
+//! The energy that the temporary networks lose in steady sliding, as a sum that cannot be negative.
+//!
+//! A strand of network i that was made s ago holds the energy G_i/2 f(s), f = I1 - 3 of the
+//! isochoric deformation since, and loses it when it breaks, at the rate 1/tau_i (Green & Tobolsky,
+//! J. Chem. Phys. 14 (1946) 80). With as many made as break, the loss per sliding distance is
+//!     1/2 sum_i G_i/tau_i^2 int_0^inf exp(-s/tau_i) f(s) ds,   f(s) = Y(x - s) : Cbar(x) - 3 >= 0,
+//! s and tau_i in passages; the mean state, loaded for a time only, does no work over a period.
+//! f has the period one, so that the images of one passage add up to 1 / (1 - exp(-1/tau_i)).
+//!
+//! The same loss is the work of the stress on a derivative along x, a small difference of large
+//! numbers where columns cannot follow the wave: there it would come out as anything.
+
+use super::maxwell::{decaying_moments, Maxwell};
+
+/// Coefficients of 1, u ... u^4 in one column, u = 0 ... 1.
+type Polynomial = [f64; 5];
+
+/// What one passage of f loses, for f a polynomial in every column.
+#[derive(Debug, Clone)]
+pub struct Dissipation {
+    /// `weights[m]`: loss by the coefficients of column m, counted back from the point.
+    weights: Vec<Polynomial>,
+}
+
+impl Dissipation {
+    /// Exact integrals of the decaying exponentials; times of `maxwell` in passages.
+    pub fn new(columns: usize, maxwell: &Maxwell) -> Self {
+        let mut weights = vec![[0.0; 5]; columns];
+        for (&modulus, &time) in maxwell.moduli.iter().zip(&maxwell.times) {
+            let step = 1.0 / (columns as f64 * time);
+            if step.is_infinite() {
+                continue; // A network that forgets at once loses nothing.
+            }
+            let images = -(-1.0 / time).exp_m1();
+            let moments = decaying_moments(step);
+            for (m, weight) in weights.iter_mut().enumerate() {
+                let left = 0.5 * modulus * columns as f64 * (-step * m as f64).exp() / images;
+                for (weight, moment) in weight.iter_mut().zip(moments) {
+                    *weight += left * step * (step * moment);
+                }
+            }
+        }
+        Self { weights }
+    }
+
+    /// The loss for f, integrated over the block, m columns ago in `strain_since[m]`.
+    pub fn lost(&self, strain_since: &[f64]) -> f64 {
+        let polynomials = (0..strain_since.len()).map(|m| polynomial(strain_since, m));
+        let lost = |(polynomial, weight): (Polynomial, &Polynomial)| -> f64 {
+            polynomial.iter().zip(weight).map(|(c, w)| c * w).sum()
+        };
+        polynomials.zip(&self.weights).map(lost).sum()
+    }
+}
+
+/// f in column m, nowhere below zero if it is not at the columns' ends: beside s = 0, where f and its
+/// slope vanish, even in the distance from it; elsewhere the cubic of values and slopes.
+fn polynomial(f: &[f64], m: usize) -> Polynomial {
+    let last = f.len() - 1;
+    let bend = bend_at_zero(f);
+    if m == 0 {
+        return [0.0, 0.0, bend, 0.0, f[1] - bend];
+    }
+    if m == last {
+        // bend (1 - u)^2 + rest (1 - u)^4
+        let rest = f[last] - bend;
+        let (linear, square) = (-2.0 * bend - 4.0 * rest, bend + 6.0 * rest);
+        return [f[last], linear, square, -4.0 * rest, rest];
+    }
+    let (rise, from, to) = (f[m + 1] - f[m], slope(f, m), slope(f, m + 1));
+    let (square, cube) = (3.0 * rise - 2.0 * from - to, from + to - 2.0 * rise);
+    [f[m], from, square, cube, 0.0]
+}
+
+/// f / m^2 at m = 0, where f and its slope vanish: an even function to fourth order, from both sides.
+fn bend_at_zero(f: &[f64]) -> f64 {
+    let n = f.len();
+    let (near, far) = (0.5 * (f[1] + f[n - 1]), 0.125 * (f[2] + f[n - 2]));
+    ((4.0 * near - far) / 3.0).max(0.0)
+}
+
+/// Slope of fourth order, limited so that the cubics stay between their ends (Hyman, SIAM J. Sci.
+/// Stat. Comput. 4 (1983) 645).
+fn slope(f: &[f64], m: usize) -> f64 {
+    let n = f.len();
+    let at = |ahead: usize| f[(m + ahead) % n];
+    let (rise, fall) = (at(1) - at(0), at(0) - at(n - 1));
+    if rise * fall <= 0.0 {
+        return 0.0;
+    }
+    let central = (8.0 * (at(1) - at(n - 1)) - (at(2) - at(n - 2))) / 12.0;
+    let most = 3.0 * rise.abs().min(fall.abs());
+    rise.signum() * (rise.signum() * central).max(0.0).min(most)
+}

@@ -1,0 +1,84 @@
+"""Whole profiles: windows of the measured road, and random sums of sines, with their loads."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+import gripscale as gs
+from tests.verification.families import tread
+
+ROAD = Path(__file__).parents[2] / "examples" / "data" / "road"
+WINDOW = 38e-3
+MARGIN = 0.02
+"""Share of the record at each end that holds the transition into the surface."""
+
+
+@dataclass(frozen=True)
+class ProfileCase:
+    """A profile under a load; `solve` and `half_plane` take the same heights."""
+
+    name: str
+    profile: gs.Profile
+    pressure: float
+    speed: float
+    periodic: bool
+    smallest_wavelength: float | None = None
+
+    def solve(self, **mesh: int) -> gs.ScaleResult:
+        """Return the answer of the finite-strain block."""
+        return gs.solve_profile(tread(), self.profile, **self._options(), **mesh)
+
+    def half_plane(self) -> gs.RoughContact:
+        """Return the answer at small strain."""
+        return gs.solve_rough_contact(tread(), self.profile, **self._options(), workers=1)
+
+    def _options(self) -> dict[str, float | bool | None]:
+        return {
+            "pressure": self.pressure,
+            "speed": self.speed,
+            "periodic": self.periodic,
+            "smallest_wavelength": self.smallest_wavelength,
+        }
+
+
+@cache
+def road_windows(station: int, cut_off: float, count: int = 20) -> tuple[ProfileCase, ...]:
+    """Return `count` windows spread over the record of a station, at 3 bar and 0.3 m/s."""
+    road = gs.read_profile(ROAD / f"20211011_aylesbury_dec_station_{station}.dat")
+    points = round(WINDOW / road.step)
+    x = road.x - road.x[0]
+    inside = [
+        first
+        for first in range(0, len(road) - points, points)
+        if x[first] >= MARGIN * road.length and x[first + points] <= (1.0 - MARGIN) * road.length
+    ]
+    chosen = [inside[i] for i in np.linspace(0, len(inside) - 1, count).round().astype(int)]
+    return tuple(_window(road, station, first, points, cut_off) for first in chosen)
+
+
+def _window(road: gs.Profile, station: int, first: int, points: int, cut_off: float) -> ProfileCase:
+    part = slice(first, first + points + 1)
+    name = f"station {station} from {road.x[first]:.3f} m"
+    return ProfileCase(name, gs.Profile(road.x[part], road.z[part]), 3e5, 0.3, False, cut_off)
+
+
+def sums_of_sines(count: int = 200, seed: int = 38) -> list[ProfileCase]:
+    """Return sums of 2 to 6 sines with slopes to 0.4 each, 1 to 10 bar, 0.01 to 10 m/s."""
+    random = np.random.default_rng(seed)
+    return [_sum(number, random) for number in range(count)]
+
+
+def _sum(number: int, random: np.random.Generator, points: int = 512) -> ProfileCase:
+    others = random.choice(np.arange(2, 13), size=random.integers(1, 6), replace=False)
+    waves = np.array([1, *others])
+    period = WINDOW * np.arange(points) / points
+    turn = 2.0 * np.pi * waves / WINDOW
+    amplitude = random.uniform(0.1, 0.4, waves.size) / turn
+    phase = random.uniform(0.0, 2.0 * np.pi, waves.size)
+    z = (amplitude * np.cos(np.outer(period, turn) + phase)).sum(axis=1)
+    pressure, speed = 10.0 ** random.uniform(5.0, 6.0), 10.0 ** random.uniform(-2.0, 1.0)
+    return ProfileCase(f"sum {number}", gs.Profile(period, z), pressure, speed, True)
