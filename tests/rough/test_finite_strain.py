@@ -37,7 +37,7 @@ def test_one_period_is_what_the_direct_contact_sees():
 def test_gentle_lines_touch_as_small_strain_says(pairs):
     """Slopes of 0.15: finite strain changes some per cent (second order in the slope)."""
     assert len(pairs.converged) == 4
-    for name in ("contact_fraction", "friction"):
+    for name in ("contact_fraction", "friction_from_dissipation"):
         found = pairs.correction(name)
         assert abs(found.factor - 1.0) < 0.04
         assert found.low <= found.factor <= found.high
@@ -63,8 +63,9 @@ def test_what_did_not_converge_does_not_count(pairs):
     assert "two frictions" in useless.status
     assert changed.mean("friction") == np.mean([pair.block.friction for pair in rest])
     data = changed.to_dataset()
+    found = changed.correction("friction_from_dissipation")
     assert list(data.status.values[2:]) == ["converged"] * 3
-    assert data.attrs["friction_correction"] == changed.correction("friction").factor
+    assert data.attrs["friction_from_dissipation_correction"] == found.factor
 
 
 def test_few_pairs_have_no_interval(pairs):

@@ -33,7 +33,9 @@ from gripscale.wave.result import WaveResult
 if TYPE_CHECKING:
     import xarray as xr
 
-ANSWERS = ("contact_fraction", "friction")
+ANSWERS = ("contact_fraction", "friction_from_dissipation")
+"""What a correction is for. Where crests are as narrow as columns the friction from dissipation is
+the better of the two: traction hangs on the flank a single node happens to sit on."""
 MOST_MISMATCH = 0.1
 """Relative difference of the block's two frictions beyond which its mesh is too coarse."""
 RESAMPLES = 9999
@@ -90,7 +92,7 @@ class FiniteStrainPairs:
         return [pair for pair in self.pairs if pair.converged]
 
     def mean(self, name: str, which: str = "block") -> float:
-        """Return the mean of `contact_fraction` or `friction` of the `block` or `half_space`."""
+        """Return the mean of one of `ANSWERS` of the `block` or `half_space`."""
         values = [getattr(getattr(pair, which), name) for pair in self.converged]
         return float(np.mean(values)) if values else math.nan
 
@@ -124,7 +126,7 @@ class FiniteStrainPairs:
             return xr.Variable("line", np.array(values), {"units": unit, "long_name": long_name})
 
         data: dict[str, xr.Variable] = {}
-        for name in (*ANSWERS, "friction_from_dissipation"):
+        for name in (*ANSWERS, "friction"):
             words = name.replace("_", " ")
             for which in ("block", "half_space"):
                 values = [getattr(getattr(pair, which), name) for pair in self.pairs]
