@@ -1,48 +1,214 @@
-"""What each assumption costs: contact area and friction of every model of a comparison."""
+"""What each assumption costs: contact area and friction from rung to rung of a comparison."""
 
 from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from gripscale.figures.palette import BLUE, GREY, ORANGE, WIDE
-from gripscale.figures.style import sheet, styled
+from gripscale.figures.palette import BLUE, FAINT, GREY, INK, ORANGE, PURPLE, WIDE
+from gripscale.figures.rungs import JUDGE, flawed
+from gripscale.figures.style import log_axis, sheet, styled
+
+HALF = 0.27
+"""Half the height of a bar, in rows."""
+
+
+@dataclass(frozen=True)
+class Row:
+    """A line of the figure: a number, and the bar from the number it follows."""
+
+    label: str
+    value: float
+    uncertainty: float = math.nan
+    before: float = math.nan
+    """Where the bar begins; NaN for none."""
+    factor: float = math.nan
+    samples: tuple[float, ...] = ()
+    marker: str = "o"
+    colour: str = INK
+    filled: bool = True
+    note: str = ""
+    """Said in place of a number there is not."""
 
 
 @styled
 def comparison_figure(comparison: xr.Dataset) -> Figure:
-    """Draw area and friction of each rung, with the spread over its samples.
+    """Draw area and friction of each rung and the factor from the rung it follows.
 
-    The first rung is the chain; the profile as measured, at once, is the one to judge it by, and
-    stands out. A rung that did not converge is left empty.
+    A bar runs from one rung to the next: blue where the number falls, orange where it rises, the
+    factor beside it. Marks carry one standard uncertainty of the mean, dots are the samples. The
+    profile as measured, at once, is the one to judge the others by; below it stand the theories,
+    the factors of the best estimate and the estimate itself, and what was measured at this speed. A
+    rung with failed samples is open.
     """
-    rungs = comparison.sizes["rung"]
-    figure, panels = sheet(WIDE, 0.9 + 0.36 * rungs, 1, 2, gap=0.04, sharey=True)
+    rows = {name: list(_rows(comparison, name)) for name in ("contact_fraction", "friction")}
+    count = len(rows["friction"])
+    figure, panels = sheet(WIDE, 0.95 + 0.33 * count, 1, 2, gap=0.05, sharey=True)
     area, friction = panels[0]
-    _bars(area, comparison, "contact_fraction")
-    _bars(friction, comparison, "friction")
+    for axes, name in ((area, "contact_fraction"), (friction, "friction")):
+        _draw(axes, rows[name])
     area.set_xlabel("relative contact area $A_r/A_0$ [-]")
     friction.set_xlabel("friction coefficient $\\mu$ [-]")
-    area.set_yticks(np.arange(rungs), [str(label) for label in comparison.label.values])
-    area.invert_yaxis()
+    area.set_yticks(np.arange(count), [row.label for row in rows["friction"]])
+    area.set_ylim(count - 0.4, -0.6)
+    for axes in (area, friction):
+        axes.tick_params(axis="y", length=0)
+        for at in _borders(comparison):
+            axes.axhline(at, color=FAINT, lw=0.8, zorder=0)
+    for label in area.get_yticklabels():
+        label.set_fontweight("bold" if label.get_text() in _strong(comparison) else "normal")
     return figure
 
 
-def _bars(axes: Axes, comparison: xr.Dataset, name: str) -> None:
-    place = np.arange(comparison.sizes["rung"])
-    values, spread = comparison[f"total_{name}"].values, comparison[f"{name}_spread"].values
-    colours = [ORANGE if str(rung) == "direct" else BLUE for rung in comparison.rung.values]
-    axes.barh(place, values, color=colours, height=0.62, alpha=0.85)
-    known = np.isfinite(spread)
-    axes.errorbar(
-        values[known], place[known], xerr=spread[known], fmt="none", ecolor=GREY, capsize=2.5
+def _borders(comparison: xr.Dataset) -> list[float]:
+    """Return where the ladder, the theories and the best estimate part."""
+    theories = int((comparison.group == "theory").sum())
+    rungs = comparison.sizes["rung"]
+    return [rungs - theories - 0.5, rungs - 0.5] if theories else [rungs - 0.5]
+
+
+def _strong(comparison: xr.Dataset) -> set[str]:
+    """Return the labels that stand out."""
+    return {
+        str(label)
+        for name, label in zip(comparison.rung.values, comparison.label.values, strict=True)
+        if name == JUDGE
+    } | {"best estimate"}
+
+
+def _rows(comparison: xr.Dataset, name: str) -> Iterator[Row]:
+    """Yield the lines of one panel; both panels have the same."""
+    values = dict(
+        zip(comparison.rung.values, comparison[f"total_{name}"].values.tolist(), strict=True)
     )
-    for at, value in zip(place, values, strict=True):
-        if np.isfinite(value):
-            text = f"{value:.3g}"
-            axes.annotate(text, (value, at), (4, -9), textcoords="offset points", fontsize=6.5)
+    for at, (rung, bad) in enumerate(zip(values, flawed(comparison), strict=True)):
+        one = comparison.isel(rung=at)
+        theory, judge = str(one.group.item()) == "theory", rung == JUDGE
+        samples = one[f"sample_{name}"].values
+        yield Row(
+            str(one.label.item()),
+            values[rung],
+            float(one[f"{name}_uncertainty"]),
+            math.nan if theory else values.get(str(one.follows.item()), math.nan),
+            float(one[f"{name}_factor"]),
+            tuple(samples[np.isfinite(samples)].tolist()) if int(one.samples) > 1 else (),
+            marker="D" if judge else "s" if theory else "o",
+            colour=GREY if theory else ORANGE if judge else INK,
+            filled=not bad,
+            note="" if math.isfinite(values[rung]) else "says nothing" if theory else "failed",
+        )
+    yield from _best(comparison, name, values.get(JUDGE, math.nan))
+    yield from _measured(comparison, name)
+
+
+def _best(comparison: xr.Dataset, name: str, value: float) -> Iterator[Row]:
+    """Yield the factors of the best estimate, and the estimate where it differs from its base."""
+    factors = comparison[f"best_{name}_factor"].values
+    if not math.isfinite(float(comparison[f"best_{name}"])):
+        return
+    for at, factor in enumerate(factors):
+        label = f"× {comparison.factor_label.values[at]}"
+        if not math.isfinite(factor):
+            yield Row(label, math.nan, note="not included")
+            continue
+        sigma = float(comparison[f"best_{name}_factor_uncertainty"][at])
+        yield Row(label, value * factor, sigma, value, factor)
+        value *= factor
+    if np.isfinite(factors).any():
+        best = float(comparison[f"best_{name}"])
+        sigma = float(comparison[f"best_{name}_uncertainty"])
+        yield Row("best estimate", best, sigma, marker="*", colour=ORANGE)
+
+
+def _measured(comparison: xr.Dataset, name: str) -> Iterator[Row]:
+    """Yield the measured friction at the speed of the comparison, if it lies among the measured."""
+    if "measured_friction" not in comparison:
+        return
+    if name != "friction":
+        yield Row("measured", math.nan, note="–")
+        return
+    speed = float(comparison.nominal_speed)
+    known = comparison.measured_speed.values
+    if not known.min() <= speed <= known.max():
+        yield Row("measured", math.nan, note="not at this speed")
+        return
+    place, at = np.log(known), math.log(speed)
+    friction = float(np.interp(at, place, comparison.measured_friction.values))
+    spread = float(np.interp(at, place, comparison.measured_spread.values))
+    yield Row("measured", friction, spread / friction, marker="P", colour=PURPLE)
+
+
+def _draw(axes: Axes, rows: list[Row]) -> None:
+    shown = [
+        end
+        for row in rows
+        for end in (row.value, row.before, *row.samples, *_ends(row))
+        if math.isfinite(end) and end > 0.0
+    ]
+    axes.set_xscale("log")
+    low, high = (min(shown), max(shown)) if shown else (0.1, 1.0)
+    room = max(high / low, 2.0) ** 0.13
+    axes.set_xlim(low / room, high * room**1.8)
+    log_axis(axes, "x", _steps(high / low * room**2))
     axes.grid(False, axis="y")
-    if np.isfinite(values).any():
-        axes.set_xlim(0.0, 1.16 * float(np.nanmax(values)))
+    for at, row in enumerate(rows):
+        _draw_row(axes, at, row)
+    for at, (one, other) in enumerate(zip(rows, rows[1:], strict=False)):
+        if math.isfinite(other.before) and other.before == one.value:
+            axes.plot([one.value] * 2, [at, at + 1 - HALF], color=GREY, lw=0.7, zorder=1)
+
+
+def _steps(decade: float) -> tuple[float, ...]:
+    return (1.0, 2.0, 5.0) if decade < 60.0 else (1.0, 3.0) if decade < 1000.0 else (1.0,)
+
+
+def _ends(row: Row) -> tuple[float, float]:
+    return row.value * math.exp(-row.uncertainty), row.value * math.exp(row.uncertainty)
+
+
+def _draw_row(axes: Axes, at: int, row: Row) -> None:
+    if not (math.isfinite(row.value) and row.value > 0.0):
+        axes.annotate(
+            row.note, (0.03, at), xycoords=("axes fraction", "data"), va="center", color=GREY,
+            fontsize=7.0, fontstyle="italic",
+        )  # fmt: skip
+        return
+    rises = row.value > row.before
+    if math.isfinite(row.before):
+        left, right = sorted((row.before, row.value))
+        shade = ORANGE if rises else BLUE
+        axes.barh(at, right - left, 2 * HALF, left=left, color=shade, alpha=0.35, lw=0, zorder=1.5)
+    axes.plot(row.samples, [at] * len(row.samples), "|", ms=6.0, mew=0.8, color=GREY, zorder=2)
+    if math.isfinite(row.uncertainty):
+        low, high = _ends(row)
+        look: dict[str, Any] = {"color": row.colour, "capsize": 2.0, "elinewidth": 1.0}
+        error = [[row.value - low], [high - row.value]]
+        axes.errorbar([row.value], [at], xerr=error, fmt="none", capthick=0.8, zorder=3, **look)
+    face = row.colour if row.filled else "white"
+    size = 9.0 if row.marker == "*" else 4.8
+    axes.plot(
+        [row.value], [at], row.marker, ms=size, mfc=face, mec=row.colour, mew=0.9, zorder=4
+    )
+    _write(axes, at, row)
+
+
+def _write(axes: Axes, at: int, row: Row) -> None:
+    """Write the number to the right of everything in the row, the factor beside the panel."""
+    ends = [end for end in (*row.samples, *_ends(row), row.before, row.value) if math.isfinite(end)]
+    look: dict[str, Any] = {"textcoords": "offset points", "va": "center", "fontsize": 7.0}
+    axes.annotate(_short(row.value), (max(ends), at), (5, 0), **look)
+    if math.isfinite(row.before):
+        place = ("axes fraction", "data")
+        axes.annotate(f"×{_short(row.factor)}", (1.0, at), (3, 0), xycoords=place, **look)
+
+
+def _short(value: float) -> str:
+    """Return two significant digits, zeros too."""
+    return f"{value:#.2g}".rstrip(".")

@@ -1,0 +1,102 @@
+"""All rungs of a comparison over what was varied, such as the speed, and what was measured."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from gripscale.figures.palette import INK, PURPLE, WIDE
+from gripscale.figures.rungs import JUDGE, Look, looks
+from gripscale.figures.style import area_axis, sheet, styled
+from gripscale.figures.study_axes import along
+
+LEAST_SPREAD = 1e-3
+"""Lower end of a band over the number itself, where the spread is larger than that."""
+
+
+@styled
+def comparison_axis_figure(comparison: xr.Dataset) -> Figure:
+    """Draw area and friction of all rungs over the axis of a comparison.
+
+    Bands are the standard deviation over the samples. Where a sample failed the mark is open. The
+    best estimate, where it has a factor, is drawn with its standard uncertainty; measured friction
+    with its own.
+    """
+    axis = varied(comparison)
+    figure, panels = sheet(WIDE, 3.7, 1, 2, gap=0.06)
+    area, friction = panels[0]
+    for axes, name in ((area, "contact_fraction"), (friction, "friction")):
+        x = along(axes, comparison, axis)
+        for at, (rung, look) in enumerate(looks(comparison)):
+            _rung(axes, x, comparison.isel(rung=at), name, look, strong=rung == JUDGE)
+        _best(axes, x, comparison, name)
+    if axis == "speed":
+        _measured(friction, comparison)
+    area_axis(area)
+    area.set_ylabel("contact area $A_r/A_0$ [-]")
+    friction.set_ylabel("friction coefficient $\\mu$ [-]")
+    friction.set_ylim(bottom=0.0)
+    handles, labels = friction.get_legend_handles_labels()
+    place: Any = "outside upper center"
+    figure.legend(handles, labels, loc=place, ncols=3)
+    return figure
+
+
+def varied(comparison: xr.Dataset) -> str:
+    """Return the axis of a comparison, or an empty text if nothing was varied."""
+    return next((str(dim) for dim in comparison.total_friction.dims if dim != "rung"), "")
+
+
+def _rung(
+    axes: Axes, x: np.ndarray, one: xr.Dataset, name: str, look: Look, *, strong: bool
+) -> None:
+    values, spread = one[f"total_{name}"].values, one[f"{name}_spread"].values
+    if not np.isfinite(values).any():
+        return
+    width = 2.0 if strong else 1.2
+    order = 3 if strong else 2
+    label = str(one.label.item())
+    axes.plot(x, values, color=look.colour, ls=look.dash, lw=width, zorder=order)
+    whole = (one.converged_samples == one.samples).values
+    for chosen, face in ((whole, look.colour), (~whole, "white")):
+        axes.plot(
+            x[chosen], values[chosen], look.marker, ms=4.0, mfc=face, mec=look.colour,
+            clip_on=False, zorder=order,
+        )  # fmt: skip
+    axes.plot([], [], marker=look.marker, ms=4.0, color=look.colour, ls=look.dash, label=label)
+    if np.isfinite(spread).any():
+        low = np.maximum(values - spread, LEAST_SPREAD * values)
+        axes.fill_between(x, low, values + spread, color=look.colour, alpha=0.18, lw=0)
+
+
+def _best(axes: Axes, x: np.ndarray, comparison: xr.Dataset, name: str) -> None:
+    if not np.isfinite(comparison[f"best_{name}_factor"]).any():
+        return
+    values, sigma = (comparison[f"best_{name}{end}"].values for end in ("", "_uncertainty"))
+    error = [values - values * np.exp(-sigma), values * np.exp(sigma) - values]
+    axes.errorbar(x, values, yerr=error, fmt="*", ms=8.0, color=INK, capsize=2.5,
+                  zorder=4, label="best estimate")  # fmt: skip
+
+
+def _measured(axes: Axes, comparison: xr.Dataset) -> None:
+    """Draw measured friction, each temperature with its own mark."""
+    if "measured_friction" not in comparison:
+        return
+    kelvin = comparison.measured_temperature.values
+    limits = axes.get_xlim()
+    for number, value in enumerate(np.unique(np.round(kelvin))):
+        chosen = np.isnan(kelvin) if np.isnan(value) else np.round(kelvin) == value
+        name = "measured" if np.isnan(value) else f"measured, {value - 273.15:.0f} °C"
+        speed = comparison.measured_speed.values[chosen]
+        spread = comparison.measured_spread.values[chosen]
+        axes.errorbar(
+            speed, comparison.measured_friction.values[chosen],
+            yerr=np.nan_to_num(spread), fmt="o*pd8"[number % 5], ms=5.5, mfc="white", mec=PURPLE,
+            ecolor=PURPLE, mew=1.3, capsize=2.5, zorder=5, label=name,
+        )  # fmt: skip
+        limits = min(limits[0], speed.min()), max(limits[1], speed.max())
+    axes.set_xlim(*limits)
