@@ -8,12 +8,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from gripscale.case.compare import Rung, Sample, compare_case, judged
 from typer.testing import Result
 
 import gripscale as gs
 from gripscale import netcdf
 from gripscale.case import prepare_case
-from gripscale.case.compare import Rung, Sample, compare_case, judged
 from gripscale.figures.comparison import comparison_figure
 from gripscale.report.comparison_table import judgement
 

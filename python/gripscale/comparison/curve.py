@@ -1,8 +1,8 @@
 """Area and friction down to each wavelength, as the models tell it, on one scale of wavelengths.
 
-The chain adds a wave at a time: its sums are steps. The direct contact splits its friction by octave
-(the area is that of another contact, without the shorter waves), the theories integrate: both run
-in the logarithm of the wavelength.
+The chain adds a wave at a time, in steps. The direct contact splits its friction by octave
+(its area is that of another contact, without the shorter waves), the theories integrate: both are
+interpolated in the logarithm of the wavelength.
 """
 
 from __future__ import annotations
@@ -45,19 +45,20 @@ class Curve:
         """Return `contact_fraction` or `friction` down to each `wavelength` [m].
 
         Above the longest wave nothing of the surface is seen yet; below the shortest nothing more
-        comes.
+        comes; NaN where the model knows the wave and not the number.
         """
         values = getattr(self, name)
         known = np.isfinite(values)
         if not known.any():
             return np.full(wavelength.size, np.nan)
+        before, first = _BEFORE[name], self.wavelength[0] * (1.0 + ROUNDING)
         own, values = self.wavelength[known], values[known]
         if self.stepped:
             count = (own[None, :] >= wavelength[:, None] * (1.0 - ROUNDING)).sum(axis=1)
-            return np.append(_BEFORE[name], values)[count]
-        place, at = -np.log(own), -np.log(wavelength)
-        found = np.interp(at, place, values, left=_BEFORE[name])
-        return np.where(at < place[0] - ROUNDING, _BEFORE[name], found)
+            return np.asarray(np.append(before, values)[count])
+        found = np.interp(-np.log(wavelength), -np.log(own), values)
+        found = np.where(wavelength > own[0] * (1.0 + ROUNDING), np.nan, found)
+        return np.where(wavelength > first, before, found)
 
     def share_outside(self, rubber: Rubber, speed: float) -> float:
         """Return the share of friction at frequencies 2 pi speed/wavelength outside the measured.
@@ -81,24 +82,16 @@ _BEFORE = {"contact_fraction": 1.0, "friction": 0.0}
 def curve_of(answer: xr.Dataset) -> Curve | None:
     """Return what a model told by wavelength, or None if it told nothing."""
     if "octave_running_friction" in answer:
-        weight = answer["weight"]
-        return Curve(
-            answer["wavelength"].values,
-            (answer["contact_fraction_without_shorter"] * weight).sum("profile", skipna=False).values,
-            (answer["octave_running_friction"] * weight).sum("profile", skipna=False).values,
-            stepped=False,
-        )
+        names = ("contact_fraction_without_shorter", "octave_running_friction")
+        weight = answer["weight"].values
+        area, friction = (weight @ answer[name].transpose("profile", ...).values for name in names)
+        return Curve(answer["wavelength"].values, area, friction, stepped=False)
     if "running_friction" not in answer:
         return None
     friction = answer["running_friction"].values
-    area = answer.get("running_contact_fraction")
-    unknown = np.full(friction.size, np.nan)
-    return Curve(
-        answer["wavelength"].values,
-        unknown if area is None else area.values,
-        friction,
-        stepped="amplitude" in answer,
-    )
+    known = answer.get("running_contact_fraction")
+    area = np.full(friction.size, np.nan) if known is None else known.values
+    return Curve(answer["wavelength"].values, area, friction, stepped="amplitude" in answer)
 
 
 def octaves(curves: Iterable[Curve], smallest: float) -> Array:

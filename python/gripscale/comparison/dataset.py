@@ -14,9 +14,9 @@ from gripscale import versions
 from gripscale.comparison.curve import octaves
 from gripscale.comparison.estimate import Factor
 from gripscale.comparison.measured import MeasuredFriction
-from gripscale.comparison.result import Comparison
 from gripscale.comparison.sample import QUANTITIES
 from gripscale.comparison.solved import SolvedRung
+from gripscale.comparison.solved_ladder import SolvedLadder
 from gripscale.comparison.uncertain import UNKNOWN
 from gripscale.model import TOTALS
 from gripscale.study.assemble import coordinates
@@ -28,7 +28,7 @@ WORDS = {"contact_fraction": "contact fraction", "friction": "friction coefficie
 """The two numbers that are compared."""
 
 
-def to_dataset(comparisons: Sequence[Comparison], axis: Axis | None = None) -> xr.Dataset:
+def to_dataset(comparisons: Sequence[SolvedLadder], axis: Axis | None = None) -> xr.Dataset:
     """Return the comparisons over `axis` and `rung`, or a single one over `rung`."""
     first = comparisons[0]
     wavelength = _wavelengths(comparisons)
@@ -54,7 +54,7 @@ def to_dataset(comparisons: Sequence[Comparison], axis: Axis | None = None) -> x
     )
 
 
-def _numbers(one: Comparison, wavelength: NDArray[np.float64], most: int) -> dict[str, Any]:
+def _numbers(one: SolvedLadder, wavelength: NDArray[np.float64], most: int) -> dict[str, Any]:
     """Return what belongs to one load."""
     rungs, load = one.rungs, one.subject.load
     data: dict[str, Any] = {}
@@ -81,7 +81,7 @@ def _numbers(one: Comparison, wavelength: NDArray[np.float64], most: int) -> dic
 
 
 def _of_quantity(
-    one: Comparison, name: str, text: str, wavelength: NDArray[np.float64], most: int
+    one: SolvedLadder, name: str, text: str, wavelength: NDArray[np.float64], most: int
 ) -> dict[str, Any]:
     """Return samples, spread, errors, factors, curve and best estimate of a quantity."""
     rungs = one.rungs
@@ -125,7 +125,7 @@ def _of_quantity(
     }
 
 
-def _words(one: Comparison) -> dict[str, Any]:
+def _words(one: SolvedLadder) -> dict[str, Any]:
     """Return what the rungs and factors are called, which no load changes."""
     rungs = [rung.rung for rung in one.rungs]
     best = one.best_estimate
@@ -156,7 +156,7 @@ def _measured(measured: MeasuredFriction) -> dict[str, Any]:
     }
 
 
-def _wavelengths(comparisons: Sequence[Comparison]) -> NDArray[np.float64]:
+def _wavelengths(comparisons: Sequence[SolvedLadder]) -> NDArray[np.float64]:
     smallest = min(float(one.subject.surface.sines.wavelength[-1]) for one in comparisons)
     samples = [s for one in comparisons for rung in one.rungs for s in rung.converged]
     return octaves((s.curve for s in samples if s.curve is not None), smallest)

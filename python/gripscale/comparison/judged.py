@@ -5,10 +5,9 @@ from __future__ import annotations
 import time
 
 from gripscale.case.results import CaseResults
-from gripscale.comparison.ladder import LADDER, each_profile
+from gripscale.comparison.ladder import DIRECT, LADDER, each_profile
 from gripscale.comparison.sample import Sample, sample_of
 from gripscale.comparison.solved import SolvedRung
-from gripscale.comparison.ladder import DIRECT
 from gripscale.rough.model import DirectContact
 
 JUDGED_TO = 0.1

@@ -1,4 +1,4 @@
-"""Solving a comparison: every sample of every rung a task of its own, kept as soon as it is done."""
+"""Solving a comparison: every sample of every rung is a task, kept as soon as it is done."""
 
 from __future__ import annotations
 
@@ -129,8 +129,7 @@ def compare_over(
     if len(study.axes) > 1 or not axis.numeric:
         names = ", ".join(one.name for one in study.axes)
         raise InputError(
-            "a comparison varies one of speed, pressure, smallest_wavelength, waves; "
-            f"got {names}"
+            f"a comparison varies one of speed, pressure, smallest_wavelength, waves; got {names}"
         )
     choice = Choice(seeds, tolerance, rungs, measured, factors)
     tasks = {point.label: point.task for point in study.points}

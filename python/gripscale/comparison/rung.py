@@ -1,4 +1,4 @@
-"""What a rung of the ladder is: a model, an assumption given up, and the surfaces it is tried on."""
+"""What a rung of the ladder is: a model, what it changes, and the surfaces it is tried on."""
 
 from __future__ import annotations
 

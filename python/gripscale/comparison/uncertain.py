@@ -35,9 +35,7 @@ class Uncertain(NamedTuple):
 
     def times(self, other: Uncertain) -> Uncertain:
         """Return the product with an independent number."""
-        return Uncertain(
-            self.value * other.value, together([self.uncertainty, other.uncertainty])
-        )
+        return Uncertain(self.value * other.value, together([self.uncertainty, other.uncertainty]))
 
     def over(self, other: Uncertain) -> Uncertain:
         """Return the quotient by an independent number; NaN if that is zero."""

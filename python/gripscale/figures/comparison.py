@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -155,12 +156,12 @@ def _draw(axes: Axes, rows: list[Row]) -> None:
     axes.set_xscale("log")
     low, high = (min(shown), max(shown)) if shown else (0.1, 1.0)
     room = max(high / low, 2.0) ** 0.13
-    axes.set_xlim(low / room, high * room**1.8)
+    axes.set_xlim(low / room, high * room**2.0)
     log_axis(axes, "x", _steps(high / low * room**2))
     axes.grid(False, axis="y")
     for at, row in enumerate(rows):
         _draw_row(axes, at, row)
-    for at, (one, other) in enumerate(zip(rows, rows[1:], strict=False)):
+    for at, (one, other) in enumerate(pairwise(rows)):
         if math.isfinite(other.before) and other.before == one.value:
             axes.plot([one.value] * 2, [at, at + 1 - HALF], color=GREY, lw=0.7, zorder=1)
 
@@ -193,9 +194,7 @@ def _draw_row(axes: Axes, at: int, row: Row) -> None:
         axes.errorbar([row.value], [at], xerr=error, fmt="none", capthick=0.8, zorder=3, **look)
     face = row.colour if row.filled else "white"
     size = 9.0 if row.marker == "*" else 4.8
-    axes.plot(
-        [row.value], [at], row.marker, ms=size, mfc=face, mec=row.colour, mew=0.9, zorder=4
-    )
+    axes.plot([row.value], [at], row.marker, ms=size, mfc=face, mec=row.colour, mew=0.9, zorder=4)
     _write(axes, at, row)
 
 
@@ -206,7 +205,7 @@ def _write(axes: Axes, at: int, row: Row) -> None:
     axes.annotate(_short(row.value), (max(ends), at), (5, 0), **look)
     if math.isfinite(row.before):
         place = ("axes fraction", "data")
-        axes.annotate(f"×{_short(row.factor)}", (1.0, at), (3, 0), xycoords=place, **look)
+        axes.annotate(f"×{row.factor:.2f}", (1.0, at), (3, 0), xycoords=place, **look)
 
 
 def _short(value: float) -> str:

@@ -10,9 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from gripscale.figures.palette import INK, PURPLE, WIDE
-from gripscale.figures.rungs import JUDGE, Look, looks
-from gripscale.figures.style import area_axis, sheet, styled
+from gripscale.figures.rungs import JUDGE, Look, looks, varied
 from gripscale.figures.study_axes import along
+from gripscale.figures.style import area_axis, sheet, styled
 
 LEAST_SPREAD = 1e-3
 """Lower end of a band over the number itself, where the spread is larger than that."""
@@ -44,11 +44,6 @@ def comparison_axis_figure(comparison: xr.Dataset) -> Figure:
     place: Any = "outside upper center"
     figure.legend(handles, labels, loc=place, ncols=3)
     return figure
-
-
-def varied(comparison: xr.Dataset) -> str:
-    """Return the axis of a comparison, or an empty text if nothing was varied."""
-    return next((str(dim) for dim in comparison.total_friction.dims if dim != "rung"), "")
 
 
 def _rung(

@@ -8,14 +8,10 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from gripscale.figures.palette import MILLI, WIDE
-from gripscale.figures.rungs import JUDGE, Look, looks
+from gripscale.figures.rungs import JUDGE, Look, looks, worth_drawing
 from gripscale.figures.style import area_axis, falling_wavelength, sheet, styled
-
-SEEN = 0.01
-"""Share of its friction from which on a rung is drawn: longer waves do nothing."""
 
 
 @styled
@@ -45,13 +41,6 @@ def comparison_wavelength_figure(comparison: xr.Dataset) -> Figure:
     place: Any = "outside upper center"
     figure.legend(handles, labels, loc=place, ncols=3)
     return figure
-
-
-def worth_drawing(comparison: xr.Dataset) -> NDArray[np.bool_]:
-    """Return for each octave whether a rung has friction or lost area down to it."""
-    friction, area = comparison.running_friction, comparison.running_contact_fraction
-    begun = np.abs(friction) > SEEN * np.abs(friction).max("wavelength")
-    return np.asarray((begun | (area < 1.0 - SEEN)).any("rung").values)
 
 
 def _line(axes: Axes, one: xr.Dataset, name: str, look: Look, label: str, *, strong: bool) -> None:

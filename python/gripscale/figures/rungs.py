@@ -7,12 +7,16 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from gripscale.figures.palette import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, SKY, YELLOW
 
 JUDGE = "direct"
 """The rung the others are judged by."""
+SEEN = 0.01
+"""Share of friction or area from which on a wavelength is drawn: longer waves do nothing."""
 
 
 class Look(NamedTuple):
@@ -47,8 +51,7 @@ def looks(comparison: xr.Dataset) -> list[tuple[str, Look]]:
     names = [str(name) for name in comparison["rung"].values]
     strangers = [name for name in names if name not in _LOOKS]
     return [
-        (name, _LOOKS.get(name) or _OTHERS[strangers.index(name) % len(_OTHERS)])
-        for name in names
+        (name, _LOOKS.get(name) or _OTHERS[strangers.index(name) % len(_OTHERS)]) for name in names
     ]
 
 
@@ -56,3 +59,15 @@ def flawed(comparison: xr.Dataset) -> list[bool]:
     """Return for each rung whether a sample of it failed."""
     counts = comparison["converged_samples"] < comparison["samples"]
     return [bool(one) for one in counts.values]
+
+
+def varied(comparison: xr.Dataset) -> str:
+    """Return the axis of a comparison, or an empty text if nothing was varied."""
+    return next((str(dim) for dim in comparison.total_friction.dims if dim != "rung"), "")
+
+
+def worth_drawing(comparison: xr.Dataset) -> NDArray[np.bool_]:
+    """Return for each octave whether a rung has friction or lost area down to it."""
+    friction, area = comparison.running_friction, comparison.running_contact_fraction
+    begun = np.abs(friction) > SEEN * np.abs(friction).max("wavelength")
+    return np.asarray((begun | (area < 1.0 - SEEN)).any("rung").values)

@@ -1,0 +1,151 @@
+"""Models side by side: from rung to rung, down to each wavelength, over a varied input."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from bokeh.models import ColumnDataSource, FixedTicker
+
+from gripscale.figures.palette import BLUE, INK, MILLI, ORANGE, PURPLE
+from gripscale.figures.rungs import JUDGE, Look, flawed, looks, varied, worth_drawing
+from gripscale.report.charts.look import hover, legend, plot, positive, whole_decades
+from gripscale.report.elements import Chart
+from gripscale.study.display import LABELS
+
+QUANTITIES = {"contact_fraction": "contact area A_r/A_0", "friction": "friction coefficient μ"}
+ROW = 44
+"""Height of a row of the ladder [px]."""
+
+
+def ladder_charts(comparison: xr.Dataset) -> list[Chart]:
+    """Return the steps from rung to rung, and the rungs down to each wavelength."""
+    charts = [_ladder(comparison, name) for name in QUANTITIES]
+    if np.isfinite(comparison.running_friction.values).any():
+        charts += [_by_wavelength(comparison, name) for name in QUANTITIES]
+    return charts
+
+
+def axis_charts(comparison: xr.Dataset) -> list[Chart]:
+    """Return area and friction of every rung over the axis of a comparison."""
+    return [_over(comparison, varied(comparison), name) for name in QUANTITIES]
+
+
+def _ladder(comparison: xr.Dataset, name: str) -> Chart:
+    rungs = comparison.sizes["rung"]
+    figure = plot(f"{QUANTITIES[name]} [-]", "", log="x", height=90 + ROW * rungs)
+    values = comparison[f"total_{name}"].values
+    place = {
+        str(rung): float(value) for rung, value in zip(comparison.rung.values, values, strict=True)
+    }
+    for at, bad in enumerate(flawed(comparison)):
+        one = comparison.isel(rung=at)
+        before = place.get(str(one.follows.item()), math.nan)
+        if math.isfinite(before) and str(one.group.item()) != "theory":
+            shade = ORANGE if values[at] > before else BLUE
+            ends = sorted((before, float(values[at])))
+            figure.hbar(y=at, left=ends[0], right=ends[1], height=0.5, fill_alpha=0.35,
+                        color=shade, line_color=None)  # fmt: skip
+        _mark(figure, at, one, name, open_=bad)
+    figure.yaxis.ticker = figure.ygrid.ticker = FixedTicker(ticks=list(range(rungs)))
+    figure.yaxis.major_label_overrides = {
+        at: str(label) for at, label in enumerate(comparison.label.values)
+    }
+    figure.y_range.update(start=rungs - 0.4, end=-0.6)
+    return Chart(
+        f"ladder-{name}",
+        f"{QUANTITIES[name].capitalize()} from rung to rung: a bar runs from the rung before, blue "
+        "where the number falls, orange where it rises; lines are one standard uncertainty.",
+        f"{QUANTITIES[name]} of each model, with the step from the one before.",
+        figure,
+    )
+
+
+def _mark(figure: Any, at: int, one: xr.Dataset, name: str, *, open_: bool) -> None:
+    value, sigma = float(one[f"total_{name}"]), float(one[f"{name}_uncertainty"])
+    if not value > 0.0:
+        return
+    colour = ORANGE if str(one.rung.item()) == JUDGE else INK
+    if math.isfinite(sigma):
+        low, high = value * math.exp(-sigma), value * math.exp(sigma)
+        figure.segment(x0=[low], x1=[high], y0=[at], y1=[at], color=colour, line_width=1.6)
+    factor = float(one[f"{name}_factor"])
+    source = {"x": [value], "y": [at], "factor": [f"×{factor:.3g}" if factor == factor else "–"]}
+    dots = figure.scatter("x", "y", source=ColumnDataSource(source), size=10, line_color=colour,
+                          fill_color="white" if open_ else colour)  # fmt: skip
+    hover(figure, [dots], [(str(one.label.item()), "@x"), ("from the rung before", "@factor")])
+
+
+def _by_wavelength(comparison: xr.Dataset, name: str) -> Chart:
+    data = comparison.isel(wavelength=worth_drawing(comparison))
+    length = data.wavelength.values / MILLI
+    log = "y" if name == "contact_fraction" else ""
+    label = f"{QUANTITIES[name]} of longer waves [-]"
+    figure = plot("wavelength λ [mm]", label, log=log, wavelengths=length, height=400)
+    values = data[f"running_{name}"].values
+    if log:
+        whole_decades(figure, values)
+    else:
+        figure.y_range.update(start=0.0)
+    for at, (rung, look) in enumerate(looks(data)):
+        known = np.isfinite(values[at])
+        if known.any():
+            text = str(data.label.values[at])
+            _line(figure, length[known], values[at][known], look, text, strong=rung == JUDGE)
+    return Chart(
+        f"by-wavelength-{name}",
+        f"{QUANTITIES[name].capitalize()} down to each wavelength: where every model makes it.",
+        f"Running {QUANTITIES[name]} of each model against wavelength, which falls to the right.",
+        legend(figure),
+    )
+
+
+def _over(comparison: xr.Dataset, axis: str, name: str) -> Chart:
+    divisor, _, unit = LABELS[axis]
+    x = comparison[axis].values / divisor
+    spread_out = bool(x.min() > 0.0 and x.max() > 8.0 * x.min())
+    log = ("x" if spread_out else "") + ("y" if name == "contact_fraction" else "")
+    words = axis.replace("_", " ")
+    figure = plot(f"{words} [{unit}]", f"{QUANTITIES[name]} [-]", log=log, height=400)
+    if name == "contact_fraction":
+        whole_decades(figure, comparison[f"total_{name}"].values)
+    for at, (rung, look) in enumerate(looks(comparison)):
+        one = comparison.isel(rung=at)
+        values, spread = one[f"total_{name}"].values, one[f"{name}_spread"].values
+        if not np.isfinite(values).any():
+            continue
+        text = str(one.label.item())
+        _line(figure, x, values, look, text, strong=rung == JUDGE)
+        if np.isfinite(spread).any():
+            low, high = positive(values - spread), values + spread
+            figure.varea(x=x, y1=low, y2=high, fill_color=look.colour, fill_alpha=0.15,
+                         legend_label=text)  # fmt: skip
+    if axis == "speed" and name == "friction" and "measured_friction" in comparison:
+        _measured(figure, comparison)
+    return Chart(
+        f"over-{axis}-{name}",
+        f"{QUANTITIES[name].capitalize()} of every model over {words}; bands are the standard "
+        "deviation over its samples.",
+        f"{QUANTITIES[name]} of each model against {words}.",
+        legend(figure),
+    )
+
+
+def _line(figure: Any, x: Any, y: Any, look: Look, label: str, *, strong: bool) -> None:
+    width = 3.0 if strong else 1.6
+    figure.line(x, y, color=look.colour, line_width=width, line_dash=look.dash, legend_label=label)
+    dots = figure.scatter(x, y, size=8, marker=look.bokeh_marker, line_color=look.colour,
+                          fill_color=look.colour, legend_label=label)  # fmt: skip
+    hover(figure, [dots], [(label, "@y"), ("at", "@x")])
+
+
+def _measured(figure: Any, comparison: xr.Dataset) -> None:
+    speed, friction = comparison.measured_speed.values, comparison.measured_friction.values
+    spread = np.nan_to_num(comparison.measured_spread.values)
+    figure.segment(x0=speed, x1=speed, y0=friction - spread, y1=friction + spread,
+                   color=PURPLE, line_width=1.6)  # fmt: skip
+    dots = figure.scatter(speed, friction, size=9, line_color=PURPLE, fill_color="white",
+                          line_width=2, legend_label="measured")  # fmt: skip
+    hover(figure, [dots], [("measured", "@y"), ("speed", "@x m/s")])
