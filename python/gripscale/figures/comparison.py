@@ -13,7 +13,8 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from gripscale.figures.palette import BLUE, FAINT, GREY, INK, ORANGE, PURPLE, WIDE
+from gripscale.figures.measured import COLOUR, measured
+from gripscale.figures.palette import BLUE, FAINT, GREY, INK, ORANGE, WIDE
 from gripscale.figures.rungs import JUDGE, flawed
 from gripscale.figures.style import log_axis, sheet, styled
 
@@ -129,21 +130,15 @@ def _best(comparison: xr.Dataset, name: str, value: float) -> Iterator[Row]:
 
 
 def _measured(comparison: xr.Dataset, name: str) -> Iterator[Row]:
-    """Yield the measured friction at the speed of the comparison, if it lies among the measured."""
-    if "measured_friction" not in comparison:
-        return
-    if name != "friction":
-        yield Row("measured", math.nan, note="–")
-        return
-    speed = float(comparison.nominal_speed)
-    known = comparison.measured_speed.values
-    if not known.min() <= speed <= known.max():
-        yield Row("measured", math.nan, note="not at this speed")
-        return
-    place, at = np.log(known), math.log(speed)
-    friction = float(np.interp(at, place, comparison.measured_friction.values))
-    spread = float(np.interp(at, place, comparison.measured_spread.values))
-    yield Row("measured", friction, spread / friction, marker="P", colour=PURPLE)
+    """Yield the measured friction at the speed of the comparison, by temperature."""
+    for series in measured(comparison):
+        found = series.at(float(comparison.nominal_speed)) if name == "friction" else None
+        if found is None:
+            note = "not at this speed" if name == "friction" else "–"
+            yield Row(series.label, math.nan, note=note)
+        else:
+            friction, spread = found
+            yield Row(series.label, friction, spread / friction, marker="P", colour=COLOUR)
 
 
 def _draw(axes: Axes, rows: list[Row]) -> None:

@@ -9,11 +9,14 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from gripscale.figures.palette import INK, PURPLE, WIDE
+from gripscale.figures.measured import COLOUR, measured
+from gripscale.figures.palette import INK, WIDE
 from gripscale.figures.rungs import JUDGE, Look, looks, varied
 from gripscale.figures.study_axes import along
 from gripscale.figures.style import area_axis, sheet, styled
 
+MARKS = "osd^v"
+"""Of measurements, temperature by temperature."""
 LEAST_SPREAD = 1e-3
 """Lower end of a band over the number itself, where the spread is larger than that."""
 
@@ -58,10 +61,11 @@ def _rung(
     axes.plot(x, values, color=look.colour, ls=look.dash, lw=width, zorder=order)
     whole = (one.converged_samples == one.samples).values
     for chosen, face in ((whole, look.colour), (~whole, "white")):
-        axes.plot(
-            x[chosen], values[chosen], look.marker, ms=4.0, mfc=face, mec=look.colour,
-            clip_on=False, zorder=order,
-        )  # fmt: skip
+        if chosen.any():  # nothing, unclipped, has no place on a logarithmic axis
+            axes.plot(
+                x[chosen], values[chosen], look.marker, ms=4.0, mfc=face, mec=look.colour,
+                clip_on=False, zorder=order,
+            )  # fmt: skip
     axes.plot([], [], marker=look.marker, ms=4.0, color=look.colour, ls=look.dash, label=label)
     if np.isfinite(spread).any():
         low = np.maximum(values - spread, LEAST_SPREAD * values)
@@ -79,19 +83,12 @@ def _best(axes: Axes, x: np.ndarray, comparison: xr.Dataset, name: str) -> None:
 
 def _measured(axes: Axes, comparison: xr.Dataset) -> None:
     """Draw measured friction, each temperature with its own mark."""
-    if "measured_friction" not in comparison:
-        return
-    kelvin = comparison.measured_temperature.values
-    limits = axes.get_xlim()
-    for number, value in enumerate(np.unique(np.round(kelvin))):
-        chosen = np.isnan(kelvin) if np.isnan(value) else np.round(kelvin) == value
-        name = "measured" if np.isnan(value) else f"measured, {value - 273.15:.0f} °C"
-        speed = comparison.measured_speed.values[chosen]
-        spread = comparison.measured_spread.values[chosen]
+    low, high = axes.get_xlim()
+    for number, series in enumerate(measured(comparison)):
         axes.errorbar(
-            speed, comparison.measured_friction.values[chosen],
-            yerr=np.nan_to_num(spread), fmt="o*pd8"[number % 5], ms=5.5, mfc="white", mec=PURPLE,
-            ecolor=PURPLE, mew=1.3, capsize=2.5, zorder=5, label=name,
+            series.speed, series.friction, yerr=np.nan_to_num(series.spread),
+            fmt=MARKS[number % len(MARKS)], ms=5.5, mfc="white", mec=COLOUR, ecolor=COLOUR,
+            mew=1.3, capsize=2.5, zorder=5, label=series.label,
         )  # fmt: skip
-        limits = min(limits[0], speed.min()), max(limits[1], speed.max())
-    axes.set_xlim(*limits)
+        low, high = min(low, series.speed[0]), max(high, series.speed[-1])
+    axes.set_xlim(low, high)

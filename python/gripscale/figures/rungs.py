@@ -35,7 +35,7 @@ _LOOKS = {
     "random_phases": Look(PURPLE, "dashed", "v", "inverted_triangle"),
     JUDGE: Look(ORANGE, "solid", "D", "diamond"),
     "persson": Look(GREY, "dotted", "P", "plus"),
-    "klueppel_heinrich": Look(INK, "dotted", "X", "x"),
+    "klueppel_heinrich": Look(YELLOW, "dotted", "X", "x"),
 }
 _OTHERS = (
     Look(YELLOW, "solid", "<", "hex"),

@@ -15,8 +15,8 @@ from gripscale.report.numbers import number, percent
 from gripscale.report.source import Compared
 
 WHAT = (
-    "Every model over the same measurements, one assumption given up from rung to rung. A factor is "
-    "from the rung before; of the theories from the profile as measured, at once, by which the "
+    "Every model over the same measurements, one assumption given up from rung to rung. A factor "
+    "is from the rung before; of the theories from the profile as measured, at once, by which the "
     "others are to be judged. Spread is the standard deviation over the samples, error what the "
     "model itself estimates."
 )
@@ -84,7 +84,10 @@ def _table(ladder: xr.Dataset) -> Table:
 
 def _row(one: xr.Dataset) -> list[str]:
     area, friction = (
-        [number(one[f"{name}_{part}"]) for part in ("spread", "error", "factor")]
+        [
+            number(one[f"{name}_{part}"], digits=digits)
+            for part, digits in (("spread", 2), ("error", 2), ("factor", 3))
+        ]
         for name in ("contact_fraction", "friction")
     )
     return [

@@ -9,13 +9,15 @@ import numpy as np
 import xarray as xr
 from bokeh.models import ColumnDataSource, FixedTicker
 
-from gripscale.figures.palette import BLUE, INK, MILLI, ORANGE, PURPLE
+from gripscale.figures.measured import COLOUR, measured
+from gripscale.figures.palette import BLUE, GREY, INK, MILLI, ORANGE
 from gripscale.figures.rungs import JUDGE, Look, flawed, looks, varied, worth_drawing
 from gripscale.report.charts.look import hover, legend, plot, positive, whole_decades
 from gripscale.report.elements import Chart
 from gripscale.study.display import LABELS
 
 QUANTITIES = {"contact_fraction": "contact area A_r/A_0", "friction": "friction coefficient μ"}
+TICKS = [step * 10.0**power for power in range(-6, 3) for step in (1, 2, 5)]
 ROW = 44
 """Height of a row of the ladder [px]."""
 
@@ -49,6 +51,7 @@ def _ladder(comparison: xr.Dataset, name: str) -> Chart:
             figure.hbar(y=at, left=ends[0], right=ends[1], height=0.5, fill_alpha=0.35,
                         color=shade, line_color=None)  # fmt: skip
         _mark(figure, at, one, name, open_=bad)
+    figure.xaxis.ticker = figure.xgrid.ticker = FixedTicker(ticks=TICKS)
     figure.yaxis.ticker = figure.ygrid.ticker = FixedTicker(ticks=list(range(rungs)))
     figure.yaxis.major_label_overrides = {
         at: str(label) for at, label in enumerate(comparison.label.values)
@@ -56,7 +59,7 @@ def _ladder(comparison: xr.Dataset, name: str) -> Chart:
     figure.y_range.update(start=rungs - 0.4, end=-0.6)
     return Chart(
         f"ladder-{name}",
-        f"{QUANTITIES[name].capitalize()} from rung to rung: a bar runs from the rung before, blue "
+        f"{_title(name)} from rung to rung: a bar runs from the rung before, blue "
         "where the number falls, orange where it rises; lines are one standard uncertainty.",
         f"{QUANTITIES[name]} of each model, with the step from the one before.",
         figure,
@@ -67,7 +70,8 @@ def _mark(figure: Any, at: int, one: xr.Dataset, name: str, *, open_: bool) -> N
     value, sigma = float(one[f"total_{name}"]), float(one[f"{name}_uncertainty"])
     if not value > 0.0:
         return
-    colour = ORANGE if str(one.rung.item()) == JUDGE else INK
+    theory = str(one.group.item()) == "theory"
+    colour = ORANGE if str(one.rung.item()) == JUDGE else GREY if theory else INK
     if math.isfinite(sigma):
         low, high = value * math.exp(-sigma), value * math.exp(sigma)
         figure.segment(x0=[low], x1=[high], y0=[at], y1=[at], color=colour, line_width=1.6)
@@ -96,7 +100,8 @@ def _by_wavelength(comparison: xr.Dataset, name: str) -> Chart:
             _line(figure, length[known], values[at][known], look, text, strong=rung == JUDGE)
     return Chart(
         f"by-wavelength-{name}",
-        f"{QUANTITIES[name].capitalize()} down to each wavelength: where every model makes it.",
+        f"{_title(name)} down to each wavelength, of every model: where area is lost and friction "
+        "made.",
         f"Running {QUANTITIES[name]} of each model against wavelength, which falls to the right.",
         legend(figure),
     )
@@ -111,6 +116,8 @@ def _over(comparison: xr.Dataset, axis: str, name: str) -> Chart:
     figure = plot(f"{words} [{unit}]", f"{QUANTITIES[name]} [-]", log=log, height=400)
     if name == "contact_fraction":
         whole_decades(figure, comparison[f"total_{name}"].values)
+    else:
+        figure.y_range.update(start=0.0)
     for at, (rung, look) in enumerate(looks(comparison)):
         one = comparison.isel(rung=at)
         values, spread = one[f"total_{name}"].values, one[f"{name}_spread"].values
@@ -122,15 +129,19 @@ def _over(comparison: xr.Dataset, axis: str, name: str) -> Chart:
             low, high = positive(values - spread), values + spread
             figure.varea(x=x, y1=low, y2=high, fill_color=look.colour, fill_alpha=0.15,
                          legend_label=text)  # fmt: skip
-    if axis == "speed" and name == "friction" and "measured_friction" in comparison:
+    if axis == "speed" and name == "friction":
         _measured(figure, comparison)
     return Chart(
         f"over-{axis}-{name}",
-        f"{QUANTITIES[name].capitalize()} of every model over {words}; bands are the standard "
+        f"{_title(name)} of every model over {words}; bands are the standard "
         "deviation over its samples.",
         f"{QUANTITIES[name]} of each model against {words}.",
         legend(figure),
     )
+
+
+def _title(name: str) -> str:
+    return QUANTITIES[name][0].upper() + QUANTITIES[name][1:]
 
 
 def _line(figure: Any, x: Any, y: Any, look: Look, label: str, *, strong: bool) -> None:
@@ -142,10 +153,12 @@ def _line(figure: Any, x: Any, y: Any, look: Look, label: str, *, strong: bool) 
 
 
 def _measured(figure: Any, comparison: xr.Dataset) -> None:
-    speed, friction = comparison.measured_speed.values, comparison.measured_friction.values
-    spread = np.nan_to_num(comparison.measured_spread.values)
-    figure.segment(x0=speed, x1=speed, y0=friction - spread, y1=friction + spread,
-                   color=PURPLE, line_width=1.6)  # fmt: skip
-    dots = figure.scatter(speed, friction, size=9, line_color=PURPLE, fill_color="white",
-                          line_width=2, legend_label="measured")  # fmt: skip
-    hover(figure, [dots], [("measured", "@y"), ("speed", "@x m/s")])
+    for series in measured(comparison):
+        spread = np.nan_to_num(series.spread)
+        low, high = series.friction - spread, series.friction + spread
+        figure.segment(x0=series.speed, x1=series.speed, y0=low, y1=high, color=COLOUR,
+                       line_width=1.6)  # fmt: skip
+        dots = figure.scatter(series.speed, series.friction, size=9, line_color=COLOUR,
+                              fill_color="white", line_width=2,
+                              legend_label=series.label)  # fmt: skip
+        hover(figure, [dots], [(series.label, "@y"), ("speed", "@x m/s")])
