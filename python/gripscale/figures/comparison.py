@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
@@ -13,31 +11,13 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from gripscale.figures.measured import COLOUR, measured
-from gripscale.figures.palette import BLUE, FAINT, GREY, INK, ORANGE, WIDE
-from gripscale.figures.rungs import JUDGE, flawed
+from gripscale.figures.ladder_rows import BEST, Row, rows_of
+from gripscale.figures.palette import BLUE, FAINT, GREY, ORANGE, WIDE
+from gripscale.figures.rungs import JUDGE
 from gripscale.figures.style import log_axis, sheet, styled
 
 HALF = 0.27
 """Half the height of a bar, in rows."""
-
-
-@dataclass(frozen=True)
-class Row:
-    """A line of the figure: a number, and the bar from the number it follows."""
-
-    label: str
-    value: float
-    uncertainty: float = math.nan
-    before: float = math.nan
-    """Where the bar begins; NaN for none."""
-    factor: float = math.nan
-    samples: tuple[float, ...] = ()
-    marker: str = "o"
-    colour: str = INK
-    filled: bool = True
-    note: str = ""
-    """Said in place of a number there is not."""
 
 
 @styled
@@ -50,7 +30,7 @@ def comparison_figure(comparison: xr.Dataset) -> Figure:
     the factors of the best estimate and the estimate itself, and what was measured at this speed. A
     rung with failed samples is open.
     """
-    rows = {name: list(_rows(comparison, name)) for name in ("contact_fraction", "friction")}
+    rows = {name: list(rows_of(comparison, name)) for name in ("contact_fraction", "friction")}
     count = len(rows["friction"])
     figure, panels = sheet(WIDE, 0.95 + 0.33 * count, 1, 2, gap=0.05, sharey=True)
     area, friction = panels[0]
@@ -82,70 +62,14 @@ def _strong(comparison: xr.Dataset) -> set[str]:
         str(label)
         for name, label in zip(comparison.rung.values, comparison.label.values, strict=True)
         if name == JUDGE
-    } | {"best estimate"}
-
-
-def _rows(comparison: xr.Dataset, name: str) -> Iterator[Row]:
-    """Yield the lines of one panel; both panels have the same."""
-    values = dict(
-        zip(comparison.rung.values, comparison[f"total_{name}"].values.tolist(), strict=True)
-    )
-    for at, (rung, bad) in enumerate(zip(values, flawed(comparison), strict=True)):
-        one = comparison.isel(rung=at)
-        theory, judge = str(one.group.item()) == "theory", rung == JUDGE
-        samples = one[f"sample_{name}"].values
-        yield Row(
-            str(one.label.item()),
-            values[rung],
-            float(one[f"{name}_uncertainty"]),
-            math.nan if theory else values.get(str(one.follows.item()), math.nan),
-            float(one[f"{name}_factor"]),
-            tuple(samples[np.isfinite(samples)].tolist()) if int(one.samples) > 1 else (),
-            marker="D" if judge else "s" if theory else "o",
-            colour=GREY if theory else ORANGE if judge else INK,
-            filled=not bad,
-            note="" if math.isfinite(values[rung]) else "says nothing" if theory else "failed",
-        )
-    yield from _best(comparison, name, values.get(JUDGE, math.nan))
-    yield from _measured(comparison, name)
-
-
-def _best(comparison: xr.Dataset, name: str, value: float) -> Iterator[Row]:
-    """Yield the factors of the best estimate, and the estimate where it differs from its base."""
-    factors = comparison[f"best_{name}_factor"].values
-    if not math.isfinite(float(comparison[f"best_{name}"])):
-        return
-    for at, factor in enumerate(factors):
-        label = f"× {comparison.factor_label.values[at]}"
-        if not math.isfinite(factor):
-            yield Row(label, math.nan, note="not included")
-            continue
-        sigma = float(comparison[f"best_{name}_factor_uncertainty"][at])
-        yield Row(label, value * factor, sigma, value, factor)
-        value *= factor
-    if np.isfinite(factors).any():
-        best = float(comparison[f"best_{name}"])
-        sigma = float(comparison[f"best_{name}_uncertainty"])
-        yield Row("best estimate", best, sigma, marker="*", colour=ORANGE)
-
-
-def _measured(comparison: xr.Dataset, name: str) -> Iterator[Row]:
-    """Yield the measured friction at the speed of the comparison, by temperature."""
-    for series in measured(comparison):
-        found = series.at(float(comparison.nominal_speed)) if name == "friction" else None
-        if found is None:
-            note = "not at this speed" if name == "friction" else "–"
-            yield Row(series.label, math.nan, note=note)
-        else:
-            friction, spread = found
-            yield Row(series.label, friction, spread / friction, marker="P", colour=COLOUR)
+    } | {BEST}
 
 
 def _draw(axes: Axes, rows: list[Row]) -> None:
     shown = [
         end
         for row in rows
-        for end in (row.value, row.before, *row.samples, *_ends(row))
+        for end in (row.value, row.before, *row.samples, *row.ends)
         if math.isfinite(end) and end > 0.0
     ]
     axes.set_xscale("log")
@@ -165,10 +89,6 @@ def _steps(decade: float) -> tuple[float, ...]:
     return (1.0, 2.0, 5.0) if decade < 60.0 else (1.0, 3.0) if decade < 1000.0 else (1.0,)
 
 
-def _ends(row: Row) -> tuple[float, float]:
-    return row.value * math.exp(-row.uncertainty), row.value * math.exp(row.uncertainty)
-
-
 def _draw_row(axes: Axes, at: int, row: Row) -> None:
     if not (math.isfinite(row.value) and row.value > 0.0):
         axes.annotate(
@@ -183,7 +103,7 @@ def _draw_row(axes: Axes, at: int, row: Row) -> None:
         axes.barh(at, right - left, 2 * HALF, left=left, color=shade, alpha=0.35, lw=0, zorder=1.5)
     axes.plot(row.samples, [at] * len(row.samples), "|", ms=6.0, mew=0.8, color=GREY, zorder=2)
     if math.isfinite(row.uncertainty):
-        low, high = _ends(row)
+        low, high = row.ends
         look: dict[str, Any] = {"color": row.colour, "capsize": 2.0, "elinewidth": 1.0}
         error = [[row.value - low], [high - row.value]]
         axes.errorbar([row.value], [at], xerr=error, fmt="none", capthick=0.8, zorder=3, **look)
@@ -195,7 +115,7 @@ def _draw_row(axes: Axes, at: int, row: Row) -> None:
 
 def _write(axes: Axes, at: int, row: Row) -> None:
     """Write the number to the right of everything in the row, the factor beside the panel."""
-    ends = [end for end in (*row.samples, *_ends(row), row.before, row.value) if math.isfinite(end)]
+    ends = [end for end in (*row.samples, *row.ends, row.before, row.value) if math.isfinite(end)]
     look: dict[str, Any] = {"textcoords": "offset points", "va": "center", "fontsize": 7.0}
     axes.annotate(_short(row.value), (max(ends), at), (5, 0), **look)
     if math.isfinite(row.before):

@@ -9,15 +9,15 @@ import numpy as np
 import xarray as xr
 from bokeh.models import ColumnDataSource, FixedTicker
 
+from gripscale.figures.ladder_rows import Row, rows_of
 from gripscale.figures.measured import COLOUR, measured
-from gripscale.figures.palette import BLUE, GREY, INK, MILLI, ORANGE
-from gripscale.figures.rungs import JUDGE, Look, flawed, looks, varied, worth_drawing
-from gripscale.report.charts.look import hover, legend, plot, positive, whole_decades
+from gripscale.figures.palette import BLUE, MILLI, ORANGE
+from gripscale.figures.rungs import JUDGE, Look, looks, varied, worth_drawing
+from gripscale.report.charts.look import hover, legend, plot, positive, tick_closely, whole_decades
 from gripscale.report.elements import Chart
 from gripscale.study.display import LABELS
 
 QUANTITIES = {"contact_fraction": "contact area A_r/A_0", "friction": "friction coefficient μ"}
-TICKS = [step * 10.0**power for power in range(-6, 3) for step in (1, 2, 5)]
 ROW = 44
 """Height of a row of the ladder [px]."""
 
@@ -36,27 +36,20 @@ def axis_charts(comparison: xr.Dataset) -> list[Chart]:
 
 
 def _ladder(comparison: xr.Dataset, name: str) -> Chart:
-    rungs = comparison.sizes["rung"]
-    figure = plot(f"{QUANTITIES[name]} [-]", "", log="x", height=90 + ROW * rungs)
-    values = comparison[f"total_{name}"].values
-    place = {
-        str(rung): float(value) for rung, value in zip(comparison.rung.values, values, strict=True)
-    }
-    for at, bad in enumerate(flawed(comparison)):
-        one = comparison.isel(rung=at)
-        before = place.get(str(one.follows.item()), math.nan)
-        if math.isfinite(before) and str(one.group.item()) != "theory":
-            shade = ORANGE if values[at] > before else BLUE
-            ends = sorted((before, float(values[at])))
-            figure.hbar(y=at, left=ends[0], right=ends[1], height=0.5, fill_alpha=0.35,
-                        color=shade, line_color=None)  # fmt: skip
-        _mark(figure, at, one, name, open_=bad)
-    figure.xaxis.ticker = figure.xgrid.ticker = FixedTicker(ticks=TICKS)
-    figure.yaxis.ticker = figure.ygrid.ticker = FixedTicker(ticks=list(range(rungs)))
-    figure.yaxis.major_label_overrides = {
-        at: str(label) for at, label in enumerate(comparison.label.values)
-    }
-    figure.y_range.update(start=rungs - 0.4, end=-0.6)
+    rows = list(rows_of(comparison, name))
+    figure = plot(f"{QUANTITIES[name]} [-]", "", log="x", height=90 + ROW * len(rows))
+    for at, row in enumerate(rows):
+        if math.isfinite(row.before):
+            shade = ORANGE if row.value > row.before else BLUE
+            left, right = sorted((row.before, row.value))
+            figure.hbar(y=at, left=left, right=right, height=0.5, fill_alpha=0.35, color=shade,
+                        line_color=None)  # fmt: skip
+        if row.value > 0.0:
+            _mark(figure, at, row)
+    tick_closely(figure)
+    figure.yaxis.ticker = figure.ygrid.ticker = FixedTicker(ticks=list(range(len(rows))))
+    figure.yaxis.major_label_overrides = {at: _label(row) for at, row in enumerate(rows)}
+    figure.y_range.update(start=len(rows) - 0.4, end=-0.6)
     return Chart(
         f"ladder-{name}",
         f"{_title(name)} from rung to rung: a bar runs from the rung before, blue "
@@ -66,20 +59,19 @@ def _ladder(comparison: xr.Dataset, name: str) -> Chart:
     )
 
 
-def _mark(figure: Any, at: int, one: xr.Dataset, name: str, *, open_: bool) -> None:
-    value, sigma = float(one[f"total_{name}"]), float(one[f"{name}_uncertainty"])
-    if not value > 0.0:
-        return
-    theory = str(one.group.item()) == "theory"
-    colour = ORANGE if str(one.rung.item()) == JUDGE else GREY if theory else INK
-    if math.isfinite(sigma):
-        low, high = value * math.exp(-sigma), value * math.exp(sigma)
-        figure.segment(x0=[low], x1=[high], y0=[at], y1=[at], color=colour, line_width=1.6)
-    factor = float(one[f"{name}_factor"])
-    source = {"x": [value], "y": [at], "factor": [f"×{factor:.3g}" if factor == factor else "–"]}
-    dots = figure.scatter("x", "y", source=ColumnDataSource(source), size=10, line_color=colour,
-                          fill_color="white" if open_ else colour)  # fmt: skip
-    hover(figure, [dots], [(str(one.label.item()), "@x"), ("from the rung before", "@factor")])
+def _label(row: Row) -> str:
+    return row.label if math.isfinite(row.value) else f"{row.label} ({row.note})"
+
+
+def _mark(figure: Any, at: int, row: Row) -> None:
+    if math.isfinite(row.uncertainty):
+        low, high = row.ends
+        figure.segment(x0=[low], x1=[high], y0=[at], y1=[at], color=row.colour, line_width=1.6)
+    factor = f"×{row.factor:.3g}" if math.isfinite(row.factor) else "–"
+    source = ColumnDataSource({"x": [row.value], "y": [at], "factor": [factor]})
+    dots = figure.scatter("x", "y", source=source, size=10, line_color=row.colour,
+                          fill_color=row.colour if row.filled else "white")  # fmt: skip
+    hover(figure, [dots], [(row.label, "@x"), ("factor", "@factor")])
 
 
 def _by_wavelength(comparison: xr.Dataset, name: str) -> Chart:
