@@ -47,7 +47,7 @@ def compare(
     rungs: Annotated[
         str | None,
         typer.Option(
-            help="Models wanted, by name or group (sines, measured, theory), such as "
+            help="Models wanted, by name or group (waves, measured, theory), such as "
             "'chain,measured'; all by default.",
             show_default=False,
         ),

@@ -109,11 +109,11 @@ def _shuffled(line: Profile, seed: int) -> Profile:
 
 
 LADDER: tuple[Rung, ...] = (
-    Rung("chain", "chain, finite strain", "sines", "", "", _chain),
+    Rung("chain", "chain, finite strain", "waves", "", "", _chain),
     Rung(
         "chain_half_plane",
         "chain, small strain",
-        "sines",
+        "waves",
         "small strain assumed",
         "chain",
         _chain_half_plane,
@@ -121,7 +121,7 @@ LADDER: tuple[Rung, ...] = (
     Rung(
         "sines",
         "its sine waves at once",
-        "sines",
+        "waves",
         "all scales together",
         "chain_half_plane",
         _sines,
