@@ -1,7 +1,7 @@
 """Ctrl-C held back while something must not be left half done.
 
-xarray guards its files with one lock for all. An interrupt that lands while the lock is taken leaves
-it taken, and the next file waits for ever.
+xarray guards its files with one lock for all. An interrupt that lands while it is taken leaves it
+taken, and the next file waits for ever.
 """
 
 from __future__ import annotations

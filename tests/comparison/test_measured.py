@@ -1,4 +1,4 @@
-"""Measured friction from files: columns by name, units from titles, one sentence for what is bad."""
+"""Measured friction from files: columns by name, units from titles, what is bad in a sentence."""
 
 from __future__ import annotations
 

@@ -20,10 +20,16 @@ def interrupt() -> None:
 
 def test_interrupt_acts_when_the_block_is_left() -> None:
     done = []
-    with pytest.raises(KeyboardInterrupt), held_back():
-        interrupt()
-        done.append("the rest of the block")
-    assert done
+
+    def work() -> None:
+        with held_back():
+            interrupt()
+            done.append("the rest of the block")
+        done.append("what follows")
+
+    with pytest.raises(KeyboardInterrupt):
+        work()
+    assert done == ["the rest of the block"]
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
