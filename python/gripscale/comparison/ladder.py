@@ -10,13 +10,18 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from functools import lru_cache
 
+import numpy as np
+
 from gripscale import checks
 from gripscale.chain.model import Chain
 from gripscale.comparison.rung import Draw, Rung, Subject
 from gripscale.rough import random_phases, surface_of_sines
 from gripscale.rough.model import DirectContact
 from gripscale.surface import PreparedSurface, Profile, SineStack
+from gripscale.surface.isotropy import areal_spectrum
+from gripscale.surface.periodogram import profile_spectrum
 from gripscale.surface.prepared import Measured
+from gripscale.surface.spectrum import ArealSpectrum
 from gripscale.theory.half_plane import HalfPlane
 from gripscale.theory.models import Persson
 
@@ -81,13 +86,17 @@ def _direct(subject: Subject) -> Sequence[Draw]:
 
 
 def _persson(subject: Subject) -> Sequence[Draw]:
-    out = []
-    for name, one in each_profile(subject.surface):
-        # as the direct contact: nothing is known of waves shorter than two steps
-        step = one.measured.cleaned[0].step if one.measured else 0.0
-        smallest = max(float(one.sines.wavelength[-1]), 2.0 * step)
-        out.append(Draw(Persson(smallest_wavelength=smallest), one, name))
-    return out
+    return [
+        Draw(Persson(smallest_wavelength=_last_known(one)), one, name)
+        for name, one in each_profile(subject.surface)
+    ]
+
+
+def _last_known(surface: PreparedSurface) -> float:
+    """Return the smallest sine wave [m], or where the spectrum of the profile ends before it."""
+    spectra = [_spectrum(line) for line in surface.measured.cleaned] if surface.measured else []
+    ends = [float(2.0 * np.pi / spectrum.wavenumber[-1]) for spectrum in spectra]
+    return max(float(surface.sines.wavelength[-1]), *ends)
 
 
 def _klueppel_heinrich(subject: Subject) -> Sequence[Draw]:
@@ -100,6 +109,11 @@ def _klueppel_heinrich(subject: Subject) -> Sequence[Draw]:
 @lru_cache(maxsize=16)
 def _of_sines(sines: SineStack, seed: int) -> Profile:
     return surface_of_sines(sines, LENGTH_OF_SINES * float(sines.wavelength[0]), seed)
+
+
+@lru_cache(maxsize=16)
+def _spectrum(line: Profile) -> ArealSpectrum:
+    return areal_spectrum(profile_spectrum(line))
 
 
 @lru_cache(maxsize=64)
