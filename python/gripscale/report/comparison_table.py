@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 SYMBOLS = {"contact_fraction": "A_r/A_0", "friction": "μ"}
 LABEL = 28
 """Characters of the longest label of the ladder."""
-TINY = 1e-4
-"""Below it an error is as good as none."""
+TINY = 0.05
+"""Per cent below which a spread or an error is as good as none."""
 EXTRAPOLATED = 0.01
 """Share of the friction beyond the measured frequencies from which on a rung has a star."""
 
@@ -36,9 +36,9 @@ def comparison_table(comparison: xr.Dataset) -> Table:
     """
     table = _empty()
     table.add_column("model", overflow="fold", min_width=LABEL)
-    heads = ["A_r/A_0", "spread", "error", "×", "μ", "μ diss.", "spread", "error", "×", "n"]
-    for head in heads:
-        table.add_column(head.replace(" ", "\n"), justify="right", no_wrap=True)
+    parts = ["spread\n%", "error\n%", "×"]
+    for head in ["A_r/A_0", *parts, "μ", "μ\ndiss.", *parts, "n"]:
+        table.add_column(head, justify="right", no_wrap=True)
     for at, bad in enumerate(flawed(comparison)):
         one = comparison.isel(rung=at)
         label = str(one.label.item())
@@ -141,12 +141,12 @@ def _empty() -> Table:
 
 
 def _cells(one: xr.Dataset, name: str) -> Iterator[str]:
-    """Yield number, spread, error, and the factor from the rung it follows."""
-    yield significant(float(one[f"total_{name}"]))
-    spread = float(one[f"{name}_spread"])
-    yield "0" if spread < TINY else significant(spread, 2)
-    error = float(one[f"{name}_error"])
-    yield "0" if error < TINY else significant(error, 2)
+    """Yield number, spread and error in per cent, and the factor from the rung it follows."""
+    value = float(one[f"total_{name}"])
+    yield significant(value)
+    for part in ("spread", "error"):
+        share = 100.0 * float(one[f"{name}_{part}"]) / value if value else math.nan
+        yield "0" if share < TINY else significant(share, 2)
     yield significant(float(one[f"{name}_factor"]))
 
 
