@@ -1,7 +1,13 @@
+from .finite_strain import Correction as Correction
+from .finite_strain import FiniteStrainPairs as FiniteStrainPairs
+from .finite_strain import Pair as Pair
+from .finite_strain import solve_both_ways as solve_both_ways
+from .finite_strain import spread_windows as spread_windows
 from .grids import GridRecord as GridRecord
 from .model import DirectContact as DirectContact
 from .result import RoughContact as RoughContact
 from .solve import solve_rough_contact as solve_rough_contact
+from .surfaces import one_period as one_period
 from .surfaces import random_phases as random_phases
 from .surfaces import surface_of_sines as surface_of_sines
 from .windows import WindowContacts as WindowContacts

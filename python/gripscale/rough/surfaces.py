@@ -1,4 +1,4 @@
-"""Surfaces to compare with: superposed sines, and a measured spectrum with random phases."""
+"""Surfaces to compare with: one period of a line, superposed sines, and random phases."""
 
 from __future__ import annotations
 
@@ -10,12 +10,34 @@ import scipy.fft
 from gripscale import checks
 from gripscale.errors import InputError
 from gripscale.rough.ends import filled, joined
+from gripscale.rough.heights import DEFAULT_STEPS, periodic_heights
 from gripscale.surface import HeightMap, Profile, SineStack
+from gripscale.surface.profile import FEWEST_POINTS
 
 Surface = TypeVar("Surface", Profile, HeightMap)
 
 POINTS_IN_WAVE = 8
 MOST_POINTS = 10_000_000
+
+
+def one_period(line: Profile, smallest_wavelength: float | None = None) -> Profile:
+    """Return a line as `solve_rough_contact` sees it, for any model to take with `periodic=True`.
+
+    Missing heights are filled, ends joined, and waves left out that are shorter than
+    `smallest_wavelength` [m], by default four steps. The points are the fewest that carry the
+    waves that are left, four in the smallest.
+
+    Raises
+    ------
+    InputError
+        As `solve_rough_contact` does for its surface.
+    """
+    heights = periodic_heights(line, smallest_wavelength=smallest_wavelength, periodic=False)
+    period = heights.grid.lengths[0]
+    waves = int(period / heights.smallest_wavelength * (1.0 + 1e-9))
+    points = max(FEWEST_POINTS, DEFAULT_STEPS * waves)
+    x = heights.origin[0] + np.linspace(0.0, period, points, endpoint=False)
+    return Profile(x, heights.on((points,)), line.name, source=line.source)
 
 
 def surface_of_sines(stack: SineStack, length: float, seed: int) -> Profile:

@@ -11,17 +11,14 @@ need no guard in the caller's script; `client="local"` gives processes.
 
 from __future__ import annotations
 
-import os
-import threading
-from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
-from concurrent.futures import Future, ThreadPoolExecutor, as_completed
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from typing import Any
 
 import xarray as xr
 
-from gripscale import checks
+from gripscale.parallel import in_threads, worker_count
 from gripscale.study.store import Store
 from gripscale.study.task import Solved, Task
 
@@ -97,35 +94,17 @@ def solve_all(
     return results
 
 
-def cores() -> int:
-    """Return how many cores this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
 @contextmanager
 def _solver(tasks: list[Task], workers: int | None, client: Any) -> Iterator[Iterable[Solved]]:
     """Give the results of `tasks` as they come, from threads or from a cluster."""
-    count = cores() if workers is None else checks.whole("workers", workers, least=1, most=1024)
+    count = worker_count(workers)
     if not tasks:
         yield ()
     elif client is None:
-        with closing(_threads(tasks, count)) as stream:
-            yield stream
+        with closing(in_threads([task.solve for task in tasks], count)) as stream:
+            yield (solved for _, solved in stream)
     else:
         from gripscale.study.cluster import cluster
 
         with cluster(client, count) as solve, closing(solve(tasks)) as stream:
             yield stream
-
-
-def _threads(tasks: list[Task], workers: int) -> Generator[Solved, None, None]:
-    """Solve in threads; on any end but the natural one, stop after the waves now being solved."""
-    stop = threading.Event()
-    pool = ThreadPoolExecutor(workers, thread_name_prefix="gripscale")
-    try:
-        futures: list[Future[Solved]] = [pool.submit(task.solve, stop) for task in tasks]
-        for future in as_completed(futures):
-            yield future.result()
-    finally:
-        stop.set()
-        pool.shutdown(wait=True, cancel_futures=True)

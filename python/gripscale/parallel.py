@@ -1,0 +1,47 @@
+"""Independent tasks on all cores: threads, since kernel and transforms leave Python's lock free."""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections.abc import Callable, Generator, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor, as_completed
+from typing import TypeVar
+
+from gripscale import checks
+
+T = TypeVar("T")
+Job = Callable[[threading.Event], T]
+"""Solves one task; gives up between two steps once the event is set."""
+
+
+def cores() -> int:
+    """Return how many cores this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def worker_count(workers: int | None) -> int:
+    """Return `workers`, or one per core.
+
+    Raises `InputError` if it is not a whole number from 1 to 1024.
+    """
+    return cores() if workers is None else checks.whole("workers", workers, least=1, most=1024)
+
+
+def in_threads(jobs: Sequence[Job[T]], workers: int) -> Generator[tuple[int, T], None, None]:
+    """Yield the place and the result of each job as they come.
+
+    On any end but the natural one (an error, Ctrl-C, `close`) the others are told to stop, and
+    those that run are waited for.
+    """
+    stop = threading.Event()
+    pool = ThreadPoolExecutor(workers, thread_name_prefix="gripscale")
+    try:
+        futures: dict[Future[T], int] = {
+            pool.submit(job, stop): place for place, job in enumerate(jobs)
+        }
+        for future in as_completed(futures):
+            yield futures[future], future.result()
+    finally:
+        stop.set()
+        pool.shutdown(wait=True, cancel_futures=True)
