@@ -47,8 +47,8 @@ def compare(
     rungs: Annotated[
         str | None,
         typer.Option(
-            help="Models wanted, by name or group (waves, measured, theory), such as "
-            "'chain,measured'; all by default.",
+            help="Models wanted, by name or group (waves, measured, theory, windows), such as "
+            "'chain,measured', or 'all'; by default all but the windows, which take minutes.",
             show_default=False,
         ),
     ] = None,

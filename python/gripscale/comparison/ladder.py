@@ -14,8 +14,10 @@ import numpy as np
 
 from gripscale import checks
 from gripscale.chain.model import Chain
+from gripscale.comparison.lines import BlockOnLine, HalfSpaceOnLine
 from gripscale.comparison.rung import Draw, Rung, Subject
-from gripscale.rough import random_phases, surface_of_sines
+from gripscale.model import Model
+from gripscale.rough import random_phases, spread_windows, surface_of_sines
 from gripscale.rough.model import DirectContact
 from gripscale.surface import PreparedSurface, Profile, SineStack
 from gripscale.surface.isotropy import areal_spectrum
@@ -28,19 +30,28 @@ from gripscale.theory.models import Persson
 DIRECT = "direct"
 """The rung the chain is judged by, and the best estimate starts from."""
 
+ALL = "all"
+"""Word for all rungs."""
+
 LENGTH_OF_SINES = 10
 """Period of a surface of sines over its largest wave."""
 
+WINDOW, WAVES_IN_WINDOW, WINDOWS = 1.1, 24, 8
+"""Windows of a profile in the block: length over the largest sine wave, length over the smallest
+wave that is kept, and how many at most."""
+
 
 def chosen(names: Iterable[str]) -> list[Rung]:
-    """Return the rungs of the given names and groups, in the order of the ladder; all for none.
+    """Return the rungs of the given names and groups, or `ALL`, in the order of the ladder.
 
-    Raises `InputError` for a name that is neither.
+    Without any name those that are solved by default. Raises `InputError` for an unknown one.
     """
     wanted = set(names)
-    known = dict.fromkeys([*(rung.group for rung in LADDER), *(rung.name for rung in LADDER)])
-    checks.known("rung", sorted(wanted), known)
-    return [rung for rung in LADDER if not wanted or wanted & {rung.name, rung.group}]
+    if not wanted:
+        return [rung for rung in LADDER if rung.by_default]
+    groups = dict.fromkeys(rung.group for rung in LADDER)
+    checks.known("rung", sorted(wanted), [ALL, *groups, *(rung.name for rung in LADDER)])
+    return [rung for rung in LADDER if wanted & {ALL, rung.name, rung.group}]
 
 
 def each_profile(surface: PreparedSurface) -> list[tuple[str, PreparedSurface]]:
@@ -106,6 +117,31 @@ def _klueppel_heinrich(subject: Subject) -> Sequence[Draw]:
     return [Draw(theory, one, name) for name, one in each_profile(subject.surface)]
 
 
+def _windows_half_plane(subject: Subject) -> Sequence[Draw]:
+    return _on_windows(subject, HalfSpaceOnLine(tolerance=subject.tolerance))
+
+
+def _windows_finite_strain(subject: Subject) -> Sequence[Draw]:
+    return _on_windows(subject, BlockOnLine())
+
+
+def _on_windows(subject: Subject, model: Model) -> Sequence[Draw]:
+    measured, sines = subject.surface.measured, subject.surface.sines
+    lines = () if measured is None else tuple(measured.cleaned)
+    length = WINDOW * float(sines.wavelength[0])
+    return [
+        Draw(model, only(subject.surface, line), f"{line.name} from {line.x[0]:.4g} m")
+        for line in _windows(lines, length)
+    ]
+
+
+@lru_cache(maxsize=4)
+def _windows(lines: tuple[Profile, ...], length: float) -> list[Profile]:
+    """Return windows of the profiles that are long enough for one."""
+    enough = [line for line in lines if line.length > length]
+    return spread_windows(enough, length, WINDOWS, length / WAVES_IN_WINDOW) if enough else []
+
+
 @lru_cache(maxsize=16)
 def _of_sines(sines: SineStack, seed: int) -> Profile:
     return surface_of_sines(sines, LENGTH_OF_SINES * float(sines.wavelength[0]), seed)
@@ -158,5 +194,23 @@ LADDER: tuple[Rung, ...] = (
     ),
     Rung("persson", "Persson, isotropic surface", "theory", "", DIRECT, _persson),
     Rung("klueppel_heinrich", "Klüppel & Heinrich", "theory", "", DIRECT, _klueppel_heinrich),
+    Rung(
+        "windows_half_plane",
+        "windows of it, small strain",
+        "windows",
+        "",
+        "",
+        _windows_half_plane,
+        by_default=False,
+    ),
+    Rung(
+        "windows_finite_strain",
+        "windows of it, finite strain",
+        "windows",
+        "finite strain",
+        "windows_half_plane",
+        _windows_finite_strain,
+        by_default=False,
+    ),
 )
 """All rungs, in order; a new one is added here."""

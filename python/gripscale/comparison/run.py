@@ -67,7 +67,8 @@ def compare_case(
     tolerance : float
         Estimated relative error of each direct contact.
     rungs : sequence of str
-        Names and groups of the rungs wanted, see `LADDER`; all by default.
+        Names and groups of the rungs wanted, see `LADDER`, or "all"; by default all but the
+        windows, which take minutes.
     measured : MeasuredFriction, optional
         Friction measured elsewhere; what `[compare] measured` of the case names by default.
     factors : sequence of Factor

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from gripscale.figures.ladder_rows import BEST, Row, rows_of
 from gripscale.figures.palette import BLUE, FAINT, GREY, ORANGE, WIDE
-from gripscale.figures.rungs import JUDGE
+from gripscale.figures.rungs import JUDGE, on_the_surface
 from gripscale.figures.style import log_axis, sheet, styled
 
 HALF = 0.27
@@ -52,7 +52,7 @@ def comparison_figure(comparison: xr.Dataset) -> Figure:
 def _borders(comparison: xr.Dataset) -> list[float]:
     """Return where the ladder, the theories and the best estimate part."""
     theories = int((comparison.group == "theory").sum())
-    rungs = comparison.sizes["rung"]
+    rungs = on_the_surface(comparison).sizes["rung"]
     return [rungs - theories - 0.5, rungs - 0.5] if theories else [rungs - 0.5]
 
 

@@ -9,7 +9,7 @@ import xarray as xr
 from gripscale.figures.comparison import comparison_figure
 from gripscale.figures.comparison_axis import comparison_axis_figure
 from gripscale.figures.comparison_wavelength import comparison_wavelength_figure
-from gripscale.figures.rungs import varied, worth_drawing
+from gripscale.figures.rungs import on_the_surface, varied, worth_drawing
 from gripscale.figures.style import save_figure
 
 
@@ -20,5 +20,5 @@ def draw(comparison: xr.Dataset, folder: Path) -> None:
         save_figure(comparison_axis_figure(comparison), folder, f"over_{axis}")
         return
     save_figure(comparison_figure(comparison), folder, "comparison")
-    if worth_drawing(comparison).any():
+    if worth_drawing(on_the_surface(comparison)).any():
         save_figure(comparison_wavelength_figure(comparison), folder, "by_wavelength")

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from gripscale.figures.measured import COLOUR, measured
 from gripscale.figures.palette import INK, WIDE
-from gripscale.figures.rungs import JUDGE, Look, looks, varied
+from gripscale.figures.rungs import JUDGE, Look, looks, on_the_surface, varied
 from gripscale.figures.study_axes import along
 from gripscale.figures.style import area_axis, sheet, styled
 
@@ -30,6 +30,7 @@ def comparison_axis_figure(comparison: xr.Dataset) -> Figure:
     with its own.
     """
     axis = varied(comparison)
+    comparison = on_the_surface(comparison)
     figure, panels = sheet(WIDE, 3.7, 1, 2, gap=0.06)
     area, friction = panels[0]
     for axes, name in ((area, "contact_fraction"), (friction, "friction")):

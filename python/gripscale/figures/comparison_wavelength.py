@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from gripscale.figures.palette import MILLI, WIDE
-from gripscale.figures.rungs import JUDGE, Look, looks, worth_drawing
+from gripscale.figures.rungs import JUDGE, Look, looks, on_the_surface, worth_drawing
 from gripscale.figures.style import area_axis, falling_wavelength, sheet, styled
 
 
@@ -21,6 +21,7 @@ def comparison_wavelength_figure(comparison: xr.Dataset) -> Figure:
     Friction of the direct contacts goes on below the smallest wave of the surface: the edges of the
     contact do that. Their area is that of the contact without the shorter waves.
     """
+    comparison = on_the_surface(comparison)
     figure, panels = sheet(WIDE, 3.5, 1, 2, gap=0.06)
     area, friction = panels[0]
     keep = worth_drawing(comparison)

@@ -11,7 +11,7 @@ import xarray as xr
 
 from gripscale.figures.measured import COLOUR, measured
 from gripscale.figures.palette import GREY, INK, ORANGE
-from gripscale.figures.rungs import JUDGE, flawed
+from gripscale.figures.rungs import JUDGE, flawed, on_the_surface
 
 BEST = "best estimate"
 
@@ -42,6 +42,7 @@ class Row:
 
 def rows_of(comparison: xr.Dataset, name: str) -> Iterator[Row]:
     """Yield the lines of one panel; both panels have the same."""
+    comparison = on_the_surface(comparison)
     values = dict(
         zip(comparison.rung.values, comparison[f"total_{name}"].values.tolist(), strict=True)
     )

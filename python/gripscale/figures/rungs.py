@@ -15,6 +15,8 @@ from gripscale.figures.palette import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, SK
 
 JUDGE = "direct"
 """The rung the others are judged by."""
+ASIDE = ("windows", "map")
+"""Groups of other surfaces, which only give the factors of the best estimate."""
 SEEN = 0.01
 """Share of friction or area from which on a wavelength is drawn: longer waves do nothing."""
 
@@ -71,3 +73,8 @@ def worth_drawing(comparison: xr.Dataset) -> NDArray[np.bool_]:
     friction, area = comparison.running_friction, comparison.running_contact_fraction
     begun = np.abs(friction) > SEEN * np.abs(friction).max("wavelength")
     return np.asarray((begun | (area < 1.0 - SEEN)).any("rung").values)
+
+
+def on_the_surface(comparison: xr.Dataset) -> xr.Dataset:
+    """Return the comparison without the rungs that are not of the surface itself."""
+    return comparison.isel(rung=[str(group) not in ASIDE for group in comparison.group.values])

@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from gripscale.comparison import SolvedRung
 
 SYMBOLS = {"contact_fraction": "A_r/A_0", "friction": "μ"}
-LABEL = 28
-"""Characters of the longest label of the ladder."""
+LABEL = 20
+"""Characters of a label before it is folded where the table would be too wide."""
 TINY = 0.05
 """Per cent below which a spread or an error is as good as none."""
 EXTRAPOLATED = 0.01

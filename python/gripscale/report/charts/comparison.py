@@ -12,7 +12,7 @@ from bokeh.models import ColumnDataSource, FixedTicker
 from gripscale.figures.ladder_rows import Row, rows_of
 from gripscale.figures.measured import COLOUR, measured
 from gripscale.figures.palette import BLUE, MILLI, ORANGE
-from gripscale.figures.rungs import JUDGE, Look, looks, varied, worth_drawing
+from gripscale.figures.rungs import JUDGE, Look, looks, on_the_surface, varied, worth_drawing
 from gripscale.report.charts.look import hover, legend, plot, positive, tick_closely, whole_decades
 from gripscale.report.elements import Chart
 from gripscale.study.display import LABELS
@@ -24,6 +24,7 @@ ROW = 44
 
 def ladder_charts(comparison: xr.Dataset) -> list[Chart]:
     """Return the steps from rung to rung, and the rungs down to each wavelength."""
+    comparison = on_the_surface(comparison)
     charts = [_ladder(comparison, name) for name in QUANTITIES]
     if np.isfinite(comparison.running_friction.values).any():
         charts += [_by_wavelength(comparison, name) for name in QUANTITIES]
@@ -32,7 +33,8 @@ def ladder_charts(comparison: xr.Dataset) -> list[Chart]:
 
 def axis_charts(comparison: xr.Dataset) -> list[Chart]:
     """Return area and friction of every rung over the axis of a comparison."""
-    return [_over(comparison, varied(comparison), name) for name in QUANTITIES]
+    own = on_the_surface(comparison)
+    return [_over(own, varied(own), name) for name in QUANTITIES]
 
 
 def _ladder(comparison: xr.Dataset, name: str) -> Chart:
