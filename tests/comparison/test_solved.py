@@ -39,6 +39,16 @@ def test_uncertainty_is_scatter_and_estimated_error(solved: Make) -> None:
     assert math.isnan(solved("a", (0.02, 0.3)).uncertain("friction").uncertainty)
 
 
+def test_seeds_of_one_profile_tell_nothing_of_another(solved: Make) -> None:
+    drawn = [(0.02, 0.30 + 0.001 * seed, "first") for seed in range(10)]
+    drawn += [(0.02, 0.50 + 0.001 * seed, "second") for seed in range(10)]
+    found = solved("a", *drawn).uncertain("friction")
+    assert found.value == pytest.approx(0.4045)
+    assert found.uncertainty == pytest.approx(0.1 / 0.4045)
+    alone = solved("a", *((area, mu, "") for area, mu, _ in drawn)).uncertain("friction")
+    assert alone.uncertainty < 0.06
+
+
 def test_pairs_are_compared_with_their_like(solved: Make) -> None:
     """Windows differ by a factor of four among themselves, and by 2 % between two models."""
     areas = np.array([0.02, 0.04, 0.08])
@@ -56,3 +66,4 @@ def test_pair_with_a_failed_half_is_left_out_of_both(solved: Make) -> None:
     own = solved("own", (0.022, 0.3, "1"), failed("2"))
     its = solved("its", (0.020, 0.3, "1"), (0.080, 0.3, "2"))
     assert own.over(its, "contact_fraction").value == pytest.approx(1.1)
+    assert its.over(own, "contact_fraction").value == pytest.approx(1.0 / 1.1)

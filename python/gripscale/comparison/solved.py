@@ -67,8 +67,13 @@ class SolvedRung:
         return np.array([getattr(sample, name) for sample in self.converged], dtype=float)
 
     def uncertain(self, name: str) -> Uncertain:
-        """Return the mean with its uncertainty: scatter of the samples and estimated errors."""
-        return Uncertain(self.mean(name), together([of_mean(self.values(name)), self._error(name)]))
+        """Return the mean with its uncertainty: scatter of the samples and estimated errors.
+
+        Of several things sampled (profiles) the scatter is that of their means: what is drawn of
+        one of them again and again tells nothing of the others.
+        """
+        scatter = of_mean(self._independent(name))
+        return Uncertain(self.mean(name), together([scatter, self._error(name)]))
 
     def over(self, other: SolvedRung, name: str) -> Uncertain:
         """Return the factor from `other` to this rung.
@@ -94,6 +99,14 @@ class SolvedRung:
         """Return whether both rungs have one sample each of the same two things or more."""
         own, its = ([sample.of for sample in one.samples] for one in (self, other))
         return len(own) > 1 and own == its and len(set(own)) == len(own)
+
+    def _independent(self, name: str) -> NDArray[np.float64]:
+        """Return the mean of each thing sampled, or the samples of a single one."""
+        things = dict.fromkeys(sample.of for sample in self.converged)
+        if len(things) < 2:
+            return self.values(name)
+        each = ([s for s in self.converged if s.of == thing] for thing in things)
+        return np.array([np.mean([getattr(s, name) for s in group]) for group in each])
 
     def _error(self, name: str) -> float:
         """Return the mean error of the samples as their models estimate it, relative."""

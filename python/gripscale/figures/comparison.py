@@ -16,6 +16,8 @@ from gripscale.figures.palette import BLUE, FAINT, GREY, ORANGE, WIDE
 from gripscale.figures.rungs import JUDGE, on_the_surface
 from gripscale.figures.style import log_axis, sheet, styled
 
+LEAST_RANGE = 3.0
+"""Largest over smallest number of an axis, at least: less has no numbers of a log axis in it."""
 HALF = 0.27
 """Half the height of a bar, in rows."""
 
@@ -74,7 +76,9 @@ def _draw(axes: Axes, rows: list[Row]) -> None:
     ]
     axes.set_xscale("log")
     low, high = (min(shown), max(shown)) if shown else (0.1, 1.0)
-    room = max(high / low, 2.0) ** 0.13
+    widen = max(LEAST_RANGE * low / high, 1.0) ** 0.5
+    low, high = low / widen, high * widen
+    room = (high / low) ** 0.13
     axes.set_xlim(low / room, high * room**2.0)
     log_axis(axes, "x", _steps(high / low * room**2))
     axes.grid(False, axis="y")
