@@ -14,6 +14,7 @@ from gripscale import netcdf
 from gripscale.case import prepare_case
 from gripscale.comparison import Comparison, Sample, SolvedRung, compare_case, judged
 from gripscale.figures.comparison import comparison_figure
+from gripscale.figures.comparison_axis import comparison_axis_figure
 from gripscale.report.comparison_table import comparison_table, judgement, remarks
 from gripscale.report.tables import as_text
 
@@ -121,7 +122,13 @@ def test_over_speed_is_each_speed_alone_and_is_not_solved_twice(
     assert data.total_friction.dims == ("speed", "rung")
     alone = compare_case(inputs / "case.toml", rungs=["direct"]).by_name["direct"]
     assert data.total_friction.sel(speed=0.3, rung="direct") == alone.mean("friction")
-    (next((tmp_path / "out" / "predictions").iterdir())).unlink()
+    friction = comparison_axis_figure(data).axes[1]
+    lines = [line.get_ydata() for line in friction.lines if len(line.get_ydata()) == 2]
+    for rung in data.rung.values:
+        drawn = data.total_friction.sel(rung=rung).values
+        assert any(np.array_equal(line, drawn) for line in lines), rung
+    assert any(np.array_equal(line, data.measured_friction) for line in lines)
+    next((tmp_path / "out" / "predictions").iterdir()).unlink()
     again = shell(*command)
     assert again.stdout.count("already solved") == 5
     assert (

@@ -17,7 +17,7 @@ from gripscale.chain.model import Chain
 from gripscale.comparison.lines import BlockOnLine, HalfSpaceOnLine
 from gripscale.comparison.rung import Draw, Rung, Subject
 from gripscale.model import Model
-from gripscale.rough import random_phases, spread_windows, surface_of_sines
+from gripscale.rough import random_phases, surface_of_sines
 from gripscale.rough.model import DirectContact
 from gripscale.surface import PreparedSurface, Profile, SineStack
 from gripscale.surface.isotropy import areal_spectrum
@@ -138,6 +138,8 @@ def _on_windows(subject: Subject, model: Model) -> Sequence[Draw]:
 @lru_cache(maxsize=4)
 def _windows(lines: tuple[Profile, ...], length: float) -> list[Profile]:
     """Return windows of the profiles that are long enough for one."""
+    from gripscale.rough import spread_windows  # scipy.stats with it: 0.3 s, which no run pays
+
     enough = [line for line in lines if line.length > length]
     return spread_windows(enough, length, WINDOWS, length / WAVES_IN_WINDOW) if enough else []
 

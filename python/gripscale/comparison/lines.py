@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from gripscale import model
 from gripscale.errors import InputError
-from gripscale.rough.finite_strain import MOST_MISMATCH
 from gripscale.rough.solve import solve_rough_contact
 from gripscale.surface import Measured, PreparedSurface, Profile
 from gripscale.wave.profile import solve_profile
@@ -116,6 +115,8 @@ class HalfSpaceOnLine:
 
 
 def _status(result: WaveResult) -> str:
+    from gripscale.rough.finite_strain import MOST_MISMATCH
+
     if not result.converged:
         return result.why
     if result.friction_mismatch > MOST_MISMATCH:
