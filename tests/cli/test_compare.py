@@ -23,6 +23,13 @@ FORMATS = ("png", "pdf")
 RUNGS = ["chain_half_plane", "sines", "random_phases", "direct", "persson"]
 
 
+WAVES_BY_HAND = (
+    '[[surface.sines]]\nwavelength = "10 mm"\namplitude = "0.4 mm"\n'
+    '[[surface.sines]]\nwavelength = "2 mm"\namplitude = "0.05 mm"\n'
+    '[rubber]\nname = "styrene_butadiene"\n'
+    '[load]\npressure = "3 bar"\nspeed = 0.3\nfootprint = "100 mm"\n'
+    '[solver]\nmodel = "half_plane"\npoints = 64\n'
+)
 MEASURED = "speed [mm/s],friction,spread\n100,0.31,0.02\n1000,0.42,0.02\n"
 
 
@@ -142,6 +149,7 @@ def test_over_speed_is_each_speed_alone_and_is_not_solved_twice(
     ("option", "value", "sentence"),
     [
         ("--vary", "rubber=case", "a comparison varies one of speed, pressure"),
+        ("--vary", "speed=0.3", "speed must have at least two values; got 0.3"),
         ("--rungs", "persion", "unknown rung persion; did you mean persson?"),
         ("--seeds", "0", "seeds must be a whole number from 1 to 1000; got 0"),
         ("--measured", "none.csv", "none.csv: cannot be read (no such file)"),
@@ -185,16 +193,20 @@ def test_case_names_its_measurement_and_the_fits_of_a_theory(changed: Callable[.
 
 def test_waves_by_hand_have_no_profile_to_judge_by(tmp_path: Path) -> None:
     case = tmp_path / "case.toml"
-    case.write_text(
-        '[[surface.sines]]\nwavelength = "10 mm"\namplitude = "0.4 mm"\n'
-        '[[surface.sines]]\nwavelength = "2 mm"\namplitude = "0.05 mm"\n'
-        '[rubber]\nname = "styrene_butadiene"\n'
-        '[load]\npressure = "3 bar"\nspeed = 0.3\nfootprint = "100 mm"\n'
-        '[solver]\nmodel = "half_plane"\npoints = 64\n'
-    )
+    case.write_text(WAVES_BY_HAND)
     results = prepare_case(case)
     assert judged(results) is None
     assert list(compare_case(results, seeds=1).by_name) == RUNGS[:2]
+
+
+def test_nothing_rubs_at_rest(tmp_path: Path) -> None:
+    case = tmp_path / "case.toml"
+    case.write_text(WAVES_BY_HAND.replace("speed = 0.3", "speed = 0.0"))
+    data = compare_case(case, seeds=2).to_dataset()
+    assert (data.total_friction == 0.0).all()
+    assert np.isnan(data.friction_uncertainty).all()
+    assert (data.total_contact_fraction > 0.0).all()
+    assert len(comparison_figure(data).axes) == 2
 
 
 def test_rung_that_failed_is_open_and_says_why(inputs: Path) -> None:

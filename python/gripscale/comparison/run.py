@@ -132,6 +132,8 @@ def compare_over(
         raise InputError(
             f"a comparison varies one of speed, pressure, smallest_wavelength, waves; got {names}"
         )
+    if len(axis.values) < 2:
+        raise InputError(f"{axis.name} must have at least two values; got {axis.labels[0]}")
     choice = Choice(seeds, tolerance, rungs, measured, factors)
     tasks = {point.label: point.task for point in study.points}
     with _store(folder) as store:

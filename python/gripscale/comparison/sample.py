@@ -44,14 +44,21 @@ class Sample:
 
 
 def sample_of(answer: xr.Dataset, rubber: Rubber, of: str = "") -> Sample:
-    """Return the sample in the `answer` of a model for `rubber`."""
+    """Return the sample in the `answer` of a model for `rubber`.
+
+    At rest there is no friction: what rounding leaves of it becomes zero.
+    """
     curve = curve_of(answer)
+    rest = float(answer["nominal_speed"]) == 0.0
+    totals = {name: float(answer[f"total_{name}"]) for name in QUANTITIES}
+    if rest:
+        totals |= {name: 0.0 * value for name, value in totals.items() if "friction" in name}
     return Sample(
-        **{name: float(answer[f"total_{name}"]) for name in QUANTITIES},
+        **totals,
         status=str(answer["prediction_status"].item()),
         of=of,
         contact_fraction_error=_error(answer, "contact_fraction"),
-        friction_error=_error(answer, "friction"),
+        friction_error=math.nan if rest else _error(answer, "friction"),
         extrapolated=_extrapolated(answer, rubber, curve),
         curve=curve,
         seconds=float(answer.attrs.get("seconds", 0.0)),

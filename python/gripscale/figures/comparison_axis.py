@@ -43,7 +43,7 @@ def comparison_axis_figure(comparison: xr.Dataset) -> Figure:
     area_axis(area)
     area.set_ylabel("contact area $A_r/A_0$ [-]")
     friction.set_ylabel("friction coefficient $\\mu$ [-]")
-    friction.set_ylim(bottom=0.0)
+    friction.set_ylim(bottom=min(0.0, float(comparison.total_friction.min())))
     handles, labels = friction.get_legend_handles_labels()
     place: Any = "outside upper center"
     figure.legend(handles, labels, loc=place, ncols=3)

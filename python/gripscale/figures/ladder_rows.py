@@ -60,7 +60,7 @@ def rows_of(comparison: xr.Dataset, name: str) -> Iterator[Row]:
             marker="D" if judge else "s" if theory else "o",
             colour=GREY if theory else ORANGE if judge else INK,
             filled=not bad,
-            note="" if math.isfinite(values[rung]) else "says nothing" if theory else "failed",
+            note="failed" if math.isnan(values[rung]) and not theory else "none",
         )
     yield from _best(comparison, name, values.get(JUDGE, math.nan))
     yield from _measured(comparison, name)
