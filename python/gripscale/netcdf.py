@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from gripscale.errors import FileError
+from gripscale.interrupts import held_back
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -31,7 +32,8 @@ def save(
         else:
             data.to_netcdf(temporary, engine=ENGINE)
 
-    return write_whole(path, write)
+    with held_back():
+        return write_whole(path, write)
 
 
 def load(path: str | Path) -> xr.Dataset:
@@ -43,7 +45,8 @@ def load(path: str | Path) -> xr.Dataset:
 
     place = _there(path)
     try:
-        return xr.load_dataset(place, engine=ENGINE)
+        with held_back():
+            return xr.load_dataset(place, engine=ENGINE)
     except (OSError, ValueError, KeyError, RuntimeError) as error:
         raise FileError(f"{place} cannot be read as a netCDF result: {error}") from error
 
@@ -57,7 +60,7 @@ def load_tree(path: str | Path) -> xr.DataTree:
 
     place = _there(path)
     try:
-        with xr.open_datatree(place, engine=ENGINE) as tree:
+        with held_back(), xr.open_datatree(place, engine=ENGINE) as tree:
             return tree.load()
     except (OSError, ValueError, KeyError, RuntimeError) as error:
         raise FileError(f"{place} cannot be read as a netCDF result: {error}") from error

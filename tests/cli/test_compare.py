@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,37 +12,70 @@ from typer.testing import Result
 import gripscale as gs
 from gripscale import netcdf
 from gripscale.case import prepare_case
-from gripscale.case.compare import Rung, Sample, compare_case, judged
+from gripscale.comparison import Comparison, Sample, SolvedRung, compare_case, judged
 from gripscale.figures.comparison import comparison_figure
-from gripscale.report.comparison_table import judgement
+from gripscale.figures.comparison_axis import comparison_axis_figure
+from gripscale.report.comparison_table import comparison_table, judgement, remarks
+from gripscale.report.tables import as_text
 
 Shell = Callable[..., Result]
+FORMATS = ("png", "pdf")
 RUNGS = ["chain_half_plane", "sines", "random_phases", "direct", "persson"]
 
 
+WAVES_BY_HAND = (
+    '[[surface.sines]]\nwavelength = "10 mm"\namplitude = "0.4 mm"\n'
+    '[[surface.sines]]\nwavelength = "2 mm"\namplitude = "0.05 mm"\n'
+    '[rubber]\nname = "styrene_butadiene"\n'
+    '[load]\npressure = "3 bar"\nspeed = 0.3\nfootprint = "100 mm"\n'
+    '[solver]\nmodel = "half_plane"\npoints = 64\n'
+)
+MEASURED = "speed [mm/s],friction,spread\n100,0.31,0.02\n1000,0.42,0.02\n"
+
+
 def test_command_puts_the_models_side_by_side(shell: Shell, inputs: Path, tmp_path: Path) -> None:
-    result = shell("compare", inputs / "case.toml", "--seeds", 2, "--output", tmp_path / "out")
+    (tmp_path / "mu.csv").write_text(MEASURED)
+    target = tmp_path / "out"
+    result = shell(
+        "compare", inputs / "case.toml", "--seeds", 2, "--output", target,
+        "--measured", tmp_path / "mu.csv",
+    )  # fmt: skip
     assert result.exit_code == 0, result.output
-    written = {path.name for path in (tmp_path / "out").iterdir()}
-    assert written == {
-        "comparison.nc",
-        "comparison.txt",
-        "comparison.png",
-        "comparison.pdf",
-    }
-    data = netcdf.load(tmp_path / "out" / "comparison.nc")
+    figures = {f"{name}.{kind}" for name in ("comparison", "by_wavelength") for kind in FORMATS}
+    written = {path.name for path in target.iterdir()}
+    assert written == {"comparison.nc", "comparison.txt", "predictions"} | figures
+    data = netcdf.load(target / "comparison.nc")
     assert data.rung.values.tolist() == RUNGS
     assert data.samples.values.tolist() == [1, 2, 2, 1, 1]
     assert (data.status == "converged").all()
     # A spread belongs to what was drawn more than once, and only to that.
     assert np.isfinite(data.friction_spread).values.tolist() == [False, True, True, False, False]
+    assert data.measured_speed.values.tolist() == [0.1, 1.0]
     for label in data.label.values:
         assert str(label) in result.stdout
+    assert "Not included, neither factor nor uncertainty: finite strain" in " ".join(
+        result.stdout.split()
+    )
+
+
+def test_factors_lead_from_the_chain_to_the_profile_as_measured(inputs: Path) -> None:
+    data = compare_case(inputs / "case.toml", seeds=1).to_dataset()
+    path = data.isel(rung=data.group.values != "theory")
+    for name in ("contact_fraction", "friction"):
+        ends = path[f"total_{name}"].values[[0, -1]]
+        assert np.nanprod(path[f"{name}_factor"]) == pytest.approx(ends[1] / ends[0])
+        # Down to the last wavelength everything is in: of the harmonics what the rubber loses,
+        # of the waves of the chain what the traction takes.
+        last = path[f"running_{name}"].isel(wavelength=-1).values
+        totals = path[f"total_{name}"].values
+        if name == "friction":
+            totals = np.append(totals[:1], path.total_friction_from_dissipation.values[1:])
+        assert last == pytest.approx(totals, rel=1e-9)
 
 
 def test_rungs_are_the_models_themselves(inputs: Path) -> None:
     results = prepare_case(inputs / "case.toml")
-    rungs = {rung.name: rung for rung in compare_case(results, seeds=1, tolerance=0.02).rungs}
+    rungs = compare_case(results, seeds=1, tolerance=0.02).by_name
     measured = results.surface.measured
     assert measured is not None
     load = {"pressure": 3e5, "speed": 0.3}
@@ -51,39 +83,151 @@ def test_rungs_are_the_models_themselves(inputs: Path) -> None:
     alone = gs.solve_rough_contact(
         results.rubber.rubber, measured.profiles[0][1], smallest_wavelength=smallest, **load
     )
-    assert rungs["direct"].mean("contact_fraction") == alone.contact_fraction
-    assert rungs["direct"].mean("friction") == alone.friction_from_dissipation
+    (direct,) = rungs["direct"].samples
+    for name in (
+        "contact_fraction",
+        "friction",
+        "friction_from_dissipation",
+        "contact_fraction_error",
+        "friction_error",
+    ):
+        assert getattr(direct, name) == getattr(alone, name), name
+    assert direct.curve is not None
+    octaves = alone.friction_by_wavelength
+    found = direct.curve.at("friction", octaves.wavelength.values)
+    assert found == pytest.approx(octaves.running_friction.values)
     chain = gs.predict(
-        results.rubber.rubber, results.surface.sines, footprint=0.1, solver="half_plane", **load
+        results.rubber.rubber,
+        results.surface.sines,
+        footprint=0.1,
+        solver="half_plane",
+        points=128,
+        **load,
     )
-    assert rungs["chain_half_plane"].mean("friction") == chain.friction_from_dissipation
+    assert rungs["chain_half_plane"].mean("friction") == chain.friction
     quick = judged(results)
     assert quick is not None
     # Estimated errors of 10 % and 2 %.
     assert quick.mean("friction") == pytest.approx(rungs["direct"].mean("friction"), rel=0.12)
 
 
+def test_over_speed_is_each_speed_alone_and_is_not_solved_twice(
+    shell: Shell, inputs: Path, tmp_path: Path
+) -> None:
+    (tmp_path / "mu.csv").write_text(MEASURED)
+    command = [
+        "compare", inputs / "case.toml", "--rungs", "chain_half_plane,direct,persson",
+        "--vary", "speed=0.03,0.3", "--output", tmp_path / "out", "--measured", tmp_path / "mu.csv",
+    ]  # fmt: skip
+    first = shell(*command)
+    assert first.exit_code == 0, first.output
+    written = {path.name for path in (tmp_path / "out").iterdir()}
+    assert written == {"over_speed.nc", "over_speed.txt", "predictions"} | {
+        f"over_speed.{kind}" for kind in FORMATS
+    }
+    data = netcdf.load(tmp_path / "out" / "over_speed.nc")
+    assert data.total_friction.dims == ("speed", "rung")
+    alone = compare_case(inputs / "case.toml", rungs=["direct"]).by_name["direct"]
+    assert data.total_friction.sel(speed=0.3, rung="direct") == alone.mean("friction")
+    friction = comparison_axis_figure(data).axes[1]
+    lines = [line.get_ydata() for line in friction.lines if len(line.get_ydata()) == 2]
+    for rung in data.rung.values:
+        drawn = data.total_friction.sel(rung=rung).values
+        assert any(np.array_equal(line, drawn) for line in lines), rung
+    assert any(np.array_equal(line, data.measured_friction) for line in lines)
+    next((tmp_path / "out" / "predictions").iterdir()).unlink()
+    again = shell(*command)
+    assert again.stdout.count("already solved") == 5
+    assert (
+        netcdf.load(tmp_path / "out" / "over_speed.nc")
+        .drop_vars("seconds")
+        .equals(data.drop_vars("seconds"))
+    )
+
+
+@pytest.mark.parametrize(
+    ("option", "value", "sentence"),
+    [
+        ("--vary", "rubber=case", "a comparison varies one of speed, pressure"),
+        ("--vary", "speed=0.3", "speed must have at least two values; got 0.3"),
+        ("--rungs", "persion", "unknown rung persion; did you mean persson?"),
+        ("--seeds", "0", "seeds must be a whole number from 1 to 1000; got 0"),
+        ("--measured", "none.csv", "none.csv: cannot be read (no such file)"),
+        ("--rungs", "klueppel_heinrich", "has anything to say of this case"),
+    ],
+)
+def test_what_cannot_be_compared_is_one_sentence(
+    shell: Shell, inputs: Path, tmp_path: Path, option: str, value: str, sentence: str
+) -> None:
+    result = shell("compare", inputs / "case.toml", "--output", tmp_path, option, value)
+    assert result.exit_code == 2
+    assert sentence in result.stderr
+    assert result.stderr.count("\n") == 1
+
+
+def test_case_names_its_measurement_and_the_fits_of_a_theory(changed: Callable[..., Path]) -> None:
+    case = changed(
+        "[output]",
+        '[compare]\nmeasured = "mu.csv"\nlayer_ratio = 2.0\npenetration_depth = "0.5 mm"\n[output]',
+    )
+    case.write_text(case.read_text().replace("scales = 3", "scales = 6"))  # below the cut-off
+    (case.parent / "mu.csv").write_text(MEASURED)
+    made = compare_case(case, rungs=["theory"])
+    assert made.measured is not None
+    assert [rung.name for rung in made.rungs] == ["persson", "klueppel_heinrich"]
+    theory = made.by_name["klueppel_heinrich"]
+    results = prepare_case(case)
+    assert results.surface.measured is not None
+    alone = gs.theory.klueppel_heinrich(
+        results.rubber.rubber,
+        results.surface.measured.cleaned,
+        pressure=3e5,
+        speed=0.3,
+        layer_ratio=2.0,
+        penetration_depth=0.5e-3,
+        smallest_wavelength=float(results.surface.sines.wavelength[-1]),
+    )
+    assert theory.mean("friction") == alone.friction
+    assert np.isnan(theory.mean("contact_fraction"))
+
+
 def test_waves_by_hand_have_no_profile_to_judge_by(tmp_path: Path) -> None:
     case = tmp_path / "case.toml"
-    case.write_text(
-        '[[surface.sines]]\nwavelength = "10 mm"\namplitude = "0.4 mm"\n'
-        '[[surface.sines]]\nwavelength = "2 mm"\namplitude = "0.05 mm"\n'
-        '[rubber]\nname = "styrene_butadiene"\n'
-        '[load]\npressure = "3 bar"\nspeed = 0.3\nfootprint = "100 mm"\n'
-        '[solver]\nmodel = "half_plane"\npoints = 64\n'
-    )
+    case.write_text(WAVES_BY_HAND)
     results = prepare_case(case)
     assert judged(results) is None
-    assert [rung.name for rung in compare_case(results, seeds=1).rungs] == RUNGS[:2]
+    assert list(compare_case(results, seeds=1).by_name) == RUNGS[:2]
 
 
-def test_rung_that_failed_is_empty_and_says_why(inputs: Path) -> None:
-    made = compare_case(prepare_case(inputs / "case.toml"), seeds=1)
-    failed = Rung("direct", "direct", [Sample(np.nan, np.nan, "tolerance not met")], 0.0)
-    data = replace(made, rungs=[made.rungs[0], failed]).to_dataset()
-    assert np.isnan(data.total_friction.values[1])
-    assert data.status.values.tolist() == ["converged", "tolerance not met"]
+def test_nothing_rubs_at_rest(tmp_path: Path) -> None:
+    case = tmp_path / "case.toml"
+    case.write_text(WAVES_BY_HAND.replace("speed = 0.3", "speed = 0.0"))
+    data = compare_case(case, seeds=2).to_dataset()
+    assert (data.total_friction == 0.0).all()
+    assert np.isnan(data.friction_uncertainty).all()
+    assert (data.total_contact_fraction > 0.0).all()
     assert len(comparison_figure(data).axes) == 2
+
+
+def test_rung_that_failed_is_open_and_says_why(inputs: Path) -> None:
+    made = compare_case(inputs / "case.toml", seeds=1, rungs=["chain_half_plane", "direct"])
+    chain, direct = made.rungs
+    bad = Sample(np.nan, np.nan, np.nan, "tolerance not met")
+    failed = SolvedRung(direct.rung, [*direct.samples, bad])
+    none = SolvedRung(chain.rung, [bad])
+    broken = Comparison(made.file, made.subject, [none, failed])
+    assert not broken.converged
+    data = broken.to_dataset()
+    assert np.isnan(data.total_friction.values[0])
+    assert data.total_friction.values[1] == direct.mean("friction")
+    told = "1 of 2 samples failed: tolerance not met"
+    assert data.status.values.tolist() == ["tolerance not met", told]
+    assert f"{direct.label}: {told}." in list(remarks(data))
+    assert "1/2" in as_text(comparison_table(data))
+    area = comparison_figure(data).axes[0]
+    faces = {line.get_marker(): line.get_markerfacecolor() for line in area.lines}
+    assert faces["D"] == "white"
+    assert "failed" in [text.get_text() for text in area.texts]
 
 
 def test_a_run_says_what_its_chain_is_worth(shell: Shell, inputs: Path, tmp_path: Path) -> None:

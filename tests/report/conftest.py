@@ -2,18 +2,32 @@
 
 from __future__ import annotations
 
+import math
 import shutil
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 import xarray as xr
 
 from gripscale import netcdf
-from gripscale.case import run_case
+from gripscale.case import prepare_case, run_case
+from gripscale.comparison import (
+    Comparison,
+    ComparisonOverAxis,
+    Factor,
+    MeasuredFriction,
+    Sample,
+    SolvedRung,
+    Uncertain,
+    compare_case,
+)
 from gripscale.model import TOTALS
 from gripscale.rubber import Rubber
+from gripscale.study.axes import axes_of
 
 CASE = """\
 # A small case <b>with</b> "marks" & signs
@@ -149,3 +163,38 @@ def study_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     )
     data["speed"].attrs |= {"units": "m/s", "long_name": "sliding speed"}
     return netcdf.save(data, tmp_path_factory.mktemp("study") / "study.nc")
+
+
+@pytest.fixture(scope="session")
+def compared(run_folder: Path) -> list[xr.Dataset]:
+    """A comparison of the run's case, alone and over two speeds; a sample of it failed."""
+    results = prepare_case(run_folder.parent / "case.toml")
+    measured = MeasuredFriction([0.1, 1.0], [0.3, 0.4], [0.02, 0.03], source="mu.csv")
+    options: dict[str, Any] = {"rungs": ["chain_half_plane", "direct", "persson"]}
+    made = compare_case(results, measured=measured, tolerance=0.2, **options)
+    chain, direct, persson = made.rungs
+    bad = Sample(math.nan, math.nan, math.nan, "tolerance not met", "<i>lane</i>")
+    failed = SolvedRung(direct.rung, [direct.samples[0], bad])
+    factors = [
+        Factor("finite_strain", "finite strain", Uncertain(1.02, 0.01), Uncertain(0.98, 0.1))
+    ]
+    alone, fast = (
+        Comparison(
+            made.file,
+            replace(made.subject, load=replace(made.subject.load, speed=speed)),
+            rungs,
+            measured,
+            factors,
+        )
+        for speed, rungs in ((0.3, made.rungs), (3.0, [chain, failed, persson]))
+    )
+    (axis,) = axes_of({"speed": [0.3, 3.0]})
+    return [alone.to_dataset(), ComparisonOverAxis(axis, [alone, fast]).to_dataset()]
+
+
+@pytest.fixture
+def compared_folder(compared: list[xr.Dataset], tmp_path: Path) -> Path:
+    """The folder of that comparison."""
+    for name, data in zip(("comparison", "over_speed"), compared, strict=True):
+        netcdf.save(data, tmp_path / f"{name}.nc")
+    return tmp_path

@@ -277,3 +277,17 @@ def test_study_is_drawn(browser: Any, study_file: Path, tmp_path: Path) -> None:
         assert seen.page.title() == "Study of <contact>"
         assert seen.said == []
         assert seen.asked == []
+
+
+def test_comparison_is_drawn(browser: Any, compared_folder: Path) -> None:
+    with visit(browser, write_report(compared_folder)) as seen:
+        drawn(seen)
+        assert check_figures(seen) == 6
+        assert seen.said == []
+        assert seen.asked == []
+
+
+def test_comparison_fits_a_narrow_window(browser: Any, compared_folder: Path) -> None:
+    with visit(browser, write_report(compared_folder), 420) as seen:
+        drawn(seen)
+        assert seen.page.evaluate("() => document.documentElement.scrollWidth") <= 420

@@ -73,7 +73,13 @@ def folder(tmp_path_factory):
     lines = [f"{f:.5e} {e.real:.6e} {e.imag:.6e}" for f, e in zip(frequency, modulus, strict=True)]
     (folder / "dma.txt").write_text("\n".join(["# frequency (Hz) E' (Pa) E'' (Pa)", *lines]))
     (folder / "case.toml").write_text(CASE)
-    for arguments in (["run"], ["study", "--vary", "speed=0.3,0.6", "--workers", "1"]):
+    (folder / "mu.csv").write_text("speed,friction\n0.1,0.3\n1,0.4\n")
+    for arguments in (
+        ["run"],
+        ["study", "--vary", "speed=0.3,0.6", "--workers", "1"],
+        ["compare", "--rungs", "chain_half_plane,direct", "--measured", str(folder / "mu.csv")],
+        ["compare", "--rungs", "chain_half_plane", "--vary", "speed=0.3,0.6"],
+    ):
         command = [arguments[0], str(folder / "case.toml"), *arguments[1:]]
         outcome = CliRunner().invoke(app, command)
         assert outcome.exit_code == 0, outcome.output
@@ -93,6 +99,16 @@ def test_the_variables_of_a_study_are_listed_with_their_units(folder):
     own = {name: unit for name, unit in study.items() if name not in {"speed", *known}}
     assert units("The file of a study") == own
     assert {name: known[name] for name in study if name in known}.items() <= study.items()
+
+
+def test_the_variables_of_a_comparison_are_listed_with_their_units(folder):
+    data = written(netcdf.load(folder / "comparison" / "comparison.nc"))
+    assert units("The files of a comparison") == {n: u for n, u in data.items() if n != "rung"}
+
+
+def test_the_figures_of_a_comparison_are_listed(folder):
+    drawn = {path.stem for path in (folder / "comparison").glob("*.png")}
+    assert set(first_cells("The figures of a comparison")) == drawn
 
 
 def test_the_figures_are_listed(folder):

@@ -1,5 +1,6 @@
 from . import folder as folder
 from .models import Case as Case
+from .models import Compare as Compare
 from .models import Load as Load
 from .models import Output as Output
 from .models import RubberSource as RubberSource

@@ -224,6 +224,23 @@ class Output(Table):
     folder: str = "results"
 
 
+class Compare(Table):
+    """What `gripscale compare` puts beside the models: measured friction, fits of a theory."""
+
+    measured: str | None = None
+    layer_ratio: float | None = Field(default=None, gt=0.0, allow_inf_nan=False)
+    penetration_depth: Length | None = None
+
+    @model_validator(mode="after")
+    def _both_or_none(self) -> Compare:
+        if (self.layer_ratio is None) != (self.penetration_depth is None):
+            raise ValueError(
+                "expected layer_ratio and penetration_depth together: Klueppel and Heinrich's "
+                "theory needs both"
+            )
+        return self
+
+
 class Case(Table):
     """A whole case file."""
 
@@ -232,6 +249,7 @@ class Case(Table):
     load: Load
     solver: Solver = Solver()
     output: Output = Output()
+    compare: Compare = Compare()
 
     @model_validator(mode="after")
     def _energy_of_the_model(self) -> Case:

@@ -10,6 +10,7 @@ from gripscale.case.prepare import PreparedRubber
 from gripscale.case.read import CaseFile
 from gripscale.chain.predict import ChainError
 from gripscale.chain.prediction import Prediction
+from gripscale.model import NominalLoad
 from gripscale.surface import PreparedSurface
 
 DYNAMIC, STATIC = "dynamic", "static"
@@ -37,6 +38,12 @@ class CaseResults:
     predictions: dict[str, Prediction] = field(default_factory=dict)
     failures: dict[str, ChainError] = field(default_factory=dict)
     folder: Path | None = None
+
+    @property
+    def load(self) -> NominalLoad:
+        """The load of the case, at its speed."""
+        load = self.file.case.load
+        return NominalLoad(load.pressure, load.speed, load.footprint, load.load_time)
 
     @property
     def dynamic(self) -> Prediction | None:

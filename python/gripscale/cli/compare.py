@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from gripscale.cli.options import Cluster, Workers
+from gripscale.cli.progress import teller
 from gripscale.cli.terminal import NOT_CONVERGED, command, complain, say, screen
 
 if TYPE_CHECKING:
-    from gripscale.case.compare import Rung
+    import xarray as xr
+    from rich.console import Console
+
+    from gripscale.comparison import Comparison, ComparisonOverAxis
+
+    Made = Comparison | ComparisonOverAxis
 
 
 @command
@@ -18,6 +26,32 @@ def compare(
     case: Annotated[
         Path, typer.Argument(help="The case file (TOML).", metavar="CASE.toml", readable=False)
     ],
+    vary: Annotated[
+        str | None,
+        typer.Option(
+            help="Compare over one input, as `gripscale study` varies it: speed=0.003:30:log9, "
+            "pressure='1 bar,3 bar', smallest_wavelength, waves.",
+            metavar="NAME=VALUES",
+            show_default=False,
+        ),
+    ] = None,
+    measured: Annotated[
+        Path | None,
+        typer.Option(
+            help="Measured friction to be drawn over the models: a table with columns speed and "
+            "friction, and if known spread and temperature.",
+            metavar="FILE.csv",
+            readable=False,
+        ),
+    ] = None,
+    rungs: Annotated[
+        str | None,
+        typer.Option(
+            help="Models wanted, by name or group (waves, measured, theory, windows), such as "
+            "'chain,measured', or 'all'; by default all but the windows, which take minutes.",
+            show_default=False,
+        ),
+    ] = None,
     output: Annotated[
         Path | None,
         typer.Option(
@@ -30,37 +64,79 @@ def compare(
     tolerance: Annotated[
         float, typer.Option(help="Estimated relative error of each direct contact.")
     ] = 0.05,
+    workers: Workers = None,
+    cluster: Cluster = None,
 ) -> None:
-    """Show what each assumption of the chain costs: table, figure and result file."""
-    from gripscale import checks, netcdf
-    from gripscale.case import folder, prepare_case, read_case
-    from gripscale.case.compare import compare_case
-    from gripscale.figures.comparison import comparison_figure
-    from gripscale.figures.style import save_figure
-    from gripscale.report import comparison_table, tables
+    """Show what each assumption of the chain costs; resumes where it was stopped."""
+    from gripscale.case import folder, read_case
+    from gripscale.comparison import compare_case, compare_over, read_measured_friction
+    from gripscale.study.axes import parse_vary
 
-    count = checks.whole("seeds", seeds, least=1, most=1000)
-    error = checks.positive("tolerance", tolerance)
+    axes = None if vary is None else dict([parse_vary(vary)])
     file = read_case(case)
     target = output or file.resolve(file.case.output.folder) / "comparison"
     folder.require_writable(target)
     console = screen()
     say(console, f"Comparison of models for {file.path}")
-
-    def tell(rung: Rung) -> None:
-        say(console, f"  {rung.label}: {rung.status}, {rung.seconds:.1f} s")
-
-    comparison = compare_case(prepare_case(file), seeds=count, tolerance=error, on_rung=tell)
     folder.make(target)
-    data = comparison.to_dataset()
-    netcdf.save(data, target / "comparison.nc")
-    table = comparison_table.comparison_table(comparison)
-    console.print()
-    console.print(table)
-    folder.write_text(target / "comparison.txt", tables.as_text(table))
-    save_figure(comparison_figure(data), target, "comparison")
-    say(console, f"Table, figure and result (comparison.nc) are in {target}")
-    failed = [rung for rung in comparison.rungs if rung.status != "converged"]
+    options: dict[str, Any] = {
+        "seeds": seeds,
+        "tolerance": tolerance,
+        "rungs": [] if rungs is None else [name.strip() for name in rungs.split(",")],
+        "measured": None if measured is None else read_measured_friction(measured),
+        "folder": target,
+        "workers": workers,
+        "client": cluster,
+        "on_task": teller(console),
+    }
+    made: Made = (
+        compare_case(file, **options) if axes is None else compare_over(file, axes, **options)
+    )
+    failed = _conclude(console, made.to_dataset(), target)
     if failed:
-        complain(f"{failed[0].label} did not converge: {failed[0].status}")
+        complain(f"{failed[0]}; {len(failed)} of the rungs have failed samples")
         raise typer.Exit(NOT_CONVERGED)
+
+
+def _conclude(console: Console, data: xr.Dataset, target: Path) -> list[str]:
+    """Print and keep tables, figures and the result; return what did not converge."""
+    from gripscale import netcdf
+    from gripscale.case import folder
+    from gripscale.figures.comparison_all import draw
+    from gripscale.figures.rungs import varied
+    from gripscale.report import tables
+    from gripscale.report.comparison_table import axis_table, comparison_table, remarks
+
+    axis = varied(data)
+    name = f"over_{axis}" if axis else "comparison"
+    netcdf.save(data, target / f"{name}.nc")
+    parts: list[Any]
+    if axis:
+        parts = [axis_table(data, axis, quantity) for quantity in ("contact_fraction", "friction")]
+    else:
+        parts = [comparison_table(data), *remarks(data)]
+    _print(console, parts)
+    folder.write_text(target / f"{name}.txt", tables.as_text(*parts))
+    draw(data, target)
+    console.print()
+    say(console, f"Tables, figures and result ({name}.nc) are in {target}")
+    return list(_failures(data, axis))
+
+
+def _print(console: Console, parts: Iterable[Any]) -> None:
+    for part in parts:
+        if isinstance(part, str):
+            say(console, part)
+        else:
+            console.print()
+            console.print(part)
+
+
+def _failures(data: xr.Dataset, axis: str) -> Iterable[str]:
+    """Yield a sentence on each rung with a sample that did not converge."""
+    places = [(None, data)] if not axis else [(v, data.sel({axis: v})) for v in data[axis].values]
+    for value, one in places:
+        for label, status in zip(one.label.values, one.status.values, strict=True):
+            if str(status) != "converged":
+                where = "" if value is None else f"{axis.replace('_', ' ')} {value:.4g}, "
+                yield f"{where}{label} did not converge: {status}"

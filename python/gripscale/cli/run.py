@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from gripscale.case import CaseResults, WaveSolved
-    from gripscale.case.compare import Rung
+    from gripscale.comparison import SolvedRung
 
 REPORT_WIDTH = 110
 
@@ -35,7 +35,7 @@ def run(
 ) -> None:
     """Predict contact area and friction of a case: tables, figures and result files."""
     from gripscale.case import folder, prepare_case, read_case, run_case
-    from gripscale.case.compare import judged
+    from gripscale.comparison import judged
     from gripscale.figures.beside import drawn_beside
 
     console = screen()
@@ -113,7 +113,7 @@ def _conclude(
     target: Path,
     opening: list[str],
     results: CaseResults,
-    direct: Rung | None,
+    direct: SolvedRung | None,
 ) -> None:
     """Print the tables and what the chain is worth, and write them down."""
     from gripscale.case import folder

@@ -4,19 +4,18 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from gripscale.cli.options import Cluster, Workers
+from gripscale.cli.progress import teller
 from gripscale.cli.terminal import NOT_CONVERGED, command, complain, say, screen
 from gripscale.errors import InputError
 
 if TYPE_CHECKING:
     import xarray as xr
     from rich.console import Console
-
-    from gripscale.study import Progress
 
 
 @command
@@ -73,27 +72,8 @@ def study(
         say(console, line)
     folder.make(target / "figures")
     folder.write_text(target / "case.toml", made.file.text)
-    result = made.run(target, workers=workers, client=cluster, on_task=_teller(console))
+    result = made.run(target, workers=workers, client=cluster, on_task=teller(console))
     _conclude(console, opening, result, target, drawn=known is not None)
-
-
-def _teller(console: Console) -> Any:
-    """Return what prints a line for each prediction."""
-
-    def tell(progress: Progress) -> None:
-        found = progress.result
-        width = len(str(progress.total))
-        text = f"[{progress.done:>{width}}/{progress.total}] {progress.label}: "
-        if found.prediction_status != "converged":
-            text += str(found.prediction_status.item())
-        else:
-            text += f"area {float(found.total_contact_fraction):.4g}"
-            if found.nominal_speed > 0.0:
-                text += f", friction {float(found.total_friction):.3f}"
-        how = "already solved" if progress.stored else f"{progress.seconds:.1f} s"
-        say(console, f"{text}, {how}")
-
-    return tell
 
 
 def _conclude(

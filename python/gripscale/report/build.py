@@ -18,9 +18,10 @@ from markupsafe import Markup
 
 from gripscale.errors import FileError
 from gripscale.netcdf import write_whole
+from gripscale.report.comparison_page import comparison_page
 from gripscale.report.elements import Page
 from gripscale.report.run_page import run_page
-from gripscale.report.source import Run, read_result
+from gripscale.report.source import Compared, Run, Study, read_result
 from gripscale.report.study_page import study_page
 
 REPORT = "report.html"
@@ -33,12 +34,18 @@ def build(result: Path, output: Path | None) -> Path:
         output = (result if result.is_dir() else result.parent) / REPORT
     if not output.parent.is_dir():
         raise FileError(f"{output} cannot be written: there is no folder {output.parent}")
-    text = render(run_page(source) if isinstance(source, Run) else study_page(source))
+    text = render(_page(source))
 
     def write(path: Path) -> None:
         path.write_text(text, encoding="utf-8")
 
     return write_whole(output, write)
+
+
+def _page(source: Run | Study | Compared) -> Page:
+    if isinstance(source, Run):
+        return run_page(source)
+    return study_page(source) if isinstance(source, Study) else comparison_page(source)
 
 
 def render(page: Page) -> str:

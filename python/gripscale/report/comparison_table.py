@@ -1,4 +1,4 @@
-"""Models side by side in text: a table of the rungs, and what the chain is worth by them."""
+"""Models side by side in text: the ladder, its best estimate, and what the chain is worth by it."""
 
 from __future__ import annotations
 
@@ -6,39 +6,124 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+import numpy as np
 from rich import box
 from rich.table import Table
 
+from gripscale.figures.rungs import JUDGE, flawed
 from gripscale.report.tables import significant
+from gripscale.study.display import LABELS
 
 if TYPE_CHECKING:
-    from gripscale.case.compare import Comparison, Rung
+    import xarray as xr
+
     from gripscale.chain.prediction import Prediction
+    from gripscale.comparison import SolvedRung
 
-NAMES = ("contact_fraction", "friction")
+SYMBOLS = {"contact_fraction": "A_r/A_0", "friction": "μ"}
+LABEL = 20
+"""Characters of a label before it is folded where the table would be too wide."""
+TINY = 0.05
+"""Per cent below which a spread or an error is as good as none."""
+EXTRAPOLATED = 0.01
+"""Share of the friction beyond the measured frequencies from which on a rung has a star."""
 
 
-def comparison_table(comparison: Comparison) -> Table:
-    """Return area and friction of each rung, with the spread over its samples."""
-    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
-    table.add_column("model", no_wrap=True)
-    for head in ("A_r/A_0", "spread", "μ", "spread", "samples", "s"):
+def comparison_table(comparison: xr.Dataset) -> Table:
+    """Return area and friction of each rung, with spread, error and the factor from the one before.
+
+    `comparison` has no axis but `rung`.
+    """
+    table = _empty()
+    table.add_column("model", overflow="fold", min_width=LABEL)
+    parts = ["spread\n%", "error\n%", "×"]
+    for head in ["A_r/A_0", *parts, "μ", "μ\ndiss.", *parts, "n"]:
         table.add_column(head, justify="right", no_wrap=True)
-    table.add_column("status", overflow="fold")
-    for rung in comparison.rungs:
-        numbers = [cell for name in NAMES for cell in _cells(rung, name)]
-        style = None if rung.status == "converged" else "bold red"
-        count, seconds = str(len(rung.samples)), f"{rung.seconds:.1f}"
-        table.add_row(rung.label, *numbers, count, seconds, rung.status, style=style)
+    for at, bad in enumerate(flawed(comparison)):
+        one = comparison.isel(rung=at)
+        label = str(one.label.item())
+        area, friction = (list(_cells(one, name)) for name in SYMBOLS)
+        lost = significant(float(one.total_friction_from_dissipation))
+        friction.insert(1, lost)
+        table.add_row(
+            f"{label} *" if float(one.extrapolated_share) > EXTRAPOLATED else label,
+            *area,
+            *friction,
+            samples_of(one),
+            style="bold red" if bad else "bold" if str(one.rung.item()) == JUDGE else None,
+        )
     return table
 
 
-def judgement(prediction: Prediction, direct: Rung) -> Iterator[str]:
+def axis_table(comparison: xr.Dataset, axis: str, name: str) -> Table:
+    """Return `contact_fraction` or `friction` of each rung over the axis that was varied."""
+    divisor, _, unit = LABELS[axis]
+    table = _empty()
+    table.add_column(f"{SYMBOLS[name]}\n{axis.replace('_', ' ')} [{unit}]", no_wrap=True)
+    for rung in comparison.rung.values:
+        table.add_column(str(rung).replace("_", "\n"), justify="right")
+    best = f"best_{name}"
+    estimated = bool(np.isfinite(comparison[f"{best}_factor"]).any())
+    if estimated:
+        table.add_column("best\nestimate", justify="right")
+    for at, value in enumerate(comparison[axis].values / divisor):
+        one = comparison.isel({axis: at})
+        marks = ["!" if bad else "" for bad in flawed(one)]
+        cells = [
+            f"{significant(float(number))}{mark}"
+            for number, mark in zip(one[f"total_{name}"].values, marks, strict=True)
+        ]
+        last = [_with_uncertainty(one, name)] if estimated else []
+        table.add_row(f"{value:.3g}", *cells, *last, style="bold red" if any(marks) else None)
+    return table
+
+
+def remarks(comparison: xr.Dataset) -> Iterator[str]:
+    """Yield what a table of one load cannot say: failures, extrapolation, the best estimate."""
+    for at, bad in enumerate(flawed(comparison)):
+        one = comparison.isel(rung=at)
+        if bad:
+            yield f"{one.label.item()}: {one.status.item()}."
+        share = float(one.extrapolated_share)
+        if share > EXTRAPOLATED:
+            yield (
+                f"* {one.label.item()}: {share:.0%} of the friction is at frequencies beyond "
+                "the measured."
+            )
+    if "best_friction" in comparison and np.isfinite(comparison.best_friction):
+        yield best_sentence(comparison)
+
+
+def best_sentence(comparison: xr.Dataset) -> str:
+    """Return the best estimate in words: what it is, what is in it and what is not."""
+    numbers = ", ".join(
+        f"{symbol} = {_with_uncertainty(comparison, name)}" for name, symbol in SYMBOLS.items()
+    )
+    parts, missing = ["profile as measured, at once"], []
+    for at, label in enumerate(str(one) for one in comparison.factor_label.values):
+        factors = [float(comparison[f"best_{name}_factor"][at]) for name in SYMBOLS]
+        if all(map(math.isfinite, factors)):
+            parts.append(f"{label} ({' and '.join(significant(one) for one in factors)})")
+        else:
+            missing.append(label)
+    text = f"Best estimate: {numbers}, from {' × '.join(parts)}."
+    if missing:
+        text += f" Not included, neither factor nor uncertainty: {'; '.join(missing)}."
+    return text
+
+
+def samples_of(one: xr.Dataset) -> str:
+    """Return how many samples a rung has, and how many of them converged if not all."""
+    whole, good = int(one.samples), int(one.converged_samples)
+    return str(whole) if good == whole else f"{good}/{whole}"
+
+
+def judgement(prediction: Prediction, direct: SolvedRung) -> Iterator[str]:
     """Yield what the direct contact of the measured profiles says, and the chain beside it."""
-    if direct.status != "converged":
+    if len(direct.converged) < len(direct.samples):
         yield f"The direct contact of the measured profiles gives no judgement: {direct.status}."
         return
-    area, friction = (direct.mean(name) for name in NAMES)
+    area, friction = (direct.mean(name) for name in SYMBOLS)
     words = f"A_r/A_0 = {significant(area)}"
     if prediction.load.speed > 0.0:
         words += f", mu = {significant(friction)}"
@@ -51,7 +136,21 @@ def judgement(prediction: Prediction, direct: Rung) -> Iterator[str]:
     yield f"The chain has {against}; `gripscale compare` shows which assumption costs what."
 
 
-def _cells(rung: Rung, name: str) -> Iterator[str]:
-    spread = rung.spread(name)
-    yield significant(rung.mean(name))
-    yield "-" if math.isnan(spread) else significant(spread, 2)
+def _empty() -> Table:
+    return Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
+
+
+def _cells(one: xr.Dataset, name: str) -> Iterator[str]:
+    """Yield number, spread and error in per cent, and the factor from the rung it follows."""
+    value = float(one[f"total_{name}"])
+    yield significant(value)
+    for part in ("spread", "error"):
+        share = 100.0 * float(one[f"{name}_{part}"]) / value if value else math.nan
+        yield "0" if share < TINY else significant(share, 2)
+    yield significant(float(one[f"{name}_factor"]))
+
+
+def _with_uncertainty(one: xr.Dataset, name: str) -> str:
+    value, sigma = float(one[f"best_{name}"]), float(one[f"best_{name}_uncertainty"])
+    known = f" ± {100.0 * sigma:.2g} %" if math.isfinite(sigma) else ""
+    return f"{significant(value)}{known}"

@@ -11,6 +11,7 @@ from gripscale.report.charts.contact import contact_charts
 from gripscale.report.charts.rubber import rubber_charts
 from gripscale.report.charts.surface import correlation_charts, profile_charts
 from gripscale.report.charts.verification import verification_charts
+from gripscale.report.comparison_chapter import STALE, comparison_elements
 from gripscale.report.elements import Code, Element, Facts, Notice, Page, Section, Table, Text
 from gripscale.report.equations import equations
 from gripscale.report.notices import cards, notices
@@ -41,6 +42,7 @@ def run_page(run: Run) -> Page:
         Section("rubber", "Rubber", _rubber(run)),
         Section("results", "Contact and friction, wave by wave", _results(run, tables)),
         Section("blocks", "Deformed blocks", _blocks(run)),
+        Section("comparison", "Models side by side", _comparison(run)),
         Section("verification", "Verification", _verification(run, tables)),
         Section("method", "Method", method_elements()),
         Section(
@@ -106,6 +108,13 @@ def _blocks(run: Run) -> list[Element]:
     if not drawn:
         return [Text("The result holds no deformed meshes.")]
     return [blocks_image(one) for one in drawn]
+
+
+def _comparison(run: Run) -> list[Element]:
+    """Return the comparison of just this case; another's is named and left out."""
+    own = run.compared.of(run.attrs.get("case"))
+    stale = [Notice("warning", STALE)] if len(own.parts) < len(run.compared.parts) else []
+    return [*stale, *comparison_elements(own)]
 
 
 def _verification(run: Run, tables: dict[str, Table]) -> list[Element]:

@@ -1,8 +1,8 @@
-"""What a report is made of: the predictions of a run with their inputs, or a study."""
+"""What a report is made of: a run with its inputs, models side by side, or a study."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -10,18 +10,49 @@ import xarray as xr
 
 from gripscale import netcdf
 from gripscale.errors import FileError
+from gripscale.figures.rungs import varied
 from gripscale.figures.view import PredictionView
 from gripscale.study.display import dimensions
 
 PREDICTIONS = ("dynamic", "static")
+COMPARISON = "comparison"
+"""Folder of a comparison in that of the run, and the name of its file."""
+OVER = "over_*.nc"
+"""Files of comparisons over a varied input."""
+
+
+@dataclass(frozen=True)
+class Compared:
+    """The comparisons of one case: under its own load, and over varied inputs."""
+
+    ladder: xr.Dataset | None = None
+    over: list[xr.Dataset] = field(default_factory=list)
+
+    @property
+    def parts(self) -> list[xr.Dataset]:
+        """All of them."""
+        return [*([] if self.ladder is None else [self.ladder]), *self.over]
+
+    def of(self, case: object) -> Compared:
+        """Return those of just this text of a case."""
+        same = [one for one in self.parts if one.attrs.get("case") == case]
+        return Compared.holding(same)
+
+    @classmethod
+    def holding(cls, found: list[xr.Dataset]) -> Compared:
+        """Return the comparisons `found`, of which at most one has no axis."""
+        ladders = [one for one in found if not varied(one)]
+        return cls(ladders[0] if ladders else None, [one for one in found if varied(one)])
 
 
 @dataclass(frozen=True)
 class Run:
-    """The predictions of one run and the record of its inputs, which may be missing."""
+    """The predictions of one run, the record of its inputs and comparisons; both may be missing."""
 
     predictions: list[PredictionView]
     inputs: xr.Dataset
+    compared: Compared = field(default_factory=Compared)
+    """Models side by side over the same case, as far as they are there."""
 
     @property
     def data(self) -> xr.Dataset:
@@ -52,7 +83,7 @@ class Study:
         return dimensions(self.data)
 
 
-def read_result(path: Path) -> Run | Study:
+def read_result(path: Path) -> Run | Study | Compared:
     """Read the results folder or netCDF file at `path`.
 
     Raises `FileError` if it is missing, unreadable or no result of gripscale.
@@ -62,20 +93,26 @@ def read_result(path: Path) -> Run | Study:
     if not path.exists():
         raise FileError(f"result {path} does not exist")
     tree = _checked(path)
+    if "rung" in tree.dims:
+        return Compared.holding([tree.to_dataset()])
     if tree["total_friction"].ndim:
         return Study(path.stem, tree.to_dataset())
-    return _run({path.stem: tree})
+    return _run({path.stem: tree}, Compared())
 
 
-def _read_folder(folder: Path) -> Run | Study:
+def _read_folder(folder: Path) -> Run | Study | Compared:
     paths = [folder / f"{name}.nc" for name in PREDICTIONS]
     there = {path.stem: _checked(path) for path in paths if path.is_file()}
     if there:
-        return _run(there)
+        return _run(there, _comparisons(folder / COMPARISON))
+    compared = _comparisons(folder)
+    if compared.parts:
+        return compared
     others = sorted(path for path in folder.glob("*.nc") if not path.name.startswith("."))
     if not others:
         raise FileError(
-            f"{folder} holds no result; expected dynamic.nc, static.nc or the file of a study"
+            f"{folder} holds no result; expected dynamic.nc, static.nc, comparison.nc or the file "
+            "of a study"
         )
     if len(others) > 1:
         names = ", ".join(path.name for path in others)
@@ -83,16 +120,23 @@ def _read_folder(folder: Path) -> Run | Study:
     return read_result(others[0])
 
 
-def _run(trees: dict[str, xr.DataTree]) -> Run:
+def _comparisons(folder: Path) -> Compared:
+    """Read the comparisons in `folder`."""
+    paths = [folder / f"{COMPARISON}.nc", *sorted(folder.glob(OVER))]
+    return Compared.holding([_checked(path).to_dataset() for path in paths if path.is_file()])
+
+
+def _run(trees: dict[str, xr.DataTree], compared: Compared) -> Run:
     views = [PredictionView(tree.to_dataset(), name) for name, tree in trees.items()]
     first = next(iter(trees.values()))
     inputs = first.children.get("inputs", xr.DataTree())
-    return Run(views, inputs.to_dataset(inherit=False))
+    return Run(views, inputs.to_dataset(inherit=False), compared)
 
 
 def _checked(path: Path) -> xr.DataTree:
     """Load `path` and refuse what no model answered."""
     tree = netcdf.load_tree(path)
-    if not {"total_contact_fraction", "total_friction", "prediction_status"} <= set(tree.variables):
+    told = {"prediction_status", "status"} & set(tree.variables)
+    if not ({"total_contact_fraction", "total_friction"} <= set(tree.variables) and told):
         raise FileError(f"{path} is not a result of gripscale: it has no totals")
     return tree

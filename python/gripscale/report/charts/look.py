@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
-from bokeh.models import FixedTicker, HoverTool, LogTickFormatter, Range1d
+from bokeh.models import BasicTickFormatter, FixedTicker, HoverTool, LogTickFormatter, Range1d
 from bokeh.models.annotations.legends import Legend, LegendItem
 from bokeh.palettes import Viridis256
 from bokeh.plotting import figure as Figure
@@ -70,9 +70,18 @@ def plot(
     )
     _style(figure)
     if wavelengths is not None and high / low < 60.0:
-        ticks = [m * 10.0**n for n in range(-6, 5) for m in (1, 2, 5)]
-        figure.xaxis.ticker = figure.xgrid.ticker = FixedTicker(ticks=ticks)
+        tick_closely(figure)
     return figure
+
+
+def tick_closely(figure: Figure) -> None:
+    """Put ticks at 1, 2 and 5 times each power of ten below a log axis of less than two decades.
+
+    Bokeh's own labels of a log axis would round 0.2 and 0.5 to 0.1 and 1.
+    """
+    ticks = [m * 10.0**n for n in range(-6, 5) for m in (1, 2, 5)]
+    figure.xaxis.ticker = figure.xgrid.ticker = FixedTicker(ticks=ticks)
+    figure.xaxis.formatter = BasicTickFormatter()
 
 
 def _style(figure: Figure) -> None:

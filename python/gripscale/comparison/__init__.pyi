@@ -1,0 +1,16 @@
+from .estimate import BestEstimate as BestEstimate
+from .estimate import Factor as Factor
+from .judged import judged as judged
+from .ladder import LADDER as LADDER
+from .measured import MeasuredFriction as MeasuredFriction
+from .measured import read_measured_friction as read_measured_friction
+from .result import Comparison as Comparison
+from .result import ComparisonOverAxis as ComparisonOverAxis
+from .run import compare_case as compare_case
+from .run import compare_over as compare_over
+from .rung import Draw as Draw
+from .rung import Rung as Rung
+from .rung import Subject as Subject
+from .sample import Sample as Sample
+from .solved import SolvedRung as SolvedRung
+from .uncertain import Uncertain as Uncertain

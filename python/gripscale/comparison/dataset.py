@@ -1,0 +1,194 @@
+"""A comparison as a labelled Dataset: numbers over `rung`, and over the axis that was varied."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from gripscale import versions
+from gripscale.comparison.curve import octaves
+from gripscale.comparison.estimate import Factor
+from gripscale.comparison.measured import MeasuredFriction
+from gripscale.comparison.sample import QUANTITIES
+from gripscale.comparison.solved import SolvedRung
+from gripscale.comparison.solved_ladder import SolvedLadder
+from gripscale.comparison.uncertain import UNKNOWN
+from gripscale.model import TOTALS
+from gripscale.study.assemble import coordinates
+from gripscale.study.axes import Axis
+from gripscale.wave.dataset import labelled
+
+SOURCE = "gripscale compare"
+WORDS = {"contact_fraction": "contact fraction", "friction": "friction coefficient"}
+"""The two numbers that are compared."""
+
+
+def to_dataset(comparisons: Sequence[SolvedLadder], axis: Axis | None = None) -> xr.Dataset:
+    """Return the comparisons over `axis` and `rung`, or a single one over `rung`."""
+    first = comparisons[0]
+    wavelength = _wavelengths(comparisons)
+    most = max(len(rung.samples) for one in comparisons for rung in one.rungs)
+    parts = [xr.Dataset(_numbers(one, wavelength, most)) for one in comparisons]
+    data = parts[0]
+    if axis is not None:
+        data = xr.concat(parts, dim=axis.name).assign_coords(coordinates([axis]))
+    data = data.assign(_words(first)).assign_coords(
+        rung=[rung.name for rung in first.rungs],
+        wavelength=labelled("wavelength", wavelength, "m", "lower end of the octave", SOURCE),
+    )
+    if first.measured is not None:
+        data = data.assign(_measured(first.measured))
+    return data.assign_attrs(
+        title="Contact and friction by model",
+        case=first.file.text,
+        case_file=str(first.file.path),
+        seeds=first.subject.seeds,
+        tolerance=first.subject.tolerance,
+        measured_source="" if first.measured is None else first.measured.source,
+        **versions.attributes(),
+    )
+
+
+def _numbers(one: SolvedLadder, wavelength: NDArray[np.float64], most: int) -> dict[str, Any]:
+    """Return what belongs to one load."""
+    rungs, load = one.rungs, one.subject.load
+    data: dict[str, Any] = {}
+    for name in QUANTITIES:
+        data[f"total_{name}"] = _by_rung(
+            [rung.mean(name) for rung in rungs], f"{TOTALS[f'total_{name}']}, mean of the samples"
+        )
+    for name, text in WORDS.items():
+        data |= _of_quantity(one, name, text, wavelength, most)
+    data["extrapolated_share"] = _by_rung(
+        [_mean_of_known(rung.values("extrapolated")) for rung in rungs],
+        "share of the friction at frequencies outside the measured",
+    )
+    data["samples"] = _by_rung([len(rung.samples) for rung in rungs], "number of samples")
+    data["converged_samples"] = _by_rung(
+        [len(rung.converged) for rung in rungs], "number of samples that converged"
+    )
+    data["status"] = _by_rung([rung.status for rung in rungs], "converged, or what failed")
+    seconds = [rung.seconds for rung in rungs]
+    data["seconds"] = labelled("rung", seconds, "s", "time its samples took", SOURCE)
+    data["nominal_pressure"] = labelled((), load.pressure, "Pa", "nominal pressure", SOURCE)
+    data["nominal_speed"] = labelled((), load.speed, "m/s", "sliding speed", SOURCE)
+    return data
+
+
+def _of_quantity(
+    one: SolvedLadder, name: str, text: str, wavelength: NDArray[np.float64], most: int
+) -> dict[str, Any]:
+    """Return samples, spread, errors, factors, curve and best estimate of a quantity."""
+    rungs = one.rungs
+    factors = [one.factor(rung, name) for rung in rungs]
+    uncertain = [rung.uncertain(name).uncertainty for rung in rungs]
+    curves = [_running(rung, name, wavelength) for rung in rungs]
+    errors = [_mean_of_known(rung.values(f"{name}_error")) for rung in rungs]
+    padded = [_padded(rung, name, most) for rung in rungs]
+    best = one.best_estimate
+    mine = best and getattr(best, name)
+    steps = best.factors if best else []
+    about = "relative standard uncertainty of the"
+    return {
+        f"{name}_spread": _by_rung(
+            [rung.spread(name) for rung in rungs], f"standard deviation of the {text}"
+        ),
+        f"{name}_error": _by_rung(errors, f"error of the {text} as the model estimates it"),
+        f"{name}_uncertainty": _by_rung(uncertain, f"{about} mean {text}"),
+        f"{name}_factor": _by_rung(
+            [one.value for one in factors], f"{text} over that of the rung it follows"
+        ),
+        f"{name}_factor_uncertainty": _by_rung(
+            [one.uncertainty for one in factors], f"{about} factor on the {text}"
+        ),
+        f"sample_{name}": labelled(("rung", "sample"), padded, "1", f"{text} by sample", SOURCE),
+        f"running_{name}": labelled(
+            ("rung", "wavelength"), curves, "1", f"{text} down to the wavelength", SOURCE
+        ),
+        f"best_{name}": labelled(
+            (), mine.value if mine else math.nan, "1", f"best estimate of the {text}", SOURCE
+        ),
+        f"best_{name}_uncertainty": labelled(
+            (), mine.uncertainty if mine else math.nan, "1", f"{about} best estimate", SOURCE
+        ),
+        f"best_{name}_factor": _by_factor(
+            [_of(step, name).value for step in steps], f"factor on the {text}, NaN if not included"
+        ),
+        f"best_{name}_factor_uncertainty": _by_factor(
+            [_of(step, name).uncertainty for step in steps], f"{about} factor"
+        ),
+    }
+
+
+def _words(one: SolvedLadder) -> dict[str, Any]:
+    """Return what the rungs and factors are called, which no load changes."""
+    rungs = [rung.rung for rung in one.rungs]
+    best = one.best_estimate
+    return {
+        "label": _by_rung([rung.label for rung in rungs], "the model in words"),
+        "group": _by_rung([rung.group for rung in rungs], "what it can be asked for with"),
+        "follows": _by_rung([rung.follows for rung in rungs], "rung it is compared with"),
+        "change": _by_rung([rung.change for rung in rungs], "what changes from that rung"),
+        "factor_label": _by_factor(
+            [factor.label for factor in (best.factors if best else [])],
+            "factors of the best estimate",
+        ),
+    }
+
+
+def _measured(measured: MeasuredFriction) -> dict[str, Any]:
+    columns = (
+        ("speed", "m/s", "speeds of the measurement"),
+        ("friction", "1", "measured friction coefficient"),
+        ("spread", "1", "its standard deviation"),
+        ("temperature", "K", "temperature of the measurement"),
+    )
+    return {
+        f"measured_{name}": labelled(
+            "measurement", getattr(measured, name), unit, text, measured.source
+        )
+        for name, unit, text in columns
+    }
+
+
+def _wavelengths(comparisons: Sequence[SolvedLadder]) -> NDArray[np.float64]:
+    smallest = min(float(one.subject.surface.sines.wavelength[-1]) for one in comparisons)
+    samples = [s for one in comparisons for rung in one.rungs for s in rung.converged]
+    return octaves((s.curve for s in samples if s.curve is not None), smallest)
+
+
+def _running(rung: SolvedRung, name: str, wavelength: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the mean over the samples down to each wavelength; NaN where one does not tell it."""
+    curves = [sample.curve for sample in rung.converged]
+    told = [curve.at(name, wavelength) for curve in curves if curve is not None]
+    return np.mean(told, axis=0) if told else np.full(wavelength.size, np.nan)
+
+
+def _padded(rung: SolvedRung, name: str, most: int) -> NDArray[np.float64]:
+    """Return each sample, NaN for those that failed and beyond the last."""
+    out = np.full(most, np.nan)
+    for at, sample in enumerate(rung.samples):
+        out[at] = getattr(sample, name) if sample.converged else np.nan
+    return out
+
+
+def _of(factor: Factor, name: str) -> Any:
+    return getattr(factor, name) if factor.included else UNKNOWN
+
+
+def _mean_of_known(values: NDArray[np.float64]) -> float:
+    known = values[np.isfinite(values)]
+    return float(known.mean()) if known.size else math.nan
+
+
+def _by_rung(values: Sequence[object], long_name: str) -> xr.Variable:
+    return labelled("rung", values, "1", long_name, SOURCE)
+
+
+def _by_factor(values: Sequence[object], long_name: str) -> xr.Variable:
+    return labelled("factor", values, "1", long_name, SOURCE)

@@ -1,0 +1,218 @@
+"""The ladder: from the chain to the profile as measured, one assumption given up on each rung.
+
+A new rung is a function that draws its samples and an entry in `LADDER`. What two rungs on the same
+surfaces say of an assumption becomes a factor of the best estimate by an entry in
+`gripscale.comparison.estimate.FACTORS`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from functools import lru_cache
+
+import numpy as np
+
+from gripscale import checks
+from gripscale.chain.model import Chain
+from gripscale.comparison.lines import BlockOnLine, HalfSpaceOnLine
+from gripscale.comparison.rung import Draw, Rung, Subject
+from gripscale.model import Model
+from gripscale.rough import random_phases, surface_of_sines
+from gripscale.rough.model import DirectContact
+from gripscale.surface import PreparedSurface, Profile, SineStack
+from gripscale.surface.isotropy import areal_spectrum
+from gripscale.surface.periodogram import profile_spectrum
+from gripscale.surface.prepared import Measured
+from gripscale.surface.spectrum import ArealSpectrum
+from gripscale.theory.half_plane import HalfPlane
+from gripscale.theory.models import Persson
+
+DIRECT = "direct"
+"""The rung the chain is judged by, and the best estimate starts from."""
+
+ALL = "all"
+"""Word for all rungs."""
+
+LENGTH_OF_SINES = 10
+"""Period of a surface of sines over its largest wave."""
+
+WINDOW, WAVES_IN_WINDOW, WINDOWS = 1.1, 24, 8
+"""Windows of a profile in the block: length over the largest sine wave, length over the smallest
+wave that is kept, and how many at most."""
+
+
+def chosen(names: Iterable[str]) -> list[Rung]:
+    """Return the rungs of the given names and groups, or `ALL`, in the order of the ladder.
+
+    Without any name those that are solved by default. Raises `InputError` for an unknown one.
+    """
+    wanted = set(names)
+    if not wanted:
+        return [rung for rung in LADDER if rung.by_default]
+    groups = dict.fromkeys(rung.group for rung in LADDER)
+    checks.known("rung", sorted(wanted), [ALL, *groups, *(rung.name for rung in LADDER)])
+    return [rung for rung in LADDER if wanted & {ALL, rung.name, rung.group}]
+
+
+def each_profile(surface: PreparedSurface) -> list[tuple[str, PreparedSurface]]:
+    """Return `surface` with one of its profiles after the other, and what the profile is called."""
+    lines = [] if surface.measured is None else surface.measured.cleaned
+    return [(line.name or f"profile {i}", only(surface, line)) for i, line in enumerate(lines, 1)]
+
+
+def only(surface: PreparedSurface, line: Profile) -> PreparedSurface:
+    """Return the waves of `surface` with `line` as the only profile."""
+    return PreparedSurface(surface.sines, line.name, measured=Measured.of([line]))
+
+
+def _chain(subject: Subject) -> Sequence[Draw]:
+    small_strain = isinstance(subject.solver, HalfPlane)
+    return [] if small_strain else [Draw(Chain(subject.solver), subject.surface)]
+
+
+def _chain_half_plane(subject: Subject) -> Sequence[Draw]:
+    solver = subject.solver if isinstance(subject.solver, HalfPlane) else HalfPlane()
+    return [Draw(Chain(solver), subject.surface)]
+
+
+def _sines(subject: Subject) -> Sequence[Draw]:
+    model, surface = DirectContact(tolerance=subject.tolerance), subject.surface
+    lines = (_of_sines(surface.sines, seed) for seed in range(subject.seeds))
+    return [Draw(model, only(surface, line)) for line in lines]
+
+
+def _random_phases(subject: Subject) -> Sequence[Draw]:
+    model, surface = DirectContact(tolerance=subject.tolerance), subject.surface
+    lines = [] if surface.measured is None else surface.measured.cleaned
+    return [
+        Draw(model, only(surface, _shuffled(line, seed)), line.name)
+        for line in lines
+        for seed in range(subject.seeds)
+    ]
+
+
+def _direct(subject: Subject) -> Sequence[Draw]:
+    model = DirectContact(tolerance=subject.tolerance)
+    return [Draw(model, one, name) for name, one in each_profile(subject.surface)]
+
+
+def _persson(subject: Subject) -> Sequence[Draw]:
+    return [
+        Draw(Persson(smallest_wavelength=_last_known(one)), one, name)
+        for name, one in each_profile(subject.surface)
+    ]
+
+
+def _last_known(surface: PreparedSurface) -> float:
+    """Return the smallest sine wave [m], or where the spectrum of the profile ends before it."""
+    spectra = [_spectrum(line) for line in surface.measured.cleaned] if surface.measured else []
+    ends = [float(2.0 * np.pi / spectrum.wavenumber[-1]) for spectrum in spectra]
+    return max(float(surface.sines.wavelength[-1]), *ends)
+
+
+def _klueppel_heinrich(subject: Subject) -> Sequence[Draw]:
+    theory = subject.klueppel_heinrich
+    if theory is None:
+        return []
+    return [Draw(theory, one, name) for name, one in each_profile(subject.surface)]
+
+
+def _windows_half_plane(subject: Subject) -> Sequence[Draw]:
+    return _on_windows(subject, HalfSpaceOnLine(tolerance=subject.tolerance))
+
+
+def _windows_finite_strain(subject: Subject) -> Sequence[Draw]:
+    return _on_windows(subject, BlockOnLine())
+
+
+def _on_windows(subject: Subject, model: Model) -> Sequence[Draw]:
+    measured, sines = subject.surface.measured, subject.surface.sines
+    lines = () if measured is None else tuple(measured.cleaned)
+    length = WINDOW * float(sines.wavelength[0])
+    return [
+        Draw(model, only(subject.surface, line), f"{line.name} from {line.x[0]:.4g} m")
+        for line in _windows(lines, length)
+    ]
+
+
+@lru_cache(maxsize=4)
+def _windows(lines: tuple[Profile, ...], length: float) -> list[Profile]:
+    """Return windows of the profiles that are long enough for one."""
+    from gripscale.rough import spread_windows  # scipy.stats with it: 0.3 s, which no run pays
+
+    enough = [line for line in lines if line.length > length]
+    return spread_windows(enough, length, WINDOWS, length / WAVES_IN_WINDOW) if enough else []
+
+
+@lru_cache(maxsize=16)
+def _of_sines(sines: SineStack, seed: int) -> Profile:
+    return surface_of_sines(sines, LENGTH_OF_SINES * float(sines.wavelength[0]), seed)
+
+
+@lru_cache(maxsize=16)
+def _spectrum(line: Profile) -> ArealSpectrum:
+    return areal_spectrum(profile_spectrum(line))
+
+
+@lru_cache(maxsize=64)
+def _shuffled(line: Profile, seed: int) -> Profile:
+    """Draw once what is met at every load."""
+    return random_phases(line, seed)
+
+
+LADDER: tuple[Rung, ...] = (
+    Rung("chain", "chain, finite strain", "waves", "", "", _chain),
+    Rung(
+        "chain_half_plane",
+        "chain, small strain",
+        "waves",
+        "small strain assumed",
+        "chain",
+        _chain_half_plane,
+    ),
+    Rung(
+        "sines",
+        "its sine waves at once",
+        "waves",
+        "all scales together",
+        "chain_half_plane",
+        _sines,
+    ),
+    Rung(
+        "random_phases",
+        "profile with random phases",
+        "measured",
+        "the whole spectrum",
+        "sines",
+        _random_phases,
+    ),
+    Rung(
+        DIRECT,
+        "profile as measured, at once",
+        "measured",
+        "the measured phases",
+        "random_phases",
+        _direct,
+    ),
+    Rung("persson", "Persson, isotropic surface", "theory", "", DIRECT, _persson),
+    Rung("klueppel_heinrich", "Klüppel & Heinrich", "theory", "", DIRECT, _klueppel_heinrich),
+    Rung(
+        "windows_half_plane",
+        "windows of it, small strain",
+        "windows",
+        "",
+        "",
+        _windows_half_plane,
+        by_default=False,
+    ),
+    Rung(
+        "windows_finite_strain",
+        "windows of it, finite strain",
+        "windows",
+        "finite strain",
+        "windows_half_plane",
+        _windows_finite_strain,
+        by_default=False,
+    ),
+)
+"""All rungs, in order; a new one is added here."""

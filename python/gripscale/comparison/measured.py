@@ -1,0 +1,156 @@
+"""Friction measured elsewhere, to be drawn over what the models say: a table of speed and friction.
+
+A text or CSV file with columns named speed and friction, and if known spread (of the friction) and
+temperature. Units stand in the titles, as in `speed [mm/s]` or `temperature (C)`; without one
+speeds are in m/s and temperatures in K. Otherwise the rules of `gripscale.textfile` hold.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gripscale import checks
+from gripscale.errors import FileError, InputError
+from gripscale.textfile import Column, TextTable, read_table
+from gripscale.units import in_si, listed, spelled
+
+Array = NDArray[np.float64]
+
+_WORDS = {
+    "speed": ("speed", "velocity", "v"),
+    "friction": ("friction", "friction coefficient", "mu", "µ", "μ", "cof"),
+    "spread": ("spread", "std", "standard deviation", "uncertainty", "error"),
+    "temperature": ("temperature", "temp", "t"),
+}
+"""What the titles of the columns may be called, in lower case; the first word is ours."""
+
+_UNITS = {"speed": ("speed", "m/s"), "temperature": ("temperature", "K")}
+"""Kind of unit of a column, and the unit it is in where the title names none."""
+
+_RATIO = ("1", "-", "–")
+"""Units of what has none."""
+
+
+@dataclass(frozen=True, init=False, eq=False)
+class MeasuredFriction:
+    """Measured friction coefficients over sliding speed.
+
+    Parameters
+    ----------
+    speed : array_like, shape (n,)
+        Sliding speeds [m/s], above zero, in any order.
+    friction : array_like, shape (n,)
+        Friction coefficients [-].
+    spread : array_like, shape (n,), optional
+        Standard deviations of the friction coefficients [-]; NaN where unknown, as by default.
+    temperature : array_like, shape (n,), optional
+        Temperatures of the rubber [K]; NaN where unknown, as by default.
+    source : str
+        Where they come from.
+
+    Raises
+    ------
+    InputError
+        If the lengths differ or a value is out of its range.
+    """
+
+    speed: Array = field(repr=False)
+    friction: Array = field(repr=False)
+    spread: Array = field(repr=False)
+    temperature: Array = field(repr=False)
+    source: str
+
+    def __init__(
+        self,
+        speed: ArrayLike,
+        friction: ArrayLike,
+        spread: ArrayLike | None = None,
+        temperature: ArrayLike | None = None,
+        source: str = "",
+    ) -> None:
+        found = {
+            "speed": checks.positive_vector("speed", speed, unit="m/s"),
+            "friction": checks.vector("friction", friction),
+        }
+        for name, given, unit in (("spread", spread, ""), ("temperature", temperature, "K")):
+            values = np.full(found["speed"].size, np.nan) if given is None else given
+            found[name] = checks.vector(name, values, unit=unit, missing=True)
+            low = found[name] < 0.0 if name == "spread" else found[name] <= 0.0
+            if low.any():
+                bad = found[name][low][0]
+                limit = "not be negative" if name == "spread" else "be above zero [K]"
+                raise InputError(f"{name} must {limit}; got {bad:g} at index {int(np.argmax(low))}")
+        sizes = {name: values.size for name, values in found.items()}
+        if len(set(sizes.values())) > 1 or not sizes["speed"]:
+            told = ", ".join(f"{count} of {name}" for name, count in sizes.items())
+            raise InputError(f"a measurement needs as many values of each, at least 1; got {told}")
+        order = np.argsort(found["speed"], kind="stable")
+        for name, values in found.items():
+            object.__setattr__(self, name, values[order])
+        object.__setattr__(self, "source", source)
+
+
+def read_measured_friction(path: str | Path) -> MeasuredFriction:
+    """Read measured friction from a text or CSV file.
+
+    Raises
+    ------
+    FileError
+        If the file is missing or unreadable, a column is missing or named twice, or a unit or a
+        value cannot be used.
+    """
+    path = Path(path)
+    table = read_table(
+        path,
+        "rows of speed and friction, with titles above them",
+        kinds=("speed", "temperature"),
+        named=lambda title: _word(title) is not None,
+    )
+    places = _places(table)
+    columns = {}
+    for word, place in places.items():
+        missing = word in ("spread", "temperature")
+        values = table.numbers(place, f"a {word}", missing=missing)
+        columns[word] = _in_si(path, word, table.columns[place], values)
+    try:
+        return MeasuredFriction(**columns, source=str(path))
+    except InputError as error:
+        raise FileError(f"{path}: {error}") from error
+
+
+def _word(title: str) -> str | None:
+    """Return which of our columns a title names, or None."""
+    plain = " ".join(title.lower().replace("_", " ").split())
+    return next((word for word, names in _WORDS.items() if plain in names), None)
+
+
+def _places(table: TextTable) -> dict[str, int]:
+    """Return the place of each of our columns."""
+    places: dict[str, int] = {}
+    for at, column in enumerate(table.columns):
+        word = _word(column.name)
+        if word in places:
+            raise FileError(f"{table.path}: expected one column of {word}; got two")
+        if word is not None:
+            places[word] = at
+    absent = [word for word in ("speed", "friction") if word not in places]
+    if absent:
+        found = ", ".join(table.names) or "no titles"
+        raise FileError(f"{table.path}: expected a column named {absent[0]}; got {found}")
+    return places
+
+
+def _in_si(path: Path, word: str, column: Column, values: Array) -> Array:
+    if word not in _UNITS:
+        if column.unit not in (None, *_RATIO):
+            raise FileError(f"{path}: {word} has no unit; got {column.unit!r} in its title")
+        return values
+    kind, own = _UNITS[word]
+    unit = column.unit or own
+    if spelled(unit, kind) is None:
+        raise FileError(f"{path}: {word} must be in one of {listed(kind)}; got {unit!r}")
+    return in_si(values, unit, kind)

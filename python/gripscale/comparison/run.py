@@ -1,0 +1,222 @@
+"""Solving a comparison: every sample of every rung is a task, kept as soon as it is done."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any, NamedTuple
+
+from gripscale import checks
+from gripscale.case.read import CaseFile
+from gripscale.case.results import CaseResults
+from gripscale.case.run import prepare_case
+from gripscale.chain.solvers import wave_solver
+from gripscale.comparison.estimate import Factor
+from gripscale.comparison.ladder import chosen
+from gripscale.comparison.measured import MeasuredFriction, read_measured_friction
+from gripscale.comparison.result import Comparison, ComparisonOverAxis
+from gripscale.comparison.rung import Draw, Rung, Subject
+from gripscale.comparison.sample import sample_of
+from gripscale.comparison.solved import SolvedRung
+from gripscale.errors import InputError
+from gripscale.study import Study
+from gripscale.study.store import Store
+from gripscale.study.task import Task
+from gripscale.study.threads import OnTask, solve_all
+from gripscale.theory.models import KlueppelHeinrich
+
+PREDICTIONS = "predictions"
+"""Folder of the finished answers, in the folder of the comparison."""
+
+MOST_SEEDS = 1000
+
+
+class Choice(NamedTuple):
+    """What is compared, how finely, and beside what."""
+
+    seeds: int = 3
+    tolerance: float = 0.05
+    rungs: Sequence[str] = ()
+    measured: MeasuredFriction | None = None
+    factors: Sequence[Factor] = ()
+
+
+def compare_case(
+    case: CaseResults | CaseFile | str | Path,
+    *,
+    seeds: int = 3,
+    tolerance: float = 0.05,
+    rungs: Sequence[str] = (),
+    measured: MeasuredFriction | None = None,
+    factors: Sequence[Factor] = (),
+    folder: str | Path | None = None,
+    workers: int | None = None,
+    client: Any = None,
+    on_task: OnTask | None = None,
+) -> Comparison:
+    """Put the models side by side over the inputs of a case.
+
+    Parameters
+    ----------
+    case : path, CaseFile or CaseResults
+        The case; `prepare_case` gives one with its inputs prepared.
+    seeds : int
+        Random phases drawn of each surface.
+    tolerance : float
+        Estimated relative error of each direct contact.
+    rungs : sequence of str
+        Names and groups of the rungs wanted, see `LADDER`, or "all"; by default all but the
+        windows, which take minutes.
+    measured : MeasuredFriction, optional
+        Friction measured elsewhere; what `[compare] measured` of the case names by default.
+    factors : sequence of Factor
+        Factors of the best estimate known from elsewhere.
+    folder : path, optional
+        Keeps each answer as soon as it is there, in `predictions`; what it has is not solved again.
+    workers, client, on_task
+        As for `gripscale.study.solve_all`.
+
+    Returns
+    -------
+    Comparison
+        Without a measured profile only the chain and its own waves at once. A sample that did not
+        converge counts in no mean, and its rung says so.
+
+    Raises
+    ------
+    InputError, FileError
+        If an input cannot be used by a model, or a result cannot be written.
+    """
+    results = case if isinstance(case, CaseResults) else prepare_case(case)
+    choice = Choice(seeds, tolerance, rungs, measured, factors)
+    task = Task(results.rubber.rubber, results.surface, results.load)
+    with _store(folder) as store:
+        made = _compared(results.file, {"": task}, choice, store, workers, client, on_task)
+    return made[0]
+
+
+def compare_over(
+    case: CaseFile | str | Path,
+    vary: Mapping[str, Any],
+    *,
+    seeds: int = 3,
+    tolerance: float = 0.05,
+    rungs: Sequence[str] = (),
+    measured: MeasuredFriction | None = None,
+    factors: Sequence[Factor] = (),
+    folder: str | Path | None = None,
+    workers: int | None = None,
+    client: Any = None,
+    on_task: OnTask | None = None,
+) -> ComparisonOverAxis:
+    """Put the models side by side over one varied input of a case, such as the speed.
+
+    Parameters
+    ----------
+    vary : mapping
+        One input of numbers with its values, as for `gripscale.study.Study`.
+    case, seeds, tolerance, rungs, measured, factors, folder, workers, client, on_task
+        As for `compare_case`.
+
+    Raises
+    ------
+    InputError, FileError
+        As for `compare_case`, and if other than one input of numbers is varied.
+    """
+    study = Study(case, vary, static=False)
+    axis = study.axes[0]
+    if len(study.axes) > 1 or not axis.numeric:
+        names = ", ".join(one.name for one in study.axes)
+        raise InputError(
+            f"a comparison varies one of speed, pressure, smallest_wavelength, waves; got {names}"
+        )
+    if len(axis.values) < 2:
+        raise InputError(f"{axis.name} must have at least two values; got {axis.labels[0]}")
+    choice = Choice(seeds, tolerance, rungs, measured, factors)
+    tasks = {point.label: point.task for point in study.points}
+    with _store(folder) as store:
+        made = _compared(study.file, tasks, choice, store, workers, client, on_task)
+    return ComparisonOverAxis(axis, made)
+
+
+def _compared(
+    file: CaseFile,
+    places: Mapping[str, Task],
+    choice: Choice,
+    store: Store,
+    workers: int | None,
+    client: Any,
+    on_task: OnTask | None,
+) -> list[Comparison]:
+    """Return the comparison of each rubber, surface and load in `places`."""
+    ladder = chosen(choice.rungs)
+    subjects = {place: _subject(file, task, choice) for place, task in places.items()}
+    drawn = {
+        (place, rung.name): rung.draws(subject)
+        for place, subject in subjects.items()
+        for rung in ladder
+    }
+    tasks = {key: [_task(subjects[key[0]], draw) for draw in draws] for key, draws in drawn.items()}
+    labels = {rung.name: rung.label for rung in ladder}
+    named = {
+        _label(place, labels[name], draws, at): tasks[place, name][at]
+        for (place, name), draws in drawn.items()
+        for at in range(len(draws))
+    }
+    solved = solve_all(named, store, workers=workers, client=client, on_task=on_task)
+
+    def rung_at(place: str, rung: Rung) -> SolvedRung:
+        pairs = zip(drawn[place, rung.name], tasks[place, rung.name], strict=True)
+        rubber = subjects[place].rubber
+        return SolvedRung(rung, [sample_of(solved[t.key], rubber, draw.of) for draw, t in pairs])
+
+    measured = choice.measured or _measured_of(file)
+    out = []
+    for place, subject in subjects.items():
+        met = [rung_at(place, rung) for rung in ladder if drawn[place, rung.name]]
+        out.append(Comparison(file, subject, met, measured, choice.factors))
+    if not out[0].rungs:
+        raise InputError(f"no rung of {', '.join(choice.rungs)} has anything to say of this case")
+    return out
+
+
+def _subject(file: CaseFile, task: Task, choice: Choice) -> Subject:
+    solver, theory = file.case.solver, file.case.compare
+    return Subject(
+        task.rubber,
+        task.surface,
+        task.load,
+        wave_solver(solver.model, solver.options()),
+        checks.whole("seeds", choice.seeds, least=1, most=MOST_SEEDS),
+        checks.positive("tolerance", choice.tolerance),
+        None
+        if theory.layer_ratio is None or theory.penetration_depth is None
+        else KlueppelHeinrich(theory.layer_ratio, theory.penetration_depth),
+    )
+
+
+def _task(subject: Subject, draw: Draw) -> Task:
+    return Task(subject.rubber, draw.surface, subject.load, draw.model)
+
+
+def _label(place: str, label: str, draws: Sequence[Draw], at: int) -> str:
+    """Return what one sample is called while it is solved."""
+    number = f" {at + 1} of {len(draws)}" if len(draws) > 1 else ""
+    return ": ".join(filter(None, [place, f"{label}{number}"]))
+
+
+def _measured_of(file: CaseFile) -> MeasuredFriction | None:
+    name = file.case.compare.measured
+    return None if name is None else read_measured_friction(file.resolve(name))
+
+
+@contextmanager
+def _store(folder: str | Path | None) -> Iterator[Store]:
+    """Give the store of `folder`, or one that is forgotten afterwards."""
+    if folder is not None:
+        yield Store(Path(folder) / PREDICTIONS)
+        return
+    with TemporaryDirectory(prefix="gripscale-") as forgotten:
+        yield Store(forgotten)

@@ -1,0 +1,93 @@
+"""One answer of one model, as the comparison takes it from the Dataset the model gave."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+
+from gripscale.comparison.curve import Curve, curve_of
+from gripscale.rubber import Rubber
+
+CONVERGED = "converged"
+QUANTITIES = ("contact_fraction", "friction", "friction_from_dissipation")
+"""Totals every sample has, as `gripscale.model.TOTALS` without `total_`."""
+
+
+@dataclass(frozen=True, eq=False)
+class Sample:
+    """One solution of a rung: its totals with their estimated errors, or why there are none."""
+
+    contact_fraction: float
+    friction: float
+    """From the contact traction."""
+    friction_from_dissipation: float
+    status: str
+    of: str = ""
+    """What it is a sample of."""
+    contact_fraction_error: float = math.nan
+    """Estimated by the model [-], absolute; NaN if it gives none."""
+    friction_error: float = math.nan
+    """The same of the friction coefficient."""
+    extrapolated: float = math.nan
+    """Share of the friction at frequencies outside the measured ones; NaN if not told."""
+    curve: Curve | None = None
+    """Down to each wavelength, where the model tells it."""
+    seconds: float = 0.0
+
+    @property
+    def converged(self) -> bool:
+        """Whether the numbers may be used."""
+        return self.status == CONVERGED
+
+
+def sample_of(answer: xr.Dataset, rubber: Rubber, of: str = "") -> Sample:
+    """Return the sample in the `answer` of a model for `rubber`.
+
+    At rest there is no friction: what rounding leaves of it becomes zero.
+    """
+    curve = curve_of(answer)
+    rest = float(answer["nominal_speed"]) == 0.0
+    totals = {name: float(answer[f"total_{name}"]) for name in QUANTITIES}
+    if rest:
+        totals |= {name: 0.0 * value for name, value in totals.items() if "friction" in name}
+    return Sample(
+        **totals,
+        status=str(answer["prediction_status"].item()),
+        of=of,
+        contact_fraction_error=_error(answer, "contact_fraction"),
+        friction_error=math.nan if rest else _error(answer, "friction"),
+        extrapolated=_extrapolated(answer, rubber, curve),
+        curve=curve,
+        seconds=float(answer.attrs.get("seconds", 0.0)),
+    )
+
+
+def _error(answer: xr.Dataset, name: str) -> float:
+    """Return the estimated error of a total: of profiles by weight, of waves added up.
+
+    Waves: their relative errors add up in the product of areas, their errors in the sum of
+    frictions; all in the same direction, because the same mesh makes them.
+    """
+    errors = answer.get(f"{name}_error")
+    if errors is None:
+        return math.nan
+    values = np.abs(errors.values)
+    if errors.dims == ("profile",):
+        return float(answer["weight"].values @ values)
+    if errors.dims == ("scale",):
+        relative = name == "contact_fraction"
+        each = values / answer[name].values if relative else values
+        return float(each.sum() * (answer[f"total_{name}"] if relative else 1.0))
+    return float(values)
+
+
+def _extrapolated(answer: xr.Dataset, rubber: Rubber, curve: Curve | None) -> float:
+    speed = float(answer["nominal_speed"])
+    if "outside_band" in answer and speed > 0.0:  # the chain looks at harmonics, too
+        friction = np.abs(answer["friction"].values)
+        total = float(friction.sum())
+        return float(friction @ answer["outside_band"].values / total) if total > 0.0 else math.nan
+    return math.nan if curve is None else curve.share_outside(rubber, speed)

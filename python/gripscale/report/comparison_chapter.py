@@ -1,0 +1,102 @@
+"""Models side by side: the chapter of a report on what each assumption costs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import xarray as xr
+
+from gripscale.figures.rungs import flawed, varied
+from gripscale.report.charts.comparison import axis_charts, ladder_charts
+from gripscale.report.comparison_table import best_sentence, samples_of
+from gripscale.report.elements import Element, Heading, Notice, Table, Text
+from gripscale.report.numbers import number, percent
+from gripscale.report.source import Compared
+
+WHAT = (
+    "Every model over the same measurements, one assumption given up from rung to rung. A factor "
+    "is from the rung before; of the theories from the profile as measured, at once, by which the "
+    "others are to be judged. Spread is the standard deviation over the samples, error what the "
+    "model itself estimates."
+)
+STALE = (
+    "The comparison in this folder is of another text of the case and is left out; run `gripscale "
+    "compare` again."
+)
+
+
+def comparison_elements(compared: Compared) -> list[Element]:
+    """Return table, best estimate and figures of what there is; nothing if there is nothing."""
+    if not compared.parts:
+        return []
+    elements: list[Element] = [Text(WHAT), *_failures(compared)]
+    ladder = compared.ladder
+    if ladder is not None:
+        elements.append(_table(ladder))
+        if np.isfinite(ladder.best_friction):
+            elements.append(Text(best_sentence(ladder)))
+        elements += ladder_charts(ladder)
+    for one in compared.over:
+        elements += axis_charts(one)
+    return elements
+
+
+def _failures(compared: Compared) -> Iterator[Notice]:
+    """Yield a notice for each rung with a sample that did not converge."""
+    for data in compared.parts:
+        axis = varied(data)
+        for at in range(data.sizes[axis]) if axis else [None]:
+            one = data if at is None else data.isel({axis: at})
+            where = "" if at is None else f"{axis} {float(one[axis]):.3g}, "
+            for label, status in zip(one.label.values, one.status.values, strict=True):
+                if str(status) != "converged":
+                    yield Notice("error", f"{where}{label}: {status}.")
+
+
+def _table(ladder: xr.Dataset) -> Table:
+    numbers = [Heading(text) for text in ("spread", "error", "factor")]
+    headings = [
+        Heading("model", words=True),
+        Heading("A_r/A_0"),
+        *numbers,
+        Heading("μ"),
+        Heading("from energy lost"),
+        *numbers,
+        Heading("samples"),
+        Heading("extrapolated"),
+    ]
+    return Table(
+        "ladder",
+        "The ladder of models",
+        headings,
+        [_row(ladder.isel(rung=at)) for at in range(ladder.sizes["rung"])],
+        groups=[("", 1), ("real contact area", 4), ("friction coefficient", 5), ("", 2)],
+        bad=frozenset(
+            (at, column)
+            for at, bad in enumerate(flawed(ladder))
+            if bad
+            for column in range(len(headings))
+        ),
+        note="Extrapolated: share of the friction at frequencies beyond those of the master curve.",
+    )
+
+
+def _row(one: xr.Dataset) -> list[str]:
+    area, friction = (
+        [
+            number(one[f"{name}_{part}"], digits=digits)
+            for part, digits in (("spread", 2), ("error", 2), ("factor", 3))
+        ]
+        for name in ("contact_fraction", "friction")
+    )
+    return [
+        str(one.label.item()),
+        number(one.total_contact_fraction),
+        *area,
+        number(one.total_friction),
+        number(one.total_friction_from_dissipation),
+        *friction,
+        samples_of(one),
+        percent(one.extrapolated_share),
+    ]

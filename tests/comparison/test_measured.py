@@ -1,0 +1,62 @@
+"""Measured friction from files: columns by name, units from titles, what is bad in a sentence."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from gripscale.comparison import MeasuredFriction, read_measured_friction
+from gripscale.errors import FileError, InputError
+
+
+def written(folder: Path, text: str) -> Path:
+    path = folder / "measured.csv"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_columns_are_found_by_name_and_brought_to_si(tmp_path: Path) -> None:
+    path = written(
+        tmp_path, "temperature [°C];Speed [mm/s];std;µ\n20,5;1000;0,02;0,4\n5;10;nan;0,3\n"
+    )
+    found = read_measured_friction(path)
+    assert found.speed.tolist() == [0.01, 1.0]
+    assert found.friction.tolist() == [0.3, 0.4]
+    assert found.temperature == pytest.approx([278.15, 293.65])
+    np.testing.assert_array_equal(found.spread, [np.nan, 0.02])
+    assert found.source == str(path)
+
+
+def test_plain_titles_are_si(tmp_path: Path) -> None:
+    found = read_measured_friction(written(tmp_path, "speed,friction [-]\n0.1,0.3\n1,0.5\n"))
+    assert found.speed.tolist() == [0.1, 1.0]
+    assert np.isnan(found.temperature).all()
+    assert np.isnan(found.spread).all()
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("speed,force\n1,2\n2,3\n", "expected a column named friction; got speed, force"),
+        ("1,2\n2,3\n", "expected a column named speed; got no titles"),
+        ("speed,friction,v\n1,2,3\n2,3,4\n", "expected one column of speed; got two"),
+        ("speed [ft/s],friction\n1,0.2\n", "speed must be in one of m/s, mm/s, km/h; got 'ft/s'"),
+        ("speed,friction [%]\n1,20\n", "friction has no unit; got '%' in its title"),
+        ("speed,friction\n0,0.2\n", "speed must be greater than zero [m/s]; got 0 at index 0"),
+        ("speed,friction\n1,nan\n", "line 2: expected a friction; got 'nan'"),
+        ("speed,friction,spread\n1,0.2,-0.1\n", "spread must not be negative; got -0.1 at index 0"),
+    ],
+)
+def test_bad_files_are_one_sentence(tmp_path: Path, text: str, sentence: str) -> None:
+    path = written(tmp_path, text)
+    with pytest.raises(FileError) as caught:
+        read_measured_friction(path)
+    assert str(caught.value).startswith(str(path))
+    assert sentence in str(caught.value)
+
+
+def test_lengths_must_agree() -> None:
+    with pytest.raises(InputError, match=r"as many values of each.*got 2 of speed, 1 of friction"):
+        MeasuredFriction([0.1, 1.0], [0.3])

@@ -1,0 +1,71 @@
+"""Ctrl-C while a result is written: the file is whole, and only then the interrupt acts."""
+
+from __future__ import annotations
+
+import signal
+import threading
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from gripscale import netcdf
+from gripscale.interrupts import held_back
+
+
+def interrupt() -> None:
+    signal.raise_signal(signal.SIGINT)
+
+
+def test_interrupt_acts_when_the_block_is_left() -> None:
+    done = []
+
+    def work() -> None:
+        with held_back():
+            interrupt()
+            done.append("the rest of the block")
+        done.append("what follows")
+
+    with pytest.raises(KeyboardInterrupt):
+        work()
+    assert done == ["the rest of the block"]
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+def test_nothing_is_raised_without_an_interrupt() -> None:
+    with held_back():
+        pass
+    with pytest.raises(KeyboardInterrupt):
+        interrupt()
+
+
+def test_other_threads_are_left_alone() -> None:
+    seen = []
+
+    def work() -> None:
+        with held_back():
+            seen.append(signal.getsignal(signal.SIGINT))
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    thread.join()
+    assert seen == [signal.default_int_handler]
+
+
+def test_result_being_written_is_whole_and_the_next_one_does_not_wait(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    data = xr.Dataset({"x": ("t", np.arange(3.0))})
+    write = xr.Dataset.to_netcdf
+
+    def interrupted(self: xr.Dataset, *args: object, **options: object) -> object:
+        interrupt()
+        return write(self, *args, **options)
+
+    monkeypatch.setattr(xr.Dataset, "to_netcdf", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        netcdf.save(data, tmp_path / "a.nc")
+    monkeypatch.undo()
+    assert netcdf.load(tmp_path / "a.nc").equals(data)
+    netcdf.save(data, tmp_path / "b.nc")

@@ -1,0 +1,78 @@
+"""Models side by side, as a page and as a chapter of a run's report, read without a browser."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+import xarray as xr
+
+from gripscale import netcdf
+from gripscale.errors import FileError
+from gripscale.report import write_report
+
+from .reading import Page
+
+FIGURES = {
+    "figure-ladder-contact_fraction",
+    "figure-ladder-friction",
+    "figure-by-wavelength-contact_fraction",
+    "figure-by-wavelength-friction",
+    "figure-over-speed-contact_fraction",
+    "figure-over-speed-friction",
+}
+
+
+def figures(page: Page) -> set[str]:
+    ids = {a.get("id") or "" for _, a in page.tags}
+    return {one for one in ids if one.startswith("figure-")}
+
+
+def test_page_has_table_estimate_and_figures(
+    compared_folder: Path, compared: list[xr.Dataset]
+) -> None:
+    page = Page(write_report(compared_folder))
+    assert figures(page) == FIGURES
+    rows = page.body("ladder")
+    assert [row[0] for row in rows] == [str(label) for label in compared[0].label.values]
+    friction = float(compared[0].total_friction[1])
+    assert float(rows[1][5]) == pytest.approx(friction, rel=0.005)
+    assert all(cell for row in rows for cell in row)
+    assert "finite strain (1.02 and 0.980)" in page.text
+    assert "Not included, neither factor nor uncertainty: isotropic map" in page.text
+    assert "gripscale compare case.toml" in page.text
+
+
+def test_failed_sample_is_loud(compared_folder: Path) -> None:
+    page = Page(write_report(compared_folder))
+    alerts = [a for _, a in page.tags if a.get("role") == "alert"]
+    assert len(alerts) == 1
+    assert "speed 3, profile as measured, at once: 1 of 2 samples failed" in page.text
+
+
+def test_chapter_of_a_run_is_of_just_its_case(
+    run_folder: Path, compared: list[xr.Dataset], tmp_path: Path
+) -> None:
+    for name in ("dynamic.nc", "static.nc"):
+        shutil.copy(run_folder / name, tmp_path)
+    folder = tmp_path / "comparison"
+    folder.mkdir()
+    ladder, over = compared
+    netcdf.save(ladder, folder / "comparison.nc")
+    netcdf.save(over.assign_attrs(case="# another"), folder / "over_speed.nc")
+    page = Page(write_report(tmp_path))
+    chapter = {one for one in figures(page) if one in FIGURES}
+    assert chapter == {one for one in FIGURES if "speed" not in one}
+    assert "is of another text of the case and is left out" in page.text
+
+
+def test_one_file_is_a_page_too(compared_folder: Path) -> None:
+    path = write_report(compared_folder / "over_speed.nc", compared_folder / "one.html")
+    assert figures(Page(path)) == {one for one in FIGURES if "speed" in one}
+
+
+def test_other_files_are_refused(tmp_path: Path) -> None:
+    netcdf.save(xr.Dataset({"total_friction": 0.1}), tmp_path / "comparison.nc")
+    with pytest.raises(FileError, match="is not a result of gripscale: it has no totals"):
+        write_report(tmp_path)
