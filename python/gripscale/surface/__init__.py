@@ -4,6 +4,7 @@ from gripscale.surface.cleaning import CleaningReport, StepReport, clean
 from gripscale.surface.height_difference import HeightDifference, height_difference
 from gripscale.surface.height_map import HeightMap
 from gripscale.surface.isotropy import areal_spectrum
+from gripscale.surface.maps.isotropic import isotropic_maps
 from gripscale.surface.periodogram import map_spectrum, profile_spectrum
 from gripscale.surface.prepared import Measured, PreparedSurface
 from gripscale.surface.profile import Profile
@@ -31,6 +32,7 @@ __all__ = [
     "fit_self_affine",
     "fit_sines",
     "height_difference",
+    "isotropic_maps",
     "map_spectrum",
     "profile_spectrum",
     "read_profile",

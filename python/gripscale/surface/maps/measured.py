@@ -58,6 +58,6 @@ def _line(profile: Profile, length: float) -> MeasuredLine:
     z = np.interp(profile.x, profile.x[known], profile.z[known])
     z = z - np.linspace(z[0], z[-1], z.size)
     waves = np.fft.rfft(z)
-    q = 2.0 * np.pi * np.fft.rfftfreq(z.size, profile.step)
+    q = np.asarray(2.0 * np.pi * np.fft.rfftfreq(z.size, profile.step), dtype=np.float64)
     waves[q < 2.0 * np.pi / (LONGEST * length)] = 0.0
     return MeasuredLine(waves, q, z.size)

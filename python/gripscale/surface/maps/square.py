@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 import scipy.fft
@@ -11,7 +12,7 @@ from numpy.typing import NDArray
 
 from gripscale.surface.profile import FloatArray
 
-ComplexArray = NDArray[np.complexfloating]
+ComplexArray = NDArray[Any]
 
 
 @dataclass(frozen=True)
@@ -70,4 +71,5 @@ class Square:
         out = np.zeros((other.points, other.points // 2 + 1), dtype=spectrum.dtype)
         out[:kept, :kept] = spectrum[:kept, :kept]
         out[1 - kept :, :kept] = spectrum[1 - kept :, :kept]
-        return np.where(other.carried, out, 0.0) * (other.points / self.points) ** 2
+        scale = (other.points / self.points) ** 2
+        return np.asarray(np.where(other.carried, scale * out, 0.0))

@@ -23,6 +23,7 @@ CLASS_ENDS = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.85, 0.9, 0.94, 
 CLASSES = CLASS_ENDS.size + 1
 
 _TABLE = 2**13
+_NARROWEST = 1e-30
 
 ClassArray = NDArray[np.uint8]
 
@@ -79,6 +80,6 @@ def _moved(values: FloatArray, wanted: FloatArray) -> FloatArray:
 
 def _places(values: FloatArray, low: float, high: float) -> NDArray[np.int32]:
     """Return the nearest of `_TABLE` nodes from low to high, the ends beyond them."""
-    scale = (_TABLE - 1) / max(high - low, np.finfo(np.float32).tiny)
+    scale = (_TABLE - 1) / max(high - low, _NARROWEST)
     places = np.clip((values - low) * scale, 0.0, _TABLE - 1.0)
     return np.asarray(places.astype(np.int32))
