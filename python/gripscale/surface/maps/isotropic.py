@@ -119,10 +119,14 @@ def _share(
 
 
 def _profiles(profile: Profile | Sequence[Profile]) -> list[Profile]:
-    profiles = [profile] if isinstance(profile, Profile) else list(profile)
-    if not profiles or not all(isinstance(one, Profile) for one in profiles):
+    profiles = [profile] if isinstance(profile, Profile) else profile
+    if (
+        not isinstance(profiles, Sequence)
+        or not profiles
+        or not all(isinstance(one, Profile) for one in profiles)
+    ):
         raise InputError(f"profile must be a Profile or a list of them; got {profile!r:.80}")
-    return profiles
+    return list(profiles)
 
 
 def _square(profiles: list[Profile], smallest_wavelength: float, points: int) -> Square:

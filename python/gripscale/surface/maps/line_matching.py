@@ -25,14 +25,18 @@ from gripscale.surface.maps.square import ComplexArray, Square
 BATCH = 16
 """Statistics corrected at once."""
 
-STAGES = ((8, 150), (4, 150), (2, 80), (1, 50))
+STAGES = ((8, 250), (4, 250), (2, 120), (1, 60))
 """Steps of the square over the map's, and batches on it."""
 
 STATISTICS = 192
 """Drawn for each square."""
 
-LAST_HALF = 0.4
-"""Share of the correction taken in the last 40 % of the batches, where their noise averages out."""
+SHARES = (1.5, 0.5)
+"""Of the correction: more than all of it comes nearer in fewer batches; at the end less, because
+what a batch corrects by chance is roughness."""
+
+LAST = 0.3
+"""Share of the batches on a square that are the end."""
 
 _FLOOR = 1e-3
 """Of the sum of |F|^2, over its largest: waves hardly seen by a batch hardly move."""
@@ -72,7 +76,7 @@ class LineMatching:
             waves = before.onto(waves, square).astype(np.complex64)
             for number in range(batches):
                 chosen = random.choice(len(statistics), BATCH, replace=False)
-                share = 1.0 if number < 0.6 * batches else LAST_HALF
+                share = SHARES[number >= (1.0 - LAST) * batches]
                 waves = waves + share * _step(
                     square, waves, [statistics[at] for at in chosen], random
                 )

@@ -22,7 +22,9 @@ CLASS_ENDS = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.85, 0.9, 0.94, 
 
 CLASSES = CLASS_ENDS.size + 1
 
-_TABLE = 2**13
+_NODES = 2**12
+"""Between lowest and highest value, where ranks are counted: sorting a map would take ten times."""
+
 _NARROWEST = 1e-30
 
 ClassArray = NDArray[np.uint8]
@@ -44,25 +46,26 @@ class Distribution:
         return Distribution(np.stack(rows))
 
     def correction(self, values: FloatArray, beside: FloatArray | None = None) -> FloatArray:
-        """Return what has to be added to values (any shape) for them to have this distribution."""
-        if beside is None:
-            return _moved(values.reshape(-1), self.quantiles[0]).reshape(values.shape)
-        classes = height_class(beside).reshape(-1)
-        flat, added = values.reshape(-1), np.zeros(values.size, dtype=values.dtype)
-        order = np.argsort(classes, kind="stable")
-        parts = np.split(order, np.cumsum(np.bincount(classes, minlength=CLASSES))[:-1])
-        for part, wanted in zip(parts, self.quantiles, strict=True):
-            if part.size:
-                added[part] = _moved(flat[part], wanted)
-        return added.reshape(values.shape)
+        """Return what has to be added to values (any shape) for them to have this distribution.
+
+        Exact to the distance of the nodes, 1/4096 of their range.
+        """
+        nodes, places = _counted(values)
+        cells = places
+        if beside is not None:
+            cells = places + np.int32(_NODES) * height_class(beside).astype(np.int32)
+        counts = np.bincount(cells.reshape(-1), minlength=self.quantiles.shape[0] * _NODES)
+        ranks = _ranks(counts.reshape(-1, _NODES))
+        wanted = [np.interp(r, RANKS, q) for r, q in zip(ranks, self.quantiles, strict=True)]
+        table = (np.stack(wanted) - nodes).astype(values.dtype)
+        return np.asarray(table.reshape(-1)[cells])
 
 
 def height_class(values: FloatArray) -> ClassArray:
     """Return the class of each value by its rank."""
-    ends = np.quantile(values, CLASS_ENDS)
-    low, high = float(values.min()), float(values.max())
-    table = np.searchsorted(ends, np.linspace(low, high, _TABLE)).astype(np.uint8)
-    return np.asarray(table[_places(values, low, high)])
+    _, places = _counted(values)
+    ranks = _ranks(np.bincount(places.reshape(-1), minlength=_NODES))
+    return np.asarray(np.searchsorted(CLASS_ENDS, ranks).astype(np.uint8)[places])
 
 
 def _quantiles(values: FloatArray) -> FloatArray:
@@ -70,16 +73,15 @@ def _quantiles(values: FloatArray) -> FloatArray:
     return np.interp(RANKS * ordered.size - 0.5, np.arange(ordered.size), ordered)
 
 
-def _moved(values: FloatArray, wanted: FloatArray) -> FloatArray:
-    have = _quantiles(values)
-    low, high = float(have[0]), float(have[-1])
-    nodes = np.linspace(low, high, _TABLE)
-    table = (np.interp(nodes, have, wanted) - nodes).astype(values.dtype)
-    return np.asarray(table[_places(values, low, high)])
+def _counted(values: FloatArray) -> tuple[FloatArray, NDArray[np.int32]]:
+    """Return nodes from the lowest to the highest value, and the nearest to each value."""
+    low, high = float(values.min()), float(values.max())
+    scale = (_NODES - 1) / max(high - low, _NARROWEST)
+    places = (values - low) * scale + 0.5
+    return np.linspace(low, high, _NODES), np.asarray(places.astype(np.int32))
 
 
-def _places(values: FloatArray, low: float, high: float) -> NDArray[np.int32]:
-    """Return the nearest of `_TABLE` nodes from low to high, the ends beyond them."""
-    scale = (_TABLE - 1) / max(high - low, _NARROWEST)
-    places = np.clip((values - low) * scale, 0.0, _TABLE - 1.0)
-    return np.asarray(places.astype(np.int32))
+def _ranks(counts: NDArray[np.int64]) -> FloatArray:
+    """Return the rank of the middle of each node's values, along the last axis."""
+    total = np.maximum(counts.sum(axis=-1, keepdims=True), 1)
+    return np.asarray((np.cumsum(counts, axis=-1) - 0.5 * counts) / total)
