@@ -14,7 +14,7 @@ from gripscale.surface import Profile
 LABELS = {
     "spectrum": "(a) spectrum",
     "heights": "(b) spectrum and heights",
-    "lines": "(c) pieces of the lines",
+    "lines": "(c) statistics of pieces of the line, by height",
 }
 FIRST = 0.4
 """Where the piece of the measured line begins, as a share of it."""
@@ -50,7 +50,7 @@ def draw(
         axes.set_xlabel("x [mm]" if row == len(maps) else "")
     figure.axes[-2].set_xlabel("x [mm]")
     path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, dpi=100, pil_kwargs={"optimize": True})
+    figure.savefig(path, dpi=90, pil_kwargs={"optimize": True})
 
 
 def _line(axes, x, z, label) -> None:

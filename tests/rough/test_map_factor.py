@@ -49,8 +49,8 @@ def test_factors_are_those_of_the_maps():
 
 def test_a_gaussian_map_touches_less_than_its_lines():
     """Lines of a Gaussian map match the Gaussian line it is made from; it touches less."""
-    found = map_over_lines(ZENER, LINE, seeds=range(4), **LOAD, **SMALL | {"lines": 6})
-    # four maps of a few correlation lengths, against sixteen windows of the line
+    found = map_over_lines(ZENER, LINE, seeds=range(3), **LOAD, **SMALL | {"lines": 4})
+    # three maps of a few correlation lengths, against sixteen windows of the line
     assert found.match(AREA) == pytest.approx(1.0, abs=3.0 * found.uncertainty(AREA))
     assert found.factor(AREA) < 0.95
 

@@ -42,10 +42,10 @@ def isotropic_maps(
     """Yield synthetic isotropic maps made from measured profiles, one for each seed.
 
     A profile does not determine the surface it was measured on. "spectrum" and "heights" keep
-    neither flat tops nor where the roughness sits; "lines" brings the lines of the map in every
+    neither flat tops nor where the roughness sits. "lines" brings the lines of the map in every
     direction to the distributions of what some hundred filters answer on the measured lines, by
-    class of height (`gripscale.surface.maps.line_matching`): about 35 s a map of 512 x 512 points
-    and 10 s before the first.
+    class of height (`gripscale.surface.maps.line_matching`): half a minute a map of 512 x 512
+    points on one core, and some seconds before the first.
 
     Parameters
     ----------
