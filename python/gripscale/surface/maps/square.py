@@ -7,7 +7,6 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-import scipy.fft
 from numpy.typing import NDArray
 
 from gripscale.surface.profile import FloatArray
@@ -55,11 +54,15 @@ class Square:
 
     def heights(self, spectrum: ComplexArray) -> FloatArray:
         """Return the heights [m] of a half spectrum."""
-        return np.asarray(scipy.fft.irfft2(spectrum, s=(self.points, self.points)))
+        from scipy.fft import irfft2
+
+        return np.asarray(irfft2(spectrum, s=(self.points, self.points)))
 
     def spectrum(self, heights: FloatArray) -> ComplexArray:
         """Return the half spectrum of heights [m]."""
-        return np.asarray(scipy.fft.rfft2(heights))
+        from scipy.fft import rfft2
+
+        return np.asarray(rfft2(heights))
 
     def noise(self, random: np.random.Generator) -> FloatArray:
         """Return white noise, of variance one."""
