@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 import gripscale as gs
 from gripscale.rough import solve_map_and_lines, solve_windows, windows
 from gripscale.surface import HeightMap, Profile, isotropic_maps
+from gripscale.surface.maps.measured import measured_lines
 from studies.isotropic_maps_figure import draw
 
 DATA = Path(__file__).parents[1] / "examples/data"
@@ -75,9 +76,14 @@ def measured(rubber: gs.Rubber, station: int) -> dict[str, object]:
         known = np.isfinite(window.z)
         z = np.interp(window.x, window.x[known], window.z[known])
         joined.append(z - np.linspace(z[0], z[-1], z.size))
+    # a window has no mean of its own: heights are those of the whole line that maps are made from
+    heights = measured_lines([profile], LENGTH)[0].heights[None, :]
+    whole = statistics(heights, profile.step)
+    of_windows = statistics(np.array(joined), profile.step)
+    own = {name: whole[name] for name in ("rms height", "skewness")}
     return {
         "windows": {name: contacts.values(name).tolist() for name in (AREA, FRICTION)},
-        "statistics": statistics(np.array(joined), profile.step),
+        "statistics": of_windows | own,
     }
 
 
