@@ -119,6 +119,21 @@ def turned_by_45_degrees(surface: HeightMap) -> HeightMap:
     return HeightMap(x, x, z, surface.name)
 
 
+def of_cut_maps(folder: Path) -> Iterator[str]:
+    """Yield the area of lines of a map that is cut off as it is solved, over that of its lines."""
+    rubber = tread()
+    for station in STATIONS:
+        for construction in ("spectrum", "lines"):
+            z = np.load(folder / f"{station}_{construction}.npy").astype(float)
+            q = 2.0 * np.pi * np.fft.fftfreq(POINTS, LENGTH / POINTS)
+            seen = np.hypot(q[:, None], q) <= 2.0 * np.pi / SMALLEST * (1.0 + 1e-9)
+            x = LENGTH / POINTS * np.arange(POINTS)
+            cut = HeightMap(x, x, np.fft.ifft2(np.where(seen, np.fft.fft2(z), 0.0)).real)
+            found = solve_map_and_lines(rubber, cut, tolerance=TOLERANCE, **LOAD).lines
+            own = kept(name(folder, station, construction, 0))["lines"]
+            yield f"station {station}, {construction}, cut off: {found[AREA] / own[AREA]:.3f}"
+
+
 def kept(path: Path) -> dict[str, object] | None:
     """Return what is in a file, or None."""
     return json.loads(path.read_text()) if path.exists() else None
@@ -255,6 +270,7 @@ def main() -> None:
     asked.output.mkdir(parents=True, exist_ok=True)
     compute(asked.output, asked.seeds)
     print("\n".join(tables(asked.output, asked.seeds)))
+    print("\n".join(of_cut_maps(asked.output)))
     maps = {c: np.load(asked.output / f"0_{c}.npy").astype(float) for c in CONSTRUCTIONS}
     draw(road(0), maps, LENGTH, asked.figure or asked.output / "isotropic_maps.png")
 
