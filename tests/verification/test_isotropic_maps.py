@@ -18,10 +18,10 @@ def test_lines_of_maps_touch_as_the_measured_lines():
     load = {"pressure": 3e5, "speed": 0.3, "smallest_wavelength": 0.4e-3}
     found = map_over_lines(rubber, road, seeds=range(2), **load)
     random = map_over_lines(rubber, road, seeds=range(2), construction="spectrum", **load)
-    # six maps: 0.94 +- 0.04 and 1.16 +- 0.07 (docs/isotropic-maps.md); two scatter more
+    # six maps: 0.93 +- 0.05 and 1.10 +- 0.10 (docs/isotropic-maps.md); two scatter more
     assert found.match(AREA) == pytest.approx(1.0, abs=0.2)
     assert found.match(FRICTION) == pytest.approx(1.0, abs=0.4)
     assert random.match(AREA) < 0.5
     assert random.match(FRICTION) > 2.0
-    assert found.factor(AREA) == pytest.approx(0.67, abs=0.1)
-    assert found.factor(FRICTION) == pytest.approx(0.95, abs=0.2)
+    assert found.factor(AREA) == pytest.approx(0.69, abs=0.1)
+    assert found.factor(FRICTION) == pytest.approx(0.94, abs=0.25)
