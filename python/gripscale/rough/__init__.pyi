@@ -4,6 +4,10 @@ from .finite_strain import Pair as Pair
 from .finite_strain import solve_both_ways as solve_both_ways
 from .finite_strain import spread_windows as spread_windows
 from .grids import GridRecord as GridRecord
+from .map_factor import MapContact as MapContact
+from .map_factor import MapOverLines as MapOverLines
+from .map_factor import map_over_lines as map_over_lines
+from .map_factor import solve_map_and_lines as solve_map_and_lines
 from .model import DirectContact as DirectContact
 from .result import RoughContact as RoughContact
 from .solve import solve_rough_contact as solve_rough_contact

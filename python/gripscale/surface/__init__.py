@@ -6,6 +6,7 @@ from gripscale.surface.height_map import HeightMap
 from gripscale.surface.isotropy import areal_spectrum
 from gripscale.surface.map_cleaning import clean_map
 from gripscale.surface.map_file import read_map
+from gripscale.surface.maps.isotropic import isotropic_maps
 from gripscale.surface.periodogram import map_spectrum, profile_spectrum
 from gripscale.surface.prepared import Measured, PreparedSurface
 from gripscale.surface.profile import Profile
@@ -34,6 +35,7 @@ __all__ = [
     "fit_self_affine",
     "fit_sines",
     "height_difference",
+    "isotropic_maps",
     "map_spectrum",
     "profile_spectrum",
     "read_map",

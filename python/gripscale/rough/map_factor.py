@@ -1,0 +1,249 @@
+"""What an isotropic map has in place of its lines: the factor from a measured line to a surface.
+
+A line is solved in plane strain, as if the surface were grooves across the way of sliding. The maps
+are synthetic (`gripscale.surface.isotropic_maps`); each is solved whole, sliding along x and along
+y, and so are single lines of it:
+
+    factor = mean over maps (map) / mean over maps (lines of the map)
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gripscale import checks, versions
+from gripscale.errors import InputError
+from gripscale.rough.grid import Array
+from gripscale.rough.result import RoughContact
+from gripscale.rough.solve import solve_rough_contact
+from gripscale.rough.windows import WindowContacts, solve_windows
+from gripscale.rubber import Rubber
+from gripscale.surface import HeightMap, Profile, isotropic_maps
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+QUANTITIES = ("contact_fraction", "friction_from_dissipation")
+"""Of a contact; the friction that is right to some per cent with four points in a wave."""
+
+
+@dataclass(frozen=True)
+class MapContact:
+    """Contact of one periodic map and of its lines, each the mean of sliding along x and y."""
+
+    whole: dict[str, float]
+    """`QUANTITIES` of the map; NaN if a contact did not converge."""
+    lines: dict[str, float]
+    """The same, mean over its lines."""
+    between_directions: dict[str, float]
+    """Of the map: sliding along x over sliding along y."""
+
+
+@dataclass(frozen=True)
+class MapOverLines:
+    """Contact of synthetic maps, of their lines, and of measured windows as long as a line."""
+
+    construction: str
+    length: float
+    """Of a map each way, and of a window [m]."""
+    smallest_wavelength: float
+    """Of every surface that was solved [m]."""
+    measured: WindowContacts = field(repr=False)
+    seeds: list[int]
+    maps: list[MapContact] = field(repr=False)
+    """One for each seed."""
+
+    def factor(self, name: str) -> float:
+        """Return mean over maps by mean over their lines of one of `QUANTITIES`."""
+        return self._mean("whole", name) / self._mean("lines", name)
+
+    def scatter(self, name: str) -> float:
+        """Return the standard deviation of map by lines from map to map; NaN for a single one."""
+        if len(self.maps) < 2:
+            return math.nan
+        return float(np.std([one.whole[name] / one.lines[name] for one in self.maps], ddof=1))
+
+    def match(self, name: str) -> float:
+        """Return mean over the maps' lines by mean over the measured windows: one if they match."""
+        return self._mean("lines", name) / self.measured.mean(name)
+
+    def uncertainty(self, name: str) -> float:
+        """Return the standard error of `match`, of the windows' and the maps' scatter."""
+        windows = self.measured.values(name)
+        lines = np.array([one.lines[name] for one in self.maps])
+        if min(windows.size, lines.size) < 2:
+            return math.nan
+        relative = [float(v.std(ddof=1) / (v.mean() * math.sqrt(v.size))) for v in (windows, lines)]
+        return self.match(name) * math.hypot(*relative)
+
+    def to_dataset(self) -> xr.Dataset:
+        """Return all numbers over `seed`, labelled as those of synthetic maps."""
+        import xarray as xr
+
+        def over(values: Sequence[float] | Array, text: str) -> xr.Variable:
+            return xr.Variable("seed", np.asarray(values), {"units": "1", "long_name": text})
+
+        data = {}
+        for name in QUANTITIES:
+            words = name.replace("_", " ")
+            data[f"map_{name}"] = over([m.whole[name] for m in self.maps], f"{words} of the map")
+            data[f"lines_{name}"] = over(
+                [m.lines[name] for m in self.maps], f"{words}, mean over lines of the map"
+            )
+            windows = self.measured.values(name)
+            attrs = {"units": "1", "long_name": f"{words} of measured windows of equal length"}
+            data[f"measured_{name}"] = xr.Variable("window", windows, attrs)
+        return xr.Dataset(data, coords={"seed": self.seeds}).assign_attrs(
+            title="Contact of synthetic isotropic maps and of their lines",
+            synthetic=f"isotropic maps, construction {self.construction}; no map was measured",
+            length_m=self.length,
+            smallest_wavelength_m=self.smallest_wavelength,
+            **versions.attributes(),
+        )
+
+    def _mean(self, part: str, name: str) -> float:
+        return float(np.mean([getattr(one, part)[name] for one in self.maps]))
+
+
+def map_over_lines(
+    rubber: Rubber,
+    profile: Profile | Sequence[Profile],
+    *,
+    pressure: float,
+    speed: float,
+    smallest_wavelength: float,
+    construction: str = "lines",
+    points: int = 512,
+    seeds: Iterable[int] = range(6),
+    lines: int = 10,
+    tolerance: float = 0.05,
+    workers: int | None = None,
+    on_batch: Callable[[int, float], None] | None = None,
+    on_map: Callable[[MapContact], None] | None = None,
+) -> MapOverLines:
+    """Return what synthetic isotropic maps of a measured surface have in place of their lines.
+
+    Multiply contact and friction of the measured line by the factors for a best estimate of the
+    surface, if the maps' lines match the measured ones.
+
+    Parameters
+    ----------
+    rubber, pressure, speed
+        As for `solve_rough_contact`.
+    profile, smallest_wavelength, construction, points, seeds, on_batch
+        As for `gripscale.surface.isotropic_maps`.
+    lines : int
+        Lines solved of each map in each of two directions, evenly spaced.
+    tolerance : float
+        Estimated relative error of the lines and windows. Maps have four points in the smallest
+        wave, whatever the errors.
+    workers : int, optional
+        As for `solve_rough_contact`.
+    on_map : callable, optional
+        Called with the `MapContact` of each map as it is done.
+
+    Raises
+    ------
+    InputError
+        If an argument is out of its range.
+    """
+    load: dict[str, Any] = {
+        "pressure": pressure,
+        "speed": speed,
+        "smallest_wavelength": smallest_wavelength,
+    }
+    chosen = list(seeds)
+    drawn = isotropic_maps(
+        profile,
+        smallest_wavelength=smallest_wavelength,
+        construction=construction,
+        points=points,
+        seeds=chosen,
+        on_batch=on_batch,
+    )
+    contacts = []
+    for surface in drawn:
+        contacts.append(
+            solve_map_and_lines(
+                rubber, surface, lines=lines, tolerance=tolerance, workers=workers, **load
+            )
+        )
+        if on_map is not None:
+            on_map(contacts[-1])
+    if not contacts:
+        raise InputError("seeds must be one whole number at least; got none")
+    length = points * surface.step[0]
+    measured = _measured(rubber, profile, length, tolerance, load)
+    return MapOverLines(construction, length, smallest_wavelength, measured, chosen, contacts)
+
+
+def solve_map_and_lines(
+    rubber: Rubber,
+    surface: HeightMap,
+    *,
+    lines: int = 10,
+    tolerance: float = 0.05,
+    workers: int | None = None,
+    **load: Any,
+) -> MapContact:
+    """Return the contact of a map and of single lines of it, sliding along x and along y.
+
+    Parameters
+    ----------
+    rubber, **load
+        As for `solve_rough_contact`.
+    surface : HeightMap
+        One period, of equal points and steps each way.
+    lines, tolerance, workers
+        As for `map_over_lines`.
+
+    Raises
+    ------
+    InputError
+        If an argument is out of its range.
+    """
+    if surface.z.shape[0] != surface.z.shape[1]:
+        raise InputError(f"surface must have equal points each way; got {surface.z.shape}")
+    number = checks.whole("lines", lines, least=1, most=surface.z.shape[0])
+    places = np.linspace(0, surface.z.shape[0], number, endpoint=False).astype(int)
+    whole, of_lines = [], []
+    for z in (surface.z, surface.z.T):
+        turned = HeightMap(surface.x, surface.y, z)
+        contact = solve_rough_contact(
+            rubber, turned, periodic=True, tolerance=None, workers=workers, **load
+        )
+        whole.append([_value(contact, name) for name in QUANTITIES])
+        solved = [
+            solve_rough_contact(
+                rubber, Profile(surface.x, z[:, at]), periodic=True, tolerance=tolerance, **load
+            )
+            for at in places
+        ]
+        of_lines.append([WindowContacts(solved).mean(name) for name in QUANTITIES])
+    along, across = whole
+    return MapContact(
+        dict(zip(QUANTITIES, np.mean(whole, axis=0).tolist(), strict=True)),
+        dict(zip(QUANTITIES, np.mean(of_lines, axis=0).tolist(), strict=True)),
+        {name: x / y for name, x, y in zip(QUANTITIES, along, across, strict=True)},
+    )
+
+
+def _measured(
+    rubber: Rubber,
+    profile: Profile | Sequence[Profile],
+    length: float,
+    tolerance: float,
+    load: dict[str, Any],
+) -> WindowContacts:
+    profiles = [profile] if isinstance(profile, Profile) else profile
+    parts = [solve_windows(rubber, one, length, tolerance=tolerance, **load) for one in profiles]
+    return WindowContacts([contact for part in parts for contact in part.contacts])
+
+
+def _value(contact: RoughContact, name: str) -> float:
+    return float(getattr(contact, name)) if contact.converged else math.nan

@@ -1,0 +1,144 @@
+"""Isotropic maps to stand in for the surface a profile was measured on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+
+import numpy as np
+
+from gripscale import checks
+from gripscale.errors import InputError
+from gripscale.surface.height_map import HeightMap
+from gripscale.surface.maps.line_matching import LineMatching
+from gripscale.surface.maps.measured import measured_lines
+from gripscale.surface.maps.spectrum_map import gaussian_waves, map_amplitudes, with_heights
+from gripscale.surface.maps.square import Square
+from gripscale.surface.profile import FloatArray, Profile
+
+CONSTRUCTIONS = {
+    "spectrum": "spectrum of the lines, random phases",
+    "heights": "spectrum and heights of the lines",
+    "lines": "statistics of pieces of the lines in every direction",
+}
+"""What a map has from the measured lines."""
+
+STEPS_IN_WAVE = 4
+"""Steps of a map in its smallest wave."""
+
+FEWEST_POINTS, MOST_POINTS = 128, 4096
+MULTIPLE = 16
+"""The coarsest of the nested squares has an eighth of the points each way, an even number."""
+
+
+def isotropic_maps(
+    profile: Profile | Sequence[Profile],
+    *,
+    smallest_wavelength: float,
+    construction: str = "lines",
+    points: int = 512,
+    seeds: Iterable[int] = range(6),
+    on_batch: Callable[[int, float], None] | None = None,
+) -> Iterator[HeightMap]:
+    """Yield synthetic isotropic maps made from measured profiles, one for each seed.
+
+    A profile does not determine the surface it was measured on. "spectrum" and "heights" keep
+    neither flat tops nor where the roughness sits. "lines" brings the lines of the map in every
+    direction to the distributions of what some hundred filters answer on the measured lines, by
+    class of height (`gripscale.surface.maps.line_matching`): half a minute a map of 512 x 512
+    points on one core, and some seconds before the first.
+
+    Parameters
+    ----------
+    profile : Profile or sequence of Profile
+        Cleaned profiles of one surface, with the same step (within 0.1 %), together at least four
+        times as long as a map. Missing heights are interpolated linearly.
+    smallest_wavelength : float
+        Smallest wave wanted [m], at least four steps of the profile; a map is `points / 4` of them
+        long. It goes on to waves half as long: lines of a map that is cut off lack the shorter
+        waves that they would cross at an angle.
+    construction : str
+        "lines", "heights" or "spectrum".
+    points : int
+        Points of the map each way, a multiple of 16 from 128 to 4096.
+    seeds : iterable of int
+        Seeds of the random numbers: the same seed gives the same map.
+    on_batch : callable, optional
+        Called with the seed and the share of its map that is done, again and again.
+
+    Yields
+    ------
+    HeightMap
+        One period; its name begins with "synthetic".
+
+    Raises
+    ------
+    InputError
+        If an argument is out of its range, when the first map is asked for.
+    """
+    profiles = _profiles(profile)
+    square = _square(profiles, smallest_wavelength, points)
+    checks.one_of("construction", construction, CONSTRUCTIONS)
+    chosen = [checks.whole("seeds", seed, least=0, most=2**32 - 1) for seed in seeds]
+    lines = measured_lines(profiles, square.length)
+    amplitudes = map_amplitudes(profiles, square)
+    matching = LineMatching.of(lines, square) if construction == "lines" else None
+    for seed in chosen:
+        random = np.random.default_rng(seed)
+        waves = gaussian_waves(square, amplitudes, random)
+        if construction == "heights":
+            heights = with_heights(square, waves, amplitudes, lines)
+        elif matching is not None:
+            heights = square.heights(matching.draw(waves, random, _share(on_batch, seed, matching)))
+        else:
+            heights = square.heights(waves)
+        if on_batch is not None:
+            on_batch(seed, 1.0)
+        yield _labelled(square, heights, profiles, construction, seed)
+
+
+def _labelled(
+    square: Square, heights: FloatArray, profiles: list[Profile], construction: str, seed: int
+) -> HeightMap:
+    x = np.asarray(square.step * np.arange(square.points), dtype=np.float64)
+    names = ", ".join(one.name or "unnamed profile" for one in profiles)
+    return HeightMap(
+        x,
+        x,
+        heights.astype(float),
+        name=f"synthetic isotropic map ({construction}) of {names}",
+        source=f"synthetic: {CONSTRUCTIONS[construction]}; seed {seed}",
+    )
+
+
+def _share(
+    on_batch: Callable[[int, float], None] | None, seed: int, matching: LineMatching
+) -> Callable[[int], None] | None:
+    if on_batch is None:
+        return None
+    return lambda done: on_batch(seed, done / (matching.batches + 1))
+
+
+def _profiles(profile: Profile | Sequence[Profile]) -> list[Profile]:
+    profiles = [profile] if isinstance(profile, Profile) else profile
+    if (
+        not isinstance(profiles, Sequence)
+        or not profiles
+        or not all(isinstance(one, Profile) for one in profiles)
+    ):
+        raise InputError(f"profile must be a Profile or a list of them; got {profile!r:.80}")
+    return list(profiles)
+
+
+def _square(profiles: list[Profile], smallest_wavelength: float, points: int) -> Square:
+    """Return the square of a map, its steps no finer than those of the profiles."""
+    number = checks.whole("points", points, least=FEWEST_POINTS, most=MOST_POINTS)
+    if number % MULTIPLE:
+        raise InputError(f"points must be a multiple of {MULTIPLE}; got {number}")
+    smallest = checks.positive("smallest_wavelength", smallest_wavelength, unit="m")
+    least = STEPS_IN_WAVE * max(one.step for one in profiles)
+    if smallest < least * (1.0 - 1e-9):
+        raise InputError(
+            f"smallest_wavelength must be at least {STEPS_IN_WAVE} steps of the profile, "
+            f"{least:.4g} m; got {smallest:.4g} m"
+        )
+    return Square(number, number * smallest / STEPS_IN_WAVE)

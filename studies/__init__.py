@@ -1,0 +1,1 @@
+"""Computations behind pages of the documentation that are neither tests nor benchmarks."""

@@ -1,0 +1,79 @@
+"""A map over its lines: closed forms, and the numbers an independent prototype found."""
+
+import numpy as np
+import pytest
+
+from gripscale.errors import InputError
+from gripscale.rough import map_over_lines, solve_map_and_lines, solve_windows
+from gripscale.surface import HeightMap, isotropic_maps, self_affine_profile
+
+from .rough_cases import WAVELENGTH, ZENER, grooves
+
+AREA, FRICTION = "contact_fraction", "friction_from_dissipation"
+LINE = self_affine_profile(0.8, 4e-3, 4e-4, 0.2, 1e-4, 7)
+LOAD = {"pressure": 3e5, "speed": 0.3, "smallest_wavelength": 8e-4}
+SMALL = {"construction": "spectrum", "points": 128, "lines": 2}
+
+
+def test_grooves_are_their_lines():
+    """Along x all lines are the map; across it they are nearly flat, and touch all over."""
+    flat = grooves("x", 32)
+    surface = HeightMap(flat.x, flat.y, flat.z + 1e-5 * flat.z.T)
+    load = {"pressure": 3e4, "speed": 0.3, "smallest_wavelength": WAVELENGTH}
+    found = solve_map_and_lines(ZENER, surface, lines=2, **load)
+    both_ways = 2.0 * found.whole[AREA]
+    along = both_ways * found.between_directions[AREA] / (1.0 + found.between_directions[AREA])
+    assert 0.05 < along < 0.9
+    # four points in the wave of the map, the line as fine as its tolerance asks
+    assert 2.0 * found.lines[AREA] - 1.0 == pytest.approx(along, abs=0.06)
+    assert found.lines[FRICTION] > 0.0
+
+
+def test_factors_are_those_of_the_maps():
+    found = map_over_lines(ZENER, LINE, seeds=[3, 5], **LOAD, **SMALL)
+    maps = isotropic_maps(
+        LINE, smallest_wavelength=8e-4, construction="spectrum", points=128, seeds=[3, 5]
+    )
+    again = [solve_map_and_lines(ZENER, one, lines=2, **LOAD) for one in maps]
+    for name in (AREA, FRICTION):
+        whole = [one.whole[name] for one in again]
+        lines = [one.lines[name] for one in again]
+        ratios = np.array(whole) / lines
+        assert found.factor(name) == pytest.approx(np.mean(whole) / np.mean(lines), rel=1e-12)
+        assert found.scatter(name) == pytest.approx(abs(ratios[1] - ratios[0]) / np.sqrt(2.0))
+        measured = solve_windows(ZENER, LINE, found.length, tolerance=0.05, **LOAD).mean(name)
+        assert found.match(name) == pytest.approx(np.mean(lines) / measured, rel=1e-12)
+        assert 0.0 < found.uncertainty(name) < 0.5
+    assert found.length == pytest.approx(128 * 2e-4)
+
+
+def test_a_gaussian_map_touches_less_than_its_lines():
+    """Lines of a Gaussian map match the Gaussian line it is made from; it touches less."""
+    found = map_over_lines(ZENER, LINE, seeds=range(3), **LOAD, **SMALL)
+    # three maps of a few correlation lengths, against seven windows of the line
+    assert found.match(AREA) == pytest.approx(1.0, abs=3.0 * found.uncertainty(AREA))
+    assert found.factor(AREA) < 0.95
+
+
+def test_the_dataset_says_that_the_maps_are_synthetic():
+    told = []
+    found = map_over_lines(ZENER, LINE, seeds=[1], on_map=told.append, **LOAD, **SMALL)
+    data = found.to_dataset()
+    assert told == found.maps
+    assert "no map was measured" in data.attrs["synthetic"]
+    assert data.sizes == {"seed": 1, "window": 7}
+    assert np.isnan(found.scatter(AREA))
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        ({"seeds": []}, "seeds must be one whole number at least"),
+        ({"lines": 0}, "lines must be a whole number from 1"),
+        ({"pressure": -1.0}, "pressure must be greater than zero"),
+        ({"smallest_wavelength": 1e-5}, "smallest_wavelength must be at least 4 steps"),
+    ],
+)
+def test_bad_arguments_are_refused(change, says):
+    with pytest.raises(InputError, match=says):
+        map_over_lines(ZENER, LINE, **({"seeds": [0]} | LOAD | SMALL | change))
