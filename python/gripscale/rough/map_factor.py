@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -207,29 +207,68 @@ def solve_map_and_lines(
     InputError
         If an argument is out of its range.
     """
-    if surface.z.shape[0] != surface.z.shape[1]:
-        raise InputError(f"surface must have equal points each way; got {surface.z.shape}")
+    whole = solve_whole(rubber, surface, workers=workers, **load)
+    of_lines = solve_lines_of(rubber, surface, lines=lines, tolerance=tolerance, **load)
+    return MapContact(whole.values, of_lines.values, whole.between_directions)
+
+
+class Solved(NamedTuple):
+    """Contact along x and along y."""
+
+    values: dict[str, float]
+    """Means of the two; NaN if a contact did not converge."""
+    between_directions: dict[str, float]
+    """Along x over along y."""
+    status: str
+
+
+def solve_whole(
+    rubber: Rubber, surface: HeightMap, *, workers: int | None = None, **load: Any
+) -> Solved:
+    """Return the contact of a square, periodic map with four points in the smallest wave.
+
+    Raises `InputError` as `solve_rough_contact`, and if the map is no square.
+    """
+    options = {"periodic": True, "tolerance": None, "workers": workers, **load}
+    return _both_ways(
+        [[solve_rough_contact(rubber, one, **options)] for one in _directions(surface)]
+    )
+
+
+def solve_lines_of(
+    rubber: Rubber, surface: HeightMap, *, lines: int, tolerance: float, **load: Any
+) -> Solved:
+    """Return the mean contact of lines of a square, periodic map, evenly spaced.
+
+    Raises `InputError` as `solve_rough_contact`, and if the map is no square.
+    """
     number = checks.whole("lines", lines, least=1, most=surface.z.shape[0])
     places = np.linspace(0, surface.z.shape[0], number, endpoint=False).astype(int)
-    whole, of_lines = [], []
-    for z in (surface.z, surface.z.T):
-        turned = HeightMap(surface.x, surface.y, z)
-        contact = solve_rough_contact(
-            rubber, turned, periodic=True, tolerance=None, workers=workers, **load
-        )
-        whole.append([_value(contact, name) for name in QUANTITIES])
-        solved = [
-            solve_rough_contact(
-                rubber, Profile(surface.x, z[:, at]), periodic=True, tolerance=tolerance, **load
-            )
-            for at in places
+    options = {"periodic": True, "tolerance": tolerance, **load}
+    return _both_ways(
+        [
+            [solve_rough_contact(rubber, Profile(one.x, one.z[:, at]), **options) for at in places]
+            for one in _directions(surface)
         ]
-        of_lines.append([WindowContacts(solved).mean(name) for name in QUANTITIES])
-    along, across = whole
-    return MapContact(
-        dict(zip(QUANTITIES, np.mean(whole, axis=0).tolist(), strict=True)),
-        dict(zip(QUANTITIES, np.mean(of_lines, axis=0).tolist(), strict=True)),
-        {name: x / y for name, x, y in zip(QUANTITIES, along, across, strict=True)},
+    )
+
+
+def _directions(surface: HeightMap) -> list[HeightMap]:
+    if surface.z.shape[0] != surface.z.shape[1]:
+        raise InputError(f"surface must have equal points each way; got {surface.z.shape}")
+    return [surface, HeightMap(surface.x, surface.y, surface.z.T)]
+
+
+def _both_ways(contacts: list[list[RoughContact]]) -> Solved:
+    along, across = (
+        {name: WindowContacts(group).mean(name) for name in (*QUANTITIES, "friction")}
+        for group in contacts
+    )
+    bad = [str(one.status) for group in contacts for one in group if not one.converged]
+    return Solved(
+        {name: 0.5 * (along[name] + across[name]) for name in along},
+        {name: along[name] / across[name] if across[name] else math.nan for name in along},
+        bad[0] if bad else "converged",
     )
 
 
@@ -243,7 +282,3 @@ def _measured(
     profiles = [profile] if isinstance(profile, Profile) else profile
     parts = [solve_windows(rubber, one, length, tolerance=tolerance, **load) for one in profiles]
     return WindowContacts([contact for part in parts for contact in part.contacts])
-
-
-def _value(contact: RoughContact, name: str) -> float:
-    return float(getattr(contact, name)) if contact.converged else math.nan
