@@ -28,7 +28,7 @@ SOLVER = HalfPlane(points=512)
 
 @dataclass(frozen=True)
 class Hertzian:
-    """Contact fraction and friction that grow as the root of the pressure, under half an ellipse."""
+    """Contact and friction that grow as the root of the pressure, which is half an ellipse."""
 
     name: ClassVar[str] = "hertzian"
 
@@ -95,8 +95,12 @@ def test_load_and_area_are_kept(count: int) -> None:
 
 
 def test_eight_classes_are_enough() -> None:
-    found = {n: predict(RUBBER, SINES, solver=SOLVER, pressure_classes=n, **LOAD) for n in (1, 8, 32)}
-    area = {n: np.log(one.contact_fraction / found[32].contact_fraction) for n, one in found.items()}
+    found = {
+        n: predict(RUBBER, SINES, solver=SOLVER, pressure_classes=n, **LOAD) for n in (1, 8, 32)
+    }
+    area = {
+        n: np.log(one.contact_fraction / found[32].contact_fraction) for n, one in found.items()
+    }
     friction = {n: np.log(one.friction / found[32].friction) for n, one in found.items()}
     assert abs(area[8]) < 0.02
     assert abs(friction[8]) < 0.02
@@ -119,9 +123,9 @@ def test_uniform_full_contact_stays_uniform() -> None:
 
 
 def test_class_that_fails_is_named_and_ends_the_chain() -> None:
+    two, solver = SineStack([8e-3, 1e-3], [1e-3, 1e-4]), Hertzian(1e8, fails_above=4e6)
     with pytest.raises(ChainError, match=r"wave 2 of 2.*fold in the load path") as caught:
-        two = SineStack([8e-3, 1e-3], [1e-3, 1e-4])
-        predict(RUBBER, two, solver=Hertzian(1e8, fails_above=4e6), pressure_classes=8, **LOAD)
+        predict(RUBBER, two, solver=solver, pressure_classes=8, **LOAD)
     failed = caught.value.partial.scales[-1]
     assert failed.pressure_received > 4e6
     assert np.isnan(caught.value.partial.friction)
@@ -156,13 +160,13 @@ def test_bad_number_of_classes_is_refused(count: float) -> None:
 
 def test_solver_without_pressures_cannot_hand_down_classes() -> None:
     solver = Scripted([0.5, 0.5, 0.5])
-    silent = replace_pressures(solver)
+    silent = Silent(solver)
     with pytest.raises(InputError, match="gives no pressure along the wave"):
         predict(Spring(), THREE, solver=silent, pressure_classes=2, **LOAD)
 
 
 @dataclass
-class replace_pressures:
+class Silent:
     """A solver that keeps its pressures to itself."""
 
     inner: Scripted

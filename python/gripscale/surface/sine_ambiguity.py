@@ -1,14 +1,14 @@
 """How far a height difference correlation determines the sine waves that stand for it.
 
 C_z is smooth and known within its band only, so stacks with other numbers of waves and other
-factors follow it as well as it is known. What they agree on the curve determines; where they differ,
-the stack is a choice. With r the rms difference from the curve in decades, b the rms half width of
-its band over the same lags, and r_0 the least r of all stacks tried, a stack is as good if
+factors follow it as well as it is known. What they agree on the curve determines; where they
+differ, the stack is a choice. With r the rms difference from the curve in decades, b the rms half
+width of its band over the same lags, and r_0 the least r of all stacks tried, a stack is as good if
 
     r^2 <= r_0^2 + b^2.
 
 Tried are 2 to 12 waves from first wavelengths half to twice the fitted one down to the same last
-wave, all else fitted.
+wave or cut-off, all else fitted.
 """
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ from gripscale.errors import InputError
 from gripscale.surface.height_difference import HeightDifference
 from gripscale.surface.plateau import log_weights
 from gripscale.surface.sine_fit import fit_sines
+from gripscale.surface.sine_search import FACTOR_RANGE
 from gripscale.surface.sines import SineStack
 
 NUMBERS = range(2, 13)
@@ -68,7 +69,9 @@ class SineAmbiguity:
     rms_slope: Span
 
 
-def sine_ambiguity(hdc: HeightDifference, sines: SineStack) -> SineAmbiguity:
+def sine_ambiguity(
+    hdc: HeightDifference, sines: SineStack, *, cut_off: float | None = None
+) -> SineAmbiguity:
     """Return what other stacks follow `hdc` as well as it is known.
 
     Parameters
@@ -77,6 +80,8 @@ def sine_ambiguity(hdc: HeightDifference, sines: SineStack) -> SineAmbiguity:
         The measured curve, with its band.
     sines : SineStack
         What was fitted to it: says the lags that count, the first and the last wavelength.
+    cut_off : float, optional
+        Where the roughness ends [m], if `sines` were fitted with it; else all end in the same wave.
 
     Raises
     ------
@@ -88,8 +93,10 @@ def sine_ambiguity(hdc: HeightDifference, sines: SineStack) -> SineAmbiguity:
             "sines must be two waves or more, fitted to hdc; got "
             f"{len(sines)}, {'not fitted' if sines.lag_range is None else 'fitted'}"
         )
-    first = float(sines.wavelength[0])
-    tried = [_fitted(hdc, sines, n, ratio * first) for n in NUMBERS for ratio in FIRST_WAVELENGTHS]
+    end = {"smallest_wavelength": float(sines.wavelength[-1])} if cut_off is None else {}
+    common = dict(zip(("smallest_lag", "largest_lag"), sines.lag_range, strict=True)) | end
+    firsts = FIRST_WAVELENGTHS * float(sines.wavelength[0])
+    tried = [_fitted(hdc, n, float(first), cut_off, common) for n in NUMBERS for first in firsts]
     found = [stack for stack in tried if stack is not None]
     band = _band(hdc, *sines.lag_range)
     limit = math.hypot(min(residual for residual, _ in found), band)
@@ -114,24 +121,17 @@ def sine_ambiguity(hdc: HeightDifference, sines: SineStack) -> SineAmbiguity:
 
 
 def _fitted(
-    hdc: HeightDifference, sines: SineStack, waves: int, first: float
+    hdc: HeightDifference, waves: int, first: float, cut_off: float | None, common: dict[str, float]
 ) -> tuple[float, SineStack] | None:
-    """Return residual and stack of so many waves from a first wavelength [m] to the same last one.
+    """Return residual and stack of so many waves from a first wavelength [m].
 
     None where the factor would leave its limits.
     """
-    smallest, largest = sines.lag_range or (None, None)
-    try:
-        stack = fit_sines(
-            hdc,
-            scales=waves,
-            first_wavelength=first,
-            smallest_wavelength=float(sines.wavelength[-1]),
-            smallest_lag=smallest,
-            largest_lag=largest,
-        )
-    except InputError:
+    end = common.get("smallest_wavelength", cut_off or 0.0)
+    steps = waves - 1 if cut_off is None else waves - 0.5
+    if not FACTOR_RANGE[0] <= (first / end) ** (1.0 / steps) <= FACTOR_RANGE[1]:
         return None
+    stack = fit_sines(hdc, scales=waves, first_wavelength=first, cut_off=cut_off, **common)
     return (math.inf if stack.residual is None else stack.residual), stack
 
 

@@ -39,6 +39,7 @@ decide, do not count. `smallest_wavelength` states the last wave itself, as Lind
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -180,18 +181,18 @@ class _End:
 
     def trial(self, given: FloatArray, waves: int, single_factor: bool) -> Trial:
         """Return the search for `waves` waves down to the end."""
-        return Trial(
-            given, waves, single_factor, self.log, self.beyond, shorter=self.shorter
-        )
+        return Trial(given, waves, single_factor, self.log, self.beyond, shorter=self.shorter)
 
     def spans(self, factor: float) -> list[tuple[float, float]]:
         """Return logs of the first wavelength at which 1, 2, ... waves reach the end."""
         number = np.arange(1, MOST_WAVES + 2)
         logs = self.log + (number - 1 + self.beyond) * factor
-        return list(zip(logs[:-1], logs[1:], strict=True))
+        return list(pairwise(logs))
 
 
-def _end(given: FloatArray, smallest_wavelength: float | None, cut_off: float | None) -> _End | None:
+def _end(
+    given: FloatArray, smallest_wavelength: float | None, cut_off: float | None
+) -> _End | None:
     """Return the end that is stated, if any."""
     if cut_off is not None:
         end = _End("cut_off", float(np.log(checks.positive("cut_off", cut_off, unit="m"))), 0.5)
@@ -228,9 +229,7 @@ def _given_logs(values: dict[str, float | None], single_factor: bool) -> FloatAr
     return logs
 
 
-def _target(
-    hdc: HeightDifference, smallest: float, largest: float | None, unknowns: int
-) -> Target:
+def _target(hdc: HeightDifference, smallest: float, largest: float | None, unknowns: int) -> Target:
     """Return the part of the curve that counts."""
     if (hdc.value <= 0.0).any():
         at = int(np.argmin(hdc.value))
@@ -286,9 +285,7 @@ def _down_with_factor(
     return _closest(target, trials, 1.0)
 
 
-def _best_number(
-    target: Target, given: FloatArray, single_factor: bool, end: _End
-) -> Found | None:
+def _best_number(target: Target, given: FloatArray, single_factor: bool, end: _End) -> Found | None:
     """Search over the number of waves down to the end."""
     first = float(given[FIRST_WAVELENGTH])
     ranges = [[end.spans(float(np.log(f)))[n - 1][0] for f in FACTOR_RANGE] for n in NUMBERS]

@@ -137,10 +137,10 @@ def search(target: Target, trial: Trial, refined: int = 10) -> Found | None:
     if (low >= high).any():
         return None
     grid = _starts(target, trial) + _tied_start(target, trial, refined)
-    starts = sorted((np.clip(q, low, high) for q in grid), key=distance)
+    starts = sorted((np.clip(q, low, high) for q in grid), key=distance)[:refined]
     fits = [
         least_squares(residuals, q, bounds=(low, high), xtol=1e-11, ftol=1e-11, gtol=1e-11)
-        for q in starts[:refined]
+        for q in dict.fromkeys(tuple(q) for q in starts)  # what is given makes starts equal
     ]
     closest = min(fits, key=lambda fit: float(fit.cost))
     return Found(trial.fill(closest.x), trial.waves, float(np.sqrt(2.0 * closest.cost)))

@@ -1,0 +1,1 @@
+"""Numerical experiments behind pages of the documentation, on public names of gripscale."""
