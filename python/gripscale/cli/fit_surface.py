@@ -78,8 +78,8 @@ def _ambiguity(prepared: PreparedSurface) -> Iterator[str]:
     found = sine_ambiguity(prepared.correlation, prepared.sines)
     low, high = (length * 1e3 for length in found.first_wavelength)
     yield (
-        f"C_z is known to {found.band:.2g} decades; {found.as_good} of {found.tried} stacks tried "
-        f"follow it as well: {found.waves.low:.0f} to {found.waves.high:.0f} waves, "
+        f"C_z is known to {found.band:.2g} decades; {len(found.stacks)} of {found.tried} stacks "
+        f"tried follow it as well: {found.waves.low:.0f} to {found.waves.high:.0f} waves, "
         f"s_wavelength {found.s_wavelength.low:.2g} to {found.s_wavelength.high:.2g}, "
         f"first wave {low:.3g} to {high:.3g} mm, "
         f"rms slope {found.rms_slope.low:.2f} to {found.rms_slope.high:.2f}"

@@ -14,8 +14,8 @@ wave or cut-off, all else fitted.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
@@ -39,34 +39,52 @@ class Span(NamedTuple):
     high: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class SineAmbiguity:
     """The stacks that follow C_z as well as it is known.
 
     Attributes
     ----------
-    tried, as_good : int
-        Stacks tried, and those that are as good as the best.
+    tried : int
+        Stacks tried.
     band : float
         Rms half width of the band of 95 % nominal confidence of C_z [decades]; 0 if not known.
-    waves, s_wavelength, s_amplitude : Span
-        Number of waves and magnification factors among those as good.
-    first_wavelength, first_amplitude, last_amplitude : Span
-        Of the first and last wave among those as good [m].
-    rms_slope : Span
-        Root of sum (2 pi A / lambda)^2 / 2 among those as good [-]; friction goes with it.
+    stacks : tuple of SineStack
+        Those that are as good as the best.
     """
 
     tried: int
-    as_good: int
     band: float
-    waves: Span
-    s_wavelength: Span
-    s_amplitude: Span
-    first_wavelength: Span
-    first_amplitude: Span
-    last_amplitude: Span
-    rms_slope: Span
+    stacks: tuple[SineStack, ...] = field(repr=False)
+
+    @property
+    def waves(self) -> Span:
+        """Fewest and most waves."""
+        return self._span(len)
+
+    @property
+    def s_wavelength(self) -> Span:
+        """Smallest and largest magnification factor of wavelength."""
+        return self._span(lambda stack: stack.wavelength[0] / stack.wavelength[1])
+
+    @property
+    def first_wavelength(self) -> Span:
+        """Smallest and largest first wavelength [m]."""
+        return self._span(lambda stack: stack.wavelength[0])
+
+    @property
+    def first_amplitude(self) -> Span:
+        """Smallest and largest amplitude of the first wave [m]."""
+        return self._span(lambda stack: stack.amplitude[0])
+
+    @property
+    def rms_slope(self) -> Span:
+        """Smallest and largest rms slope of all waves together [-]; friction goes with it."""
+        return self._span(lambda stack: stack.rms_slope)
+
+    def _span(self, quantity: Callable[[SineStack], float]) -> Span:
+        values = [float(quantity(stack)) for stack in self.stacks]
+        return Span(min(values), max(values))
 
 
 def sine_ambiguity(
@@ -93,45 +111,36 @@ def sine_ambiguity(
             "sines must be two waves or more, fitted to hdc; got "
             f"{len(sines)}, {'not fitted' if sines.lag_range is None else 'fitted'}"
         )
-    end = {"smallest_wavelength": float(sines.wavelength[-1])} if cut_off is None else {}
-    common = dict(zip(("smallest_lag", "largest_lag"), sines.lag_range, strict=True)) | end
     firsts = FIRST_WAVELENGTHS * float(sines.wavelength[0])
-    tried = [_fitted(hdc, n, float(first), cut_off, common) for n in NUMBERS for first in firsts]
-    found = [stack for stack in tried if stack is not None]
+    tried = [_fitted(hdc, sines, n, float(first), cut_off) for n in NUMBERS for first in firsts]
+    found = [one for one in tried if one is not None]
     band = _band(hdc, *sines.lag_range)
     limit = math.hypot(min(residual for residual, _ in found), band)
-    good = [stack for residual, stack in found if residual <= limit]
-
-    def span(values: Iterable[float]) -> Span:
-        listed = list(values)
-        return Span(float(min(listed)), float(max(listed)))
-
-    return SineAmbiguity(
-        tried=len(found),
-        as_good=len(good),
-        band=band,
-        waves=span(len(stack) for stack in good),
-        s_wavelength=span(stack.wavelength[0] / stack.wavelength[1] for stack in good),
-        s_amplitude=span(stack.amplitude[0] / stack.amplitude[1] for stack in good),
-        first_wavelength=span(stack.wavelength[0] for stack in good),
-        first_amplitude=span(stack.amplitude[0] for stack in good),
-        last_amplitude=span(stack.amplitude[-1] for stack in good),
-        rms_slope=span(stack.rms_slope for stack in good),
-    )
+    good = tuple(stack for residual, stack in found if residual <= limit)
+    return SineAmbiguity(len(found), band, good)
 
 
 def _fitted(
-    hdc: HeightDifference, waves: int, first: float, cut_off: float | None, common: dict[str, float]
+    hdc: HeightDifference, sines: SineStack, waves: int, first: float, cut_off: float | None
 ) -> tuple[float, SineStack] | None:
     """Return residual and stack of so many waves from a first wavelength [m].
 
     None where the factor would leave its limits.
     """
-    end = common.get("smallest_wavelength", cut_off or 0.0)
-    steps = waves - 1 if cut_off is None else waves - 0.5
+    last = float(sines.wavelength[-1])
+    end, steps = (last, waves - 1) if cut_off is None else (cut_off, waves - 0.5)
     if not FACTOR_RANGE[0] <= (first / end) ** (1.0 / steps) <= FACTOR_RANGE[1]:
         return None
-    stack = fit_sines(hdc, scales=waves, first_wavelength=first, cut_off=cut_off, **common)
+    smallest_lag, largest_lag = sines.lag_range or (None, None)
+    stack = fit_sines(
+        hdc,
+        scales=waves,
+        first_wavelength=first,
+        smallest_wavelength=last if cut_off is None else None,
+        cut_off=cut_off,
+        smallest_lag=smallest_lag,
+        largest_lag=largest_lag,
+    )
     return (math.inf if stack.residual is None else stack.residual), stack
 
 
