@@ -43,16 +43,16 @@ def surfaces() -> dict[str, Studied]:
         "station 0, upside down": Studied("station 0", _upside_down(road[0])),
         "station 0, random phases": Studied("station 0", drawn[0]),
         "station 0, random phases, worn": Studied(
-            "station 0", _worn(random_phases(road[0], 3), 0.4, 0.2)
+            "station 0", lowered_tops(random_phases(road[0], 3), 0.4, 0.2)
         ),
         "station 1": Studied("station 1", road[1]),
         "station 1, upside down": Studied("station 1", _upside_down(road[1])),
         "station 1, random phases": Studied("station 1", drawn[1]),
-        "station 1, worn": Studied("station 1", _worn(road[1], 0.3, 0.3)),
+        "station 1, worn": Studied("station 1", lowered_tops(road[1], 0.3, 0.3)),
         **{
             name: Studied(f, self_affine_profile(*numbers)) for name, (f, numbers) in smooth.items()
         },
-        "self-affine, H = 0.8, worn": Studied("self-affine worn", _worn(worn, 0.4, 0.15)),
+        "self-affine, H = 0.8, worn": Studied("self-affine worn", lowered_tops(worn, 0.4, 0.15)),
     }
 
 
@@ -71,7 +71,7 @@ def _upside_down(profile: gs.Profile) -> gs.Profile:
     return gs.Profile(profile.x, -profile.z)
 
 
-def _worn(profile: gs.Profile, share: float, left: float) -> gs.Profile:
+def lowered_tops(profile: gs.Profile, share: float, left: float) -> gs.Profile:
     """Return the profile with its highest `share` lowered to `left` of what stands out."""
     level = np.nanquantile(profile.z, 1.0 - share)
     out = np.maximum(profile.z - level, 0.0)
