@@ -84,8 +84,8 @@ def predict(
         Number of waves after which to stop.
     pressure_classes
         In how many classes of equal load the pressure in the contact of a wave is handed down to
-        the next, which is solved once for each; 1 hands down the mean pressure. With 8 classes a
-        prediction no longer depends on whether few or many waves stand for a surface.
+        the next, which is solved once for each; 1 hands down the mean pressure, 8 its distribution
+        to some per cent of the totals.
     load_time
         "passage": wave i is loaded while the contact above it passes,
         t_1 = footprint/speed, t_i = A_(i-1)/speed. A number fixes it for every wave [s],

@@ -76,7 +76,7 @@ CUT_OFF_COUNTED = 0.25
 """Smallest lag that counts by default, in wavelengths of the cut-off."""
 
 SHORTER_WAVES = 3
-"""Waves below a cut-off that count in the fit; a fourth is below a per cent of C_z at its lags."""
+"""Waves below a cut-off that count in the fit: factors of 2 take them below the lags that count."""
 
 AS_GOOD = 1.1
 """Residual, as a ratio to the least one, up to which fewer waves are preferred."""
