@@ -1,1 +1,1 @@
-"""Computations behind pages of the documentation that are neither tests nor benchmarks."""
+"""Numerical experiments behind pages of the documentation, on public names of gripscale."""

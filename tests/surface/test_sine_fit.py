@@ -11,6 +11,7 @@ from gripscale.surface import (
     fit_sines,
     height_difference,
     read_profile,
+    self_affine_profile,
     sine_profile,
 )
 from gripscale.surface.sine_fit import first_consistent_lag
@@ -177,7 +178,7 @@ def test_measured_road_prefers_two_factors(road):
 
 CURVE = exact_curve(STACK, 4e-5, FIRST / 4)
 BAD = [
-    ({}, "scales or smallest_wavelength must be given"),
+    ({}, "scales, smallest_wavelength or cut_off must be given"),
     ({"scales": 0}, "scales must be a whole number from 1 to 24"),
     ({"scales": 2.5}, "scales must be a whole number"),
     ({"scales": 4, "s_wavelength": 1.0}, "s_wavelength must be greater than 1"),
@@ -206,3 +207,53 @@ def test_a_flat_curve_is_refused():
     flat = HeightDifference(CURVE.lag, np.zeros(len(CURVE)))
     with pytest.raises(InputError, match="must be positive at every lag"):
         fit_sines(flat, scales=3)
+
+
+def test_the_cut_off_lies_half_a_factor_below_the_last_wave():
+    stack = geometric_stack(FIRST, 2.5e-3, 3.5, 2.4, 9)
+    curve = exact_curve(stack, 2e-4, FIRST / 4)
+    # Six waves end at a cut-off of lambda_6 / sqrt(3.5); the three below it count and are left out.
+    fit = fit_sines(curve, scales=6, cut_off=stack.wavelength[5] / np.sqrt(3.5))
+    assert len(fit) == 6
+    assert fit.residual < 1e-6
+    assert fit.wavelength == pytest.approx(stack.wavelength[:6], rel=1e-4)
+    assert fit.amplitude == pytest.approx(stack.amplitude[:6], rel=1e-4)
+
+
+def test_waves_to_a_cut_off_have_the_slope_of_the_profile_to_it():
+    # Rms slope of the profile without waves below the cut-off, from its own Fourier coefficients.
+    profile, cut_off = self_affine_profile(0.8, 2e-3, 0.6e-3, 1.2, 37.5e-6, 2014), 0.4e-3
+    q = 2 * np.pi * np.fft.rfftfreq(profile.z.size, profile.step)
+    power = 2 * np.abs(np.fft.rfft(profile.z) / profile.z.size) ** 2
+    kept = q <= 2 * np.pi / cut_off
+    slope = np.sqrt((q[kept] ** 2 * power[kept]).sum())
+    curve = height_difference(profile)
+    to_cut_off = [fit_sines(curve, scales=n, cut_off=cut_off).rms_slope for n in (3, 5, 8)]
+    to_last = [fit_sines(curve, scales=n, smallest_wavelength=cut_off).rms_slope for n in (3, 5, 8)]
+    # 10 %: a geometric stack on a curve that bends at its cut-off lag.
+    assert to_cut_off == pytest.approx([slope] * 3, rel=0.10)
+    assert min(to_last) > 1.15 * slope
+
+
+def test_a_cut_off_with_a_given_factor_takes_the_waves_that_fit():
+    curve = exact_curve(STACK, 4e-5, FIRST / 4)
+    fit = fit_sines(curve, cut_off=1e-3, s_wavelength=3.5)
+    assert fit.s_wavelength == 3.5
+    assert fit.wavelength[-1] / np.sqrt(3.5) >= 1e-3 * (1 - 1e-6)
+    assert fit.wavelength[-1] / 3.5**1.5 < 1e-3 * (1 + 1e-6)
+    alone = fit_sines(curve, cut_off=1e-3)
+    assert alone.wavelength[-1] == pytest.approx(1e-3 * np.sqrt(alone.s_wavelength), rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        ({"cut_off": 0.0}, "cut_off must be greater than zero"),
+        ({"cut_off": 1e-3, "smallest_wavelength": 1e-3}, "give smallest_wavelength"),
+        ({"cut_off": 1e-3, "scales": 3, "s_wavelength": 3.0}, "two of scales, cut_off and s_w"),
+        ({"cut_off": 1e-2, "first_wavelength": 5e-3}, "cut_off must be below first_wavelength"),
+    ],
+)
+def test_a_bad_cut_off_is_refused(arguments, says):
+    with pytest.raises(InputError, match=says):
+        fit_sines(exact_curve(STACK, 4e-5, FIRST / 4), **arguments)

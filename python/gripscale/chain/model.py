@@ -6,7 +6,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from gripscale import checks
 from gripscale.chain.predict import ChainError, RubberAt, predict
+from gripscale.chain.pressure import MOST_CLASSES
 from gripscale.surface import PreparedSurface, SineStack
 from gripscale.wave.block import FiniteStrainBlock
 from gripscale.wave.solver import WaveSolver
@@ -28,12 +30,23 @@ class Chain:
         What solves one wave.
     rubber_at : RubberAt, optional
         Conditions that change the rubber on the way; a frozen dataclass, so that it can be kept.
+    pressure_classes : int
+        In how many classes of equal load a wave hands its pressure down, see `predict`.
+
+    Raises
+    ------
+    InputError
+        If `pressure_classes` is no whole number from 1 to 64.
     """
 
     name: ClassVar[str] = "chain"
 
     solver: WaveSolver = field(default_factory=FiniteStrainBlock)
     rubber_at: RubberAt | None = None
+    pressure_classes: int = 1
+
+    def __post_init__(self) -> None:
+        checks.whole("pressure_classes", self.pressure_classes, least=1, most=MOST_CLASSES)
 
     def relevant(self, surface: PreparedSurface) -> PreparedSurface:
         """Return nothing of `surface` but its waves."""
@@ -59,6 +72,7 @@ class Chain:
                 pressure=load.pressure,
                 speed=load.speed,
                 footprint=load.footprint,
+                pressure_classes=self.pressure_classes,
                 load_time=load.load_time,
                 solver=self.solver,
                 rubber_at=self.rubber_at,

@@ -4,6 +4,9 @@ With A_i the contact length of wave i projected on the mean plane (Lind & Wangen
 IMECE2014-37998, equation 1):
 
     p_(i+1)  = p_i lambda_i / A_i
+
+That is a mean. With several pressure classes its distribution is handed down instead, see
+`gripscale.chain.pressure`.
 """
 
 from __future__ import annotations
@@ -14,6 +17,7 @@ from typing import Any, Protocol
 
 from gripscale import checks
 from gripscale.chain.prediction import Prediction
+from gripscale.chain.pressure import MOST_CLASSES, PressureClasses, usable
 from gripscale.chain.solvers import WaveSolverLike, wave_solver
 from gripscale.errors import ConvergenceError, InputError
 from gripscale.model import LoadTime, NominalLoad
@@ -50,6 +54,7 @@ def predict(
     solver: WaveSolverLike = "finite_strain",
     smallest_wavelength: float | None = None,
     max_scales: int | None = None,
+    pressure_classes: int = 1,
     load_time: LoadTime = "passage",
     on_scale: Callable[[Prediction], None] | None = None,
     start: Prediction | None = None,
@@ -77,6 +82,10 @@ def predict(
         Waves shorter than this are left out [m].
     max_scales
         Number of waves after which to stop.
+    pressure_classes
+        In how many classes of equal load the pressure in the contact of a wave is handed down to
+        the next, which is solved once for each; 1 hands down the mean pressure, 8 its distribution
+        to some per cent of the totals.
     load_time
         "passage": wave i is loaded while the contact above it passes,
         t_1 = footprint/speed, t_i = A_(i-1)/speed. A number fixes it for every wave [s],
@@ -108,19 +117,21 @@ def predict(
     solve = wave_solver(solver, options).solve
     waves = select_waves(sines, smallest_wavelength=smallest_wavelength, max_scales=max_scales)
     result = Prediction(rubber, sines, load, [], len(waves))
-    received, length = load.pressure, load.footprint
+    count = checks.whole("pressure_classes", pressure_classes, least=1, most=MOST_CLASSES)
+    classes, length = PressureClasses.uniform(load.pressure), load.footprint
     for number, wave in enumerate(waves):
         first = start.scales[number] if start is not None and number < len(start.scales) else None
         own = rubber if rubber_at is None else rubber_at(wave, result)
-        asked = Load(received, load.speed, load.time_under(length))
-        scale = solve(WaveProblem(own, wave, asked), first)
+        time = load.time_under(length)
+        asked = [Load(float(pressure), load.speed, time) for pressure in classes.pressure]
+        solved = [solve(WaveProblem(own, wave, one), first) for one in asked]
+        scale = classes.together(solved)
         result = replace(result, scales=[*result.scales, scale])
         if on_scale is not None:
             on_scale(result)
         _require_contact(result)
-        # Equation 1; unchanged in full contact.
-        received = received * wave.wavelength / scale.contact_length
         length = scale.contact_length
+        classes = classes.handed_down(solved, count)
     return result
 
 
@@ -157,7 +168,7 @@ def _require_contact(so_far: Prediction) -> None:
     scale = so_far.scales[-1]
     if not scale.converged:
         raise ChainError(so_far.failure(), so_far)
-    if not 0.0 < scale.contact_fraction <= 1.0:
+    if not usable(scale):
         raise ChainError(
             f"{so_far.place()} has a contact fraction of {scale.contact_fraction:g}; "
             "expected more than 0 and at most 1",

@@ -12,13 +12,14 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gripscale import model, versions
+from gripscale.chain.pressure import CLASS_PRESSURES
 from gripscale.model import NominalLoad
 from gripscale.rubber import Rubber
 from gripscale.surface import SineStack
@@ -132,6 +133,7 @@ class Prediction:
                 for part in ("wavelength", "amplitude")
             }
         )
+        data = data.assign(_class_pressures(self.scales))
         totals = {
             "total_contact_fraction": self.contact_fraction,
             "total_friction": self.friction,
@@ -166,10 +168,34 @@ class Prediction:
             rubber=Rubber.from_dict(json.loads(data.attrs["rubber_parameters"])),
             sines=SineStack(data["sines_wavelength"].values, data["sines_amplitude"].values),
             load=load,
-            scales=waves_from_dataset(data),
+            scales=_with_class_pressures(waves_from_dataset(data), data),
             planned=int(data.attrs["planned_waves"]),
         )
 
     def _of_converged(self, values: Sequence[float]) -> Array:
         usable = np.array([scale.converged for scale in self.scales], dtype=bool)
         return np.where(usable, np.array(values, dtype=float), math.nan)
+
+
+def _class_pressures(scales: Sequence[WaveResult]) -> dict[str, xr.Variable]:
+    """Return the pressures each wave was solved under, where there are several."""
+    from gripscale.wave.dataset import CHAIN, labelled
+
+    listed = [np.ravel(s.details.get(CLASS_PRESSURES, s.pressure_received)) for s in scales]
+    most = max((len(pressures) for pressures in listed), default=0)
+    if most < 2:
+        return {}
+    values = np.array([np.pad(p, (0, most - len(p)), constant_values=np.nan) for p in listed])
+    words = "pressure on each class of equal load", CHAIN
+    return {CLASS_PRESSURES: labelled(("scale", "pressure_class"), values, "Pa", *words)}
+
+
+def _with_class_pressures(scales: list[WaveResult], data: xr.Dataset) -> list[WaveResult]:
+    """Return the waves with the pressures they were solved under, if `data` has any."""
+    if CLASS_PRESSURES not in data:
+        return scales
+    rows = [row[np.isfinite(row)] for row in data[CLASS_PRESSURES].values]
+    return [
+        replace(s, details={**s.details, CLASS_PRESSURES: row}) if len(row) > 1 else s
+        for s, row in zip(scales, rows, strict=True)
+    ]

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from gripscale.cli.terminal import command, say, screen
+
+if TYPE_CHECKING:
+    from gripscale.surface import PreparedSurface
 
 
 def _option(text: str) -> Any:
@@ -54,7 +58,8 @@ def fit_surface(
         folder.require_writable(output)
     prepared = prepare_surface(surface)
     console = screen()
-    for line in (*surface_lines(prepared), *waves_table(prepared.sines)):
+    lines = (*surface_lines(prepared), *waves_table(prepared.sines), *_ambiguity(prepared))
+    for line in lines:
         say(console, line)
     if output is not None:
         from gripscale.figures.case_all import surface_figures
@@ -62,3 +67,20 @@ def fit_surface(
         folder.make(output)
         surface_figures(prepared, output)
         say(console, f"Figures are in {output}")
+
+
+def _ambiguity(prepared: PreparedSurface) -> Iterator[str]:
+    """Yield how far the correlation determines the waves, where there are several."""
+    from gripscale.surface import sine_ambiguity
+
+    if prepared.correlation is None or len(prepared.sines) < 2:
+        return
+    found = sine_ambiguity(prepared.correlation, prepared.sines)
+    low, high = (length * 1e3 for length in found.first_wavelength)
+    yield (
+        f"C_z is known to {found.band:.2g} decades; {len(found.stacks)} of {found.tried} stacks "
+        f"tried follow it as well: {found.waves.low:.0f} to {found.waves.high:.0f} waves, "
+        f"s_wavelength {found.s_wavelength.low:.2g} to {found.s_wavelength.high:.2g}, "
+        f"first wave {low:.3g} to {high:.3g} mm, "
+        f"rms slope {found.rms_slope.low:.2f} to {found.rms_slope.high:.2f}"
+    )

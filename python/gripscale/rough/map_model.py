@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import math
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, ClassVar
-
-import numpy as np
 
 from gripscale import model, versions
 from gripscale.errors import InputError

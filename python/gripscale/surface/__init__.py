@@ -12,6 +12,7 @@ from gripscale.surface.prepared import Measured, PreparedSurface
 from gripscale.surface.profile import Profile
 from gripscale.surface.read import read_profile, read_profiles
 from gripscale.surface.self_affine import SelfAffineFit, fit_self_affine
+from gripscale.surface.sine_ambiguity import SineAmbiguity, sine_ambiguity
 from gripscale.surface.sine_fit import fit_sines
 from gripscale.surface.sines import SineStack
 from gripscale.surface.spectrum import ArealSpectrum, ProfileSpectrum
@@ -27,6 +28,7 @@ __all__ = [
     "Profile",
     "ProfileSpectrum",
     "SelfAffineFit",
+    "SineAmbiguity",
     "SineStack",
     "StepReport",
     "areal_spectrum",
@@ -42,5 +44,6 @@ __all__ = [
     "read_profile",
     "read_profiles",
     "self_affine_profile",
+    "sine_ambiguity",
     "sine_profile",
 ]

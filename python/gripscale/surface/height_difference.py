@@ -2,7 +2,9 @@
 
     C_z(l) = < (z(x + l) - z(x))^2 >                                        [LW eq. 5]
 
-averaged over all pairs of points a lag l apart in which both heights are valid.
+averaged over all pairs of points a lag l apart in which both heights are valid. Rubber touches the
+upper part of a surface only; where that differs from the valleys, C_z of the upper part alone is
+nearer to what the rubber meets (`upper_share`).
 [LW] Lind & Wangenheim, ASME IMECE2014-37998.
 """
 
@@ -94,6 +96,7 @@ class HeightDifference:
 def height_difference(
     profile: Profile | Sequence[Profile],
     *,
+    upper_share: float = 1.0,
     max_lag: float | None = None,
     lags_per_decade: int = 20,
     band_blocks: int = 16,
@@ -118,6 +121,9 @@ def height_difference(
     ----------
     profile : Profile or sequence of Profile
         Cleaned profiles. Several must have the same step (within 0.1 %); their pairs are pooled.
+    upper_share : float, optional
+        Share of each profile's heights that counts, from the highest down: 0.5 leaves out pairs
+        with a point below the median height.
     max_lag : float, optional
         Largest lag [m]; a quarter of the shortest profile's length by default.
     lags_per_decade : int, optional
@@ -133,14 +139,18 @@ def height_difference(
     Raises
     ------
     InputError
-        If the steps differ, `max_lag` is below one step or beyond a profile, or no lag has pairs.
+        If the steps differ, `upper_share` is not above 0 and at most 1, `max_lag` is below one step
+        or beyond a profile, or no lag has pairs.
     """
     profiles = _profiles(profile)
     per_decade = checks.whole("lags_per_decade", lags_per_decade, least=1, most=1000)
     blocks = checks.whole("band_blocks", band_blocks, least=4, most=1000)
     step = float(np.mean([p.step for p in profiles]))
     shifts = _lag_steps(profiles, step, max_lag, per_decade)
-    centred = [p.z - np.nanmean(p.z) for p in profiles]
+    share = checks.positive("upper_share", upper_share)
+    if share > 1.0:
+        raise InputError(f"upper_share must be at most 1; got {share:g}")
+    centred = [_upper(p.z - np.nanmean(p.z), share) for p in profiles]
     starts = _block_starts([z.size for z in centred], blocks)
     sums, counts = _block_sums(centred, starts, shifts)
     if len(profiles) > blocks:
@@ -169,6 +179,11 @@ def _profiles(profile: Profile | Sequence[Profile]) -> list[Profile]:
                 f"index 0 and {other.step:g} m at index {at}"
             )
     return profiles
+
+
+def _upper(z: FloatArray, share: float) -> FloatArray:
+    """Return heights with all but the highest `share` of them missing."""
+    return np.where(z >= np.nanquantile(z, 1.0 - share), z, np.nan)
 
 
 def _lag_steps(

@@ -26,9 +26,20 @@ H, and above 1 where H > 0.9, so that they count for little there.
 C_z(m l) <= m^2 C_z(l). Spike removal marks both points of steep neighbours as missing, so steep
 flanks count at lags that span the gap but not at smaller ones: C_z then breaks this rule, and no
 sum of waves can follow. Lags before the first one that keeps the rule do not count by default.
+
+**The end of the stack.** Each wave stands for a band of wavelengths, from its own over
+sqrt(s_lambda) to its own times sqrt(s_lambda). A last wave of the wavelength l therefore brings in
+roughness down to l / sqrt(s_lambda), and the slope of the stack is larger than that of a profile
+without the waves shorter than l. `cut_off` states where the roughness ends: the last wave is then
+cut_off sqrt(s_lambda). The measured C_z holds the shorter waves too, so that three more of them, by
+the same factors, count in the fit and are left out of the stack. Lags below cut_off / 4, which they
+decide, do not count. `smallest_wavelength` states the last wave itself, as Lind & Wangenheim do.
 """
 
 from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -52,11 +63,20 @@ from gripscale.surface.sines import SineStack
 MOST_WAVES = 24
 """Waves beyond which a stack is refused."""
 
+NUMBERS = range(2, MOST_WAVES + 1)
+"""Numbers of waves tried where none is given."""
+
 PLATEAU_COUNTED = 4.0
 """Largest lag that counts by default, in lags at which the plateau begins."""
 
 CONSISTENT = 1.05
 """C_z(m l) / (m^2 C_z(l)) above which lag l is inconsistent; sampling may exceed 1 a little."""
+
+CUT_OFF_COUNTED = 0.25
+"""Smallest lag that counts by default, in wavelengths of the cut-off."""
+
+SHORTER_WAVES = 3
+"""Waves below a cut-off that count in the fit: factors of 2 take them below the lags that count."""
 
 AS_GOOD = 1.1
 """Residual, as a ratio to the least one, up to which fewer waves are preferred."""
@@ -67,6 +87,7 @@ def fit_sines(
     *,
     scales: int | None = None,
     smallest_wavelength: float | None = None,
+    cut_off: float | None = None,
     s_wavelength: float | None = None,
     s_amplitude: float | None = None,
     first_wavelength: float | None = None,
@@ -82,12 +103,16 @@ def fit_sines(
     hdc : HeightDifference
         The measured curve.
     scales : int, optional
-        Number of waves, 1 to 24. At least one of `scales` and `smallest_wavelength` is needed.
+        Number of waves, 1 to 24. At least one of `scales`, `smallest_wavelength` and `cut_off` is
+        needed.
     smallest_wavelength : float, optional
         Wavelength of the last wave [m], which may lie below what was measured. Given with
         `scales`, s_wavelength follows from it. Alone, the number of waves with the least residual
         is taken (of numbers as good within 10 %, the smallest). Where s_wavelength is given too,
         the last wave is the smallest one not below `smallest_wavelength`.
+    cut_off : float, optional
+        Shortest wavelength of the roughness the waves stand for [m], in place of
+        `smallest_wavelength`: the last wave is cut_off sqrt(s_wavelength).
     s_wavelength, s_amplitude : float, optional
         Magnification factors, both above 1, if they are given rather than fitted.
     first_wavelength, first_amplitude : float, optional
@@ -105,11 +130,16 @@ def fit_sines(
     Raises
     ------
     InputError
-        If an argument is wrong, `scales` and `smallest_wavelength` are both missing, or the curve
-        has too few positive values in the range of lags.
+        If an argument is wrong, `scales`, `smallest_wavelength` and `cut_off` are all missing, or
+        the curve has too few positive values in the range of lags.
     """
-    if scales is None and smallest_wavelength is None:
-        raise InputError("scales or smallest_wavelength must be given; got neither")
+    if scales is None and smallest_wavelength is None and cut_off is None:
+        raise InputError("scales, smallest_wavelength or cut_off must be given; got none of them")
+    if smallest_wavelength is not None and cut_off is not None:
+        raise InputError(
+            "give smallest_wavelength (the last wave) or cut_off (where the roughness ends); "
+            f"got {smallest_wavelength:g} m and {cut_off:g} m"
+        )
     given = _given_logs(
         {
             "first_wavelength": first_wavelength,
@@ -119,24 +149,64 @@ def fit_sines(
         },
         single_factor,
     )
+    end = _end(given, smallest_wavelength, cut_off)
+    if smallest_lag is None:
+        smallest_lag = max(first_consistent_lag(hdc), CUT_OFF_COUNTED * (cut_off or 0.0))
     target = _target(hdc, smallest_lag, largest_lag, int(np.isnan(given).sum()))
-    if smallest_wavelength is None:
+    if end is None:
         waves = checks.whole("scales", scales, least=1, most=MOST_WAVES)
         return _stack(search(target, Trial(given, waves, single_factor)), target)
-    last = float(np.log(checks.positive("smallest_wavelength", smallest_wavelength, unit="m")))
-    if last >= given[FIRST_WAVELENGTH]:
-        raise InputError(
-            f"smallest_wavelength must be below first_wavelength; got {smallest_wavelength:g} m "
-            f"against {first_wavelength:g} m"
-        )
     if not np.isnan(given[S_WAVELENGTH]):
         if scales is not None:
-            raise InputError("give two of scales, smallest_wavelength and s_wavelength; got three")
-        return _stack(_down_with_factor(target, given, single_factor, last), target)
+            raise InputError(f"give two of scales, {end.name} and s_wavelength; got three")
+        return _stack(_down_with_factor(target, given, single_factor, end), target)
     if scales is not None:
         waves = checks.whole("scales", scales, least=2, most=MOST_WAVES)
-        return _stack(search(target, Trial(given, waves, single_factor, last)), target)
-    return _stack(_best_number(target, given, single_factor, last), target)
+        return _stack(search(target, end.trial(given, waves, single_factor)), target)
+    return _stack(_best_number(target, given, single_factor, end), target)
+
+
+@dataclass(frozen=True)
+class _End:
+    """Where a stack ends: log of a wavelength, and how many factors beyond the last wave it is."""
+
+    name: str
+    log: float
+    beyond: float
+
+    @property
+    def shorter(self) -> int:
+        """Waves that the measured curve holds beyond the end."""
+        return SHORTER_WAVES if self.beyond > 0.0 else 0
+
+    def trial(self, given: FloatArray, waves: int, single_factor: bool) -> Trial:
+        """Return the search for `waves` waves down to the end."""
+        return Trial(given, waves, single_factor, self.log, self.beyond, shorter=self.shorter)
+
+    def spans(self, factor: float) -> list[tuple[float, float]]:
+        """Return logs of the first wavelength at which 1, 2, ... waves reach the end."""
+        number = np.arange(1, MOST_WAVES + 2)
+        logs = self.log + (number - 1 + self.beyond) * factor
+        return list(pairwise(logs))
+
+
+def _end(
+    given: FloatArray, smallest_wavelength: float | None, cut_off: float | None
+) -> _End | None:
+    """Return the end that is stated, if any."""
+    if cut_off is not None:
+        end = _End("cut_off", float(np.log(checks.positive("cut_off", cut_off, unit="m"))), 0.5)
+    elif smallest_wavelength is not None:
+        last = checks.positive("smallest_wavelength", smallest_wavelength, unit="m")
+        end = _End("smallest_wavelength", float(np.log(last)), 0.0)
+    else:
+        return None
+    if end.log >= given[FIRST_WAVELENGTH]:
+        raise InputError(
+            f"{end.name} must be below first_wavelength; got {np.exp(end.log):g} m "
+            f"against {np.exp(given[FIRST_WAVELENGTH]):g} m"
+        )
+    return end
 
 
 def _given_logs(values: dict[str, float | None], single_factor: bool) -> FloatArray:
@@ -159,9 +229,7 @@ def _given_logs(values: dict[str, float | None], single_factor: bool) -> FloatAr
     return logs
 
 
-def _target(
-    hdc: HeightDifference, smallest: float | None, largest: float | None, unknowns: int
-) -> Target:
+def _target(hdc: HeightDifference, smallest: float, largest: float | None, unknowns: int) -> Target:
     """Return the part of the curve that counts."""
     if (hdc.value <= 0.0).any():
         at = int(np.argmin(hdc.value))
@@ -169,8 +237,6 @@ def _target(
             f"hdc must be positive at every lag; got {hdc.value[at]:g} m^2 at {hdc.lag[at]:g} m"
         )
     plateau = find_plateau(hdc)
-    if smallest is None:
-        smallest = first_consistent_lag(hdc)
     if largest is None:
         largest = float(hdc.lag[-1]) if plateau is None else PLATEAU_COUNTED * plateau.lag
     low = checks.positive("smallest_lag", smallest, unit="m") * (1.0 - 1e-9)
@@ -199,34 +265,36 @@ def first_consistent_lag(hdc: HeightDifference) -> float:
 
 
 def _down_with_factor(
-    target: Target, given: FloatArray, single_factor: bool, last: float
+    target: Target, given: FloatArray, single_factor: bool, end: _End
 ) -> Found | None:
-    """Search with s_wavelength given: as many waves as do not go below the last wavelength."""
+    """Search with s_wavelength given: as many waves as do not go below the end."""
     factor, first = float(given[S_WAVELENGTH]), float(given[FIRST_WAVELENGTH])
+    spans = end.spans(factor)
     if not np.isnan(first):
-        waves = 1 + int((first - last) / factor + 1e-9)
+        waves = 1 + int((first - end.log) / factor - end.beyond + 1e-9)
         if waves > MOST_WAVES:
             raise InputError(
-                f"smallest_wavelength must need at most {MOST_WAVES} waves; "
-                f"{np.exp(last):g} m needs {waves}"
+                f"{end.name} must need at most {MOST_WAVES} waves; "
+                f"{np.exp(end.log):g} m needs {waves}"
             )
-        return search(target, Trial(given, waves, single_factor))
-    ranges = {n: (last + (n - 1) * factor, last + n * factor) for n in range(1, MOST_WAVES + 1)}
-    return _closest(
-        target, [Trial(given, n, single_factor, first_range=r) for n, r in ranges.items()], 1.0
-    )
-
-
-def _best_number(
-    target: Target, given: FloatArray, single_factor: bool, last: float
-) -> Found | None:
-    """Search over the number of waves down to the last wavelength."""
-    first = float(given[FIRST_WAVELENGTH])
-    spans = [last + (n - 1) * np.log(FACTOR_RANGE) for n in range(2, MOST_WAVES + 1)]
-    numbers = [
-        n for n, (low, high) in enumerate(spans, start=2) if np.isnan(first) or low <= first <= high
+        return search(target, Trial(given, waves, single_factor, shorter=end.shorter))
+    trials = [
+        Trial(given, n, single_factor, first_range=span, shorter=end.shorter)
+        for n, span in enumerate(spans, start=1)
     ]
-    trials = [Trial(given, n, single_factor, last) for n in numbers]
+    return _closest(target, trials, 1.0)
+
+
+def _best_number(target: Target, given: FloatArray, single_factor: bool, end: _End) -> Found | None:
+    """Search over the number of waves down to the end."""
+    first = float(given[FIRST_WAVELENGTH])
+    ranges = [[end.spans(float(np.log(f)))[n - 1][0] for f in FACTOR_RANGE] for n in NUMBERS]
+    numbers = [
+        n
+        for n, (low, high) in zip(NUMBERS, ranges, strict=True)
+        if np.isnan(first) or low <= first <= high
+    ]
+    trials = [end.trial(given, n, single_factor) for n in numbers]
     return _closest(target, trials, AS_GOOD)
 
 

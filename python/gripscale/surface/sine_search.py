@@ -50,8 +50,15 @@ class Trial:
     given: FloatArray
     waves: int
     single_factor: bool = False
-    last: float | None = None  # log of the last wavelength, from which s_wavelength follows
+    last: float | None = None  # log of a wavelength at the end, from which s_wavelength follows
+    beyond: float = 0.0  # how many factors s_wavelength it lies below the last wave
+    shorter: int = 0  # waves below the last one that the curve holds and the stack leaves out
     first_range: tuple[float, float] | None = None  # limits of the first wavelength's log
+
+    @property
+    def steps(self) -> float:
+        """Factors s_wavelength from the first wave to `last`."""
+        return self.waves - 1 + self.beyond
 
     @property
     def free(self) -> list[int]:
@@ -68,7 +75,7 @@ class Trial:
         if self.waves == 1:
             p[2:] = np.where(np.isnan(p[2:]), 0.0, p[2:])
         elif self.last is not None:
-            p[S_WAVELENGTH] = (p[FIRST_WAVELENGTH] - self.last) / (self.waves - 1)
+            p[S_WAVELENGTH] = (p[FIRST_WAVELENGTH] - self.last) / self.steps
         if self.single_factor:
             p[S_AMPLITUDE] = p[S_WAVELENGTH]
         return p
@@ -86,7 +93,7 @@ class Trial:
         if self.first_range is not None:
             limits[FIRST_WAVELENGTH] = self.first_range
         if self.last is not None:
-            spans = self.last + (self.waves - 1) * np.log(FACTOR_RANGE)
+            spans = self.last + self.steps * np.log(FACTOR_RANGE)
             low, high = limits[FIRST_WAVELENGTH]
             limits[FIRST_WAVELENGTH] = max(low, spans[0]), min(high, spans[1])
         return limits[self.free, 0], limits[self.free, 1]
@@ -118,7 +125,7 @@ def search(target: Target, trial: Trial, refined: int = 10) -> Found | None:
     logs_wanted = np.log10(target.value)
 
     def residuals(unknowns: FloatArray) -> FloatArray:
-        curve = fitted_curve(trial.fill(unknowns), trial.waves, target.lag)
+        curve = fitted_curve(trial.fill(unknowns), trial.waves + trial.shorter, target.lag)
         return np.asarray(target.weight * (np.log10(np.maximum(curve, 1e-300)) - logs_wanted))
 
     def distance(unknowns: FloatArray) -> float:
@@ -130,10 +137,10 @@ def search(target: Target, trial: Trial, refined: int = 10) -> Found | None:
     if (low >= high).any():
         return None
     grid = _starts(target, trial) + _tied_start(target, trial, refined)
-    starts = sorted((np.clip(q, low, high) for q in grid), key=distance)
+    starts = sorted((np.clip(q, low, high) for q in grid), key=distance)[:refined]
     fits = [
         least_squares(residuals, q, bounds=(low, high), xtol=1e-11, ftol=1e-11, gtol=1e-11)
-        for q in starts[:refined]
+        for q in dict.fromkeys(tuple(q) for q in starts)  # what is given makes starts equal
     ]
     closest = min(fits, key=lambda fit: float(fit.cost))
     return Found(trial.fill(closest.x), trial.waves, float(np.sqrt(2.0 * closest.cost)))

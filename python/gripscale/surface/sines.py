@@ -90,6 +90,11 @@ class SineStack:
         """Largest slope of each wave, 2 pi A / lambda."""
         return np.asarray(2.0 * np.pi * self.amplitude / self.wavelength)
 
+    @property
+    def rms_slope(self) -> float:
+        """Root mean square slope of all waves together, sqrt(sum (2 pi A / lambda)^2 / 2)."""
+        return float(np.sqrt(0.5 * np.sum(self.slope**2)))
+
     def height_difference(self, lag: ArrayLike) -> FloatArray:
         """Return C_z [m^2] of the waves at lags [m]: sum A^2 (1 - cos(2 pi l / lambda))."""
         lags = checks.vector("lag", lag, unit="m")
