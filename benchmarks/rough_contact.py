@@ -1,6 +1,6 @@
 """The direct contact: time and memory beside what was solved and how well.
 
-Run as `python benchmarks/rough_contact.py`; with `--large` also on 2048 x 2048 points.
+The share of transforms is measured with the transforms of the same grids alone, in the same run.
 """
 
 from __future__ import annotations

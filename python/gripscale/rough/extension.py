@@ -28,7 +28,7 @@ Index = NDArray[np.intp]
 
 REACH = 1
 """Steps along each axis."""
-FAR = 0.3
+FAR = 2.0
 """Weight of what is farther, that of a neighbour being one."""
 
 
