@@ -13,8 +13,8 @@ and freed of u_0 by leaving out means (P r = r - mean r),
 this is Q K_AA p = Q h_A for corrections p of zero sum, and Q (h_A - K_AA p) is, to first order, the
 pressure still missing. GMRES (Y. Saad & M. H. Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856,
 doi:10.1137/0907058) runs in single precision on what is missing, taken anew in double precision
-after each run (iterative refinement), so that single precision costs no accuracy. A few
-points are solved for directly.
+after each run (iterative refinement), so that single precision costs no accuracy. A
+system of few points that it does not solve at once is eliminated.
 """
 
 from __future__ import annotations
@@ -38,7 +38,8 @@ REDUCTION = 1e-4
 """Least reduction asked of one run: more would be lost in single precision."""
 RUNS = 5
 FEW = 600
-"""Points in contact up to which the system is solved directly."""
+"""Points in contact up to which the system is eliminated if a run of GMRES falls short. Not at
+once: elimination wakes the threads of BLAS, whose waiting costs more than the iterations."""
 
 
 @dataclass(frozen=True)
@@ -129,9 +130,6 @@ def close_gap(
     points = PointsInContact(response, where)
     pressure = start.copy()
     size, most = float(np.linalg.norm(pressure)), SHORTEST
-    if len(where) <= FEW:
-        pressure = _direct(response, where, height, float(start.sum()))
-        displacement = points.displacement(pressure)
     for run in range(RUNS + 1):
         lacking = points.missing(height - displacement[where])
         norm = float(np.linalg.norm(lacking))
@@ -139,10 +137,13 @@ def close_gap(
             break
         target, before = max(REDUCTION, 0.5 * tolerance * size / norm), points.products
         correction, left = gmres(points, lacking / np.float32(norm), target, most)
-        if points.products - before == most:
+        short = points.products - before == most
+        if short:
             most = min(2 * most, LONGEST)
         pressure += norm * correction
         pressure += (start.sum() - pressure.sum()) / len(pressure)
+        if short and len(where) <= FEW:
+            pressure, left = _direct(response, where, height, float(start.sum())), 0.0
         displacement = points.displacement(pressure)
         norm *= left
         if norm <= tolerance * size and not check:
