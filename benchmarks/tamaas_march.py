@@ -3,8 +3,8 @@
 Run as `python tamaas_march.py PROBLEM.npz`, by a Python that has numpy and Tamaas 2.9 or newer; it
 needs nothing of gripscale. The rubber rests on the grid and the surface moves under it, one point
 further in every step (backward Euler), from the unloaded state until its creep (relaxation time
-times glassy over relaxed modulus, of one element) has forgotten the start to 0.001. Lengths are in periods, stresses in units of the relaxed shear
-modulus. Prints a line of JSON.
+times glassy over relaxed modulus, of one element) has forgotten the start to 0.001. Lengths are in
+periods, stresses in relaxed shear moduli. Prints a line of JSON.
 """
 
 from __future__ import annotations

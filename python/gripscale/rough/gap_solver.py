@@ -13,8 +13,8 @@ and freed of u_0 by leaving out means (P r = r - mean r),
 this is Q K_AA p = Q h_A for corrections p of zero sum, and Q (h_A - K_AA p) is, to first order, the
 pressure still missing. GMRES (Y. Saad & M. H. Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856,
 doi:10.1137/0907058) runs in single precision on what is missing, taken anew in double precision
-after each run (iterative refinement), so that single precision costs no accuracy. A
-system of few points that it does not solve at once is eliminated.
+after each run (iterative refinement), so that single precision costs no accuracy. A system of few
+points that one run does not solve is eliminated.
 """
 
 from __future__ import annotations
@@ -168,7 +168,8 @@ def gmres(
 ) -> tuple[AnyArray, float]:
     """Return x with |right - operator(x)| at `target`, or at its least after `most` products.
 
-    The second value is what is left of |right|, as GMRES has it. `right` has unit length. Arnoldi vectors by modified Gram-Schmidt, least squares by rotations.
+    The second value is what is left of |right|, as GMRES has it. `right` has unit length. Arnoldi
+    vectors by modified Gram-Schmidt, least squares by rotations.
     """
     basis = [right]
     triangle = np.zeros((most, most))

@@ -127,6 +127,4 @@ class Response:
         for axis in range(spectrum.ndim - 1):
             spectrum = scipy.fft.ifft(spectrum, axis=axis, overwrite_x=True, workers=self.workers)
         points = self.grid.shape[-1]
-        return np.asarray(
-            scipy.fft.irfft(spectrum, points, overwrite_x=True, workers=self.workers)
-        )
+        return np.asarray(scipy.fft.irfft(spectrum, points, overwrite_x=True, workers=self.workers))
