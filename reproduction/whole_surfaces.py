@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -77,8 +78,8 @@ class Cases:
             yield Case(
                 f"{waves} sines, factor {factor:.3g}",
                 said,
-                lambda stack=stack: self.chain(stack),
-                lambda stack=stack: [self.contact(_line(stack, seed)) for seed in SEEDS],
+                partial(self.chain, stack),
+                partial(self._seeds_of_sines, stack),
             )
         yield from self._roads()
         yield from self._maps()
@@ -103,10 +104,7 @@ class Cases:
                 f"station {number}, random phases",
                 said,
                 None,
-                lambda number=number: [
-                    self.contact(random_phases(stations[number], seed), down, periodic=True)
-                    for seed in SEEDS
-                ],
+                partial(self._seeds_of_phases, stations[number], down),
             )
         yield Case(
             "station 0, 0.5 mm; upside down",
@@ -167,6 +165,13 @@ class Cases:
         lengths = first / np.asarray(multiples, dtype=float)
         return SineStack(lengths, lengths * slope[0] * (first / lengths) ** exponent)
 
+    def _seeds_of_sines(self, stack: SineStack) -> list[Pair]:
+        return [self.contact(_line(stack, seed)) for seed in SEEDS]
+
+    def _seeds_of_phases(self, line: Profile, down: float) -> list[Pair]:
+        lines = [random_phases(line, seed) for seed in SEEDS]
+        return [self.contact(drawn, down, periodic=True) for drawn in lines]
+
     def seven(self) -> SineStack:
         """Return seven waves fitted to the road down to 0.2 mm."""
         return gs.fit_sines(self.inputs.correlation(ROAD), scales=7, smallest_wavelength=2e-4)
@@ -221,7 +226,7 @@ def isotropic_map() -> HeightMap:
     size = np.where(rough, np.maximum(q, 2.0 * np.pi / 4e-3) ** -1.8, 0.0)
     noise = np.fft.fft2(np.random.default_rng(0).standard_normal(q.shape))
     z = np.fft.ifft2(size * noise).real
-    place = step * np.arange(points)
+    place = np.asarray(step * np.arange(points), dtype=np.float64)
     return HeightMap(place, place, z * (3e-4 / z.std()))
 
 

@@ -54,7 +54,7 @@ def solve_grid(
     """
     flat, shape = height.reshape(-1), height.shape
     pressure, active = start.reshape(-1), start.reshape(-1) > 0.0
-    displacement = response.displacement(start).reshape(-1)
+    displacement = np.asarray(response.displacement(start), dtype=np.float64).reshape(-1)
     load, stiffest = float(start.sum()), response.smallest_compliance
     tolerance, products, fewest, waited = LOOSEST, 1, flat.size + 1, 0
     for iteration in range(1, most_iterations + 1):

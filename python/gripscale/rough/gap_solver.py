@@ -144,7 +144,7 @@ def close_gap(
         pressure += (start.sum() - pressure.sum()) / len(pressure)
         if short and len(where) <= FEW:
             pressure, left = _direct(response, where, height, float(start.sum())), 0.0
-        displacement = points.displacement(pressure)
+        displacement = np.asarray(points.displacement(pressure), dtype=np.float64)
         norm *= left
         if norm <= tolerance * size and not check:
             break

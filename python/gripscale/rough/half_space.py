@@ -111,7 +111,7 @@ class Response:
         spectrum.flat[0] = 0.0
         np.divide(spectrum, self.compliance, out=spectrum, where=self.compliance != 0.0)
         spectrum.flat[0] = mean * height.size
-        return self._from_waves(spectrum)
+        return np.asarray(self._from_waves(spectrum), dtype=np.float64)
 
     def pressure(self, displacement: AnyArray) -> AnyArray:
         """Return the pressure [Pa] that gives `displacement` [m] everywhere, shape of the grid."""
