@@ -1,7 +1,7 @@
 """`python -m reproduction.whole`: the chain beside the direct contact of whole surfaces.
 
 Prints each line of the table as it is solved, and draws both models in the plane of contact
-fraction and friction. Ten minutes of one core, most of them for the lossy rubber.
+fraction and friction. A minute of one core.
 """
 
 from __future__ import annotations
@@ -42,7 +42,8 @@ def chain_and_whole_figure(found: Sequence[Found]) -> Figure:
     for number, one in enumerate(found):
         colour = COLOURS[number % len(COLOURS)]
         area, friction = one.direct.T
-        axes.plot(area, friction, "o", color=colour, ms=4, label=one.case.surface)
+        marker = "o" if number < len(COLOURS) else "^"
+        axes.plot(area, friction, marker, color=colour, ms=4, ls="", label=one.case.surface)
         if one.chain is not None:
             axes.plot(*one.chain, "s", color=colour, ms=5, mfc="none")
             axes.plot(
@@ -51,7 +52,7 @@ def chain_and_whole_figure(found: Sequence[Found]) -> Figure:
     axes.set_xlabel("contact fraction [-]")
     axes.set_ylabel("friction coefficient [-]")
     axes.set_yscale("log")
-    axes.legend(ncols=2, title="open squares: the chain")
+    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), title="open squares: the chain")
     return figure
 
 
