@@ -12,7 +12,17 @@ from pathlib import Path
 
 from rich.console import Console
 
-from benchmarks import case, machine, random_loads, scaling, sweep, transient, waves
+from benchmarks import (
+    case,
+    machine,
+    random_loads,
+    rival,
+    rough_contact,
+    scaling,
+    sweep,
+    transient,
+    waves,
+)
 
 WIDTH = 150
 SUBJECTS: dict[str, Callable[[Console, Path], None]] = {
@@ -21,12 +31,17 @@ SUBJECTS: dict[str, Callable[[Console, Path], None]] = {
     "case": lambda console, _: case.run(console),
     "transient": lambda console, _: transient.run(console),
     "sweep": lambda console, _: sweep.run(console),
+    "rough_contact": lambda console, _: rough_contact.run(console),
+    "rival": lambda console, _: rival.run(console),
     "scaling": lambda console, figures: scaling.run(console, figures / "cost.png"),
+    "large_maps": lambda console, _: rough_contact.run(console, large=True),
 }
+ON_REQUEST = {"large_maps"}
+"""Minutes and gigabytes: only if asked for."""
 
 
 def main() -> None:
-    """Run the chosen subjects, all by default."""
+    """Run the chosen subjects, by default all but those on request."""
     parser = argparse.ArgumentParser(description="Time and memory, subject by subject.")
     parser.add_argument("subjects", nargs="*", metavar="SUBJECT", help=", ".join(SUBJECTS))
     parser.add_argument(
@@ -39,7 +54,7 @@ def main() -> None:
     console = Console(width=WIDTH, highlight=False)
     console.print(f"{machine.describe()}\n")
     start = time.perf_counter()
-    for subject in arguments.subjects or SUBJECTS:
+    for subject in arguments.subjects or [name for name in SUBJECTS if name not in ON_REQUEST]:
         mark = time.perf_counter()
         SUBJECTS[subject](console, arguments.figures)
         console.print(f"{subject}: {time.perf_counter() - mark:.0f} s\n", style="dim")

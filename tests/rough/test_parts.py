@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 import scipy.fft
 
-from gripscale.rough import gap_solver
+from gripscale.rough import extension, gap_solver
 from gripscale.rough.estimate import errors
+from gripscale.rough.extension import FAR, Extension
 from gripscale.rough.grid import Grid, doubled, resampled
 from gripscale.rough.grids import GridRecord
 from gripscale.rough.half_space import HalfSpace, Response
@@ -31,18 +32,57 @@ def test_iterations_and_elimination_close_the_same_gap(monkeypatch):
     height = isotropic_map(32, shortest=3.2e-3).z.reshape(-1)
     where = np.flatnonzero(height > np.quantile(height, 0.6))
     start = np.full(len(where), 1e5)
-    direct = gap_solver.close_gap(response, where, height[where], start, 1e-6)
-    monkeypatch.setattr(gap_solver, "FEW", 0)
-    iterated = gap_solver.close_gap(response, where, height[where], start, 1e-6)
-    assert direct.products == 1
+    full = np.zeros(grid.points)
+    full[where] = start
+    lifted = response.displacement(full.reshape(grid.shape)).reshape(-1)
+    system = (response, where, height[where], start, lifted, 1e-6)
+    iterated = gap_solver.close_gap(*system, check=True)
+    monkeypatch.setattr(gap_solver, "SHORTEST", 1)
+    direct = gap_solver.close_gap(*system, check=True)
+    assert direct.products == 2
     assert iterated.products > 5
     assert direct.pressure.sum() == pytest.approx(start.sum(), rel=1e-9)
     size = np.abs(direct.pressure).max()
     assert np.abs(iterated.pressure - direct.pressure).max() < 1e-4 * size
-    full = np.zeros(grid.points)
+    assert gap_solver.close_gap(*system, check=False).missing < 1e-6
     full[where] = direct.pressure
     gap = response.displacement(full.reshape(grid.shape)).reshape(-1)[where] - height[where]
     assert np.ptp(gap) < 1e-9 * np.ptp(height)
+
+
+def test_a_gap_is_carried_to_the_points_beside_the_contact():
+    """Weights 1/distance^2 on a line and 1/distance^3 on a map, and FAR of nothing beyond."""
+    line = Extension.of(np.array([True, True, False, False, False, True, False, True]))
+    np.testing.assert_array_equal(line.around, [2, 4, 6])
+    np.testing.assert_allclose(
+        line.weights @ np.array([2.0, 3.0, 5.0, 7.0]),
+        [3 / (1 + FAR), 5 / (1 + FAR), (5 + 7) / (2 + FAR)],
+        rtol=1e-6,
+    )
+    active = np.zeros((4, 5), dtype=bool)
+    active[0, 0] = active[1, 0] = True
+    found = Extension.of(active)
+    assert len(found.around) == 10  # over both edges of the map
+    beside = np.flatnonzero(found.around == 4)[0]  # (0, 4), next to (0, 0) and (1, 0)
+    wanted = (2.0 + 3.0 / 2**1.5) / (1 + 1 / 2**1.5 + FAR)
+    assert (found.weights @ np.array([2.0, 3.0]))[beside] == pytest.approx(wanted, rel=1e-6)
+
+
+@pytest.mark.parametrize("speed", [0.0, 0.3])
+def test_carrying_the_gap_saves_products(speed, monkeypatch):
+    """Iterations of the linear system alone, from nothing to 1e-4, with and without."""
+    grid = Grid((128, 128), (0.0256, 0.0256))
+    response = Response.of(HalfSpace(ZENER, speed), grid, 1)
+    height = isotropic_map(128).z
+    where = np.flatnonzero(height > np.quantile(height, 0.8))
+    products = {}
+    for far in (FAR, 1e6):
+        monkeypatch.setattr(extension, "FAR", far)
+        points = gap_solver.PointsInContact(response, where)
+        right = points.missing(height.reshape(-1)[where])
+        gap_solver.gmres(points, right / np.linalg.norm(right), 1e-4, 60)
+        products[far] = points.products
+    assert products[FAR] <= 0.9 * products[1e6]
 
 
 @pytest.mark.parametrize(("shape", "onto"), [((48,), (75,)), ((24, 30), (45, 32)), ((30,), (20,))])
@@ -57,7 +97,10 @@ def test_resampling_is_exact_for_what_both_grids_carry(shape, onto):
 
 def test_doubling_is_linear_between_points():
     np.testing.assert_allclose(doubled(np.array([0.0, 2.0, 6.0])), [0.0, 1.0, 2.0, 4.0, 6.0, 3.0])
-    assert doubled(np.ones((3, 4))).shape == (6, 8)
+    x, y = np.arange(3.0)[:, None], np.arange(4.0)
+    map_ = doubled(x * y)
+    assert map_.shape == (6, 8)
+    np.testing.assert_allclose(map_[:5, :7], 0.25 * np.arange(5.0)[:, None] * np.arange(7.0))
 
 
 def test_area_of_a_map_hardly_depends_on_the_grid():

@@ -54,17 +54,32 @@ def solve_grid(
     """
     flat, shape = height.reshape(-1), height.shape
     pressure, active = start.reshape(-1), start.reshape(-1) > 0.0
+    displacement = np.asarray(response.displacement(start), dtype=np.float64).reshape(-1)
     load, stiffest = float(start.sum()), response.smallest_compliance
-    tolerance, products, fewest, waited = LOOSEST, 0, flat.size + 1, 0
+    tolerance, products, fewest, waited = LOOSEST, 1, flat.size + 1, 0
     for iteration in range(1, most_iterations + 1):
         where = np.flatnonzero(active)
-        closed = close_gap(response, where, flat[where], _loaded(pressure[where], load), tolerance)
-        products += closed.products
-        pressure = np.zeros(flat.size)
+        tried = np.zeros(flat.size)
+        tried[where] = _loaded(pressure[where], load)
+        change = (tried - pressure).astype(np.float32).reshape(shape)
+        displacement += response.displacement(change).reshape(-1)
+        closed = close_gap(
+            response,
+            where,
+            flat[where],
+            tried[where],
+            displacement,
+            tolerance,
+            check=tolerance <= TOLERANCE,
+        )
+        products += closed.products + 1
+        pressure = tried
         pressure[where] = closed.pressure
-        gap = response.displacement(pressure.reshape(shape)).reshape(-1) - flat
+        displacement = closed.displacement
+        gap = displacement - flat
         gap -= gap[where].mean()
-        excess = -np.where(active, pressure, gap / stiffest)
+        excess = gap / -stiffest
+        excess[where] = -closed.pressure
         wrong = excess > tolerance * np.sqrt(np.mean(closed.pressure**2))
         count = int(wrong.sum())
         waited = 0 if count < fewest else waited + 1

@@ -113,9 +113,10 @@ def resampled(spectrum: ComplexArray, shape: tuple[int, ...], onto: tuple[int, .
 def doubled(values: Array) -> Array:
     """Return `values` on the grid with half the spacing each way, linear between points."""
     for axis in range(values.ndim):
-        between = 0.5 * (values + np.roll(values, -1, axis=axis))
-        pair = np.stack((values, between), axis=axis + 1)
-        shape = [*values.shape]
-        shape[axis] *= 2
-        values = pair.reshape(shape)
+        before = (slice(None),) * axis
+        shape = [n * (1 + (along == axis)) for along, n in enumerate(values.shape)]
+        new = np.empty(shape)
+        new[(*before, slice(None, None, 2))] = values
+        new[(*before, slice(1, None, 2))] = 0.5 * (values + np.roll(values, -1, axis))
+        values = new
     return values

@@ -27,6 +27,7 @@ from gripscale.rubber import Rubber
 AnyArray = NDArray[np.floating]
 ComplexArray = NDArray[np.complex128]
 SingleComplexArray = NDArray[np.complex64]
+AnyComplexArray = NDArray[np.complexfloating]
 
 
 @dataclass(frozen=True)
@@ -110,15 +111,20 @@ class Response:
         spectrum.flat[0] = 0.0
         np.divide(spectrum, self.compliance, out=spectrum, where=self.compliance != 0.0)
         spectrum.flat[0] = mean * height.size
-        return np.asarray(scipy.fft.irfftn(spectrum, s=height.shape, workers=self.workers))
+        return np.asarray(self._from_waves(spectrum), dtype=np.float64)
 
     def pressure(self, displacement: AnyArray) -> AnyArray:
         """Return the pressure [Pa] that gives `displacement` [m] everywhere, shape of the grid."""
         return self._filtered(displacement.astype(np.float32, copy=False), self.stiffness)
 
-    def _filtered(self, values: AnyArray, transfer: ComplexArray | SingleComplexArray) -> AnyArray:
+    def _filtered(self, values: AnyArray, transfer: AnyComplexArray) -> AnyArray:
         spectrum = scipy.fft.rfftn(values, workers=self.workers)
         spectrum *= transfer
-        return np.asarray(
-            scipy.fft.irfftn(spectrum, s=values.shape, workers=self.workers, overwrite_x=True)
-        )
+        return self._from_waves(spectrum)
+
+    def _from_waves(self, spectrum: AnyComplexArray) -> AnyArray:
+        """Return the values of a spectrum, which is overwritten (`irfftn` would copy it)."""
+        for axis in range(spectrum.ndim - 1):
+            spectrum = scipy.fft.ifft(spectrum, axis=axis, overwrite_x=True, workers=self.workers)
+        points = self.grid.shape[-1]
+        return np.asarray(scipy.fft.irfft(spectrum, points, overwrite_x=True, workers=self.workers))

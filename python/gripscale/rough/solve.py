@@ -75,7 +75,8 @@ def solve_rough_contact(
     most_iterations : int
         Active-set iterations allowed on each grid.
     on_grid : callable, optional
-        Called with the `GridRecord` of each grid as it is solved.
+        Called with the `GridRecord` of each grid as it is solved. A `KeyboardInterrupt` is raised
+        at the next return from compiled code; of a stopped solution these records are what is left.
 
     Returns
     -------
