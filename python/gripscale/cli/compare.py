@@ -47,8 +47,8 @@ def compare(
     rungs: Annotated[
         str | None,
         typer.Option(
-            help="Models wanted, by name or group (waves, measured, theory, windows), such as "
-            "'chain,measured', or 'all'; by default all but the windows, which take minutes.",
+            help="Models wanted, by name or group (waves, measured, theory, windows, maps), such "
+            "as 'chain,measured'; windows and maps take a minute or two. By default all.",
             show_default=False,
         ),
     ] = None,

@@ -117,5 +117,6 @@ def _ratio(of: FactorOf, rungs: Mapping[str, SolvedRung]) -> Factor:
     over, under = rungs.get(of.over), rungs.get(of.under)
     if over is None or under is None:
         return Factor(of.name, of.label)
-    ratios = (over.over(under, name) for name in ("contact_fraction", "friction"))
+    # of the two frictions the one that a coarse grid changes least
+    ratios = (over.over(under, name) for name in ("contact_fraction", "friction_from_dissipation"))
     return Factor(of.name, of.label, *ratios)

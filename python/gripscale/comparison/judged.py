@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 
 from gripscale.case.results import CaseResults
-from gripscale.comparison.ladder import DIRECT, LADDER, each_profile
+from gripscale.comparison.ladder import DIRECT, LADDER, each_measured
 from gripscale.comparison.sample import Sample, sample_of
 from gripscale.comparison.solved import SolvedRung
 from gripscale.rough.model import DirectContact
@@ -22,7 +22,7 @@ def judged(results: CaseResults) -> SolvedRung | None:
     rung = next(one for one in LADDER if one.name == DIRECT)
     model, rubber, load = DirectContact(tolerance=JUDGED_TO), results.rubber.rubber, results.load
     samples: list[Sample] = []
-    for name, surface in each_profile(results.surface):
+    for name, surface in each_measured(results.surface):
         clock = time.perf_counter()
         answer = model.predict(rubber, surface, load)
         answer.attrs["seconds"] = time.perf_counter() - clock

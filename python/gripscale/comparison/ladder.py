@@ -9,17 +9,22 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from functools import lru_cache
+from typing import TypeVar
 
 import numpy as np
 
 from gripscale import checks
 from gripscale.chain.model import Chain
-from gripscale.comparison.lines import BlockOnLine, HalfSpaceOnLine
+from gripscale.comparison.corrections import (
+    lines_of_maps,
+    maps,
+    windows_finite_strain,
+    windows_half_plane,
+)
 from gripscale.comparison.rung import Draw, Rung, Subject
-from gripscale.model import Model
 from gripscale.rough import random_phases, surface_of_sines
 from gripscale.rough.model import DirectContact
-from gripscale.surface import PreparedSurface, Profile, SineStack
+from gripscale.surface import HeightMap, PreparedSurface, Profile, SineStack
 from gripscale.surface.isotropy import areal_spectrum
 from gripscale.surface.periodogram import profile_spectrum
 from gripscale.surface.prepared import Measured
@@ -27,42 +32,36 @@ from gripscale.surface.spectrum import ArealSpectrum
 from gripscale.theory.half_plane import HalfPlane
 from gripscale.theory.models import Persson
 
+Measurement = TypeVar("Measurement", Profile, HeightMap)
+
 DIRECT = "direct"
 """The rung the chain is judged by, and the best estimate starts from."""
-
-ALL = "all"
-"""Word for all rungs."""
 
 LENGTH_OF_SINES = 10
 """Period of a surface of sines over its largest wave."""
 
-WINDOW, WAVES_IN_WINDOW, WINDOWS = 1.1, 24, 8
-"""Windows of a profile in the block: length over the largest sine wave, length over the smallest
-wave that is kept, and how many at most."""
-
 
 def chosen(names: Iterable[str]) -> list[Rung]:
-    """Return the rungs of the given names and groups, or `ALL`, in the order of the ladder.
+    """Return the rungs of the given names and groups in the order of the ladder; all without any.
 
-    Without any name those that are solved by default. Raises `InputError` for an unknown one.
+    Raises `InputError` for an unknown one.
     """
     wanted = set(names)
-    if not wanted:
-        return [rung for rung in LADDER if rung.by_default]
     groups = dict.fromkeys(rung.group for rung in LADDER)
-    checks.known("rung", sorted(wanted), [ALL, *groups, *(rung.name for rung in LADDER)])
-    return [rung for rung in LADDER if wanted & {ALL, rung.name, rung.group}]
+    checks.known("rung", sorted(wanted), [*groups, *(rung.name for rung in LADDER)])
+    return [rung for rung in LADDER if not wanted or wanted & {rung.name, rung.group}]
 
 
-def each_profile(surface: PreparedSurface) -> list[tuple[str, PreparedSurface]]:
-    """Return `surface` with one of its profiles after the other, and what the profile is called."""
-    lines = [] if surface.measured is None else surface.measured.cleaned
-    return [(line.name or f"profile {i}", only(surface, line)) for i, line in enumerate(lines, 1)]
+def each_measured(surface: PreparedSurface) -> list[tuple[str, PreparedSurface]]:
+    """Return `surface` with one profile after the other, or its map, and what it is called."""
+    measured: Sequence[Profile | HeightMap] = surface.measured.surfaces if surface.measured else []
+    return [(one.name or f"profile {i}", only(surface, one)) for i, one in enumerate(measured, 1)]
 
 
-def only(surface: PreparedSurface, line: Profile) -> PreparedSurface:
-    """Return the waves of `surface` with `line` as the only profile."""
-    return PreparedSurface(surface.sines, line.name, measured=Measured.of([line]))
+def only(surface: PreparedSurface, measured: Profile | HeightMap) -> PreparedSurface:
+    """Return the waves of `surface` with nothing else measured."""
+    whole = measured if isinstance(measured, HeightMap) else [measured]
+    return PreparedSurface(surface.sines, measured.name, measured=Measured.of(whole))
 
 
 def _chain(subject: Subject) -> Sequence[Draw]:
@@ -83,23 +82,23 @@ def _sines(subject: Subject) -> Sequence[Draw]:
 
 def _random_phases(subject: Subject) -> Sequence[Draw]:
     model, surface = DirectContact(tolerance=subject.tolerance), subject.surface
-    lines = [] if surface.measured is None else surface.measured.cleaned
+    measured = [] if surface.measured is None else surface.measured.surfaces
     return [
-        Draw(model, only(surface, _shuffled(line, seed)), line.name)
-        for line in lines
+        Draw(model, only(surface, _shuffled(one, seed)), one.name)
+        for one in measured
         for seed in range(subject.seeds)
     ]
 
 
 def _direct(subject: Subject) -> Sequence[Draw]:
     model = DirectContact(tolerance=subject.tolerance)
-    return [Draw(model, one, name) for name, one in each_profile(subject.surface)]
+    return [Draw(model, one, name) for name, one in each_measured(subject.surface)]
 
 
 def _persson(subject: Subject) -> Sequence[Draw]:
     return [
         Draw(Persson(smallest_wavelength=_last_known(one)), one, name)
-        for name, one in each_profile(subject.surface)
+        for name, one in each_measured(subject.surface)
     ]
 
 
@@ -114,34 +113,7 @@ def _klueppel_heinrich(subject: Subject) -> Sequence[Draw]:
     theory = subject.klueppel_heinrich
     if theory is None:
         return []
-    return [Draw(theory, one, name) for name, one in each_profile(subject.surface)]
-
-
-def _windows_half_plane(subject: Subject) -> Sequence[Draw]:
-    return _on_windows(subject, HalfSpaceOnLine(tolerance=subject.tolerance))
-
-
-def _windows_finite_strain(subject: Subject) -> Sequence[Draw]:
-    return _on_windows(subject, BlockOnLine())
-
-
-def _on_windows(subject: Subject, model: Model) -> Sequence[Draw]:
-    measured, sines = subject.surface.measured, subject.surface.sines
-    lines = () if measured is None else tuple(measured.cleaned)
-    length = WINDOW * float(sines.wavelength[0])
-    return [
-        Draw(model, only(subject.surface, line), f"{line.name} from {line.x[0]:.4g} m")
-        for line in _windows(lines, length)
-    ]
-
-
-@lru_cache(maxsize=4)
-def _windows(lines: tuple[Profile, ...], length: float) -> list[Profile]:
-    """Return windows of the profiles that are long enough for one."""
-    from gripscale.rough import spread_windows  # scipy.stats with it: 0.3 s, which no run pays
-
-    enough = [line for line in lines if line.length > length]
-    return spread_windows(enough, length, WINDOWS, length / WAVES_IN_WINDOW) if enough else []
+    return [Draw(theory, one, name) for name, one in each_measured(subject.surface)]
 
 
 @lru_cache(maxsize=16)
@@ -155,9 +127,9 @@ def _spectrum(line: Profile) -> ArealSpectrum:
 
 
 @lru_cache(maxsize=64)
-def _shuffled(line: Profile, seed: int) -> Profile:
+def _shuffled(measured: Measurement, seed: int) -> Measurement:
     """Draw once what is met at every load."""
-    return random_phases(line, seed)
+    return random_phases(measured, seed)
 
 
 LADDER: tuple[Rung, ...] = (
@@ -202,8 +174,7 @@ LADDER: tuple[Rung, ...] = (
         "windows",
         "",
         "",
-        _windows_half_plane,
-        by_default=False,
+        windows_half_plane,
     ),
     Rung(
         "windows_finite_strain",
@@ -211,8 +182,9 @@ LADDER: tuple[Rung, ...] = (
         "windows",
         "finite strain",
         "windows_half_plane",
-        _windows_finite_strain,
-        by_default=False,
+        windows_finite_strain,
     ),
+    Rung("map_lines", "lines of a synthetic map", "maps", "", "", lines_of_maps),
+    Rung("map", "the synthetic map", "maps", "a map for its lines", "map_lines", maps),
 )
 """All rungs, in order; a new one is added here."""

@@ -67,8 +67,7 @@ def compare_case(
     tolerance : float
         Estimated relative error of each direct contact.
     rungs : sequence of str
-        Names and groups of the rungs wanted, see `LADDER`, or "all"; by default all but the
-        windows, which take minutes.
+        Names and groups of the rungs wanted, see `LADDER`; by default all.
     measured : MeasuredFriction, optional
         Friction measured elsewhere; what `[compare] measured` of the case names by default.
     factors : sequence of Factor

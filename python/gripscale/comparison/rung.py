@@ -67,8 +67,6 @@ class Rung:
         Name of the rung it is compared with; empty for none.
     draws : callable
         From a `Subject` to its samples; none where the model has nothing to say of it.
-    by_default : bool
-        Whether it is solved when nobody asks for it by name.
     """
 
     name: str
@@ -77,4 +75,3 @@ class Rung:
     change: str
     follows: str
     draws: Callable[[Subject], Sequence[Draw]] = field(repr=False)
-    by_default: bool = True

@@ -38,6 +38,9 @@ class BlockOnProfile:
     ----------
     smallest_wavelength, periodic, tolerance
         See `gripscale.solve_profile`.
+    most_mismatch : float
+        Relative difference of the two frictions of a profile from which on its mesh is too coarse,
+        and it counts as not converged.
     """
 
     name: ClassVar[str] = "block_on_profile"
@@ -45,6 +48,7 @@ class BlockOnProfile:
     smallest_wavelength: float | None = None
     periodic: bool = False
     tolerance: float | None = None
+    most_mismatch: float = math.inf
 
     def relevant(self, surface: PreparedSurface) -> PreparedSurface:
         """Return nothing of `surface` but its profiles (and a wave, which a surface must have)."""
@@ -71,7 +75,12 @@ class BlockOnProfile:
             results.append(self._solve(rubber, line, load))
             if on_progress is not None:
                 on_progress(results[-1])
-        return _answer(results, load)
+        return _answer(results, [self._why_not(one) for one in results], load)
+
+    def _why_not(self, result: WaveResult) -> str:
+        """Return why a result does not count, or nothing."""
+        doubtful = result.converged and result.friction_mismatch > self.most_mismatch
+        return result.why if doubtful or not result.converged else ""
 
     def _solve(self, rubber: Rubber, line: Profile, load: NominalLoad) -> WaveResult:
         return solve_profile(
@@ -86,13 +95,13 @@ class BlockOnProfile:
         )
 
 
-def _answer(results: list[WaveResult], load: NominalLoad) -> xr.Dataset:
+def _answer(results: list[WaveResult], why_not: list[str], load: NominalLoad) -> xr.Dataset:
     from gripscale.wave.dataset import waves_to_dataset
 
     bad = [
-        f"profile {number} of {len(results)}: {result.why}"
-        for number, result in enumerate(results, start=1)
-        if not result.converged
+        f"profile {number} of {len(results)}: {why}"
+        for number, why in enumerate(why_not, start=1)
+        if why
     ]
     lengths = np.array([result.wavelength for result in results])
     weight = lengths / lengths.sum()
