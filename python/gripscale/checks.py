@@ -12,6 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from gripscale.errors import InputError
 
+LEAST, MOST = 1e-100, 1e100
+"""Quantities beyond these are mistakes; within them no square or product of two overflows."""
+
 
 def number(name: str, value: Any, *, unit: str = "", infinite: bool = False) -> float:
     """Return `value` as a float; raise `InputError` unless it is a finite (or allowed) number."""
@@ -20,8 +23,8 @@ def number(name: str, value: Any, *, unit: str = "", infinite: bool = False) -> 
         raise InputError(f"{expected}; got {value!r}")
     try:
         result = float(value)
-    except (TypeError, ValueError) as error:
-        raise InputError(f"{expected}; got {value!r}") from error
+    except (TypeError, ValueError, OverflowError) as error:
+        raise InputError(f"{expected}; got {shown(value)}") from error
     if math.isnan(result) or (math.isinf(result) and not infinite):
         raise InputError(f"{expected}; got {result}")
     return result
@@ -56,8 +59,8 @@ def vector(name: str, value: ArrayLike, *, unit: str = "", missing: bool = False
     expected = f"{name} must be a list of finite numbers{_in(unit)}"
     try:
         result = np.array(value, dtype=float)
-    except (TypeError, ValueError) as error:
-        raise InputError(f"{expected}; got {value!r:.80}") from error
+    except (TypeError, ValueError, OverflowError) as error:
+        raise InputError(f"{expected}; got {shown(value)}") from error
     if result.ndim != 1:
         raise InputError(f"{expected} with one dimension; got {result.ndim} dimensions")
     bad = np.isinf(result) if missing else ~np.isfinite(result)
@@ -78,6 +81,19 @@ def positive_vector(name: str, value: ArrayLike, *, unit: str = "") -> NDArray[A
     return result
 
 
+def in_reason(name: str, value: ArrayLike, *, unit: str = "") -> NDArray[Any]:
+    """Return `value` as a 1-D float array; raise `InputError` unless from `LEAST` to `MOST`."""
+    result = positive_vector(name, value, unit=unit)
+    bad = (result < LEAST) | (result > MOST)
+    if bad.any():
+        at = int(np.argmax(bad))
+        raise InputError(
+            f"{name} must lie between {LEAST:g} and {MOST:g}{_in(unit)}; "
+            f"got {result[at]:g} at index {at}"
+        )
+    return result
+
+
 def one_of(name: str, value: Any, choices: Iterable[str]) -> str:
     """Return `value`; raise `InputError` unless it is one of the named `choices`."""
     known = list(choices)
@@ -94,6 +110,16 @@ def known(kind: str, given: Iterable[str], allowed: Iterable[str]) -> None:
             near = difflib.get_close_matches(name, names, n=1)
             hint = f"did you mean {near[0]}?" if near else f"expected one of {', '.join(names)}"
             raise InputError(f"unknown {kind} {name}; {hint}")
+
+
+def shown(value: Any) -> str:
+    """Return the beginning of what was given; an int may be too long to print at all."""
+    if isinstance(value, int) and abs(value) >= 10**80:
+        return "a whole number of more than 80 digits"
+    try:
+        return f"{value!r:.80}"
+    except ValueError:
+        return "whole numbers too long to print"
 
 
 def _in(unit: str) -> str:

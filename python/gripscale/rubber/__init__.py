@@ -10,7 +10,8 @@ from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.material import Rubber
 from gripscale.rubber.material_point import simple_shear_stress, uniaxial_stress
 from gripscale.rubber.named import springpot_modulus, styrene_butadiene
-from gripscale.rubber.prony import PronyFit, fit_prony, fit_prony_report
+from gripscale.rubber.prony import fit_prony, fit_prony_report
+from gripscale.rubber.prony_report import PronyFit
 from gripscale.rubber.reader import read_master_curve
 from gripscale.rubber.strain_energy import (
     STRAIN_ENERGIES,
