@@ -101,5 +101,7 @@ class AdmissibleSeries:
         """Return the series of `to_dict`; raise `InputError` if a key is another."""
         known = {"relaxation_times", "equilibrium_moduli", "moduli"}
         if not isinstance(values, Mapping) or set(values) != known:
-            raise InputError(f"admissible must have the keys {', '.join(known)}; got {values!r:.80}")
+            raise InputError(
+                f"admissible must have the keys {', '.join(known)}; got {values!r:.80}"
+            )
         return cls(**values)

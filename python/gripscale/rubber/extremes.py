@@ -1,4 +1,4 @@
-"""Finding the extremes among the Prony series that fit: how far E*(w) may go before the data object.
+"""The extremes among the Prony series that fit: how far E*(w) may go before the data object.
 
 With A z = b the equations of the fit in units of the scatter, and f(z) one of E', E'' at one
 frequency, an extreme is the z >= 0 with the largest (or least) f(z) for which

@@ -27,8 +27,8 @@ def _consistency(inconsistencies: tuple[Misfit, ...]) -> Iterator[str]:
     if inconsistencies:
         places = "; ".join(str(one) for one in inconsistencies)
         yield (
-            "E' and E'' break the Kramers-Kronig relation (no linear solid has both) where the best "
-            f"series misses them by more than their scatter, at most by: {places}"
+            "E' and E'' break the Kramers-Kronig relation (no linear solid has both) where the "
+            f"best series misses them by more than their scatter, at most by: {places}"
         )
 
 
@@ -43,16 +43,19 @@ def _ends(ends: tuple[Misfit | None, Misfit | None]) -> Iterator[str]:
 
 def _slow(rubber: Rubber) -> Iterator[str]:
     end = slow_end(rubber)
-    if rubber.equilibrium_modulus < _MELT * end.modulus:
+    assert rubber.valid_band is not None
+    flows = float(rubber.loss_factor(rubber.valid_band[0])) > 1.0
+    if flows or rubber.equilibrium_modulus < _MELT * end.modulus:
         yield (
-            f"no equilibrium modulus: {_mega(rubber.equilibrium_modulus)} MPa is left of "
-            f"{_mega(end.modulus)} MPa at the slow end; the data are those of a melt, which cannot "
-            "carry a load at rest"
+            f"no equilibrium modulus: {_mega(end.modulus)} MPa are left at the slow end, "
+            f"{_mega(rubber.equilibrium_modulus)} MPa in the end; the data are those of a melt, "
+            "which carries no load at rest"
         )
     elif not end.plateau:
         yield (
-            f"no plateau at the slow end: the equilibrium modulus, {_mega(rubber.equilibrium_modulus)}"
-            f" MPa, is an extrapolation; two decades slower E' may be {_span(rubber, False)} MPa"
+            "no plateau at the slow end: the equilibrium modulus, "
+            f"{_mega(rubber.equilibrium_modulus)} MPa, is an extrapolation; two decades slower E' "
+            f"may be {_span(rubber, False)} MPa"
         )
 
 
@@ -70,8 +73,9 @@ def _fast(rubber: Rubber) -> Iterator[str]:
         shear = abs(complex(rubber.complex_modulus(omega))) / 3.0
         least = 2.0 * shear * (1.0 + LEAST_POISSON_RATIO) / (3.0 - 6.0 * LEAST_POISSON_RATIO)
         yield (
-            f"the bulk modulus, {_mega(rubber.bulk_modulus)} MPa, gives Poisson's ratio {ratio:.2f} "
-            f"at {omega:.3g} rad/s; {_mega(least)} MPa would give {LEAST_POISSON_RATIO:g}"
+            f"the bulk modulus, {_mega(rubber.bulk_modulus)} MPa, gives Poisson's ratio "
+            f"{ratio:.2f} at {omega:.3g} rad/s; {_mega(least)} MPa would give "
+            f"{LEAST_POISSON_RATIO:g}"
         )
 
 

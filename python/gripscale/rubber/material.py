@@ -86,7 +86,9 @@ class Rubber:
         admissible: AdmissibleSeries | None = None,
     ) -> None:
         values = {
-            "equilibrium_modulus": material_checks.modulus("equilibrium_modulus", equilibrium_modulus),
+            "equilibrium_modulus": material_checks.modulus(
+                "equilibrium_modulus", equilibrium_modulus
+            ),
             "moduli": material_checks.read_only(checks.in_reason("moduli", moduli, unit="Pa")),
             "relaxation_times": material_checks.read_only(
                 checks.in_reason("relaxation_times", relaxation_times, unit="s")

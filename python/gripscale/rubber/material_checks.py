@@ -24,7 +24,9 @@ def finite(name: str, value: ArrayLike, unit: str) -> Array:
     try:
         result = np.asarray(value, dtype=float)
     except (TypeError, ValueError, OverflowError) as error:
-        raise InputError(f"{name} must be finite numbers [{unit}]; got {checks.shown(value)}") from error
+        raise InputError(
+            f"{name} must be finite numbers [{unit}]; got {checks.shown(value)}"
+        ) from error
     if not (np.abs(result) <= checks.MOST).all():
         raise InputError(
             f"{name} must be finite numbers of at most {checks.MOST:g} [{unit}]; got {value!r:.80}"

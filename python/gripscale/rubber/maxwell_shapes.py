@@ -1,6 +1,6 @@
 """What one Maxwell element of unit modulus has of E' and E'', at any w tau without overflow.
 
-    E'/E_i  = x^2 / (1 + x^2) = 1 / (1 + 1/x^2),   E''/E_i = x / (1 + x^2) = 1 / (x + 1/x),   x = w tau
+    E'/E_i  = x^2 / (1 + x^2) = 1 / (1 + 1/x^2),   E''/E_i = x / (1 + x^2),   x = w tau
 
 Source: J. D. Ferry, Viscoelastic Properties of Polymers, 3rd ed. (1980), ch. 3.
 """

@@ -38,9 +38,8 @@ class Misfit:
 
     def __str__(self) -> str:
         """Return the range and both misfits in words."""
-        return (
-            f"{self.low:.3g} to {self.high:.3g} rad/s (E' {self.storage:+.0%}, E'' {self.loss:+.0%})"
-        )
+        return f"{self.low:.3g} to {self.high:.3g} rad/s "
+            f"(E' {self.storage:+.0%}, E'' {self.loss:+.0%})"
 
 
 def local_misfits(
@@ -51,9 +50,7 @@ def local_misfits(
     `modulus` is E* of the fit [Pa] at the rows of the curve.
     """
     local = [_local_mean(error) for error in _errors(curve, modulus)]
-    beyond = [
-        np.abs(mean) > _ALLOWED * one for mean, one in zip(local, scatter, strict=True)
-    ]
+    beyond = [np.abs(mean) > _ALLOWED * one for mean, one in zip(local, scatter, strict=True)]
     return tuple(
         Misfit(
             float(curve.omega[first]),
@@ -97,11 +94,11 @@ def _largest(values: Array) -> float:
 
 
 def _runs(chosen: NDArray[np.bool_]) -> list[tuple[int, int]]:
-    """Return first and last row of each run, runs less than a window apart as one."""
+    """Return first and last row of each run, runs with at most two rows between as one."""
     rows = np.flatnonzero(chosen)
     if not rows.size:
         return []
-    breaks = np.flatnonzero(np.diff(rows) > _WINDOW)
+    breaks = np.flatnonzero(np.diff(rows) > 3)
     first = rows[np.concatenate([[0], breaks + 1])]
     last = rows[np.concatenate([breaks, [len(rows) - 1]])]
     return list(zip(first.tolist(), last.tolist(), strict=True))

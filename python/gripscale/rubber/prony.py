@@ -1,8 +1,8 @@
 """From a master curve to a Prony series, with what the data leave open and a report on both.
 
-Relaxation times are log-spaced over the measured band and two decades beyond its ends; their moduli
-are the non-negative least squares of `maxwell_fit`, their number comes from `term_choice`, rows that
-do not belong to the curve are found by `outliers`, the other series that fit by `extremes`.
+Relaxation times are log-spaced over the measured band and two decades beyond its ends. Moduli are
+the non-negative least squares of `maxwell_fit`, their number comes from `term_choice`, rows that do
+not belong to the curve are found by `outliers`, the other series that fit by `extremes`.
 """
 
 from __future__ import annotations
@@ -119,39 +119,37 @@ def fit_prony_report(
         terms = checks.whole("terms", terms, least=1, most=200)
     checks.positive("outlier_threshold", outlier_threshold, infinite=True)
     beyond = checks.not_negative("extrapolate_decades", extrapolate_decades, unit="decades")
-    prior = _prior(
-        master,
-        bulk_modulus,
-        checks.not_negative("smoothing", smoothing),
-        checks.positive("loss_weight", loss_weight),
-    )
+    smoothing = checks.not_negative("smoothing", smoothing)
+    loss_weight = checks.positive("loss_weight", loss_weight)
+    bulk = checks.positive("bulk_modulus", bulk_modulus, unit="Pa")
     curve = Curve(master.angular_frequency, master.storage, master.loss)
     screening = _screen(master, curve, outlier_threshold)
     kept = screening.kept
+    rows = curve.rows(kept)
+    limit = _largest_modulus(float(rows.storage.max()), bulk)
+    prior = Prior(smoothing, _SHRINKAGE * smoothing, limit, loss_weight=loss_weight)
     fit = partial(_fit, curve, beyond, prior)
     candidates: tuple[Candidate, ...] = ()
     if terms is None:
         terms, candidates = _choose(curve, fit, kept)
     spectrum = fit(kept, terms)
-    rows = curve.rows(kept)
     scatter = _scatter(rows, spectrum, screening)
-    stiffest = _STIFFEST * bulk_modulus
-    rubber = _rubber(master, rows, spectrum, bulk_modulus, extremes(rows, scatter, beyond, stiffest))
+    others = extremes(rows, scatter, beyond, _STIFFEST * bulk)
+    rubber = _rubber(master, rows, spectrum, bulk, others)
     return rubber, report(master, rows, screening, candidates, rubber)
 
 
-def _prior(
-    master: MasterCurve, bulk_modulus: float, smoothing: float, loss_weight: float
-) -> Prior:
-    bulk = checks.positive("bulk_modulus", bulk_modulus, unit="Pa")
-    largest = float(master.storage.max())
-    if _STIFFEST * bulk <= largest:
+def _largest_modulus(measured: float, bulk: float) -> float:
+    """Return the limit of E_inf + sum E_i [Pa], from the largest measured E' and the bulk modulus.
+
+    Raises `InputError` if the bulk modulus is too small for what was measured.
+    """
+    if _STIFFEST * bulk <= measured:
         raise InputError(
-            f"bulk_modulus [Pa] must exceed 2/9 of the largest measured E', {largest:g}, "
+            f"bulk_modulus [Pa] must exceed 2/9 of the largest measured E', {measured:g}, "
             f"to keep Poisson's ratio positive; got {bulk:g}"
         )
-    limit = min(_STIFFEST * bulk, max(_GLASS * bulk, _OVER_MEASURED * largest))
-    return Prior(smoothing, _SHRINKAGE * smoothing, limit, loss_weight=loss_weight)
+    return min(_STIFFEST * bulk, max(_GLASS * bulk, _OVER_MEASURED * measured))
 
 
 def _fit(

@@ -49,7 +49,7 @@ class PronyFit:
     measured_band: tuple[float, float]
     """Lowest and highest measured angular frequency among the rows kept [rad/s]."""
     inconsistencies: tuple[Misfit, ...] = ()
-    """Where E' and E'' break the Kramers-Kronig relation: even the best series misses them there."""
+    """Where E' and E'' break the Kramers-Kronig relation: the best series misses them there, too."""
     slow_end: Misfit | None = None
     """How the series misses the five slowest rows; None within their scatter."""
     fast_end: Misfit | None = None
