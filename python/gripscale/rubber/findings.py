@@ -87,4 +87,4 @@ def _span(rubber: Rubber, fast: bool) -> str:
 
 
 def _mega(modulus: float) -> str:
-    return f"{modulus / 1e6:.3g}"
+    return f"{modulus / 1e6:.4g}"

@@ -38,8 +38,10 @@ class Misfit:
 
     def __str__(self) -> str:
         """Return the range and both misfits in words."""
-        return f"{self.low:.3g} to {self.high:.3g} rad/s "
+        return (
+            f"{self.low:.3g} to {self.high:.3g} rad/s "
             f"(E' {self.storage:+.0%}, E'' {self.loss:+.0%})"
+        )
 
 
 def local_misfits(

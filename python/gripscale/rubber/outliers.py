@@ -44,6 +44,11 @@ class Screening:
     """Robust relative scatter of E' about its local trend [-]."""
     loss_scatter: float
 
+    @property
+    def believed_scatter(self) -> tuple[float, float]:
+        """Scatter of E' and E'' [-], at least what a good laboratory has."""
+        return max(self.storage_scatter, _LEAST_SCATTER), max(self.loss_scatter, _LEAST_SCATTER)
+
 
 def screen(
     omega: Array,

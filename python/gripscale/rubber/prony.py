@@ -36,8 +36,6 @@ _OVER_MEASURED = 1.5
 """The same over the largest measured E', where that is more."""
 _STIFFEST = 4.4
 """The same of any series: Poisson's ratio is zero at 9/2."""
-_LEAST_SCATTER = 0.02
-"""Scatter below this (2 %, a good laboratory) is not believed."""
 
 
 def fit_prony(
@@ -185,9 +183,10 @@ def _scatter(rows: Curve, spectrum: Spectrum, screening: Screening) -> tuple[flo
     """Return the relative scatter of E' and E'' about the fit: what any series has to live with."""
     storage = spectrum.storage(rows.omega) / rows.storage - 1.0
     loss = spectrum.loss(rows.omega) / rows.loss - 1.0
+    own = screening.believed_scatter
     return (
-        max(_LEAST_SCATTER, screening.storage_scatter, float(np.sqrt(np.mean(storage**2)))),
-        max(_LEAST_SCATTER, screening.loss_scatter, float(np.sqrt(np.mean(loss**2)))),
+        max(own[0], float(np.sqrt(np.mean(storage**2)))),
+        max(own[1], float(np.sqrt(np.mean(loss**2)))),
     )
 
 

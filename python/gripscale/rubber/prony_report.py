@@ -17,8 +17,6 @@ from gripscale.rubber.term_choice import Candidate
 
 Array = NDArray[np.float64]
 
-_LEAST_SCATTER = 0.02
-
 
 @dataclass(frozen=True)
 class PronyFit:
@@ -49,7 +47,7 @@ class PronyFit:
     measured_band: tuple[float, float]
     """Lowest and highest measured angular frequency among the rows kept [rad/s]."""
     inconsistencies: tuple[Misfit, ...] = ()
-    """Where E' and E'' break the Kramers-Kronig relation: the best series misses them there, too."""
+    """Where E' and E'' break the Kramers-Kronig relation: even the best series misses them."""
     slow_end: Misfit | None = None
     """How the series misses the five slowest rows; None within their scatter."""
     fast_end: Misfit | None = None
@@ -88,10 +86,7 @@ def report(
     kept = screening.kept
     modulus = rubber.complex_modulus(rows.omega)
     loss_factor_error = modulus.imag / modulus.real / (rows.loss / rows.storage) - 1.0
-    scatter = (
-        max(screening.storage_scatter, _LEAST_SCATTER),
-        max(screening.loss_scatter, _LEAST_SCATTER),
-    )
+    scatter = screening.believed_scatter
     assert rubber.admissible is not None
     best = rubber.admissible.complex_moduli(rows.omega)[0]
     inconsistencies = local_misfits(rows, best, scatter)
