@@ -10,8 +10,6 @@ from gripscale.rubber.plateau import BEYOND, fast_end, slow_end
 
 LEAST_POISSON_RATIO = 0.3
 """Below this no rubber and hardly a glassy polymer is: the bulk modulus is too small."""
-_MELT = 0.01
-"""Share of the modulus at the slow end below which a curve shows no equilibrium modulus."""
 
 
 def findings(
@@ -44,12 +42,11 @@ def _ends(ends: tuple[Misfit | None, Misfit | None]) -> Iterator[str]:
 def _slow(rubber: Rubber) -> Iterator[str]:
     end = slow_end(rubber)
     assert rubber.valid_band is not None
-    flows = float(rubber.loss_factor(rubber.valid_band[0])) > 1.0
-    if flows or rubber.equilibrium_modulus < _MELT * end.modulus:
+    if _flows(rubber, rubber.valid_band[0]):
         yield (
-            f"no equilibrium modulus: {_mega(end.modulus)} MPa are left at the slow end, "
-            f"{_mega(rubber.equilibrium_modulus)} MPa in the end; the data are those of a melt, "
-            "which carries no load at rest"
+            f"no equilibrium modulus: {_mega(end.modulus)} MPa are left at the slow end and fall "
+            f"with the frequency, {_mega(rubber.equilibrium_modulus)} MPa in the end; the data are "
+            "those of a melt, which carries no load at rest"
         )
     elif not end.plateau:
         yield (
@@ -57,6 +54,12 @@ def _slow(rubber: Rubber) -> Iterator[str]:
             f"{_mega(rubber.equilibrium_modulus)} MPa, is an extrapolation; two decades slower E' "
             f"may be {_span(rubber, False)} MPa"
         )
+
+
+def _flows(rubber: Rubber, omega: float) -> bool:
+    """Return whether E'' exceeds E' and E' falls faster than the frequency: w^2 in a melt."""
+    here, twice = (complex(rubber.complex_modulus(factor * omega)) for factor in (1.0, 2.0))
+    return here.imag > here.real and twice.real > 2.0 * here.real
 
 
 def _fast(rubber: Rubber) -> Iterator[str]:

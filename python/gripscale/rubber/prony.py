@@ -30,7 +30,7 @@ _SMOOTHING = 0.1
 _SHRINKAGE = 10.0
 """Weight of slow relaxations beyond the data over that of the smoothing."""
 _BEYOND = 2.0
-_GLASS = 1.2
+_GLASS = 1.38
 """Largest modulus of the series over the bulk modulus: Poisson's ratio 0.3, as glasses have it."""
 _OVER_MEASURED = 1.5
 """The same over the largest measured E', where that is more."""

@@ -208,11 +208,16 @@ def _kind(table: TextTable, chosen: list[int], given: str | None) -> str:
 
 
 def _positive(table: TextTable, column: int, wanted: str) -> Array:
-    """Return a column whose numbers are all above zero."""
+    """Return a column whose numbers are all above zero and within reason."""
     values = table.numbers(column, "a finite number")
     for number, value in zip(table.line_numbers, values, strict=True):
         if value <= 0.0:
             raise FileError(
                 f"{table.path}, line {number}: expected a {wanted} above zero; got {value:g}"
+            )
+        if not checks.LEAST <= value <= checks.MOST:
+            raise FileError(
+                f"{table.path}, line {number}: expected a {wanted} between {checks.LEAST:g} and "
+                f"{checks.MOST:g}; got {value:g}"
             )
     return values
