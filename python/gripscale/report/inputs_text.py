@@ -61,8 +61,7 @@ def waves_table(sines: SineStack) -> Iterator[str]:
 def rubber_lines(prepared: PreparedRubber) -> Iterator[str]:
     """Yield what the rubber is and how well its Prony series fits."""
     rubber = prepared.rubber
-    slow = _end(slow_end(rubber), "relaxed", "at the slow end of the data")
-    fast = _end(fast_end(rubber), "glassy", "at the fast end of the data")
+    slow, fast = _end(slow_end(rubber), "relaxed"), _end(fast_end(rubber), "glassy")
     bulk = significant(rubber.bulk_modulus / MEGA)
     yield f"{rubber.name or 'rubber'}: E' from {slow} to {fast}, bulk modulus {bulk} MPa"
     if prepared.fit is not None:
@@ -71,8 +70,9 @@ def rubber_lines(prepared: PreparedRubber) -> Iterator[str]:
         yield f"source: {prepared.source}"
 
 
-def _end(end: End, plateau: str, place: str) -> str:
-    return f"{significant(end.modulus / MEGA)} MPa {f'({plateau})' if end.plateau else place}"
+def _end(end: End, plateau: str) -> str:
+    place = plateau if end.plateau else "end of the data"
+    return f"{significant(end.modulus / MEGA)} MPa ({place})"
 
 
 def band_table(rubber: Rubber) -> Iterator[str]:
