@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -70,6 +71,7 @@ def shipped_tread(omega: NDArray[np.float64]) -> NDArray[np.complex128]:
     return _tread().complex_modulus(omega)
 
 
+@cache
 def _tread() -> Rubber:
     return fit_prony(read_master_curve(TREAD), terms=20, extrapolate_decades=0.0)
 

@@ -30,25 +30,25 @@ def slow_end(rubber: Rubber) -> End:
 
     A rubber without a measured band is what its series says it is.
     """
-    if rubber.valid_band is None:
-        return End(rubber.equilibrium_modulus, True)
-    omega = rubber.valid_band[0]
-    modulus = float(rubber.complex_modulus(omega).real)
-    if rubber.admissible is None:
-        return End(modulus, False)
-    least = float(rubber.complex_modulus_band(omega / BEYOND)[0].real)
-    plateau = least * _CHANGE >= modulus
-    return End(rubber.equilibrium_modulus if plateau else modulus, plateau)
+    return _end(rubber, rubber.equilibrium_modulus, 0, 1.0 / BEYOND)
 
 
 def fast_end(rubber: Rubber) -> End:
     """Return the glassy modulus, or what was measured last on the way to it, likewise."""
+    return _end(rubber, rubber.glassy_modulus, 1, BEYOND)
+
+
+def _end(rubber: Rubber, limit: float, side: int, factor: float) -> End:
+    """Return the `limit` of the series where the admissible ones hardly leave the last modulus.
+
+    `side` is 0 for the low end of the band and of the envelope, 1 for the high end.
+    """
     if rubber.valid_band is None:
-        return End(rubber.glassy_modulus, True)
-    omega = rubber.valid_band[1]
-    modulus = float(rubber.complex_modulus(omega).real)
+        return End(limit, True)
+    omega = rubber.valid_band[side]
+    last = float(rubber.complex_modulus(omega).real)
     if rubber.admissible is None:
-        return End(modulus, False)
-    most = float(rubber.complex_modulus_band(omega * BEYOND)[1].real)
-    plateau = most <= _CHANGE * modulus
-    return End(rubber.glassy_modulus if plateau else modulus, plateau)
+        return End(last, False)
+    furthest = float(rubber.complex_modulus_band(omega * factor)[side].real)
+    plateau = max(furthest / last, last / furthest) <= _CHANGE
+    return End(limit if plateau else last, plateau)
