@@ -50,7 +50,9 @@ def whole(name: str, value: Any, *, least: int, most: int) -> int:
     """Return `value` as an int; raise `InputError` unless it is whole and within its limits."""
     result = number(name, value)
     if result != math.floor(result) or not least <= result <= most:
-        raise InputError(f"{name} must be a whole number from {least} to {most}; got {value!r}")
+        raise InputError(
+            f"{name} must be a whole number from {least} to {most}; got {shown(value)}"
+        )
     return int(result)
 
 

@@ -25,7 +25,9 @@ HUGE = 10**5000
 """More digits than Python prints."""
 
 
-@pytest.mark.parametrize("value", [LONG, HUGE, -LONG], ids=["long", "huge", "negative"])
+@pytest.mark.parametrize(
+    "value", [10**300, LONG, HUGE, -LONG], ids=["float", "long", "huge", "negative"]
+)
 def test_long_integers(value):
     calls = (
         lambda: Rubber(value),

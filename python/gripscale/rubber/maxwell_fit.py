@@ -136,7 +136,6 @@ def equations(curve: Curve, times: Array, prior: Prior) -> Equations:
     phase = np.outer(curve.omega, times)
     storage = np.hstack([nothing + unit, storage_shape(phase) * scale, nothing])
     loss = np.hstack([nothing, loss_shape(phase) * scale, nothing])
-    # In natural order of magnitude: every row but the last is relative.
     limit = np.concatenate([[unit], scale, [prior.largest_modulus]]) / prior.largest_modulus
     slow = -np.log(times) < np.log(curve.omega[0]) - 1e-9
     penalties = _penalties(slow, prior)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from gripscale import checks
 from gripscale.errors import InputError
+from gripscale.rubber import material_checks
 from gripscale.rubber.admissible import AdmissibleSeries
 from gripscale.rubber.extremes import extremes
 from gripscale.rubber.master_curve import MasterCurve
@@ -29,7 +30,8 @@ _FEWEST_ROWS = 4
 _SMOOTHING = 0.1
 _SHRINKAGE = 10.0
 """Weight of slow relaxations beyond the data over that of the smoothing."""
-_BEYOND = 2.0
+_BEYOND, _MOST_DECADES = 2.0, 20.0
+_MOST_WEIGHT = 1e6
 _GLASS = 1.38
 """Largest modulus of the series over the bulk modulus: Poisson's ratio 0.3, as glasses have it."""
 _OVER_MEASURED = 1.5
@@ -116,10 +118,10 @@ def fit_prony_report(
     if terms is not None:
         terms = checks.whole("terms", terms, least=1, most=200)
     checks.positive("outlier_threshold", outlier_threshold, infinite=True)
-    beyond = checks.not_negative("extrapolate_decades", extrapolate_decades, unit="decades")
-    smoothing = checks.not_negative("smoothing", smoothing)
-    loss_weight = checks.positive("loss_weight", loss_weight)
-    bulk = checks.positive("bulk_modulus", bulk_modulus, unit="Pa")
+    beyond = _option("extrapolate_decades", extrapolate_decades, _MOST_DECADES)
+    smoothing = _option("smoothing", smoothing, _MOST_WEIGHT)
+    loss_weight = checks.positive("loss_weight", _option("loss_weight", loss_weight, _MOST_WEIGHT))
+    bulk = material_checks.modulus("bulk_modulus", bulk_modulus)
     curve = Curve(master.angular_frequency, master.storage, master.loss)
     screening = _screen(master, curve, outlier_threshold)
     kept = screening.kept
@@ -135,6 +137,14 @@ def fit_prony_report(
     others = extremes(rows, scatter, beyond, _STIFFEST * bulk)
     rubber = _rubber(master, rows, spectrum, bulk, others)
     return rubber, report(master, rows, screening, candidates, rubber)
+
+
+def _option(name: str, value: float, most: float) -> float:
+    """Return an option from zero to `most`."""
+    number = checks.not_negative(name, value)
+    if number > most:
+        raise InputError(f"{name} must be at most {most:g}; got {number:g}")
+    return number
 
 
 def _largest_modulus(measured: float, bulk: float) -> float:
