@@ -38,7 +38,7 @@ class Warming:
         """Return the rubber as it is on `wave`."""
         warmer = self.kelvin * (so_far.friction if so_far.scales else 0.0)
         times = so_far.rubber.relaxation_times * 10.0 ** (-warmer / self.per_decade)
-        return replace(so_far.rubber, relaxation_times=times)
+        return replace(so_far.rubber, relaxation_times=times, admissible=None)
 
 
 def main(folder: str = "results/examples") -> None:

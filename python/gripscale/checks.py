@@ -12,6 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from gripscale.errors import InputError
 
+LEAST, MOST = 1e-100, 1e100
+"""Quantities beyond these are mistakes; within them no square or product of two overflows."""
+
 
 def number(name: str, value: Any, *, unit: str = "", infinite: bool = False) -> float:
     """Return `value` as a float; raise `InputError` unless it is a finite (or allowed) number."""
@@ -94,6 +97,19 @@ def text(name: str, value: Any) -> str:
     return value
 
 
+def in_reason(name: str, value: ArrayLike, *, unit: str = "") -> NDArray[Any]:
+    """Return `value` as a 1-D float array; raise `InputError` unless from `LEAST` to `MOST`."""
+    result = positive_vector(name, value, unit=unit)
+    bad = (result < LEAST) | (result > MOST)
+    if bad.any():
+        at = int(np.argmax(bad))
+        raise InputError(
+            f"{name} must lie between {LEAST:g} and {MOST:g}{_in(unit)}; "
+            f"got {result[at]:g} at index {at}"
+        )
+    return result
+
+
 def one_of(name: str, value: Any, choices: Iterable[str]) -> str:
     """Return `value`; raise `InputError` unless it is one of the named `choices`."""
     known = list(choices)
@@ -114,7 +130,12 @@ def known(kind: str, given: Iterable[str], allowed: Iterable[str]) -> None:
 
 def shown(value: Any) -> str:
     """Return how a value is written in a message: on one line, not longer than it is read."""
-    return " ".join(repr(value).split())[:80]
+    if isinstance(value, int) and abs(value) >= 10**80:
+        return "a whole number of more than 80 digits"
+    try:
+        return " ".join(repr(value).split())[:80]
+    except ValueError:
+        return "whole numbers too long to print"
 
 
 def _in(unit: str) -> str:

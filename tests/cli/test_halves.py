@@ -38,6 +38,20 @@ def test_rubber_half_prints_the_series(shell: Shell, inputs: Path) -> None:
     assert not list(inputs.glob("*.png"))
 
 
+def test_rubber_half_prints_what_the_data_leave_open(shell: Shell, inputs: Path) -> None:
+    result = shell("fit-rubber", inputs / "dma.txt")
+    rows = result.stdout[result.stdout.index("frequency [rad/s]") :].splitlines()[1:6]
+    numbers = [[float(cell) for cell in row.replace("to", " ").split()] for row in rows]
+    for _, storage, low, high, loss, least, most in numbers:
+        assert low <= storage * 1.001  # printed to three digits
+        assert storage <= high * 1.005
+        assert least <= loss * 1.005
+        assert loss <= most * 1.005
+    frequency = [row[0] for row in numbers]
+    assert frequency[1] / frequency[0] == pytest.approx(100.0, rel=0.01)
+    assert frequency[4] / frequency[3] == pytest.approx(100.0, rel=0.01)
+
+
 def test_version(shell: Shell) -> None:
     result = shell("--version")
     assert result.exit_code == 0

@@ -198,6 +198,13 @@ def test_master_curve_shows_points_series_and_excitation() -> None:
     x, y = curve(moduli, "$\\omega_i$ of the waves")
     assert x.tolist() == [10.0, 100.0]
     np.testing.assert_allclose(y, rubber.complex_modulus(x).real / 1e6)
+    x, _ = curve(moduli, "$E'$, Prony series")
+    band = rubber.valid_band
+    assert band is not None
+    assert (x.min(), x.max()) == pytest.approx(band, rel=0.05)  # beyond it, dashed
+    dashed = [line for line in moduli.lines if line.get_linestyle() == "--"]
+    assert len(dashed) == 4
+    assert len(moduli.collections) >= 2  # what the data leave open, shaded
 
 
 def test_named_rubber_needs_no_points() -> None:

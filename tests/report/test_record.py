@@ -9,6 +9,7 @@ import pytest
 
 from gripscale.case import prepare_case
 from gripscale.case.drawn import sine_curves
+from gripscale.rubber.plateau import fast_end
 
 from .conftest import read
 
@@ -49,6 +50,14 @@ def test_recorded_curves_are_those_of_the_fits(run_folder: Path) -> None:
     modulus = rubber.rubber.complex_modulus(inputs["series_omega"].values)
     np.testing.assert_array_equal(inputs["series_storage"], modulus.real)
     np.testing.assert_array_equal(inputs["series_loss"], modulus.imag)
+    low, high = rubber.rubber.complex_modulus_band(inputs["series_omega"].values)
+    np.testing.assert_array_equal(inputs["series_low_storage"], low.real)
+    np.testing.assert_array_equal(inputs["series_high_loss"], high.imag)
+    assert rubber.fit is not None
+    assert inputs.attrs["prony_findings"] == "\n".join(rubber.fit.findings)
+    end = fast_end(rubber.rubber)
+    assert inputs.attrs["fast_end_modulus_Pa"] == end.modulus
+    assert inputs.attrs["fast_end_plateau"] == end.plateau
     assert rubber.master is not None
     at_rows = rubber.rubber.complex_modulus(rubber.master.angular_frequency)
     np.testing.assert_array_equal(inputs["master_series_loss"], at_rows.imag)

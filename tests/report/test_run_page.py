@@ -17,6 +17,7 @@ from gripscale import netcdf
 from gripscale.errors import FileError, InputError
 from gripscale.model import TOTALS, NominalLoad, answer
 from gripscale.report import write_report
+from gripscale.report.input_tables import rubber_facts
 from gripscale.report.notices import cards, notices
 from gripscale.report.source import Run, read_result
 
@@ -176,6 +177,36 @@ def test_large_mismatch_and_foreign_frequencies_are_warned_of(
     assert "the two frictions of waves 2 are up to 20 % apart" in text
     assert "waves 3 excite the rubber beyond the frequencies" in text
     assert [card.label for card in cards(run) if card.bad] == ["Largest mismatch of μ"]
+
+
+def test_doubts_about_the_rubber_are_warned_of(changed_run: Callable[..., Path]) -> None:
+    """|E*| = 1 GPa with a bulk modulus of 1 GPa: (3 - 2/3)/(2 (3 + 1/3)) = 0.35; 2 GPa: 0.227."""
+
+    def edit(data: xr.Dataset) -> xr.Dataset:
+        data = data.copy(deep=True)
+        data["modulus"].values[:] = [1e7, 1e9, 2e9]
+        return data
+
+    run = read_result(changed_run(edit, "dynamic"))
+    assert isinstance(run, Run)
+    run.inputs.attrs["bulk_modulus_Pa"] = 1e9
+    run.inputs.attrs["prony_findings"] = "no plateau at the slow end\nno plateau at the fast end"
+    texts = [notice.text for notice in notices(run)]
+    assert "Rubber: no plateau at the fast end." in texts
+    text = next(text for text in texts if "Poisson" in text)
+    assert "Poisson's ratio of waves 3 is down to 0.227, less than 0.3" in text
+
+
+@pytest.mark.parametrize("plateau", [0, 1])
+def test_a_modulus_is_relaxed_only_where_that_was_measured(
+    changed_run: Callable[..., Path], plateau: int
+) -> None:
+    run = read_result(changed_run(lambda data: data))
+    assert isinstance(run, Run)
+    run.inputs.attrs |= {"slow_end_plateau": plateau, "slow_end_modulus_Pa": 2.5e6}
+    pairs = dict(rubber_facts(run.inputs).pairs)
+    assert pairs[("Slow end of the data, E′", "Relaxed modulus")[plateau]] == "2.50 MPa"
+    assert (("Relaxed modulus", "Slow end of the data, E′")[plateau]) not in pairs
 
 
 def test_hostile_texts_stay_texts(run_folder: Path, tmp_path: Path) -> None:

@@ -132,6 +132,27 @@ def test_nothing_is_guessed(tmp_path, text, options, message):
         read_master_curve(write(tmp_path, text), **options)
 
 
+SWEEPS = "T [C],f [Hz],E' [MPa],E'' [MPa]\n"
+SHIFTED = SWEEPS + "-20,100,4,0.4\n0,10,3,0.3\n20,1,2,0.2\n"
+REPEATED = SWEEPS + "0,1,3,0.3\n0,10,4,0.4\n20,1,2,0.2\n20,10,3,0.3\n"
+
+
+@pytest.mark.parametrize("text", [SHIFTED, REPEATED])
+def test_sweeps_at_several_temperatures_are_no_master_curve(tmp_path, text):
+    path = write(tmp_path, text)
+    with pytest.raises(FileError, match=r"from -?\d+ to 20 in column T; shift the sweeps .* first"):
+        read_master_curve(path)
+
+
+def test_a_shifted_curve_may_tell_its_temperatures(tmp_path):
+    columns = ("f", "E'", "E''")
+    assert len(read_master_curve(write(tmp_path, SHIFTED), columns=columns)) == 3
+    with pytest.raises(FileError, match="shift the sweeps"):
+        read_master_curve(write(tmp_path, REPEATED), columns=columns)
+    jitter = SWEEPS.replace("T", "Temperature") + "19.9,1,2,0.2\n20.3,10,3,0.3\n"
+    assert len(read_master_curve(write(tmp_path, jitter))) == 2
+
+
 HEADER = "f [Hz],E' [MPa],E'' [MPa]\n"
 
 

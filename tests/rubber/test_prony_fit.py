@@ -38,17 +38,22 @@ def test_a_series_on_its_own_times_is_recovered():
     rounding, whose gain is the condition of the problem (about 1e4)."""
     truth = broad_rubber()
     curve = sample(truth, 1e0, 1e8, 81)
-    fitted = fit_prony(curve, terms=9, smoothing=0.0)
+    fitted = fit_prony(curve, terms=9, smoothing=0.0, extrapolate_decades=0.0)
     assert fitted.relaxation_times == pytest.approx(truth.relaxation_times, rel=1e-9)
     assert fitted.moduli == pytest.approx(truth.moduli, rel=1e-8)
     assert fitted.equilibrium_modulus == pytest.approx(2e6, rel=1e-8)
 
 
 def test_smoothing_and_choice_of_terms_cost_no_accuracy():
-    """Times that do not coincide with the series': 1 % in |E*| is the ripple of 1.5 per decade."""
+    """Times that do not coincide with the series': 1 % in |E*| is the ripple of 1.5 per decade.
+
+    In the last half decade the true spectrum breaks off where the fit goes on: scatter that is
+    always believed, 2 %.
+    """
     truth = broad_rubber()
     fitted, report = fit_prony_report(sample(truth, 1.0, 1e8, 81))
-    assert misfit(fitted, truth, 1.0, 1e8) < 0.01
+    assert misfit(fitted, truth, 1.0, 3e7) < 0.01
+    assert misfit(fitted, truth, 3e7, 1e8) < 0.02
     assert report.outlier_frequency.size == 0
     assert report.consistent
     assert report.rms_loss < 0.01
@@ -110,11 +115,16 @@ def test_the_measured_tread_curve():
     assert report.rms_loss < 0.095
     assert report.rms_loss_factor < 0.15
     assert not report.consistent
-    assert report.terms == 20
+    assert report.terms == 23
     assert len(report.candidates) == 7
     free = fit_prony_report(curve, terms=40, smoothing=0.0, extrapolate_decades=2.0)[1]
     assert free.rms_storage > 0.085
     assert "Kramers-Kronig" in report.summary()
+    slow, broad = report.inconsistencies[:2]
+    assert (slow.low, slow.high) == pytest.approx((0.0263, 2.72), rel=0.01)
+    assert (broad.low, broad.high) == pytest.approx((135, 2.65e9), rel=0.01)
+    # the drawing shows E' of the fit 12 % low at the slow end, 13 % high at 1e4 to 1e5 rad/s
+    assert (slow.storage, broad.storage) == pytest.approx((-0.12, 0.13), abs=0.01)
     assert "9.89e+10" in report.summary()
     assert rubber.valid_band == pytest.approx((2 * np.pi * 4.18e-3, 2 * np.pi * 4.59e12))
     assert rubber.equilibrium_modulus < 6.68e6 < float(rubber.complex_modulus(1.0).real)
@@ -134,7 +144,9 @@ def test_loss_weight_shifts_the_misfit():
 def test_smoothing_removes_the_spikes_of_a_bare_fit():
     """With 28 terms the bare fit has neighbours more than a decade apart or none at all."""
     curve = read_master_curve(TREAD)
-    bare, smooth = (fit_prony_report(curve, terms=28, smoothing=s) for s in (0.0, 0.3))
+    bare, smooth = (
+        fit_prony_report(curve, terms=28, smoothing=s, extrapolate_decades=0.0) for s in (0.0, 0.3)
+    )
     assert len(smooth[0].moduli) == 28
     assert np.abs(np.diff(np.log10(smooth[0].moduli))).max() < 1.0
     assert len(bare[0].moduli) < 28 or np.abs(np.diff(np.log10(bare[0].moduli))).max() > 1.0
@@ -150,9 +162,14 @@ def test_smoothing_removes_the_spikes_of_a_bare_fit():
         ({"terms": 2.5}, "terms must be a whole number"),
         ({"outlier_threshold": 0.0}, "outlier_threshold must be greater than zero"),
         ({"extrapolate_decades": -1.0}, "extrapolate_decades must not be negative"),
+        ({"extrapolate_decades": 21.0}, "extrapolate_decades must be at most 20; got 21"),
+        ({"smoothing": 1e300}, r"smoothing must be at most 1e.06; got 1e.300"),
+        ({"loss_weight": 1e300}, "loss_weight must be at most"),
+        ({"bulk_modulus": 1e300}, "bulk_modulus must lie between 1e-100 and"),
         ({"smoothing": -0.1}, "smoothing must not be negative"),
         ({"loss_weight": 0.0}, "loss_weight must be greater than zero"),
-        ({"bulk_modulus": 1e6}, "bulk_modulus .* glassy modulus"),
+        ({"bulk_modulus": 1e6}, "bulk_modulus .* 2/9 of the largest measured E', 3.8.*e.08"),
+        ({"bulk_modulus": 10**400}, "bulk_modulus must be a finite number .* more than 80 digits"),
     ],
 )
 def test_bad_options(options, message):

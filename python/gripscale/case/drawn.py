@@ -67,9 +67,13 @@ def excited(speed: float, sines: SineStack) -> Array:
 
 
 def band(rubber: Rubber, master: MasterCurve | None, excitation: ArrayLike, points: int) -> Array:
-    """Return angular frequencies [rad/s] over everything measured and excited, or all terms."""
+    """Return angular frequencies [rad/s] over everything measured and excited, or all terms.
+
+    A decade more on both sides where the uncertainty beyond the data is known, else half of one.
+    """
     ends = [*np.asarray(excitation, dtype=float), *(rubber.valid_band or ())]
     if master is not None:
         ends += [*master.angular_frequency[[0, -1]]]
     ends = ends or [*(1.0 / rubber.relaxation_times)] or [1.0]
-    return np.geomspace(min(ends) / 3.0, max(ends) * 3.0, points)
+    margin = 3.0 if rubber.admissible is None else 10.0
+    return np.geomspace(min(ends) / margin, max(ends) * margin, points)

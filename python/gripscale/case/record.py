@@ -21,6 +21,7 @@ from gripscale.case.prepare import PreparedRubber
 from gripscale.case.read import CaseFile
 from gripscale.case.results import CaseResults
 from gripscale.rubber import Rubber
+from gripscale.rubber.plateau import fast_end, slow_end
 from gripscale.surface import HeightDifference, Measured, PreparedSurface, SineStack
 from gripscale.textfile import read_bytes
 
@@ -149,9 +150,14 @@ def _rubber(
         "band_low_rad_per_s": low,
         "band_high_rad_per_s": high,
     }
+    for name, end in (("slow_end", slow_end(rubber)), ("fast_end", fast_end(rubber))):
+        attrs |= {f"{name}_modulus_Pa": end.modulus, f"{name}_plateau": int(end.plateau)}
     omega = band(rubber, master, excitation, POINTS)
     data: Variables = {"series_omega": ("series_omega", omega, {"units": "rad/s"})}
     data |= _series("series", "series_omega", rubber, omega)
+    if rubber.admissible is not None:
+        for side, modulus in zip(("low", "high"), rubber.complex_modulus_band(omega), strict=True):
+            data |= _moduli(f"series_{side}", "series_omega", modulus)
     if len(rubber.moduli):
         times = np.asarray(rubber.relaxation_times)
         data["term_relaxation_time"] = ("term", times, {"units": "s"})
@@ -174,13 +180,17 @@ def _rubber(
             "prony_storage_scatter": fit.storage_scatter,
             "prony_loss_scatter": fit.loss_scatter,
             "prony_consistent": int(fit.consistent),
+            "prony_findings": "\n".join(fit.findings),
         }
     return data, attrs
 
 
 def _series(name: str, along: str, rubber: Rubber, omega: NDArray[np.float64]) -> dict[str, Any]:
     """Return storage and loss modulus of the Prony series at `omega` [rad/s]."""
-    modulus = rubber.complex_modulus(omega)
+    return _moduli(name, along, rubber.complex_modulus(omega))
+
+
+def _moduli(name: str, along: str, modulus: NDArray[np.complex128]) -> dict[str, Any]:
     return {
         f"{name}_storage": (along, modulus.real, {"units": "Pa"}),
         f"{name}_loss": (along, modulus.imag, {"units": "Pa"}),

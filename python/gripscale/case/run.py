@@ -18,6 +18,8 @@ from gripscale.case.results import CaseResults
 from gripscale.chain.predict import ChainError, predict
 from gripscale.chain.prediction import Prediction
 from gripscale.chain.solvers import wave_solver
+from gripscale.model import NominalLoad
+from gripscale.rubber.carrying import require_solid
 
 
 @dataclass(frozen=True)
@@ -68,6 +70,7 @@ def run_case(
         For what cannot be read, used or written.
     """
     results = case if isinstance(case, CaseResults) else prepare_case(case)
+    _require_solid(results)
     if output is not None:
         results.folder = Path(output)
         folder.require_writable(results.folder)
@@ -76,6 +79,15 @@ def run_case(
     for name, speed in results.planned():
         _solve(results, name, speed, on_wave)
     return results
+
+
+def _require_solid(results: CaseResults) -> None:
+    """Raise `InputError` before anything is solved or written if the rubber cannot carry a load."""
+    load = results.file.case.load
+    for _, speed in results.planned():
+        nominal = NominalLoad(load.pressure, speed, load.footprint, load.load_time)
+        time = nominal.time_under(nominal.footprint)
+        require_solid(results.rubber.rubber, nominal.pressure, time)
 
 
 def _solve(

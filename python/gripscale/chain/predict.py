@@ -22,6 +22,7 @@ from gripscale.chain.solvers import WaveSolverLike, wave_solver
 from gripscale.errors import ConvergenceError, InputError
 from gripscale.model import LoadTime, NominalLoad
 from gripscale.rubber import Rubber
+from gripscale.rubber.carrying import require_solid
 from gripscale.surface import SineStack
 from gripscale.wave.problem import Load, Sine, WaveProblem
 
@@ -109,11 +110,13 @@ def predict(
     Raises
     ------
     InputError
-        A value that cannot be used.
+        A value that cannot be used; the pressure is more than ten times what is left of the
+        rubber's modulus after the load time of the first wave.
     ChainError
         A wave did not converge; a `ConvergenceError` whose `partial` is the prediction so far.
     """
     load = NominalLoad(pressure, speed, footprint, load_time)
+    require_solid(rubber, load.pressure, load.time_under(load.footprint))
     solve = wave_solver(solver, options).solve
     waves = select_waves(sines, smallest_wavelength=smallest_wavelength, max_scales=max_scales)
     result = Prediction(rubber, sines, load, [], len(waves))

@@ -28,7 +28,7 @@ def fit_rubber(
 ) -> None:
     """Fit a Prony series to a master curve of storage and loss modulus."""
     from gripscale.case import RubberSource, folder, prepare_rubber, validate
-    from gripscale.report.inputs_text import prony_table, rubber_lines
+    from gripscale.report.inputs_text import band_table, prony_table, rubber_lines
 
     stated = {
         "file": file,
@@ -44,7 +44,8 @@ def fit_rubber(
         folder.require_writable(output)
     prepared = prepare_rubber(source)
     console = screen()
-    for line in (*rubber_lines(prepared), *prony_table(prepared.rubber)):
+    rubber = prepared.rubber
+    for line in (*rubber_lines(prepared), *band_table(rubber), *prony_table(rubber)):
         say(console, line)
     if output is not None:
         from gripscale.figures.case_all import rubber_figure

@@ -66,9 +66,29 @@ def _series(
     """Draw E', E'' and E''/E' of the Prony series over everything that is shown."""
     omega = band(rubber, master, excitation, 600)
     modulus = rubber.complex_modulus(omega)
-    moduli.plot(omega, modulus.real / MEGA, color=BLUE, label="$E'$, Prony series")
-    moduli.plot(omega, modulus.imag / MEGA, color=ORANGE, label="$E''$, Prony series")
-    loss.plot(omega, modulus.imag / modulus.real, color=GREEN)
+    if rubber.admissible is not None:
+        low, high = rubber.complex_modulus_band(omega)
+        shade: dict[str, Any] = {"alpha": 0.2, "lw": 0.0}
+        moduli.fill_between(omega, low.real / MEGA, high.real / MEGA, color=BLUE, **shade)
+        moduli.fill_between(omega, low.imag / MEGA, high.imag / MEGA, color=ORANGE, **shade)
+        moduli.fill_between([], [], color=GREY, label="admissible", **shade)
+    curves = (
+        (moduli, modulus.real / MEGA, BLUE, "$E'$, Prony series"),
+        (moduli, modulus.imag / MEGA, ORANGE, "$E''$, Prony series"),
+        (loss, modulus.imag / modulus.real, GREEN, None),
+    )
+    for axes, values, colour, label in curves:
+        for shown, dash, text in _stretches(rubber, omega, label):
+            axes.plot(omega[shown], values[shown], dash, color=colour, label=text)
+
+
+def _stretches(
+    rubber: Rubber, omega: Array, label: str | None
+) -> list[tuple[NDArray[np.bool_], str, str | None]]:
+    """Return the frequencies within the measured band, solid, and those beyond it, dashed."""
+    low, high = rubber.valid_band or (0.0, math.inf)
+    inside = (omega >= low) & (omega <= high)
+    return [(inside, "-", label), (omega <= low, "--", None), (omega >= high, "--", None)]
 
 
 def _marks(moduli: Axes, loss: Axes, rubber: Rubber, omega: Array) -> None:

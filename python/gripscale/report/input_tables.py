@@ -158,12 +158,11 @@ def rubber_facts(inputs: xr.Dataset) -> Facts:
     """Return moduli, band and quality of the Prony series."""
     get = inputs.attrs.get
     moduli = inputs["term_modulus"].values if "term_modulus" in inputs else np.zeros(0)
-    relaxed = float(get("equilibrium_modulus_Pa", math.nan))
     kelvin = float(get("reference_temperature_K", math.nan))
     low, high = (number(get(f"band_{end}_rad_per_s", math.nan)) for end in ("low", "high"))
     pairs = [
-        ("Relaxed modulus", f"{number(relaxed, MEGA)} MPa"),
-        ("Glassy modulus", f"{number(relaxed + moduli.sum(), MEGA)} MPa"),
+        _end(inputs, "slow_end", "Relaxed modulus", "Slow end of the data, E′"),
+        _end(inputs, "fast_end", "Glassy modulus", "Fast end of the data, E′"),
         ("Bulk modulus", f"{number(get('bulk_modulus_Pa', math.nan), GIGA)} GPa"),
         ("Maxwell elements", str(moduli.size)),
         ("Measured band", f"{low} to {high} rad/s"),
@@ -183,6 +182,13 @@ def rubber_facts(inputs: xr.Dataset) -> Facts:
         texts = ", ".join(number(frequency) for frequency in left_out)
         pairs.append(("Rows left out as outliers", f"{texts} Hz" if texts else "none"))
     return Facts("Rubber", pairs)
+
+
+def _end(inputs: xr.Dataset, name: str, plateau: str, otherwise: str) -> tuple[str, str]:
+    """Return label and modulus of an end of the data: of a plateau only where one was measured."""
+    modulus = number(inputs.attrs.get(f"{name}_modulus_Pa", math.nan), MEGA)
+    label = plateau if inputs.attrs.get(f"{name}_plateau", 0) else otherwise
+    return label, f"{modulus} MPa"
 
 
 def prony_table(inputs: xr.Dataset) -> Table:

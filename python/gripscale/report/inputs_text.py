@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from gripscale.figures.palette import MEGA, MILLI
 from gripscale.report.tables import significant
+from gripscale.rubber.plateau import BEYOND, End, fast_end, slow_end
 
 if TYPE_CHECKING:
     from gripscale.case.prepare import PreparedRubber
@@ -60,18 +61,40 @@ def waves_table(sines: SineStack) -> Iterator[str]:
 def rubber_lines(prepared: PreparedRubber) -> Iterator[str]:
     """Yield what the rubber is and how well its Prony series fits."""
     rubber = prepared.rubber
-    relaxed, glassy, bulk = (
-        significant(modulus / MEGA)
-        for modulus in (rubber.equilibrium_modulus, rubber.glassy_modulus, rubber.bulk_modulus)
-    )
-    yield (
-        f"{rubber.name or 'rubber'}: E from {relaxed} MPa (relaxed) to {glassy} MPa (glassy), "
-        f"bulk modulus {bulk} MPa"
-    )
+    slow, fast = _end(slow_end(rubber), "relaxed"), _end(fast_end(rubber), "glassy")
+    bulk = significant(rubber.bulk_modulus / MEGA)
+    yield f"{rubber.name or 'rubber'}: E' from {slow} to {fast}, bulk modulus {bulk} MPa"
     if prepared.fit is not None:
         yield from prepared.fit.summary().splitlines()
     if prepared.source:
         yield f"source: {prepared.source}"
+
+
+def _end(end: End, plateau: str) -> str:
+    place = plateau if end.plateau else "end of the data"
+    return f"{significant(end.modulus / MEGA)} MPa ({place})"
+
+
+def band_table(rubber: Rubber) -> Iterator[str]:
+    """Yield E' and E'' with what the data leave open, at and beyond the ends of the data."""
+    if rubber.valid_band is None or rubber.admissible is None:
+        return
+    yield (
+        f"{'frequency [rad/s]':>18} {'storage [MPa]':>14} {'admissible':>20} "
+        f"{'loss [MPa]':>11} {'admissible':>20}"
+    )
+    slow, fast = rubber.valid_band
+    for omega in (slow / BEYOND, slow, (slow * fast) ** 0.5, fast, fast * BEYOND):
+        here = complex(rubber.complex_modulus(omega))
+        low, high = (complex(one) for one in rubber.complex_modulus_band(omega))
+        yield (
+            f"{omega:>18.3g} {here.real / MEGA:>14.4g} {_span(low.real, high.real):>20} "
+            f"{here.imag / MEGA:>11.4g} {_span(low.imag, high.imag):>20}"
+        )
+
+
+def _span(low: float, high: float) -> str:
+    return f"{low / MEGA:.3g} to {high / MEGA:.3g}"
 
 
 def prony_table(rubber: Rubber) -> Iterator[str]:

@@ -10,6 +10,7 @@ from gripscale.figures.view import CONVERGED, PredictionView
 from gripscale.report.elements import Card, Notice
 from gripscale.report.numbers import NONE, number, percent
 from gripscale.report.source import Run
+from gripscale.rubber.findings import LEAST_POISSON_RATIO
 from gripscale.versions import versions
 from gripscale.wave.result import LARGE_MISMATCH
 
@@ -48,11 +49,9 @@ def _doubts(run: Run) -> Iterator[str]:
             )
         if one.moving:
             yield from _mismatch(one)
-    if inputs.attrs.get("prony_consistent", 1) == 0:
-        yield (
-            "No generalized Maxwell solid has both the measured E′ and E″: within their scatter "
-            "they are not Kramers-Kronig consistent. See the residuals of the Prony series."
-        )
+        yield from _compressible(one, float(inputs.attrs.get("bulk_modulus_Pa", np.nan)))
+    for finding in str(inputs.attrs.get("prony_findings", "")).splitlines():
+        yield f"Rubber: {finding}."
     if "no_self_affine" in inputs.attrs:
         yield f"The surface was not described as self-affine: {inputs.attrs['no_self_affine']}"
     if not inputs.data_vars:
@@ -65,6 +64,21 @@ def _doubts(run: Run) -> Iterator[str]:
     solved, here = run.attrs.get("version_gripscale"), versions()["gripscale"]
     if solved is not None and solved != here:
         yield f"Solved with gripscale {solved}, reported with {here}."
+
+
+def _compressible(one: PredictionView, bulk: float) -> Iterator[str]:
+    """Warn where the bulk modulus is too small for the modulus of a wave."""
+    if not one.has("modulus"):
+        return
+    shear = one.column("modulus") / 3.0
+    ratio = (3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear))
+    low = np.flatnonzero(np.nan_to_num(ratio, nan=0.5) < LEAST_POISSON_RATIO)
+    if low.size:
+        waves = ", ".join(str(i + 1) for i in low)
+        yield (
+            f"{one.title}: Poisson's ratio of waves {waves} is down to {number(ratio[low].min())}, "
+            f"less than {LEAST_POISSON_RATIO:g}: the bulk modulus is too small for their moduli."
+        )
 
 
 def _mismatch(one: PredictionView) -> Iterator[str]:

@@ -1,5 +1,6 @@
 """Rubber: master curves, Prony series and the material they make."""
 
+from gripscale.rubber.admissible import AdmissibleSeries
 from gripscale.rubber.finite_strain_fit import (
     FiniteStrainFit,
     fit_finite_strain,
@@ -9,8 +10,10 @@ from gripscale.rubber.finite_strain_fit import (
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.material import Rubber
 from gripscale.rubber.material_point import simple_shear_stress, uniaxial_stress
+from gripscale.rubber.misfit import Misfit
 from gripscale.rubber.named import springpot_modulus, styrene_butadiene
-from gripscale.rubber.prony import PronyFit, fit_prony, fit_prony_report
+from gripscale.rubber.prony import fit_prony, fit_prony_report
+from gripscale.rubber.prony_report import PronyFit
 from gripscale.rubber.reader import read_master_curve
 from gripscale.rubber.strain_energy import (
     STRAIN_ENERGIES,
@@ -26,10 +29,12 @@ from gripscale.rubber.uniaxial_test import UniaxialTest, read_uniaxial_test
 
 __all__ = [
     "STRAIN_ENERGIES",
+    "AdmissibleSeries",
     "Candidate",
     "FiniteStrainFit",
     "Isihara",
     "MasterCurve",
+    "Misfit",
     "MooneyRivlin",
     "NeoHookean",
     "PronyFit",

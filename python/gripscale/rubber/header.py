@@ -20,6 +20,11 @@ def quantity(name: str) -> str | None:
     return None
 
 
+def is_temperature(name: str) -> bool:
+    """Return whether the column `name` clearly says that it holds temperatures."""
+    return bool(re.match(r"(t|temp|temperature)\b", name.strip().lower()))
+
+
 def modulus_kind(name: str) -> str | None:
     """Return `E` or `G` if the column `name` says which modulus it is, else None."""
     text = _plain(name)

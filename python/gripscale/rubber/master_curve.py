@@ -31,7 +31,8 @@ class MasterCurve:
     Raises
     ------
     InputError
-        If a value is not finite or not positive, the lengths differ or there are fewer than 2 rows.
+        If a value is not finite, not positive or beyond 1e-100 to 1e100, the lengths differ or
+        there are fewer than 2 rows.
     """
 
     frequency: Array = field(repr=False)
@@ -51,9 +52,9 @@ class MasterCurve:
         source: str = "",
     ) -> None:
         columns = {
-            "frequency": checks.positive_vector("frequency", frequency, unit="Hz"),
-            "storage": checks.positive_vector("storage", storage, unit="Pa"),
-            "loss": checks.positive_vector("loss", loss, unit="Pa"),
+            "frequency": checks.in_reason("frequency", frequency, unit="Hz"),
+            "storage": checks.in_reason("storage", storage, unit="Pa"),
+            "loss": checks.in_reason("loss", loss, unit="Pa"),
         }
         lengths = [len(column) for column in columns.values()]
         if len(set(lengths)) != 1 or lengths[0] < 2:

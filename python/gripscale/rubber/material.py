@@ -20,6 +20,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from gripscale import checks
 from gripscale.errors import InputError
+from gripscale.rubber import material_checks
+from gripscale.rubber.admissible import AdmissibleSeries
+from gripscale.rubber.maxwell_shapes import loss_shape, storage_shape
 from gripscale.rubber.strain_energy import NeoHookean, StrainEnergy, strain_energy_from_dict
 
 Array = NDArray[np.float64]
@@ -41,19 +44,23 @@ class Rubber:
     relaxation_times : array_like, shape (terms,)
         Their relaxation times [s], above zero.
     bulk_modulus : float
-        Bulk modulus [Pa]; more than 2/9 of the glassy modulus, so that Poisson's ratio stays
-        positive at every frequency.
+        Bulk modulus [Pa]; more than 2/9 of E_inf + sum E_i, so that Poisson's ratio stays positive
+        at every frequency.
     name, source : str
         What the rubber is and where its numbers come from.
     valid_band : tuple of two floats, optional
         Lowest and highest angular frequency the numbers rest on [rad/s].
     strain_energy : StrainEnergy
         Strain energy of the permanent network at finite strain.
+    admissible : AdmissibleSeries, optional
+        Other series that fit the same measurement: what it leaves open. It is of this series only;
+        whoever changes moduli or times changes it as well, or leaves it out.
 
     Raises
     ------
     InputError
-        If a value is missing, not finite, not positive, or the lengths differ.
+        If a value is missing, not finite, not positive, beyond 1e-100 to 1e100, or the lengths
+        differ.
     """
 
     equilibrium_modulus: float
@@ -64,6 +71,7 @@ class Rubber:
     source: str = ""
     valid_band: tuple[float, float] | None = None
     strain_energy: StrainEnergy = DEFAULT_ENERGY
+    admissible: AdmissibleSeries | None = field(default=None, repr=False)
 
     def __init__(
         self,
@@ -75,20 +83,22 @@ class Rubber:
         source: str = "",
         valid_band: tuple[float, float] | None = None,
         strain_energy: StrainEnergy = DEFAULT_ENERGY,
+        admissible: AdmissibleSeries | None = None,
     ) -> None:
         values = {
-            "equilibrium_modulus": checks.positive(
-                "equilibrium_modulus", equilibrium_modulus, unit="Pa"
+            "equilibrium_modulus": material_checks.modulus(
+                "equilibrium_modulus", equilibrium_modulus
             ),
-            "moduli": _read_only(checks.positive_vector("moduli", moduli, unit="Pa")),
-            "relaxation_times": _read_only(
-                checks.positive_vector("relaxation_times", relaxation_times, unit="s")
+            "moduli": material_checks.read_only(checks.in_reason("moduli", moduli, unit="Pa")),
+            "relaxation_times": material_checks.read_only(
+                checks.in_reason("relaxation_times", relaxation_times, unit="s")
             ),
-            "bulk_modulus": checks.positive("bulk_modulus", bulk_modulus, unit="Pa"),
+            "bulk_modulus": material_checks.modulus("bulk_modulus", bulk_modulus),
             "name": str(name),
             "source": str(source),
-            "valid_band": _band(valid_band),
-            "strain_energy": _energy(strain_energy),
+            "valid_band": material_checks.band(valid_band),
+            "strain_energy": material_checks.energy(strain_energy),
+            "admissible": material_checks.admissible(admissible),
         }
         for key, value in values.items():
             object.__setattr__(self, key, value)
@@ -103,7 +113,7 @@ class Rubber:
         least = 2.0 / 9.0 * self.glassy_modulus
         if self.bulk_modulus <= least:
             raise InputError(
-                f"bulk_modulus [Pa] must exceed 2/9 of the glassy modulus, {least:g}, "
+                f"bulk_modulus [Pa] must exceed 2/9 of E_inf + sum E_i, {least:g}, "
                 f"to keep Poisson's ratio positive; got {self.bulk_modulus:g}"
             )
 
@@ -124,6 +134,7 @@ class Rubber:
             self.source,
             self.valid_band,
             self.strain_energy,
+            self.admissible,
         )
 
     def to_dict(self) -> dict[str, Any]:
@@ -135,20 +146,31 @@ class Rubber:
             "relaxation_times": self.relaxation_times.tolist(),
             "valid_band": None if self.valid_band is None else list(self.valid_band),
             "strain_energy": {"kind": energy.kind, **energy.parameters()},
+            "admissible": None if self.admissible is None else self.admissible.to_dict(),
         }
 
     @classmethod
     def from_dict(cls, values: Mapping[str, Any]) -> Rubber:
-        """Return the rubber of `to_dict`, exactly; raise `InputError` if a key is another."""
+        """Return the rubber of `to_dict`, exactly; raise `InputError` if a key is another.
+
+        `admissible` may be absent, as in files of older versions.
+        """
         known = [field.name for field in fields(cls)]
-        if set(values) != set(known):
+        if set(values) | {"admissible"} != set(known):
             raise InputError(f"values must have the keys {', '.join(known)}; got {list(values)}")
-        energy = strain_energy_from_dict(values["strain_energy"])
-        return cls(**{**values, "strain_energy": energy})
+        others = values.get("admissible")
+        parts = {
+            "strain_energy": strain_energy_from_dict(values["strain_energy"]),
+            "admissible": None if others is None else AdmissibleSeries.from_dict(others),
+        }
+        return cls(**{**values, **parts})
 
     @property
     def glassy_modulus(self) -> float:
-        """Young's modulus at once after a step, E_inf + sum E_i [Pa]."""
+        """Young's modulus of the series at once after a step, E_inf + sum E_i [Pa].
+
+        The modulus of the glass only where the data reach it.
+        """
         return float(self.equilibrium_modulus + self.moduli.sum())
 
     @property
@@ -164,13 +186,59 @@ class Rubber:
     def complex_modulus(self, omega: ArrayLike) -> ComplexArray:
         """Return E*(w) = E' + i E'' [Pa] at angular frequencies `omega` [rad/s], same shape.
 
-        A negative frequency gives the complex conjugate. Raises `InputError` unless finite.
+        A negative frequency gives the complex conjugate. Raises `InputError` unless finite and
+        below 1e100.
         """
-        frequency = _finite("omega", omega, "rad/s")
+        frequency = material_checks.finite("omega", omega, "rad/s")
         phase = frequency[..., None] * self.relaxation_times
-        storage = self.equilibrium_modulus + (self.moduli * (1.0 - 1.0 / (1.0 + phase**2))).sum(-1)
-        loss = (self.moduli * phase / (1.0 + phase**2)).sum(-1)
+        storage = self.equilibrium_modulus + (self.moduli * storage_shape(phase)).sum(-1)
+        loss = (self.moduli * loss_shape(phase)).sum(-1)
         return np.asarray(storage + 1j * loss, dtype=np.complex128)
+
+    def complex_modulus_band(self, omega: ArrayLike) -> tuple[ComplexArray, ComplexArray]:
+        """Return how low and how high E* [Pa] may be at angular frequencies `omega` [rad/s].
+
+        The envelope of this series and the admissible ones: E' lies between the real parts, E''
+        between the imaginary parts. Stated within the measured band and two decades beyond its
+        ends; further out the series have no relaxation times.
+
+        Raises
+        ------
+        InputError
+            If `omega` is not finite, or the rubber has no admissible series.
+        """
+        own = self.complex_modulus(omega)
+        if self.admissible is None:
+            raise InputError(
+                "admissible must be the series that also fit, as fit_prony finds them, for the "
+                f"uncertainty of a modulus; got none with {self.name or 'this rubber'}"
+            )
+        others = self.admissible.complex_moduli(np.abs(np.asarray(omega, dtype=float)))
+        others.imag *= np.sign(omega)
+        every = np.concatenate([own[None], others])
+        low = every.real.min(axis=0) + 1j * every.imag.min(axis=0)
+        high = every.real.max(axis=0) + 1j * every.imag.max(axis=0)
+        return np.asarray(low), np.asarray(high)
+
+    def admissible_rubbers(self) -> list[Rubber]:
+        """Return each admissible series as a rubber; none if there are none."""
+        if self.admissible is None:
+            return []
+        series = zip(self.admissible.equilibrium_moduli, self.admissible.moduli, strict=True)
+        times = self.admissible.relaxation_times
+        return [
+            Rubber(
+                float(equilibrium),
+                moduli[moduli > 0.0],
+                times[moduli > 0.0],
+                self.bulk_modulus,
+                self.name,
+                self.source,
+                self.valid_band,
+                self.strain_energy,
+            )
+            for equilibrium, moduli in series
+        ]
 
     def loss_factor(self, omega: ArrayLike) -> Array:
         """Return tan(delta) = E''/E' [-] at angular frequencies `omega` [rad/s], same shape."""
@@ -185,7 +253,8 @@ class Rubber:
         elapsed = np.asarray(time, dtype=float)
         if not (elapsed >= 0.0).all():
             raise InputError(f"time must not be negative [s]; got {elapsed!r:.80}")
-        decay = np.exp(-elapsed[..., None] / self.relaxation_times)
+        with np.errstate(over="ignore"):  # infinitely many relaxation times have passed
+            decay = np.exp(-elapsed[..., None] / self.relaxation_times)
         return np.asarray(self.equilibrium_modulus + (self.moduli * decay).sum(-1))
 
     def poisson_ratio(self, omega: ArrayLike) -> Array:
@@ -206,40 +275,8 @@ class Rubber:
 
     def outside_band(self, omega: ArrayLike) -> NDArray[np.bool_]:
         """Return whether each `omega` [rad/s] lies outside `valid_band`; False if none is known."""
-        frequency = np.abs(_finite("omega", omega, "rad/s"))
+        frequency = np.abs(material_checks.finite("omega", omega, "rad/s"))
         if self.valid_band is None:
             return np.zeros(frequency.shape, dtype=bool)
         low, high = self.valid_band
         return np.asarray((frequency < low) | (frequency > high))
-
-
-def _read_only(values: Array) -> Array:
-    values.setflags(write=False)
-    return values
-
-
-def _finite(name: str, value: ArrayLike, unit: str) -> Array:
-    try:
-        result = np.asarray(value, dtype=float)
-    except (TypeError, ValueError) as error:
-        raise InputError(f"{name} must be finite numbers [{unit}]; got {value!r:.80}") from error
-    if not np.isfinite(result).all():
-        raise InputError(f"{name} must be finite numbers [{unit}]; got {value!r:.80}")
-    return result
-
-
-def _energy(value: StrainEnergy) -> StrainEnergy:
-    if not isinstance(value, StrainEnergy):
-        raise InputError(f"strain_energy must be a StrainEnergy, such as Yeoh; got {value!r}")
-    return value
-
-
-def _band(value: tuple[float, float] | None) -> tuple[float, float] | None:
-    if value is None:
-        return None
-    band = checks.positive_vector("valid_band", value, unit="rad/s")
-    if len(band) != 2 or band[0] >= band[1]:
-        raise InputError(
-            f"valid_band [rad/s] must be a lower and a higher frequency; got {value!r}"
-        )
-    return float(band[0]), float(band[1])

@@ -2,25 +2,42 @@
 
 Minimise over E_inf > 0, E_i >= 0 the relative errors of both moduli together,
 
-    sum_rows (E'_fit/E' - 1)^2 + weight^2 (E''_fit/E'' - 1)^2 + smoothing^2 sum_i (second diff.)^2
+    sum_rows (E'_fit/E' - 1)^2 + weight^2 (E''_fit/E'' - 1)^2
+        + smoothing^2 sum_i (second diff. of h_i)^2 + shrinkage^2 sum_(slow i) h_i^2
 
-where the second differences are of E_i / E'(1/tau_i): without them a non-negative fit turns a
-smooth spectrum into spikes. Sources: M. Baumgaertel & H. H. Winter, Rheol. Acta 28 (1989) 511,
+where h_i = E_i / m(1/tau_i). Within the band m is the measured E'; beyond an end m goes on with the
+slope that E'' has there (last decade), so that equal h_i continue the spectrum as a power law: a
+curve that ends on a flank goes on rising, one that ends on a plateau dies away. Second differences
+keep a non-negative fit from turning a smooth spectrum into spikes. Beyond the slow end a relaxation
+and E_inf look nearly alike, and the second differences give way to a penalty on h_i itself: the
+data have to ask for a relaxation slower than what was measured.
+
+    E_inf + sum E_i <= largest modulus
+
+by a slack variable. Sources: M. Baumgaertel & H. H. Winter, Rheol. Acta 28 (1989) 511,
 doi:10.1007/BF01332922 (relative errors of E' and E'' together); J. Honerkamp & J. Weese, Continuum
 Mech. Thermodyn. 2 (1990) 17, doi:10.1007/BF01170953 (second differences as regularisation).
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gripscale.rubber.maxwell_shapes import loss_shape, storage_shape
+
 Array = NDArray[np.float64]
 
 _LEAST_EQUILIBRIUM = 1e-3
 """E_inf is at least this share of the lowest storage modulus: a melt has none, a rubber must."""
+_LIMIT_WEIGHT = 300.0
+"""Weight of the limit on E_inf + sum E_i: kept to 1e-5 of it against rows of weight one."""
+_LEAST_SPACING = 0.5
+"""Decades between relaxation times beyond the band, where the data resolve no more."""
+_FEWEST_FOR_SLOPE = 5
 
 
 @dataclass(frozen=True)
@@ -33,65 +50,148 @@ class Spectrum:
 
     def storage(self, omega: Array) -> Array:
         """Return E' [Pa] at `omega` [rad/s]."""
-        return self.equilibrium + _storage_shapes(omega, self.times) @ self.moduli
+        return self.equilibrium + storage_shape(np.outer(omega, self.times)) @ self.moduli
 
     def loss(self, omega: Array) -> Array:
         """Return E'' [Pa] at `omega` [rad/s]."""
-        return np.asarray(_loss_shapes(omega, self.times) @ self.moduli)
+        return np.asarray(loss_shape(np.outer(omega, self.times)) @ self.moduli)
 
 
-def relaxation_times(omega: Array, terms: int, extra_decades: float) -> Array:
-    """Return `terms` log-spaced times [s] over the band of `omega` [rad/s] and beyond both ends."""
-    low = -np.log10(omega.max()) - extra_decades
-    high = -np.log10(omega.min()) + extra_decades
+@dataclass(frozen=True)
+class Curve:
+    """Rows of a master curve: `omega` [rad/s] ascending, `storage` and `loss` [Pa]."""
+
+    omega: Array
+    storage: Array
+    loss: Array
+
+    def rows(self, chosen: NDArray[np.bool_]) -> Curve:
+        """Return the chosen rows."""
+        return Curve(self.omega[chosen], self.storage[chosen], self.loss[chosen])
+
+
+@dataclass(frozen=True)
+class Prior:
+    """What is known beside the rows, and how much each of their moduli weighs."""
+
+    smoothing: float
+    shrinkage: float
+    largest_modulus: float
+    """Upper limit of E_inf + sum E_i [Pa]."""
+    storage_weight: float = 1.0
+    loss_weight: float = 1.0
+
+
+@dataclass(frozen=True)
+class Equations:
+    """Rows `matrix` z = `right` of the fit, z >= 0: E_inf above its floor, h_i, the slack."""
+
+    matrix: Array
+    right: Array
+    floor: float
+    unit: float
+    scale: Array
+    times: Array
+
+    def spectrum(self, solution: Array) -> Spectrum:
+        """Return the moduli a solution stands for."""
+        equilibrium = self.floor + self.unit * float(solution[0])
+        return Spectrum(equilibrium, solution[1:-1] * self.scale, self.times)
+
+
+def relaxation_times(omega: Array, terms: int, beyond: float) -> Array:
+    """Return log-spaced times [s]: `terms` over the band of `omega` [rad/s], more beyond its ends.
+
+    Beyond each end they go on for `beyond` decades, at the spacing of the band or half a decade,
+    whichever is wider. A single time stands in the middle, alone.
+    """
+    low, high = -math.log10(omega.max()), -math.log10(omega.min())
     if terms == 1:
         return np.array([10.0 ** (0.5 * (low + high))])
-    return np.logspace(low, high, terms)
+    spacing = max((high - low) / (terms - 1), _LEAST_SPACING)
+    outside = spacing * np.arange(1, round(beyond / spacing) + 1)
+    inside = np.linspace(low, high, terms)
+    return np.asarray(10.0 ** np.concatenate([low - outside[::-1], inside, high + outside]))
 
 
-def fit_spectrum(
-    omega: Array, storage: Array, loss: Array, times: Array, smoothing: float, loss_weight: float
-) -> Spectrum:
-    """Return the best non-negative moduli on the given `times` [s].
+def fit_spectrum(curve: Curve, times: Array, prior: Prior) -> Spectrum:
+    """Return the best non-negative moduli on the given `times` [s]."""
+    problem = equations(curve, times, prior)
+    return problem.spectrum(non_negative(problem.matrix, problem.right))
 
-    `omega` [rad/s], `storage` and `loss` [Pa] have shape (rows,), `omega` ascending.
-    """
+
+def non_negative(matrix: Array, right: Array) -> Array:
+    """Return the z >= 0 that minimises |matrix z - right|."""
     from scipy.optimize import nnls
 
-    floor = _LEAST_EQUILIBRIUM * float(storage.min())
-    scale = np.interp(-np.log(times), np.log(omega), storage)
-    left = np.vstack(
+    solution, _ = nnls(matrix, right, maxiter=100 * matrix.shape[1])
+    return np.asarray(solution)
+
+
+def equations(curve: Curve, times: Array, prior: Prior) -> Equations:
+    """Return the least-squares problem of a fit to `curve` on the given `times` [s]."""
+    floor, unit = _LEAST_EQUILIBRIUM * float(curve.storage.min()), float(curve.storage.min())
+    scale = np.minimum(_scale(curve, -np.log(times)), prior.largest_modulus)
+    nothing = np.zeros((len(curve.omega), 1))
+    phase = np.outer(curve.omega, times)
+    storage = np.hstack([nothing + unit, storage_shape(phase) * scale, nothing])
+    loss = np.hstack([nothing, loss_shape(phase) * scale, nothing])
+    limit = np.concatenate([[unit], scale, [prior.largest_modulus]]) / prior.largest_modulus
+    slow = -np.log(times) < np.log(curve.omega[0]) - 1e-9
+    penalties = _penalties(slow, prior)
+    matrix = np.vstack(
         [
-            np.column_stack([np.ones_like(storage), _storage_shapes(omega, times) * scale])
-            / storage[:, None],
-            np.column_stack([np.zeros_like(loss), _loss_shapes(omega, times) * scale])
-            * (loss_weight / loss[:, None]),
-            smoothing * _second_differences(len(times)),
+            storage * (prior.storage_weight / curve.storage)[:, None],
+            loss * (prior.loss_weight / curve.loss)[:, None],
+            penalties,
+            _LIMIT_WEIGHT * limit,
         ]
     )
-    unit = float(storage.min())
-    left[:, 0] *= unit
     right = np.concatenate(
-        [1.0 - floor / storage, np.full(len(loss), loss_weight), np.zeros(max(len(times) - 2, 0))]
+        [
+            prior.storage_weight * (1.0 - floor / curve.storage),
+            np.full(len(curve.loss), prior.loss_weight),
+            np.zeros(len(penalties)),
+            [_LIMIT_WEIGHT * (1.0 - floor / prior.largest_modulus)],
+        ]
     )
-    solution, _ = nnls(left, right, maxiter=100 * left.shape[1])
-    return Spectrum(floor + unit * float(solution[0]), solution[1:] * scale, times)
+    return Equations(matrix, right, floor, unit, scale, times)
 
 
-def _storage_shapes(omega: Array, times: Array) -> Array:
-    phase = np.outer(omega, times)
-    return np.asarray(1.0 - 1.0 / (1.0 + phase**2))
+def _scale(curve: Curve, position: Array) -> Array:
+    """Return m(w) at log w = `position`: E' in the band, beyond it with the slope of E''."""
+    measured = np.log(curve.omega)
+    inside = np.interp(position, measured, curve.storage)
+    low, high = _slopes(measured, np.log(curve.loss))
+    below = np.minimum(position - measured[0], 0.0)
+    above = np.maximum(position - measured[-1], 0.0)
+    return np.asarray(inside * np.exp(low * below + high * above))
 
 
-def _loss_shapes(omega: Array, times: Array) -> Array:
-    phase = np.outer(omega, times)
-    return np.asarray(phase / (1.0 + phase**2))
+def _slopes(position: Array, value: Array) -> tuple[float, float]:
+    """Return the slopes of `value` over the first and the last decade, between -1 and 1.
+
+    One is the steepest a Maxwell element's E'' can be.
+    """
+    decade = math.log(10.0)
+    ends = []
+    for at in (0, -1):
+        near = np.abs(position - position[at]) <= decade
+        order = np.argsort(np.abs(position - position[at]), kind="stable")
+        near[order[:_FEWEST_FOR_SLOPE]] = True
+        run = position[near] - position[near].mean()
+        square = float(run @ run)
+        slope = float(run @ value[near]) / square if square > 0.0 else 0.0
+        ends.append(min(max(slope, -1.0), 1.0))
+    return ends[0], ends[1]
 
 
-def _second_differences(terms: int) -> Array:
-    """Return the matrix of second differences of the moduli; its first column (E_inf) is zero."""
-    rows = max(terms - 2, 0)
-    matrix = np.zeros((rows, terms + 1))
-    for row in range(rows):
-        matrix[row, row + 1 : row + 4] = 1.0, -2.0, 1.0
-    return matrix
+def _penalties(slow: NDArray[np.bool_], prior: Prior) -> Array:
+    """Return the rows of second differences and of shrinkage; those of E_inf and slack are zero."""
+    terms = len(slow)
+    differences = np.zeros((max(terms - 2, 0), terms + 2))
+    for row in range(len(differences)):
+        differences[row, row + 1 : row + 4] = 1.0, -2.0, 1.0
+    within = ~slow[2:] if terms > 2 else np.zeros(0, dtype=bool)
+    shrinking = np.eye(terms, terms + 2, 1)[slow]
+    return np.vstack([prior.smoothing * differences[within], prior.shrinkage * shrinking])

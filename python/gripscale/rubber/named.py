@@ -68,9 +68,10 @@ def styrene_butadiene(
 ) -> Rubber:
     """Return an unfilled styrene-butadiene rubber at 20 C as a Prony series.
 
-    The springpots of `springpot_modulus`, fitted over `band` with two elements per decade. A
-    springpot has no equilibrium modulus: the one given here is what is left at the slow end of the
-    band, so static results depend on the band and are not a property of the rubber.
+    The springpots of `springpot_modulus`, fitted over `band` with two elements per decade, two
+    decades beyond its ends as well. A springpot has no equilibrium modulus: the one given here is
+    what is left below the slow end of the band, so static results depend on the band and are not a
+    property of the rubber.
 
     What is known: unfilled SBR, 20 C, the parameters. Not known: publication, compound, laboratory,
     strain amplitude, and how far into the glassy region they were measured.

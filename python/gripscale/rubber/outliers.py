@@ -20,6 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gripscale import checks
 from gripscale.rubber.maxwell_fit import Spectrum
 
 Array = NDArray[np.float64]
@@ -44,6 +45,11 @@ class Screening:
     """Robust relative scatter of E' about its local trend [-]."""
     loss_scatter: float
 
+    @property
+    def believed_scatter(self) -> tuple[float, float]:
+        """Scatter of E' and E'' [-], at least what a good laboratory has."""
+        return max(self.storage_scatter, _LEAST_SCATTER), max(self.loss_scatter, _LEAST_SCATTER)
+
 
 def screen(
     omega: Array,
@@ -65,8 +71,8 @@ def screen(
             _deviation(position, np.log(loss), kept),
         ]
         relative = [
-            _deviation(position, np.log(storage / spectrum.storage(omega)), kept),
-            _deviation(position, np.log(loss / spectrum.loss(omega)), kept),
+            _deviation(position, _log_ratio(storage, spectrum.storage(omega)), kept),
+            _deviation(position, _log_ratio(loss, spectrum.loss(omega)), kept),
         ]
         scores = [
             np.minimum(np.abs(a) / _scatter(a[kept]), np.abs(b) / _scatter(b[kept]))
@@ -81,16 +87,25 @@ def screen(
 
 def _deviation(position: Array, value: Array, kept: NDArray[np.bool_]) -> Array:
     """Return each value minus the straight line through its nearest kept neighbours."""
-    from scipy.stats import theilslopes
-
     result = np.empty_like(value)
     members = np.flatnonzero(kept)
     for row in range(len(value)):
         near = _nearest(members[members != row], row)
         run, rise = position[near] - position[row], value[near]
-        slope = theilslopes(rise, run).slope if np.ptp(run) > 0.0 else 0.0
-        result[row] = value[row] - np.median(rise - slope * run)
+        result[row] = value[row] - np.median(rise - _median_slope(run, rise) * run)
     return result
+
+
+def _median_slope(run: Array, rise: Array) -> float:
+    """Return the median of all slopes between two points; 0 if all stand at one place."""
+    across = run[:, None] - run
+    apart = across > 0.0
+    return float(np.median((rise[:, None] - rise)[apart] / across[apart])) if apart.any() else 0.0
+
+
+def _log_ratio(measured: Array, fitted: Array) -> Array:
+    """Return log(measured/fitted); a fit may have no loss at all where it is far off."""
+    return np.asarray(np.log(measured) - np.log(np.maximum(fitted, checks.LEAST)))
 
 
 def _nearest(members: NDArray[np.intp], row: int) -> NDArray[np.intp]:

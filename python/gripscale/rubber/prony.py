@@ -1,13 +1,12 @@
-"""From a master curve to a Prony series, with a report of how well it does.
+"""From a master curve to a Prony series, with what the data leave open and a report on both.
 
-Relaxation times are log-spaced over the measured band; their moduli are the non-negative least
-squares of `maxwell_fit`, their number comes from `term_choice`, rows that do not belong to the
-curve are found by `outliers`.
+Relaxation times are log-spaced over the measured band and two decades beyond its ends. Moduli are
+the non-negative least squares of `maxwell_fit`, their number comes from `term_choice`, rows that do
+not belong to the curve are found by `outliers`, the other series that fit by `extremes`.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from functools import partial
 
 import numpy as np
@@ -15,77 +14,30 @@ from numpy.typing import NDArray
 
 from gripscale import checks
 from gripscale.errors import InputError
+from gripscale.rubber import material_checks
+from gripscale.rubber.admissible import AdmissibleSeries
+from gripscale.rubber.extremes import extremes
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.material import Rubber
-from gripscale.rubber.maxwell_fit import Spectrum, fit_spectrum, relaxation_times
+from gripscale.rubber.maxwell_fit import Curve, Prior, Spectrum, fit_spectrum, relaxation_times
 from gripscale.rubber.outliers import Screening, screen
+from gripscale.rubber.prony_report import PronyFit, report
 from gripscale.rubber.term_choice import Candidate, choose_terms
 
 Array = NDArray[np.float64]
 
 _FEWEST_ROWS = 4
 _SMOOTHING = 0.1
-
-
-@dataclass(frozen=True)
-class PronyFit:
-    """How a Prony series came about and how well it fits the rows kept."""
-
-    terms: int
-    """Maxwell elements with a modulus above zero."""
-    candidates: tuple[Candidate, ...] = field(repr=False)
-    """Numbers of terms tried and their cross-validation error; empty if the number was given."""
-    outlier_frequency: Array
-    """Frequencies of the rows left out [Hz]."""
-    outlier_storage_deviation: Array = field(repr=False)
-    """Their log deviation in E' from the local trend [-]."""
-    outlier_loss_deviation: Array = field(repr=False)
-    """The same in E''."""
-    rms_storage: float
-    """Root mean square of E'_fit/E' - 1 [-]."""
-    rms_loss: float
-    """Root mean square of E''_fit/E'' - 1 [-]."""
-    rms_loss_factor: float
-    """Root mean square relative error of E''/E' [-]."""
-    mean_loss_factor_error: float
-    """Mean relative error of E''/E', negative where the fit is less lossy than measured [-]."""
-    storage_scatter: float
-    """Robust relative scatter of the measured E' about its local trend [-]."""
-    loss_scatter: float
-    """The same of E''."""
-    measured_band: tuple[float, float]
-    """Lowest and highest measured angular frequency among the rows kept [rad/s]."""
-
-    @property
-    def consistent(self) -> bool:
-        """Whether the fit misses E' and E'' by no more than about twice their scatter.
-
-        If not, no generalized Maxwell solid has both moduli (they break the Kramers-Kronig
-        relation): vertical shifts left out, strain amplitudes that differ between sets, or a
-        non-linear filler network are the usual causes.
-        """
-        return self.rms_storage <= 2.0 * max(self.storage_scatter, 0.02) and (
-            self.rms_loss <= 2.0 * max(self.loss_scatter, 0.02)
-        )
-
-    def summary(self) -> str:
-        """Return the report as a few lines of text."""
-        low, high = self.measured_band
-        lines = [
-            f"{self.terms} Maxwell elements for {low:.3g} to {high:.3g} rad/s",
-            f"rms relative error: E' {self.rms_storage:.1%}, E'' {self.rms_loss:.1%}, "
-            f"loss factor {self.rms_loss_factor:.1%} (mean {self.mean_loss_factor_error:+.1%})",
-            f"scatter of the data: E' {self.storage_scatter:.1%}, E'' {self.loss_scatter:.1%}",
-        ]
-        if self.outlier_frequency.size:
-            left_out = ", ".join(f"{frequency:.3g}" for frequency in self.outlier_frequency)
-            lines.append(f"left out as outliers [Hz]: {left_out}")
-        if not self.consistent:
-            lines.append(
-                "no generalized Maxwell solid has both the measured E' and E'': within their "
-                "scatter they are not Kramers-Kronig consistent"
-            )
-        return "\n".join(lines)
+_SHRINKAGE = 10.0
+"""Weight of slow relaxations beyond the data over that of the smoothing."""
+_BEYOND, _MOST_DECADES = 2.0, 20.0
+_MOST_WEIGHT = 1e6
+_GLASS = 1.38
+"""Largest modulus of the series over the bulk modulus: Poisson's ratio 0.3, as glasses have it."""
+_OVER_MEASURED = 1.5
+"""The same over the largest measured E', where that is more."""
+_STIFFEST = 4.4
+"""The same of any series: Poisson's ratio is zero at 9/2."""
 
 
 def fit_prony(
@@ -94,7 +46,7 @@ def fit_prony(
     terms: int | None = None,
     bulk_modulus: float = 2e9,
     outlier_threshold: float = 8.0,
-    extrapolate_decades: float = 0.0,
+    extrapolate_decades: float = _BEYOND,
     smoothing: float = _SMOOTHING,
     loss_weight: float = 1.0,
 ) -> Rubber:
@@ -105,16 +57,17 @@ def fit_prony(
     master : MasterCurve
         At least 4 rows.
     terms : int, optional
-        Relaxation times, log-spaced over the band; chosen by cross-validation if not given.
-        Elements whose modulus comes out as zero are dropped.
+        Relaxation times, log-spaced over the measured band; chosen by cross-validation if not
+        given. Beyond its ends come more; elements whose modulus comes out as zero are dropped.
     bulk_modulus : float
         Bulk modulus of the rubber [Pa].
     outlier_threshold : float
         Rows further from their neighbours than this many times the typical scatter are left out;
         infinity keeps all.
     extrapolate_decades : float
-        How far the relaxation times reach beyond the measured band at both ends [decades]. At
-        zero the equilibrium modulus is the modulus at the slow end as nearly as the data allow.
+        How far the relaxation times reach beyond the measured band at both ends [decades]. A
+        flank at an end is continued as a power law, a plateau as a plateau. At zero the series is
+        bent at the ends: nothing relaxes beyond them.
     smoothing : float
         Weight of the second differences of the spectrum; zero gives the bare non-negative fit.
     loss_weight : float
@@ -123,12 +76,13 @@ def fit_prony(
     Returns
     -------
     Rubber
-        With `valid_band` set to the measured band [rad/s].
+        With `valid_band` set to the measured band [rad/s], and with the other series that fit in
+        `admissible`.
 
     Raises
     ------
     InputError
-        If an argument is out of range or `bulk_modulus` is too small for the glassy modulus found.
+        If an argument is out of range or `bulk_modulus` is too small for the moduli measured.
     """
     rubber, _ = fit_prony_report(
         master,
@@ -148,7 +102,7 @@ def fit_prony_report(
     terms: int | None = None,
     bulk_modulus: float = 2e9,
     outlier_threshold: float = 8.0,
-    extrapolate_decades: float = 0.0,
+    extrapolate_decades: float = _BEYOND,
     smoothing: float = _SMOOTHING,
     loss_weight: float = 1.0,
 ) -> tuple[Rubber, PronyFit]:
@@ -164,50 +118,65 @@ def fit_prony_report(
     if terms is not None:
         terms = checks.whole("terms", terms, least=1, most=200)
     checks.positive("outlier_threshold", outlier_threshold, infinite=True)
-    beyond = checks.not_negative("extrapolate_decades", extrapolate_decades, unit="decades")
-    fit = partial(
-        _fit,
-        master.angular_frequency,
-        master.storage,
-        master.loss,
-        beyond,
-        checks.not_negative("smoothing", smoothing),
-        checks.positive("loss_weight", loss_weight),
-    )
-    screening = _screen(master, outlier_threshold)
+    beyond = _option("extrapolate_decades", extrapolate_decades, _MOST_DECADES)
+    smoothing = _option("smoothing", smoothing, _MOST_WEIGHT)
+    loss_weight = checks.positive("loss_weight", _option("loss_weight", loss_weight, _MOST_WEIGHT))
+    bulk = material_checks.modulus("bulk_modulus", bulk_modulus)
+    curve = Curve(master.angular_frequency, master.storage, master.loss)
+    screening = _screen(master, curve, outlier_threshold)
     kept = screening.kept
+    rows = curve.rows(kept)
+    limit = _largest_modulus(float(rows.storage.max()), bulk)
+    prior = Prior(smoothing, _SHRINKAGE * smoothing, limit, loss_weight=loss_weight)
+    fit = partial(_fit, curve, beyond, prior)
     candidates: tuple[Candidate, ...] = ()
     if terms is None:
-        terms, candidates = _choose(master, fit, kept)
+        terms, candidates = _choose(curve, fit, kept)
     spectrum = fit(kept, terms)
-    rubber = _rubber(master, kept, spectrum, bulk_modulus)
-    return rubber, _report(master, screening, candidates, rubber)
+    scatter = _scatter(rows, spectrum, screening)
+    others = extremes(rows, scatter, beyond, _STIFFEST * bulk)
+    rubber = _rubber(master, rows, spectrum, bulk, others)
+    return rubber, report(master, rows, screening, candidates, rubber)
+
+
+def _option(name: str, value: float, most: float) -> float:
+    """Return an option from zero to `most`."""
+    number = checks.not_negative(name, value)
+    if number > most:
+        raise InputError(f"{name} must be at most {most:g}; got {number:g}")
+    return number
+
+
+def _largest_modulus(measured: float, bulk: float) -> float:
+    """Return the limit of E_inf + sum E_i [Pa], from the largest measured E' and the bulk modulus.
+
+    Raises `InputError` if the bulk modulus is too small for what was measured.
+    """
+    if _STIFFEST * bulk <= measured:
+        raise InputError(
+            f"bulk_modulus [Pa] must exceed 2/9 of the largest measured E', {measured:g}, "
+            f"to keep Poisson's ratio positive; got {bulk:g}"
+        )
+    return min(_STIFFEST * bulk, max(_GLASS * bulk, _OVER_MEASURED * measured))
 
 
 def _fit(
-    omega: Array,
-    storage: Array,
-    loss: Array,
-    beyond: float,
-    smoothing: float,
-    loss_weight: float,
-    rows: NDArray[np.bool_],
-    terms: int,
+    curve: Curve, beyond: float, prior: Prior, rows: NDArray[np.bool_], terms: int
 ) -> Spectrum:
-    times = relaxation_times(omega, terms, beyond)
-    return fit_spectrum(omega[rows], storage[rows], loss[rows], times, smoothing, loss_weight)
+    times = relaxation_times(curve.omega, terms, beyond)
+    return fit_spectrum(curve.rows(rows), times, prior)
 
 
-def _screen(master: MasterCurve, threshold: float) -> Screening:
+def _screen(master: MasterCurve, curve: Curve, threshold: float) -> Screening:
     """Find outliers with one fixed fit, so that they do not depend on how the series is wanted."""
-    curve = master.angular_frequency, master.storage, master.loss
     terms = max(4, min(round(2.0 * master.decades), 60))
-    fit = partial(_fit, *curve, 0.0, _SMOOTHING, 1.0, terms=terms)
-    return screen(*curve, fit, threshold)
+    prior = Prior(_SMOOTHING, 0.0, 2.0 * float(master.storage.max()))
+    fit = partial(_fit, curve, 0.0, prior, terms=terms)
+    return screen(curve.omega, curve.storage, curve.loss, fit, threshold)
 
 
 def _choose(
-    master: MasterCurve, fit: partial[Spectrum], kept: NDArray[np.bool_]
+    curve: Curve, fit: partial[Spectrum], kept: NDArray[np.bool_]
 ) -> tuple[int, tuple[Candidate, ...]]:
     places = np.flatnonzero(kept)
 
@@ -216,16 +185,29 @@ def _choose(
         chosen[places[rows]] = True
         return fit(chosen, terms)
 
-    return choose_terms(
-        master.angular_frequency[kept], master.storage[kept], master.loss[kept], fit_among_kept
+    rows = curve.rows(kept)
+    return choose_terms(rows.omega, rows.storage, rows.loss, fit_among_kept)
+
+
+def _scatter(rows: Curve, spectrum: Spectrum, screening: Screening) -> tuple[float, float]:
+    """Return the relative scatter of E' and E'' about the fit: what any series has to live with."""
+    storage = spectrum.storage(rows.omega) / rows.storage - 1.0
+    loss = spectrum.loss(rows.omega) / rows.loss - 1.0
+    own = screening.believed_scatter
+    return (
+        max(own[0], float(np.sqrt(np.mean(storage**2)))),
+        max(own[1], float(np.sqrt(np.mean(loss**2)))),
     )
 
 
 def _rubber(
-    master: MasterCurve, kept: NDArray[np.bool_], spectrum: Spectrum, bulk_modulus: float
+    master: MasterCurve,
+    rows: Curve,
+    spectrum: Spectrum,
+    bulk_modulus: float,
+    admissible: AdmissibleSeries,
 ) -> Rubber:
     present = spectrum.moduli > 1e-9 * spectrum.moduli.sum()
-    omega = master.angular_frequency[kept]
     return Rubber(
         spectrum.equilibrium,
         spectrum.moduli[present],
@@ -233,32 +215,6 @@ def _rubber(
         bulk_modulus=bulk_modulus,
         name=master.name,
         source=master.source,
-        valid_band=(float(omega[0]), float(omega[-1])),
+        valid_band=(float(rows.omega[0]), float(rows.omega[-1])),
+        admissible=admissible,
     )
-
-
-def _report(
-    master: MasterCurve, screening: Screening, candidates: tuple[Candidate, ...], rubber: Rubber
-) -> PronyFit:
-    kept = screening.kept
-    modulus = rubber.complex_modulus(master.angular_frequency[kept])
-    loss_factor_error = modulus.imag / modulus.real / master.loss_factor[kept] - 1.0
-    assert rubber.valid_band is not None
-    return PronyFit(
-        terms=len(rubber.moduli),
-        candidates=candidates,
-        outlier_frequency=master.frequency[~kept],
-        outlier_storage_deviation=screening.storage_deviation[~kept],
-        outlier_loss_deviation=screening.loss_deviation[~kept],
-        rms_storage=_rms(modulus.real / master.storage[kept] - 1.0),
-        rms_loss=_rms(modulus.imag / master.loss[kept] - 1.0),
-        rms_loss_factor=_rms(loss_factor_error),
-        mean_loss_factor_error=float(loss_factor_error.mean()),
-        storage_scatter=screening.storage_scatter,
-        loss_scatter=screening.loss_scatter,
-        measured_band=rubber.valid_band,
-    )
-
-
-def _rms(values: Array) -> float:
-    return float(np.sqrt(np.mean(values**2)))

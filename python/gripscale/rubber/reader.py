@@ -9,15 +9,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+import numpy as np
+
 from gripscale import checks
 from gripscale.errors import FileError, InputError
-from gripscale.rubber.header import modulus_kind, quantity
+from gripscale.rubber.header import is_temperature, modulus_kind, quantity
 from gripscale.rubber.master_curve import Array, MasterCurve
 from gripscale.textfile import TextTable, read_table
 from gripscale.units import in_si, listed, spelled
 
 _QUANTITIES = ("frequency", "storage", "loss")
 _FEWEST_ROWS = 2
+_ONE_TEMPERATURE = 2.0
+"""Temperatures this close [K] are one: no oven is quieter."""
 
 
 def read_master_curve(
@@ -61,13 +65,15 @@ def read_master_curve(
     Raises
     ------
     FileError
-        If the file cannot be read or holds something else; the message names path and line.
+        If the file cannot be read or holds something else, such as sweeps at several temperatures;
+        the message names path and line.
     InputError
         If a unit, the kind of modulus or the columns are neither stated nor given.
     """
     place = Path(path)
     table = _table(place, [column for column in columns or () if isinstance(column, str)])
     chosen = _choose(table, columns)
+    _refuse_sweeps(table, chosen[0], named=columns is not None)
     hertz = _unit(table, chosen[:1], "frequency", frequency_unit)
     pascal = _unit(table, chosen[1:], "modulus", modulus_unit)
     to_young = 3.0 if _kind(table, chosen[1:], modulus) == "G" else 1.0
@@ -102,6 +108,28 @@ def _table(place: Path, expected: list[str]) -> TextTable:
             f"{place}: expected at least {_FEWEST_ROWS} rows of {what}; got {len(table.rows)}"
         )
     return table
+
+
+def _refuse_sweeps(table: TextTable, frequency: int, *, named: bool) -> None:
+    """Raise `FileError` if the rows are sweeps at several temperatures and no master curve.
+
+    A shifted curve may still tell at what temperature each row was measured. Its frequencies do not
+    repeat from one to the next, and the caller has `named` the columns.
+    """
+    for column, title in enumerate(table.columns):
+        if not is_temperature(title.name):
+            continue
+        kelvin = table.numbers(column, "a temperature", missing=True)
+        kelvin = kelvin[np.isfinite(kelvin)]
+        if not kelvin.size or np.ptp(kelvin) <= _ONE_TEMPERATURE:
+            continue
+        hertz = table.numbers(frequency, "a finite number")
+        if not named or len(np.unique(hertz)) <= len(hertz) // 2:
+            raise FileError(
+                f"{table.path}: expected one master curve; got rows at temperatures from "
+                f"{kelvin.min():g} to {kelvin.max():g} in column {title.name}; shift the sweeps to "
+                "one master curve first, or name the columns if they are shifted"
+            )
 
 
 def _choose(table: TextTable, columns: Sequence[str | int] | None) -> list[int]:
@@ -180,11 +208,16 @@ def _kind(table: TextTable, chosen: list[int], given: str | None) -> str:
 
 
 def _positive(table: TextTable, column: int, wanted: str) -> Array:
-    """Return a column whose numbers are all above zero."""
+    """Return a column whose numbers are all above zero and within reason."""
     values = table.numbers(column, "a finite number")
     for number, value in zip(table.line_numbers, values, strict=True):
         if value <= 0.0:
             raise FileError(
                 f"{table.path}, line {number}: expected a {wanted} above zero; got {value:g}"
+            )
+        if not checks.LEAST <= value <= checks.MOST:
+            raise FileError(
+                f"{table.path}, line {number}: expected a {wanted} between {checks.LEAST:g} and "
+                f"{checks.MOST:g}; got {value:g}"
             )
     return values

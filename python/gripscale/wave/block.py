@@ -9,6 +9,7 @@ from typing import Any, ClassVar
 
 from gripscale import checks
 from gripscale.rubber import Rubber
+from gripscale.rubber.carrying import require_solid
 from gripscale.wave import kernel
 from gripscale.wave.mesh import Mesh
 from gripscale.wave.problem import Load, Sine, WaveProblem
@@ -143,6 +144,8 @@ def solve_scale(
         If a value is not a number or out of its range.
     """
     problem = WaveProblem(rubber, Sine(wavelength, amplitude), Load(pressure, speed, load_time))
+    if problem.load.speed == 0.0:
+        require_solid(rubber, problem.load.pressure, math.inf)
     block = FiniteStrainBlock.of(
         columns=columns,
         rows=rows,

@@ -44,6 +44,7 @@ def rubber_charts(inputs: xr.Dataset, excited: PredictionView | None) -> list[Ch
 def _moduli(inputs: xr.Dataset, excited: PredictionView | None) -> Chart:
     figure = plot(OMEGA, "modulus [MPa]", log="xy", height=400)
     for name, colour, part in (("E′", BLUE, "storage"), ("E″", ORANGE, "loss")):
+        _admissible(figure, inputs, part, colour, name)
         _line(
             figure, inputs, inputs[f"series_{part}"].values / MEGA, colour, f"{name}, Prony series"
         )
@@ -75,9 +76,26 @@ def _loss_factor(inputs: xr.Dataset, excited: PredictionView | None) -> Chart:
     )
 
 
-def _line(figure: Figure, inputs: xr.Dataset, values: Array, colour: str, label: str) -> None:
+def _admissible(figure: Figure, inputs: xr.Dataset, part: str, colour: str, name: str) -> None:
+    """Shade what the data leave open."""
+    if f"series_low_{part}" not in inputs:
+        return
+    low, high = (single(inputs[f"series_{side}_{part}"].values / MEGA) for side in ("low", "high"))
     omega = inputs["series_omega"].values
-    figure.line(omega, single(values), color=colour, line_width=1.8, legend_label=label)
+    label = f"{name}, admissible"
+    figure.varea(omega, low, high, fill_color=colour, fill_alpha=0.2, legend_label=label)
+
+
+def _line(figure: Figure, inputs: xr.Dataset, values: Array, colour: str, label: str) -> None:
+    """Draw a curve of the series, dashed beyond the measured band."""
+    omega, values = inputs["series_omega"].values, np.asarray(values)
+    low = float(inputs.attrs.get("band_low_rad_per_s", -math.inf))
+    high = float(inputs.attrs.get("band_high_rad_per_s", math.inf))
+    inside = (omega >= low) & (omega <= high)
+    for shown, dash in ((inside, "solid"), (omega <= low, "dashed"), (omega >= high, "dashed")):
+        if shown.any():
+            look: dict[str, Any] = {"line_width": 1.8, "line_dash": dash, "legend_label": label}
+            figure.line(omega[shown], single(values[shown]), color=colour, **look)
 
 
 def _points(figure: Figure, inputs: xr.Dataset, values: Array, colour: str, name: str) -> None:

@@ -1,0 +1,145 @@
+"""Numbers no measurement has: one sentence of ours for each, and never a warning."""
+
+import contextlib
+import random
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from gripscale.errors import FileError, InputError
+from gripscale.rubber import (
+    MasterCurve,
+    Rubber,
+    fit_prony,
+    read_master_curve,
+    read_uniaxial_test,
+)
+
+DATA = Path(__file__).parents[2] / "examples/data/rubber"
+TREAD = DATA / "measured_dma.txt"
+LONG = 10**400
+HUGE = 10**5000
+"""More digits than Python prints."""
+
+
+@pytest.mark.parametrize(
+    "value", [10**300, LONG, HUGE, -LONG], ids=["float", "long", "huge", "negative"]
+)
+def test_long_integers(value):
+    calls = (
+        lambda: Rubber(value),
+        lambda: Rubber(1e6, bulk_modulus=value),
+        lambda: Rubber(1e6, [1e6, value], [1.0, 2.0]),
+        lambda: Rubber(1e6).complex_modulus(value),
+        lambda: Rubber(1e6, valid_band=(1.0, value)),
+        lambda: MasterCurve([1.0, value], [1e6, 1e6], [1e5, 1e5]),
+        lambda: fit_prony(read_master_curve(TREAD), terms=value),
+        lambda: fit_prony(read_master_curve(TREAD), extrapolate_decades=value),
+    )
+    for call in calls:
+        with pytest.raises(InputError) as caught:
+            call()
+        assert len(str(caught.value)) < 200
+
+
+@pytest.mark.parametrize(
+    ("frequency", "storage", "loss", "named"),
+    [
+        ([1.0, 1e308], [1e6] * 2, [1e5] * 2, "frequency .* 1e.308 at index 1"),
+        ([1e-101, 1.0], [1e6] * 2, [1e5] * 2, "frequency .* 1e-101 at index 0"),
+        ([1.0, 2.0], [1e6, 1e308], [1e5] * 2, "storage .* 1e.308"),
+        ([1.0, 2.0], [1e6] * 2, [1e-310, 1.0], "loss .* 1e-310"),
+    ],
+)
+def test_curves(frequency, storage, loss, named):
+    with pytest.raises(InputError, match=named):
+        MasterCurve(frequency, storage, loss)
+
+
+@pytest.mark.parametrize(
+    ("text", "named"),
+    [
+        ("1e308,2,0.2\n10,3,0.3\n", "line 2: expected a frequency between 1e-100 and"),
+        ("1e-101,2,0.2\n10,3,0.3\n", "line 2: expected a frequency between 1e-100 and"),
+        ("1" + "0" * 400 + ",2,0.2\n10,3,0.3\n", "line 2: expected a finite number"),
+        ("1,1e305,0.2\n10,3,0.3\n", "line 2: expected a storage between"),
+    ],
+)
+def test_files(tmp_path, text, named):
+    path = tmp_path / "curve.csv"
+    path.write_text("f [Hz],E' [MPa],E'' [MPa]\n" + text)
+    with pytest.raises((FileError, InputError), match=named):
+        read_master_curve(path)
+
+
+def test_extreme_products_of_frequency_and_time():
+    """w tau from 1e-200 to 1e200: the limits of a solid, without a warning."""
+    rubber = Rubber(1e6, [2e6, 4e6], [1e-100, 1e100])
+    assert rubber.complex_modulus([1e-99, 1e99]).real == pytest.approx([5e6, 5e6], rel=1e-1)
+    assert rubber.complex_modulus([0.0, 1e100]) == pytest.approx([1e6, 6e6], rel=0.4)
+    assert Rubber(1e6, [2e6], [1e60]).complex_modulus(1e100) == pytest.approx(3e6)
+    assert rubber.relaxation_modulus(1e308) == 1e6
+    with pytest.raises(InputError, match=r"omega must be finite numbers of at most 1e.100"):
+        rubber.complex_modulus(1e101)
+    with pytest.raises(InputError, match="relaxation_times must lie between"):
+        Rubber(1e6, [1e6], [1e155])
+
+
+@given(
+    st.lists(
+        st.tuples(*[st.floats(-60, 60).map(lambda power: 10.0**power)] * 3), min_size=2, max_size=25
+    )
+)
+@settings(max_examples=40, deadline=None, derandomize=True)
+def test_any_rows_are_fitted_or_refused(rows):
+    with contextlib.suppress(InputError):
+        rubber = fit_prony(MasterCurve(*np.array(rows).T))
+        low, high = rubber.complex_modulus_band(1.0)
+        assert np.isfinite([low, high]).all()
+
+
+def mutated(content: bytes, chance: random.Random) -> bytes:
+    """Return a file with a few bytes, digits or lines changed, lost, doubled or swapped."""
+    data = bytearray(content)
+    for _ in range(chance.randint(1, 4)):
+        at = chance.randrange(len(data))
+        kind = chance.randrange(6)
+        if kind == 0:
+            data[at] = chance.randrange(256)
+        elif kind == 1:
+            del data[at : at + chance.randint(1, 30)]
+        elif kind == 2:
+            data[at:at] = data[at : at + chance.randint(1, 30)]
+        elif kind == 3:
+            odd = [b"1e308", b"-", b"nan", b"\t", b",", b"9" * 400, b"\r", b"\xff\xfe", b"E"]
+            data[at:at] = chance.choice(odd)
+        elif kind == 4:
+            data[at : at + 1] = str(chance.randrange(10)).encode()
+        else:
+            lines = bytes(data).split(b"\n")
+            chance.shuffle(lines)
+            data = bytearray(b"\n".join(lines))
+        if not data:
+            return b""
+    return bytes(data)
+
+
+@pytest.mark.parametrize(
+    ("name", "reader", "times"),
+    [
+        ("measured_dma.txt", read_master_curve, 500),
+        ("finite_strain_vhb/loading_1d5_unloading_0d01.xlsx", read_uniaxial_test, 60),
+    ],
+)
+def test_mutations_of_shipped_files(tmp_path, name, reader, times):
+    """Nothing but our own errors, and no warning."""
+    place = DATA / name
+    content, path = place.read_bytes(), tmp_path / place.name
+    chance = random.Random(4)
+    for _ in range(times):
+        path.write_bytes(mutated(content, chance))
+        with contextlib.suppress(InputError, FileError):
+            reader(path)
