@@ -26,9 +26,8 @@ LINE = surface_of_sines(STACK, 20e-3, 1)
 SURFACE = PreparedSurface(STACK, "", measured=Measured.of([LINE]))
 LOAD = NominalLoad(5e4, 0.1, 0.1, math.inf)
 ROAD = self_affine_profile(0.8, 5e-3, 1e-3, 0.3, 1e-4, seed=4)
-SUBJECT = Subject(
-    RUBBER, PreparedSurface(STACK, "", measured=Measured.of([ROAD])), LOAD, HalfPlane()
-)
+MEASURED = Measured.of([ROAD])
+SUBJECT = Subject(RUBBER, PreparedSurface(STACK, "", measured=MEASURED), LOAD, HalfPlane())
 
 
 def test_both_models_answer_as_the_pair_does() -> None:
@@ -39,7 +38,8 @@ def test_both_models_answer_as_the_pair_does() -> None:
     assert half_space.converged
     for name in ("contact_fraction", "friction", "friction_from_dissipation"):
         assert getattr(block, name) == pytest.approx(getattr(pair.block, name), rel=1e-12)
-        assert getattr(half_space, name) == pytest.approx(getattr(pair.half_space, name), rel=1e-12)
+        # another first grid: the linear solver's tolerance is what is left
+        assert getattr(half_space, name) == pytest.approx(getattr(pair.half_space, name), rel=1e-6)
     assert block.contact_fraction_error == pytest.approx(pair.block.contact_fraction_error)
     assert half_space.friction_error == pytest.approx(pair.half_space.friction_error)
     assert half_space.curve is not None
@@ -62,22 +62,22 @@ def test_windows_are_the_same_for_both() -> None:
     assert [one.of for one in drawn[0]] == [one.of for one in drawn[1]]
     assert len({one.of for one in drawn[0]}) == 8
     assert chosen([]) == list(LADDER)
-    measured = SUBJECT.surface.measured
-    short = PreparedSurface(SineStack([0.3], [1e-3]), "", measured=measured)
+    short = PreparedSurface(SineStack([0.3], [1e-3]), "", measured=MEASURED)
     assert small.draws(replace(SUBJECT, surface=short)) == []
 
 
 def test_maps_and_their_lines_are_of_the_same_seeds() -> None:
     lines, whole = chosen(["maps"])
     assert whole.follows == lines.name
-    drawn = [rung.draws(SUBJECT) for rung in (lines, whole)]
+    fine = PreparedSurface(SineStack([10e-3, 2e-4], [2e-4, 5e-6]), "", measured=MEASURED)
+    drawn = [rung.draws(replace(SUBJECT, surface=fine)) for rung in (lines, whole)]
     assert [one.of for one in drawn[0]] == [one.of for one in drawn[1]] == ["map 0", "map 1"]
     assert drawn[0][0].model.smallest_wavelength == pytest.approx(4.0 * ROAD.step)
 
 
 def test_no_map_of_what_is_a_map_or_too_short() -> None:
     whole = chosen(["map"])[0]
-    short = PreparedSurface(SineStack([0.03], [1e-3]), "", measured=SUBJECT.surface.measured)
+    short = PreparedSurface(SineStack([0.03], [1e-3]), "", measured=MEASURED)
     x = np.arange(16) * 1e-4
     measured = HeightMap(x, x, np.random.default_rng(1).normal(0.0, 1e-5, (16, 16)))
     mapped = PreparedSurface(STACK, "", measured=Measured.of(measured))
