@@ -43,3 +43,10 @@ def test_there_is_none_without_a_direct_contact(solved: Make) -> None:
     assert best_estimate({}) is None
     broken = solved("direct", Sample(math.nan, math.nan, math.nan, "tolerance not met"))
     assert best_estimate({"direct": broken}) is None
+
+
+def test_a_measured_map_needs_no_factor_to_a_map(solved: Make) -> None:
+    direct = solved("direct", Sample(0.04, 0.2, 0.2, "converged", "", 0.002, 0.01))
+    made = best_estimate({"direct": direct}, of_map=True)
+    assert made is not None
+    assert [one.name for one in made.missing] == ["finite_strain"]

@@ -47,8 +47,8 @@ def compare(
     rungs: Annotated[
         str | None,
         typer.Option(
-            help="Models wanted, by name or group (waves, measured, theory, windows, maps), such "
-            "as 'chain,measured'; windows and maps take a minute or two. By default all.",
+            help="Models wanted, by name or group (waves, measured, theory, windows, map), such "
+            "as 'chain,measured'; windows and map take a minute or two. By default all.",
             show_default=False,
         ),
     ] = None,

@@ -29,9 +29,12 @@ class FactorOf(NamedTuple):
     under: str
 
 
+MAP = "map"
+"""The rung of synthetic maps."""
+
 FACTORS = (
     FactorOf("finite_strain", "finite strain", "windows_finite_strain", "windows_half_plane"),
-    FactorOf("isotropic_map", "isotropic map over its lines", "map", "map_lines"),
+    FactorOf("isotropic_map", "isotropic map over its lines", MAP, "map_lines"),
 )
 """All factors; a new one is added here."""
 
@@ -91,7 +94,7 @@ class BestEstimate:
 
 
 def best_estimate(
-    rungs: Mapping[str, SolvedRung], supplied: Sequence[Factor] = ()
+    rungs: Mapping[str, SolvedRung], supplied: Sequence[Factor] = (), *, of_map: bool = False
 ) -> BestEstimate | None:
     """Return the best estimate of the rungs, or None without a direct contact that converged.
 
@@ -101,6 +104,8 @@ def best_estimate(
         The solved rungs by name.
     supplied : sequence of Factor
         Factors known from elsewhere; one with the name of ours replaces it.
+    of_map : bool
+        Whether a map was measured, which is no line that needs a factor.
     """
     direct = rungs.get(DIRECT)
     if direct is None or not direct.converged:
@@ -108,7 +113,8 @@ def best_estimate(
     base = Factor(
         DIRECT, direct.label, direct.uncertain("contact_fraction"), direct.uncertain("friction")
     )
-    factors = {one.name: _ratio(one, rungs) for one in FACTORS}
+    needed = [one for one in FACTORS if not (of_map and one.over == MAP)]
+    factors = {one.name: _ratio(one, rungs) for one in needed}
     factors |= {one.name: one for one in supplied}
     return BestEstimate(base, list(factors.values()))
 

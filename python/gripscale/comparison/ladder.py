@@ -184,7 +184,7 @@ LADDER: tuple[Rung, ...] = (
         "windows_half_plane",
         windows_finite_strain,
     ),
-    Rung("map_lines", "lines of a synthetic map", "maps", "", "", lines_of_maps),
-    Rung("map", "the synthetic map", "maps", "a map for its lines", "map_lines", maps),
+    Rung("map_lines", "lines of a synthetic map", "map", "", "", lines_of_maps),
+    Rung("map", "the synthetic map", "map", "a map for its lines", "map_lines", maps),
 )
 """All rungs, in order; a new one is added here."""

@@ -39,7 +39,9 @@ class SolvedLadder:
     @cached_property
     def best_estimate(self) -> BestEstimate | None:
         """The best estimate, or None without a direct contact that converged."""
-        return best_estimate(self.by_name, self.factors)
+        measured = self.subject.surface.measured
+        of_map = measured is not None and measured.map is not None
+        return best_estimate(self.by_name, self.factors, of_map=of_map)
 
     def factor(self, rung: SolvedRung, name: str) -> Uncertain:
         """Return the factor on `name` from the rung that `rung` follows; NaN if it is not there."""
