@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 import xarray as xr
 
-import gripscale as gs
 from gripscale import netcdf
 from gripscale.errors import InputError
 from gripscale.model import TOTALS, Model, NominalLoad
