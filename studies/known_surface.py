@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from gripscale.rough import map_over_lines, solve_map_and_lines
 from gripscale.surface import HeightMap, Profile
-from studies.isotropic_maps import AREA, FRICTION, LOAD, TOLERANCE, tread
+from studies.isotropic_maps.setting import AREA, FRICTION, LOAD, TOLERANCE, tread
 
 POINTS, STEP = 1024, 1e-4
 STONES = 900
@@ -29,7 +29,7 @@ def stones(seed: int) -> HeightMap:
     """Return one period of the highest of many caps, rounded, with a little roughness."""
     random = np.random.default_rng(seed)
     length = POINTS * STEP
-    x = STEP * np.arange(POINTS)
+    x = STEP * np.arange(POINTS, dtype=np.float64)
     z = np.full((POINTS, POINTS), FLOOR)
     for _ in range(STONES):
         middle, radius = random.random(2) * length, random.uniform(*RADIUS)

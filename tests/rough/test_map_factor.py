@@ -16,17 +16,33 @@ SMALL = {"construction": "spectrum", "points": 128, "lines": 2}
 
 
 def test_grooves_are_their_lines():
-    """Along x all lines are the map; across it they are nearly flat, and touch all over."""
-    flat = grooves("x", 32)
-    surface = HeightMap(flat.x, flat.y, flat.z + 1e-5 * flat.z.T)
+    """Along x all lines are the map; across it they are flat, and touch all over."""
     load = {"pressure": 3e4, "speed": 0.3, "smallest_wavelength": WAVELENGTH}
-    found = solve_map_and_lines(ZENER, surface, lines=2, **load)
+    found = solve_map_and_lines(ZENER, grooves("x", 32), lines=2, **load)
     both_ways = 2.0 * found.whole[AREA]
     along = both_ways * found.between_directions[AREA] / (1.0 + found.between_directions[AREA])
     assert 0.05 < along < 0.9
     # four points in the wave of the map, the line as fine as its tolerance asks
     assert 2.0 * found.lines[AREA] - 1.0 == pytest.approx(along, abs=0.06)
     assert found.lines[FRICTION] > 0.0
+
+
+def test_a_level_map_is_its_lines():
+    x = grooves("x", 32).x
+    level = HeightMap(x, x, np.full((x.size, x.size), 3e-3))
+    found = solve_map_and_lines(ZENER, level, lines=2, pressure=3e5, speed=0.3)
+    for one in (found.whole, found.lines):
+        assert one == {AREA: 1.0, FRICTION: 0.0, "friction": 0.0}
+    assert found.between_directions[AREA] == 1.0
+    assert np.isnan(found.between_directions[FRICTION])
+
+
+def test_friction_at_rest_has_no_factor():
+    """Nothing is lost in a map, its lines or the measured ones: no ratio, and no error."""
+    found = map_over_lines(ZENER, LINE, seeds=range(2), **(LOAD | {"speed": 0.0}), **SMALL)
+    for measure in (found.factor, found.scatter, found.match, found.uncertainty):
+        assert measure(AREA) > 0.0
+        assert np.isnan(measure(FRICTION))
 
 
 def test_factors_are_those_of_the_maps():

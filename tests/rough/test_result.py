@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 import xarray as xr
 
-import gripscale as gs
 from gripscale import netcdf
 from gripscale.errors import InputError
 from gripscale.model import TOTALS, Model, NominalLoad
@@ -183,7 +182,19 @@ def test_what_is_no_surface_is_refused():
         HeightMap(X, X[:1], WAVE.z[:, None])
 
 
-def test_a_flat_surface_is_full_contact():
-    found = gs.solve_rough_contact(ZENER, Profile(X, 0 * X), pressure=1e5, speed=1.0)
-    assert (found.contact_fraction, found.friction) == (1.0, 0.0)
+@pytest.mark.parametrize("periodic", [True, False])
+@pytest.mark.parametrize("level", [0.0, 1.3e-3, 7.0])
+@pytest.mark.parametrize("shape", [(48,), (90,), (48, 48)])
+def test_a_flat_surface_is_full_contact(shape, level, periodic):
+    """Nothing to divide by; the rounding of a level, transformed, is far below 1e-20 of a slope."""
+    x, z = 1e-4 * np.arange(shape[0]), np.full(shape, level)
+    surface = Profile(x, z) if len(shape) == 1 else HeightMap(x, x, z)
+    found = solve(surface, periodic=periodic)
     assert found.converged
+    assert found.full_contact
+    assert (found.contact_fraction, found.contact_fraction_error) == (1.0, 0.0)
+    assert found.friction == pytest.approx(0.0, abs=1e-20)
+    assert found.friction_from_dissipation == pytest.approx(0.0, abs=1e-20)
+    assert found.residuals == pytest.approx({"pressure": 0.0, "gap": 0.0, "load": 0.0}, abs=1e-12)
+    np.testing.assert_allclose(found.pressure, 3e5, rtol=1e-12)
+    assert found.to_dataset()["octave_friction"].sum() == pytest.approx(0.0, abs=1e-20)

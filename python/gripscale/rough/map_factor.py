@@ -41,7 +41,7 @@ class MapContact:
     lines: dict[str, float]
     """The same, mean over its lines."""
     between_directions: dict[str, float]
-    """Of the map: sliding along x over sliding along y."""
+    """Of the map: sliding along x over sliding along y; NaN over zero."""
 
 
 @dataclass(frozen=True)
@@ -59,18 +59,19 @@ class MapOverLines:
     """One for each seed."""
 
     def factor(self, name: str) -> float:
-        """Return mean over maps by mean over their lines of one of `QUANTITIES`."""
-        return self._mean("whole", name) / self._mean("lines", name)
+        """Return mean over maps by mean over their lines of one of `QUANTITIES`; NaN over zero."""
+        return _ratio(self._mean("whole", name), self._mean("lines", name))
 
     def scatter(self, name: str) -> float:
         """Return the standard deviation of map by lines from map to map; NaN for a single one."""
         if len(self.maps) < 2:
             return math.nan
-        return float(np.std([one.whole[name] / one.lines[name] for one in self.maps], ddof=1))
+        ratios = [_ratio(one.whole[name], one.lines[name]) for one in self.maps]
+        return float(np.std(ratios, ddof=1))
 
     def match(self, name: str) -> float:
         """Return mean over the maps' lines by mean over the measured windows: one if they match."""
-        return self._mean("lines", name) / self.measured.mean(name)
+        return _ratio(self._mean("lines", name), self.measured.mean(name))
 
     def uncertainty(self, name: str) -> float:
         """Return the standard error of `match`, of the windows' and the maps' scatter."""
@@ -78,7 +79,10 @@ class MapOverLines:
         lines = np.array([one.lines[name] for one in self.maps])
         if min(windows.size, lines.size) < 2:
             return math.nan
-        relative = [float(v.std(ddof=1) / (v.mean() * math.sqrt(v.size))) for v in (windows, lines)]
+        relative = [
+            _ratio(float(v.std(ddof=1)), float(v.mean())) / math.sqrt(v.size)
+            for v in (windows, lines)
+        ]
         return self.match(name) * math.hypot(*relative)
 
     def to_dataset(self) -> xr.Dataset:
@@ -218,7 +222,7 @@ class Solved(NamedTuple):
     values: dict[str, float]
     """Means of the two; NaN if a contact did not converge."""
     between_directions: dict[str, float]
-    """Along x over along y."""
+    """Along x over along y; NaN over zero."""
     status: str
 
 
@@ -267,9 +271,14 @@ def _both_ways(contacts: list[list[RoughContact]]) -> Solved:
     bad = [str(one.status) for group in contacts for one in group if not one.converged]
     return Solved(
         {name: 0.5 * (along[name] + across[name]) for name in along},
-        {name: along[name] / across[name] if across[name] else math.nan for name in along},
+        {name: _ratio(along[name], across[name]) for name in along},
         bad[0] if bad else "converged",
     )
+
+
+def _ratio(above: float, below: float) -> float:
+    """Return NaN where there is nothing to compare with: friction at rest, or of a flat line."""
+    return above / below if below else math.nan
 
 
 def _measured(

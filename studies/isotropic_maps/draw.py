@@ -5,11 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from gripscale.surface import Profile
+
+Heights = NDArray[np.float64]
 
 LABELS = {
     "spectrum": "(a) spectrum",
@@ -22,9 +25,7 @@ RISE, SHADE = 7.0, 1.2
 """Half of the heights shown [mm]; slope that is black or white."""
 
 
-def draw(
-    measured: Profile, maps: dict[str, NDArray[np.float64]], length: float, path: Path
-) -> None:
+def draw(measured: Profile, maps: dict[str, Heights], length: float, path: Path) -> None:
     """Draw the piece of the measured line, then for each map a line and the shaded map."""
     figure = Figure(figsize=(9.0, 8.4), layout="constrained")
     FigureCanvasAgg(figure)
@@ -32,14 +33,14 @@ def draw(
     points = round(length / measured.step)
     first = round(FIRST * len(measured))
     piece = measured.z[first : first + points]
-    x = np.arange(points) * measured.step
+    x = np.arange(points, dtype=np.float64) * measured.step
     _line(figure.add_subplot(grid[0, 0]), x, piece - np.nanmean(piece), "measured, station 0")
     note = figure.add_subplot(grid[0, 1])
     note.axis("off")
     note.text(0.0, 0.5, "maps lit along x;\nall maps are synthetic", va="center", fontsize=9)
     for row, (name, z) in enumerate(maps.items(), start=1):
         step = length / z.shape[0]
-        x = np.arange(z.shape[0]) * step
+        x = np.arange(z.shape[0], dtype=np.float64) * step
         _line(figure.add_subplot(grid[row, 0]), x, z[:, z.shape[1] // 2], LABELS[name])
         axes = figure.add_subplot(grid[row, 1])
         slope = np.gradient(z, step, axis=0)
@@ -53,7 +54,7 @@ def draw(
     figure.savefig(path, dpi=90, pil_kwargs={"optimize": True})
 
 
-def _line(axes, x, z, label) -> None:
+def _line(axes: Axes, x: Heights, z: Heights, label: str) -> None:
     axes.plot(x * 1e3, z * 1e3, color="0.15", linewidth=0.9)
     axes.set_aspect("equal")
     axes.set_xlim(0.0, 51.2)

@@ -1,0 +1,1 @@
+"""Synthetic isotropic maps against the measured lines they are made from."""
