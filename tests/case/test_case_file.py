@@ -118,6 +118,13 @@ WRONG = [
     ("scales = 8", "scales = 25", "[surface] scales = 25: expected at most 24"),
     ("scales = 8", 'scales = "8"', "[surface] scales = '8': expected a whole number"),
     ("scales = 8", "", "[surface]: expected scales (number of waves), smallest_wavelength"),
+    (
+        "scales = 8",
+        'smallest_wavelength = "1 mm"\ncut_off = "1 mm"',
+        "[surface]: expected either smallest_wavelength (the last wave) or cut_off",
+    ),
+    ("scales = 8", "scales = 8\nupper_share = 1.5", "upper_share = 1.5: expected at most 1"),
+    ("[load]", "[chain]\npressure_classes = 65\n[load]", "pressure_classes = 65: expected at most"),
     ("scales = 8", "scales = 8\ns_wavelength = 1", "s_wavelength = 1: expected greater than 1"),
     ("scales = 8", 'scales = 8\ncrop = ["1 mm"]', "[surface] crop = ['1 mm']: expected at least 2"),
     ("scales = 8", "scales = 8\ncrop = [2, 1]", "crop runs from 2 m to 1 m; expected its start"),

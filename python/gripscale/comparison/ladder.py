@@ -48,7 +48,7 @@ WAVES_OF_UPPER_HALF, CLASSES = 4, 8
 not chosen by, see docs/chain-and-direct-contact.md."""
 
 POINTS_OF_A_CLASS = 256
-"""Points along each of its waves: POINTS_NOTE"""
+"""Points along each of its waves: within 0.2 % of 1024 on the shipped road, 3 mm/s to 30 m/s."""
 
 WINDOW, WAVES_IN_WINDOW, WINDOWS = 1.1, 24, 8
 """Windows of a profile in the block: length over the largest sine wave, length over the smallest
