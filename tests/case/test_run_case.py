@@ -9,8 +9,7 @@ import pytest
 
 import gripscale as gs
 from gripscale import netcdf
-from gripscale.case import WaveSolved, prepare_case, read_case, run_case
-from gripscale.case.chain import case_chain
+from gripscale.case import WaveSolved, case_chain, prepare_case, read_case, run_case
 from gripscale.wave import FiniteStrainBlock, Status, WaveProblem, WaveResult
 
 
