@@ -223,7 +223,7 @@ LADDER: tuple[Rung, ...] = (
     ),
     Rung(
         "sines",
-        "its sine waves at once",
+        "the case's sine waves at once",
         "waves",
         "all scales together",
         "chain_half_plane",
