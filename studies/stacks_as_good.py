@@ -45,10 +45,9 @@ def main() -> None:
         curve = gs.height_difference(stations, upper_share=way.upper_share)
         if way.to_cut_off:
             fitted = gs.fit_sines(curve, scales=WAVES, cut_off=END)
-            found = sine_ambiguity(curve, fitted, cut_off=END)
         else:
             fitted = gs.fit_sines(curve, scales=WAVES, smallest_wavelength=END)
-            found = sine_ambiguity(curve, fitted)
+        found = sine_ambiguity(curve, fitted)
         parts = [_spans(tread, found.stacks, classes) for classes in (1, 8)]
         print(f"| {way.name}, {len(found.stacks)} | {' | '.join(parts)} |", flush=True)
 

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+import re
 import tomllib
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -17,12 +19,15 @@ from gripscale.case import (
     RubberSource,
     Solver,
     Surface,
+    case_chain,
     prepare_rubber,
+    prepare_surface,
     read_case,
     validate,
 )
 from gripscale.errors import FileError, InputError
 from gripscale.rubber import NeoHookean, Yeoh
+from gripscale.surface import fit_sines, height_difference, self_affine_profile
 from gripscale.units import parse_quantity
 
 GOOD = """
@@ -51,6 +56,33 @@ def test_quantities_become_si_and_defaults_are_filled_in(tmp_path: Path) -> None
     assert (load.static, load.load_time) == (True, "passage")
     assert file.case.solver.options() == {}
     assert file.text == GOOD
+
+
+def test_the_closer_chain_of_the_documentation_is_a_case(tmp_path: Path) -> None:
+    page = Path(__file__).parents[2] / "docs" / "chain-and-direct-contact.md"
+    [stated] = re.findall(r"```toml\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
+    case = read_case(written(tmp_path, stated + GOOD[GOOD.index("[rubber]") :])).case
+    assert (case.surface.upper_share, case.surface.scales) == (0.5, 4)
+    assert (case.surface.cut_off, case.surface.smallest_wavelength) == (pytest.approx(1e-4), None)
+    assert case_chain(case).pressure_classes == 8
+    plain = read_case(written(tmp_path, GOOD)).case
+    assert (plain.surface.upper_share, plain.surface.cut_off) == (1.0, None)
+    assert case_chain(plain).pressure_classes == 1
+
+
+def test_prepared_with_what_the_case_says(tmp_path: Path) -> None:
+    line = self_affine_profile(0.8, 5e-3, 1e-3, 0.2, 1e-4, seed=4)
+    np.savetxt(tmp_path / "road.dat", np.column_stack([line.x, line.z]))
+    stated = '["road.dat"]\nx_unit = "m"\nz_unit = "m"\ndetrend = "none"\nremove_spikes = false'
+    keys = 'scales = 4\nupper_share = 0.3\ncut_off = "1 mm"\nmax_lag = "30 mm"'
+    text = GOOD.replace('["road.dat"]', stated).replace("scales = 8", keys)
+    file = read_case(written(tmp_path, text))
+    found = prepare_surface(file.case.surface, file.resolve)
+    curve = height_difference(found.measured.cleaned, upper_share=0.3, max_lag=30e-3)
+    alone = fit_sines(curve, scales=4, cut_off=1e-3)
+    assert found.sines.amplitude.tolist() == alone.amplitude.tolist()
+    assert found.sines.roughness_end == pytest.approx(1e-3)
+    assert found.counted == {"upper_share": 0.3, "max_lag": pytest.approx(30e-3)}
 
 
 def test_paths_start_at_the_case_file(tmp_path: Path) -> None:
@@ -118,6 +150,13 @@ WRONG = [
     ("scales = 8", "scales = 25", "[surface] scales = 25: expected at most 24"),
     ("scales = 8", 'scales = "8"', "[surface] scales = '8': expected a whole number"),
     ("scales = 8", "", "[surface]: expected scales (number of waves), smallest_wavelength"),
+    (
+        "scales = 8",
+        'smallest_wavelength = "1 mm"\ncut_off = "1 mm"',
+        "[surface]: expected either smallest_wavelength (the last wave) or cut_off",
+    ),
+    ("scales = 8", "scales = 8\nupper_share = 1.5", "upper_share = 1.5: expected at most 1"),
+    ("[load]", "[chain]\npressure_classes = 65\n[load]", "pressure_classes = 65: expected at most"),
     ("scales = 8", "scales = 8\ns_wavelength = 1", "s_wavelength = 1: expected greater than 1"),
     ("scales = 8", 'scales = 8\ncrop = ["1 mm"]', "[surface] crop = ['1 mm']: expected at least 2"),
     ("scales = 8", "scales = 8\ncrop = [2, 1]", "crop runs from 2 m to 1 m; expected its start"),

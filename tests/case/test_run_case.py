@@ -9,7 +9,7 @@ import pytest
 
 import gripscale as gs
 from gripscale import netcdf
-from gripscale.case import WaveSolved, prepare_case, run_case
+from gripscale.case import WaveSolved, case_chain, prepare_case, read_case, run_case
 from gripscale.wave import FiniteStrainBlock, Status, WaveProblem, WaveResult
 
 
@@ -32,6 +32,17 @@ def test_case_gives_its_results_as_objects(case: Path, capsys: pytest.CaptureFix
     assert results.surface.sines.wavelength.tolist() == [10e-3, 3e-3]
     assert [path.name for path in case.parent.iterdir()] == ["case.toml"]
     assert capsys.readouterr() == ("", "")
+
+
+def test_pressure_classes_of_the_case_are_those_of_the_chain(case: Path) -> None:
+    case.write_text(case.read_text() + "[chain]\npressure_classes = 2\n")
+    results = run_case(case)
+    alone = case_chain(read_case(case).case).predict(
+        results.rubber.rubber, results.surface, results.load
+    )
+    assert results.dynamic is not None
+    assert results.dynamic.friction == alone.total_friction
+    assert results.dynamic.to_dataset().sizes["pressure_class"] == 2
 
 
 def test_files_are_written_where_they_are_wanted(case: Path, tmp_path: Path) -> None:

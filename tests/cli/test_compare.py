@@ -20,7 +20,7 @@ from gripscale.report.tables import as_text
 
 Shell = Callable[..., Result]
 FORMATS = ("png", "pdf")
-RUNGS = ["chain_half_plane", "sines", "random_phases", "direct", "persson"]
+RUNGS = ["chain_half_plane", "chain_upper", "sines", "random_phases", "direct", "persson"]
 
 
 WAVES_BY_HAND = (
@@ -46,10 +46,17 @@ def test_command_puts_the_models_side_by_side(shell: Shell, inputs: Path, tmp_pa
     assert written == {"comparison.nc", "comparison.txt", "predictions"} | figures
     data = netcdf.load(target / "comparison.nc")
     assert data.rung.values.tolist() == RUNGS
-    assert data.samples.values.tolist() == [1, 2, 2, 1, 1]
+    assert data.samples.values.tolist() == [1, 1, 2, 2, 1, 1]
     assert (data.status == "converged").all()
     # A spread belongs to what was drawn more than once, and only to that.
-    assert np.isfinite(data.friction_spread).values.tolist() == [False, True, True, False, False]
+    assert np.isfinite(data.friction_spread).values.tolist() == [
+        False,
+        False,
+        True,
+        True,
+        False,
+        False,
+    ]
     assert data.measured_speed.values.tolist() == [0.1, 1.0]
     for label in data.label.values:
         assert str(label) in result.stdout
@@ -60,7 +67,8 @@ def test_command_puts_the_models_side_by_side(shell: Shell, inputs: Path, tmp_pa
 
 def test_factors_lead_from_the_chain_to_the_profile_as_measured(inputs: Path) -> None:
     data = compare_case(inputs / "case.toml", seeds=1).to_dataset()
-    path = data.isel(rung=data.group.values != "theory")
+    aside = (data.group == "theory") | (data.rung == "chain_upper")
+    path = data.isel(rung=~aside.values)
     for name in ("contact_fraction", "friction"):
         ends = path[f"total_{name}"].values[[0, -1]]
         assert np.nanprod(path[f"{name}_factor"]) == pytest.approx(ends[1] / ends[0])
@@ -111,6 +119,34 @@ def test_rungs_are_the_models_themselves(inputs: Path) -> None:
     assert quick.mean("friction") == pytest.approx(rungs["direct"].mean("friction"), rel=0.12)
 
 
+def test_chain_of_the_upper_half_is_left_out_where_the_case_is_one(
+    changed: Callable[..., Path],
+) -> None:
+    case = changed(
+        "scales = 3\ns_wavelength = 3", 'scales = 4\nupper_share = 0.5\ncut_off = "4 mm"'
+    )
+    results = prepare_case(case)
+    direct = compare_case(results, rungs=["direct"], tolerance=0.02).by_name["direct"]
+    measured = results.surface.measured
+    assert measured is not None
+    load = {"pressure": 3e5, "speed": 0.3}
+    alone = gs.solve_rough_contact(
+        results.rubber.rubber, measured.cleaned[0], smallest_wavelength=4e-3, **load
+    )
+    assert direct.mean("friction") == pytest.approx(alone.friction, rel=1e-9)
+    (upper,) = compare_case(results, rungs=["chain_upper"]).rungs
+    own = {"footprint": 0.1, "solver": "half_plane", "points": 256, "pressure_classes": 8}
+    chain = gs.predict(results.rubber.rubber, results.surface.sines, **load, **own)
+    assert upper.mean("friction") == pytest.approx(chain.friction, rel=1e-6)
+    assert upper.mean("contact_fraction") == pytest.approx(chain.contact_fraction, rel=1e-6)
+    case.write_text(case.read_text() + "[chain]\npressure_classes = 4\n")
+    rungs = compare_case(case, rungs=["waves"]).by_name
+    assert list(rungs) == ["chain_half_plane", "sines"]
+    own |= {"points": 128, "pressure_classes": 4}
+    chain = gs.predict(results.rubber.rubber, results.surface.sines, **load, **own)
+    assert rungs["chain_half_plane"].mean("friction") == chain.friction
+
+
 def test_over_speed_is_each_speed_alone_and_is_not_solved_twice(
     shell: Shell, inputs: Path, tmp_path: Path
 ) -> None:
@@ -149,6 +185,7 @@ def test_over_speed_is_each_speed_alone_and_is_not_solved_twice(
     ("option", "value", "sentence"),
     [
         ("--vary", "rubber=case", "a comparison varies one of speed, pressure"),
+        ("--vary", "pressure_classes=1,2", "a comparison varies one of speed, pressure"),
         ("--vary", "speed=0.3", "speed must have at least two values; got 0.3"),
         ("--rungs", "persion", "unknown rung persion; did you mean persson?"),
         ("--seeds", "0", "seeds must be a whole number from 1 to 1000; got 0"),
@@ -196,7 +233,7 @@ def test_waves_by_hand_have_no_profile_to_judge_by(tmp_path: Path) -> None:
     case.write_text(WAVES_BY_HAND)
     results = prepare_case(case)
     assert judged(results) is None
-    assert list(compare_case(results, seeds=1).by_name) == RUNGS[:2]
+    assert list(compare_case(results, seeds=1).by_name) == ["chain_half_plane", "sines"]
 
 
 def test_nothing_rubs_at_rest(tmp_path: Path) -> None:

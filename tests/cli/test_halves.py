@@ -28,6 +28,19 @@ def test_surface_half_prints_the_waves(shell: Shell, inputs: Path, tmp_path: Pat
     }
 
 
+def test_surface_half_to_a_cut_off_of_the_upper_part(shell: Shell, inputs: Path) -> None:
+    options = ["--scales", 4, "--crop", "10 mm", "390 mm", "--upper-share", 0.5]
+    result = shell("fit-surface", inputs / "road.txt", *options, "--cut-off", "4 mm")
+    assert result.exit_code == 0, result.output
+    words = " ".join(result.stdout.split())
+    assert "correlation of the upper 50 % of the heights only" in words
+    assert "for roughness down to 4 mm" in words
+    both = shell("fit-surface", inputs / "road.txt", *options[:2], "--cut-off", "4 mm",
+                 "--smallest-wavelength", "4 mm")  # fmt: skip
+    assert both.exit_code == 2
+    assert "either smallest_wavelength (the last wave) or cut_off" in " ".join(both.stderr.split())
+
+
 def test_rubber_half_prints_the_series(shell: Shell, inputs: Path) -> None:
     result = shell("fit-rubber", inputs / "dma.txt", "--terms", 9, "--bulk-modulus", "1 GPa")
     assert result.exit_code == 0, result.output

@@ -11,6 +11,7 @@ from gripscale.rough import random_phases, solve_windows, surface_of_sines, wind
 from gripscale.rough.ends import joined
 from gripscale.rough.heights import periodic_heights
 from gripscale.surface import HeightMap, Profile, SineStack, height_difference, self_affine_profile
+from gripscale.surface.gaps import filled
 
 from .rough_cases import ZENER, isotropic_heights, isotropic_map, solve
 
@@ -154,6 +155,22 @@ def test_random_phases_keep_the_height_difference_correlation():
     np.testing.assert_allclose(after, before, rtol=0.1)
     assert np.corrcoef(drawn.z, LINE.z)[0, 1] < 0.5
     assert isinstance(random_phases(isotropic_map(64), seed=1), HeightMap)
+
+
+def test_random_phases_have_the_steep_lines_that_bridge_gaps():
+    # Plateaus 0.2 mm apart in height; between them, every 4 mm, ten points are missing.
+    x = 1e-4 * np.arange(4000)
+    low = (np.arange(x.size) // 40) % 2 == 0
+    z = np.where(low, 0.0, 2e-4) + 1e-6 * np.random.default_rng(5).standard_normal(x.size)
+    line = Profile(x, np.where(np.arange(x.size) % 40 < 10, np.nan, z))
+    measured, bridged, drawn = (
+        height_difference(one, max_lag=2e-4).value[0]
+        for one in (line, Profile(x, joined(filled(line.z))), random_phases(line, seed=1))
+    )
+    # One flank a gap of eleven steps: a quarter of the steps rise by 0.2 mm / 11.
+    assert bridged == pytest.approx(11 / 40 * (2e-4 / 11) ** 2, rel=0.05)
+    assert drawn == pytest.approx(bridged, rel=0.05)
+    assert measured == pytest.approx(2e-12, rel=0.1)
 
 
 def test_surface_of_sines_has_their_slopes():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 
 import gripscale as gs
 from gripscale.case import read_case
-from gripscale.errors import FileError
+from gripscale.errors import FileError, InputError
 from gripscale.study.inputs import case_surface, rubber_of, surface_of
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "road_and_tread" / "case.toml"
@@ -59,6 +60,41 @@ def test_fixed_factor_leaves_room_for_what_varies(measured: Path) -> None:
     finer = road.varied(smallest_wavelength=1e-4).sines
     assert finer.s_wavelength == pytest.approx(3.0)
     assert 1e-4 <= finer.wavelength[-1] < 3e-4
+
+
+def test_cut_off_and_upper_share_are_fitted_anew(measured: Path) -> None:
+    road = case_surface(read_case(measured))
+    assert road.measured is not None
+    assert road.correlation is not None
+    cut = road.varied(cut_off=0.2e-3, waves=4).sines
+    own = gs.fit_sines(road.correlation, scales=4, cut_off=0.2e-3)
+    np.testing.assert_array_equal(cut.amplitude, own.amplitude)
+    half = road.varied(upper_share=0.5, cut_off=0.2e-3)
+    upper = gs.height_difference(road.measured.cleaned, upper_share=0.5)
+    np.testing.assert_array_equal(half.correlation.value, upper.value)
+    own = gs.fit_sines(upper, scales=5, cut_off=0.2e-3)
+    np.testing.assert_array_equal(half.sines.amplitude, own.amplitude)
+    assert half.counted["upper_share"] == 0.5
+    # back from a cut-off to a last wave, and other factors down to the same cut-off
+    back = replace(
+        road, sines=cut, fit={**road.fit, "smallest_wavelength": None, "cut_off": 0.2e-3}
+    )
+    assert back.varied(smallest_wavelength=0.3e-3).sines.wavelength[-1] == pytest.approx(0.3e-3)
+    for factor in (2.2, 3.5, 6.5):
+        pair = back.varied(factors=(factor, 2.0)).sines
+        assert pair.cut_off == pytest.approx(pair.wavelength[-1] / np.sqrt(factor))
+        assert 0.2e-3 <= pair.cut_off < 0.2e-3 * factor
+        assert pair.residual is not None
+
+
+def test_what_needs_a_measured_surface_says_so() -> None:
+    by_hand = surface_of(STACK, read_case(EXAMPLE))
+    with pytest.raises(InputError, match="cut_off varies waves that were fitted"):
+        by_hand.varied(cut_off=1e-3)
+    with pytest.raises(InputError, match="upper_share varies a measured surface; got sine waves"):
+        by_hand.varied(upper_share=0.5)
+    with pytest.raises(InputError, match=r"smallest_wavelength .* or cut_off .*, not both"):
+        by_hand.varied(cut_off=1e-3, smallest_wavelength=1e-3)
 
 
 def test_surface_by_name_file_or_case(measured: Path, tmp_path: Path) -> None:

@@ -18,6 +18,7 @@ from gripscale import netcdf
 from gripscale.chain import Chain
 from gripscale.errors import FileError, InputError
 from gripscale.model import NominalLoad
+from gripscale.rough.model import DirectContact
 from gripscale.study import Progress, Study, Task, task
 from gripscale.study import study as study_module
 from gripscale.study.software import fingerprint
@@ -101,6 +102,20 @@ def test_factors_keep_the_first_wave_and_waves_are_counted(case: Path, tmp_path:
     np.testing.assert_allclose(result.amplitude[:, 0, 1], [0.25e-3, 0.08e-3], rtol=1e-14)
     assert result.s_amplitude.values.tolist() == [3.2, 10.0]
     assert np.isfinite(result.total_friction).all()
+
+
+def test_pressure_classes_are_of_the_chain(case: Path, tmp_path: Path) -> None:
+    study = Study(case, {"pressure_classes": [1, 4]})
+    result = study.run(tmp_path)
+    assert isinstance(study.model, Chain)
+    for count in (1, 4):
+        alone = replace(study.model, pressure_classes=count).predict(
+            study.rubbers[0], study.surfaces[0], study.points[0].task.load
+        )
+        assert result.total_friction.sel(pressure_classes=count) == alone.total_friction
+    assert len(set(result.total_friction.values)) == 2
+    with pytest.raises(InputError, match="belongs to the chain; got the model direct"):
+        Study(case, {"pressure_classes": [1, 4]}, model=DirectContact())
 
 
 def test_rubbers_and_surfaces_may_be_given_as_objects(case: Path, tmp_path: Path) -> None:

@@ -45,7 +45,7 @@ def test_a_wider_band_leaves_more():
 def test_a_random_profile_does_not_say_how_many_waves():
     curve = height_difference(self_affine_profile(0.8, 2e-3, 0.6e-3, 0.4, 50e-6, 3))
     fit = fit_sines(curve, scales=5, cut_off=0.4e-3)
-    found = sine_ambiguity(curve, fit, cut_off=0.4e-3)
+    found = sine_ambiguity(curve, fit)
     assert 0.02 < found.band < 0.3
     assert found.waves.low <= 4
     assert found.waves.high >= 7

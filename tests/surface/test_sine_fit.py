@@ -14,7 +14,7 @@ from gripscale.surface import (
     self_affine_profile,
     sine_profile,
 )
-from gripscale.surface.sine_fit import first_consistent_lag
+from gripscale.surface.sine_fit import as_fitted, first_consistent_lag
 
 from .surface_cases import ROAD, ROAD_ONLY, exact_curve, geometric_stack
 
@@ -218,6 +218,14 @@ def test_the_cut_off_lies_half_a_factor_below_the_last_wave():
     assert fit.residual < 1e-6
     assert fit.wavelength == pytest.approx(stack.wavelength[:6], rel=1e-4)
     assert fit.amplitude == pytest.approx(stack.amplitude[:6], rel=1e-4)
+    assert fit.roughness_end == fit.cut_off
+    assert fit.cut_off == pytest.approx(stack.wavelength[5] / np.sqrt(3.5), rel=1e-9)
+    counted = as_fitted(fit)
+    assert counted.wavelength == pytest.approx(stack.wavelength, rel=1e-4)
+    assert counted.height_difference(curve.lag) == pytest.approx(curve.value, rel=1e-5)
+    to_last = fit_sines(curve, scales=9, smallest_wavelength=stack.wavelength[8])
+    assert as_fitted(to_last) is to_last
+    assert (to_last.cut_off, to_last.roughness_end) == (None, to_last.wavelength[-1])
 
 
 def test_waves_to_a_cut_off_have_the_slope_of_the_profile_to_it():
@@ -241,6 +249,7 @@ def test_a_cut_off_with_a_given_factor_takes_the_waves_that_fit():
     assert fit.s_wavelength == 3.5
     assert fit.wavelength[-1] / np.sqrt(3.5) >= 1e-3 * (1 - 1e-6)
     assert fit.wavelength[-1] / 3.5**1.5 < 1e-3 * (1 + 1e-6)
+    assert fit.roughness_end == pytest.approx(fit.wavelength[-1] / np.sqrt(3.5), rel=1e-12)
     alone = fit_sines(curve, cut_off=1e-3)
     assert alone.wavelength[-1] == pytest.approx(1e-3 * np.sqrt(alone.s_wavelength), rel=1e-9)
 

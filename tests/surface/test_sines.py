@@ -54,6 +54,10 @@ def test_height_difference_is_that_of_a_profile_with_random_phases():
         ({"wavelength": [np.nan], "amplitude": [1e-3]}, "wavelength must be a list of finite"),
         ({"wavelength": [1e-2, 5e-3], "amplitude": [1, 1], "s_wavelength": 3.0}, "s_wavelength"),
         ({"wavelength": [1e-2], "amplitude": [1e-3], "residual": -1.0}, "residual must not be neg"),
+        (
+            {"wavelength": [1e-2], "amplitude": [1e-3], "cut_off": 0.02},
+            "exceed the last wave, 0.01 m",
+        ),
     ],
 )
 def test_bad_waves_are_refused(arguments, says):

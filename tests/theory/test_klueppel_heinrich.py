@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -21,7 +22,6 @@ from gripscale.surface import (
 )
 from gripscale.surface.prepared import Measured
 from gripscale.theory import KlueppelHeinrich, klueppel_heinrich
-from gripscale.theory.klueppel_heinrich import upper_part
 
 module = importlib.import_module("gripscale.theory.klueppel_heinrich")
 
@@ -132,10 +132,12 @@ def test_each_wavelength_so_far_is_a_result_of_its_own():
 
 def test_profiles_count_by_their_upper_part():
     [(line, _)] = road().measured.profiles
-    upper = upper_part(line)
+    upper = replace(line, z=np.where(line.z >= np.median(line.z), line.z, np.nan))
     assert upper.missing == len(line) // 2
-    assert np.nanmin(upper.z) >= np.median(line.z)
-    correlation = height_difference(upper)
+    correlation = height_difference(line, upper_share=0.5)
+    assert fit_self_affine(height_difference(upper)).hurst == pytest.approx(
+        fit_self_affine(correlation).hurst, rel=1e-9
+    )
     found = klueppel_heinrich(ZENER, line, **STATED)
     assert found.surface == fit_self_affine(correlation)
     assert klueppel_heinrich(ZENER, correlation, **STATED).friction == found.friction

@@ -1,5 +1,7 @@
 from . import folder as folder
+from .chain import case_chain as case_chain
 from .models import Case as Case
+from .models import ChainOptions as ChainOptions
 from .models import Compare as Compare
 from .models import Load as Load
 from .models import Output as Output

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gripscale.rubber import MasterCurve, Rubber
 from gripscale.surface import Profile, SineStack
+from gripscale.surface.sine_fit import as_fitted
 
 Array = NDArray[np.float64]
 BINS = 1200
@@ -48,15 +49,17 @@ def close_up(profile: Profile) -> Array:
 def sine_curves(sines: SineStack, lag: ArrayLike) -> tuple[Array, Array]:
     """Return C_z [m^2] of the waves as `fit_sines` uses it and of the pure sines.
 
-    As fitted, the first wave counts by its mean over phases beyond a quarter of its length. Beyond
-    its whole length both are NaN.
+    As fitted, the first wave counts by its mean over phases beyond a quarter of its length, and
+    shorter waves than those of the stack count where it has a cut-off. Beyond the whole length of
+    the first wave both are NaN.
     """
     lags, longest = np.asarray(lag, dtype=float), float(sines.wavelength[0])
     shown = np.where(lags <= longest, lags, math.nan)
     pure = np.where(lags <= longest, sines.height_difference(np.minimum(lags, longest)), math.nan)
     first = SineStack(sines.wavelength[:1], sines.amplitude[:1])
     held = first.height_difference(np.minimum(lags, 0.25 * longest))
-    rest = pure - first.height_difference(np.minimum(lags, longest))
+    counted = as_fitted(sines).height_difference(np.minimum(lags, longest))
+    rest = counted - first.height_difference(np.minimum(lags, longest))
     return np.where(np.isnan(shown), math.nan, rest + held), pure
 
 

@@ -20,6 +20,7 @@ from pydantic import (
 )
 
 from gripscale.case.quantity import Length, Position, Pressure, Speed, Temperature
+from gripscale.chain.pressure import MOST_CLASSES
 from gripscale.rubber.strain_energy import NeoHookean, StrainEnergy, strain_energy_from_dict
 from gripscale.units import listed, parse_quantity, spelled
 
@@ -110,9 +111,11 @@ class Surface(Table):
     across_gaps: bool = False
     detrend: Literal["linear", "mean", "none"] = "linear"
     form: int = Field(default=1, ge=0, le=8)
+    upper_share: float = Field(default=1.0, gt=0.0, le=1.0, allow_inf_nan=False)
     max_lag: Length | None = None
     scales: int | None = Field(default=None, ge=1, le=24)
     smallest_wavelength: Length | None = None
+    cut_off: Length | None = None
     s_wavelength: float | None = Field(default=None, gt=1.0, allow_inf_nan=False)
     s_amplitude: float | None = Field(default=None, gt=1.0, allow_inf_nan=False)
     first_wavelength: Length | None = None
@@ -128,8 +131,17 @@ class Surface(Table):
                 "expected either files (measured profiles), map (a measured map) or "
                 "sines (waves by hand)"
             )
-        if self.sines is None and self.scales is None and self.smallest_wavelength is None:
-            raise ValueError("expected scales (number of waves), smallest_wavelength, or both")
+        ends = [self.smallest_wavelength, self.cut_off]
+        if self.sines is None and self.scales is None and ends == [None, None]:
+            raise ValueError(
+                "expected scales (number of waves), smallest_wavelength or cut_off (where they "
+                "end), or both"
+            )
+        if None not in ends:
+            raise ValueError(
+                "expected either smallest_wavelength (the last wave) or cut_off (where the "
+                "roughness ends)"
+            )
         foreign, owner = (MAP_KEYS, "map") if self.map is None else (PROFILE_KEYS, "files")
         for name in foreign:
             if getattr(self, name) != type(self).model_fields[name].default:
@@ -218,6 +230,12 @@ class Solver(Table):
         return self.model_dump(exclude={"model"}, exclude_none=True)
 
 
+class ChainOptions(Table):
+    """What goes on from wave to wave."""
+
+    pressure_classes: int = Field(default=1, ge=1, le=MOST_CLASSES)
+
+
 class Output(Table):
     """Where the results go."""
 
@@ -248,6 +266,7 @@ class Case(Table):
     rubber: RubberSource
     load: Load
     solver: Solver = Solver()
+    chain: ChainOptions = ChainOptions()
     output: Output = Output()
     compare: Compare = Compare()
 

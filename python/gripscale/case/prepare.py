@@ -41,6 +41,7 @@ Resolve = Callable[[str], Path]
 FIT_KEYS = (
     "scales",
     "smallest_wavelength",
+    "cut_off",
     "s_wavelength",
     "s_amplitude",
     "first_wavelength",
@@ -50,6 +51,9 @@ FIT_KEYS = (
     "largest_lag",
 )
 """Keys of the case's [surface] that say how sine waves are fitted."""
+
+COUNTED_KEYS = ("upper_share", "max_lag")
+"""Keys of the case's [surface] that say which heights and lags count in the correlation."""
 
 
 @dataclass(frozen=True)
@@ -77,7 +81,8 @@ def prepare_surface(surface: Surface, resolve: Resolve = Path) -> PreparedSurfac
         return PreparedSurface(stack, "sine waves stated in the case")
     paths = [resolve(name) for name in surface.measured_files]
     measured = _map(surface, paths[0]) if surface.map else _profiles(surface, paths)
-    correlation = height_difference(measured.cleaned, max_lag=surface.max_lag)
+    counted = {key: getattr(surface, key) for key in COUNTED_KEYS}
+    correlation = height_difference(measured.cleaned, **counted)
     self_affine, why_not = _self_affine(correlation)
     fit = {key: getattr(surface, key) for key in FIT_KEYS}
     return PreparedSurface(
@@ -86,6 +91,7 @@ def prepare_surface(surface: Surface, resolve: Resolve = Path) -> PreparedSurfac
         correlation,
         fit,
         replace(measured, self_affine=self_affine, no_self_affine=why_not),
+        counted,
     )
 
 

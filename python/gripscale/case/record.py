@@ -71,6 +71,8 @@ def _waves(surface: PreparedSurface) -> tuple[Variables, Variables]:
         "sines_residual_decades": sines.residual,
         "sines_lag_min_m": low,
         "sines_lag_max_m": high,
+        "sines_cut_off_m": sines.cut_off,
+        "correlation_upper_share": surface.counted.get("upper_share"),
     }
 
 

@@ -12,12 +12,12 @@ from pathlib import Path
 
 from gripscale import netcdf
 from gripscale.case import folder, record
+from gripscale.case.chain import case_chain
 from gripscale.case.prepare import prepare_rubber, prepare_surface
 from gripscale.case.read import CaseFile, read_case
 from gripscale.case.results import CaseResults
 from gripscale.chain.predict import ChainError, predict
 from gripscale.chain.prediction import Prediction
-from gripscale.chain.solvers import wave_solver
 from gripscale.model import NominalLoad
 from gripscale.rubber.carrying import require_solid
 
@@ -94,7 +94,7 @@ def _solve(
     results: CaseResults, name: str, speed: float, on_wave: Callable[[WaveSolved], None] | None
 ) -> None:
     """Add one prediction to `results`, on disk after each wave; the inputs follow at the end."""
-    load, solver = results.file.case.load, results.file.case.solver
+    load, chain = results.file.case.load, case_chain(results.file.case)
 
     def keep(so_far: Prediction) -> None:
         results.predictions[name] = so_far
@@ -109,8 +109,9 @@ def _solve(
             pressure=load.pressure,
             speed=speed,
             footprint=load.footprint,
+            pressure_classes=chain.pressure_classes,
             load_time=load.load_time,
-            solver=wave_solver(solver.model, solver.options()),
+            solver=chain.solver,
             on_scale=keep,
         )
     except ChainError as failure:

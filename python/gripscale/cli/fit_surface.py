@@ -22,7 +22,9 @@ def _option(text: str) -> Any:
 def fit_surface(
     files: Annotated[list[str], typer.Argument(help="Profiles.", show_default=False)],
     scales: Annotated[int | None, _option("Number of sine waves.")] = None,
-    smallest_wavelength: Annotated[str | None, _option('Such as "0.1 mm".')] = None,
+    smallest_wavelength: Annotated[str | None, _option('The last wave, such as "0.1 mm".')] = None,
+    cut_off: Annotated[str | None, _option("Where the roughness ends, in its place.")] = None,
+    upper_share: Annotated[float, typer.Option(help="Share of the heights that counts.")] = 1.0,
     s_wavelength: Annotated[float | None, _option("Given instead of fitted.")] = None,
     s_amplitude: Annotated[float | None, _option("Given instead of fitted.")] = None,
     single_factor: Annotated[bool, _option("One factor for both lengths.")] = False,
@@ -43,6 +45,8 @@ def fit_surface(
         "files": files,
         "scales": scales,
         "smallest_wavelength": smallest_wavelength,
+        "cut_off": cut_off,
+        "upper_share": upper_share,
         "s_wavelength": s_wavelength,
         "s_amplitude": s_amplitude,
         "crop": None if crop is None else list(crop),
@@ -50,7 +54,7 @@ def fit_surface(
         "z_unit": z_unit,
     }
     values = {key: value for key, value in stated.items() if value is not None}
-    if scales is None and smallest_wavelength is None:
+    if scales is None and smallest_wavelength is None and cut_off is None:
         values["scales"] = 8
     flags = {"remove_spikes": not keep_spikes, "detrend": detrend, "single_factor": single_factor}
     surface = validate(Surface, values | flags, "options")

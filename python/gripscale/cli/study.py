@@ -27,7 +27,8 @@ def study(
         list[str],
         typer.Option(
             help="What to vary, once or twice: speed=0.003:30:log9, pressure='1 bar,3 bar', "
-            "smallest_wavelength, waves, factors=3.5/2.4,3/2.2, rubber=case,dma.txt, surface.",
+            "smallest_wavelength, cut_off, upper_share, waves, pressure_classes, "
+            "factors=3.5/2.4,3/2.2, rubber=case,dma.txt, surface.",
             metavar="NAME=VALUES",
         ),
     ],

@@ -81,9 +81,11 @@ def _on_maps(subject: Subject, lines: int) -> Sequence[Draw]:
     surface = subject.surface
     if surface.measured is None or surface.measured.map is not None:
         return []
-    cleaned, waves = surface.measured.cleaned, surface.sines.wavelength
+    cleaned, sines = surface.measured.cleaned, surface.sines
     step = max(line.step for line in cleaned)
-    smallest = max(MAP * waves[0] / WAVES_IN_MAP, waves[-1], STEPS_IN_WAVE * step)
+    smallest = max(
+        MAP * sines.wavelength[0] / WAVES_IN_MAP, sines.roughness_end, STEPS_IN_WAVE * step
+    )
     if sum(line.length for line in cleaned) < LINES_OVER_MAP * WAVES_IN_MAP * smallest:
         return []
     return [

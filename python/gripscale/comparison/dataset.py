@@ -157,7 +157,7 @@ def _measured(measured: MeasuredFriction) -> dict[str, Any]:
 
 
 def _wavelengths(comparisons: Sequence[SolvedLadder]) -> NDArray[np.float64]:
-    smallest = min(float(one.subject.surface.sines.wavelength[-1]) for one in comparisons)
+    smallest = min(one.subject.surface.sines.roughness_end for one in comparisons)
     samples = [s for one in comparisons for rung in one.rungs for s in rung.converged]
     return octaves((s.curve for s in samples if s.curve is not None), smallest)
 

@@ -9,10 +9,10 @@ from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
 from gripscale import checks
+from gripscale.case.chain import case_chain
 from gripscale.case.read import CaseFile
 from gripscale.case.results import CaseResults
 from gripscale.case.run import prepare_case
-from gripscale.chain.solvers import wave_solver
 from gripscale.comparison.estimate import Factor
 from gripscale.comparison.ladder import chosen
 from gripscale.comparison.measured import MeasuredFriction, read_measured_friction
@@ -29,6 +29,9 @@ from gripscale.theory.models import KlueppelHeinrich
 
 PREDICTIONS = "predictions"
 """Folder of the finished answers, in the folder of the comparison."""
+
+VARIED = ("speed", "pressure", "smallest_wavelength", "waves", "cut_off", "upper_share")
+"""Inputs a comparison can be made over: numbers of the load and of the surface."""
 
 MOST_SEEDS = 1000
 
@@ -126,11 +129,9 @@ def compare_over(
     """
     study = Study(case, vary, static=False)
     axis = study.axes[0]
-    if len(study.axes) > 1 or not axis.numeric:
+    if len(study.axes) > 1 or axis.name not in VARIED:
         names = ", ".join(one.name for one in study.axes)
-        raise InputError(
-            f"a comparison varies one of speed, pressure, smallest_wavelength, waves; got {names}"
-        )
+        raise InputError(f"a comparison varies one of {', '.join(VARIED)}; got {names}")
     if len(axis.values) < 2:
         raise InputError(f"{axis.name} must have at least two values; got {axis.labels[0]}")
     choice = Choice(seeds, tolerance, rungs, measured, factors)
@@ -182,17 +183,18 @@ def _compared(
 
 
 def _subject(file: CaseFile, task: Task, choice: Choice) -> Subject:
-    solver, theory = file.case.solver, file.case.compare
+    chain, theory = case_chain(file.case), file.case.compare
     return Subject(
         task.rubber,
         task.surface,
         task.load,
-        wave_solver(solver.model, solver.options()),
+        chain.solver,
         checks.whole("seeds", choice.seeds, least=1, most=MOST_SEEDS),
         checks.positive("tolerance", choice.tolerance),
         None
         if theory.layer_ratio is None or theory.penetration_depth is None
         else KlueppelHeinrich(theory.layer_ratio, theory.penetration_depth),
+        chain.pressure_classes,
     )
 
 

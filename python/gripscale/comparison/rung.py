@@ -29,6 +29,8 @@ class Subject:
         Estimated relative error of each direct contact.
     klueppel_heinrich : KlueppelHeinrich, optional
         That theory with its fitted parameters; without them it says nothing.
+    pressure_classes : int
+        In how many classes of equal load the chain hands its pressure down, as the case says.
     """
 
     rubber: Rubber
@@ -38,6 +40,7 @@ class Subject:
     seeds: int = 3
     tolerance: float = 0.05
     klueppel_heinrich: KlueppelHeinrich | None = None
+    pressure_classes: int = 1
 
 
 class Draw(NamedTuple):

@@ -33,6 +33,7 @@ class Look(NamedTuple):
 _LOOKS = {
     "chain": Look(BLUE, "solid", "o", "circle"),
     "chain_half_plane": Look(SKY, "dashed", "s", "square"),
+    "chain_upper": Look(SKY, "solid", "<", "hex"),
     "sines": Look(GREEN, "dashdot", "^", "triangle"),
     "random_phases": Look(PURPLE, "dashed", "v", "inverted_triangle"),
     JUDGE: Look(ORANGE, "solid", "D", "diamond"),
@@ -40,7 +41,7 @@ _LOOKS = {
     "klueppel_heinrich": Look(YELLOW, "dotted", "X", "x"),
 }
 _OTHERS = (
-    Look(YELLOW, "solid", "<", "hex"),
+    Look(YELLOW, "solid", "d", "diamond_cross"),
     Look(YELLOW, "dashed", ">", "star"),
     Look(INK, "dashdot", "h", "square_pin"),
     Look(GREY, "dashed", "p", "triangle_pin"),

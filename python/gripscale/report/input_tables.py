@@ -118,8 +118,12 @@ def surface_facts(inputs: xr.Dataset, count: int) -> list[Facts]:
         ("s_amplitude", "Factor of amplitude"),
     ):
         waves.append((label, number(get(f"sines_{key}", math.nan), digits=4)))
+    if "sines_cut_off_m" in inputs.attrs:
+        waves.append(("For roughness down to", f"{number(get('sines_cut_off_m'), MILLI)} mm"))
     waves.append(("Residual", f"{number(get('sines_residual_decades', math.nan))} decades of C_z"))
     waves.append(("Fitted lags", _span(get, "sines_lag_min_m", "sines_lag_max_m")))
+    if (share := get("correlation_upper_share", 1.0)) < 1.0:
+        waves.append(("Heights that count", f"the upper {100.0 * share:.3g} %"))
     facts = [Facts("Sine waves", waves)]
     if "self_affine_hurst" in inputs.attrs:
         hurst = float(inputs.attrs["self_affine_hurst"])

@@ -22,6 +22,9 @@ def surface_lines(surface: PreparedSurface) -> Iterator[str]:
         for (raw, cleaned), report in zip(measured.profiles, measured.cleaning, strict=True):
             yield f"{raw.name or raw.source}: {len(cleaned)} points, step {raw.step / MILLI:.4g} mm"
             yield from (f"  {line}" for line in str(report).splitlines())
+        share = surface.counted.get("upper_share", 1.0)
+        if share < 1.0:
+            yield f"correlation of the upper {100.0 * share:.3g} % of the heights only"
         if measured.self_affine is None:
             yield f"not self-affine: {measured.no_self_affine}"
         else:
@@ -41,6 +44,8 @@ def sines_line(sines: SineStack) -> str:
     text = f"{len(sines)} sine waves from {largest:.3g} to {smallest:.3g} mm"
     if sines.s_wavelength is not None and sines.s_amplitude is not None:
         text += f", s_wavelength = {sines.s_wavelength:.3f}, s_amplitude = {sines.s_amplitude:.3f}"
+    if sines.cut_off is not None:
+        text += f", for roughness down to {sines.cut_off / MILLI:.3g} mm"
     if sines.residual is not None:
         text += f", residual {sines.residual:.3f} decades of C_z"
     return text

@@ -38,8 +38,9 @@ class DirectContact:
     Parameters
     ----------
     smallest_wavelength : float, optional
-        Shorter waves are left out [m]; by default shorter than the smallest sine wave of the
-        surface, so that chain and direct contact see the same roughness.
+        Shorter waves are left out [m]; by default those shorter than the cut-off of the surface's
+        sine waves or, without one, than the last of them, so that chain and direct contact see the
+        same roughness.
     tolerance, most_points, periodic
         See `solve_rough_contact`.
     """
@@ -54,8 +55,8 @@ class DirectContact:
     def relevant(self, surface: PreparedSurface) -> PreparedSurface:
         """Return nothing of `surface` but what was measured and where its waves end."""
         measured = surface.measured and surface.measured.bare()
-        last = SineStack(surface.sines.wavelength[-1:], surface.sines.amplitude[-1:])
-        return PreparedSurface(last, source="", measured=measured)
+        end = np.array([surface.sines.roughness_end])
+        return PreparedSurface(SineStack(end, end), source="", measured=measured)
 
     def predict(
         self,
@@ -91,8 +92,8 @@ class DirectContact:
         return self._answer(contacts, lengths / lengths.sum(), load)
 
     def _end_of(self, surface: PreparedSurface, measured: Profile | HeightMap) -> float:
-        """Return the smallest sine wave [m], or two steps where it is an extrapolation."""
-        return max(float(surface.sines.wavelength[-1]), 2.0 * float(np.max(measured.step)))
+        """Return where the waves say it ends [m], or two steps where that is an extrapolation."""
+        return max(surface.sines.roughness_end, 2.0 * float(np.max(measured.step)))
 
     def _answer(
         self, contacts: list[RoughContact], weight: np.ndarray, load: NominalLoad

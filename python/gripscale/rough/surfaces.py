@@ -85,7 +85,9 @@ def random_phases(surface: Surface, seed: int) -> Surface:
     """Return a periodic surface with the spectrum of `surface` and random phases.
 
     Missing heights are filled and ends joined as `solve_rough_contact` does. The height difference
-    correlation stays; where the roughness sits, and the distribution of heights, do not.
+    correlation of that filled surface stays; where the roughness sits, and the distribution of
+    heights, do not. Steep lines that bridge gaps are in the spectrum of the filled surface: where
+    steep flanks are missing it is rougher than the pairs of measured heights say.
 
     Raises
     ------

@@ -2,6 +2,7 @@
 
 - speed=0.003:30:log9: nine speeds [m/s], evenly spaced in their logarithm (lin9: evenly)
 - pressure=1 bar,3 bar: a list, with units
+- upper_share=0.3:1:lin8, pressure_classes=1,2,4,8: numbers and whole numbers
 - factors=3.5/2.4,3/2.2,6/3: magnification factors of wavelength and amplitude
 - rubber=case,dma.txt: the case's own, a master curve, a rubber known by name
 """
@@ -17,20 +18,36 @@ from typing import Any
 import numpy as np
 
 from gripscale import checks
+from gripscale.chain.pressure import MOST_CLASSES
 from gripscale.errors import InputError
+from gripscale.surface.sine_fit import MOST_WAVES
 from gripscale.units import parse_quantity
 
 MOST_VALUES = 1000
 MOST_AXES = 2
 
-QUANTITIES = {"speed": "speed", "pressure": "pressure", "smallest_wavelength": "length"}
+QUANTITIES = {
+    "speed": "speed",
+    "pressure": "pressure",
+    "smallest_wavelength": "length",
+    "cut_off": "length",
+}
 """Axes of numbers, with the kind of quantity."""
+
+COUNTS = {"waves": MOST_WAVES, "pressure_classes": MOST_CLASSES}
+"""Axes of whole numbers, with the largest."""
+
+NUMBERS = (*QUANTITIES, *COUNTS, "upper_share")
+"""Axes whose values are numbers."""
 
 UNITS = {
     "speed": "m/s",
     "pressure": "Pa",
     "smallest_wavelength": "m",
+    "cut_off": "m",
+    "upper_share": "1",
     "waves": "1",
+    "pressure_classes": "1",
     "factors": "1",
     "rubber": "1",
     "surface": "1",
@@ -41,7 +58,10 @@ LONG_NAMES = {
     "speed": "sliding speed",
     "pressure": "nominal pressure",
     "smallest_wavelength": "smallest wavelength",
+    "cut_off": "shortest wavelength of the roughness",
+    "upper_share": "share of the heights that counts",
     "waves": "number of waves",
+    "pressure_classes": "number of pressure classes",
     "factors": "magnification factors of wavelength and amplitude",
     "rubber": "rubber",
     "surface": "surface",
@@ -61,7 +81,7 @@ class Axis:
     @property
     def numeric(self) -> bool:
         """Whether the values are numbers, in the unit of `UNITS`."""
-        return self.name in QUANTITIES or self.name == "waves"
+        return self.name in NUMBERS
 
     @property
     def coordinate(self) -> list[Any]:
@@ -116,7 +136,7 @@ def _entries(name: str, given: Any) -> Iterable[Any]:
 
 def _spaced(name: str, first: str, last: str, spacing: str, count: str) -> list[float]:
     """Return evenly spaced values between two ends in SI units, the ends exactly."""
-    if name not in QUANTITIES and name != "waves":
+    if name not in NUMBERS:
         raise InputError(f"{name} must be a list, not a range; got {first}:{last}")
     if _bare(first) != _bare(last):
         raise InputError(f"{name} must have a unit at both ends or none; got {first}:{last}")
@@ -129,7 +149,7 @@ def _spaced(name: str, first: str, last: str, spacing: str, count: str) -> list[
     else:
         checks.positive(f"{name} of a log range", low)
         values = np.geomspace(low, high, number)
-    if name == "waves":
+    if name in COUNTS:
         return [float(value) for value in np.unique(np.rint(values))]
     return [low, *(float(f"{value:.12g}") for value in values[1:-1]), high]
 
@@ -148,7 +168,16 @@ def _quantity(name: str, value: Any) -> float:
 def _count(name: str, value: Any) -> int:
     if isinstance(value, str) and _bare(value):
         value = float(value)
-    return checks.whole(name, value, least=1, most=24)
+    return checks.whole(name, value, least=1, most=COUNTS[name])
+
+
+def _share(name: str, value: Any) -> float:
+    share = checks.positive(
+        name, float(value) if isinstance(value, str) and _bare(value) else value
+    )
+    if share > 1.0:
+        raise InputError(f"{name} must be at most 1; got {share:g}")
+    return share
 
 
 def _pair(name: str, value: Any) -> tuple[float, float]:
@@ -194,6 +223,7 @@ def _label(value: Any) -> str:
 
 _READERS: dict[str, Callable[[str, Any], Any]] = {
     **dict.fromkeys(QUANTITIES, _quantity),
-    "waves": _count,
+    **dict.fromkeys(COUNTS, _count),
+    "upper_share": _share,
     "factors": _pair,
 }

@@ -8,6 +8,9 @@ LABELS = {
     "speed": (1.0, "sliding speed $v$ [m/s]", "m/s"),
     "pressure": (1e6, "nominal pressure $p$ [MPa]", "MPa"),
     "smallest_wavelength": (1e-3, "smallest wavelength [mm]", "mm"),
+    "cut_off": (1e-3, "shortest wavelength of the roughness [mm]", "mm"),
+    "upper_share": (1.0, "share of the heights that counts [-]", "of the heights"),
+    "pressure_classes": (1.0, "number of pressure classes [-]", "pressure classes"),
     "waves": (1.0, "number of waves [-]", "waves"),
 }
 """Numeric axes: what their values are divided by, the label of the axis, the unit of a value."""

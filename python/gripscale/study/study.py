@@ -12,7 +12,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
 from pathlib import Path
@@ -21,10 +21,10 @@ from typing import Any
 import xarray as xr
 
 from gripscale import netcdf, versions
+from gripscale.case.chain import case_chain
 from gripscale.case.read import CaseFile, read_case
 from gripscale.chain.model import Chain
-from gripscale.chain.solvers import wave_solver
-from gripscale.errors import FileError
+from gripscale.errors import FileError, InputError
 from gripscale.model import Model, NominalLoad
 from gripscale.rubber import Rubber
 from gripscale.study import assemble
@@ -68,10 +68,11 @@ class Study:
     case
         The case, or its file. What is not varied is as it says.
     vary
-        One or two of speed, pressure, smallest_wavelength (numbers in SI units, or texts with a
-        unit), waves (whole numbers), factors (pairs of magnification factors, or "3.5/2.4"),
-        rubber and surface (names and files, or a mapping from names to `Rubber`, `SineStack`,
-        names and files), each with its values, or with a text as on the command line
+        One or two of speed, pressure, smallest_wavelength, cut_off (numbers in SI units, or texts
+        with a unit), upper_share (numbers), waves, pressure_classes (whole numbers), factors
+        (pairs of magnification factors, or "3.5/2.4"), rubber and surface (names and files, or a
+        mapping from names to `Rubber`, `SineStack`, names and files), each with its values, or
+        with a text as on the command line
         ("0.003:30:log9", "1 bar,3 bar"). A speed of zero is static contact.
     static
         Whether the relaxed rubber at rest is solved, too; as the case says by default.
@@ -95,8 +96,11 @@ class Study:
         self.file = case if isinstance(case, CaseFile) else read_case(case)
         self.axes: tuple[Axis, ...] = axes_of(vary)
         self.static = self.file.case.load.static if static is None else static
-        solver = self.file.case.solver
-        self.model = model or Chain(wave_solver(solver.model, solver.options()))
+        self.model = model or case_chain(self.file.case)
+        if "pressure_classes" in vary and not isinstance(self.model, Chain):
+            raise InputError(
+                f"pressure_classes belongs to the chain; got the model {self.model.name}"
+            )
         self._varied: dict[Any, PreparedSurface] = {}
 
     @cached_property
@@ -251,6 +255,9 @@ class Study:
     def _task(self, chosen: dict[str, Any], place: dict[str, int], *, static: bool) -> Task:
         load = self.file.case.load
         speed = 0.0 if static else chosen.get("speed", load.speed)
+        model = self.model
+        if "pressure_classes" in chosen and isinstance(model, Chain):
+            model = replace(model, pressure_classes=chosen["pressure_classes"])
         return Task(
             rubber=self.rubbers[place.get("rubber", 0)],
             surface=self._surface(place.get("surface", 0), chosen),
@@ -260,14 +267,14 @@ class Study:
                 footprint=load.footprint,
                 load_time=load.load_time if speed > 0.0 else "passage",
             ),
-            model=self.model,
+            model=model,
         )
 
     def _surface(self, number: int, chosen: dict[str, Any]) -> PreparedSurface:
         """Return the surface of a point; each choice of waves is fitted once."""
         changes = {
             name: chosen[name]
-            for name in ("factors", "waves", "smallest_wavelength")
+            for name in ("factors", "waves", "smallest_wavelength", "cut_off", "upper_share")
             if name in chosen
         }
         key = (number, *sorted(changes.items()))
@@ -303,4 +310,4 @@ def _unit(axis: Axis) -> str:
     return f" {unit}" if axis.numeric and (unit := _UNIT.get(axis.name)) else ""
 
 
-_UNIT = {"speed": "m/s", "pressure": "Pa", "smallest_wavelength": "m"}
+_UNIT = {"speed": "m/s", "pressure": "Pa", "smallest_wavelength": "m", "cut_off": "m"}

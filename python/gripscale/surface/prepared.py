@@ -10,7 +10,7 @@ import numpy as np
 
 from gripscale.errors import InputError
 from gripscale.surface.cleaning import CleaningReport
-from gripscale.surface.height_difference import HeightDifference
+from gripscale.surface.height_difference import HeightDifference, height_difference
 from gripscale.surface.height_map import HeightMap
 from gripscale.surface.profile import Profile
 from gripscale.surface.self_affine import SelfAffineFit
@@ -71,6 +71,9 @@ class PreparedSurface:
         Arguments of `fit_sines` they were fitted with.
     measured
         The measurement behind the correlation, or None for a synthetic surface.
+    counted
+        Arguments of `height_difference` the correlation was found with: which heights and lags
+        count.
     """
 
     sines: SineStack
@@ -78,6 +81,7 @@ class PreparedSurface:
     correlation: HeightDifference | None = None
     fit: Mapping[str, Any] = field(default_factory=dict)
     measured: Measured | None = None
+    counted: Mapping[str, Any] = field(default_factory=dict)
 
     def varied(
         self,
@@ -85,6 +89,8 @@ class PreparedSurface:
         factors: tuple[float, float] | None = None,
         waves: int | None = None,
         smallest_wavelength: float | None = None,
+        cut_off: float | None = None,
+        upper_share: float | None = None,
     ) -> PreparedSurface:
         """Return the surface with other waves.
 
@@ -92,43 +98,84 @@ class PreparedSurface:
         ----------
         factors
             Magnification factors of wavelength and amplitude, from the same first wave down to
-            the same smallest wavelength as far as whole waves go.
+            the same smallest wavelength or cut-off as far as whole waves go.
         waves
             Their number: fitted anew to a measured surface, the first ones of waves by hand.
         smallest_wavelength
-            Where they end [m]: fitted anew, or cut off.
+            The last wave [m], in place of a cut-off: fitted anew, or cut off.
+        cut_off
+            Where the roughness ends that they stand for [m], in place of a smallest wavelength;
+            of fitted waves only.
+        upper_share
+            Share of the heights that counts, see `height_difference`; of a measured surface only.
 
         Raises
         ------
         InputError
             If there are no such waves.
         """
-        if factors is None and waves is None and smallest_wavelength is None:
+        if upper_share is not None:
+            return self._of_upper(upper_share).varied(
+                factors=factors,
+                waves=waves,
+                smallest_wavelength=smallest_wavelength,
+                cut_off=cut_off,
+            )
+        if factors is None and waves is None and smallest_wavelength is None and cut_off is None:
             return self
+        if smallest_wavelength is not None and cut_off is not None:
+            raise InputError(
+                "vary smallest_wavelength (the last wave) or cut_off (where the roughness ends), "
+                "not both"
+            )
+        if cut_off is not None and (self.correlation is None or not self.fit):
+            raise InputError(f"cut_off varies waves that were fitted; got {self.source}")
         if factors is not None:
-            stack = self._magnified(factors, waves, smallest_wavelength)
+            stack = self._magnified(factors, waves, smallest_wavelength, cut_off)
         elif self.correlation is None or not self.fit:
             stack = self._shortened(waves, smallest_wavelength)
         else:
-            stack = self._fitted(self.correlation, waves, smallest_wavelength)
+            stack = self._fitted(self.correlation, waves, smallest_wavelength, cut_off)
         return replace(self, sines=stack)
 
+    def _of_upper(self, share: float) -> PreparedSurface:
+        """Return the surface with waves fitted to the correlation of the upper part."""
+        if self.measured is None or not self.fit:
+            raise InputError(f"upper_share varies a measured surface; got {self.source}")
+        counted = {**self.counted, "upper_share": share}
+        correlation = height_difference(self.measured.cleaned, **counted)
+        sines = fit_sines(correlation, **self.fit)
+        return replace(self, sines=sines, correlation=correlation, counted=counted)
+
     def _fitted(
-        self, correlation: HeightDifference, waves: int | None, smallest: float | None
+        self,
+        correlation: HeightDifference,
+        waves: int | None,
+        smallest: float | None,
+        cut_off: float | None,
     ) -> SineStack:
         options = dict(self.fit)
         fixed = options.get("s_wavelength") is not None
         if waves is not None:
-            options |= {"scales": waves} | ({"smallest_wavelength": None} if fixed else {})
-        if smallest is not None:
-            options |= {"smallest_wavelength": smallest}
+            no_end = {"smallest_wavelength": None, "cut_off": None}
+            options |= {"scales": waves} | (no_end if fixed else {})
+        if smallest is not None or cut_off is not None:
+            options |= {"smallest_wavelength": smallest, "cut_off": cut_off}
             options |= {"scales": None} if fixed and waves is None else {}
         return fit_sines(correlation, **options)
 
     def _magnified(
-        self, factors: tuple[float, float], waves: int | None, smallest: float | None
+        self,
+        factors: tuple[float, float],
+        waves: int | None,
+        smallest: float | None,
+        cut_off: float | None,
     ) -> SineStack:
         first, last = self.sines.wavelength[0], smallest or self.sines.wavelength[-1]
+        half = np.sqrt(factors[0])
+        if smallest is None:
+            cut_off = cut_off or self.sines.cut_off
+            last = last if cut_off is None else cut_off * half
         if waves is None:
             if last > first:
                 raise InputError(_beyond_the_largest(first, last))
@@ -140,6 +187,8 @@ class PreparedSurface:
             s_wavelength=factors[0],
             s_amplitude=factors[1],
         )
+        if cut_off is not None:
+            stack = replace(stack, cut_off=float(stack.wavelength[-1] / half))
         return stack if self.correlation is None else _judged(self.correlation, stack)
 
     def _shortened(self, waves: int | None, smallest: float | None) -> SineStack:
@@ -160,7 +209,8 @@ def _judged(correlation: HeightDifference, stack: SineStack) -> SineStack:
     """Return `stack` with its residual from the measured curve."""
     return fit_sines(
         correlation,
-        scales=len(stack),
+        scales=len(stack) if stack.cut_off is None else None,
+        cut_off=stack.cut_off,
         s_wavelength=stack.s_wavelength,
         s_amplitude=stack.s_amplitude,
         first_wavelength=float(stack.wavelength[0]),

@@ -87,9 +87,7 @@ class SineAmbiguity:
         return Span(min(values), max(values))
 
 
-def sine_ambiguity(
-    hdc: HeightDifference, sines: SineStack, *, cut_off: float | None = None
-) -> SineAmbiguity:
+def sine_ambiguity(hdc: HeightDifference, sines: SineStack) -> SineAmbiguity:
     """Return what other stacks follow `hdc` as well as it is known.
 
     Parameters
@@ -97,9 +95,8 @@ def sine_ambiguity(
     hdc : HeightDifference
         The measured curve, with its band.
     sines : SineStack
-        What was fitted to it: says the lags that count, the first and the last wavelength.
-    cut_off : float, optional
-        Where the roughness ends [m], if `sines` were fitted with it; else all end in the same wave.
+        What was fitted to it: says the lags that count, the first wavelength, and the cut-off or,
+        without one, the last wavelength.
 
     Raises
     ------
@@ -112,7 +109,7 @@ def sine_ambiguity(
             f"{len(sines)}, {'not fitted' if sines.lag_range is None else 'fitted'}"
         )
     firsts = FIRST_WAVELENGTHS * float(sines.wavelength[0])
-    tried = [_fitted(hdc, sines, n, float(first), cut_off) for n in NUMBERS for first in firsts]
+    tried = [_fitted(hdc, sines, n, float(first)) for n in NUMBERS for first in firsts]
     found = [one for one in tried if one is not None]
     band = _band(hdc, *sines.lag_range)
     limit = math.hypot(min(residual for residual, _ in found), band)
@@ -121,14 +118,14 @@ def sine_ambiguity(
 
 
 def _fitted(
-    hdc: HeightDifference, sines: SineStack, waves: int, first: float, cut_off: float | None
+    hdc: HeightDifference, sines: SineStack, waves: int, first: float
 ) -> tuple[float, SineStack] | None:
     """Return residual and stack of so many waves from a first wavelength [m].
 
     None where the factor would leave its limits.
     """
-    last = float(sines.wavelength[-1])
-    end, steps = (last, waves - 1) if cut_off is None else (cut_off, waves - 0.5)
+    cut_off, end = sines.cut_off, sines.roughness_end
+    steps = waves - 1 if cut_off is None else waves - 0.5
     if not FACTOR_RANGE[0] <= (first / end) ** (1.0 / steps) <= FACTOR_RANGE[1]:
         return None
     smallest_lag, largest_lag = sines.lag_range or (None, None)
@@ -136,7 +133,7 @@ def _fitted(
         hdc,
         scales=waves,
         first_wavelength=first,
-        smallest_wavelength=last if cut_off is None else None,
+        smallest_wavelength=end if cut_off is None else None,
         cut_off=cut_off,
         smallest_lag=smallest_lag,
         largest_lag=largest_lag,

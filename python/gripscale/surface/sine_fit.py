@@ -33,12 +33,13 @@ roughness down to l / sqrt(s_lambda), and the slope of the stack is larger than 
 without the waves shorter than l. `cut_off` states where the roughness ends: the last wave is then
 cut_off sqrt(s_lambda). The measured C_z holds the shorter waves too, so that three more of them, by
 the same factors, count in the fit and are left out of the stack. Lags below cut_off / 4, which they
-decide, do not count. `smallest_wavelength` states the last wave itself, as Lind & Wangenheim do.
+decide, do not count. Where s_wavelength is given, whole waves end at cut_off or above it: the stack
+says where. `smallest_wavelength` states the last wave itself, as Lind & Wangenheim do.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -125,7 +126,8 @@ def fit_sines(
     Returns
     -------
     SineStack
-        The waves, their factors, and the rms residual in decades of C_z over `lag_range`.
+        The waves, their factors, the rms residual in decades of C_z over `lag_range`, and the
+        cut-off they stand for if there is one.
 
     Raises
     ------
@@ -155,15 +157,28 @@ def fit_sines(
     target = _target(hdc, smallest_lag, largest_lag, int(np.isnan(given).sum()))
     if end is None:
         waves = checks.whole("scales", scales, least=1, most=MOST_WAVES)
-        return _stack(search(target, Trial(given, waves, single_factor)), target)
+        return _stack(search(target, Trial(given, waves, single_factor)), target, 0.0)
     if not np.isnan(given[S_WAVELENGTH]):
         if scales is not None:
             raise InputError(f"give two of scales, {end.name} and s_wavelength; got three")
-        return _stack(_down_with_factor(target, given, single_factor, end), target)
+        return _stack(_down_with_factor(target, given, single_factor, end), target, end.beyond)
     if scales is not None:
         waves = checks.whole("scales", scales, least=2, most=MOST_WAVES)
-        return _stack(search(target, end.trial(given, waves, single_factor)), target)
-    return _stack(_best_number(target, given, single_factor, end), target)
+        return _stack(search(target, end.trial(given, waves, single_factor)), target, end.beyond)
+    return _stack(_best_number(target, given, single_factor, end), target, end.beyond)
+
+
+def as_fitted(sines: SineStack) -> SineStack:
+    """Return the waves that count in a fit to C_z: with a cut-off there are shorter ones, too."""
+    if sines.cut_off is None or sines.s_wavelength is None or sines.s_amplitude is None:
+        return sines
+    order = np.arange(1, SHORTER_WAVES + 1)
+    return replace(
+        sines,
+        wavelength=np.append(sines.wavelength, sines.wavelength[-1] / sines.s_wavelength**order),
+        amplitude=np.append(sines.amplitude, sines.amplitude[-1] / sines.s_amplitude**order),
+        cut_off=None,
+    )
 
 
 @dataclass(frozen=True)
@@ -308,7 +323,8 @@ def _closest(target: Target, trials: list[Trial], as_good: float) -> Found | Non
     return search(target, min(good, key=lambda trial: trial.waves))
 
 
-def _stack(found: Found | None, target: Target) -> SineStack:
+def _stack(found: Found | None, target: Target, beyond: float) -> SineStack:
+    """Return the waves found; the roughness ends `beyond` factors below the last of them."""
     if found is None:
         raise InputError(
             "no sine waves fit the given number, factors and wavelengths: s_wavelength must lie "
@@ -325,4 +341,7 @@ def _stack(found: Found | None, target: Target) -> SineStack:
         s_amplitude=float(np.exp(found.logs[S_AMPLITUDE])) if several else None,
         residual=found.residual,
         lag_range=(float(target.lag[0]), float(target.lag[-1])),
+        cut_off=float(np.exp(first_wavelength - (order[-1] + beyond) * s_wavelength))
+        if beyond
+        else None,
     )

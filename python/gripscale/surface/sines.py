@@ -42,12 +42,14 @@ class SineStack:
         Rms difference from the curve the waves were fitted to, in decades of C_z.
     lag_range : (float, float), optional
         Smallest and largest lag the waves were fitted to [m].
+    cut_off : float, optional
+        Shortest wavelength of the roughness the waves stand for [m], where it is not the last wave.
 
     Raises
     ------
     InputError
-        If lengths differ, an entry is not above zero, wavelengths do not decrease, or a factor
-        contradicts the waves.
+        If lengths differ, an entry is not above zero, wavelengths do not decrease, a factor
+        contradicts the waves, or `cut_off` is above the last wave.
     """
 
     wavelength: FloatArray
@@ -56,6 +58,7 @@ class SineStack:
     s_amplitude: float | None = None
     residual: float | None = None
     lag_range: tuple[float, float] | None = None
+    cut_off: float | None = None
 
     def __post_init__(self) -> None:
         wavelength = checks.positive_vector("wavelength", self.wavelength, unit="m")
@@ -73,6 +76,12 @@ class SineStack:
             )
         if self.residual is not None:
             checks.not_negative("residual", self.residual)
+        if self.cut_off is not None:
+            end = checks.positive("cut_off", self.cut_off, unit="m")
+            if end > wavelength[-1]:
+                raise InputError(
+                    f"cut_off must not exceed the last wave, {wavelength[-1]:g} m; got {end:g} m"
+                )
         factors = {
             "s_wavelength": _factor("s_wavelength", wavelength, self.s_wavelength),
             "s_amplitude": _factor("s_amplitude", amplitude, self.s_amplitude),
@@ -89,6 +98,11 @@ class SineStack:
     def slope(self) -> FloatArray:
         """Largest slope of each wave, 2 pi A / lambda."""
         return np.asarray(2.0 * np.pi * self.amplitude / self.wavelength)
+
+    @property
+    def roughness_end(self) -> float:
+        """Shortest wavelength of the roughness the waves stand for [m]."""
+        return float(self.wavelength[-1]) if self.cut_off is None else self.cut_off
 
     @property
     def rms_slope(self) -> float:

@@ -25,7 +25,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -48,6 +48,9 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 SOURCE = "Klueppel & Heinrich 2000, Rubber Chem. Technol. 73, 578"
+UPPER_SHARE = 0.5
+"""Share of the heights of a profile that counts, from the highest down: valleys touch nothing."""
+
 TOLERANCE = 1e-6
 """Error of the integral up to which a result is converged, relative."""
 
@@ -133,7 +136,7 @@ def klueppel_heinrich(
     rubber : Rubber
         The sliding rubber.
     surface : SelfAffineFit, HeightDifference or Profile(s)
-        Of profiles only the upper part counts, see `upper_part`; a correlation is taken as it is.
+        Of profiles only the upper part counts, `UPPER_SHARE`; a correlation is taken as it is.
     pressure, speed : float
         Nominal pressure [Pa], above zero, and sliding speed [m/s]; at zero there is no friction.
     layer_ratio : float
@@ -182,11 +185,6 @@ def klueppel_heinrich(
     return KlueppelHeinrichResult(rubber, fit, load, ratio, depth, wavelength, friction, error)
 
 
-def upper_part(profile: Profile) -> Profile:
-    """Return the profile with the heights below their median missing: the valleys touch nothing."""
-    return replace(profile, z=np.where(profile.z >= np.nanmedian(profile.z), profile.z, np.nan))
-
-
 def _self_affine(
     surface: SelfAffineFit | HeightDifference | Profile | Sequence[Profile],
 ) -> SelfAffineFit:
@@ -199,7 +197,7 @@ def _self_affine(
                 "surface must be a SelfAffineFit, a HeightDifference or profiles; "
                 f"got {surface!r:.80}"
             )
-        surface = height_difference([upper_part(one) for one in profiles])
+        surface = height_difference(profiles, upper_share=UPPER_SHARE)
     return fit_self_affine(surface)
 
 

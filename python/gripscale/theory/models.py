@@ -6,6 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
+import numpy as np
+
 from gripscale.errors import InputError
 from gripscale.model import NominalLoad
 from gripscale.rubber import Rubber
@@ -27,7 +29,8 @@ class Persson:
     Parameters
     ----------
     smallest_wavelength : float, optional
-        Smallest wave that counts [m]; that of the surface's sine waves by default.
+        Smallest wave that counts [m]; where the surface's sine waves end by default, see
+        `SineStack.roughness_end`.
     gamma : float
         See `persson`.
     window : float, optional
@@ -41,7 +44,7 @@ class Persson:
     window: float | None = None
 
     def relevant(self, surface: PreparedSurface) -> PreparedSurface:
-        """Return the cleaned profiles of `surface` and its smallest wave."""
+        """Return the cleaned profiles of `surface` and where its waves end."""
         return _relevant(surface)
 
     def predict(
@@ -76,7 +79,8 @@ class KlueppelHeinrich:
     layer_ratio, penetration_depth : float
         See `klueppel_heinrich`; the depth [m] is the same at every load.
     smallest_wavelength : float, optional
-        Smallest wave that counts [m]; that of the surface's sine waves by default.
+        Smallest wave that counts [m]; where the surface's sine waves end by default, see
+        `SineStack.roughness_end`.
     """
 
     name: ClassVar[str] = "klueppel_heinrich"
@@ -86,7 +90,7 @@ class KlueppelHeinrich:
     smallest_wavelength: float | None = None
 
     def relevant(self, surface: PreparedSurface) -> PreparedSurface:
-        """Return the cleaned profiles of `surface` and its smallest wave."""
+        """Return the cleaned profiles of `surface` and where its waves end."""
         return _relevant(surface)
 
     def predict(
@@ -121,7 +125,7 @@ def _answered(result: Any, on_progress: Callable[[Any], None] | None) -> xr.Data
 
 
 def _smallest(stated: float | None, surface: PreparedSurface) -> float:
-    return float(surface.sines.wavelength[-1]) if stated is None else stated
+    return surface.sines.roughness_end if stated is None else stated
 
 
 def _cleaned(surface: PreparedSurface, name: str) -> list[Profile]:
@@ -133,7 +137,7 @@ def _cleaned(surface: PreparedSurface, name: str) -> list[Profile]:
 
 
 def _relevant(surface: PreparedSurface) -> PreparedSurface:
-    """Return nothing of `surface` but its cleaned profiles and its smallest wavelength."""
-    smallest = SineStack(surface.sines.wavelength[-1:], surface.sines.wavelength[-1:])
+    """Return nothing of `surface` but its cleaned profiles and where its waves end."""
+    end = np.array([surface.sines.roughness_end])
     measured = surface.measured and Measured.of(surface.measured.cleaned)
-    return PreparedSurface(smallest, source="", measured=measured)
+    return PreparedSurface(SineStack(end, end), source="", measured=measured)
