@@ -36,7 +36,7 @@ def assert_near_small_strain(certain: Pairs) -> None:
 
 @pytest.mark.verification
 def test_windows_of_the_measured_road_down_to_2_mm():
-    """Twenty windows of each station; half a minute of processor time."""
+    """Twenty windows of each station, seconds of processor time each, the steepest a minute."""
     pairs = solved([*road_windows(0, 2e-3), *road_windows(1, 2e-3)])
     assert_converged(pairs)
     certain = certain_ones(pairs)
@@ -50,7 +50,7 @@ def test_windows_of_the_measured_road_down_to_2_mm():
 
 @pytest.mark.verification
 def test_windows_of_the_measured_road_down_to_1_mm():
-    """Every fourth of the same windows; minutes of processor time, 11 to 53 s each.
+    """Every fourth of the same windows; mostly 11 to 13 s of processor time each, steep ones minutes.
 
     Of 24 windows 3 were in doubt: of ten, more than three would be with a probability of 3 %.
     """
