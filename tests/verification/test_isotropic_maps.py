@@ -13,6 +13,7 @@ AREA, FRICTION = "contact_fraction", "friction_from_dissipation"
 
 
 def test_lines_of_maps_touch_as_the_measured_lines():
+    """Two maps of each construction; about a minute of processor time."""
     rubber = gs.fit_prony(gs.read_master_curve(DATA / "rubber" / "measured_dma.txt"))
     road = clean(read_profile(ROAD[0]), crop=ROAD_ONLY)[0]
     load = {"pressure": 3e5, "speed": 0.3, "smallest_wavelength": 0.4e-3}

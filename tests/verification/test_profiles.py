@@ -18,9 +18,8 @@ def solved(cases: list[ProfileCase]) -> Pairs:
     return [(case.solve(), case.half_plane()) for case in cases]
 
 
-def from_the_half_plane(pairs: Pairs, measure: str = "friction_from_dissipation"):
-    """Relative difference of the friction of each block from that of the half-plane."""
-    return np.array([getattr(one, measure) / plane.friction - 1.0 for one, plane in pairs])
+def certain_ones(pairs: Pairs) -> Pairs:
+    return [(one, plane) for one, plane in pairs if not one.doubt]
 
 
 def assert_converged(pairs: Pairs) -> None:
@@ -29,26 +28,45 @@ def assert_converged(pairs: Pairs) -> None:
     assert all(one.friction_from_dissipation > 0.0 for one, _ in pairs)
 
 
+def assert_near_small_strain(certain: Pairs) -> None:
+    """Finite strain lowers friction by 1 or 2 % (median); a doubt begins at 5 % besides."""
+    ratios = np.array([one.friction_from_dissipation / plane.friction for one, plane in certain])
+    assert np.abs(ratios - 1.0).max() < 0.08
+
+
 @pytest.mark.verification
-@pytest.mark.parametrize("cut_off", [2e-3, 1e-3])
-def test_windows_of_the_measured_road(cut_off):
-    """Twenty windows of each station; half a minute of processor time at 2 mm, minutes at 1 mm."""
-    pairs = solved([*road_windows(0, cut_off), *road_windows(1, cut_off)])
+def test_windows_of_the_measured_road_down_to_2_mm():
+    """Twenty windows of each station, seconds of processor time each, the steepest a minute."""
+    pairs = solved([*road_windows(0, 2e-3), *road_windows(1, 2e-3)])
     assert_converged(pairs)
-    certain = [(one, plane) for one, plane in pairs if not one.doubt]
-    assert len(certain) >= 0.85 * len(pairs)
-    # Finite strain lowers friction by 2 % (median); a doubt begins at 5 % besides.
-    assert np.abs(from_the_half_plane(certain)).max() < 0.08
+    certain = certain_ones(pairs)
+    # 34 of 40 are certain, some near the 5 % of a doubt
+    assert len(certain) >= 0.75 * len(pairs)
+    assert_near_small_strain(certain)
     doubtful = [one.details["contact_slope"] for one, _ in pairs if one.doubt]
     gentle = [one.details["contact_slope"] for one, _ in certain]
     assert np.median(doubtful) > np.median(gentle)
 
 
 @pytest.mark.verification
+def test_windows_of_the_measured_road_down_to_1_mm():
+    """Every fourth of the same windows; mostly 11 to 13 s of processor time each, steep ones minutes.
+
+    Of 24 windows 3 were in doubt: of ten, more than three would be with a probability of 3 %.
+    """
+    pairs = solved([*road_windows(0, 1e-3)[::4], *road_windows(1, 1e-3)[::4]])
+    assert_converged(pairs)
+    certain = certain_ones(pairs)
+    assert len(certain) >= 7
+    assert_near_small_strain(certain)
+
+
+@pytest.mark.verification
 def test_two_hundred_random_sums_of_sines():
-    """Two to six sines, 1 to 10 bar, 0.01 to 10 m/s: two minutes of processor time."""
+    """Two to six sines, 1 to 10 bar, 0.01 to 10 m/s: a minute and a half of processor time."""
     pairs = solved(sums_of_sines())
     assert_converged(pairs)
-    mismatch = np.array([one.friction_mismatch for one, _ in pairs])
-    assert np.mean(mismatch < 0.05) > 0.85
-    assert np.abs(from_the_half_plane([p for p in pairs if not p[0].doubt])).max() < 0.12
+    certain = certain_ones(pairs)
+    # 185 are: 0.85 is four standard deviations of such a count below
+    assert len(certain) >= 0.85 * len(pairs)
+    assert_near_small_strain(certain)
