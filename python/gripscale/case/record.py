@@ -70,6 +70,7 @@ def _waves(surface: PreparedSurface) -> tuple[Variables, Variables]:
         "sines_residual_decades": sines.residual,
         "sines_lag_min_m": low,
         "sines_lag_max_m": high,
+        "surface_notes": "\n".join(surface.notes) or None,
     }
 
 

@@ -53,6 +53,7 @@ def _doubts(run: Run) -> Iterator[str]:
             "No generalized Maxwell solid has both the measured E′ and E″: within their scatter "
             "they are not Kramers-Kronig consistent. See the residuals of the Prony series."
         )
+    yield from str(inputs.attrs.get("surface_notes", "")).splitlines()
     if "no_self_affine" in inputs.attrs:
         yield f"The surface was not described as self-affine: {inputs.attrs['no_self_affine']}"
     if not inputs.data_vars:
