@@ -165,7 +165,7 @@ FLAT = points()
         ("m.txt", FLAT[:, :2], {}, FileError, "got 2; a line of two columns .*read_profile"),
         ("m.xyz", FLAT[:20], {}, FileError, "at least 16 points a way; got 1 distances in col.* 2"),
         ("m.xyz", FLAT**2, {}, FileError, "at half the points .* got 20 of 362 in steps of 0.25$"),
-        ("m.xyz", FLAT**1.5, {}, FileError, "in column 1 that increase in equal steps; got 0 then"),
+        ("m.xyz", np.abs(FLAT) ** 1.5, {}, FileError, "in column 1 that increase in equal steps; got 0 then"),
         ("m.xyz", FLAT[[*range(340), 7]], {}, FileError, "line 341: .* got that of line 8 again"),
         ("m.xyz", FLAT * [1, np.nan, 1], {}, FileError, "line 1: expected a distance in column 2"),
         ("m.xyz", FLAT * [1, 1, np.nan], {}, FileError, "some heights; got 340 points, all missi"),
