@@ -41,6 +41,20 @@ def test_surface_half_to_a_cut_off_of_the_upper_part(shell: Shell, inputs: Path)
     assert "either smallest_wavelength (the last wave) or cut_off" in " ".join(both.stderr.split())
 
 
+def test_surface_half_says_where_the_waves_end(shell: Shell, inputs: Path) -> None:
+    road, crop = inputs / "road.txt", ["--crop", "10 mm", "390 mm"]
+
+    def notes(*options: object) -> str:
+        result = shell("fit-surface", road, *crop, *options)
+        assert result.exit_code == 0, result.output
+        return " ".join(result.stdout.split())
+
+    assert "note: no smallest wavelength is stated" in notes()
+    below = notes("--scales", 3, "--smallest-wavelength", "0.05 mm")
+    assert "note: the smallest wave, 0.05 mm, is shorter than the measurement carries" in below
+    assert "note:" not in notes("--scales", 3, "--smallest-wavelength", "1 mm")
+
+
 def test_rubber_half_prints_the_series(shell: Shell, inputs: Path) -> None:
     result = shell("fit-rubber", inputs / "dma.txt", "--terms", 9, "--bulk-modulus", "1 GPa")
     assert result.exit_code == 0, result.output

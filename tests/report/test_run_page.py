@@ -209,6 +209,17 @@ def test_a_modulus_is_relaxed_only_where_that_was_measured(
     assert (("Relaxed modulus", "Slow end of the data, E′")[plateau]) not in pairs
 
 
+def test_notes_on_the_surface_are_warnings(run_folder: Path, tmp_path: Path) -> None:
+    data, groups = read(run_folder / "dynamic.nc")
+    assert "no smallest wavelength is stated" in groups["inputs"].attrs["surface_notes"]
+    groups["inputs"].attrs["surface_notes"] = "road: heights jump\nthe largest wave is long"
+    netcdf.save(data, tmp_path / "dynamic.nc", groups)
+    run = read_result(tmp_path)
+    assert isinstance(run, Run)
+    warned = [notice.text for notice in notices(run) if notice.level == "warning"]
+    assert {"road: heights jump", "the largest wave is long"} <= set(warned)
+
+
 def test_hostile_texts_stay_texts(run_folder: Path, tmp_path: Path) -> None:
     data, groups = read(run_folder / "dynamic.nc")
     for name in ("case", "case_file", "rubber_source", "model", "version_gripscale"):

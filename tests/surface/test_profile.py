@@ -31,11 +31,35 @@ def test_profile_keeps_its_own_copy_that_cannot_be_written():
         profile.z[0] = 1.0
 
 
-def test_steps_may_differ_by_rounding_but_not_more():
+def test_points_may_stand_a_twentieth_of_a_step_off_the_grid_but_not_more():
     Profile(X + 1000.0, Z)  # x far from zero: floating-point steps are coarse
-    Profile(changed(X, 7, X[7] + 0.9e-7), Z)
-    with pytest.raises(InputError, match=r"after index 6"):
-        Profile(changed(X, 7, X[7] + 1.1e-7), Z)
+    # The grid that fits best follows a point by a share of 1/20, its leverage among twenty points.
+    Profile(changed(X, 10, X[10] + 0.05e-4), Z)
+    with pytest.raises(InputError, match=r"after index 9 .*resample makes steps equal"):
+        Profile(changed(X, 10, X[10] + 0.056e-4), Z)
+
+
+def test_falling_distances_are_turned_round_and_it_is_said():
+    profile = Profile(X[::-1], Z[::-1], notes=("by hand",))
+    assert np.array_equal(profile.x, X)
+    assert np.array_equal(profile.z, Z)
+    assert profile.notes[0] == "by hand"
+    assert "turned round" in profile.notes[1]
+    assert Profile(profile.x, profile.z).notes == ()
+
+
+def test_the_shortest_wavelength_carried_is_four_steps_or_what_the_instrument_says():
+    assert Profile(X, Z).carried == pytest.approx(4e-4)
+    assert Profile(X, Z, reliable=1e-4).carried == pytest.approx(4e-4)
+    assert Profile(X, Z, reliable=7e-4).carried == 7e-4
+    # Four steps a wave: the slope of a sine between neighbours is 2/pi sqrt(2) = 0.900 of its own.
+    place = np.arange(4001)
+    slopes = np.diff(np.sin(2.0 * np.pi * place / 4.0 + 0.3)) / (2.0 * np.pi / 4.0)
+    assert np.sqrt(2.0 * np.mean(slopes**2)) == pytest.approx(0.900, abs=0.001)
+    with pytest.raises(InputError, match="reliable must be greater than zero"):
+        Profile(X, Z, reliable=0.0)
+    with pytest.raises(InputError, match="a note must be a text; got 3"):
+        Profile(X, Z, notes=(3,))
 
 
 @pytest.mark.parametrize(
@@ -45,8 +69,9 @@ def test_steps_may_differ_by_rounding_but_not_more():
         (X, Z[:19], "same length; got 20 and 19"),
         (changed(X, 5, np.nan), Z, "got nan at index 5"),
         (changed(X, 5, X[4]), Z, "must increase .* at index 4 .* at index 5"),
-        (X[::-1], Z, "must increase"),
-        (X**2 + X, Z, "equidistant"),
+        (changed(X, [3, 4], X[[4, 3]]), Z, "must increase .* at index 3 .* at index 4"),
+        (X**2 + 1e-4 * X, Z, "equidistant"),
+        (np.delete(X, 7), np.delete(Z, 7), "got a step of 0.0002 m after index 6"),
         (X, changed(Z, 2, np.inf), "got inf at index 2"),
         (X, np.full(20, np.nan), "20 points, all missing"),
         (X[:, None], Z, "got 2 dimensions"),

@@ -64,6 +64,17 @@ def test_points_left_out_or_without_a_number_are_missing(tmp_path):
     np.testing.assert_array_equal(np.isnan(surface.z), missing)
 
 
+def test_lines_left_out_of_a_map_are_missing_heights(tmp_path):
+    rows = points()
+    left_out = np.isin(rows[:, 0], np.unique(rows[:, 0])[[5, 6]])
+    surface = gs.read_map(written(tmp_path, rows[~left_out]), x_unit="mm", z_unit="um")
+    assert surface.z.shape == HEIGHTS.shape
+    assert np.isnan(surface.z[[5, 6]]).all()
+    np.testing.assert_array_equal(
+        np.delete(surface.z, [5, 6], 0) * 1e6 - np.delete(HEIGHTS, [5, 6], 0) < 1e-9, True
+    )
+
+
 def test_rounded_distances_are_made_even(tmp_path):
     """A step of 37.5 um printed to the micrometre."""
     path = written(tmp_path, points(dx=0.0375, dy=0.0375), fmt="%.3f")
@@ -153,7 +164,14 @@ FLAT = points()
         ("m.txt", HEIGHTS[:, :9], {}, FileError, "line 1: expected three columns, .* got 9"),
         ("m.txt", FLAT[:, :2], {}, FileError, "got 2; a line of two columns .*read_profile"),
         ("m.xyz", FLAT[:20], {}, FileError, "at least 16 points a way; got 1 distances in col.* 2"),
-        ("m.xyz", FLAT**2, {}, FileError, "on a grid of equal steps; got 0 then 0.25 in column 1"),
+        ("m.xyz", FLAT**2, {}, FileError, "at half the points .* got 20 of 362 in steps of 0.25$"),
+        (
+            "m.xyz",
+            np.abs(FLAT) ** 1.5,
+            {},
+            FileError,
+            "in column 1 that increase in equal steps; got 0 then",
+        ),
         ("m.xyz", FLAT[[*range(340), 7]], {}, FileError, "line 341: .* got that of line 8 again"),
         ("m.xyz", FLAT * [1, np.nan, 1], {}, FileError, "line 1: expected a distance in column 2"),
         ("m.xyz", FLAT * [1, 1, np.nan], {}, FileError, "some heights; got 340 points, all missi"),

@@ -95,6 +95,38 @@ def test_rounded_distances_become_equidistant(tmp_path_factory, step, start, poi
     assert np.abs(profile.x - 1e-3 * x).max() <= 0.51e-6
 
 
+@settings(max_examples=50, deadline=None)
+@given(
+    step=st.floats(0.01, 0.9),
+    points=st.integers(40, 400),
+    kept=st.floats(0.6, 1.0),
+    seed=st.integers(0, 99),
+)
+def test_rows_left_out_are_missing_heights(tmp_path_factory, step, points, kept, seed):
+    random = np.random.default_rng(seed)
+    there = random.random(points) < kept
+    there[[0, -1]] = True
+    x, z = step * np.arange(points), random.standard_normal(points)
+    rows = "\n".join(f"{a:.3f}, {b}" for a, b in zip(x[there], z[there], strict=True))
+    profile = read_profile(written(tmp_path_factory.mktemp("gaps"), "x [mm], z [mm]\n" + rows))
+    assert len(profile) == points
+    assert np.array_equal(np.isfinite(profile.z), there)
+    assert profile.z[there] == pytest.approx(1e-3 * z[there])
+    assert np.abs(profile.x - 1e-3 * x).max() <= 0.51e-6
+    assert len(profile.notes) == (0 if there.all() else 1)
+    for note in profile.notes:
+        assert f"{points - there.sum()} row" in note
+
+
+def test_falling_rows_are_turned_round(tmp_path):
+    up = read_profile(written(tmp_path, table()))
+    down = read_profile(written(tmp_path, table([*ROWS[:0:-1], ROWS[0]]), "down.txt"))
+    assert np.array_equal(up.x, down.x)
+    assert np.array_equal(up.z, down.z)
+    assert up.notes == ()
+    assert "turned round" in down.notes[0]
+
+
 BAD_FILES = {
     "empty": (b"", "empty file"),
     "blank": (b"\r\n \n", "empty file"),
@@ -107,7 +139,11 @@ BAD_FILES = {
     "no distance": (table() + "\nnan,1.0", "line 22: expected a distance"),
     "few points": (table(ROWS[:9]), "at least 16 points; got 9"),
     "backwards": (table([*ROWS[:18], (3.0, 1.0)]), "line 20: .* increase in equal steps"),
-    "uneven": (table([*ROWS, (99.0, 1.0)]), "line 3: .* increase in equal steps"),
+    "uneven": (
+        table([*ROWS[:12], (5.71, 1.0), *ROWS[12:]]),
+        r"line 14: .* got 5.5 \(line 13\) then 5.71, where 0.5 is usual; .*resample",
+    ),
+    "mostly left out": (table([*ROWS, (99.0, 1.0)]), "half the points .* got 21 of 199"),
     "all missing": (table([(x, "nan") for x, _ in ROWS]), "all missing|found none"),
     "unknown unit": (table(header="x [mm],z [V]\n"), "'V', which is no known unit"),
     "infinite": (table() + "\n10.0,inf", "line 22: expected a number in column 2; got 'inf'"),

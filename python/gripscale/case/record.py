@@ -73,6 +73,7 @@ def _waves(surface: PreparedSurface) -> tuple[Variables, Variables]:
         "sines_lag_max_m": high,
         "sines_cut_off_m": sines.cut_off,
         "correlation_upper_share": surface.counted.get("upper_share"),
+        "surface_notes": "\n".join(surface.notes) or None,
     }
 
 

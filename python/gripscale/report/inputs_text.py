@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def surface_lines(surface: PreparedSurface) -> Iterator[str]:
-    """Yield what was read and removed, the fits, and the sine waves."""
+    """Yield what was read and removed, the fits, the sine waves and notes."""
     measured = surface.measured
     if measured is not None:
         for (raw, cleaned), report in zip(measured.profiles, measured.cleaning, strict=True):
@@ -36,6 +36,7 @@ def surface_lines(surface: PreparedSurface) -> Iterator[str]:
                 f"xi_perpendicular = {fit.xi_perpendicular / MILLI:.3g} mm"
             )
     yield sines_line(surface.sines)
+    yield from (f"note: {note}" for note in surface.notes)
 
 
 def sines_line(sines: SineStack) -> str:

@@ -52,6 +52,7 @@ def _doubts(run: Run) -> Iterator[str]:
         yield from _compressible(one, float(inputs.attrs.get("bulk_modulus_Pa", np.nan)))
     for finding in str(inputs.attrs.get("prony_findings", "")).splitlines():
         yield f"Rubber: {finding}."
+    yield from str(inputs.attrs.get("surface_notes", "")).splitlines()
     if "no_self_affine" in inputs.attrs:
         yield f"The surface was not described as self-affine: {inputs.attrs['no_self_affine']}"
     if not inputs.data_vars:

@@ -103,7 +103,7 @@ def random_phases(surface: Surface, seed: int) -> Surface:
     size = np.abs(spectrum)
     spectrum *= np.abs(scipy.fft.rfftn(z)) / np.where(size > 0.0, size, 1.0)
     drawn = scipy.fft.irfftn(spectrum, s=z.shape)
-    labels = {"name": f"{surface.name}, random phases".lstrip(", "), "source": f"seed {seed}"}
+    name, source = f"{surface.name}, random phases".lstrip(", "), f"seed {seed}"
     if isinstance(surface, Profile):
-        return Profile(surface.x, drawn, **labels)
-    return HeightMap(surface.x, surface.y, drawn, **labels)
+        return Profile(surface.x, drawn, name, source)
+    return HeightMap(surface.x, surface.y, drawn, name, source)

@@ -1,6 +1,7 @@
 """The surface: measured profile, its height difference correlation, and the sines that match it."""
 
 from gripscale.surface.cleaning import CleaningReport, StepReport, clean
+from gripscale.surface.doubts import profile_doubts
 from gripscale.surface.height_difference import HeightDifference, height_difference
 from gripscale.surface.height_map import HeightMap
 from gripscale.surface.isotropy import areal_spectrum
@@ -11,6 +12,7 @@ from gripscale.surface.periodogram import map_spectrum, profile_spectrum
 from gripscale.surface.prepared import Measured, PreparedSurface
 from gripscale.surface.profile import Profile
 from gripscale.surface.read import read_profile, read_profiles
+from gripscale.surface.resampling import resample
 from gripscale.surface.self_affine import SelfAffineFit, fit_self_affine
 from gripscale.surface.sine_ambiguity import SineAmbiguity, sine_ambiguity
 from gripscale.surface.sine_fit import fit_sines
@@ -39,10 +41,12 @@ __all__ = [
     "height_difference",
     "isotropic_maps",
     "map_spectrum",
+    "profile_doubts",
     "profile_spectrum",
     "read_map",
     "read_profile",
     "read_profiles",
+    "resample",
     "self_affine_profile",
     "sine_ambiguity",
     "sine_profile",

@@ -11,7 +11,7 @@ nearer to what the rubber meets (`upper_share`).
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -45,6 +45,8 @@ class HeightDifference:
         Number of pairs averaged; zeros if not known.
     lower, upper : array_like, shape (lags,), optional
         Band of 95 % nominal confidence [m^2]; NaN if not known.
+    carried : float, optional
+        Shortest wavelength [m] that the measurement behind the curve carries, where it is known.
 
     Raises
     ------
@@ -57,6 +59,7 @@ class HeightDifference:
     pairs: NDArray[np.int64] = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
     lower: FloatArray = field(default_factory=lambda: np.zeros(0))
     upper: FloatArray = field(default_factory=lambda: np.zeros(0))
+    carried: float | None = None
 
     def __post_init__(self) -> None:
         lag = checks.positive_vector("lag", self.lag, unit="m")
@@ -78,6 +81,8 @@ class HeightDifference:
         for name in ("lower", "upper"):
             band = checks.vector(name, getattr(self, name), unit="m^2", missing=True)
             self._keep(name, band, unknown=np.nan)
+        if self.carried is not None:
+            checks.positive("carried", self.carried, unit="m")
 
     def _keep(self, name: str, array: NDArray[Any], unknown: float = np.nan) -> None:
         """Store a read-only array, or `unknown` for each lag if it was not given."""
@@ -162,7 +167,8 @@ def height_difference(
             f"profile must have a lag with at least {FEWEST_PAIRS} pairs of heights; got at most "
             f"{int(counts.sum(axis=0).max())}"
         )
-    return _curve(step * shifts[keep], sums[:, keep], counts[:, keep])
+    curve = _curve(step * shifts[keep], sums[:, keep], counts[:, keep])
+    return replace(curve, carried=max(p.carried for p in profiles))
 
 
 def _profiles(profile: Profile | Sequence[Profile]) -> list[Profile]:

@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from gripscale import checks
 from gripscale.errors import InputError
-from gripscale.surface.profile import FEWEST_POINTS, STEP_TOLERANCE, Profile, uneven_step
+from gripscale.surface.grid import GRID_TOLERANCE, even_grid, uneven_step
+from gripscale.surface.profile import FEWEST_POINTS, Profile
 
 FloatArray = NDArray[np.float64]
 
@@ -21,8 +22,8 @@ class HeightMap:
     Parameters
     ----------
     x : array_like, shape (nx,)
-        Distance along the way of sliding [m], strictly increasing, equidistant within 0.1 % of
-        the step.
+        Distance along the way of sliding [m], strictly increasing, equidistant: no point farther
+        than 0.05 steps from the even grid that fits best.
     y : array_like, shape (ny,)
         Distance across it [m], likewise; its step may differ from that of x.
     z : array_like, shape (nx, ny)
@@ -31,6 +32,8 @@ class HeightMap:
         What the map is called in tables and figures.
     source : str, optional
         Where it comes from, such as a file name.
+    reliable : float, optional
+        Shortest wavelength [m] the instrument measures reliably, where it is known.
 
     Raises
     ------
@@ -44,6 +47,7 @@ class HeightMap:
     z: FloatArray
     name: str = ""
     source: str = ""
+    reliable: float | None = None
 
     def __post_init__(self) -> None:
         x, y = _axis("x", self.x), _axis("y", self.y)
@@ -57,6 +61,8 @@ class HeightMap:
         for field, values in (("x", x), ("y", y), ("z", z)):
             values.flags.writeable = False
             object.__setattr__(self, field, values)
+        if self.reliable is not None:
+            checks.positive("reliable", self.reliable, unit="m")
         for field in ("name", "source"):
             checks.text(field, getattr(self, field))
 
@@ -98,12 +104,13 @@ class HeightMap:
         along_x = checks.one_of("direction", direction, ("x", "y")) == "x"
         place, heights = (self.x, self.z.T) if along_x else (self.y, self.z)
         chosen = checks.whole("number", number, least=0, most=len(heights) - 1)
-        labels = (line_label(text, chosen, direction) for text in (self.name, self.source))
-        return Profile(place, heights[chosen], *labels)
+        name, source = (line_label(text, chosen, direction) for text in (self.name, self.source))
+        return Profile(place, heights[chosen], name, source, self.reliable)
 
     def turned(self) -> HeightMap:
         """Return the map turned by a quarter, for sliding along its y: x becomes y, and y is -x."""
-        return HeightMap(self.y, -self.x[::-1], self.z[::-1].T, self.name, self.source)
+        turned = self.z[::-1].T
+        return HeightMap(self.y, -self.x[::-1], turned, self.name, self.source, self.reliable)
 
     def __repr__(self) -> str:
         (dx, dy), (nx, ny) = self.step, self.z.shape
@@ -124,11 +131,13 @@ def _axis(name: str, values: FloatArray) -> FloatArray:
         raise InputError(
             f"a map must have at least {FEWEST_POINTS} points a way; got {axis.size} along {name}"
         )
-    at = uneven_step(axis)
-    if at is not None:
+    grid = even_grid(axis)
+    if grid is None or grid.left_out:
+        at = uneven_step(axis)
         raise InputError(
-            f"{name} must increase in equal steps, within {STEP_TOLERANCE:g} of the mean "
-            f"{_mean_step(axis):.6g} m; got {axis[at + 1] - axis[at]:.6g} m after index {at}"
+            f"{name} must increase in equal steps, each point within {GRID_TOLERANCE:g} steps of "
+            f"an even grid; got {axis[at + 1] - axis[at]:.6g} m after index {at} where "
+            f"{np.median(np.diff(axis)):.6g} m is usual"
         )
     return axis
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import io
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +29,8 @@ class HeightField:
     heights: FloatArray
     x: FloatArray
     y: FloatArray | None
+    reliable: float | None = None
+    """Shortest wavelength [m] free of the instrument's artifacts, where the file tells."""
 
     def lines(self, direction: str) -> int:
         """Return how many profiles the field has along a direction."""
@@ -42,7 +44,7 @@ class HeightField:
         if self.y is not None:
             name, source = (line_label(text, line, direction) for text in (name, source))
         try:
-            return Profile(np.asarray(along), heights, name, source)
+            return Profile(np.asarray(along), heights, name, source, self.reliable)
         except InputError as error:
             raise FileError(f"{source}: {error}") from error
 
@@ -92,6 +94,7 @@ def read_instrument_file(
                 )
                 positions = topography.positions()
                 unit = topography.unit
+                reliable = topography.short_reliability_cutoff()
             finally:
                 reader.close()
         except (FileError, InputError):
@@ -103,7 +106,8 @@ def read_instrument_file(
             ) from error
     x_unit = "m" if step else length_unit(path, "the file", unit, "x_unit", x_unit)
     z_unit = length_unit(path, "the file", unit, "z_unit", z_unit)
-    return _height_field(path, heights, positions, x_unit, z_unit)
+    field = _height_field(path, heights, positions, x_unit, z_unit)
+    return field if reliable is None else replace(field, reliable=in_si(reliable, x_unit, "length"))
 
 
 def _topography(

@@ -78,7 +78,9 @@ def _instrument_map(
     if field.y is None:
         raise FileError(f"{path}: expected a map; got a line, which gripscale.read_profile reads")
     try:
-        return HeightMap(field.x, field.y, field.heights, name=path.stem, source=str(path))
+        return HeightMap(
+            field.x, field.y, field.heights, path.stem, str(path), reliable=field.reliable
+        )
     except InputError as error:
         raise FileError(f"{path}: {error}") from error
 

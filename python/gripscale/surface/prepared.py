@@ -10,6 +10,7 @@ import numpy as np
 
 from gripscale.errors import InputError
 from gripscale.surface.cleaning import CleaningReport
+from gripscale.surface.doubts import profile_doubts, stack_notes
 from gripscale.surface.height_difference import HeightDifference, height_difference
 from gripscale.surface.height_map import HeightMap
 from gripscale.surface.profile import Profile
@@ -52,6 +53,16 @@ class Measured:
         """What a contact can be solved on: the profiles as cleaned, or the map."""
         return self.cleaned if self.map is None else [self.map]
 
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What reading changed and what is implausible, a sentence each."""
+        found = []
+        for raw, cleaned in self.profiles:
+            about = f"{raw.name}: " if raw.name else ""
+            doubts = profile_doubts(raw, cleaned, steep=self.map is None)
+            found += [f"{about}{note}" for note in (*raw.notes, *doubts)]
+        return tuple(found)
+
     def bare(self) -> Measured:
         """Return what was measured, without how it was cleaned and what was fitted to it."""
         return Measured.of(self.cleaned if self.map is None else self.map)
@@ -82,6 +93,14 @@ class PreparedSurface:
     fit: Mapping[str, Any] = field(default_factory=dict)
     measured: Measured | None = None
     counted: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What is to be known of the measurement and of where the waves end, a sentence each."""
+        found = () if self.measured is None else self.measured.notes
+        if self.correlation is None:
+            return found
+        return (*found, *stack_notes(self.sines, self.correlation, self.fit))
 
     def varied(
         self,

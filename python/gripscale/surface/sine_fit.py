@@ -19,8 +19,8 @@ as well, and at still larger lags C_z scatters for want of independent heights. 
 a few pure sines, which does fall back, give `largest_lag` = lambda_1 / 4.
 
 The first wave rises as l^2, faster than a rough surface. The amplitudes of the smaller waves fall
-the faster for it: on an exact curve of exponent H, log s_A / log s_lambda comes out up to 0.1 above
-H, and above 1 where H > 0.9, so that they count for little there.
+the faster for it: of profiles of exponent H, log s_A / log s_lambda comes out 0.04 above H = 0.8,
+0.13 above 0.9 and 0.24 above 0.95, so that they count for little there (docs/method.md, sec. 1).
 
 **Small lags.** Any profile has |z(x + m l) - z(x)| <= the sum of its m differences over l, hence
 C_z(m l) <= m^2 C_z(l). Spike removal marks both points of steep neighbours as missing, so steep
@@ -105,7 +105,8 @@ def fit_sines(
         The measured curve.
     scales : int, optional
         Number of waves, 1 to 24. At least one of `scales`, `smallest_wavelength` and `cut_off` is
-        needed.
+        needed. Alone, the last wave is not let below the shortest one that the measurement
+        carries, `hdc.carried`, where that is known and s_wavelength is not given.
     smallest_wavelength : float, optional
         Wavelength of the last wave [m], which may lie below what was measured. Given with
         `scales`, s_wavelength follows from it. Alone, the number of waves with the least residual
@@ -157,7 +158,8 @@ def fit_sines(
     target = _target(hdc, smallest_lag, largest_lag, int(np.isnan(given).sum()))
     if end is None:
         waves = checks.whole("scales", scales, least=1, most=MOST_WAVES)
-        return _stack(search(target, Trial(given, waves, single_factor)), target, 0.0)
+        found = _carried(target, Trial(given, waves, single_factor), hdc.carried)
+        return _stack(found, target, 0.0)
     if not np.isnan(given[S_WAVELENGTH]):
         if scales is not None:
             raise InputError(f"give two of scales, {end.name} and s_wavelength; got three")
@@ -277,6 +279,17 @@ def first_consistent_lag(hdc: HeightDifference) -> float:
         if (hdc.value[multiple] <= CONSISTENT * ratio[multiple] ** 2 * value).all():
             return float(lag)
     return float(hdc.lag[0])  # not reached: the last lag has no multiples
+
+
+def _carried(target: Target, trial: Trial, carried: float | None) -> Found | None:
+    """Search freely; where the last wave is shorter than is carried, search with it at that."""
+    found = search(target, trial)
+    tied = trial.waves == 1 or not np.isnan(trial.given[S_WAVELENGTH])
+    if found is None or carried is None or tied or found.last >= np.log(carried):
+        return found
+    if trial.given[FIRST_WAVELENGTH] <= np.log(carried):
+        return found
+    return search(target, replace(trial, last=float(np.log(carried))))
 
 
 def _down_with_factor(

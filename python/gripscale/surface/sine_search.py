@@ -107,6 +107,11 @@ class Found:
     waves: int
     residual: float
 
+    @property
+    def last(self) -> float:
+        """Logarithm of the smallest wavelength."""
+        return float(self.logs[FIRST_WAVELENGTH] - (self.waves - 1) * self.logs[S_WAVELENGTH])
+
 
 def fitted_curve(logs: FloatArray, waves: int, lag: FloatArray) -> FloatArray:
     """Return C_z [m^2] at lags [m], the first wave by its mean beyond a quarter wavelength."""

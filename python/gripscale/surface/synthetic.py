@@ -6,11 +6,8 @@ import numpy as np
 
 from gripscale import checks
 from gripscale.errors import InputError
-from gripscale.surface.profile import FEWEST_POINTS, FloatArray, Profile
+from gripscale.surface.profile import FEWEST_POINTS, MOST_POINTS, FloatArray, Profile
 from gripscale.surface.sines import SineStack
-
-MOST_POINTS = 10_000_000
-"""Points beyond which a synthetic profile is refused."""
 
 
 def self_affine_profile(

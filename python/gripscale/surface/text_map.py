@@ -1,7 +1,7 @@
 """A map from a text file: a table of heights, or points with their two distances and their height.
 
 A table is an image: its rows run along y, its columns along x, and the steps are not in it. Points
-(x, y, z) may come in any order; those left out are missing heights.
+(x, y, z) may come in any order; those left out, single or whole lines, are missing heights.
 """
 
 from __future__ import annotations
@@ -14,8 +14,9 @@ import numpy as np
 from gripscale.errors import FileError, InputError
 from gripscale.surface.height_map import HeightMap
 from gripscale.surface.length_unit import length_unit
-from gripscale.surface.profile import FEWEST_POINTS, FloatArray, uneven_step
-from gripscale.surface.text_profile import DISTANCE_TITLE, HEIGHT_TITLE, column_unit, unrounded
+from gripscale.surface.printed_grid import printed_grid
+from gripscale.surface.profile import FEWEST_POINTS, FloatArray
+from gripscale.surface.text_profile import DISTANCE_TITLE, HEIGHT_TITLE, column_unit
 from gripscale.textfile import TextTable, read_table
 from gripscale.units import in_si
 
@@ -123,7 +124,7 @@ def _points(
 
 
 def _axis(table: TextTable, column: int) -> tuple[FloatArray, np.ndarray]:
-    """Return the distances of a column in their order, and which of them each row has."""
+    """Return all distances of the grid of a column, and which of them each row has."""
     printed = table.numbers(column, f"a distance in column {column + 1}")
     distances, which = np.unique(printed, return_inverse=True)
     if distances.size < FEWEST_POINTS:
@@ -131,15 +132,8 @@ def _axis(table: TextTable, column: int) -> tuple[FloatArray, np.ndarray]:
             f"{table.path}: expected a map of at least {FEWEST_POINTS} points a way; got "
             f"{distances.size} distances in column {column + 1}"
         )
-    even = unrounded(distances, table.resolution(column))
-    at = None if even is not None else uneven_step(distances)
-    if at is not None:
-        mean = (distances[-1] - distances[0]) / (distances.size - 1)
-        raise FileError(
-            f"{table.path}: expected points on a grid of equal steps; got {distances[at]:.9g} "
-            f"then {distances[at + 1]:.9g} in column {column + 1}, {mean:.6g} being the mean step"
-        )
-    return (distances if even is None else even), which
+    grid = printed_grid(table, column, distances)
+    return grid.points(distances), grid.place[which]
 
 
 def _check_single(table: TextTable, place: np.ndarray) -> None:

@@ -4,6 +4,8 @@ The CAPTIF stationary laser profilometer writes point number, distance and heigh
 below a line "*****DATA*****" and a title line that names millimetres. Its point numbers are not
 consecutive (they jump and repeat where scans are joined), while the distance column runs on at a
 constant step printed to three decimals: the step is therefore taken from the distance column.
+
+Rows may run either way, and those without a height may be left out: they become missing heights.
 """
 
 from __future__ import annotations
@@ -15,7 +17,8 @@ import numpy as np
 
 from gripscale.errors import FileError, InputError
 from gripscale.surface.length_unit import length_unit
-from gripscale.surface.profile import FEWEST_POINTS, FloatArray, Profile, uneven_step
+from gripscale.surface.printed_grid import printed_grid
+from gripscale.surface.profile import FEWEST_POINTS, TURNED_ROUND, FloatArray, Profile
 from gripscale.textfile import TextTable, read_table
 from gripscale.units import in_si
 
@@ -36,7 +39,8 @@ def read_text_profile(path: Path, *, x_unit: str | None, z_unit: str | None) -> 
     Returns
     -------
     Profile
-        Distances [m] at the mean step of the distance column, heights [m].
+        Distances [m] at the mean step of the distance column, heights [m]; `notes` say where rows
+        were turned round or left out.
 
     Raises
     ------
@@ -57,10 +61,10 @@ def read_text_profile(path: Path, *, x_unit: str | None, z_unit: str | None) -> 
     x = table.numbers(x_column, f"a distance in column {x_column + 1}")
     z = table.numbers(z_column, f"a number in column {z_column + 1}", missing=True)
     _check_complete(path, z)
-    x = _equidistant(table, x_column, x)
+    x, z, notes = _on_grid(table, x_column, x, z)
     x, z = in_si(x, x_unit, "length"), in_si(z, z_unit, "length")
     try:
-        return Profile(x, z, name=path.stem, source=str(path))
+        return Profile(x, z, name=path.stem, source=str(path), notes=notes)
     except InputError as error:
         raise FileError(f"{path}: {error}") from error
 
@@ -94,28 +98,18 @@ def _check_complete(path: Path, z: FloatArray) -> None:
         raise FileError(f"{path}: expected heights; got {z.size} points, all missing")
 
 
-def _equidistant(table: TextTable, column: int, x: FloatArray) -> FloatArray:
-    even = unrounded(x, table.resolution(column))
-    if even is not None:
-        return even
-    at, step = uneven_step(x), (x[-1] - x[0]) / (x.size - 1)
-    if at is not None:
-        first, second = table.line_numbers[at], table.line_numbers[at + 1]
-        raise FileError(
-            f"{table.path}, line {second}: expected distances that increase in equal steps of "
-            f"{step:.6g}; got {x[at]:.9g} (line {first}) then {x[at + 1]:.9g}"
+def _on_grid(
+    table: TextTable, column: int, x: FloatArray, z: FloatArray
+) -> tuple[FloatArray, FloatArray, tuple[str, ...]]:
+    """Return distances and heights of all points of the even grid, and what was changed for it."""
+    lines, notes = table.line_numbers, []
+    if x[0] > x[-1]:
+        x, z, lines = x[::-1], z[::-1], lines[::-1]
+        notes.append(TURNED_ROUND)
+    grid = printed_grid(table, column, x, lines)
+    if grid.left_out:
+        rows = "1 row" if grid.left_out == 1 else f"{grid.left_out} rows"
+        notes.append(
+            f"{rows} of the even grid not in the file, of {grid.size}: taken as missing heights"
         )
-    return x
-
-
-def unrounded(x: FloatArray, resolution: float) -> FloatArray | None:
-    """Undo the rounding of printed distances: x_i = x_0 + i (x_N - x_0)/N.
-
-    A distance printed to a resolution q stands within q/2 of the true one, so both the point and
-    the line through the end points are uncertain: departures up to q are rounding. Returns None
-    where anything goes beyond: a step that truly differs, or too coarse a resolution.
-    """
-    even = np.linspace(x[0], x[-1], x.size)
-    step = (x[-1] - x[0]) / (x.size - 1)
-    rounded = np.abs(x - even).max() <= 1.01 * resolution and resolution <= 0.5 * step
-    return even if rounded and (np.diff(x) > 0.0).all() else None
+    return grid.points(x), grid.spread(z), tuple(notes)

@@ -1,0 +1,167 @@
+"""What is implausible about a surface is said, and about a plausible one nothing is."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from gripscale.errors import InputError
+from gripscale.surface import (
+    Measured,
+    PreparedSurface,
+    Profile,
+    SineStack,
+    clean,
+    fit_sines,
+    height_difference,
+    profile_doubts,
+    read_profile,
+    self_affine_profile,
+)
+
+from .surface_cases import ROAD, ROAD_ONLY, profile_of
+
+ROUGH = self_affine_profile(0.8, 2e-3, 0.6e-3, 0.4, 1e-4, 7)
+
+
+def changed(where, values):
+    z = ROUGH.z.copy()
+    z[where] = values
+    return Profile(ROUGH.x, z)
+
+
+def doubts_after_cleaning(profile, **options):
+    return " | ".join(profile_doubts(profile, clean(profile, **options)[0]))
+
+
+@pytest.mark.parametrize("hurst", [0.6, 0.8, 1.0])
+@pytest.mark.parametrize("cut_off", [0.5e-3, 5e-3])
+def test_rough_profiles_are_plausible(hurst, cut_off):
+    for seed in range(5):
+        rough = self_affine_profile(hurst, cut_off, 0.3 * cut_off, 0.2, 5e-5, seed)
+        tilted = Profile(rough.x, rough.z + 0.15 * rough.x)
+        assert doubts_after_cleaning(rough) == ""
+        assert doubts_after_cleaning(tilted) == ""
+
+
+@pytest.mark.parametrize("path", ROAD)
+def test_the_road_is_plausible_between_its_plates_and_not_with_them(path):
+    road = read_profile(path)
+    assert doubts_after_cleaning(road, crop=ROAD_ONLY) == ""
+    assert "heights jump in" in doubts_after_cleaning(road)
+    # Without spike removal the noise of the laser is left.
+    says = doubts_after_cleaning(road, crop=ROAD_ONLY, remove_spikes=False)
+    assert "slopes left are 3 or steeper" in says or "the rms slope is" in says
+
+
+def test_grooves_are_no_jumps():
+    grooved = np.where(ROUGH.x % 20e-3 < 3e-3, -4e-3, 0.0) + 0.1 * ROUGH.z
+    assert "jump" not in doubts_after_cleaning(Profile(ROUGH.x, grooved))
+
+
+@pytest.mark.parametrize(("height", "jumps"), [(20e-3, 2), (-9e-3, 2)])
+def test_a_plate_or_a_support_is_a_jump(height, jumps):
+    says = doubts_after_cleaning(changed(slice(1000, 1400), height + 0.1 * ROUGH.z[1000:1400]))
+    assert f"heights jump in {jumps} places" in says
+
+
+def test_a_step_is_a_jump():
+    says = doubts_after_cleaning(changed(slice(2000, None), ROUGH.z[2000:] + 20e-3))
+    assert "heights jump in 1 place," in says
+
+
+@pytest.mark.parametrize("sentinel", [-9999.0, -999.0, 9999.0, 1e30, -0.01])
+def test_a_value_for_missing_heights_is_found_and_taken_out_by_name(sentinel):
+    stretch = changed(slice(300, 330), sentinel)
+    assert f"{sentinel * 1e3:g} mm, comes 28 times" in doubts_after_cleaning(stretch)
+    believed = (-0.005, 0.005)
+    assert doubts_after_cleaning(stretch, valid_range=believed) == ""
+
+
+def test_a_single_far_height_is_a_spike_and_no_sentinel():
+    assert doubts_after_cleaning(changed(300, -9999.0)) == ""
+
+
+@pytest.mark.parametrize("filled", [0.3e-3, np.linspace(0.0, 0.3e-3, 800)])
+def test_filled_gaps_are_flat(filled):
+    assert "are flat or straight" in doubts_after_cleaning(changed(slice(1000, 1800), filled))
+
+
+def test_slopes_that_are_left_are_counted():
+    spiky = changed([500, 900], ROUGH.z[[500, 900]] + 1e-3)
+    assert doubts_after_cleaning(spiky) == ""
+    assert "4 of 4000 slopes left are 3 or steeper" in doubts_after_cleaning(
+        spiky, remove_spikes=False
+    )
+    assert profile_doubts(spiky, steep=False) == ()
+
+
+@pytest.mark.parametrize(
+    ("x_scale", "z_scale", "says"),
+    [
+        (1.0, 1e3, "too high for a texture; is the unit of heights right?"),
+        (1e3, 1e3, "too high for a texture"),
+        (1.0, 1e-3, "hardly a slope; is the unit of heights right?"),
+        (1e3, 1.0, "too coarse for a texture; is the unit of distances right?"),
+        (1e-3, 1.0, "too high for a texture"),
+    ],
+)
+def test_a_unit_a_thousand_times_off_is_doubted(x_scale, z_scale, says):
+    assert says in doubts_after_cleaning(Profile(x_scale * ROUGH.x, z_scale * ROUGH.z))
+
+
+def test_a_unit_that_makes_spikes_of_all_is_doubted():
+    steep = Profile(ROUGH.x, 20.0 * ROUGH.z)
+    assert "% of the heights are spikes" in doubts_after_cleaning(steep)
+
+
+def test_equal_heights_and_few_of_them():
+    assert profile_doubts(profile_of(np.ones(20))) == (
+        "all heights are equal: is this the column of heights?",
+    )
+    every_other = np.where(np.arange(20) % 2, np.nan, np.arange(20.0) * 1e-5)
+    assert profile_doubts(profile_of(every_other)) == ()
+
+
+def test_what_is_no_part_of_the_profile_is_refused():
+    short = Profile(ROUGH.x[:40], ROUGH.z[:40])
+    with pytest.raises(InputError, match="cleaned must be a part of profile; got 4001 points"):
+        profile_doubts(short, ROUGH)
+
+
+def prepared(options, profile=ROUGH):
+    cleaned, report = clean(profile)
+    curve = height_difference(cleaned)
+    measured = Measured([(profile, cleaned)], [report], None, "")
+    return PreparedSurface(fit_sines(curve, **options), "", curve, options, measured)
+
+
+def test_it_is_said_where_the_waves_end():
+    def note(options):
+        [said] = prepared(options).notes
+        return said.partition(": ")[2]
+
+    assert note({"scales": 7}).endswith("0.4 mm, the shortest the measurement carries")
+    assert note({"scales": 2}).endswith("where the fit puts it")
+    below = prepared({"scales": 5, "smallest_wavelength": 0.2e-3})
+    assert below.notes == (
+        "the smallest wave, 0.2 mm, is shorter than the measurement carries, 0.4 mm: it "
+        "extrapolates the waves above it",
+    )
+    assert prepared({"scales": 5, "smallest_wavelength": 0.4e-3}).notes == ()
+    assert PreparedSurface(SineStack([1e-3], [1e-4]), "by hand").notes == ()
+
+
+def test_more_waves_than_the_curve_holds_are_said():
+    [edge] = prepared({"scales": 12, "smallest_wavelength": 0.4e-3}).notes
+    assert edge.startswith("s_wavelength is 1.5, at the edge of the range searched, 1.5 to 30")
+    given = prepared({"scales": 2, "s_wavelength": 1.5}).notes
+    assert not any("s_wavelength" in note for note in given)  # given, not found
+    [longest] = prepared({"scales": 24, "smallest_wavelength": 0.4e-3}).notes
+    assert longest.startswith("the largest wave, 6.06e+03 mm, is longer than 4 times")
+
+
+def test_notes_name_the_profile_and_what_the_reader_changed():
+    turned = replace(Profile(ROUGH.x[::-1], ROUGH.z[::-1]), name="lane")
+    first, *_ = prepared({"scales": 7}, turned).notes
+    assert first.startswith("lane: distances fell from row to row")
