@@ -50,7 +50,7 @@ def test_windows_of_the_measured_road_down_to_2_mm():
 
 @pytest.mark.verification
 def test_windows_of_the_measured_road_down_to_1_mm():
-    """Every fourth of the same windows; mostly 11 to 13 s of processor time each, steep ones minutes.
+    """Every fourth of the same windows; mostly 12 s of processor time each, steep ones minutes.
 
     Of 24 windows 3 were in doubt: of ten, more than three would be with a probability of 3 %.
     """
