@@ -28,9 +28,6 @@ COARSEST_PRINT = 0.5
 SINGLE = 1.6
 """Length, in the shortest step, to which steps may be single: two of them are twice as long."""
 
-LONGEST_GAPS = (1.0, 10.0, 100.0, np.inf)
-"""Longest steps, in even ones, from whose sum the even step is found, better each time."""
-
 
 @dataclass(frozen=True, eq=False)
 class Grid:
@@ -101,14 +98,12 @@ def _allowed(x: FloatArray, step: float, resolution: float) -> float:
 def _places(steps: FloatArray, step: float) -> NDArray[np.int64]:
     """Return the whole places of points these steps apart, `step` being about a single one.
 
-    Printed steps scatter about the true one, and only their sum over many tells it: it is found
-    from single steps first, then from longer ones, whose whole numbers need a better one.
+    Printed steps scatter about the true one, and only the mean of all single ones tells it well
+    enough to count how many a long gap holds.
     """
+    single = np.rint(steps / step) <= 1.0
+    step = float(steps[single].mean()) if single.any() else step
     whole = np.maximum(np.rint(steps / step), 1.0)
-    for longest in LONGEST_GAPS:
-        counted = whole <= longest
-        step = float(steps[counted].sum() / whole[counted].sum())
-        whole = np.maximum(np.rint(steps / step), 1.0)
     return np.concatenate(([0], np.cumsum(whole))).astype(np.int64)
 
 
