@@ -29,9 +29,10 @@ def test_printed_decimals_are_no_error_and_rows_left_out_are_found(step, start, 
     assert grid.left_out == points - there.sum()
 
 
-def test_a_long_gap_does_not_shift_what_follows():
+@pytest.mark.parametrize("step", [0.0374890, 0.0023])
+def test_a_long_gap_does_not_shift_what_follows(step):
     place = np.delete(np.arange(20000), slice(7000, 12345))
-    grid = even_grid(printed(0.0374890 * place, 3), 1e-3)
+    grid = even_grid(printed(step * place, 3), 1e-3)
     assert grid is not None
     assert np.array_equal(grid.place, place)
 

@@ -26,10 +26,10 @@ COARSEST_PRINT = 0.5
 """Largest last decimal place of printed distances, in steps, that still tells neighbours apart."""
 
 SINGLE = 1.6
-"""Length, in the shortest step, to which steps may be single: two of them are twice as long."""
+"""Length, in the shortest step, to which steps are single.
 
-LONGEST_GAPS = (1.0, 10.0, 100.0, np.inf)
-"""Longest steps, in even ones, from whose sum the even step is found, better each time."""
+Printed ones differ by the last decimal, at most half as much again; two in one are longer still.
+"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,12 +75,7 @@ def even_grid(x: FloatArray, resolution: float = 0.0) -> Grid | None:
     steps = np.diff(x)
     if x.size < 2 or (steps <= 0.0).any():
         return None
-    shortest = steps[steps <= SINGLE * steps.min()]
-    for place in (
-        np.arange(x.size),
-        _places(steps, float(np.median(steps))),
-        _places(steps, float(shortest.mean())),
-    ):
+    for place in (np.arange(x.size), _places(steps)):
         mean_place, mean_x = place.mean(), x.mean()
         centred = place - mean_place
         step = float(centred @ (x - mean_x) / (centred @ centred))
@@ -98,17 +93,14 @@ def _allowed(x: FloatArray, step: float, resolution: float) -> float:
     return max(GRID_TOLERANCE * step, printed) + rounding
 
 
-def _places(steps: FloatArray, step: float) -> NDArray[np.int64]:
-    """Return the whole places of points these steps apart, `step` being about a single one.
+def _places(steps: FloatArray) -> NDArray[np.int64]:
+    """Return the whole places of points these steps apart.
 
-    Printed steps scatter about the true one, and only their sum over many tells it: it is found
-    from single steps first, then from longer ones, whose whole numbers need a better one.
+    Printed steps scatter about the true one, and only the mean of all single ones tells it well
+    enough to count how many a long gap holds.
     """
+    step = steps[steps <= SINGLE * steps.min()].mean()
     whole = np.maximum(np.rint(steps / step), 1.0)
-    for longest in LONGEST_GAPS:
-        counted = whole <= longest
-        step = float(steps[counted].sum() / whole[counted].sum())
-        whole = np.maximum(np.rint(steps / step), 1.0)
     return np.concatenate(([0], np.cumsum(whole))).astype(np.int64)
 
 
