@@ -104,7 +104,7 @@ def test_rounded_distances_become_equidistant(tmp_path_factory, step, start, poi
 )
 def test_rows_left_out_are_missing_heights(tmp_path_factory, step, points, kept, seed):
     random = np.random.default_rng(seed)
-    there = random.random(points) < kept
+    there = random.permutation(points) < kept * points
     there[[0, -1]] = True
     x, z = step * np.arange(points), random.standard_normal(points)
     rows = "\n".join(f"{a:.3f}, {b}" for a, b in zip(x[there], z[there], strict=True))
