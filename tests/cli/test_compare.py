@@ -38,7 +38,7 @@ def test_command_puts_the_models_side_by_side(shell: Shell, inputs: Path, tmp_pa
     target = tmp_path / "out"
     result = shell(
         "compare", inputs / "case.toml", "--seeds", 2, "--output", target,
-        "--measured", tmp_path / "mu.csv",
+        "--measured", tmp_path / "mu.csv", "--rungs", "waves,measured,theory",
     )  # fmt: skip
     assert result.exit_code == 0, result.output
     figures = {f"{name}.{kind}" for name in ("comparison", "by_wavelength") for kind in FORMATS}
@@ -66,7 +66,8 @@ def test_command_puts_the_models_side_by_side(shell: Shell, inputs: Path, tmp_pa
 
 
 def test_factors_lead_from_the_chain_to_the_profile_as_measured(inputs: Path) -> None:
-    data = compare_case(inputs / "case.toml", seeds=1).to_dataset()
+    groups = ["waves", "measured", "theory"]
+    data = compare_case(inputs / "case.toml", seeds=1, rungs=groups).to_dataset()
     aside = (data.group == "theory") | (data.rung == "chain_upper")
     path = data.isel(rung=~aside.values)
     for name in ("contact_fraction", "friction"):
