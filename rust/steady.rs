@@ -93,6 +93,9 @@ impl Work<'_> {
             (state, report, reached)
         });
         self.watch.unless_stopped()?;
+        if let (Status::TimeLimit, Some(coarse)) = (report.status, coarse) {
+            return Ok(coarse.out_of_time());
+        }
         let to_the_end = self.watch.unlimited();
         let pressed = self.model.pressed(&mesh, &memory, &to_the_end);
         let outcome = Outcome::of(&pressed, &state, self.model.edge_law(&mesh, 1.0))

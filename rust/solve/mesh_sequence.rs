@@ -63,7 +63,7 @@ impl MeshSequence {
         Self(columns.into_iter().map(size).collect())
     }
 
-    /// Solve on one mesh after the other by `on_mesh(mesh, coarser solution)`.
+    /// Solve on one mesh after the other by `on_mesh(mesh, coarser solution)`, until time is over.
     pub fn solve(
         &self,
         tolerance: Option<f64>,
@@ -76,7 +76,7 @@ impl MeshSequence {
             let coarse = last.filter(MeshSolution::converged);
             let mut fine = on_mesh(Mesh::new(size), coarse.as_ref())?;
             if fine.report.status == Status::TimeLimit {
-                return Ok(coarse.map_or(fine, MeshSolution::out_of_time));
+                return Ok(fine);
             }
             fine.estimate_errors(coarse.as_ref(), settings);
             met = tolerance.is_none_or(|tolerance| fine.meets(tolerance, settings));
@@ -109,9 +109,10 @@ impl MeshSolution {
     }
 
     /// What is left if there was no time for a finer mesh.
-    fn out_of_time(mut self) -> Self {
-        self.report.status = Status::TimeLimit;
-        self
+    pub fn out_of_time(&self) -> Self {
+        let mut left = self.clone();
+        left.report.status = Status::TimeLimit;
+        left
     }
 
     fn converged(&self) -> bool {
