@@ -279,12 +279,17 @@ fn eliminate_row(
     upper: usize,
     watch: &Watch<'_>,
 ) -> Result<(EliminatedRow, Mat<f64>), Status> {
+    // Even copies of the largest blocks take their time.
+    let copy = |row, column, rows, columns| {
+        watch.look()?;
+        Ok(matrix.submatrix(row, column, rows, columns).to_owned())
+    };
     let mut row = EliminatedRow {
         factor: None,
-        lower_upper: matrix.submatrix(0, lower, lower, upper).to_owned(),
-        coupling: matrix.submatrix(lower, 0, upper, lower).to_owned(),
+        lower_upper: copy(0, lower, lower, upper)?,
+        coupling: copy(lower, 0, upper, lower)?,
     };
-    let mut schur = matrix.submatrix(0, 0, lower, lower).to_owned();
+    let mut schur = copy(0, 0, lower, lower)?;
     if upper > 0 {
         let factor = Factor::new(matrix.submatrix(lower, lower, upper, upper), watch)?;
         factor.solve(&mut row.coupling, watch)?;

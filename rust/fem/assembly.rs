@@ -100,6 +100,7 @@ impl Block<'_> {
         let size = (self.mesh.order + 1) * self.mesh.layer_size();
         let mut matrix = Matrix::zeros(size, size);
         for column in 0..self.mesh.columns {
+            watch.look()?;
             self.add_local(row, column, field, state, &mut matrix);
         }
         if let Memory::Sliding(history) = self.memory {

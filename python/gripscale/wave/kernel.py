@@ -59,8 +59,8 @@ def solve_steady(
         **_body(problem.rubber, problem.profile, mesh),
         "load": {"pressure": load.pressure, "speed": load.speed, "load_time": load.load_time},
     }
-    return _asked(lambda: 
-        _kernel.solve_steady(inputs, settings, tolerance, start, time_limit, look)
+    return _asked(
+        lambda: _kernel.solve_steady(inputs, settings, tolerance, start, time_limit, look)
     )
 
 
@@ -75,8 +75,8 @@ def solve_transient(
 ) -> tuple[str, int, NDArray[np.float64]]:
     """Return status, iterations and a row of numbers for each moment of a programme in time."""
     body = _body(rubber, profile, mesh)
-    return _asked(lambda: 
-        _kernel.solve_transient(body, settings, list(stages), start, time_limit, look)
+    return _asked(
+        lambda: _kernel.solve_transient(body, settings, list(stages), start, time_limit, look)
     )
 
 
