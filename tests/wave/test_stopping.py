@@ -1,4 +1,4 @@
-"""A solve ends when it is told to, at any moment and any size: by Ctrl-C, a job's end, a time limit."""
+"""A solve ends when it is told to, at any size: by Ctrl-C, the end of its job, a time limit."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def long_solve(columns: int) -> gs.WaveResult:
 
 @pytest.mark.parametrize(("columns", "after"), [(512, 0.5), (1022, 2.5)])
 def test_a_keyboard_interrupt_is_heeded_at_once(columns, after):
-    """1022 columns are solved without a coarser mesh first, where the longest pieces of work are."""
+    """1022 columns have no coarser mesh before them: the longest pieces of work there are."""
     assert threading.current_thread() is threading.main_thread()
     due = []
 

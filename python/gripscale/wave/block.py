@@ -32,7 +32,7 @@ class FiniteStrainBlock:
         What differs from `gripscale.wave.default_settings()`.
     time_limit : float, optional
         Seconds after which the solution ends early, as `time limit`: with the finest mesh that was
-        solved, or where there is none with the pressure that was reached. None: as long as it takes.
+        solved, or where there is none with the pressure reached. None: as long as it takes.
 
     Raises
     ------
@@ -139,7 +139,7 @@ def solve_scale(
         512 columns; without it the mesh is the one given.
     time_limit : float, optional
         Seconds after which the solution ends early, as `time limit`: with the finest mesh that was
-        solved, or where there is none with the pressure that was reached. None: as long as it takes.
+        solved, or where there is none with the pressure reached. None: as long as it takes.
     start : WaveResult, optional
         A result of another wave, pressure, speed or rubber to start from (a warm start).
     max_iterations : int, optional
