@@ -29,6 +29,8 @@ pub enum KernelError {
     },
     #[error("start must be a solution that converged; its status is {0:?}")]
     UnsolvedStart(&'static str),
+    #[error("stopped by the caller")]
+    Stopped,
     /// A state that no input can lead to.
     #[error("internal error: {0}; please report it")]
     Internal(&'static str),

@@ -7,6 +7,7 @@
 //! | room | what |
 //! |---|---|
 //! | `error`, `status`, `settings` | refusals, endings, every constant of the solver |
+//! | `watch` | whether to go on: a caller that stops, a limit of time |
 //! | `linear` | the one file with faer: dense LU, elimination of node layers |
 //! | `material` | kinematics, stress, strain energies, Maxwell elements and what they remember |
 //! | `fem` | element, mesh, block, element rows with their memory coupling |
@@ -37,3 +38,4 @@ pub mod solve;
 pub mod status;
 pub mod steady;
 pub mod transient;
+pub mod watch;

@@ -1,30 +1,145 @@
 //! The one file with faer: dense LU, products, and the block elimination of node layers.
 
+use std::ops::Range;
+
+use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::matmul::matmul;
-use faer::linalg::solvers::{PartialPivLu, Solve};
-use faer::{Accum, Mat, MatRef, Par};
+use faer::linalg::solvers::PartialPivLu;
+use faer::perm::{permute_rows_in_place, permute_rows_in_place_scratch, PermRef};
+use faer::reborrow::{Reborrow, ReborrowMut};
+use faer::{Accum, Mat, MatMut, MatRef, Par};
+
+use crate::status::Status;
+use crate::watch::Watch;
 
 pub use faer::Mat as Matrix;
 
-/// LU factorisation with partial pivoting of a square matrix.
-pub struct Factor(PartialPivLu<f64>);
+/// Most columns of a matrix that are worked on at a time: some ten milliseconds of work at the
+/// sizes of the finest meshes.
+const TILE: usize = 512;
+
+/// LU factorisation with partial pivoting of a square matrix, panel by panel of `TILE` columns.
+///
+/// Right-looking (Golub & Van Loan, Matrix Computations, 4th ed., section 3.4.7): a panel of all
+/// rows still left is factored, its exchanges of rows and its U done to the columns that follow.
+pub struct Factor {
+    panels: Vec<Panel>,
+}
+
+struct Panel {
+    /// First row and column.
+    at: usize,
+    lu: PartialPivLu<f64>,
+    /// Rows of the panel in the columns after it.
+    after: Mat<f64>,
+}
 
 impl Factor {
-    pub fn new(matrix: MatRef<'_, f64>) -> Self {
-        Self(PartialPivLu::new(matrix))
+    /// Factor `matrix`; looks at the watch between panels and tiles.
+    pub fn new(matrix: MatRef<'_, f64>, watch: &Watch<'_>) -> Result<Self, Status> {
+        let size = matrix.nrows();
+        if size <= TILE {
+            watch.look()?;
+            let (lu, after) = (PartialPivLu::new(matrix), Mat::zeros(size, 0));
+            return Ok(Self {
+                panels: vec![Panel { at: 0, lu, after }],
+            });
+        }
+        let mut panels = Vec::new();
+        let mut left = matrix.to_owned();
+        for at in (0..size).step_by(TILE) {
+            watch.look()?;
+            let width = TILE.min(size - at);
+            let lu = PartialPivLu::new(left.get(.., ..width));
+            let mut rest = left.get(.., width..).to_owned();
+            let panel = Panel {
+                at,
+                lu,
+                after: Mat::zeros(width, 0),
+            };
+            for tile in tiles(rest.ncols()) {
+                watch.look()?;
+                panel.forward(rest.get_mut(.., tile));
+            }
+            left = rest.get(width.., ..).to_owned();
+            let after = rest.get(..width, ..).to_owned();
+            panels.push(Panel { after, ..panel });
+        }
+        Ok(Self { panels })
     }
 
-    pub fn solve(&self, right: &mut Mat<f64>) {
-        self.0.solve_in_place(right.as_mut());
+    /// Replace `right` by the solution, tile by tile of its columns.
+    pub fn solve(&self, right: &mut Mat<f64>, watch: &Watch<'_>) -> Result<(), Status> {
+        for tile in tiles(right.ncols()) {
+            let mut part = right.get_mut(.., tile);
+            for panel in &self.panels {
+                watch.look()?;
+                panel.forward(part.rb_mut().get_mut(panel.at.., ..));
+            }
+            for panel in self.panels.iter().rev() {
+                watch.look()?;
+                panel.backward(part.rb_mut().get_mut(panel.at.., ..));
+            }
+        }
+        Ok(())
     }
 }
 
+impl Panel {
+    fn width(&self) -> usize {
+        self.lu.U().ncols()
+    }
+
+    /// From the right-hand side of the rows that were left to L^-1 of it, and those below less
+    /// their share.
+    fn forward(&self, mut right: MatMut<'_, f64>) {
+        let (factor, width) = (self.lu.L(), self.width());
+        permute_rows(right.rb_mut(), self.lu.P());
+        let (mut own, below) = right.split_at_row_mut(width);
+        factor
+            .get(..width, ..)
+            .solve_unit_lower_triangular_in_place(own.rb_mut());
+        matmul(
+            below,
+            Accum::Add,
+            factor.get(width.., ..),
+            own.rb(),
+            -1.0,
+            Par::Seq,
+        );
+    }
+
+    /// Back substitution in the rows of the panel, those below solved.
+    fn backward(&self, right: MatMut<'_, f64>) {
+        let (mut own, below) = right.split_at_row_mut(self.width());
+        let after = self.after.as_ref();
+        matmul(own.rb_mut(), Accum::Add, after, below.rb(), -1.0, Par::Seq);
+        self.lu.U().solve_upper_triangular_in_place(own);
+    }
+}
+
+fn permute_rows(mut target: MatMut<'_, f64>, order: PermRef<'_, usize>) {
+    let scratch = permute_rows_in_place_scratch::<usize, f64>(target.nrows(), target.ncols());
+    let mut memory = MemBuffer::new(scratch);
+    permute_rows_in_place(target.rb_mut(), order, MemStack::new(&mut memory));
+}
+
+fn tiles(count: usize) -> impl Iterator<Item = Range<usize>> {
+    (0..count)
+        .step_by(TILE)
+        .map(move |from| from..count.min(from + TILE))
+}
+
 /// Solve a small dense system; None if it is singular to working precision.
-pub fn solve_dense(matrix: &Mat<f64>, right: &[f64]) -> Option<Vec<f64>> {
+pub fn solve_dense(
+    matrix: &Mat<f64>,
+    right: &[f64],
+    watch: &Watch<'_>,
+) -> Result<Option<Vec<f64>>, Status> {
     let mut x = column(right);
-    Factor::new(matrix.as_ref()).solve(&mut x);
+    Factor::new(matrix.as_ref(), watch)?.solve(&mut x, watch)?;
     let x: Vec<f64> = (0..right.len()).map(|i| x[(i, 0)]).collect();
-    x.iter().all(|v| v.is_finite()).then_some(x)
+    Ok(x.iter().all(|v| v.is_finite()).then_some(x))
 }
 
 pub fn column(values: &[f64]) -> Mat<f64> {
@@ -82,27 +197,33 @@ pub struct Reduced {
 impl Elimination {
     /// Factor a block whose layers have `layer` unknowns, from the matrices of its element rows:
     /// the uppermost, its last layer the fixed lid, and those below from the top down.
-    pub fn new(layer: usize, uppermost: Mat<f64>, below: impl Iterator<Item = Mat<f64>>) -> Self {
-        let (row, mut surface_matrix) =
-            eliminate_row(&uppermost, layer, uppermost.nrows() - 2 * layer);
+    pub fn new(
+        layer: usize,
+        uppermost: Mat<f64>,
+        below: impl Iterator<Item = Result<Mat<f64>, Status>>,
+        watch: &Watch<'_>,
+    ) -> Result<Self, Status> {
+        let upper = uppermost.nrows() - 2 * layer;
+        let (row, mut surface_matrix) = eliminate_row(&uppermost, layer, upper, watch)?;
         let mut rows = vec![row];
-        for mut matrix in below {
+        for matrix in below {
+            let mut matrix = matrix?;
             let upper = matrix.nrows() - layer;
             add_block(&mut matrix, upper, &surface_matrix);
-            let (row, schur) = eliminate_row(&matrix, layer, upper);
+            let (row, schur) = eliminate_row(&matrix, layer, upper, watch)?;
             rows.push(row);
             surface_matrix = schur;
         }
         rows.reverse();
-        Self {
+        Ok(Self {
             rows,
             layer,
             surface_matrix,
-        }
+        })
     }
 
     /// Carry the right-hand sides of all element rows down to the surface.
-    pub fn reduce(&self, rights: &[Vec<f64>]) -> Reduced {
+    pub fn reduce(&self, rights: &[Vec<f64>], watch: &Watch<'_>) -> Result<Reduced, Status> {
         let mut offsets = Vec::with_capacity(self.rows.len());
         let mut above = vec![0.0; self.layer];
         for (row, right) in self.rows.iter().zip(rights).rev() {
@@ -115,60 +236,91 @@ impl Elimination {
                 }
             }
             if let Some(factor) = &row.factor {
-                factor.solve(&mut offset);
+                factor.solve(&mut offset, watch)?;
             }
             let mut lower = column(&right[..self.layer]);
             if upper > 0 {
-                add_product(&mut lower, &row.lower_upper, &offset, -1.0);
+                add_product(&mut lower, &row.lower_upper, &offset, -1.0, watch)?;
             }
             above = column_ref(&lower, 0).to_vec();
             offsets.push(offset);
         }
         offsets.reverse();
-        Reduced {
+        Ok(Reduced {
             offsets,
             surface_right: above,
-        }
+        })
     }
 
     /// All layers' unknowns (the lid excluded) from those of the contact surface.
-    pub fn expand(&self, reduced: &Reduced, surface: &[f64]) -> Vec<f64> {
+    pub fn expand(
+        &self,
+        reduced: &Reduced,
+        surface: &[f64],
+        watch: &Watch<'_>,
+    ) -> Result<Vec<f64>, Status> {
         let mut all = surface.to_vec();
         for (row, offset) in self.rows.iter().zip(&reduced.offsets) {
             let lowest = column(&all[all.len() - self.layer..]);
             let mut upper = offset.clone();
             if upper.nrows() > 0 {
-                add_product(&mut upper, &row.coupling, &lowest, -1.0);
+                add_product(&mut upper, &row.coupling, &lowest, -1.0, watch)?;
                 all.extend_from_slice(column_ref(&upper, 0));
             }
         }
-        all
+        Ok(all)
     }
 }
 
 /// Eliminate the `upper` unknowns above the lowest layer of one element row.
-fn eliminate_row(matrix: &Mat<f64>, lower: usize, upper: usize) -> (EliminatedRow, Mat<f64>) {
-    let lower_upper = matrix.submatrix(0, lower, lower, upper).to_owned();
-    let mut coupling = matrix.submatrix(lower, 0, upper, lower).to_owned();
-    let mut schur = matrix.submatrix(0, 0, lower, lower).to_owned();
-    let factor = (upper > 0).then(|| {
-        let factor = Factor::new(matrix.submatrix(lower, lower, upper, upper));
-        factor.solve(&mut coupling);
-        add_product(&mut schur, &lower_upper, &coupling, -1.0);
-        factor
-    });
-    let row = EliminatedRow {
-        factor,
-        lower_upper,
-        coupling,
+fn eliminate_row(
+    matrix: &Mat<f64>,
+    lower: usize,
+    upper: usize,
+    watch: &Watch<'_>,
+) -> Result<(EliminatedRow, Mat<f64>), Status> {
+    // Even copies of the largest blocks take their time.
+    let copy = |row, column, rows, columns| {
+        watch.look()?;
+        Ok(matrix.submatrix(row, column, rows, columns).to_owned())
     };
-    (row, schur)
+    let mut row = EliminatedRow {
+        factor: None,
+        lower_upper: copy(0, lower, lower, upper)?,
+        coupling: copy(lower, 0, upper, lower)?,
+    };
+    let mut schur = copy(0, 0, lower, lower)?;
+    if upper > 0 {
+        let factor = Factor::new(matrix.submatrix(lower, lower, upper, upper), watch)?;
+        factor.solve(&mut row.coupling, watch)?;
+        add_product(&mut schur, &row.lower_upper, &row.coupling, -1.0, watch)?;
+        row.factor = Some(factor);
+    }
+    Ok((row, schur))
 }
 
 /// target += factor left right.
-fn add_product(target: &mut Mat<f64>, left: &Mat<f64>, right: &Mat<f64>, factor: f64) {
-    let (left, right) = (left.as_ref(), right.as_ref());
-    matmul(target.as_mut(), Accum::Add, left, right, factor, Par::Seq);
+fn add_product(
+    target: &mut Mat<f64>,
+    left: &Mat<f64>,
+    right: &Mat<f64>,
+    factor: f64,
+    watch: &Watch<'_>,
+) -> Result<(), Status> {
+    for columns in tiles(target.ncols()) {
+        for inner in tiles(left.ncols()) {
+            watch.look()?;
+            matmul(
+                target.get_mut(.., columns.clone()),
+                Accum::Add,
+                left.get(.., inner.clone()),
+                right.get(inner, columns.clone()),
+                factor,
+                Par::Seq,
+            );
+        }
+    }
+    Ok(())
 }
 
 fn add_block(target: &mut Mat<f64>, at: usize, block: &Mat<f64>) {

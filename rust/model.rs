@@ -12,6 +12,7 @@ use crate::fem::mesh::Mesh;
 use crate::material::energy::Energy;
 use crate::material::maxwell::Maxwell;
 use crate::problem::{Profile, Rubber};
+use crate::watch::Watch;
 
 pub struct Model {
     /// [Pa].
@@ -49,8 +50,13 @@ impl Model {
         }
     }
 
-    /// The block on its profile.
-    pub fn pressed<'a>(&'a self, mesh: &'a Mesh, memory: &'a Memory) -> PressedBlock<'a> {
+    /// The block on its profile, worked on as long as `watch` lets it.
+    pub fn pressed<'a>(
+        &'a self,
+        mesh: &'a Mesh,
+        memory: &'a Memory,
+        watch: &'a Watch<'a>,
+    ) -> PressedBlock<'a> {
         PressedBlock {
             block: Block {
                 mesh,
@@ -60,6 +66,7 @@ impl Model {
                 bulk_modulus: self.bulk_modulus,
             },
             heights: &self.heights,
+            watch,
         }
     }
 

@@ -4,6 +4,7 @@ use crate::contact::edges::{contacts, EdgeLaw};
 use crate::contact::{PressedBlock, State};
 use crate::fem::element::edge_weights;
 use crate::material::kinematics::principal_stretches;
+use crate::status::Status;
 
 #[derive(Debug, Clone)]
 pub struct Outcome {
@@ -20,16 +21,17 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    pub fn of(pressed: &PressedBlock<'_>, state: &State, law: EdgeLaw) -> Self {
+    /// Of a state; refused only by the watch of `pressed`.
+    pub fn of(pressed: &PressedBlock<'_>, state: &State, law: EdgeLaw) -> Result<Self, Status> {
         let nodes = state.force.len();
         let load: f64 = state.force.iter().sum();
-        let rows = pressed.row_states(&state.field);
+        let rows = pressed.row_states(&state.field)?;
         let x = pressed.abscissae(&state.field);
         let pressure = pressures(pressed.block.mesh.order, &x, &state.force);
         let drag: f64 = (0..nodes)
             .map(|a| state.force[a] * pressed.heights.slope(x[a]))
             .sum();
-        let lost = pressed.block.dissipation(&rows);
+        let lost = pressed.block.dissipation(&rows, pressed.watch)?;
         let (mut low, mut high) = (f64::INFINITY, 0.0_f64);
         for f in rows.iter().flat_map(|row| row.gradient.iter().flatten()) {
             let (least, most) = principal_stretches(f);
@@ -39,7 +41,7 @@ impl Outcome {
         let gap = pressed.gaps(state, &x);
         let contacts = contacts(&x, &pressure, &gap, &state.active, law);
         let length = contacts.iter().map(|(from, to)| to - from).sum::<f64>();
-        Self {
+        Ok(Self {
             contact_fraction: length.clamp(0.0, 1.0),
             contacts,
             friction: drag / load,
@@ -48,7 +50,7 @@ impl Outcome {
             max_stretch: high,
             x,
             pressure,
-        }
+        })
     }
 }
 

@@ -1,9 +1,10 @@
 //! Python bindings: arguments in, arrays out, the interpreter released in between. No numerics.
 
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 use numpy::{PyArray1, PyArray2};
-use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyMapping;
 
@@ -16,11 +17,13 @@ use crate::solution::Solution;
 use crate::status::Status;
 use crate::steady;
 use crate::transient::{self, Moment, Stage};
+use crate::watch::Watch;
 
 impl From<KernelError> for PyErr {
     fn from(error: KernelError) -> Self {
         let text = error.to_string();
         match error {
+            KernelError::Stopped => PyKeyboardInterrupt::new_err(text),
             KernelError::Internal(_) => PyRuntimeError::new_err(text),
             _ => PyValueError::new_err(text),
         }
@@ -176,7 +179,33 @@ fn settings(changes: &Bound<'_, PyMapping>) -> PyResult<Settings> {
     Ok(Settings::new(changes)?)
 }
 
+/// Run `solve` without the interpreter, which is asked now and then whether to go on: by a signal
+/// such as Ctrl-C, and by `look`, which raises to stop. What was raised is what comes out.
+fn watched<T: Send>(
+    py: Python<'_>,
+    look: &Bound<'_, PyAny>,
+    time_limit: Option<f64>,
+    solve: impl FnOnce(&Watch<'_>) -> Result<T, KernelError> + Send,
+) -> PyResult<T> {
+    let look = look.clone().unbind();
+    let raised: OnceLock<PyErr> = OnceLock::new();
+    let stopped = || {
+        let ask = |py: Python<'_>| py.check_signals().and_then(|()| look.call0(py));
+        if let Err(error) = Python::attach(ask) {
+            // The first is kept.
+            raised.get_or_init(|| error);
+        }
+        raised.get().is_some()
+    };
+    let found = py.detach(|| solve(&Watch::new(&stopped, time_limit)?));
+    match raised.into_inner() {
+        Some(error) => Err(error),
+        None => Ok(found?),
+    }
+}
+
 /// Solve one wave at rest or in steady sliding; `start`, any other solution, is a first guess.
+/// `look` is called every 50 ms and raises to stop; what `time_limit` [s] leaves time for is solved.
 #[pyfunction]
 fn solve_steady(
     py: Python<'_>,
@@ -184,6 +213,8 @@ fn solve_steady(
     settings: &Bound<'_, PyMapping>,
     tolerance: Option<f64>,
     start: Option<Bound<'_, PySolution>>,
+    time_limit: Option<f64>,
+    look: &Bound<'_, PyAny>,
 ) -> PyResult<PySolution> {
     let (rubber, profile, mesh) = problem.extract::<BodyItems>()?.checked()?;
     let load: LoadItems = problem.get_item("load")?.extract()?;
@@ -195,13 +226,13 @@ fn solve_steady(
     };
     let settings = self::settings(settings)?;
     let start = start.as_ref().map(|solution| &solution.get().0);
-    let solve = || steady::solve(&problem, &settings, tolerance, start);
-    Ok(PySolution(py.detach(solve)?))
+    let solve = |watch: &Watch<'_>| steady::solve(&problem, &settings, tolerance, start, watch);
+    Ok(PySolution(watched(py, look, time_limit, solve)?))
 }
 
 /// Slide through stages (duration, speed, pressure), from rest or from a `start` of the same rubber
 /// and profile. Returns status, iterations and one row per moment: time, distance, speed, pressure,
-/// friction, contact fraction, approach.
+/// friction, contact fraction, approach. `look` and `time_limit` are those of `solve_steady`.
 #[pyfunction]
 fn solve_transient<'py>(
     py: Python<'py>,
@@ -209,6 +240,8 @@ fn solve_transient<'py>(
     settings: &Bound<'py, PyMapping>,
     stages: Vec<(f64, f64, f64)>,
     start: Option<Bound<'py, PySolution>>,
+    time_limit: Option<f64>,
+    look: &Bound<'py, PyAny>,
 ) -> PyResult<(&'static str, usize, Table<'py>)> {
     let (rubber, profile, mesh) = problem.checked()?;
     let settings = self::settings(settings)?;
@@ -219,8 +252,10 @@ fn solve_transient<'py>(
         pressure,
     };
     let stages: Vec<Stage> = stages.into_iter().map(stage).collect();
-    let solve = || transient::solve(&rubber, &profile, &mesh, &settings, &stages, start);
-    let run = py.detach(solve)?;
+    let solve = |watch: &Watch<'_>| {
+        transient::solve(&rubber, &profile, &mesh, &settings, &stages, start, watch)
+    };
+    let run = watched(py, look, time_limit, solve)?;
     let row = |m: &Moment| {
         vec![
             m.time,

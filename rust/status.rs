@@ -27,6 +27,8 @@ statuses! {
     NotFinite = "not finite",
     /// The load can be raised no further, in however small steps.
     Fold = "fold in the load path",
+    /// Ended early: what was solved by then.
+    TimeLimit = "time limit",
     /// Solved, but the finest mesh allowed does not meet the accuracy asked for.
     ToleranceNotMet = "tolerance not met",
 }

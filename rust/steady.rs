@@ -20,15 +20,18 @@ use crate::solve::mesh_sequence::{MeshSequence, MeshSolution};
 use crate::solve::newton;
 use crate::solve::transfer::transfer;
 use crate::status::Status;
+use crate::watch::Watch;
 
 /// Solve `problem`. With a `tolerance`, the largest estimated error (relative in friction, absolute
 /// in contact fraction), the mesh is refined until it is met. `start`, of any rubber, profile and
-/// load, is only a first guess.
+/// load, is only a first guess. `watch` may end it early: with what was solved by then if its time is
+/// over, with a refusal if the caller stopped.
 pub fn solve(
     problem: &Problem,
     settings: &Settings,
     tolerance: Option<f64>,
     start: Option<&Solution>,
+    watch: &Watch<'_>,
 ) -> Result<Solution, KernelError> {
     positive("tolerance", tolerance.unwrap_or(1.0))?;
     problem.profile.check_resolved(&problem.mesh)?;
@@ -39,11 +42,12 @@ pub fn solve(
         model: &model,
         settings,
         start,
+        watch,
         counts: Counts::default(),
     };
-    let start_columns = start.map(|solution| solution.finest.mesh.columns);
+    let first = start.map(|solution| &solution.finest);
     let fewest = problem.profile.heights.fewest_nodes();
-    let sequence = MeshSequence::new(&problem.mesh, tolerance, start_columns, fewest, settings);
+    let sequence = MeshSequence::new(&problem.mesh, tolerance, first, fewest, settings);
     let on_mesh = |mesh: Mesh, coarse: Option<&MeshSolution>| work.on_mesh(mesh, coarse);
     let finest = sequence.solve(tolerance, settings, on_mesh)?;
     Ok(Solution {
@@ -59,14 +63,19 @@ struct Work<'a> {
     model: &'a Model,
     settings: &'a Settings,
     start: Option<&'a Solution>,
+    watch: &'a Watch<'a>,
     counts: Counts,
 }
 
 impl Work<'_> {
     /// Solve on `mesh`: from the coarser mesh, else from the start, else by raising the load.
-    fn on_mesh(&mut self, mesh: Mesh, coarse: Option<&MeshSolution>) -> MeshSolution {
+    fn on_mesh(
+        &mut self,
+        mesh: Mesh,
+        coarse: Option<&MeshSolution>,
+    ) -> Result<MeshSolution, KernelError> {
         let memory = self.memory(&mesh);
-        let pressed = self.model.pressed(&mesh, &memory);
+        let pressed = self.model.pressed(&mesh, &memory, self.watch);
         let load = self.problem.load.pressure / self.model.stress_unit;
         let mut solved = None;
         if let Some(mut state) = self.guess(&mesh, coarse) {
@@ -83,8 +92,15 @@ impl Work<'_> {
                 raise(&pressed, &mut state, load, self.settings, &mut self.counts);
             (state, report, reached)
         });
-        let outcome = Outcome::of(&pressed, &state, self.model.edge_law(&mesh, 1.0));
-        MeshSolution {
+        self.watch.unless_stopped()?;
+        if let (Status::TimeLimit, Some(coarse)) = (report.status, coarse) {
+            return Ok(coarse.out_of_time());
+        }
+        let to_the_end = self.watch.unlimited();
+        let pressed = self.model.pressed(&mesh, &memory, &to_the_end);
+        let outcome = Outcome::of(&pressed, &state, self.model.edge_law(&mesh, 1.0))
+            .map_err(|_| KernelError::Stopped)?;
+        Ok(MeshSolution {
             mesh,
             state,
             report,
@@ -92,7 +108,7 @@ impl Work<'_> {
             outcome,
             contact_fraction_error: f64::NAN,
             friction_error: f64::NAN,
-        }
+        })
     }
 
     fn guess(&self, mesh: &Mesh, coarse: Option<&MeshSolution>) -> Option<State> {

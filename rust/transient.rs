@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 use crate::contact::{PressedBlock, State};
 use crate::error::{finite, positive, KernelError};
-use crate::fem::block::{Memory, RowState};
+use crate::fem::block::Memory;
 use crate::fem::mesh::Mesh;
 use crate::material::carried_history::{CarriedHistory, Points};
 use crate::model::Model;
@@ -20,6 +20,7 @@ use crate::solve::load_stepping::{raise, Counts};
 use crate::solve::newton::{self, Factored, Report};
 use crate::solve::transfer::transfer;
 use crate::status::Status;
+use crate::watch::Watch;
 
 /// A stretch of time with constant speed [m/s] and pressure [Pa].
 #[derive(Debug, Clone, Copy)]
@@ -53,7 +54,8 @@ pub struct Run {
 }
 
 /// Slide through `stages`, from rest or from a steady or static `start` of the same rubber and
-/// profile; its load and mesh may be others.
+/// profile; its load and mesh may be others. `watch` may end it early: with the moments before if its
+/// time is over, with a refusal if the caller stopped.
 pub fn solve(
     rubber: &Rubber,
     profile: &Profile,
@@ -61,6 +63,7 @@ pub fn solve(
     settings: &Settings,
     stages: &[Stage],
     start: Option<&Solution>,
+    watch: &Watch<'_>,
 ) -> Result<Run, KernelError> {
     profile.check_resolved(mesh)?;
     for stage in stages {
@@ -81,8 +84,11 @@ pub fn solve(
     };
     let model = Model::new(rubber, profile, 1.0, TAU * speed / profile.wavelength);
     let mesh = Mesh::new(mesh);
-    let mut integration = Integration::new(&model, &mesh, settings, profile.wavelength, start);
+    let mut integration =
+        Integration::new(&model, &mesh, settings, profile.wavelength, start, watch);
     let status = integration.through(stages, start.is_some());
+    watch.unless_stopped()?;
+    let status = status.map_or_else(|early| early, |()| Status::Converged);
     Ok(Run {
         moments: integration.moments,
         status,
@@ -117,6 +123,7 @@ struct Integration<'a> {
     mesh: &'a Mesh,
     settings: &'a Settings,
     wavelength: f64,
+    watch: &'a Watch<'a>,
     state: State,
     networks: CarriedHistory,
     /// The factored block of the last step, good enough for the next one as a rule.
@@ -134,6 +141,7 @@ impl<'a> Integration<'a> {
         settings: &'a Settings,
         wavelength: f64,
         start: Option<&Solution>,
+        watch: &'a Watch<'a>,
     ) -> Self {
         let state = start.map_or_else(
             || State::at_rest(mesh),
@@ -142,13 +150,14 @@ impl<'a> Integration<'a> {
                 transfer(&from.mesh, &from.state, mesh, stress)
             },
         );
-        let y = remembered(&model.pressed(mesh, &Memory::Relaxed), &state);
+        let y = remembered(&model.pressed(mesh, &Memory::Relaxed, watch), &state);
         Self {
             networks: networks(model, mesh, wavelength, y, start),
             model,
             mesh,
             settings,
             wavelength,
+            watch,
             state,
             kept: None,
             counts: Counts::default(),
@@ -158,37 +167,32 @@ impl<'a> Integration<'a> {
         }
     }
 
-    fn through(&mut self, stages: &[Stage], mut pressed: bool) -> Status {
+    fn through(&mut self, stages: &[Stage], mut pressed: bool) -> Result<(), Status> {
         for stage in stages {
             if !pressed {
-                let report = self.press(stage.pressure);
-                if report.status != Status::Converged {
-                    return report.status;
-                }
-                self.record(stage);
+                self.press(stage.pressure)?;
+                self.record(stage)?;
                 pressed = true;
             }
             for dt in self.steps(stage) {
-                let report = self.step(stage, dt);
-                if report.status != Status::Converged {
-                    return report.status;
-                }
-                self.record(stage);
+                self.step(stage, dt)?;
+                self.record(stage)?;
             }
         }
-        Status::Converged
+        Ok(())
     }
 
     /// Put the load on at once: the networks answer as springs.
-    fn press(&mut self, pressure: f64) -> Report {
+    fn press(&mut self, pressure: f64) -> Result<(), Status> {
         let memory = Memory::Given(self.networks.known_part(&self.model.maxwell, 0.0));
-        let pressed = self.model.pressed(self.mesh, &memory);
+        let pressed = self.model.pressed(self.mesh, &memory, self.watch);
         let load = pressure / self.model.stress_unit;
         let counts = &mut self.counts;
         let (report, _) = raise(&pressed, &mut self.state, load, self.settings, counts);
+        report.converged()?;
         let y = remembered(&pressed, &self.state);
         self.networks.advance(y, &self.model.maxwell, 0.0);
-        report
+        Ok(())
     }
 
     /// Lengths of the time steps of a stage: one column each, or growing in a dwell.
@@ -209,18 +213,19 @@ impl<'a> Integration<'a> {
         vec![dt; (stage.duration / dt).round().max(1.0) as usize]
     }
 
-    fn step(&mut self, stage: &Stage, dt: f64) -> Report {
+    fn step(&mut self, stage: &Stage, dt: f64) -> Result<(), Status> {
         if stage.speed != 0.0 {
             self.networks.carry(stage.speed > 0.0);
         }
         self.time += dt;
         self.distance += stage.speed * dt;
         let memory = Memory::Given(self.networks.known_part(&self.model.maxwell, dt));
-        let pressed = self.model.pressed(self.mesh, &memory);
-        let report = self.follow(&pressed, stage.pressure / self.model.stress_unit);
+        let pressed = self.model.pressed(self.mesh, &memory, self.watch);
+        let load = stage.pressure / self.model.stress_unit;
+        self.follow(&pressed, load).converged()?;
         let y = remembered(&pressed, &self.state);
         self.networks.advance(y, &self.model.maxwell, dt);
-        report
+        Ok(())
     }
 
     /// Newton from the last step's state; if that fails, the load is led to its new value in parts,
@@ -251,12 +256,12 @@ impl<'a> Integration<'a> {
         report
     }
 
-    fn record(&mut self, stage: &Stage) {
-        let pressed = self.model.pressed(self.mesh, &Memory::Relaxed);
+    fn record(&mut self, stage: &Stage) -> Result<(), Status> {
+        let pressed = self.model.pressed(self.mesh, &Memory::Relaxed, self.watch);
         let law = self
             .model
             .edge_law(self.mesh, stage.speed / self.wavelength);
-        let outcome = Outcome::of(&pressed, &self.state, law);
+        let outcome = Outcome::of(&pressed, &self.state, law)?;
         self.moments.push(Moment {
             time: self.time,
             distance: self.distance,
@@ -266,6 +271,7 @@ impl<'a> Integration<'a> {
             contact_fraction: outcome.contact_fraction,
             approach: self.state.approach,
         });
+        Ok(())
     }
 }
 
@@ -290,6 +296,8 @@ fn networks(
 
 /// What the temporary networks remember of the deformation in `state`.
 fn remembered(pressed: &PressedBlock<'_>, state: &State) -> Points {
-    let rows = pressed.row_states(&state.field);
-    rows.iter().map(RowState::remembered).collect()
+    let block = &pressed.block;
+    (0..block.mesh.rows)
+        .map(|row| block.row_state(row, &state.field.u).remembered())
+        .collect()
 }

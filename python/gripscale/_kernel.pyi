@@ -1,4 +1,4 @@
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Literal, TypedDict, final, type_check_only
 
 import numpy as np
@@ -104,12 +104,16 @@ def solve_steady(
     settings: Mapping[str, float],
     tolerance: float | None,
     start: Solution | None,
+    time_limit: float | None,
+    look: Callable[[], object],
 ) -> Solution: ...
 def solve_transient(
     problem: Body,
     settings: Mapping[str, float],
     stages: list[tuple[float, float, float]],
     start: Solution | None,
+    time_limit: float | None,
+    look: Callable[[], object],
 ) -> tuple[str, int, NDArray[np.float64]]: ...
 def default_settings() -> list[tuple[str, float, str]]: ...
 def statuses() -> list[str]: ...

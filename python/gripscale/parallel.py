@@ -13,6 +13,21 @@ from gripscale import checks
 T = TypeVar("T")
 Job = Callable[[threading.Event], T]
 """Solves one task; gives up between two steps once the event is set."""
+_here = threading.local()
+
+
+class Stopped(Exception):
+    """Somebody asked for an end."""
+
+
+def look() -> None:
+    """Raise `Stopped` if the job that this thread works on is to end.
+
+    For long work below a job, which does not know the job's event; does nothing in other threads.
+    """
+    stop = getattr(_here, "stop", None)
+    if stop is not None and stop.is_set():
+        raise Stopped
 
 
 def cores() -> int:
@@ -32,10 +47,10 @@ def in_threads(jobs: Sequence[Job[T]], workers: int) -> Generator[tuple[int, T],
     """Yield the place and the result of each job as they come.
 
     On any end but the natural one (an error, Ctrl-C, `close`) the others are told to stop, and
-    those that run are waited for.
+    those that run are waited for: they hear it from their event and from `look`.
     """
     stop = threading.Event()
-    pool = ThreadPoolExecutor(workers, thread_name_prefix="gripscale")
+    pool = ThreadPoolExecutor(workers, "gripscale", initializer=_serve, initargs=(stop,))
     try:
         futures: dict[Future[T], int] = {
             pool.submit(job, stop): place for place, job in enumerate(jobs)
@@ -45,3 +60,8 @@ def in_threads(jobs: Sequence[Job[T]], workers: int) -> Generator[tuple[int, T],
     finally:
         stop.set()
         pool.shutdown(wait=True, cancel_futures=True)
+
+
+def _serve(stop: threading.Event) -> None:
+    """Tell `look` what ends the jobs of this thread."""
+    _here.stop = stop

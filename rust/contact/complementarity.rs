@@ -7,6 +7,8 @@
 
 use crate::linear::{solve_dense, Matrix};
 use crate::settings::Settings;
+use crate::status::Status;
+use crate::watch::Watch;
 
 #[derive(Debug, Clone)]
 pub struct Contact {
@@ -15,14 +17,15 @@ pub struct Contact {
     pub active: Vec<bool>,
 }
 
-/// Solve from the active set `start`; None if no active set satisfies the conditions.
+/// Solve from the active set `start`; `NoActiveSet` if none satisfies the conditions.
 pub fn solve(
     compliance: &Matrix<f64>,
     free: &[f64],
     load: f64,
     start: &[bool],
     settings: &Settings,
-) -> Option<Contact> {
+    watch: &Watch<'_>,
+) -> Result<Contact, Status> {
     let (rounds, tolerance) = (settings.active_set_rounds, settings.active_set_tolerance);
     let mut active = start.to_vec();
     if !active.iter().any(|&a| a) {
@@ -31,7 +34,8 @@ pub fn solve(
     let mut seen: Vec<Vec<bool>> = Vec::new();
     let scale = free.iter().fold(1e-300_f64, |m, g| m.max(g.abs()));
     for round in 0..rounds + settings.single_node_rounds {
-        let (force, approach) = on_set(compliance, free, load, &active)?;
+        let solved = on_set(compliance, free, load, &active, watch)?;
+        let (force, approach) = solved.ok_or(Status::NoActiveSet)?;
         let gap = gaps(compliance, free, &force, approach);
         let force_scale = load / active.iter().filter(|&&a| a).count() as f64;
         // Positive entries violate their condition, in units of the problem's own scale.
@@ -45,7 +49,7 @@ pub fn solve(
             })
             .collect();
         if wrong.iter().all(|&w| w <= tolerance) {
-            return Some(Contact {
+            return Ok(Contact {
                 force,
                 approach,
                 active,
@@ -67,7 +71,7 @@ pub fn solve(
             active[lowest(free)] = true;
         }
     }
-    None
+    Err(Status::NoActiveSet)
 }
 
 fn lowest(values: &[f64]) -> usize {
@@ -85,7 +89,8 @@ fn on_set(
     free: &[f64],
     load: f64,
     active: &[bool],
-) -> Option<(Vec<f64>, f64)> {
+    watch: &Watch<'_>,
+) -> Result<Option<(Vec<f64>, f64)>, Status> {
     let set: Vec<usize> = (0..active.len()).filter(|&i| active[i]).collect();
     let n = set.len();
     // Scale the border like the compliance so that pivoting sees comparable rows.
@@ -101,12 +106,14 @@ fn on_set(
     });
     let mut right: Vec<f64> = set.iter().map(|&i| -free[i]).collect();
     right.push(border * load);
-    let solution = solve_dense(&matrix, &right)?;
+    let Some(solution) = solve_dense(&matrix, &right, watch)? else {
+        return Ok(None);
+    };
     let mut force = vec![0.0; active.len()];
     for (&i, &f) in set.iter().zip(&solution) {
         force[i] = f;
     }
-    Some((force, border * solution[n]))
+    Ok(Some((force, border * solution[n])))
 }
 
 fn gaps(compliance: &Matrix<f64>, free: &[f64], force: &[f64], approach: f64) -> Vec<f64> {

@@ -48,7 +48,7 @@ impl PressedBlock<'_> {
         for (i, &right) in right.iter().enumerate() {
             response[(i, nodes)] = right;
         }
-        Factor::new(matrix.as_ref()).solve(&mut response);
+        Factor::new(matrix.as_ref(), self.watch)?.solve(&mut response, self.watch)?;
         let shift = follow_mean(&mut response, &at_x);
         let opening = |column: usize, a: usize| {
             response[(at_z[a], column)] - slope[a] * (response[(at_x[a], column)] - shift[column])
@@ -61,8 +61,14 @@ impl PressedBlock<'_> {
         if free.iter().any(|g| !g.is_finite()) {
             return Err(Status::NotFinite);
         }
-        let contact = complementarity::solve(&compliance, &free, load, &state.active, settings)
-            .ok_or(Status::NoActiveSet)?;
+        let contact = complementarity::solve(
+            &compliance,
+            &free,
+            load,
+            &state.active,
+            settings,
+            self.watch,
+        )?;
         let surface = (0..2 * nodes)
             .map(|i| {
                 let pushed: f64 = (0..nodes)

@@ -8,6 +8,8 @@ pub mod profile;
 
 use crate::fem::block::{Block, Field, RowState};
 use crate::fem::mesh::Mesh;
+use crate::status::Status;
+use crate::watch::Watch;
 use profile::Heights;
 
 /// Everything that changes while solving.
@@ -36,6 +38,8 @@ impl State {
 pub struct PressedBlock<'a> {
     pub block: Block<'a>,
     pub heights: &'a Heights,
+    /// Whether to go on.
+    pub watch: &'a Watch<'a>,
 }
 
 impl PressedBlock<'_> {
@@ -60,9 +64,12 @@ impl PressedBlock<'_> {
             .collect()
     }
 
-    pub fn row_states(&self, field: &Field) -> Vec<RowState> {
+    pub fn row_states(&self, field: &Field) -> Result<Vec<RowState>, Status> {
         (0..self.mesh().rows)
-            .map(|row| self.block.row_state(row, &field.u))
+            .map(|row| {
+                self.watch.look()?;
+                Ok(self.block.row_state(row, &field.u))
+            })
             .collect()
     }
 }

@@ -8,6 +8,8 @@ use super::block::{Block, Field, Memory, RowState};
 use crate::linear::{self, Matrix};
 use crate::material::kinematics::{cofactor, jacobian, Gradient};
 use crate::material::stress::{memory_slope, stress, tangent};
+use crate::status::Status;
+use crate::watch::Watch;
 
 impl Block<'_> {
     /// Residual of the pressure equation of one element.
@@ -88,16 +90,23 @@ impl Block<'_> {
     }
 
     /// Tangent of one row with its pressures condensed.
-    pub fn row_matrix(&self, row: usize, field: &Field, state: &RowState) -> Matrix<f64> {
+    pub fn row_matrix(
+        &self,
+        row: usize,
+        field: &Field,
+        state: &RowState,
+        watch: &Watch<'_>,
+    ) -> Result<Matrix<f64>, Status> {
         let size = (self.mesh.order + 1) * self.mesh.layer_size();
         let mut matrix = Matrix::zeros(size, size);
         for column in 0..self.mesh.columns {
+            watch.look()?;
             self.add_local(row, column, field, state, &mut matrix);
         }
         if let Memory::Sliding(history) = self.memory {
-            self.add_memory(row, history, &state.gradient, &mut matrix);
+            self.add_memory(row, history, &state.gradient, &mut matrix, watch)?;
         }
-        matrix
+        Ok(matrix)
     }
 
     /// Tangent of one element at fixed memory, with its pressure condensed.

@@ -3,23 +3,26 @@
 use super::block::{Block, Memory, RowState};
 use super::circular::correlate;
 use crate::material::kinematics::{isochoric, remembered, Gradient, Symmetric, UNIT};
+use crate::status::Status;
+use crate::watch::Watch;
 
 impl Block<'_> {
     /// Energy lost per sliding distance in steady sliding; what is at rest loses none.
-    pub fn dissipation(&self, rows: &[RowState]) -> f64 {
-        match self.memory {
-            Memory::Sliding(history) => history.dissipation.lost(&self.strain_since(rows)),
+    pub fn dissipation(&self, rows: &[RowState], watch: &Watch<'_>) -> Result<f64, Status> {
+        Ok(match self.memory {
+            Memory::Sliding(history) => history.dissipation.lost(&self.strain_since(rows, watch)?),
             Memory::Relaxed | Memory::Given(_) => 0.0,
-        }
+        })
     }
 
     /// Integral of Y(x - m columns) : Cbar(x) - 3 over the block, for every number m of columns.
     ///
     /// As sum y(x - m) : c(x) - y(x) : c(x) with y = Y - I and c = Cbar - I, which leaves the
     /// squares of small strains their digits.
-    pub fn strain_since(&self, rows: &[RowState]) -> Vec<f64> {
+    pub fn strain_since(&self, rows: &[RowState], watch: &Watch<'_>) -> Result<Vec<f64>, Status> {
         let mut product = vec![0.0; self.mesh.columns];
         for (row, state) in rows.iter().enumerate() {
+            watch.look()?;
             for (line, gradient) in state.gradient.iter().enumerate() {
                 self.add_products(row, line, gradient, &mut product);
             }
@@ -27,7 +30,7 @@ impl Block<'_> {
         let own = product[0];
         // Below zero is round-off; NaN must stay.
         let since = |product: f64| if product < own { 0.0 } else { product - own };
-        product.into_iter().map(since).collect()
+        Ok(product.into_iter().map(since).collect())
     }
 
     /// Add the integral of y(x - m columns) : c(x) along one line.

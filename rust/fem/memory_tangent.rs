@@ -9,6 +9,8 @@ use crate::linear::{self, Matrix};
 use crate::material::kinematics::{remembered_slope, Gradient};
 use crate::material::sliding_history::SlidingHistory;
 use crate::material::stress::memory_slope;
+use crate::status::Status;
+use crate::watch::Watch;
 
 impl Block<'_> {
     /// Memory tangent of one row: sum of L_q weight(q - q') R_q' over all pairs of points of a line.
@@ -21,7 +23,8 @@ impl Block<'_> {
         history: &SlidingHistory,
         gradient: &[Vec<Gradient>],
         matrix: &mut Matrix<f64>,
-    ) {
+        watch: &Watch<'_>,
+    ) -> Result<(), Status> {
         let (columns, points) = (self.mesh.columns, self.points());
         let count = 2 * self.mesh.elements[row].nodes();
         let streams = 4 * points * points;
@@ -34,6 +37,7 @@ impl Block<'_> {
         let weights = history.stress.repeat(2);
         let pulp = pulp::Arch::new();
         for source in 0..columns {
+            watch.look()?;
             pulp.dispatch(|| self.spread(source, count, &left, &weights, &mut spread));
             self.right_factors(row, source, gradient, &mut right);
             linear::product(&mut product, &spread, &right);
@@ -46,6 +50,7 @@ impl Block<'_> {
                 }
             });
         }
+        Ok(())
     }
 
     /// Forces on the unknowns of a row per unit of each remembered component at `source`.

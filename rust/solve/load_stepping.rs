@@ -45,6 +45,8 @@ pub fn raise(
                     .min(settings.largest_growth);
             }
             next = (reached * growth).min(load);
+        } else if report.status == Status::TimeLimit {
+            return (report, reached / load);
         } else if reached == 0.0 {
             next *= settings.first_load_cut;
         } else {

@@ -1,4 +1,5 @@
 //! A sequence of meshes, each twice as fine as the one before, the last two telling the error.
+//! With a tolerance an odd number of columns is halved too, and rounded up.
 //!
 //! The coarsest mesh has the load raised step by step, every finer one starts from its predecessor's
 //! solution; with a tolerance the sequence goes on until two agree well enough.
@@ -29,49 +30,54 @@ pub struct MeshSolution {
 pub struct MeshSequence(pub Vec<MeshSize>);
 
 impl MeshSequence {
-    /// Up to the mesh asked for, or with a tolerance beyond it; less of it is needed where a
-    /// solution on `start_columns` is there to start from. No mesh has less than half of the
+    /// Up to the mesh asked for, or with a tolerance beyond it; less of it is needed where there is
+    /// a solution to `start` from. No mesh has less than half of the
     /// `fewest_nodes` that resolve the profile: it would find contacts that are not there, and
     /// finer meshes may keep them.
     pub fn new(
         finest: &MeshSize,
         tolerance: Option<f64>,
-        start_columns: Option<usize>,
+        start: Option<&MeshSolution>,
         fewest_nodes: usize,
         settings: &Settings,
     ) -> Self {
         let coarsest = settings.coarsest_nodes.max(fewest_nodes / 2);
         let mut columns = vec![finest.columns];
-        while columns[0] % 4 == 0 && finest.order * columns[0] / 2 >= coarsest {
-            columns.insert(0, columns[0] / 2);
+        // Two meshes tell the error of the finer one: with a tolerance any mesh has a coarser one.
+        let halves = |count: usize| tolerance.is_some() || count % 4 == 0;
+        while halves(columns[0]) && finest.order * columns[0].div_ceil(2) >= coarsest {
+            columns.insert(0, columns[0].div_ceil(2));
         }
-        if tolerance.is_some() {
+        if let Some(tolerance) = tolerance {
             while columns[columns.len() - 1] * 2 <= settings.finest_columns {
                 columns.push(columns[columns.len() - 1] * 2);
             }
-            // A neighbour that met its tolerance tells which meshes are worth a look.
-            let most = columns[columns.len() - 1];
-            let least = most.min(start_columns.unwrap_or(0) / 2);
-            columns.retain(|&count| count >= least);
-        } else if start_columns.is_some() {
+            let least = start.map_or(0, |start| start.columns_within(tolerance, settings) / 2);
+            let last_two = columns.len().saturating_sub(2);
+            let coarser = columns.iter().filter(|&&count| count < least).count();
+            columns.drain(..coarser.min(last_two));
+        } else if start.is_some() {
             columns.drain(..columns.len().saturating_sub(2));
         }
         let size = |count| finest.with_columns(count, settings.row_exponent);
         Self(columns.into_iter().map(size).collect())
     }
 
-    /// Solve on one mesh after the other by `on_mesh(mesh, coarser solution)`.
+    /// Solve on one mesh after the other by `on_mesh(mesh, coarser solution)`, until time is over.
     pub fn solve(
         &self,
         tolerance: Option<f64>,
         settings: &Settings,
-        mut on_mesh: impl FnMut(Mesh, Option<&MeshSolution>) -> MeshSolution,
+        mut on_mesh: impl FnMut(Mesh, Option<&MeshSolution>) -> Result<MeshSolution, KernelError>,
     ) -> Result<MeshSolution, KernelError> {
         let mut last: Option<MeshSolution> = None;
         let mut met = false;
         for size in &self.0 {
             let coarse = last.filter(MeshSolution::converged);
-            let mut fine = on_mesh(Mesh::new(size), coarse.as_ref());
+            let mut fine = on_mesh(Mesh::new(size), coarse.as_ref())?;
+            if fine.report.status == Status::TimeLimit {
+                return Ok(fine);
+            }
             fine.estimate_errors(coarse.as_ref(), settings);
             met = tolerance.is_none_or(|tolerance| fine.meets(tolerance, settings));
             let done = tolerance.is_some() && met && fine.converged();
@@ -89,6 +95,26 @@ impl MeshSequence {
 }
 
 impl MeshSolution {
+    /// Columns of the coarsest mesh known to meet `tolerance`, by errors that fall to a quarter at
+    /// most where columns are doubled; nothing is known from errors that were not estimated.
+    fn columns_within(&self, tolerance: f64, settings: &Settings) -> usize {
+        if self.friction_error.is_nan() {
+            return 0;
+        }
+        let (mut columns, mut at_half) = (self.mesh.columns, tolerance / 4.0);
+        while columns > 1 && self.meets(at_half, settings) {
+            (columns, at_half) = (columns / 2, at_half / 4.0);
+        }
+        columns
+    }
+
+    /// What is left if there was no time for a finer mesh.
+    pub fn out_of_time(&self) -> Self {
+        let mut left = self.clone();
+        left.report.status = Status::TimeLimit;
+        left
+    }
+
     fn converged(&self) -> bool {
         self.report.status == Status::Converged
     }

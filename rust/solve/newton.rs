@@ -17,6 +17,16 @@ pub struct Report {
     pub residual: f64,
 }
 
+impl Report {
+    /// Refuse to go on from what did not converge.
+    pub fn converged(&self) -> Result<(), Status> {
+        match self.status {
+            Status::Converged => Ok(()),
+            other => Err(other),
+        }
+    }
+}
+
 /// A factored block and the state it was factored at. The volume change keeps the slope of that
 /// state too: with a bulk modulus of hundreds of shear moduli a mixture of slopes would not converge.
 pub struct Factored {
@@ -34,39 +44,48 @@ pub fn solve(
     settings: &Settings,
 ) -> Report {
     let mut report = Report {
-        status: Status::IterationLimit,
+        status: Status::Converged,
         iterations: 0,
         residual: f64::INFINITY,
     };
-    let mut rows = pressed.row_states(&state.field);
+    if let Err(status) = iterate(pressed, kept, state, load, settings, &mut report) {
+        report.status = status;
+    }
+    report
+}
+
+fn iterate(
+    pressed: &PressedBlock<'_>,
+    kept: &mut Option<Factored>,
+    state: &mut State,
+    load: f64,
+    settings: &Settings,
+    report: &mut Report,
+) -> Result<(), Status> {
+    let mut rows = pressed.row_states(&state.field)?;
     let (mut best, mut best_at) = (f64::INFINITY, 0);
     loop {
         let before = report.residual;
         report.residual = residual(pressed, state, &rows, load);
         if !report.residual.is_finite() {
-            report.status = Status::NotFinite;
-            return report;
+            return Err(Status::NotFinite);
         }
         if report.residual < settings.residual_tolerance {
-            report.status = Status::Converged;
-            return report;
+            return Ok(());
         }
         if report.residual < best {
             (best, best_at) = (report.residual, report.iterations);
         }
         let stalled = report.iterations >= best_at + settings.patience;
         if stalled || report.iterations >= settings.max_iterations {
-            return report;
+            return Err(Status::IterationLimit);
         }
         let falling = before.is_infinite() || report.residual < settings.reuse_reduction * before;
         if !(falling && report.residual < settings.reuse_below) {
             *kept = None;
         }
         report.iterations += 1;
-        if let Err(status) = step(pressed, kept, state, &mut rows, load, settings) {
-            report.status = status;
-            return report;
-        }
+        step(pressed, kept, state, &mut rows, load, settings)?;
     }
 }
 
@@ -79,16 +98,19 @@ fn step(
     load: f64,
     settings: &Settings,
 ) -> Result<(), Status> {
-    let block = &pressed.block;
-    let factored = kept.get_or_insert_with(|| factor(pressed, state, rows));
+    let (block, watch) = (&pressed.block, pressed.watch);
+    let factored = match kept {
+        Some(factored) => factored,
+        None => kept.insert(factor(pressed, state, rows)?),
+    };
     let rights: Vec<Vec<f64>> = (0..rows.len())
         .map(|row| block.row_right(row, &state.field, &rows[row], &factored.rows[row]))
         .collect();
     let elimination = &factored.elimination;
-    let reduced = elimination.reduce(&rights);
+    let reduced = elimination.reduce(&rights, watch)?;
     let (surface, contact) =
         pressed.linearised_contact(state, elimination, &reduced.surface_right, load, settings)?;
-    let mut du = elimination.expand(&reduced, &surface);
+    let mut du = elimination.expand(&reduced, &surface, watch)?;
     du.resize(state.field.u.len(), 0.0);
     if du.iter().any(|value| !value.is_finite()) {
         return Err(Status::NotFinite);
@@ -99,7 +121,7 @@ fn step(
         for (u, d) in trial.u.iter_mut().zip(&du) {
             *u += share * d;
         }
-        let trial_rows = pressed.row_states(&trial);
+        let trial_rows = pressed.row_states(&trial)?;
         if smallest_jacobian(&trial_rows) > settings.smallest_volume_ratio {
             for (row, (now, old)) in rows.iter().zip(&factored.rows).enumerate() {
                 block.update_pressure(row, now, old, &du, share, &mut trial);
@@ -118,15 +140,20 @@ fn step(
     Err(Status::ElementInverted)
 }
 
-fn factor(pressed: &PressedBlock<'_>, state: &State, rows: &[RowState]) -> Factored {
-    let matrix = |row: usize| pressed.block.row_matrix(row, &state.field, &rows[row]);
+fn factor(
+    pressed: &PressedBlock<'_>,
+    state: &State,
+    rows: &[RowState],
+) -> Result<Factored, Status> {
+    let (block, watch) = (&pressed.block, pressed.watch);
+    let matrix = |row: usize| block.row_matrix(row, &state.field, &rows[row], watch);
     let uppermost = pressed.mesh().rows - 1;
     let layer = pressed.mesh().layer_size();
     let below = (0..uppermost).rev().map(matrix);
-    Factored {
-        elimination: Elimination::new(layer, matrix(uppermost), below),
+    Ok(Factored {
+        elimination: Elimination::new(layer, matrix(uppermost)?, below, watch)?,
         rows: rows.to_vec(),
-    }
+    })
 }
 
 /// Forces out of balance relative to the load, gaps relative to half the range: the largest.

@@ -3,6 +3,7 @@
 use gripscale_kernel::contact::complementarity::{solve, Contact};
 use gripscale_kernel::linear::{solve_dense, Matrix};
 use gripscale_kernel::settings::Settings;
+use gripscale_kernel::watch::Watch;
 use proptest::prelude::*;
 
 /// A smooth, slightly unsymmetric compliance as contact has: decaying with distance.
@@ -11,6 +12,18 @@ fn compliance(n: usize, skew: f64) -> Matrix<f64> {
         let distance = i as f64 - j as f64;
         (-distance.abs() / 2.0).exp() * (1.0 + skew * distance / n as f64)
     })
+}
+
+fn solved(c: &Matrix<f64>, free: &[f64], load: f64, start: &[bool]) -> Contact {
+    solve(
+        c,
+        free,
+        load,
+        start,
+        &Settings::default(),
+        &Watch::endless(),
+    )
+    .unwrap()
 }
 
 fn fulfils(c: &Matrix<f64>, free: &[f64], load: f64, contact: &Contact) -> bool {
@@ -52,7 +65,7 @@ fn brute_force(c: &Matrix<f64>, free: &[f64], load: f64) -> Vec<f64> {
         });
         let mut right: Vec<f64> = set.iter().map(|&i| -free[i]).collect();
         right.push(load);
-        let Some(x) = solve_dense(&matrix, &right) else {
+        let Some(x) = solve_dense(&matrix, &right, &Watch::endless()).unwrap() else {
             continue;
         };
         let mut contact = Contact {
@@ -80,7 +93,7 @@ proptest! {
         start in prop::collection::vec(any::<bool>(), 9),
     ) {
         let c = compliance(free.len(), skew);
-        let contact = solve(&c, &free, load, &start[..free.len()], &Settings::default()).unwrap();
+        let contact = solved(&c, &free, load, &start[..free.len()]);
         prop_assert!(fulfils(&c, &free, load, &contact));
         let all = brute_force(&c, &free, load);
         prop_assert!(all.iter().any(|d| (d - contact.approach).abs() < 1e-8));
@@ -93,7 +106,7 @@ proptest! {
         start in prop::collection::vec(any::<bool>(), 60),
     ) {
         let c = compliance(60, 0.3);
-        let contact = solve(&c, &free, load, &start, &Settings::default()).unwrap();
+        let contact = solved(&c, &free, load, &start);
         prop_assert!(fulfils(&c, &free, load, &contact));
     }
 }

@@ -23,6 +23,7 @@ use gripscale_kernel::problem::{Load, MeshSize, Problem, Profile, Rubber};
 use gripscale_kernel::settings::Settings;
 use gripscale_kernel::solution::Solution;
 use gripscale_kernel::transient::{Run, Stage};
+use gripscale_kernel::watch::Watch;
 
 /// The inputs of one wave, changed field by field by the tests; unit wavelength and modulus.
 #[derive(Clone)]
@@ -94,7 +95,13 @@ impl Case {
 
     pub fn solve(&self, start: Option<&Solution>) -> Result<Solution, KernelError> {
         let problem = self.problem()?;
-        gripscale_kernel::steady::solve(&problem, &self.settings, self.tolerance, start)
+        gripscale_kernel::steady::solve(
+            &problem,
+            &self.settings,
+            self.tolerance,
+            start,
+            &Watch::endless(),
+        )
     }
 
     pub fn run(&self, stages: &[Stage], start: Option<&Solution>) -> Result<Run, KernelError> {
@@ -104,7 +111,11 @@ impl Case {
             mesh,
             ..
         } = self.problem()?;
-        gripscale_kernel::transient::solve(&rubber, &profile, &mesh, &self.settings, stages, start)
+        let watch = Watch::endless();
+        let settings = &self.settings;
+        gripscale_kernel::transient::solve(
+            &rubber, &profile, &mesh, settings, stages, start, &watch,
+        )
     }
 }
 

@@ -6,6 +6,7 @@ use gripscale_kernel::linear;
 use gripscale_kernel::material::energy::Energy;
 use gripscale_kernel::material::maxwell::Maxwell;
 use gripscale_kernel::material::sliding_history::SlidingHistory;
+use gripscale_kernel::watch::Watch;
 
 fn worst_error(order: usize, energy: Energy, memory: bool) -> f64 {
     let mesh = mesh(6, 3, 0.8, order);
@@ -35,7 +36,9 @@ fn worst_error(order: usize, energy: Energy, memory: bool) -> f64 {
     let still = vec![0.0; field.u.len()];
     let state = block.row_state(row, &field.u);
     block.update_pressure(row, &state, &state, &still, 1.0, &mut field);
-    let matrix = block.row_matrix(row, &field, &state);
+    let matrix = block
+        .row_matrix(row, &field, &state, &Watch::endless())
+        .unwrap();
     let direction: Vec<f64> = (0..field.u.len()).map(|i| noise(1000 + i)).collect();
     let forces = |step: f64| {
         let mut moved = field.clone();

@@ -22,6 +22,7 @@ import xarray as xr
 from gripscale.chain.model import Chain
 from gripscale.errors import InputError
 from gripscale.model import Model, NominalLoad
+from gripscale.parallel import Stopped
 from gripscale.rubber import Rubber
 from gripscale.study.software import software
 from gripscale.surface import PreparedSurface
@@ -72,10 +73,6 @@ class Task:
         found = self.model.predict(self.rubber, self.surface, self.load, on_progress=look)
         seconds = time.perf_counter() - start
         return self.key, found.assign_attrs(prediction_key=self.key), seconds
-
-
-class Stopped(Exception):
-    """Somebody asked for an end."""
 
 
 def exact(value: Any) -> Any:

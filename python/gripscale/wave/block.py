@@ -31,11 +31,15 @@ class FiniteStrainBlock:
         fraction. The mesh is refined until it is met, from coarser than `mesh` to 512 columns.
     settings : mapping
         What differs from `gripscale.wave.default_settings()`.
+    time_limit : float, optional
+        Seconds after which the solution ends early, as `time limit`: with the finest mesh that was
+        solved, or where there is none with the pressure reached. None: as long as it takes.
 
     Raises
     ------
     InputError
-        If the tolerance is not above zero, or a setting is unknown or no number above zero.
+        If tolerance or time limit is not above zero, or a setting is unknown or no number above
+        zero.
     """
 
     name: ClassVar[str] = "finite_strain"
@@ -43,10 +47,14 @@ class FiniteStrainBlock:
     mesh: Mesh = field(default_factory=Mesh)
     tolerance: float | None = None
     settings: Mapping[str, float] = field(default_factory=dict)
+    time_limit: float | None = None
 
     def __post_init__(self) -> None:
         if self.tolerance is not None:
             object.__setattr__(self, "tolerance", checks.positive("tolerance", self.tolerance))
+        if self.time_limit is not None:
+            limit = checks.positive("time_limit", self.time_limit, unit="s")
+            object.__setattr__(self, "time_limit", limit)
         object.__setattr__(self, "settings", kernel.checked_settings(self.settings))
 
     @classmethod
@@ -54,6 +62,7 @@ class FiniteStrainBlock:
         cls,
         *,
         tolerance: float | None = None,
+        time_limit: float | None = None,
         max_iterations: int | None = None,
         residual_tolerance: float | None = None,
         **mesh: Any,
@@ -62,7 +71,7 @@ class FiniteStrainBlock:
         checks.known("option", mesh, Mesh.__dataclass_fields__)
         stated = {"max_iterations": max_iterations, "residual_tolerance": residual_tolerance}
         settings = {name: value for name, value in stated.items() if value is not None}
-        return cls(Mesh(**mesh), tolerance, settings)
+        return cls(Mesh(**mesh), tolerance, settings, time_limit)
 
     def solve(self, problem: WaveProblem, start: WaveResult | None = None) -> WaveResult:
         """Return contact and friction of `problem`.
@@ -72,7 +81,9 @@ class FiniteStrainBlock:
         Raises `InputError` if `start` is of another solver or was read from a file.
         """
         first = None if start is None else kernel.solution_of(start)
-        solution = kernel.solve_steady(problem, self.mesh, self.settings, self.tolerance, first)
+        solution = kernel.solve_steady(
+            problem, self.mesh, self.settings, self.tolerance, first, self.time_limit
+        )
         return _result(problem, self.mesh, solution)
 
 
@@ -90,6 +101,7 @@ def solve_scale(
     rows: int = Mesh.rows,
     element_order: int = Mesh.element_order,
     tolerance: float | None = None,
+    time_limit: float | None = None,
     start: WaveResult | None = None,
     max_iterations: int | None = None,
     residual_tolerance: float | None = None,
@@ -117,7 +129,7 @@ def solve_scale(
     depth : float
         Height of the block in wavelengths.
     columns : int
-        Elements along the block, an even number.
+        Elements along the block.
     rows : int
         Elements across the block.
     element_order : int
@@ -126,6 +138,9 @@ def solve_scale(
         Largest estimated discretisation error, relative in friction and absolute in contact
         fraction. The mesh is refined until it is met, from coarser than `columns` x `rows` to
         512 columns; without it the mesh is the one given.
+    time_limit : float, optional
+        Seconds after which the solution ends early, as `time limit`: with the finest mesh that was
+        solved, or where there is none with the pressure reached. None: as long as it takes.
     start : WaveResult, optional
         A result of another wave, pressure, speed or rubber to start from (a warm start).
     max_iterations : int, optional
@@ -152,6 +167,7 @@ def solve_scale(
         depth=depth,
         element_order=element_order,
         tolerance=tolerance,
+        time_limit=time_limit,
         max_iterations=max_iterations,
         residual_tolerance=residual_tolerance,
     )

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from gripscale import checks
-from gripscale.errors import InputError
 
 
 @dataclass(frozen=True)
@@ -15,7 +14,7 @@ class Mesh:
     Parameters
     ----------
     columns, rows : int
-        Elements along the block, an even number, and across it.
+        Elements along the block and across it.
     depth : float
         Height of the block in wavelengths.
     element_order : int
@@ -39,7 +38,5 @@ class Mesh:
             "depth": checks.positive("depth", self.depth),
             "element_order": checks.whole("element_order", self.element_order, least=1, most=2),
         }
-        if checked["columns"] % 2:
-            raise InputError(f"columns must be even; got {self.columns}")
         for name, value in checked.items():
             object.__setattr__(self, name, value)

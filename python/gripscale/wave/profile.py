@@ -49,6 +49,7 @@ def solve_profile(
     rows: int | None = None,
     element_order: int = Mesh.element_order,
     tolerance: float | None = None,
+    time_limit: float | None = None,
     start: WaveResult | None = None,
     max_iterations: int | None = None,
     residual_tolerance: float | None = None,
@@ -83,7 +84,7 @@ def solve_profile(
         up to a number of few factors, from 128 to 1024, and rows to suit.
     element_order : int
         1: bilinear with one pressure; 2: biquadratic with linear discontinuous pressure.
-    tolerance : float, optional
+    tolerance, time_limit : float, optional
         As in `gripscale.solve_scale`.
     start : WaveResult, optional
         A result of the block to start from, of any profile, load and rubber.
@@ -117,6 +118,7 @@ def solve_profile(
         depth=depth,
         element_order=element_order,
         tolerance=tolerance,
+        time_limit=time_limit,
         max_iterations=max_iterations,
         residual_tolerance=residual_tolerance,
     )

@@ -170,7 +170,7 @@ def solve_transient(
     block = FiniteStrainBlock.of(depth=depth, columns=columns, rows=rows, **options)
     programme = [(stage.duration, stage.speed, stage.pressure) for stage in stages]
     status, iterations, table = kernel.solve_transient(
-        rubber, profile, block.mesh, block.settings, programme, first
+        rubber, profile, block.mesh, block.settings, programme, first, block.time_limit
     )
     time, distance, speeds, pressure, friction, fraction, approach = table.reshape(-1, 7).T
     return TransientResult(
