@@ -20,7 +20,7 @@ from scipy import stats
 
 from gripscale import checks
 from gripscale.errors import InputError
-from gripscale.parallel import in_threads, worker_count
+from gripscale.parallel import Stopped, in_threads, worker_count
 from gripscale.rough.result import RoughContact
 from gripscale.rough.solve import solve_rough_contact
 from gripscale.rough.surfaces import one_period
@@ -189,7 +189,7 @@ def solve_both_ways(
 
     def solve(line: Profile, stop: Event) -> Pair:
         if stop.is_set():
-            raise InterruptedError
+            raise Stopped
         return Pair(line, in_block(line, periodic=True), in_half_space(line, periodic=True))
 
     found: dict[int, Pair] = {}
