@@ -8,20 +8,18 @@ from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
 
+from gripscale.parallel import cores
+
 
 def describe() -> str:
     """Return one paragraph about this machine and this software."""
     packages = ", ".join(f"{name} {version(name)}" for name in ("gripscale", "numpy", "scipy"))
     load = f"{os.getloadavg()[0]:.1f}" if hasattr(os, "getloadavg") else "unknown"
     return (
-        f"{datetime.now(UTC):%Y-%m-%d %H:%M} UTC, {_processor()}, {_cores()} cores (the kernel "
+        f"{datetime.now(UTC):%Y-%m-%d %H:%M} UTC, {_processor()}, {cores()} cores (the kernel "
         f"uses one thread), load average {load} at the start, {platform.system()}, "
         f"Python {platform.python_version()}, {packages}"
     )
-
-
-def _cores() -> int:
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def _processor() -> str:

@@ -15,7 +15,7 @@ import numpy as np
 import gripscale as gs
 from gripscale.rough import FiniteStrainPairs, solve_both_ways, surface_of_sines
 from gripscale.theory import solve_half_plane
-from studies.chain_and_direct.surfaces import rubbers
+from studies.shipped import tread
 
 PERIOD = 28.678e-3
 """Largest wave [m]."""
@@ -50,7 +50,7 @@ def waves(numbers: tuple[int, ...]) -> gs.SineStack:
 
 def main() -> None:
     """Print a row for each set of waves."""
-    tread = rubbers()["tread"]
+    rubber = tread()
     print(
         "| waves | prototype | block | half-space | block over half-space "
         "| chain: block, half-plane |"
@@ -59,13 +59,13 @@ def main() -> None:
     for row in ROWS:
         stack = waves(row.numbers)
         lines = [surface_of_sines(stack, PERIOD, seed) for seed in SEEDS]
-        pairs = solve_both_ways(tread, lines, pressure=PRESSURE, speed=SPEED)
+        pairs = solve_both_ways(rubber, lines, pressure=PRESSURE, speed=SPEED)
         ratio = [
             pairs.correction(name) for name in ("contact_fraction", "friction_from_dissipation")
         ]
         chains = [
             gs.predict(
-                tread, stack, pressure=PRESSURE, speed=SPEED, footprint=FOOTPRINT, solver=solver
+                rubber, stack, pressure=PRESSURE, speed=SPEED, footprint=FOOTPRINT, solver=solver
             )
             for solver in (gs.solve_scale, solve_half_plane)
         ]

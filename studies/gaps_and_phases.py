@@ -23,7 +23,7 @@ import gripscale as gs
 from gripscale.rough import one_period, random_phases
 from gripscale.surface.gaps import filled
 from gripscale.surface.sine_fit import first_consistent_lag
-from studies.chain_and_direct.surfaces import rubbers, surfaces
+from studies.shipped import road, tread
 
 Array = NDArray[np.float64]
 
@@ -66,14 +66,13 @@ def drawn(line: gs.Profile, variance: Array, seed: int) -> gs.Profile:
 
 def main() -> None:
     """Print a row for each cut-off, station and way to draw."""
-    tread = rubbers()["tread"]
+    rubber, stations = tread(), (road(0), road(1))
     for cut_off in (0.4e-3, 0.1e-3):
-        for number in (0, 1):
-            line = surfaces()[f"station {number}"].profile
-            _rows(tread, line, f"station {number}", cut_off)
+        for number, line in enumerate(stations):
+            _rows(rubber, line, f"station {number}", cut_off)
 
 
-def _rows(tread: gs.Rubber, line: gs.Profile, name: str, cut_off: float) -> None:
+def _rows(rubber: gs.Rubber, line: gs.Profile, name: str, cut_off: float) -> None:
     first = first_consistent_lag(gs.height_difference(line))
     whole = gs.Profile(line.x, filled(line.z), name=line.name)
     of_filled, of_pairs = (smooth_spectrum(one, first) for one in (whole, line))
@@ -86,7 +85,7 @@ def _rows(tread: gs.Rubber, line: gs.Profile, name: str, cut_off: float) -> None
     for way, lines in ways.items():
         found = [
             gs.solve_rough_contact(
-                tread,
+                rubber,
                 one,
                 pressure=3e5,
                 speed=0.3,

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from gripscale.rough import map_over_lines, solve_map_and_lines
 from gripscale.surface import HeightMap, Profile
-from studies.isotropic_maps.setting import AREA, FRICTION, LOAD, TOLERANCE, tread
+from studies.isotropic_maps.setting import AREA, FRICTION, LOAD, TOLERANCE
+from studies.shipped import tread
 
 POINTS, STEP = 1024, 1e-4
 STONES = 900

@@ -12,7 +12,7 @@ from scipy.optimize import minimize_scalar
 
 import gripscale as gs
 from studies.chain_and_direct.__main__ import small_strain_chain
-from studies.chain_and_direct.surfaces import rubbers, surfaces
+from studies.shipped import road, tread
 
 END = 0.1e-3
 """Last wave [m]."""
@@ -47,16 +47,16 @@ def linked(curve: gs.HeightDifference, waves: int, hurst: float) -> gs.SineStack
 
 def main() -> None:
     """Print a row for each number of waves."""
-    curve = gs.height_difference([surfaces()[f"station {number}"].profile for number in (0, 1)])
+    curve = gs.height_difference([road(0), road(1)])
     hurst = gs.fit_self_affine(curve).hurst
-    tread = rubbers()["tread"]
+    rubber = tread()
     print(f"H = {hurst:.3f}")
     print("| waves | free: log s_A / log s_lambda, residual, A, mu | linked: residual, A, mu |")
     print("|---|---|---|")
     for waves in NUMBERS:
         free = gs.fit_sines(curve, scales=waves, smallest_wavelength=END)
         tied = linked(curve, waves, hurst)
-        one, other = (small_strain_chain(tread, stack, 0.3, 1) for stack in (free, tied))
+        one, other = (small_strain_chain(rubber, stack, 0.3, 1) for stack in (free, tied))
         ratio = _exponent(free)
         print(
             f"| {waves} | {ratio:.3f}, {free.residual:.3f}, {one.contact_fraction:.4f}, "

@@ -14,7 +14,7 @@ import numpy as np
 import gripscale as gs
 from gripscale.surface import sine_ambiguity
 from studies.chain_and_direct.__main__ import small_strain_chain
-from studies.chain_and_direct.surfaces import rubbers, surfaces
+from studies.shipped import road, tread
 
 END = 0.1e-3
 """Last wave, or cut-off [m]."""
@@ -39,8 +39,8 @@ WAYS = (
 
 def main() -> None:
     """Print a row for each way."""
-    stations = [surfaces()[f"station {number}"].profile for number in (0, 1)]
-    tread = rubbers()["tread"]
+    stations = [road(0), road(1)]
+    rubber = tread()
     for way in WAYS:
         curve = gs.height_difference(stations, upper_share=way.upper_share)
         if way.to_cut_off:
@@ -48,13 +48,13 @@ def main() -> None:
         else:
             fitted = gs.fit_sines(curve, scales=WAVES, smallest_wavelength=END)
         found = sine_ambiguity(curve, fitted)
-        parts = [_spans(tread, found.stacks, classes) for classes in (1, 8)]
+        parts = [_spans(rubber, found.stacks, classes) for classes in (1, 8)]
         print(f"| {way.name}, {len(found.stacks)} | {' | '.join(parts)} |", flush=True)
 
 
-def _spans(tread: gs.Rubber, stacks: tuple[gs.SineStack, ...], classes: int) -> str:
+def _spans(rubber: gs.Rubber, stacks: tuple[gs.SineStack, ...], classes: int) -> str:
     """Return smallest and largest area and friction."""
-    found = [small_strain_chain(tread, stack, 0.3, classes) for stack in stacks]
+    found = [small_strain_chain(rubber, stack, 0.3, classes) for stack in stacks]
     totals = np.array([(one.contact_fraction, one.friction) for one in found])
     (area, friction), (most_area, most_friction) = totals.min(axis=0), totals.max(axis=0)
     return f"{area:.3f} to {most_area:.3f} | {friction:.2f} to {most_friction:.2f}"

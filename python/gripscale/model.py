@@ -8,9 +8,11 @@ takes any of them.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, Protocol, runtime_checkable
+
+import numpy as np
 
 from gripscale import checks
 
@@ -109,6 +111,46 @@ TOTALS = {
     "total_friction_from_dissipation": "friction coefficient from the energy lost in the rubber",
 }
 """Names and meanings of the numbers every model answers with."""
+
+
+def answer_by_length(
+    data: xr.Dataset,
+    parts: Sequence[Any],
+    why_not: Sequence[str],
+    lengths: Sequence[float],
+    model: str,
+    load: NominalLoad,
+) -> xr.Dataset:
+    """Return `data` over `profile` with the answers of the profiles averaged by length.
+
+    Parameters
+    ----------
+    data
+        What is known of each profile.
+    parts
+        Their results, with the attributes of `TOTALS` without `total_`.
+    why_not
+        Why a profile does not count, empty where it does: then there are no totals.
+    lengths
+        Of the profiles [m].
+    model, load
+        As for `answer`.
+    """
+    weight = np.asarray(lengths) / np.sum(lengths)
+    bad = [
+        f"profile {number} of {len(parts)}: {why}"
+        for number, why in enumerate(why_not, start=1)
+        if why
+    ]
+    totals = {
+        total: math.nan
+        if bad
+        else float(weight @ [getattr(part, total.removeprefix("total_")) for part in parts])
+        for total in TOTALS
+    }
+    attrs = {"units": "1", "long_name": "share of the length"}
+    weighted = data.assign(weight=("profile", weight, attrs))
+    return answer(weighted, totals, "; ".join(bad) or "converged", model, load)
 
 
 def answer(

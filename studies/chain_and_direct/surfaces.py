@@ -5,7 +5,6 @@ A variant of the chain may be chosen on some families and judged on another one.
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -14,10 +13,7 @@ import gripscale as gs
 from gripscale.rough import random_phases
 from gripscale.rubber import styrene_butadiene
 from gripscale.surface import self_affine_profile
-
-DATA = Path(__file__).resolve().parents[2] / "examples" / "data"
-PLATES = (0.12, 1.78)
-"""Between the reference plates of the measured road [m]."""
+from studies.shipped import road, tread
 
 
 class Studied(NamedTuple):
@@ -29,8 +25,8 @@ class Studied(NamedTuple):
 
 def surfaces() -> dict[str, Studied]:
     """Return the surfaces by name."""
-    road = [_station(number) for number in (0, 1)]
-    drawn = [random_phases(station, seed) for station, seed in zip(road, (1, 2), strict=True)]
+    stations = [road(number) for number in (0, 1)]
+    drawn = [random_phases(station, seed) for station, seed in zip(stations, (1, 2), strict=True)]
     smooth = {
         "self-affine, H = 0.7": ("self-affine 0.7", (0.7, 3e-3, 0.6e-3, 1.2, 50e-6, 11)),
         "self-affine, H = 0.7, steep": ("self-affine 0.7", (0.7, 6e-3, 2.0e-3, 1.2, 50e-6, 13)),
@@ -39,16 +35,16 @@ def surfaces() -> dict[str, Studied]:
     }
     worn = self_affine_profile(0.8, 3e-3, 1e-3, 1.2, 50e-6, 5)
     return {
-        "station 0": Studied("station 0", road[0]),
-        "station 0, upside down": Studied("station 0", _upside_down(road[0])),
+        "station 0": Studied("station 0", stations[0]),
+        "station 0, upside down": Studied("station 0", _upside_down(stations[0])),
         "station 0, random phases": Studied("station 0", drawn[0]),
         "station 0, random phases, worn": Studied(
-            "station 0", lowered_tops(random_phases(road[0], 3), 0.4, 0.2)
+            "station 0", lowered_tops(random_phases(stations[0], 3), 0.4, 0.2)
         ),
-        "station 1": Studied("station 1", road[1]),
-        "station 1, upside down": Studied("station 1", _upside_down(road[1])),
+        "station 1": Studied("station 1", stations[1]),
+        "station 1, upside down": Studied("station 1", _upside_down(stations[1])),
         "station 1, random phases": Studied("station 1", drawn[1]),
-        "station 1, worn": Studied("station 1", lowered_tops(road[1], 0.3, 0.3)),
+        "station 1, worn": Studied("station 1", lowered_tops(stations[1], 0.3, 0.3)),
         **{
             name: Studied(f, self_affine_profile(*numbers)) for name, (f, numbers) in smooth.items()
         },
@@ -58,13 +54,7 @@ def surfaces() -> dict[str, Studied]:
 
 def rubbers() -> dict[str, gs.Rubber]:
     """Return a filled tread rubber and an unfilled rubber by name."""
-    curve = gs.read_master_curve(DATA / "rubber/measured_dma.txt", reference_temperature=293.15)
-    return {"tread": gs.fit_prony(curve, bulk_modulus=2e9), "SBR": styrene_butadiene()}
-
-
-def _station(number: int) -> gs.Profile:
-    name = f"20211011_aylesbury_dec_station_{number}.dat"
-    return gs.clean(gs.read_profile(DATA / "road" / name), crop=PLATES)[0]
+    return {"tread": tread(), "SBR": styrene_butadiene()}
 
 
 def _upside_down(profile: gs.Profile) -> gs.Profile:

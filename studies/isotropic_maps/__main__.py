@@ -13,7 +13,8 @@ from pathlib import Path
 from studies.isotropic_maps import tables
 from studies.isotropic_maps.draw import draw
 from studies.isotropic_maps.folder import Folder
-from studies.isotropic_maps.setting import CONSTRUCTIONS, LENGTH, road, tread
+from studies.isotropic_maps.setting import CONSTRUCTIONS, LENGTH
+from studies.shipped import road, tread
 
 
 def main() -> None:

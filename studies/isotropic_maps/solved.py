@@ -11,15 +11,8 @@ import gripscale as gs
 from gripscale.rough import solve_map_and_lines, solve_windows, windows
 from gripscale.surface import HeightMap
 from gripscale.surface.maps.measured import measured_lines
-from studies.isotropic_maps.setting import (
-    AREA,
-    FRICTION,
-    LENGTH,
-    LOAD,
-    SMALLEST,
-    TOLERANCE,
-    road,
-)
+from studies.isotropic_maps.setting import AREA, FRICTION, LENGTH, LOAD, SMALLEST, TOLERANCE
+from studies.shipped import road
 
 LAGS = (0.2e-3, 0.8e-3, 3.2e-3, 12.8e-3)
 

@@ -9,10 +9,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import lru_cache
 
-from gripscale.comparison.rung import Draw, Subject
+from gripscale.comparison.rung import Draw, Subject, only
 from gripscale.model import Model
 from gripscale.rough.model import DirectContact
-from gripscale.surface import Measured, PreparedSurface, Profile
+from gripscale.surface import Profile
+from gripscale.surface.maps.isotropic import STEPS_IN_WAVE
+from gripscale.surface.maps.measured import FEWEST_PERIODS
 from gripscale.wave.model import BlockOnProfile
 
 WINDOW, WAVES_IN_WINDOW, WINDOWS = 1.1, 20, 8
@@ -23,10 +25,6 @@ wave that is kept, and how many at most. Finite strain changes the same within i
 MAP, WAVES_IN_MAP, MAPS, LINES = 1.8, 128, 2, 10
 """Synthetic maps: least length over the largest sine wave, length over the smallest wave that is
 kept, how many, and how many lines of each are solved each way."""
-
-STEPS_IN_WAVE, LINES_OVER_MAP = 4, 4
-"""Steps of a profile in the smallest wave, and length of all profiles over that of a map, at least
-(`gripscale.surface.isotropic_maps`)."""
 
 
 def windows_half_plane(subject: Subject) -> Sequence[Draw]:
@@ -58,7 +56,7 @@ def _on_windows(subject: Subject, model: Model) -> Sequence[Draw]:
     return [
         Draw(
             model,
-            PreparedSurface(sines, line.name, measured=Measured.of([line])),
+            only(subject.surface, line),
             f"{line.name} from {line.x[0]:.4g} m",
         )
         for line in _windows(lines, length)
@@ -86,7 +84,7 @@ def _on_maps(subject: Subject, lines: int) -> Sequence[Draw]:
     smallest = max(
         MAP * sines.wavelength[0] / WAVES_IN_MAP, sines.roughness_end, STEPS_IN_WAVE * step
     )
-    if sum(line.length for line in cleaned) < LINES_OVER_MAP * WAVES_IN_MAP * smallest:
+    if sum(line.length for line in cleaned) < FEWEST_PERIODS * WAVES_IN_MAP * smallest:
         return []
     return [
         Draw(

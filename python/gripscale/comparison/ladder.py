@@ -21,7 +21,7 @@ from gripscale.comparison.corrections import (
     windows_finite_strain,
     windows_half_plane,
 )
-from gripscale.comparison.rung import Draw, Rung, Subject
+from gripscale.comparison.rung import Draw, Rung, Subject, only
 from gripscale.errors import InputError
 from gripscale.rough import random_phases, surface_of_sines
 from gripscale.rough.model import DirectContact
@@ -35,7 +35,6 @@ from gripscale.surface import (
 )
 from gripscale.surface.isotropy import areal_spectrum
 from gripscale.surface.periodogram import profile_spectrum
-from gripscale.surface.prepared import Measured
 from gripscale.surface.spectrum import ArealSpectrum
 from gripscale.theory.half_plane import HalfPlane
 from gripscale.theory.models import Persson
@@ -71,12 +70,6 @@ def each_measured(surface: PreparedSurface) -> list[tuple[str, PreparedSurface]]
     """Return `surface` with one profile after the other, or its map, and what it is called."""
     measured: Sequence[Profile | HeightMap] = surface.measured.surfaces if surface.measured else []
     return [(one.name or f"profile {i}", only(surface, one)) for i, one in enumerate(measured, 1)]
-
-
-def only(surface: PreparedSurface, measured: Profile | HeightMap) -> PreparedSurface:
-    """Return the waves of `surface` with nothing else measured."""
-    whole = measured if isinstance(measured, HeightMap) else [measured]
-    return PreparedSurface(surface.sines, measured.name, measured=Measured.of(whole))
 
 
 def _chain(subject: Subject) -> Sequence[Draw]:

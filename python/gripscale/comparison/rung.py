@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from gripscale.model import Model, NominalLoad
 from gripscale.rubber import Rubber
-from gripscale.surface import PreparedSurface
+from gripscale.surface import HeightMap, Measured, PreparedSurface, Profile
 from gripscale.theory.models import KlueppelHeinrich
 from gripscale.wave.solver import WaveSolver
 
@@ -78,3 +78,9 @@ class Rung:
     change: str
     follows: str
     draws: Callable[[Subject], Sequence[Draw]] = field(repr=False)
+
+
+def only(surface: PreparedSurface, measured: Profile | HeightMap) -> PreparedSurface:
+    """Return the waves of `surface` with nothing else measured."""
+    whole = measured if isinstance(measured, HeightMap) else [measured]
+    return PreparedSurface(surface.sines, measured.name, measured=Measured.of(whole))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -13,20 +12,13 @@ from gripscale import model
 from gripscale.errors import InputError
 from gripscale.rough.result import RoughContact
 from gripscale.rough.solve import solve_rough_contact
-from gripscale.surface import HeightMap, PreparedSurface, Profile, SineStack
+from gripscale.surface import HeightMap, PreparedSurface, Profile
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from gripscale.model import NominalLoad
     from gripscale.rubber import Rubber
-
-TOTALS = {
-    "total_contact_fraction": "contact_fraction",
-    "total_friction": "friction",
-    "total_friction_from_dissipation": "friction_from_dissipation",
-}
-"""Attribute of the contact of a profile behind each total."""
 
 
 @dataclass(frozen=True)
@@ -54,9 +46,7 @@ class DirectContact:
 
     def relevant(self, surface: PreparedSurface) -> PreparedSurface:
         """Return nothing of `surface` but what was measured and where its waves end."""
-        measured = surface.measured and surface.measured.bare()
-        end = np.array([surface.sines.roughness_end])
-        return PreparedSurface(SineStack(end, end), source="", measured=measured)
+        return surface.as_measured()
 
     def predict(
         self,
@@ -88,36 +78,23 @@ class DirectContact:
             contacts.append(contact)
             if on_progress is not None:
                 on_progress(contact)
-        lengths = np.array([contact.grid.lengths[0] for contact in contacts])
-        return self._answer(contacts, lengths / lengths.sum(), load)
+        return self._answer(contacts, load)
 
     def _end_of(self, surface: PreparedSurface, measured: Profile | HeightMap) -> float:
         """Return where the waves say it ends [m], or two steps where that is an extrapolation."""
         return max(surface.sines.roughness_end, 2.0 * float(np.max(measured.step)))
 
-    def _answer(
-        self, contacts: list[RoughContact], weight: np.ndarray, load: NominalLoad
-    ) -> xr.Dataset:
+    def _answer(self, contacts: list[RoughContact], load: NominalLoad) -> xr.Dataset:
         import xarray as xr
 
-        bad = [
-            f"profile {number} of {len(contacts)}: {contact.status}"
-            for number, contact in enumerate(contacts, start=1)
-            if not contact.converged
-        ]
-        totals = {
-            total: math.nan
-            if bad
-            else float(weight @ [getattr(contact, name) for contact in contacts])
-            for total, name in TOTALS.items()
-        }
         # what has a size of its own, profile by profile, is in the result of the profile
         parts = [
             contact.to_dataset(fields=False).drop_dims(["patch", "grid"]) for contact in contacts
         ]
         data = xr.concat(parts, dim="profile", join="outer", combine_attrs="override")
-        data["weight"] = ("profile", weight, {"units": "1", "long_name": "share of the length"})
-        return model.answer(data, totals, "; ".join(bad) or "converged", self.name, load)
+        why_not = ["" if contact.converged else str(contact.status) for contact in contacts]
+        lengths = [contact.grid.lengths[0] for contact in contacts]
+        return model.answer_by_length(data, contacts, why_not, lengths, self.name, load)
 
 
 def _measured(surface: PreparedSurface) -> list[Profile] | list[HeightMap]:

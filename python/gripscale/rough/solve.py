@@ -7,13 +7,13 @@ contact with all waves of a surface at once can be solved: no random phases, no 
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Callable
 
 import numpy as np
 
 from gripscale import checks
 from gripscale.errors import InputError
+from gripscale.parallel import worker_count
 from gripscale.rough.estimate import errors
 from gripscale.rough.grids import Climb, GridRecord, LevelContact, finer, levels
 from gripscale.rough.half_space import HalfSpace
@@ -67,7 +67,7 @@ def solve_rough_contact(
         0.01 is held to the tolerance times 0.01). None: four points in the smallest wave, whatever
         the errors.
     workers : int, optional
-        Threads of the Fourier transforms of a map; by default as many as there are processors.
+        Threads of the Fourier transforms of a map; one per core by default.
     most_points : int
         Points a grid may have. A solution takes about 150 bytes a point (150 MB for 1024 x 1024),
         and 4 bytes for each point in contact and product of the linear solver, of which it keeps
@@ -101,7 +101,7 @@ def solve_rough_contact(
     plan = levels(heights)
     most = checks.whole("most_points", most_points, least=1, most=2**40)
     _check_size(plan[-1].grid.points, most, heights.smallest_wavelength)
-    threads = _threads(workers) if len(heights.grid.shape) > 1 else 1
+    threads = worker_count(workers) if len(heights.grid.shape) > 1 else 1
     iterations = checks.whole("most_iterations", most_iterations, least=1, most=10**6)
     if on_grid is not None and not callable(on_grid):
         raise InputError(f"on_grid must be a function or None; got {checks.shown(on_grid)}")
@@ -204,8 +204,3 @@ def _tolerance(value: float) -> float:
     if goal >= 1.0:
         raise InputError(f"tolerance must be below 1, being a relative error; got {goal:g}")
     return goal
-
-
-def _threads(workers: int | None) -> int:
-    available = os.cpu_count() or 1
-    return available if workers is None else checks.whole("workers", workers, least=1, most=1024)

@@ -94,6 +94,12 @@ class PreparedSurface:
     measured: Measured | None = None
     counted: Mapping[str, Any] = field(default_factory=dict)
 
+    def as_measured(self) -> PreparedSurface:
+        """Return nothing but what was measured and where the waves end."""
+        end = np.array([self.sines.roughness_end])
+        measured = self.measured and self.measured.bare()
+        return PreparedSurface(SineStack(end, end), source="", measured=measured)
+
     @property
     def notes(self) -> tuple[str, ...]:
         """What is to be known of the measurement and of where the waves end, a sentence each."""

@@ -6,15 +6,12 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
-import numpy as np
-
 from gripscale.errors import InputError
 from gripscale.model import NominalLoad
 from gripscale.rubber import Rubber
 from gripscale.surface.periodogram import profile_spectrum
-from gripscale.surface.prepared import Measured, PreparedSurface
+from gripscale.surface.prepared import PreparedSurface
 from gripscale.surface.profile import Profile
-from gripscale.surface.sines import SineStack
 from gripscale.theory.klueppel_heinrich import klueppel_heinrich
 from gripscale.theory.persson import persson
 
@@ -45,7 +42,7 @@ class Persson:
 
     def relevant(self, surface: PreparedSurface) -> PreparedSurface:
         """Return the cleaned profiles of `surface` and where its waves end."""
-        return _relevant(surface)
+        return surface.as_measured()
 
     def predict(
         self,
@@ -91,7 +88,7 @@ class KlueppelHeinrich:
 
     def relevant(self, surface: PreparedSurface) -> PreparedSurface:
         """Return the cleaned profiles of `surface` and where its waves end."""
-        return _relevant(surface)
+        return surface.as_measured()
 
     def predict(
         self,
@@ -134,10 +131,3 @@ def _cleaned(surface: PreparedSurface, name: str) -> list[Profile]:
             f"{name} needs measured profiles; got a surface of sine waves only ({surface.source})"
         )
     return surface.measured.cleaned
-
-
-def _relevant(surface: PreparedSurface) -> PreparedSurface:
-    """Return nothing of `surface` but its cleaned profiles and where its waves end."""
-    end = np.array([surface.sines.roughness_end])
-    measured = surface.measured and Measured.of(surface.measured.cleaned)
-    return PreparedSurface(SineStack(end, end), source="", measured=measured)

@@ -21,11 +21,6 @@ if TYPE_CHECKING:
     from gripscale.model import NominalLoad
     from gripscale.rubber import Rubber
 
-TOTALS = {f"total_{name}": name for name in ("contact_fraction", "friction")} | {
-    "total_friction_from_dissipation": "friction_from_dissipation"
-}
-"""Attribute of the result of a profile behind each total."""
-
 
 @dataclass(frozen=True)
 class BlockOnProfile:
@@ -98,21 +93,10 @@ class BlockOnProfile:
 def _answer(results: list[WaveResult], why_not: list[str], load: NominalLoad) -> xr.Dataset:
     from gripscale.wave.dataset import waves_to_dataset
 
-    bad = [
-        f"profile {number} of {len(results)}: {why}"
-        for number, why in enumerate(why_not, start=1)
-        if why
-    ]
-    lengths = np.array([result.wavelength for result in results])
-    weight = lengths / lengths.sum()
-    totals = {
-        total: math.nan if bad else float(weight @ [getattr(one, name) for one in results])
-        for total, name in TOTALS.items()
-    }
     data = waves_to_dataset(results).drop_vars("scale").rename(scale="profile")
-    data["weight"] = ("profile", weight, {"units": "1", "long_name": "share of the length"})
     data = data.assign_attrs(title="Profiles in the finite-strain block", **versions.attributes())
-    return model.answer(data, totals, "; ".join(bad) or "converged", BlockOnProfile.name, load)
+    lengths = [result.wavelength for result in results]
+    return model.answer_by_length(data, results, why_not, lengths, BlockOnProfile.name, load)
 
 
 def _lines(surface: PreparedSurface) -> list[Profile]:

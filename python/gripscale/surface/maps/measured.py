@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gripscale.errors import InputError
+from gripscale.surface.gaps import filled
 from gripscale.surface.maps.square import ComplexArray
 from gripscale.surface.profile import FloatArray, Profile
 
@@ -54,8 +55,7 @@ def measured_lines(profiles: Sequence[Profile], length: float) -> list[MeasuredL
 
 
 def _line(profile: Profile, length: float) -> MeasuredLine:
-    known = np.isfinite(profile.z)
-    z = np.interp(profile.x, profile.x[known], profile.z[known])
+    z = filled(profile.z)
     z = z - np.linspace(z[0], z[-1], z.size)
     waves = np.fft.rfft(z)
     q = np.asarray(2.0 * np.pi * np.fft.rfftfreq(z.size, profile.step), dtype=np.float64)
