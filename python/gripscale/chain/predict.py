@@ -11,20 +11,23 @@ That is a mean. With several pressure classes its distribution is handed down in
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any, Protocol
 
 from gripscale import checks
 from gripscale.chain.prediction import Prediction
 from gripscale.chain.pressure import MOST_CLASSES, PressureClasses, usable
+from gripscale.chain.settle import settle
 from gripscale.chain.solvers import WaveSolverLike, wave_solver
+from gripscale.conditions.conditions import Conditions
 from gripscale.errors import ConvergenceError, InputError
 from gripscale.model import LoadTime, NominalLoad
 from gripscale.rubber import Rubber
 from gripscale.rubber.carrying import require_solid
 from gripscale.surface import SineStack
 from gripscale.wave.problem import Load, Sine, WaveProblem
+from gripscale.wave.solver import RefinableSolver, WaveSolver
 
 
 class RubberAt(Protocol):
@@ -60,6 +63,7 @@ def predict(
     on_scale: Callable[[Prediction], None] | None = None,
     start: Prediction | None = None,
     rubber_at: RubberAt | None = None,
+    conditions: Conditions | None = None,
     **options: Any,
 ) -> Prediction:
     """Run the chain over the waves of `sines`, largest first.
@@ -99,6 +103,9 @@ def predict(
         found sooner.
     rubber_at
         Gives the rubber of each wave, from the wave and what was solved so far.
+    conditions
+        Temperature, softening, heat and area term; the chain is solved until they agree with it.
+        Not together with `rubber_at`.
     **options
         Of a solver given by name: columns, rows, depth, tolerance ...
 
@@ -116,18 +123,51 @@ def predict(
         A wave did not converge; a `ConvergenceError` whose `partial` is the prediction so far.
     """
     load = NominalLoad(pressure, speed, footprint, load_time)
-    require_solid(rubber, load.pressure, load.time_under(load.footprint))
-    solve = wave_solver(solver, options).solve
+    one = wave_solver(solver, options)
     waves = select_waves(sines, smallest_wavelength=smallest_wavelength, max_scales=max_scales)
-    result = Prediction(rubber, sines, load, [], len(waves))
     count = checks.whole("pressure_classes", pressure_classes, least=1, most=MOST_CLASSES)
+    nothing = Prediction(rubber, sines, load, [], len(waves))
+
+    def walk(own: RubberAt | None, first: Prediction | None) -> Prediction:
+        return _walk(nothing, waves, one, count, own, first, on_scale)
+
+    if conditions is None:
+        require_solid(rubber, load.pressure, load.time_under(load.footprint))
+        return walk(rubber_at, start)
+    if rubber_at is not None:
+        raise InputError("rubber_at must be None with conditions, which give the rubber; got both")
+    before = conditions.before(rubber)
+    require_solid(before, load.pressure, load.time_under(load.footprint))
+    if not conditions.iterated:
+        return walk(lambda wave, so_far: before, start)
+    if not isinstance(one, RefinableSolver):
+        return settle(lambda own, _: walk(own, None), None, rubber, conditions)
+    quick = one.coarser()
+
+    def coarse(own: RubberAt | None, first: Prediction | None) -> Prediction:
+        return _walk(nothing, waves, quick, count, own, first, on_scale)
+
+    return settle(walk, coarse, rubber, conditions)
+
+
+def _walk(
+    nothing: Prediction,
+    waves: Sequence[Sine],
+    solver: WaveSolver,
+    count: int,
+    rubber_at: RubberAt | None,
+    start: Prediction | None,
+    on_scale: Callable[[Prediction], None] | None,
+) -> Prediction:
+    """Return all `waves` solved one after the other, added to `nothing`."""
+    result, load = nothing, nothing.load
     classes, length = PressureClasses.uniform(load.pressure), load.footprint
     for number, wave in enumerate(waves):
         first = start.scales[number] if start is not None and number < len(start.scales) else None
-        own = rubber if rubber_at is None else rubber_at(wave, result)
+        own = result.rubber if rubber_at is None else rubber_at(wave, result)
         time = load.time_under(length)
         asked = [Load(float(pressure), load.speed, time) for pressure in classes.pressure]
-        solved = [solve(WaveProblem(own, wave, one), first) for one in asked]
+        solved = [solver.solve(WaveProblem(own, wave, one), first) for one in asked]
         scale = classes.together(solved)
         result = replace(result, scales=[*result.scales, scale])
         if on_scale is not None:

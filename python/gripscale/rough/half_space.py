@@ -21,6 +21,7 @@ import numpy as np
 import scipy.fft
 from numpy.typing import NDArray
 
+from gripscale.conditions.by_scale import RubberByScale
 from gripscale.rough.grid import Array, Grid
 from gripscale.rubber import Rubber
 
@@ -42,15 +43,22 @@ class HalfSpace:
         Sliding speed [m/s]; zero is the relaxed rubber.
     loss : float
         Share of the loss angle that is kept at unchanged |M|, 0 to 1; 1 is the rubber itself.
+    by_scale : RubberByScale, optional
+        What conditions have made of the rubber at each scale.
     """
 
     rubber: Rubber
     speed: float
     loss: float = 1.0
+    by_scale: RubberByScale | None = None
 
     def modulus(self, grid: Grid) -> ComplexArray:
-        """Return M [Pa] at the wavenumbers along x, broadcastable to the spectrum of `grid`."""
-        value = self.rubber.plane_strain_modulus(self.speed * grid.along)
+        """Return M [Pa] at the wavenumbers of `grid`, broadcastable to its spectrum."""
+        omega = self.speed * grid.along
+        if self.by_scale is None:
+            value = self.rubber.plane_strain_modulus(omega)
+        else:
+            value = self.by_scale.plane_strain_modulus(omega, grid.wavenumber)
         if self.loss != 1.0:
             value = np.abs(value) * np.exp(1j * self.loss * np.angle(value))
         return np.where(grid.own_opposite, np.abs(value), value)

@@ -8,10 +8,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
 from gripscale import checks
+from gripscale.conditions.by_scale import RubberByScale
+from gripscale.conditions.conditions import Conditions
 from gripscale.errors import InputError
 from gripscale.parallel import worker_count
 from gripscale.rough.estimate import errors
@@ -20,6 +23,7 @@ from gripscale.rough.half_space import HalfSpace
 from gripscale.rough.heights import PeriodicHeights, periodic_heights
 from gripscale.rough.magnitudes import check_magnitudes, half_space
 from gripscale.rough.result import RoughContact
+from gripscale.rough.settle import settle
 from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Profile
 from gripscale.wave.status import Status
@@ -42,6 +46,8 @@ def solve_rough_contact(
     most_points: int = 2**22,
     most_iterations: int = 60,
     on_grid: Callable[[GridRecord], None] | None = None,
+    conditions: Conditions | None = None,
+    footprint: float | None = None,
 ) -> RoughContact:
     """Return contact and friction of a whole surface: small strain, frictionless contact.
 
@@ -77,6 +83,10 @@ def solve_rough_contact(
     on_grid : callable, optional
         Called with the `GridRecord` of each grid as it is solved. A `KeyboardInterrupt` is raised
         at the next return from compiled code; of a stopped solution these records are what is left.
+    conditions : Conditions, optional
+        Temperature, softening, heat and area term; the contact is solved until they agree with it.
+    footprint : float, optional
+        Length of the nominal contact [m]; needed with heat.
 
     Returns
     -------
@@ -90,7 +100,9 @@ def solve_rough_contact(
         size is beyond what single precision can hold.
     """
     load = checks.positive("pressure", pressure, unit="Pa")
-    body = half_space(rubber, speed)
+    under = Conditions() if conditions is None else conditions
+    own = under.before(rubber)
+    body = half_space(own, speed)
     goal = math.inf if tolerance is None else _tolerance(tolerance)
     heights = periodic_heights(
         surface,
@@ -105,7 +117,29 @@ def solve_rough_contact(
     iterations = checks.whole("most_iterations", most_iterations, least=1, most=10**6)
     if on_grid is not None and not callable(on_grid):
         raise InputError(f"on_grid must be a function or None; got {checks.shown(on_grid)}")
-    climb = Climb(body, heights, load, threads, iterations)
+
+    def solve(by_scale: RubberByScale | None, reach: float) -> RoughContact:
+        own = replace(body, by_scale=by_scale)
+        return _solve(own, heights, load, threads, iterations, most, reach, on_grid)
+
+    if not under.iterated:
+        return solve(None, goal)
+    time = _passage(under, speed, footprint)
+    return settle(lambda own: solve(own, goal), lambda own: solve(own, math.inf), rubber, under, time=time)
+
+
+def _solve(
+    body: HalfSpace,
+    heights: PeriodicHeights,
+    load: float,
+    threads: int,
+    iterations: int,
+    most: int,
+    goal: float,
+    on_grid: Callable[[GridRecord], None] | None,
+) -> RoughContact:
+    """Return the contact with one rubber, on finer and finer grids."""
+    climb, plan = Climb(body, heights, load, threads, iterations), levels(heights)
     grids: list[GridRecord] = []
     while plan:
         solved = climb.solve(plan.pop(0))
@@ -116,6 +150,15 @@ def solve_rough_contact(
         if not plan and not _met(_same_surface(grids), goal):
             plan += [following] if following.grid.points <= most else []
     return _result(body, heights, load, solved, grids, goal)
+
+
+def _passage(conditions: Conditions, speed: float, footprint: float | None) -> float:
+    """Return for how long the nominal contact lasts [s], where heat needs to know."""
+    if conditions.heat is None or speed == 0.0:
+        return 0.0
+    if footprint is None:
+        raise InputError("footprint must be the length of the nominal contact [m] with heat; got none")
+    return checks.positive("footprint", footprint, unit="m") / speed
 
 
 def _result(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
 
 from gripscale import checks
@@ -72,6 +72,12 @@ class FiniteStrainBlock:
         stated = {"max_iterations": max_iterations, "residual_tolerance": residual_tolerance}
         settings = {name: value for name, value in stated.items() if value is not None}
         return cls(Mesh(**mesh), tolerance, settings, time_limit)
+
+    def coarser(self) -> FiniteStrainBlock:
+        """Return the block with half the columns and two thirds of the rows, a sixth of the work."""
+        mesh = self.mesh
+        columns, rows = max(mesh.columns // 2, 4), max(2 * mesh.rows // 3, 2)
+        return replace(self, mesh=replace(mesh, columns=columns, rows=rows), tolerance=None)
 
     def solve(self, problem: WaveProblem, start: WaveResult | None = None) -> WaveResult:
         """Return contact and friction of `problem`.

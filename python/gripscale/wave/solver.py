@@ -31,6 +31,14 @@ class WaveSolver(Protocol):
         """
 
 
+@runtime_checkable
+class RefinableSolver(WaveSolver, Protocol):
+    """A solver that starts from earlier results, and has a quicker one of its kind."""
+
+    def coarser(self) -> WaveSolver:
+        """Return the solver on a mesh that takes a fraction of the time."""
+
+
 def face_of(solver: type) -> Callable[[F], F]:
     """Mark a function with keyword arguments as the face of `solver`.
 

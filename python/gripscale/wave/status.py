@@ -18,3 +18,4 @@ class Status(StrEnum):
     TOLERANCE_NOT_MET = "tolerance not met"
     ACTIVE_SET_NOT_SETTLED = "active set not settled"
     CONTACT_TOO_NARROW = "contact too narrow"
+    CONDITIONS_NOT_SETTLED = "conditions not settled"

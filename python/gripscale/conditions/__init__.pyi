@@ -1,0 +1,1 @@
+from .conditions import Conditions as Conditions

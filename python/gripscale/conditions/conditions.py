@@ -1,0 +1,150 @@
+"""What changes the rubber on the way: its temperature, softening by strain, and its own heat."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gripscale import checks
+from gripscale.errors import InputError
+from gripscale.interface.area_term import InterfacialShearStress
+from gripscale.interface.thermal import ThermalProperties
+from gripscale.rubber import Rubber
+from gripscale.rubber.softening import SofteningLaw, softened
+
+Array = NDArray[np.float64]
+
+StrainNorm = Literal["slope", "stretch"]
+STRAIN_NORMS = ("slope", "stretch")
+
+MOST_PASSES = 8
+"""After which iteration ends, on the meshes or grids asked for and before on coarse ones."""
+SETTLED = 3e-4
+"""Relative change of contact fraction and friction between passes at which they have settled: a
+third of the 1e-3 that is promised."""
+
+HARMONICS = np.geomspace(1.0, 16.0, 12)
+"""Multiples of a wave's frequency at which the softened moduli are asked for."""
+
+
+@dataclass(frozen=True)
+class Conditions:
+    """Effects beside the rubber as measured, each off unless asked for.
+
+    Parameters
+    ----------
+    temperature : float, optional
+        Of the rubber before the contact [K]; by default that of its master curve.
+    softening : SofteningLaw, optional
+        How E' and E'' fall with the strain.
+    strain_norm : "slope" or "stretch"
+        The strain of a wave: half the rms slope in its contact, the larger waves' included (the
+        convention of B. N. J. Persson's theory, and the one the direct contact has), or the
+        largest principal stretch less one anywhere in the block of this wave alone.
+    heat : ThermalProperties, optional
+        Warm the rubber by its own friction.
+    shear_stress : InterfacialShearStress, optional
+        The area term's.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used.
+    """
+
+    temperature: float | None = None
+    softening: SofteningLaw | None = None
+    strain_norm: StrainNorm = "slope"
+    heat: ThermalProperties | None = None
+    shear_stress: InterfacialShearStress | None = None
+
+    def __post_init__(self) -> None:
+        if self.temperature is not None:
+            kelvin = checks.positive("temperature", self.temperature, unit="K")
+            object.__setattr__(self, "temperature", kelvin)
+        checks.one_of("strain_norm", self.strain_norm, STRAIN_NORMS)
+        kinds = (
+            ("softening", SofteningLaw, "a law of gripscale.rubber.softening"),
+            ("heat", ThermalProperties, "ThermalProperties"),
+            ("shear_stress", InterfacialShearStress, "a law of gripscale.interface"),
+        )
+        for name, kind, expected in kinds:
+            value = getattr(self, name)
+            if value is not None and not isinstance(value, kind):
+                raise InputError(f"{name} must be {expected}; got {checks.shown(value)}")
+
+    @property
+    def iterated(self) -> bool:
+        """Whether the rubber depends on what is solved."""
+        return self.softening is not None or self.heat is not None
+
+    def temperature_of(self, rubber: Rubber) -> float | None:
+        """Return the temperature before the contact [K], None if nobody knows it."""
+        return rubber.reference_temperature if self.temperature is None else self.temperature
+
+    def before(self, rubber: Rubber) -> Rubber:
+        """Return `rubber` at the temperature before the contact.
+
+        Raises `InputError` if there is a temperature, or heat, and the rubber has no shift.
+        """
+        if self.heat is not None and (rubber.shift is None or self.temperature_of(rubber) is None):
+            raise InputError(
+                "heat needs a rubber with reference_temperature and shift, as superpose gives "
+                f"them; got none with {rubber.name or 'this rubber'}"
+            )
+        return rubber if self.temperature is None else rubber.at(self.temperature)
+
+
+    def within_shift(self, rubber: Rubber, kelvin: ArrayLike) -> Array:
+        """Return temperatures [K], those beyond what the shift of `rubber` has values for held."""
+        if rubber.shift is None:
+            return np.asarray(kelvin, dtype=float)
+        return np.clip(kelvin, *rubber.shift.limits)
+
+
+@dataclass(frozen=True)
+class RubberState:
+    """What the rubber has become at one place."""
+
+    rubber: Rubber
+    storage_factor: float
+    """f, what is left of E' by strain [-]."""
+    loss_factor: float
+    """g, what is left of E'' by strain [-]."""
+    series_misfit: float
+    """Of the softened series at the frequency of the wave [-]."""
+    beyond_sweep: bool
+    """Whether the strain lies beyond what the softening was measured for."""
+
+
+def rubber_under(
+    conditions: Conditions, rubber: Rubber, *, warming: float, strain: float, omega: float
+) -> RubberState:
+    """Return the rubber at one place of a contact.
+
+    Parameters
+    ----------
+    conditions : Conditions
+        What changes it.
+    rubber : Rubber
+        As measured.
+    warming : float
+        Above the temperature before the contact [K].
+    strain : float
+        Uniaxial amplitude [-].
+    omega : float
+        Lowest angular frequency there [rad/s]; zero at rest.
+    """
+    own, kelvin = conditions.before(rubber), conditions.temperature_of(rubber)
+    if conditions.heat is not None and kelvin is not None:
+        kelvin = float(conditions.within_shift(own, kelvin + warming))
+        own = own.at(kelvin)
+    if conditions.softening is None:
+        return RubberState(own, 1.0, 1.0, 0.0, beyond_sweep=False)
+    left = conditions.softening.factors(strain, kelvin)
+    f, g = float(left.storage), float(left.loss)
+    series = softened(own, f, g, omega * HARMONICS if omega > 0.0 else ())
+    return RubberState(series.rubber, f, g, series.misfit, bool(left.outside))

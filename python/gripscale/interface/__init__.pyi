@@ -1,0 +1,15 @@
+from .area_term import ConstantStress as ConstantStress
+from .area_term import GaussianStress as GaussianStress
+from .area_term import InterfacialShearStress as InterfacialShearStress
+from .area_term import LeGalKlueppelStress as LeGalKlueppelStress
+from .area_term import TableStress as TableStress
+from .area_term import adhesive_friction as adhesive_friction
+from .area_term import shear_stress_from_dict as shear_stress_from_dict
+from .area_term import shear_stress_to_dict as shear_stress_to_dict
+from .loss_depth import LossDepth as LossDepth
+from .temperature_rise import harmonic_at_surface as harmonic_at_surface
+from .temperature_rise import harmonic_decay as harmonic_decay
+from .temperature_rise import harmonic_where_lost as harmonic_where_lost
+from .temperature_rise import uniform_at_surface as uniform_at_surface
+from .temperature_rise import uniform_where_lost as uniform_where_lost
+from .thermal import ThermalProperties as ThermalProperties

@@ -1,0 +1,95 @@
+"""The area term: laws of the interfacial shear stress."""
+
+import math
+
+import numpy as np
+import pytest
+
+import gripscale as gs
+from gripscale.interface import (
+    ConstantStress,
+    GaussianStress,
+    LeGalKlueppelStress,
+    TableStress,
+    adhesive_friction,
+    shear_stress_from_dict,
+    shear_stress_to_dict,
+)
+from gripscale.interface.area_term import BOLTZMANN
+
+LAWS = [
+    ConstantStress(5e6),
+    GaussianStress(6e6, width=0.1, speed_0=6e-3),
+    GaussianStress(6e6, 0.1, 6e-3, activation_energy=0.97, reference_temperature=293.15),
+    LeGalKlueppelStress(1e5, ratio=300.0, critical_speed=0.1, exponent=0.2),
+    TableStress([1e-4, 1e-2, 1.0], [1e6, 4e6, 2e6]),
+]
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_a_law_survives_its_dict(law):
+    assert shear_stress_from_dict(shear_stress_to_dict(law)) == law
+
+
+def test_the_bell():
+    law = GaussianStress(6e6, width=0.1, speed_0=6e-3)
+    assert law.stress(6e-3) == pytest.approx(6e6)
+    # a decade off, exp(-0.1); two, exp(-0.4)
+    assert law.stress([6e-2, 6e-4, 0.6]) == pytest.approx(
+        6e6 * np.exp([-0.1, -0.1, -0.4]), rel=1e-12
+    )
+    assert law.stress(0.0) == 0.0
+
+
+def test_the_bell_moves_with_the_temperature():
+    law = GaussianStress(6e6, 0.1, 6e-3, activation_energy=0.97, reference_temperature=293.15)
+    colder = 283.15
+    shift = math.exp(0.97 / BOLTZMANN * (1.0 / colder - 1.0 / 293.15))
+    assert shift > 1.0
+    assert law.stress(6e-3 / shift, colder) == pytest.approx(6e6)
+    with pytest.raises(gs.InputError, match="temperature must be given"):
+        law.stress(1.0)
+
+
+def test_le_gal_and_klueppel_between_two_plateaus():
+    law = LeGalKlueppelStress(1e5, ratio=300.0, critical_speed=0.1, exponent=1.0)
+    assert law.stress(0.0) == pytest.approx(1e5)
+    assert law.stress(0.1) == pytest.approx(1e5 * 151.0)
+    assert law.stress(1e12) == pytest.approx(1e5 * 301.0)
+
+
+def test_a_table_is_held_beyond_its_ends():
+    law = TableStress([1e-4, 1e-2, 1.0], [1e6, 4e6, 2e6])
+    assert law.stress([0.0, 1e-5, 1e-3, 1.0, 9.0]) == pytest.approx([1e6, 1e6, 2.5e6, 2e6, 2e6])
+
+
+def test_the_friction_of_a_sheared_area():
+    assert adhesive_friction(5e6, 0.03, 3e5) == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize(
+    ("values", "word"),
+    [
+        ({"kind": "bell"}, "kind"),
+        ({"kind": "constant"}, "stress_0"),
+        ({"kind": "constant", "stress_0": 1e6, "width": 0.1}, "width"),
+        ({"kind": "constant", "stress_0": -1.0}, "stress_0"),
+        ({"kind": "gaussian", "stress_0": 1e6, "width": 0.0, "speed_0": 1.0}, "width"),
+        (
+            {
+                "kind": "gaussian",
+                "stress_0": 1e6,
+                "width": 0.1,
+                "speed_0": 1.0,
+                "activation_energy": 0.9,
+            },
+            "reference_temperature",
+        ),
+        ({"kind": "table", "speed": [1.0], "stress_at": [1e6]}, "speed"),
+        ({"kind": "table", "speed": [1.0, 2.0], "stress_at": [1e6, -1.0]}, "stress_at"),
+    ],
+)
+def test_a_wrong_law_is_one_sentence(values, word):
+    with pytest.raises(gs.InputError, match=word) as caught:
+        shear_stress_from_dict(values)
+    assert "\n" not in str(caught.value)
