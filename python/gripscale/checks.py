@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import difflib
 import math
-from collections.abc import Iterable
-from typing import Any
+from collections.abc import Iterable, Mapping
+from dataclasses import MISSING, fields
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gripscale.errors import InputError
+
+T = TypeVar("T")
 
 LEAST, MOST = 1e-100, 1e100
 """Quantities beyond these are mistakes; within them no square or product of two overflows."""
@@ -140,3 +143,19 @@ def shown(value: Any) -> str:
 
 def _in(unit: str) -> str:
     return f" [{unit}]" if unit else ""
+
+
+def made(law: type[T], kind: str, given: Mapping[str, Any]) -> T:
+    """Return the dataclass `law` of its `given` parameters, those with a default left out or not.
+
+    Raises `InputError` that names what is missing or unknown.
+    """
+    known = {one.name: one for one in fields(law) if one.init}  # type: ignore[arg-type]
+    wanted = [n for n, one in known.items() if one.default is one.default_factory is MISSING]
+    if set(given) - set(known) or set(wanted) - set(given):
+        raise InputError(
+            f"{kind} takes {', '.join(known) or 'no parameters'}"
+            f", of which {', '.join(wanted) or 'none'} must be given; got "
+            f"{', '.join(map(str, given)) or 'none'}"
+        )
+    return law(**given)

@@ -22,6 +22,9 @@ from gripscale.rough.grid import Array, Grid
 
 ComplexArray = NDArray[np.complex128]
 
+ROUND_OFF = 1e-12
+"""Share of the friction below which an octave loses nothing."""
+
 
 @dataclass(frozen=True)
 class OctaveHeat:
@@ -56,7 +59,7 @@ def octave_heats(grid: Grid, pressure: Array, lost: Array) -> list[OctaveHeat]:
     for which in range(int(octave.max()) + 1):
         own = np.where((octave == which) & (lost > 0.0), lost, 0.0)
         total = float(own.sum())
-        if total > 0.0:
+        if total > ROUND_OFF * float(lost.sum()):
             density = np.abs(_envelope(grid, np.sqrt(own) * phase)) ** 2
             mean = float((own * 1.5 / np.maximum(number, longest)).sum() / total)
             middle = longest * 2.0 ** (which + 0.5)

@@ -29,8 +29,7 @@ def softening_from_dict(values: Mapping[str, Any]) -> SofteningLaw:
 
     Raises `InputError` if the kind is unknown or a value cannot be used.
     """
-    values = dict(values)
-    law: SofteningLaw = SOFTENING_LAWS[
-        checks.one_of("kind", values.pop("kind", None), SOFTENING_LAWS)
-    ](**values)
+    given = dict(values)
+    kind = checks.one_of("kind", given.pop("kind", None), SOFTENING_LAWS)
+    law: SofteningLaw = checks.made(SOFTENING_LAWS[kind], kind, given)
     return law
