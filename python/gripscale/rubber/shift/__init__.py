@@ -10,7 +10,7 @@ from gripscale.rubber.shift.base import Shift
 from gripscale.rubber.shift.table import ShiftTable
 from gripscale.rubber.shift.wlf import WLF, Arrhenius, WLFArrhenius
 
-__all__ = ["SHIFTS", "WLF", "Arrhenius", "Shift", "ShiftTable", "WLFArrhenius", "shift_from_dict"]
+__all__ = ["SHIFTS", "WLF", "Arrhenius", "Shift", "ShiftTable", "WLFArrhenius", "shift_at", "shift_from_dict"]
 
 SHIFTS: dict[str, type[Shift]] = {
     law.kind: law for law in (WLF, Arrhenius, WLFArrhenius, ShiftTable)
@@ -33,3 +33,19 @@ def shift_from_dict(values: Mapping[str, Any]) -> Shift:
         return law(**settings)
     except TypeError as error:
         raise InputError(f"the shift {law.kind} lacks a setting ({error})") from error
+
+
+def shift_at(shift: Shift | None, reference_temperature: float | None) -> Shift | None:
+    """Return the shift of something that holds for a reference temperature [K].
+
+    Raises `InputError` if it is no shift, or the temperature is not known or beyond its limits.
+    """
+    if shift is None:
+        return None
+    if not isinstance(shift, Shift):
+        raise InputError(f"shift must be a Shift, such as WLF; got {checks.shown(shift)}")
+    if reference_temperature is None:
+        raise InputError("reference_temperature [K] must be given with a shift; got None")
+    bound = shift.bound(reference_temperature)
+    bound.log_a(reference_temperature, reference_temperature)
+    return bound
