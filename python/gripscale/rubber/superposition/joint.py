@@ -33,8 +33,10 @@ _FAR = 2.0
 """Standard deviations from which a row counts less."""
 _LEAST_SCATTER = 1e-5
 _MOST_CORRELATED = 0.9
-_LIFT = 0.05
+_LIFT = 0.02
 """How far log10 b_T of neighbours is expected apart [decades]; entropy and density say 0.01."""
+_LEAST_SHARE = 0.1
+"""Least overlap of neighbours, over the shorter of them."""
 _SOFT = 1e-6
 """Weight that keeps a shift no row determines from being infinite: its error is 1000 decades."""
 
@@ -64,6 +66,7 @@ def align(rows: Rows, log_a: Array, log_b: Array, held: int, lifted: bool) -> Jo
         last = _pass(rows, shifts, free, trust / scatter**2, weights)
         largest = float(np.abs(last.step).max(initial=0.0))
         shifts[free] += last.step * min(1.0, _LARGEST_STEP / max(largest, 1e-300))
+        shifts[: rows.sweeps] = _overlapping(rows, shifts[: rows.sweeps], held)
         scatter, trust = _scatter(rows, last, trust)
         if at >= _SETTLING:
             weights = last.weights
@@ -123,6 +126,17 @@ def _pass(
     freedoms = np.array([curve.freedoms for curve in curves]) + len(free) / len(curves)
     weight = tuple(curve.weight for curve in curves)
     return _Pass(inverse @ right, inverse, np.array(residuals), freedoms, weight)
+
+
+def _overlapping(rows: Rows, log_a: Array, held: int) -> Array:
+    """Return the shifts, no neighbours farther apart than where they hardly overlap."""
+    ends = np.array([rows.of(one)[0][[0, -1]] for one in range(rows.sweeps)])
+    least = _LEAST_SHARE * np.minimum(np.ptp(ends[1:], axis=1), np.ptp(ends[:-1], axis=1))
+    # Colder less warmer: the colder may end above the beginning of the warmer, and begin below its end.
+    low = ends[1:, 0] - ends[:-1, 1] + least
+    high = ends[1:, 1] - ends[:-1, 0] - least
+    total = np.append(np.cumsum(np.clip(-np.diff(log_a), low, high)[::-1])[::-1], 0.0)
+    return np.asarray(total - total[held])
 
 
 def _expected(sweeps: int) -> Array:

@@ -15,7 +15,7 @@ from gripscale.errors import InputError
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.shift import Shift, ShiftTable
 from gripscale.rubber.superposition.joint import Joint, align
-from gripscale.rubber.superposition.neighbours import no_common_modulus, overlap_width, start
+from gripscale.rubber.superposition.neighbours import no_common_modulus, start
 from gripscale.rubber.superposition.report import Superposition, report, temperatures_in
 from gripscale.rubber.superposition.rows import MODULI, Array, Rows, rows_of
 from gripscale.rubber.sweeps import Sweeps
@@ -118,9 +118,8 @@ def _found(
         return ShiftTable(kelvin, [0.0], [0.0], reference_temperature=reference), {}
     _require_common(sweeps, rows_of(sweeps, "both"))
     rows = rows_of(sweeps, moduli)
-    begin = start(rows_of(sweeps, "storage") if "storage" in MODULI[moduli] else rows, False)
-    joint = align(rows, *begin, nearest, lifted)
-    _require_overlap(sweeps, rows, joint.log_a)
+    first = "storage" if "storage" in MODULI[moduli] and not lifted else moduli
+    joint = align(rows, *start(rows_of(sweeps, first), lifted), nearest, lifted)
     scatter = dict(zip(MODULI[moduli], joint.scatter.tolist(), strict=True))
     return _table(kelvin, reference, joint, lifted), scatter
 
@@ -130,13 +129,6 @@ def _require_common(sweeps: Sweeps, rows: Rows) -> None:
     for colder in range(rows.sweeps - 1):
         cold, warm = rows.of(colder), rows.of(colder + 1)
         if min(len(cold[0]), len(warm[0])) < 2 or no_common_modulus(cold, warm, _NOISE):
-            raise _nothing_common(sweeps, colder)
-
-
-def _require_overlap(sweeps: Sweeps, rows: Rows, log_a: Array) -> None:
-    for colder in range(rows.sweeps - 1):
-        cold, warm = (rows.of(one)[0] + log_a[one] for one in (colder, colder + 1))
-        if overlap_width(cold, warm) <= 0.0:
             raise _nothing_common(sweeps, colder)
 
 
