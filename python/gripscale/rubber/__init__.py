@@ -14,7 +14,22 @@ from gripscale.rubber.misfit import Misfit
 from gripscale.rubber.named import springpot_modulus, styrene_butadiene
 from gripscale.rubber.prony import fit_prony, fit_prony_report
 from gripscale.rubber.prony_report import PronyFit
+from gripscale.rubber.ramps import sweeps_from_ramps
 from gripscale.rubber.reader import read_master_curve
+from gripscale.rubber.shift import (
+    SHIFTS,
+    WLF,
+    Arrhenius,
+    Shift,
+    ShiftFit,
+    ShiftTable,
+    WLFArrhenius,
+    fit_arrhenius,
+    fit_wlf,
+    read_shift_table,
+    shift_from_dict,
+    write_shift_table,
+)
 from gripscale.rubber.strain_energy import (
     STRAIN_ENERGIES,
     Isihara,
@@ -24,12 +39,23 @@ from gripscale.rubber.strain_energy import (
     Yeoh,
     strain_energy,
 )
+from gripscale.rubber.superposition import (
+    Overlap,
+    Superposition,
+    superpose,
+    superpose_report,
+)
+from gripscale.rubber.sweeps import Sweep, Sweeps
+from gripscale.rubber.sweeps_reader import read_sweeps
 from gripscale.rubber.term_choice import Candidate
 from gripscale.rubber.uniaxial_test import UniaxialTest, read_uniaxial_test
 
 __all__ = [
+    "SHIFTS",
     "STRAIN_ENERGIES",
+    "WLF",
     "AdmissibleSeries",
+    "Arrhenius",
     "Candidate",
     "FiniteStrainFit",
     "Isihara",
@@ -37,21 +63,38 @@ __all__ = [
     "Misfit",
     "MooneyRivlin",
     "NeoHookean",
+    "Overlap",
     "PronyFit",
     "Rubber",
+    "Shift",
+    "ShiftFit",
+    "ShiftTable",
     "StrainEnergy",
+    "Superposition",
+    "Sweep",
+    "Sweeps",
     "UniaxialTest",
+    "WLFArrhenius",
     "Yeoh",
+    "fit_arrhenius",
     "fit_finite_strain",
     "fit_prony",
     "fit_prony_report",
+    "fit_wlf",
     "read_master_curve",
+    "read_shift_table",
+    "read_sweeps",
     "read_uniaxial_test",
     "rms_error",
+    "shift_from_dict",
     "simple_shear_stress",
     "springpot_modulus",
     "strain_energy",
     "styrene_butadiene",
+    "superpose",
+    "superpose_report",
+    "sweeps_from_ramps",
     "uniaxial_stress",
     "work_error",
+    "write_shift_table",
 ]

@@ -7,10 +7,26 @@ from typing import Any
 from gripscale import checks
 from gripscale.errors import InputError
 from gripscale.rubber.shift.base import Shift
+from gripscale.rubber.shift.fits import ShiftFit, fit_arrhenius, fit_wlf
 from gripscale.rubber.shift.table import ShiftTable
+from gripscale.rubber.shift.table_file import read_shift_table, write_shift_table
 from gripscale.rubber.shift.wlf import WLF, Arrhenius, WLFArrhenius
 
-__all__ = ["SHIFTS", "WLF", "Arrhenius", "Shift", "ShiftTable", "WLFArrhenius", "shift_at", "shift_from_dict"]
+__all__ = [
+    "SHIFTS",
+    "WLF",
+    "Arrhenius",
+    "Shift",
+    "ShiftFit",
+    "ShiftTable",
+    "WLFArrhenius",
+    "fit_arrhenius",
+    "fit_wlf",
+    "read_shift_table",
+    "shift_at",
+    "shift_from_dict",
+    "write_shift_table",
+]
 
 SHIFTS: dict[str, type[Shift]] = {
     law.kind: law for law in (WLF, Arrhenius, WLFArrhenius, ShiftTable)
