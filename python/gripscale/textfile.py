@@ -1,6 +1,7 @@
 """Tables of numbers in text files: one set of rules for every instrument's export.
 
-- UTF-8, UTF-16 (with a byte order mark), Windows-1252 or latin-1; any line ends. Control codes mean binary data.
+- UTF-8, UTF-16 (with a byte order mark), Windows-1252 or latin-1; any line ends. Control codes mean
+  binary data.
 - Lines that begin with #, % or ! are comments. Titles may stand in one.
 - Cells are parted by tabs, semicolons, commas or blanks: by the first of these that makes numbers
   of all cells of a line. That line is the first row; every later line must have as many cells.

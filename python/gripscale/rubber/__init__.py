@@ -8,6 +8,7 @@ from gripscale.rubber.finite_strain_fit import (
     work_error,
 )
 from gripscale.rubber.master_curve import MasterCurve
+from gripscale.rubber.master_curve_file import write_master_curve
 from gripscale.rubber.material import Rubber
 from gripscale.rubber.material_point import simple_shear_stress, uniaxial_stress
 from gripscale.rubber.misfit import Misfit
@@ -16,6 +17,7 @@ from gripscale.rubber.prony import fit_prony, fit_prony_report
 from gripscale.rubber.prony_report import PronyFit
 from gripscale.rubber.ramps import sweeps_from_ramps
 from gripscale.rubber.reader import read_master_curve
+from gripscale.rubber.same_temperature import temperature_doubts
 from gripscale.rubber.shift import (
     SHIFTS,
     WLF,
@@ -39,6 +41,7 @@ from gripscale.rubber.strain_energy import (
     Yeoh,
     strain_energy,
 )
+from gripscale.rubber.strain_sweep import StrainSweep, read_strain_sweep
 from gripscale.rubber.superposition import (
     Overlap,
     Superposition,
@@ -70,6 +73,7 @@ __all__ = [
     "ShiftFit",
     "ShiftTable",
     "StrainEnergy",
+    "StrainSweep",
     "Superposition",
     "Sweep",
     "Sweeps",
@@ -83,6 +87,7 @@ __all__ = [
     "fit_wlf",
     "read_master_curve",
     "read_shift_table",
+    "read_strain_sweep",
     "read_sweeps",
     "read_uniaxial_test",
     "rms_error",
@@ -94,7 +99,9 @@ __all__ = [
     "superpose",
     "superpose_report",
     "sweeps_from_ramps",
+    "temperature_doubts",
     "uniaxial_stress",
     "work_error",
+    "write_master_curve",
     "write_shift_table",
 ]

@@ -16,7 +16,7 @@ from gripscale.rubber.sweeps import Array, Sweeps, checked_rows
 _ONE_FREQUENCY = 0.01
 """Frequencies that differ by less than this share are one."""
 _WIDEST_GAP = 2.0
-"""Distance of the rows beside a nominal temperature over the step, up to which they belong to it."""
+"""Distance of the rows beside a nominal temperature, over the step, up to which they are used."""
 
 
 def sweeps_from_ramps(
@@ -58,7 +58,8 @@ def sweeps_from_ramps(
             f"step [K] must put a nominal temperature between the {low:.2f} and {high:.2f} K "
             f"measured; got {step:g}"
         )
-    return Sweeps(*together, tolerance=0.5 * step, name=name, source=source)
+    kelvin, hertz, real, imaginary = together
+    return Sweeps(kelvin, hertz, real, imaginary, 0.5 * step, name, source)
 
 
 def _frequencies(frequency: Array) -> Array:

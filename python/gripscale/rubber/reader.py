@@ -166,6 +166,7 @@ def _three(columns: Sequence[str | int]) -> Sequence[str | int]:
 
 
 def position_of(table: TextTable, column: str | int) -> int:
+    """Return the position of a column given by it or by its name in the header."""
     if isinstance(column, int):
         return checks.whole("columns", column, least=0, most=len(table.columns) - 1)
     if table.names.count(column) != 1:

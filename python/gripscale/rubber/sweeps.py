@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -105,7 +106,7 @@ class Sweeps:
     def _rows(self) -> list[slice]:
         group = _groups(self.temperature, self.tolerance)
         cuts = [0, *(np.flatnonzero(np.diff(group)) + 1).tolist(), len(group)]
-        return [slice(a, b) for a, b in zip(cuts, cuts[1:], strict=False)]
+        return [slice(a, b) for a, b in pairwise(cuts)]
 
     def __len__(self) -> int:
         """Return the number of sweeps."""
@@ -131,6 +132,23 @@ class Sweeps:
     def _key(self) -> tuple[object, ...]:
         columns = self.temperature, self.frequency, self.storage, self.loss
         return *(column.tobytes() for column in columns), self.tolerance, self.name, self.source
+
+    def between(self, lowest: float, highest: float) -> Sweeps:
+        """Return the rows from a lowest to a highest frequency [Hz].
+
+        For instruments whose own resonance is in the last rows of every sweep. Raises `InputError`
+        if there is none.
+        """
+        low, high = checks.not_negative("lowest", lowest), checks.positive("highest", highest)
+        kept = (self.frequency >= low) & (self.frequency <= high)
+        columns = (self.temperature, self.frequency, self.storage, self.loss)
+        temperature, frequency, storage, loss = (column[kept] for column in columns)
+        if not kept.any():
+            raise InputError(
+                f"lowest and highest [Hz] must enclose a measured frequency; got {low:g} and "
+                f"{high:g}"
+            )
+        return Sweeps(temperature, frequency, storage, loss, self.tolerance, self.name, self.source)
 
     @property
     def temperatures(self) -> Array:

@@ -13,6 +13,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gripscale import checks
 from gripscale.errors import FileError, InputError
@@ -111,14 +112,23 @@ def read_sweeps(
             place, sheet=sheet, expected=expected, temperature_unit=temperature_unit
         )
     ]
-    rows = np.concatenate(parts, axis=1)
-    if not rows.size:
+    temperatures, *others = np.concatenate(parts, axis=1)
+    if not temperatures.size:
         raise FileError(f"{paths[0]}: expected rows without missing values; got none")
     called = paths[0].stem if name is None else name
+    frequency, storage, loss = others
     if temperature_step is not None:
-        return sweeps_from_ramps(*rows, step=temperature_step, name=called, source=source)
+        return sweeps_from_ramps(
+            temperatures,
+            frequency,
+            storage,
+            loss,
+            step=temperature_step,
+            name=called,
+            source=source,
+        )
     try:
-        return Sweeps(*rows, tolerance=tolerance, name=called, source=source)
+        return Sweeps(temperatures, frequency, storage, loss, tolerance, called, source)
     except InputError as error:
         raise InputError(f"{paths[0]}: {error}") from error
 
@@ -146,10 +156,10 @@ def _rows(
     table = block.table
     frequency = find_column(table, "frequency", chosen)
     if frequency is None:
-        raise _missing(table, "frequency", "columns")
+        raise missing(table, "frequency", "columns")
     hertz = unit_of(table, [frequency], "frequency", given["frequency"])
     rows = [
-        _temperatures(block, chosen, temperature, given["temperature"]),
+        row_temperatures(block, chosen, temperature, given["temperature"]),
         in_si(above_zero(table, frequency, "frequency"), hertz, "frequency"),
         *young_moduli(table, chosen, given["modulus"], modulus),
     ]
@@ -170,9 +180,8 @@ def find_column(table: TextTable, wanted: str, chosen: Columns) -> int | None:
     first = [row[hits[0]] for row in table.rows] if hits else []
     if any([row[at] for row in table.rows] != first for at in hits[1:]):
         raise InputError(
-            f"{table.path}: columns must say which is the {wanted}, because {len(hits)} titles mean "
-            f"it ({', '.join(table.columns[at].name for at in hits)}); give columns={{'{wanted}': "
-            "...}"
+            f"{table.path}: columns must say which is the {wanted}, because {len(hits)} titles "
+            f"mean it ({', '.join(table.columns[at].name for at in hits)})"
         )
     return hits[0] if hits else None
 
@@ -185,7 +194,7 @@ def young_moduli(
     there = {one: at for one, at in places.items() if at is not None}
     pair = next((pair for pair in _PAIRS if set(pair) <= set(there)), None)
     if pair is None:
-        raise _missing(table, "modulus as two of storage, loss, loss_factor, magnitude", "columns")
+        raise missing(table, "modulus as two of storage, loss, loss_factor, magnitude", "columns")
     in_pascal = [there[one] for one in pair if one != "loss_factor"]
     size = in_si(1.0, unit_of(table, in_pascal, "modulus", modulus_unit), "modulus")
     size *= 3.0 if modulus_of(table, in_pascal, modulus) == "G" else 1.0
@@ -204,9 +213,7 @@ def young_moduli(
     return storage, storage * factor
 
 
-def _temperatures(
-    block: Block, chosen: Columns, given: float | None, unit: str | None
-) -> Array:
+def row_temperatures(block: Block, chosen: Columns, given: float | None, unit: str | None) -> Array:
     """Return the temperature of each row [K]: the caller's, of the lines above, of a column."""
     table = block.table
     if given is None and block.temperature is not None and "temperature" not in chosen:
@@ -215,7 +222,7 @@ def _temperatures(
         return np.full(len(table.rows), given)
     column = find_column(table, "temperature", chosen)
     if column is None:
-        raise _missing(table, "temperature", "columns or temperature")
+        raise missing(table, "temperature", "columns or temperature")
     written = unit_of(table, [column], "temperature", unit)
     kelvin = in_si(table.numbers(column, "a temperature", missing=True), written, "temperature")
     _check(table, column, kelvin > 0.0, kelvin, "a temperature above absolute zero")
@@ -226,12 +233,15 @@ def above_zero(table: TextTable, column: int, wanted: str) -> Array:
     """Return a column of numbers above zero, NaN where missing; `FileError` names other lines."""
     values = table.numbers(column, "a finite number", missing=True)
     good = (values >= checks.LEAST) & (values <= checks.MOST)
-    words = wanted.replace("_", " ")
-    _check(table, column, good, values, f"a {words} above zero, {checks.LEAST:g} to {checks.MOST:g}")
+    span = f"{checks.LEAST:g} to {checks.MOST:g}"
+    expected = f"a {wanted.replace('_', ' ')} above zero, {span},"
+    _check(table, column, good, values, expected)
     return values
 
 
-def _check(table: TextTable, column: int, good: Array, values: Array, expected: str) -> None:
+def _check(
+    table: TextTable, column: int, good: NDArray[np.bool_], values: Array, expected: str
+) -> None:
     bad = ~good & ~np.isnan(values)
     if bad.any():
         at = int(np.argmax(bad))
@@ -241,6 +251,7 @@ def _check(table: TextTable, column: int, good: Array, values: Array, expected: 
         )
 
 
-def _missing(table: TextTable, what: str, argument: str) -> InputError:
+def missing(table: TextTable, what: str, argument: str) -> InputError:
+    """Return the refusal of a table in which a quantity cannot be found."""
     known = f"the header has {', '.join(filter(None, table.names))}" if table.names else "no header"
     return InputError(f"{table.path}: {argument} must give the {what}; {known}")

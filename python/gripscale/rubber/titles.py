@@ -29,8 +29,16 @@ _PATTERNS = {
     "strain": r".*strain\b|.*dehnung|.*verformung|.*deformation|gamma\b|.*scherung",
 }
 _KNOWN = {name: re.compile(pattern) for name, pattern in _PATTERNS.items()}
-_OTHER = re.compile(r"log|ln\b|lg\b|eta\b|η|visco|visko|complian|torque|phase|rate\b|static|statisch")
-_LETTERS = {"T": "temperature", "f": "frequency", "ω": "frequency", "w": "frequency", "γ": "strain"}
+_OTHER = re.compile(
+    r"log|ln\b|lg\b|eta\b|η|visco|visko|complian|torque|phase|rate\b|static|statisch"
+)
+_LETTERS = {
+    "T": "temperature",
+    "f": "frequency",
+    "ω": "frequency",
+    "w": "frequency",
+    "γ": "strain",
+}
 """Letters that are a title by themselves: t is a time and F a force."""
 _BARE_PRIMES = re.compile(r'(?<!["\w])[EG]"(?=\s*(?:[\t;,(\[/]|\s|$))')
 _NUMBER = r"[-+]?\d+(?:[.,]\d+)?"

@@ -104,7 +104,7 @@ class Shift(ABC):
                 f"temperature must lie within {low:.2f} to {high:.2f} K, where the shift "
                 f"({self.kind}) has values; got {float(kelvin[bad].flat[0]):g}"
             )
-        return np.clip(kelvin, low, high)
+        return np.asarray(np.clip(kelvin, low, high))
 
     def to_dict(self) -> dict[str, Any]:
         """Return the kind and all settings."""

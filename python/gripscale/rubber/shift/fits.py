@@ -89,9 +89,13 @@ def fit_wlf(
     coldest = max(float(reference - kelvin.min()), 0.0)
     begin = max(_SECOND, 1.5 * coldest)
     slope = law(np.array([1.0, begin]))
-    first = max(float(slope @ log_a / max(slope @ slope, 1e-30)), 1e-3)
+    first = max(float(slope @ log_a) / max(float(slope @ slope), 1e-30), 1e-3)
+
+    def weighted(constants: Array) -> Array:
+        return np.asarray((law(constants) - log_a) / error)
+
     found = least_squares(
-        lambda c: (law(c) - log_a) / error,
+        weighted,
         [first, begin],
         bounds=([0.0, coldest * (1.0 + 1e-6) + 1e-6], [np.inf, 1e4]),
         x_scale=[10.0, 50.0],
@@ -104,7 +108,7 @@ def fit_wlf(
         )
     shift = WLF(c1, c2, reference, _span(kelvin))
     residual = log_a - law(found.x)
-    errors = _errors(found.jac, residual / error)
+    errors = _errors(np.asarray(found.jac), residual / error)
     return ShiftFit(shift, dict(zip(("c1", "c2"), errors, strict=True)), kelvin, residual)
 
 

@@ -17,9 +17,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gripscale.rubber.superposition.rows import Array, Rows
-from gripscale.rubber.superposition.spline import Basis, Smooth, smooth
+from gripscale.rubber.superposition.spline import Basis, smooth
 
 _SPACING = 0.5
 """Of the knots [decades]."""
@@ -43,7 +44,7 @@ _SOFT = 1e-6
 
 @dataclass(frozen=True)
 class Joint:
-    """Shifts of all sweeps against one of them."""
+    """Shifts of all sweeps against the middle one."""
 
     log_a: Array
     log_b: Array
@@ -55,8 +56,9 @@ class Joint:
     """Of neighbouring residuals of one sweep."""
 
 
-def align(rows: Rows, log_a: Array, log_b: Array, held: int, lifted: bool) -> Joint:
-    """Return the best shifts near a start; those of the sweep `held` stay zero."""
+def align(rows: Rows, log_a: Array, log_b: Array, lifted: bool) -> Joint:
+    """Return the best shifts near a start against the middle sweep; log_b only if `lifted`."""
+    held = rows.sweeps // 2
     shifts = np.concatenate([log_a - log_a[held], log_b - log_b[held]])
     free = _free(rows.sweeps, held, lifted)
     trust = np.ones_like(rows.y)
@@ -93,14 +95,18 @@ class _Pass:
     """Of the penalty of each spline over the scatter."""
 
 
-def _free(sweeps: int, held: int, lifted: bool) -> Array:
+def _free(sweeps: int, held: int, lifted: bool) -> NDArray[np.intp]:
     """Return the places of the shifts that are sought among log_a, then log_b."""
-    others = np.delete(np.arange(sweeps), held)
+    others = np.delete(np.arange(sweeps, dtype=np.intp), held)
     return np.concatenate([others, others + sweeps]) if lifted else others
 
 
 def _pass(
-    rows: Rows, shifts: Array, free: Array, trust: Array, weights: tuple[float | None, ...]
+    rows: Rows,
+    shifts: Array,
+    free: NDArray[np.intp],
+    trust: Array,
+    weights: tuple[float | None, ...],
 ) -> _Pass:
     s, v = np.split(shifts, 2)
     x = rows.x + s[rows.sweep]
@@ -115,14 +121,14 @@ def _pass(
         curve = smooth(functions, penalty, y, count, weights[at])
         residual = y - functions @ curve.coefficients
         by_shift = _by_shift(rows, slopes @ curve.coefficients, lift)[:, free]
-        own = functions.T @ (count[:, None] * functions) + curve.weight * penalty.T @ penalty
+        matrix = functions.T @ (count[:, None] * functions) + curve.weight * penalty.T @ penalty
         cross = functions.T @ (count[:, None] * by_shift)
-        solved = np.linalg.solve(own, cross)
+        solved = np.linalg.solve(matrix, cross)
         normal += by_shift.T @ (count[:, None] * by_shift) - cross.T @ solved
         right += by_shift.T @ (count * residual) - solved.T @ (functions.T @ (count * residual))
         residuals.append(residual)
         curves.append(curve)
-    inverse = np.linalg.pinv(normal, hermitian=True, rcond=1e-14)
+    inverse = np.asarray(np.linalg.pinv(normal, hermitian=True, rcond=1e-14), dtype=np.float64)
     freedoms = np.array([curve.freedoms for curve in curves]) + len(free) / len(curves)
     weight = tuple(curve.weight for curve in curves)
     return _Pass(inverse @ right, inverse, np.array(residuals), freedoms, weight)
@@ -132,7 +138,7 @@ def _overlapping(rows: Rows, log_a: Array, held: int) -> Array:
     """Return the shifts, no neighbours farther apart than where they hardly overlap."""
     ends = np.array([rows.of(one)[0][[0, -1]] for one in range(rows.sweeps)])
     least = _LEAST_SHARE * np.minimum(np.ptp(ends[1:], axis=1), np.ptp(ends[:-1], axis=1))
-    # Colder less warmer: the colder may end above the beginning of the warmer, and begin below its end.
+    # Of the colder less the warmer: neither may begin where the other ends.
     low = ends[1:, 0] - ends[:-1, 1] + least
     high = ends[1:, 1] - ends[:-1, 0] - least
     total = np.append(np.cumsum(np.clip(-np.diff(log_a), low, high)[::-1])[::-1], 0.0)

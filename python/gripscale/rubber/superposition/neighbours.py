@@ -1,8 +1,9 @@
 """How far two neighbouring sweeps are apart on log f: a start for all of them, and how they meet.
 
-Each sweep is taken as straight lines between its rows in log-log axes, and the difference of the two
-is read at the rows of both within the overlap. The start is the largest likelihood of the difference
-where the scatter of each modulus is unknown: the least sum of the logarithms of its mean squares.
+Each sweep is taken as straight lines between its rows in log-log axes, and the difference of the
+two is read at the rows of both within the overlap. The start is the largest likelihood of the
+difference where the scatter of each modulus is unknown: the least sum of the logarithms of its mean
+squares.
 """
 
 from __future__ import annotations

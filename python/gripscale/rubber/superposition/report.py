@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from gripscale.rubber.shift import Shift
+from gripscale.rubber.shift import Shift, ShiftTable
 from gripscale.rubber.superposition.neighbours import (
     Overlap,
     Points,
@@ -19,8 +19,8 @@ from gripscale.rubber.sweeps import Sweeps
 
 _LITTLE = 0.5
 """Overlap below which a shift rests on a few rows [decades]."""
-_LARGE_ERROR = 0.3
-"""Standard error of log10 a_T from one sweep to the next that is worth a sentence [decades]."""
+_LARGE = 0.3
+"""Standard error of log10 a_T that is worth a sentence [decades]."""
 _MISFIT = 0.04
 """Distance of a modulus between neighbours that no scatter explains: a tenth of it [decades]."""
 
@@ -53,7 +53,9 @@ class Superposition:
         return "\n".join([*lines, *self.findings])
 
 
-def report(sweeps: Sweeps, shift: Shift, reference: float, joint: dict[str, float]) -> Superposition:
+def report(
+    sweeps: Sweeps, shift: Shift, reference: float, joint: dict[str, float]
+) -> Superposition:
     """Return how the sweeps meet under a shift to a reference temperature [K].
 
     `joint` is the scatter of each modulus about the smooth curve, empty if the shift was given.
@@ -75,9 +77,9 @@ def temperatures_in(shift: Shift, temperatures: Array, tolerance: float) -> Arra
 
     A table is read at its own temperature where that lies within the tolerance [K] of a sweep's.
     """
-    own = getattr(shift, "temperature", None)
-    if own is None:
+    if not isinstance(shift, ShiftTable):
         return temperatures
+    own = shift.temperature
     nearest = own[np.abs(np.subtract.outer(temperatures, own)).argmin(axis=1)]
     return np.where(np.abs(nearest - temperatures) <= tolerance, nearest, temperatures)
 
@@ -116,12 +118,11 @@ def _findings(overlaps: tuple[Overlap, ...], shift: Shift) -> Iterator[str]:
                 f"{apart[0].colder - 273.15:.1f} to {apart[-1].warmer - 273.15:.1f} °C: vertical "
                 "shifts, another strain amplitude or a second relaxation are the usual causes"
             )
-    error = getattr(shift, "horizontal_error", None)
-    if error is not None and np.nanmax(error, initial=0.0) > _LARGE_ERROR:
-        at = int(np.nanargmax(error))
+    if isinstance(shift, ShiftTable) and np.nanmax(shift.horizontal_error, initial=0.0) > _LARGE:
+        at = int(np.nanargmax(shift.horizontal_error))
         yield (
-            f"the standard error of log10 a_T reaches {error[at]:.2f}, at "
-            f"{shift.limits[0] - 273.15 if at == 0 else shift.temperature[at] - 273.15:.1f} °C"
+            f"the standard error of log10 a_T reaches {shift.horizontal_error[at]:.2f}, at "
+            f"{shift.temperature[at] - 273.15:.1f} °C"
         )
 
 

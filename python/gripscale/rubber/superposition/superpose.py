@@ -119,7 +119,7 @@ def _found(
     _require_common(sweeps, rows_of(sweeps, "both"))
     rows = rows_of(sweeps, moduli)
     first = "storage" if "storage" in MODULI[moduli] and not lifted else moduli
-    joint = align(rows, *start(rows_of(sweeps, first), lifted), nearest, lifted)
+    joint = align(rows, *start(rows_of(sweeps, first), lifted), lifted)
     scatter = dict(zip(MODULI[moduli], joint.scatter.tolist(), strict=True))
     return _table(kelvin, reference, joint, lifted), scatter
 
