@@ -54,7 +54,8 @@ def main(folder: str = "results/examples") -> None:
     for one in (rubber, warm):
         modulus = one.complex_modulus(6.283)
         celsius = one.reference_temperature - 273.15
-        print(f"E' {modulus.real / 1e6:.0f} MPa, E'' {modulus.imag / 1e6:.0f} MPa at {celsius:.0f} °C")
+        storage, loss = modulus.real / 1e6, modulus.imag / 1e6
+        print(f"E' {storage:.0f} MPa, E'' {loss:.0f} MPa at {celsius:.0f} °C")
 
     figures = {
         "shifted": superposition_figure(sweeps, master),

@@ -15,8 +15,8 @@ from gripscale.rubber.sweeps import Array, Sweeps, checked_rows
 
 _ONE_FREQUENCY = 0.01
 """Frequencies that differ by less than this share are one."""
-_WIDEST_GAP = 2.0
-"""Distance of the rows beside a nominal temperature, over the step, up to which they are used."""
+_NEAR = 0.5
+"""Distance of a row from a nominal temperature, over the step, so that it can be interpolated."""
 
 
 def sweeps_from_ramps(
@@ -80,7 +80,8 @@ def _at_steps(rows: dict[str, Array], chosen: Array, step: float) -> Array:
     celsius = celsius - 273.15
     first, last = np.ceil(celsius[0] / step - 1e-9), np.floor(celsius[-1] / step + 1e-9)
     nominal = step * np.arange(first, last + 1.0)
-    nominal = nominal[_between(celsius, nominal) <= _WIDEST_GAP * step]
+    away = np.abs(np.subtract.outer(nominal, celsius)).min(axis=1, initial=np.inf)
+    nominal = nominal[away <= _NEAR * step]
     return np.array(
         [
             nominal + 273.15,
@@ -89,11 +90,3 @@ def _at_steps(rows: dict[str, Array], chosen: Array, step: float) -> Array:
             np.exp(np.interp(nominal, celsius, np.log(loss))),
         ]
     )
-
-
-def _between(measured: Array, nominal: Array) -> Array:
-    """Return the distance of the measured temperatures on either side of each nominal one."""
-    right = np.clip(np.searchsorted(measured, nominal), 1, max(len(measured) - 1, 1))
-    if len(measured) == 1:
-        return np.zeros(len(nominal))
-    return np.asarray(measured[right] - measured[right - 1])

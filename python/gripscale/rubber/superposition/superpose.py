@@ -22,6 +22,8 @@ from gripscale.rubber.sweeps import Sweeps
 
 _NOISE = 0.01
 """Scatter of a good laboratory [decades], for whether two sweeps have a value in common."""
+_NOMINAL = 0.5
+"""How far beyond the first or the last sweep a reference temperature still is that sweep's [K]."""
 
 
 def superpose(
@@ -106,9 +108,10 @@ def _found(
 ) -> tuple[ShiftTable, dict[str, float]]:
     """Return the shift of the sweeps, and the scatter of each modulus."""
     kelvin = sweeps.temperatures.copy()
-    nearest = int(np.abs(kelvin - reference).argmin())
-    if abs(kelvin[nearest] - reference) <= sweeps.tolerance:
-        kelvin[nearest] = reference
+    for end in (0, -1):  # 20 °C, where the last sweep was measured at 19.97
+        outside = reference < kelvin[0] if end == 0 else reference > kelvin[-1]
+        if outside and abs(kelvin[end] - reference) <= _NOMINAL:
+            kelvin[end] = reference
     if not kelvin[0] <= reference <= kelvin[-1]:
         raise InputError(
             f"reference_temperature must lie within the temperatures measured, {kelvin[0]:.2f} to "
