@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from gripscale.chain.prediction import Prediction
 from gripscale.conditions.chain_heat import Warming, warming
 from gripscale.conditions.conditions import (
+    AGREED,
     MOST_PASSES,
     SETTLED,
     Conditions,
@@ -91,7 +92,7 @@ def settle(
     point = FixedPoint(_found(conditions, first))
     if coarse is not None:
         _passes(coarse, rubber, conditions, point, first)
-        return _passes(walk, rubber, conditions, point, None)
+        return _passes(walk, rubber, conditions, point.anew(), None)
     return _passes(walk, rubber, conditions, point, first)
 
 
@@ -107,7 +108,7 @@ def _passes(
         given = _OfLastPass(conditions, rubber, *separate(point.assumed))
         now = walk(given, last)
         point.found(_found(conditions, now))
-        settled = last is not None and _change(now, last) < SETTLED
+        settled = point.missed < AGREED and (last is None or _change(now, last) < SETTLED)
         if settled or number == MOST_PASSES:
             return _told(now, given, number, settled=settled)
         last = now
@@ -165,6 +166,7 @@ def _told(solved: Prediction, given: _OfLastPass, passes: int, *, settled: bool)
                 "warming_larger_waves": own.larger_waves,
                 "warming_own": own.own,
                 "contact_temperature": kelvin + own.contact,
+                "beyond_shift": float(state.beyond_shift),
             }
         scales.append(replace(wave, details={**wave.details, **told}))
     if not settled:

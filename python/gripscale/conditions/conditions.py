@@ -25,6 +25,9 @@ MOST_PASSES = 8
 SETTLED = 3e-4
 """Relative change of contact fraction and friction between passes at which they have settled: a
 third of the 1e-3 that is promised."""
+AGREED = 2e-3
+"""Largest difference of what was found from what was assumed, of log strains and temperatures
+(`mixing`), at which they agree: friction changes by less than half of it."""
 
 HARMONICS = np.geomspace(1.0, 16.0, 12)
 """Multiples of a wave's frequency at which the softened moduli are asked for."""
@@ -118,6 +121,8 @@ class RubberState:
     """Of the softened series at the frequency of the wave [-]."""
     beyond_sweep: bool
     """Whether the strain lies beyond what the softening was measured for."""
+    beyond_shift: bool
+    """Whether the temperature lies beyond those the shift rests on."""
 
 
 def rubber_under(
@@ -142,9 +147,10 @@ def rubber_under(
     if conditions.heat is not None and kelvin is not None:
         kelvin = float(conditions.within_shift(own, kelvin + warming))
         own = own.at(kelvin)
+    beyond = own.shift_extrapolated
     if conditions.softening is None:
-        return RubberState(own, 1.0, 1.0, 0.0, beyond_sweep=False)
+        return RubberState(own, 1.0, 1.0, 0.0, beyond_sweep=False, beyond_shift=beyond)
     left = conditions.softening.factors(strain, kelvin)
     f, g = float(left.storage), float(left.loss)
     series = softened(own, f, g, omega * HARMONICS if omega > 0.0 else ())
-    return RubberState(series.rubber, f, g, series.misfit, bool(left.outside))
+    return RubberState(series.rubber, f, g, series.misfit, bool(left.outside), beyond)

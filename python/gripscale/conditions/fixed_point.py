@@ -27,6 +27,16 @@ class FixedPoint:
     assumed: Array
     _tried: list[tuple[Array, Array]] = field(default_factory=list)
 
+    @property
+    def missed(self) -> float:
+        """Largest difference of what was found last from what was assumed for it."""
+        assumed, value = self._tried[-1]
+        return float(np.abs(value - assumed).max())
+
+    def anew(self) -> FixedPoint:
+        """Return what is assumed, without what was found: for another f."""
+        return FixedPoint(self.assumed)
+
     def found(self, value: Array) -> None:
         """Take f of what is assumed, and assume better."""
         self._tried = [*self._tried[-REMEMBERED:], (self.assumed, value)]

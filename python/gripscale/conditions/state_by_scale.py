@@ -30,6 +30,8 @@ class StateByScale:
     """g, what is left of E'' by strain [-]."""
     beyond_sweep: NDArray[np.bool_]
     """Where the strain lies beyond what the softening was measured for."""
+    beyond_shift: NDArray[np.bool_]
+    """Where the temperature lies beyond those the shift rests on."""
     rubber: RubberByScale
     """The rubber that is solved with."""
 
@@ -53,11 +55,13 @@ def state_by_scale(
     before, kelvin = conditions.before(rubber), conditions.temperature_of(rubber)
     one = np.ones(wavenumber.size)
     shift, stiffening = one, one
-    storage, loss, beyond = one, one, np.zeros(wavenumber.size, dtype=bool)
+    storage, loss = one, one
+    beyond = warm_beyond = np.zeros(wavenumber.size, dtype=bool)
     if conditions.heat is not None and kelvin is not None and before.shift is not None:
         warm = conditions.within_shift(before, kelvin + warming)
         shift = before.shift.a(warm, kelvin)
         stiffening = 1.0 / before.shift.b(warm, kelvin)
+        warm_beyond = np.array([not before.shift.within(t) for t in kelvin + warming])
     if conditions.softening is not None:
         at = [kelvin] * wavenumber.size if kelvin is None else list(kelvin + warming)
         left = [
@@ -68,5 +72,12 @@ def state_by_scale(
         beyond = np.array([bool(one.outside) for one in left])
     factors = ScaleFactors(wavenumber, shift, stiffening, storage, loss)
     return StateByScale(
-        wavenumber, warming, strain, storage, loss, beyond, RubberByScale(before, factors)
+        wavenumber,
+        warming,
+        strain,
+        storage,
+        loss,
+        beyond,
+        warm_beyond,
+        RubberByScale(before, factors),
     )

@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from gripscale.conditions.by_scale import RubberByScale
-from gripscale.conditions.conditions import MOST_PASSES, SETTLED, Conditions
+from gripscale.conditions.conditions import AGREED, MOST_PASSES, SETTLED, Conditions
 from gripscale.conditions.fixed_point import FixedPoint
 from gripscale.conditions.mixing import mixed, separate
 from gripscale.conditions.state_by_scale import StateByScale, state_by_scale
@@ -51,8 +51,9 @@ def settle(
     first = quick(None)
     number = _scales(first)
     point = FixedPoint(_found(conditions, first, number, time))
+    last: RoughContact | None
     for how in (quick, solve):
-        last: RoughContact | None = None
+        point, last = point.anew(), None
         for count in range(1, MOST_PASSES + 1):
             warming, strain = separate(point.assumed)
             state = state_by_scale(
@@ -60,7 +61,7 @@ def settle(
             )
             now = how(state.rubber)
             point.found(_found(conditions, now, number, time))
-            settled = last is not None and _change(now, last) < SETTLED
+            settled = point.missed < AGREED and (last is None or _change(now, last) < SETTLED)
             if settled or not now.converged:
                 break
             last = now

@@ -191,6 +191,7 @@ def _result(
         gap=np.where(contact.active, 0.0, np.maximum(contact.gap, 0.0)),
         measured=heights.measured_on(solved.level.grid.shape),
         grids=grids,
+        by_scale=body.by_scale,
     )
 
 

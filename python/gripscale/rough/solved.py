@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gripscale.conditions.by_scale import RubberByScale
 from gripscale.conditions.state_by_scale import StateByScale
 from gripscale.rough.grid import Array, Grid, Mask
 from gripscale.rough.grids import GridRecord
@@ -59,8 +60,10 @@ class SolvedContact:
     """Where heights were measured and not interpolated."""
     grids: list[GridRecord] = field(repr=False)
     """Numbers of every grid that was solved, in order."""
+    by_scale: RubberByScale | None = field(default=None, repr=False)
+    """The rubber at each scale, where conditions made it another; None: `rubber` at all."""
     scales: StateByScale | None = field(default=None, repr=False)
-    """What the rubber has become at each scale; None: the rubber as it is."""
+    """Temperature, strain and what is left of the moduli at each scale, where they were asked for."""
     passes: int = 1
     """Solutions until rubber, strains and heat agreed."""
     surface_warming: Array | None = field(default=None, repr=False)
@@ -130,7 +133,7 @@ class SolvedContact:
 
     def lost_by_harmonic(self) -> Array:
         """Return the friction each harmonic adds [-], over the half spectrum of the grid."""
-        return lost_by_harmonic(HalfSpace(self.rubber, self.speed, by_scale=None if self.scales is None else self.scales.rubber), self.grid, self.pressure)
+        return lost_by_harmonic(HalfSpace(self.rubber, self.speed, by_scale=self.by_scale), self.grid, self.pressure)
 
     def _positions(self, axis: int) -> Array:
         place = self.grid.spacing[axis] * np.arange(self.grid.shape[axis], dtype=float)

@@ -13,7 +13,7 @@ there, follow f; E_inf keeps at least a third of f of it. What the series misses
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -99,13 +99,10 @@ def _rows(rubber: Rubber, order: NDArray[np.intp], omega: Array, f: float, g: fl
 
 def _multiplied(rubber: Rubber, multiplier: Array) -> Rubber:
     kept = multiplier[1:] > 0.0
-    return Rubber(
+    return replace(
+        rubber,
         equilibrium_modulus=rubber.equilibrium_modulus * float(multiplier[0]),
         moduli=(rubber.moduli * multiplier[1:])[kept],
         relaxation_times=rubber.relaxation_times[kept],
-        bulk_modulus=rubber.bulk_modulus,
-        name=rubber.name,
-        source=rubber.source,
-        valid_band=rubber.valid_band,
-        strain_energy=rubber.strain_energy,
+        admissible=None,
     )

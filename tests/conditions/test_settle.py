@@ -1,0 +1,167 @@
+"""Softening and heat: rubber, strains and temperatures agree when a model has settled."""
+
+import numpy as np
+import pytest
+
+import gripscale as gs
+from gripscale.conditions import Conditions
+from gripscale.conditions.chain_heat import warming
+from gripscale.conditions.conditions import rubber_under
+from gripscale.conditions.wave_heat import WaveHeat
+from gripscale.conditions.wave_strain import strains
+from gripscale.interface import ThermalProperties
+from gripscale.rubber import WLF
+from gripscale.rubber.softening import Kraus
+
+RUBBER = gs.Rubber(
+    5e6,
+    np.geomspace(3e6, 3e8, 10),
+    np.geomspace(1e-1, 1e-9, 10),
+    reference_temperature=293.15,
+    shift=WLF(c1=8.86, c2=101.6),
+)
+SINES = gs.SineStack([4e-3, 1e-3], [2e-4, 6e-5])
+LOAD = {"pressure": 3e5, "speed": 1.0, "footprint": 0.05}
+KRAUS = Kraus(0.3, 0.15, 0.02, 1e-3, "shear")
+THERMAL = ThermalProperties(conductivity=0.25, density=1150.0, specific_heat=1500.0)
+BOTH = Conditions(softening=KRAUS, heat=THERMAL)
+SOLVERS = [
+    ("half_plane", {"points": 256}),
+    ("finite_strain", {"columns": 64, "rows": 12}),
+]
+TURNS = 2.0 * np.pi * np.arange(1024) / 1024
+LINE = gs.Profile(
+    np.arange(1024) * 1e-5, 2e-4 * np.cos(3 * TURNS) + 3e-5 * np.cos(17 * TURNS + 1.0)
+)
+DIRECT = {"periodic": True, "tolerance": None, **LOAD}
+
+
+@pytest.mark.parametrize(("solver", "options"), SOLVERS)
+def test_a_settled_chain_is_its_own_rubber(solver, options):
+    """Solved once more with the rubber that its own strains and heat make, nothing moves by 1e-3."""
+    found = gs.predict(RUBBER, SINES, solver=solver, conditions=BOTH, **options, **LOAD)
+    assert found.converged
+    assert found.scales[0].details["passes"] <= 8
+    heats = [WaveHeat.of(wave, wave.rubber) for wave in found.scales]
+    warm = warming(heats, speed=1.0, time=0.05, thermal=THERMAL)
+    strain = strains(found.scales, "slope")
+
+    def again(wave, so_far):
+        number = len(so_far.scales)
+        omega = 2.0 * np.pi / wave.wavelength
+        state = rubber_under(
+            BOTH, RUBBER, warming=warm[number].total, strain=strain[number], omega=omega
+        )
+        return state.rubber
+
+    repeated = gs.predict(RUBBER, SINES, solver=solver, rubber_at=again, **options, **LOAD)
+    assert repeated.friction == pytest.approx(found.friction, rel=1e-3)
+    assert repeated.contact_fraction == pytest.approx(found.contact_fraction, rel=1e-3)
+    told = found.scales[-1].details
+    assert told["temperature"] == pytest.approx(293.15 + warm[-1].total, abs=0.3)
+    assert told["strain"] == pytest.approx(strain[-1], rel=1e-2)
+
+
+def test_heat_and_softening_widen_the_contact():
+    plain, hot, soft = (
+        gs.predict(RUBBER, SINES, solver="half_plane", conditions=conditions, **LOAD)
+        for conditions in (None, Conditions(heat=THERMAL), Conditions(softening=KRAUS))
+    )
+    assert abs(hot.friction / plain.friction - 1.0) > 0.01
+    assert hot.contact_fraction > 1.01 * plain.contact_fraction
+    assert soft.contact_fraction > 1.2 * plain.contact_fraction
+
+
+def test_the_heat_of_a_chain_is_the_friction_work():
+    """Uniform heat and a time too short to spread: rho c T averaged over depth is the work."""
+    plain = gs.predict(RUBBER, SINES, solver="half_plane", **LOAD)
+    heats = [WaveHeat.of(wave, RUBBER) for wave in plain.scales]
+    assert sum(heat.friction for heat in heats) == pytest.approx(plain.friction, rel=1e-12)
+    for heat in heats:
+        # of the patterns, which have a mean of one, only what differs from it warms by harmonics
+        assert np.isfinite(heat.lost).all()
+        assert heat.pressure * plain.scales[0].pressure_received > 0.0
+
+
+def test_without_slopes_softening_does_nothing():
+    flat = gs.SineStack([4e-3, 1e-3], [2e-8, 6e-9])
+    plain, soft = (
+        gs.predict(RUBBER, flat, solver="half_plane", conditions=conditions, **LOAD)
+        for conditions in (None, Conditions(softening=KRAUS))
+    )
+    assert soft.friction == plain.friction
+    assert soft.contact_fraction == plain.contact_fraction
+
+
+def test_at_rest_nothing_is_heated():
+    at_rest = LOAD | {"speed": 0.0}
+    plain, hot = (
+        gs.predict(RUBBER, SINES, solver="half_plane", conditions=conditions, **at_rest)
+        for conditions in (None, Conditions(heat=THERMAL))
+    )
+    assert hot.contact_fraction == plain.contact_fraction
+    direct = gs.solve_rough_contact(RUBBER, LINE, conditions=BOTH, **(DIRECT | {"speed": 0.0}))
+    assert direct.converged
+    assert direct.surface_warming is None
+
+
+def test_stretches_give_another_strain():
+    options = {"columns": 64, "rows": 12, "solver": "finite_strain"}
+    slope, stretch = (
+        gs.predict(
+            RUBBER,
+            SINES,
+            conditions=Conditions(softening=KRAUS, strain_norm=norm),
+            **options,
+            **LOAD,
+        )
+        for norm in ("slope", "stretch")
+    )
+    assert stretch.scales[0].details["strain"] != slope.scales[0].details["strain"]
+    assert stretch.friction != pytest.approx(slope.friction, rel=1e-3)
+    with pytest.raises(gs.InputError, match="strain_norm"):
+        gs.predict(
+            RUBBER,
+            SINES,
+            solver="half_plane",
+            conditions=Conditions(softening=KRAUS, strain_norm="stretch"),
+            **LOAD,
+        )
+
+
+def test_a_settled_direct_contact_is_its_own_rubber():
+    """Solved from the start of another pass, rubber, strains and heat are the same to 1e-3."""
+    from gripscale.conditions.mixing import mixed
+    from gripscale.rough.settle import _found
+
+    found = gs.solve_rough_contact(RUBBER, LINE, conditions=BOTH, **DIRECT)
+    assert found.converged
+    assert found.passes <= 8
+    state = found.scales
+    again = _found(BOTH, found, state.wavenumber, 0.05)
+    assert again == pytest.approx(mixed(state.warming, state.strain), abs=5e-3)
+    assert state.strain[-1] > 10.0 * KRAUS.measured_at
+    assert state.storage_factor[-1] < 0.6
+
+
+def test_by_scale_the_unchanged_rubber_is_the_rubber():
+    """A law that softens nothing: the same answer through the rubber by scale."""
+    nothing = Conditions(softening=Kraus(1.0, 1.0, 0.02, 1e-3, "shear"))
+    plain, same = (
+        gs.solve_rough_contact(RUBBER, LINE, conditions=conditions, **DIRECT)
+        for conditions in (None, nothing)
+    )
+    assert same.friction == pytest.approx(plain.friction, rel=1e-9)
+    assert same.contact_fraction == pytest.approx(plain.contact_fraction, rel=1e-12)
+
+
+def test_heat_needs_the_length_of_the_footprint_in_the_direct_contact():
+    load = DIRECT | {"footprint": None}
+    with pytest.raises(gs.InputError, match="footprint"):
+        gs.solve_rough_contact(RUBBER, LINE, conditions=Conditions(heat=THERMAL), **load)
+
+
+def test_heat_needs_a_shift():
+    plain = gs.Rubber(5e6, [1e7], [1e-3])
+    with pytest.raises(gs.InputError, match="shift"):
+        gs.predict(plain, SINES, conditions=Conditions(heat=THERMAL), **LOAD)
