@@ -138,5 +138,11 @@ def shown(value: Any) -> str:
         return "whole numbers too long to print"
 
 
+def shortened(text: str, most: int = 120) -> str:
+    """Return text of a file as a message quotes it: printable, and not longer than it is read."""
+    plain = "".join(letter if letter.isprintable() else "?" for letter in text)
+    return plain if len(plain) <= most else f"{plain[: most - 3]}..."
+
+
 def _in(unit: str) -> str:
     return f" [{unit}]" if unit else ""

@@ -24,6 +24,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from gripscale.checks import shortened, shown
 from gripscale.errors import FileError
 from gripscale.units import spelled
 
@@ -71,6 +72,11 @@ class TextTable:
         names = [column.name for column in self.columns]
         return names if any(names) else []
 
+    @property
+    def titles(self) -> str:
+        """The names of the columns as a message lists them, empty if the file has no titles."""
+        return shortened(", ".join(self.names))
+
     def numbers(self, column: int, expected: str, *, missing: bool = False) -> NDArray[np.float64]:
         """Return a column of numbers, NaN where a value is `missing` and may be.
 
@@ -88,7 +94,7 @@ class TextTable:
             if value is None or not (math.isfinite(value) or (missing and math.isnan(value))):
                 raise FileError(
                     f"{self.path}, line {self.line_numbers[at]}: expected {expected}; "
-                    f"got {row[column]!r}"
+                    f"got {shown(row[column])}"
                 )
             values[at] = value
         return values
@@ -99,7 +105,7 @@ class TextTable:
         if _DIGITS.issuperset("".join(cells)):
             return float(10.0 ** -max(len(cell.partition(".")[2]) for cell in cells))
         places = (Decimal(cell).as_tuple().exponent for cell in cells)
-        return float(10.0 ** min(place for place in places if isinstance(place, int)))
+        return 10.0 ** min(max(place, -300) for place in places if isinstance(place, int))
 
     def _with_point(self, cell: str) -> str:
         return cell.replace(",", ".") if self.decimal == "," else cell
@@ -219,7 +225,7 @@ def _check_faults(path: Path, lines: list[Line], separator: str | None, counts: 
             fault = next(at for at, cell in enumerate(cells) if not _fits(cell))
             raise FileError(
                 f"{path}, line {number}: expected a number in column {fault + 1}; "
-                f"got {cells[fault]!r}"
+                f"got {shown(cells[fault])}"
             )
 
 
@@ -242,8 +248,8 @@ def _decimal_sign(path: Path, rows: list[list[str]], numbers: list[int]) -> str:
         return ","
     (first, one), (second, other) = sorted((comma, point))
     raise FileError(
-        f"{path}, line {numbers[second]}: expected one decimal sign throughout; got {other!r} "
-        f"after {one!r} in line {numbers[first]}"
+        f"{path}, line {numbers[second]}: expected one decimal sign throughout; got {shown(other)} "
+        f"after {shown(one)} in line {numbers[first]}"
     )
 
 

@@ -139,7 +139,7 @@ def _places(table: TextTable) -> dict[str, int]:
             places[word] = at
     absent = [word for word in ("speed", "friction") if word not in places]
     if absent:
-        found = ", ".join(table.names) or "no titles"
+        found = table.titles or "no titles"
         raise FileError(f"{table.path}: expected a column named {absent[0]}; got {found}")
     return places
 
@@ -147,10 +147,10 @@ def _places(table: TextTable) -> dict[str, int]:
 def _in_si(path: Path, word: str, column: Column, values: Array) -> Array:
     if word not in _UNITS:
         if column.unit not in (None, *_RATIO):
-            raise FileError(f"{path}: {word} has no unit; got {column.unit!r} in its title")
+            raise FileError(f"{path}: {word} has no unit; got {checks.shown(column.unit)} in its title")
         return values
     kind, own = _UNITS[word]
     unit = column.unit or own
     if spelled(unit, kind) is None:
-        raise FileError(f"{path}: {word} must be in one of {listed(kind)}; got {unit!r}")
+        raise FileError(f"{path}: {word} must be in one of {listed(kind)}; got {checks.shown(unit)}")
     return in_si(values, unit, kind)

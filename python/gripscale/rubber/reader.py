@@ -127,7 +127,7 @@ def _refuse_sweeps(table: TextTable, frequency: int, *, named: bool) -> None:
         if not named or len(np.unique(hertz)) <= len(hertz) // 2:
             raise FileError(
                 f"{table.path}: expected one master curve; got rows at temperatures from "
-                f"{kelvin.min():g} to {kelvin.max():g} in column {title.name}; shift the sweeps to "
+                f"{kelvin.min():g} to {kelvin.max():g} in column {checks.shortened(title.name)}; shift the sweeps to "
                 "one master curve first, or name the columns if they are shifted"
             )
 
@@ -150,7 +150,7 @@ def _choose(table: TextTable, columns: Sequence[str | int] | None) -> list[int]:
         if len(hits) != 1:
             raise InputError(
                 f"{table.path}: columns must name frequency, storage and loss, because {len(hits)} "
-                f"header names mean {wanted}; the header has {', '.join(table.names)}"
+                f"header names mean {wanted}; the header has {table.titles}"
             )
         found.append(hits[0])
     return found
@@ -160,7 +160,7 @@ def _three(columns: Sequence[str | int]) -> Sequence[str | int]:
     if isinstance(columns, str) or len(columns) != 3 or len(set(columns)) != 3:
         raise InputError(
             f"columns must be three different names or positions for frequency, storage and loss; "
-            f"got {columns!r}"
+            f"got {checks.shown(columns)}"
         )
     return columns
 
@@ -169,9 +169,9 @@ def _position(table: TextTable, column: str | int) -> int:
     if isinstance(column, int):
         return checks.whole("columns", column, least=0, most=len(table.columns) - 1)
     if table.names.count(column) != 1:
-        known = ", ".join(table.names) or "no names"
+        known = table.titles or "no names"
         raise InputError(
-            f"{table.path}: columns must be among the header's names ({known}); got {column!r}"
+            f"{table.path}: columns must be among the header's names ({known}); got {checks.shown(column)}"
         )
     return table.names.index(column)
 
@@ -185,7 +185,7 @@ def _unit(table: TextTable, chosen: list[int], kind: str, given: str | None) -> 
     stated = {spelled(unit, kind) or unit for unit in written}
     unit = stated.pop()
     if unit is None or stated or spelled(unit, kind) is None:
-        what = "no unit" if unit is None else repr(unit)
+        what = "no unit" if unit is None else checks.shown(unit)
         raise InputError(
             f"{table.path}: {kind}_unit must be given ({listed(kind)}), because the header states "
             f"{'different units' if stated else what}"

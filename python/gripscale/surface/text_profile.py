@@ -80,7 +80,7 @@ def _columns(table: TextTable) -> tuple[int, int]:
     raise FileError(
         f"{table.path}, line {table.line_numbers[0]}: expected two columns, distance and height, "
         f"or titles that name them; got {len(table.columns)} columns titled "
-        f"{table.names or 'not at all'}"
+        f"{table.titles or 'not at all'}"
     )
 
 
