@@ -17,9 +17,12 @@ LEAST, MOST = 1e-100, 1e100
 
 
 def number(name: str, value: Any, *, unit: str = "", infinite: bool = False) -> float:
-    """Return `value` as a float; raise `InputError` unless it is a finite (or allowed) number."""
+    """Return `value` as a float of at most `MOST`; raise `InputError` unless it is such a number.
+
+    NaN is none; infinity is one only where it may be `infinite`.
+    """
     expected = f"{name} must be a finite number{_in(unit)}"
-    if isinstance(value, bool | str | bytes):
+    if not _may_be_real(value) or np.ndim(value) > 0:
         raise InputError(f"{expected}; got {shown(value)}")
     try:
         result = float(value)
@@ -27,28 +30,30 @@ def number(name: str, value: Any, *, unit: str = "", infinite: bool = False) -> 
         raise InputError(f"{expected}; got {shown(value)}") from error
     if math.isnan(result) or (math.isinf(result) and not infinite):
         raise InputError(f"{expected}; got {result}")
+    if abs(result) > MOST and math.isfinite(result):
+        raise InputError(f"{expected} of at most {MOST:g}; got {result:g}")
     return result
 
 
 def positive(name: str, value: Any, *, unit: str = "", infinite: bool = False) -> float:
-    """Return `value` as a float; raise `InputError` unless it is above zero."""
+    """Return `value` as a float; raise `InputError` unless it is above zero, by `LEAST` or more."""
     result = number(name, value, unit=unit, infinite=infinite)
     if result <= 0.0:
         raise InputError(f"{name} must be greater than zero{_in(unit)}; got {result:g}")
-    return result
+    return _not_tiny(name, result, unit)
 
 
 def not_negative(name: str, value: Any, *, unit: str = "", infinite: bool = False) -> float:
-    """Return `value` as a float; raise `InputError` if it is below zero."""
+    """Return `value` as a float; raise `InputError` unless it is zero or `LEAST` or more."""
     result = number(name, value, unit=unit, infinite=infinite)
     if result < 0.0:
         raise InputError(f"{name} must not be negative{_in(unit)}; got {result:g}")
-    return result
+    return _not_tiny(name, result, unit)
 
 
 def whole(name: str, value: Any, *, least: int, most: int) -> int:
     """Return `value` as an int; raise `InputError` unless it is whole and within its limits."""
-    result = number(name, value)
+    result = int(value) if _is_whole_number(value) else number(name, value)
     if result != math.floor(result) or not least <= result <= most:
         raise InputError(
             f"{name} must be a whole number from {least} to {most}; got {shown(value)}"
@@ -57,12 +62,24 @@ def whole(name: str, value: Any, *, least: int, most: int) -> int:
 
 
 def vector(name: str, value: ArrayLike, *, unit: str = "", missing: bool = False) -> NDArray[Any]:
-    """Return `value` as a 1-D float array; NaN passes only where values may be `missing`."""
-    expected = f"{name} must be a list of finite numbers{_in(unit)}"
-    try:
-        result = np.array(value, dtype=float)
-    except (TypeError, ValueError, OverflowError) as error:
-        raise InputError(f"{expected}; got {shown(value)}") from error
+    """Return `value` as a 1-D float array of entries of at most `MOST`.
+
+    NaN passes only where values may be `missing`; what is masked is NaN.
+    """
+    result = _finite(name, value, unit, missing=missing)
+    if (np.abs(result) > MOST).any():
+        at = int(np.nanargmax(np.abs(result)))
+        raise InputError(
+            f"{name} must be numbers of at most {MOST:g}{_in(unit)}; got {result[at]:g} at "
+            f"index {at}"
+        )
+    return result
+
+
+def _finite(name: str, value: ArrayLike, unit: str, *, missing: bool = False) -> NDArray[Any]:
+    """Return `value` as a 1-D float array without infinity."""
+    expected = f"{name} must be a list of finite numbers{' or NaN' * missing}{_in(unit)}"
+    result = array(value, expected)
     if result.ndim != 1:
         raise InputError(f"{expected} with one dimension; got {result.ndim} dimensions")
     bad = np.isinf(result) if missing else ~np.isfinite(result)
@@ -72,9 +89,30 @@ def vector(name: str, value: ArrayLike, *, unit: str = "", missing: bool = False
     return result
 
 
+def array(value: ArrayLike, expected: str) -> NDArray[Any]:
+    """Return a copy of `value` as a float array, NaN where it is masked.
+
+    Raises `InputError`, which begins with what was `expected`, if it holds something else than real
+    numbers: texts that spell numbers are none, nor are complex numbers without imaginary part.
+    """
+    try:
+        given = np.asarray(value)
+        if not _may_be_real(given):
+            raise InputError(f"{expected}; got {shown(value)}")
+        result = np.array(given, dtype=float)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise InputError(f"{expected}; got {shown(value)}") from error
+    if isinstance(value, np.ma.MaskedArray):
+        result[np.ma.getmaskarray(value)] = np.nan
+    return result
+
+
 def positive_vector(name: str, value: ArrayLike, *, unit: str = "") -> NDArray[Any]:
     """Return `value` as a 1-D float array; raise `InputError` unless all entries are above zero."""
-    result = vector(name, value, unit=unit)
+    return _above_zero(name, vector(name, value, unit=unit), unit)
+
+
+def _above_zero(name: str, result: NDArray[Any], unit: str) -> NDArray[Any]:
     if (result <= 0.0).any():
         at = int(np.argmax(result <= 0.0))
         raise InputError(
@@ -99,7 +137,7 @@ def text(name: str, value: Any) -> str:
 
 def in_reason(name: str, value: ArrayLike, *, unit: str = "") -> NDArray[Any]:
     """Return `value` as a 1-D float array; raise `InputError` unless from `LEAST` to `MOST`."""
-    result = positive_vector(name, value, unit=unit)
+    result = _above_zero(name, _finite(name, value, unit), unit)
     bad = (result < LEAST) | (result > MOST)
     if bad.any():
         at = int(np.argmax(bad))
@@ -142,6 +180,23 @@ def shortened(text: str, most: int = 120) -> str:
     """Return text of a file as a message quotes it: printable, and not longer than it is read."""
     plain = "".join(letter if letter.isprintable() else "?" for letter in text)
     return plain if len(plain) <= most else f"{plain[: most - 3]}..."
+
+
+def _may_be_real(value: Any) -> bool:
+    """Return whether `value` is no truth, text, complex number or date, by type or by dtype."""
+    if isinstance(value, bool | str | bytes | complex):
+        return False
+    return getattr(getattr(value, "dtype", None), "kind", "f") in "iufO"
+
+
+def _is_whole_number(value: Any) -> bool:
+    return isinstance(value, int | np.integer) and not isinstance(value, bool)
+
+
+def _not_tiny(name: str, result: float, unit: str) -> float:
+    if 0.0 < result < LEAST:
+        raise InputError(f"{name} must be at least {LEAST:g}{_in(unit)}; got {result:g}")
+    return result
 
 
 def _in(unit: str) -> str:

@@ -24,14 +24,14 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from gripscale.checks import shortened, shown
+from gripscale.checks import MOST, shortened, shown
 from gripscale.errors import FileError
 from gripscale.units import spelled
 
 _LINE_END = re.compile(r"\r*\n|\r")
 _COMMENT = ("#", "%", "!")
 _MISSING = {"", "nan", "na", "n/a", "null", "none", "-", "--", "---", "bad"}
-_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
+_NUMBER = re.compile(r"[+-]?(\d++(\.\d*)?|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 _COMMA_NUMBER = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?", re.ASCII)
 _SEPARATORS = ("\t", ";", ",", None)
 _TITLE_SEPARATORS = (r"\t", r";", r",", r"\s{2,}", r"\s+")
@@ -80,18 +80,19 @@ class TextTable:
     def numbers(self, column: int, expected: str, *, missing: bool = False) -> NDArray[np.float64]:
         """Return a column of numbers, NaN where a value is `missing` and may be.
 
-        Raises `FileError` with the line of the first other cell and what was `expected`.
+        Raises `FileError` with the line of the first other cell, or number beyond reason, and what
+        was `expected`.
         """
         cells = [self._with_point(row[column]) for row in self.rows]
         if _PLAIN.issuperset("".join(cells)):
             with suppress(ValueError):  # a word of these letters, which the loop below names
                 plain = np.array(cells, dtype=float)
-                if np.isfinite(plain).all():
+                if (np.abs(plain) <= MOST).all():
                     return plain
         values = np.empty(len(self.rows))
         for at, row in enumerate(self.rows):
             value = parse_number(self._with_point(row[column]))
-            if value is None or not (math.isfinite(value) or (missing and math.isnan(value))):
+            if value is None or not (abs(value) <= MOST or (missing and math.isnan(value))):
                 raise FileError(
                     f"{self.path}, line {self.line_numbers[at]}: expected {expected}; "
                     f"got {shown(row[column])}"

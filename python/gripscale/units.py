@@ -62,7 +62,9 @@ _EXAMPLES = {
     "time": "0.1 s",
     "temperature": "20 C",
 }
-_QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|[-+]?inf|nan)\s*(\S*)\s*")
+_QUANTITY = re.compile(
+    r"\s*+([-+]?(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][-+]?\d++)?|[-+]?inf|nan)\s*+(\S*+)\s*+", re.ASCII
+)
 
 
 def spelled(unit: object, kind: str) -> str | None:

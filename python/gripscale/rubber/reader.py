@@ -123,7 +123,7 @@ def _refuse_sweeps(table: TextTable, frequency: int, *, named: bool) -> None:
         kelvin = kelvin[np.isfinite(kelvin)]
         if not kelvin.size or np.ptp(kelvin) <= _ONE_TEMPERATURE:
             continue
-        hertz = table.numbers(frequency, "a finite number")
+        hertz = _positive(table, frequency, "frequency")
         if not named or len(np.unique(hertz)) <= len(hertz) // 2:
             raise FileError(
                 f"{table.path}: expected one master curve; got rows at temperatures from "
@@ -209,15 +209,12 @@ def _kind(table: TextTable, chosen: list[int], given: str | None) -> str:
 
 def _positive(table: TextTable, column: int, wanted: str) -> Array:
     """Return a column whose numbers are all above zero and within reason."""
-    values = table.numbers(column, "a finite number")
+    within = f"a {wanted} between {checks.LEAST:g} and {checks.MOST:g}"
+    values = table.numbers(column, within)
     for number, value in zip(table.line_numbers, values, strict=True):
-        if value <= 0.0:
+        if value < checks.LEAST:
+            expected = within if value > 0.0 else f"a {wanted} above zero"
             raise FileError(
-                f"{table.path}, line {number}: expected a {wanted} above zero; got {value:g}"
-            )
-        if not checks.LEAST <= value <= checks.MOST:
-            raise FileError(
-                f"{table.path}, line {number}: expected a {wanted} between {checks.LEAST:g} and "
-                f"{checks.MOST:g}; got {value:g}"
+                f"{table.path}, line {number}: expected {expected}; got {value:g}"
             )
     return values
