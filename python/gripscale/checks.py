@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import difflib
 import math
-from collections.abc import Iterable
-from typing import Any
+from collections.abc import Iterable, Sequence
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gripscale.errors import InputError
+
+T = TypeVar("T")
 
 LEAST, MOST = 1e-100, 1e100
 """Quantities beyond these are mistakes; within them no square or product of two overflows."""
@@ -22,7 +24,7 @@ def number(name: str, value: Any, *, unit: str = "", infinite: bool = False) -> 
     NaN is none; infinity is one only where it may be `infinite`.
     """
     expected = f"{name} must be a finite number{_in(unit)}"
-    if not _may_be_real(value) or np.ndim(value) > 0:
+    if not _is_one_real(value):
         raise InputError(f"{expected}; got {shown(value)}")
     try:
         result = float(value)
@@ -49,6 +51,14 @@ def not_negative(name: str, value: Any, *, unit: str = "", infinite: bool = Fals
     if result < 0.0:
         raise InputError(f"{name} must not be negative{_in(unit)}; got {result:g}")
     return _not_tiny(name, result, unit)
+
+
+def complex_number(name: str, value: Any, *, unit: str = "") -> complex:
+    """Return `value` as a complex number of parts of at most `MOST`, real or complex as given."""
+    if not np.iscomplexobj(value):
+        return complex(number(name, value, unit=unit))
+    parts = np.real(value), np.imag(value)
+    return complex(*(number(name, part, unit=unit) for part in parts))
 
 
 def whole(name: str, value: Any, *, least: int, most: int) -> int:
@@ -109,7 +119,13 @@ def array(value: ArrayLike, expected: str) -> NDArray[Any]:
 
 def positive_vector(name: str, value: ArrayLike, *, unit: str = "") -> NDArray[Any]:
     """Return `value` as a 1-D float array; raise `InputError` unless all entries are above zero."""
-    return _above_zero(name, vector(name, value, unit=unit), unit)
+    result = _above_zero(name, vector(name, value, unit=unit), unit)
+    if (result < LEAST).any():
+        at = int(np.argmax(result < LEAST))
+        raise InputError(
+            f"{name} must be at least {LEAST:g}{_in(unit)}; got {result[at]:g} at index {at}"
+        )
+    return result
 
 
 def _above_zero(name: str, result: NDArray[Any], unit: str) -> NDArray[Any]:
@@ -126,6 +142,31 @@ def flag(name: str, value: Any) -> bool:
     if not isinstance(value, bool | np.bool_):
         raise InputError(f"{name} must be True or False; got {shown(value)}")
     return bool(value)
+
+
+def instance(name: str, value: Any, kind: type[T]) -> T:
+    """Return `value`; raise `InputError` unless it is one of `kind`."""
+    if not isinstance(value, kind):
+        article = "an" if kind.__name__[0] in "AEIOU" else "a"
+        raise InputError(f"{name} must be {article} {kind.__name__}; got {type(value).__name__}")
+    return value
+
+
+def instances(name: str, values: Any, kind: type[T]) -> list[T]:
+    """Return `values` as a list; raise `InputError` unless it holds `kind`, one at least."""
+    if not isinstance(values, Sequence) or isinstance(values, str | bytes) or not values:
+        raise InputError(f"{name} must be a list of {kind.__name__}; got {shown(values)}")
+    return [instance(f"each of {name}", value, kind) for value in values]
+
+
+def real(name: str, value: ArrayLike, *, unit: str = "") -> NDArray[Any]:
+    """Return `value`, of any shape, as a float array of entries of at most `MOST`."""
+    expected = f"{name} must be finite numbers of at most {MOST:g}{_in(unit)}"
+    result = array(value, expected)
+    bad = ~(np.abs(result) <= MOST)
+    if bad.any():
+        raise InputError(f"{expected}; got {result[bad][0]:g}")
+    return result
 
 
 def text(name: str, value: Any) -> str:
@@ -170,8 +211,10 @@ def shown(value: Any) -> str:
     """Return how a value is written in a message: on one line, not longer than it is read."""
     if isinstance(value, int) and abs(value) >= 10**80:
         return "a whole number of more than 80 digits"
+    if isinstance(value, np.ndarray) and value.ndim > 0:
+        return f"an array of shape {value.shape}"
     try:
-        return " ".join(repr(value).split())[:80]
+        return shortened(" ".join(repr(value).split()), 80)
     except ValueError:
         return "whole numbers too long to print"
 
@@ -183,10 +226,16 @@ def shortened(text: str, most: int = 120) -> str:
 
 
 def _may_be_real(value: Any) -> bool:
-    """Return whether `value` is no truth, text, complex number or date, by type or by dtype."""
-    if isinstance(value, bool | str | bytes | complex):
+    """Return whether `value` is no truth, text, complex number, date or mask, by type or dtype."""
+    if value is np.ma.masked or isinstance(value, bool | str | bytes | complex):
         return False
     return getattr(getattr(value, "dtype", None), "kind", "f") in "iufO"
+
+
+def _is_one_real(value: Any) -> bool:
+    """Return whether `value` is a number of Python or numpy, or an array of one without a shape."""
+    numeric = isinstance(value, int | float) or hasattr(value, "dtype")
+    return numeric and _may_be_real(value) and np.ndim(value) == 0
 
 
 def _is_whole_number(value: Any) -> bool:

@@ -13,6 +13,7 @@
 from __future__ import annotations
 
 import math
+import os
 import re
 import sys
 from collections.abc import Callable, Collection
@@ -25,7 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gripscale.checks import MOST, shortened, shown
-from gripscale.errors import FileError
+from gripscale.errors import FileError, InputError
 from gripscale.units import spelled
 
 _LINE_END = re.compile(r"\r*\n|\r")
@@ -152,6 +153,13 @@ def read_table(
     rows = _without_empty_columns(rows)
     columns = _columns([line for _, line in lines[:first]], len(rows[0]), kinds, named)
     return TextTable(path, columns, rows, numbers, decimal)
+
+
+def file_path(path: object) -> Path:
+    """Return `path` as one; raise `InputError` if it cannot be the path of a file."""
+    if not isinstance(path, str | os.PathLike):
+        raise InputError(f"path must be the path of a file; got {shown(path)}")
+    return Path(path)
 
 
 def read_bytes(path: Path) -> bytes:

@@ -165,7 +165,10 @@ def test_smoothing_removes_the_spikes_of_a_bare_fit():
         ({"extrapolate_decades": 21.0}, "extrapolate_decades must be at most 20; got 21"),
         ({"smoothing": 1e90}, r"smoothing must be at most 1e.06; got 1e.90"),
         ({"loss_weight": 1e90}, "loss_weight must be at most"),
-        ({"bulk_modulus": 1e300}, "bulk_modulus must be a finite number .* of at most 1e.100; got 1e.300"),
+        (
+            {"bulk_modulus": 1e300},
+            "bulk_modulus must be a finite number .* of at most 1e.100; got 1e.300",
+        ),
         ({"smoothing": -0.1}, "smoothing must not be negative"),
         ({"loss_weight": 0.0}, "loss_weight must be greater than zero"),
         ({"bulk_modulus": 1e6}, "bulk_modulus .* 2/9 of the largest measured E', 3.8.*e.08"),

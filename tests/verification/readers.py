@@ -60,9 +60,18 @@ def sdf() -> bytes:
     """Return a map in the text form of ISO 25178-71."""
     columns, rows = HEIGHTS.shape
     head = {
-        **{"ManufacID": "none", "CreateDate": "010120260000", "ModDate": "010120260000"},
-        **{"NumPoints": columns, "NumProfiles": rows, "Xscale": 1e-6, "Yscale": 2e-6},
-        **{"Zscale": 1e-6, "Zresolution": -1, "Compression": 0, "DataType": 7, "CheckType": 0},
+        "ManufacID": "none",
+        "CreateDate": "010120260000",
+        "ModDate": "010120260000",
+        "NumPoints": columns,
+        "NumProfiles": rows,
+        "Xscale": 1e-6,
+        "Yscale": 2e-6,
+        "Zscale": 1e-6,
+        "Zresolution": -1,
+        "Compression": 0,
+        "DataType": 7,
+        "CheckType": 0,
     }
     told = "".join(f"{key} = {value}\n" for key, value in head.items())
     heights = "\n".join(f"{value:g}" for value in HEIGHTS.T.ravel())
@@ -73,9 +82,16 @@ def al3d() -> bytes:
     """Return a map as Alicona instruments write it."""
     columns, rows = HEIGHTS.shape
     tags = {
-        **{"Version": "1", "TagCount": "8", "TextureImageOffset": "0", "DepthImageOffset": "1024"},
-        **{"PixelSizeXMeter": "1e-6", "PixelSizeYMeter": "2e-6", "InvalidPixelValue": "1e30"},
-        **{"Cols": str(columns), "Rows": str(rows), "NumberOfPlanes": "0"},
+        "Version": "1",
+        "TagCount": "8",
+        "TextureImageOffset": "0",
+        "DepthImageOffset": "1024",
+        "PixelSizeXMeter": "1e-6",
+        "PixelSizeYMeter": "2e-6",
+        "InvalidPixelValue": "1e30",
+        "Cols": str(columns),
+        "Rows": str(rows),
+        "NumberOfPlanes": "0",
     }
     head = b"AliconaImaging\0\r\n" + b"".join(
         key.encode().ljust(20, b"\0") + value.encode().ljust(30, b"\0") + b"\r\n"

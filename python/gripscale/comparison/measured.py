@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gripscale import checks
 from gripscale.errors import FileError, InputError
-from gripscale.textfile import Column, TextTable, read_table
+from gripscale.textfile import Column, TextTable, file_path, read_table
 from gripscale.units import in_si, listed, spelled
 
 Array = NDArray[np.float64]
@@ -103,7 +103,7 @@ def read_measured_friction(path: str | Path) -> MeasuredFriction:
         If the file is missing or unreadable, a column is missing or named twice, or a unit or a
         value cannot be used.
     """
-    path = Path(path)
+    path = file_path(path)
     table = read_table(
         path,
         "rows of speed and friction, with titles above them",
@@ -147,10 +147,14 @@ def _places(table: TextTable) -> dict[str, int]:
 def _in_si(path: Path, word: str, column: Column, values: Array) -> Array:
     if word not in _UNITS:
         if column.unit not in (None, *_RATIO):
-            raise FileError(f"{path}: {word} has no unit; got {checks.shown(column.unit)} in its title")
+            raise FileError(
+                f"{path}: {word} has no unit; got {checks.shown(column.unit)} in its title"
+            )
         return values
     kind, own = _UNITS[word]
     unit = column.unit or own
     if spelled(unit, kind) is None:
-        raise FileError(f"{path}: {word} must be in one of {listed(kind)}; got {checks.shown(unit)}")
+        raise FileError(
+            f"{path}: {word} must be in one of {listed(kind)}; got {checks.shown(unit)}"
+        )
     return in_si(values, unit, kind)

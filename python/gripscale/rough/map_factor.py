@@ -211,6 +211,7 @@ def solve_map_and_lines(
     InputError
         If an argument is out of its range.
     """
+    checks.instance("surface", surface, HeightMap)
     whole = solve_whole(rubber, surface, workers=workers, **load)
     of_lines = solve_lines_of(rubber, surface, lines=lines, tolerance=tolerance, **load)
     return MapContact(whole.values, of_lines.values, whole.between_directions)

@@ -15,7 +15,7 @@ from gripscale import checks
 from gripscale.errors import FileError, InputError
 from gripscale.rubber.header import is_temperature, modulus_kind, quantity
 from gripscale.rubber.master_curve import Array, MasterCurve
-from gripscale.textfile import TextTable, read_table
+from gripscale.textfile import TextTable, file_path, read_table
 from gripscale.units import in_si, listed, spelled
 
 _QUANTITIES = ("frequency", "storage", "loss")
@@ -70,8 +70,9 @@ def read_master_curve(
     InputError
         If a unit, the kind of modulus or the columns are neither stated nor given.
     """
-    place = Path(path)
-    table = _table(place, [column for column in columns or () if isinstance(column, str)])
+    place = file_path(path)
+    names = () if columns is None else _three(columns)
+    table = _table(place, [column for column in names if isinstance(column, str)])
     chosen = _choose(table, columns)
     _refuse_sweeps(table, chosen[0], named=columns is not None)
     hertz = _unit(table, chosen[:1], "frequency", frequency_unit)
@@ -127,8 +128,9 @@ def _refuse_sweeps(table: TextTable, frequency: int, *, named: bool) -> None:
         if not named or len(np.unique(hertz)) <= len(hertz) // 2:
             raise FileError(
                 f"{table.path}: expected one master curve; got rows at temperatures from "
-                f"{kelvin.min():g} to {kelvin.max():g} in column {checks.shortened(title.name)}; shift the sweeps to "
-                "one master curve first, or name the columns if they are shifted"
+                f"{kelvin.min():g} to {kelvin.max():g} in column {checks.shortened(title.name)}; "
+                "shift the sweeps to one master curve first, or name the columns if they are "
+                "shifted"
             )
 
 
@@ -157,7 +159,13 @@ def _choose(table: TextTable, columns: Sequence[str | int] | None) -> list[int]:
 
 
 def _three(columns: Sequence[str | int]) -> Sequence[str | int]:
-    if isinstance(columns, str) or len(columns) != 3 or len(set(columns)) != 3:
+    if (
+        not isinstance(columns, Sequence)
+        or isinstance(columns, str)
+        or not all(isinstance(column, str | int) for column in columns)
+        or len(columns) != 3
+        or len(set(columns)) != 3
+    ):
         raise InputError(
             f"columns must be three different names or positions for frequency, storage and loss; "
             f"got {checks.shown(columns)}"
@@ -171,7 +179,8 @@ def _position(table: TextTable, column: str | int) -> int:
     if table.names.count(column) != 1:
         known = table.titles or "no names"
         raise InputError(
-            f"{table.path}: columns must be among the header's names ({known}); got {checks.shown(column)}"
+            f"{table.path}: columns must be among the header's names ({known}); "
+            f"got {checks.shown(column)}"
         )
     return table.names.index(column)
 
@@ -214,7 +223,5 @@ def _positive(table: TextTable, column: int, wanted: str) -> Array:
     for number, value in zip(table.line_numbers, values, strict=True):
         if value < checks.LEAST:
             expected = within if value > 0.0 else f"a {wanted} above zero"
-            raise FileError(
-                f"{table.path}, line {number}: expected {expected}; got {value:g}"
-            )
+            raise FileError(f"{table.path}, line {number}: expected {expected}; got {value:g}")
     return values

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from gripscale import checks
 from gripscale.errors import FileError, InputError
 from gripscale.surface.height_map import line_label
 from gripscale.surface.length_unit import length_unit
@@ -135,7 +136,9 @@ def _channel(path: Path, channels: list[Any], wanted: str | int | None) -> Any:
     if wanted is not None:
         known = [channel for channel in known if wanted in (channel.name, channel.index)]
         if not known:
-            raise InputError(f"channel of {path} must be one of {named}; got {wanted!r}")
+            raise InputError(
+                f"channel of {path} must be one of {named}; got {checks.shown(wanted)}"
+            )
     if len(known) > 1:
         raise FileError(f"{path}: expected one channel of heights; got {named}; give channel")
     return known[0]

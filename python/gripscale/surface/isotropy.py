@@ -60,6 +60,7 @@ def areal_spectrum(
     from scipy.optimize import nnls
     from scipy.special import gamma
 
+    checks.instance("spectrum", spectrum, ProfileSpectrum)
     mean = spectrum.averaged(per_decade)
     q, density = mean.wavenumber, mean.density
     if q.size < _TAIL_POINTS or not (density > 0.0).all():

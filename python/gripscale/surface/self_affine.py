@@ -92,6 +92,7 @@ def fit_self_affine(
     InputError
         If C_z vanishes somewhere, does not reach a plateau or does not rise before it.
     """
+    checks.instance("hdc", hdc, HeightDifference)
     checks.positive("tolerance", tolerance)
     checks.positive("shortest_range", shortest_range)
     if (hdc.value <= 0.0).any():

@@ -125,7 +125,9 @@ def _profiles(profile: Profile | Sequence[Profile]) -> list[Profile]:
         or not profiles
         or not all(isinstance(one, Profile) for one in profiles)
     ):
-        raise InputError(f"profile must be a Profile or a list of them; got {profile!r:.80}")
+        raise InputError(
+            f"profile must be a Profile or a list of them; got {checks.shown(profile)}"
+        )
     return list(profiles)
 
 
