@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from gripscale.checks import shown
 from gripscale.errors import ConvergenceError, FileError, InputError
 from tests.ground.doors import Door, doors
 
@@ -34,11 +35,8 @@ NUMBERS = [
     *(np.array([np.nan, 1.0]), np.array([1e308, 1.0]), np.array([1e-320, 1.0])),
 ]
 LONGEST = 300
+COMPLEX = ("plane_strain_modulus", "youngs_modulus")
 DOORS = list(doors())
-
-
-def tried(door: Door) -> list[Any]:
-    return NEVER if door.slow else [*NEVER, *WORDS, *NUMBERS]
 
 
 def fault(door: Door, argument: str, value: Any) -> str | None:
@@ -59,21 +57,27 @@ def fault(door: Door, argument: str, value: Any) -> str | None:
     return None if np.isfinite(told).all() else "converged to NaN"
 
 
+def faults(door: Door, values: list[Any]) -> list[str]:
+    """Return what is wrong with any argument at any of the values."""
+    return [
+        f"{argument} = {shown(value)} ({type(value).__name__}): {found}"
+        for argument in door.good
+        for value in values
+        if (found := fault(door, argument, value))
+    ]
+
+
 @pytest.mark.parametrize("door", DOORS, ids=lambda door: door.name)
 def test_absurd_values(door: Door) -> None:
-    faults = [
-        f"{argument} = {str(type(value))[8:-2]} {value!r:.40}: {found}"
-        for argument in door.good
-        for value in tried(door)
-        if not (isinstance(value, int) and abs(value) > 10**4000)
-        and (found := fault(door, argument, value))
-    ]
-    faults += [
-        f"{argument} = a huge number: {found}"
-        for argument in door.good
-        if (found := fault(door, argument, 10**5000))
-    ]
-    assert not faults, f"{len(faults)}\n" + "\n".join(faults[:12])
+    found = faults(door, NEVER if door.slow else [*NEVER, *WORDS, *NUMBERS])
+    assert not found, f"{len(found)}\n" + "\n".join(found[:12])
+
+
+@pytest.mark.verification
+@pytest.mark.parametrize("door", [d for d in DOORS if d.slow], ids=lambda door: door.name)
+def test_absurd_values_that_may_be_solved(door: Door) -> None:
+    found = faults(door, [*WORDS, *NUMBERS])
+    assert not found, f"{len(found)}\n" + "\n".join(found[:12])
 
 
 @pytest.mark.parametrize("door", DOORS, ids=lambda door: door.name)
@@ -81,7 +85,7 @@ def test_what_nothing_takes_is_refused(door: Door) -> None:
     """Not only no other exception: an answer to such a value would be a wrong one."""
     for argument in door.good:
         for value in (object(), 1 + 1j, [object()]):
-            if argument in ("plane_strain_modulus", "youngs_modulus") and value == 1 + 1j:
+            if argument in COMPLEX and value == 1 + 1j:
                 continue
             with pytest.raises((InputError, FileError)):
                 door.call(**{**door.good, argument: value})

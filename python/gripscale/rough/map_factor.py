@@ -24,6 +24,7 @@ from gripscale.rough.solve import solve_rough_contact
 from gripscale.rough.windows import WindowContacts, solve_windows
 from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Profile, isotropic_maps
+from gripscale.surface.maps.isotropic import seed_numbers
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -161,7 +162,7 @@ def map_over_lines(
         "speed": speed,
         "smallest_wavelength": smallest_wavelength,
     }
-    chosen = list(seeds)
+    chosen = seed_numbers(seeds)
     drawn = isotropic_maps(
         profile,
         smallest_wavelength=smallest_wavelength,
