@@ -24,8 +24,6 @@ DATA = Path(__file__).parents[2] / "examples/data"
 HEIGHTS = np.random.default_rng(7).normal(size=(18, 17)).round(3)
 LINE = HEIGHTS.ravel()[:40]
 STEPS = np.arange(40)
-MOST_POINTS_PER_BYTE = 1032
-"""Deflate, the densest packing of all formats, makes at most 1032 bytes of one."""
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,7 @@ doi:10.1088/2051-672X/ac860a.
 from __future__ import annotations
 
 import io
+import math
 import warnings
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -21,6 +22,9 @@ from gripscale.surface.length_unit import length_unit
 from gripscale.surface.profile import FloatArray, Profile
 from gripscale.textfile import read_bytes
 from gripscale.units import in_si
+
+MOST_POINTS_PER_BYTE = 1032
+"""Deflate, the densest packing of all formats, makes at most 1032 bytes of one."""
 
 
 @dataclass(frozen=True)
@@ -90,6 +94,7 @@ def read_instrument_file(
             reader = open_topography(io.BytesIO(raw))
             try:
                 topography = _topography(path, reader, channel, step)
+                _check_count(path, topography.nb_grid_pts, len(raw))
                 heights: FloatArray = np.ma.filled(
                     np.ma.asarray(topography.heights(), dtype=float), np.nan
                 )
@@ -124,6 +129,15 @@ def _topography(
         raise FileError(f"{path}: expected a lateral size; the file gives none")
     sizes = tuple(n * d for n, d in zip(chosen.nb_grid_pts, step, strict=False))
     return chosen.topography(physical_sizes=sizes)
+
+
+def _check_count(path: Path, points: tuple[int, ...], length: int) -> None:
+    """Refuse a header with more points than any packing gets into the bytes of the file."""
+    if math.prod(points) > MOST_POINTS_PER_BYTE * length:
+        raise FileError(
+            f"{path}: expected a surface; its header states {' x '.join(map(str, points))} points, "
+            f"which {length} bytes cannot hold"
+        )
 
 
 def _channel(path: Path, channels: list[Any], wanted: str | int | None) -> Any:
