@@ -19,7 +19,7 @@ LEAST, MOST = 1e-100, 1e100
 
 
 def number(name: str, value: Any, *, unit: str = "", infinite: bool = False) -> float:
-    """Return `value` as a float of at most `MOST`; raise `InputError` unless it is such a number.
+    """Return `value` as a float, zero or from `LEAST` to `MOST` in size; else raise `InputError`.
 
     NaN is none; infinity is one only where it may be `infinite`.
     """
@@ -34,23 +34,25 @@ def number(name: str, value: Any, *, unit: str = "", infinite: bool = False) -> 
         raise InputError(f"{expected}; got {result}")
     if abs(result) > MOST and math.isfinite(result):
         raise InputError(f"{expected} of at most {MOST:g}; got {result:g}")
+    if 0.0 < abs(result) < LEAST:
+        raise InputError(f"{expected} of at least {LEAST:g} in size; got {result:g}")
     return result
 
 
 def positive(name: str, value: Any, *, unit: str = "", infinite: bool = False) -> float:
-    """Return `value` as a float; raise `InputError` unless it is above zero, by `LEAST` or more."""
+    """Return `value` as a float; raise `InputError` unless it is above zero."""
     result = number(name, value, unit=unit, infinite=infinite)
     if result <= 0.0:
         raise InputError(f"{name} must be greater than zero{_in(unit)}; got {result:g}")
-    return _not_tiny(name, result, unit)
+    return result
 
 
 def not_negative(name: str, value: Any, *, unit: str = "", infinite: bool = False) -> float:
-    """Return `value` as a float; raise `InputError` unless it is zero or `LEAST` or more."""
+    """Return `value` as a float; raise `InputError` if it is below zero."""
     result = number(name, value, unit=unit, infinite=infinite)
     if result < 0.0:
         raise InputError(f"{name} must not be negative{_in(unit)}; got {result:g}")
-    return _not_tiny(name, result, unit)
+    return result
 
 
 def complex_number(name: str, value: Any, *, unit: str = "") -> complex:
@@ -155,7 +157,9 @@ def instance(name: str, value: Any, kind: type[T]) -> T:
 def instances(name: str, values: Any, kind: type[T]) -> list[T]:
     """Return `values` as a list; raise `InputError` unless it holds `kind`, one at least."""
     if not isinstance(values, Sequence) or isinstance(values, str | bytes) or not values:
-        raise InputError(f"{name} must be a list of {kind.__name__}; got {shown(values)}")
+        raise InputError(
+            f"{name} must be a list of at least one {kind.__name__}; got {shown(values)}"
+        )
     return [instance(f"each of {name}", value, kind) for value in values]
 
 
@@ -240,12 +244,6 @@ def _is_one_real(value: Any) -> bool:
 
 def _is_whole_number(value: Any) -> bool:
     return isinstance(value, int | np.integer) and not isinstance(value, bool)
-
-
-def _not_tiny(name: str, result: float, unit: str) -> float:
-    if 0.0 < result < LEAST:
-        raise InputError(f"{name} must be at least {LEAST:g}{_in(unit)}; got {result:g}")
-    return result
 
 
 def _in(unit: str) -> str:

@@ -40,7 +40,7 @@ def checked_settings(settings: Mapping[str, float]) -> Mapping[str, float]:
     """
     checks.instance("settings", settings, Mapping)  # type: ignore[type-abstract]
     checks.known("setting", settings, default_settings())
-    return {name: checks.not_negative(name, value) for name, value in settings.items()}
+    return {name: checks.number(name, value) for name, value in settings.items()}
 
 
 def solve_steady(
