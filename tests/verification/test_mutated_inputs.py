@@ -26,7 +26,7 @@ SEED = int(os.environ.get("GRIPSCALE_SEED", "0"))
 MANY = int(os.environ.get("GRIPSCALE_MUTATIONS", "200000"))
 FEW = 2000
 LONGEST = 2.0
-"""Seconds a file may take."""
+"""Seconds of a processor a file may take."""
 MEMORY = 1 << 30
 """Bytes beyond those at the start that reading may ask for."""
 LONGEST_SENTENCE = 500
@@ -44,7 +44,7 @@ def bounded() -> Iterator[None]:
         raise TookTooLong
 
     before = resource.getrlimit(resource.RLIMIT_AS)
-    handler = signal.signal(signal.SIGALRM, late)
+    handler = signal.signal(signal.SIGPROF, late)
     if sys.platform == "linux":
         pages = int(Path("/proc/self/statm").read_text().split()[0])
         used = pages * resource.getpagesize()
@@ -52,16 +52,16 @@ def bounded() -> Iterator[None]:
     try:
         yield
     finally:
-        signal.signal(signal.SIGALRM, handler)
+        signal.signal(signal.SIGPROF, handler)
         resource.setrlimit(resource.RLIMIT_AS, before)
 
 
 def fault(reader: Reader, path: Path) -> str | None:
     """Return what is wrong with how a file is read, None if nothing is; and count refusals."""
-    signal.setitimer(signal.ITIMER_REAL, LONGEST)
+    signal.setitimer(signal.ITIMER_PROF, LONGEST)
     try:
         found = reader.read(path)
-        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.setitimer(signal.ITIMER_PROF, 0.0)
         reader.check(found)
     except (InputError, FileError) as error:
         said = str(error).replace(str(path), "file")
@@ -73,7 +73,7 @@ def fault(reader: Reader, path: Path) -> str | None:
     except BaseException as error:
         return f"{type(error).__name__}: {str(error)[:300]}"
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.setitimer(signal.ITIMER_PROF, 0.0)
     return None
 
 
