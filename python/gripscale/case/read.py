@@ -66,6 +66,8 @@ def read_case(path: str | Path) -> CaseFile:
         tables = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise FileError(f"case file {path} is not valid TOML: {error}") from error
+    except (ValueError, RecursionError) as error:  # numbers of 4300 digits, a thousand brackets
+        raise FileError(f"case file {path} is beyond reading: {error}") from error
     return CaseFile(validate(Case, tables, str(path)), path, text)
 
 

@@ -115,6 +115,7 @@ def predict(
     ChainError
         A wave did not converge; a `ConvergenceError` whose `partial` is the prediction so far.
     """
+    checks.instance("sines", sines, SineStack)
     load = NominalLoad(pressure, speed, footprint, load_time)
     require_solid(rubber, load.pressure, load.time_under(load.footprint))
     solve = wave_solver(solver, options).solve

@@ -24,6 +24,7 @@ from gripscale.rough.solve import solve_rough_contact
 from gripscale.rough.windows import WindowContacts, solve_windows
 from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Profile, isotropic_maps
+from gripscale.surface.maps.isotropic import seed_numbers
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -161,7 +162,7 @@ def map_over_lines(
         "speed": speed,
         "smallest_wavelength": smallest_wavelength,
     }
-    chosen = list(seeds)
+    chosen = seed_numbers(seeds)
     drawn = isotropic_maps(
         profile,
         smallest_wavelength=smallest_wavelength,
@@ -211,6 +212,7 @@ def solve_map_and_lines(
     InputError
         If an argument is out of its range.
     """
+    checks.instance("surface", surface, HeightMap)
     whole = solve_whole(rubber, surface, workers=workers, **load)
     of_lines = solve_lines_of(rubber, surface, lines=lines, tolerance=tolerance, **load)
     return MapContact(whole.values, of_lines.values, whole.between_directions)

@@ -8,6 +8,7 @@ the same uncertainty of a friction is the spread of its predictions.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -51,12 +52,11 @@ class AdmissibleSeries:
         times = checks.in_reason("relaxation_times", relaxation_times, unit="s")
         equilibrium = checks.in_reason("equilibrium_moduli", equilibrium_moduli, unit="Pa")
         shape = (len(equilibrium), len(times))
-        try:
-            elements = np.array(moduli, dtype=float).reshape(shape)
-        except (TypeError, ValueError, OverflowError) as error:
-            raise InputError(
-                f"moduli must be {shape[0]} rows of {shape[1]} numbers [Pa]; got {moduli!r:.80}"
-            ) from error
+        expected = f"moduli must be {shape[0]} rows of {shape[1]} numbers [Pa]"
+        elements = checks.array(moduli, expected)
+        if elements.size != math.prod(shape):
+            raise InputError(f"{expected}; got {checks.shown(moduli)}")
+        elements = elements.reshape(shape)
         if not ((elements >= 0.0) & (elements <= checks.MOST)).all():
             raise InputError(f"moduli must not be negative [Pa]; got {elements.min():g}")
         for name, value in (
@@ -102,6 +102,6 @@ class AdmissibleSeries:
         known = {"relaxation_times", "equilibrium_moduli", "moduli"}
         if not isinstance(values, Mapping) or set(values) != known:
             raise InputError(
-                f"admissible must have the keys {', '.join(known)}; got {values!r:.80}"
+                f"admissible must have the keys {', '.join(known)}; got {checks.shown(values)}"
             )
         return cls(**values)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 
+from gripscale import checks
 from gripscale.errors import InputError
 from gripscale.rubber.material import Rubber
 
@@ -20,6 +21,7 @@ def require_solid(rubber: Rubber, pressure: float, load_time: float) -> None:
 
     At rest the time is infinite and E(t) the equilibrium modulus.
     """
+    checks.instance("rubber", rubber, Rubber)
     modulus = float(rubber.relaxation_modulus(load_time))
     if pressure <= MOST_PRESSURE * modulus:
         return

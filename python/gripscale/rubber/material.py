@@ -94,8 +94,8 @@ class Rubber:
                 checks.in_reason("relaxation_times", relaxation_times, unit="s")
             ),
             "bulk_modulus": material_checks.modulus("bulk_modulus", bulk_modulus),
-            "name": str(name),
-            "source": str(source),
+            "name": checks.text("name", name),
+            "source": checks.text("source", source),
             "valid_band": material_checks.band(valid_band),
             "strain_energy": material_checks.energy(strain_energy),
             "admissible": material_checks.admissible(admissible),
@@ -250,9 +250,9 @@ class Rubber:
 
         Raises `InputError` for a negative time or NaN.
         """
-        elapsed = np.asarray(time, dtype=float)
+        elapsed = checks.array(time, "time must be numbers, not negative [s]")
         if not (elapsed >= 0.0).all():
-            raise InputError(f"time must not be negative [s]; got {elapsed!r:.80}")
+            raise InputError(f"time must not be negative [s]; got {checks.shown(elapsed)}")
         with np.errstate(over="ignore"):  # infinitely many relaxation times have passed
             decay = np.exp(-elapsed[..., None] / self.relaxation_times)
         return np.asarray(self.equilibrium_modulus + (self.moduli * decay).sum(-1))

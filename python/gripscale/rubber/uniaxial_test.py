@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gripscale import checks
 from gripscale.errors import FileError, InputError
+from gripscale.textfile import file_path
 from gripscale.units import in_si
 
 Array = NDArray[np.float64]
@@ -43,7 +44,7 @@ class UniaxialTest:
     stress: Array = field(repr=False)
 
     def __init__(self, name: str, time: ArrayLike, stretch: ArrayLike, stress: ArrayLike) -> None:
-        object.__setattr__(self, "name", str(name))
+        object.__setattr__(self, "name", checks.text("name", name))
         object.__setattr__(self, "time", checks.vector("time", time, unit="s"))
         object.__setattr__(self, "stretch", checks.positive_vector("stretch", stretch))
         object.__setattr__(self, "stress", checks.vector("stress", stress, unit="Pa"))
@@ -88,7 +89,7 @@ def read_uniaxial_test(path: str | Path, *, stress_unit: str = "Pa") -> Uniaxial
         If the unit is unknown.
     """
     pascal = in_si(1.0, stress_unit, "modulus", "stress_unit")
-    path = Path(path)
+    path = file_path(path)
     rows = _first_sheet(path)
     try:
         if any(len(row) < 3 for row in rows):
@@ -107,10 +108,8 @@ def _first_sheet(path: Path) -> list[tuple[object, ...]]:
     except ImportError as error:
         raise FileError(f"{path}: xlsx needs openpyxl: pip install gripscale[formats]") from error
     try:
-        book = openpyxl.load_workbook(path, read_only=True, data_only=True)
-        try:
+        with path.open("rb") as file:  # openpyxl leaves open what it cannot read
+            book = openpyxl.load_workbook(file, read_only=True, data_only=True)
             return list(book.worksheets[0].iter_rows(values_only=True))
-        finally:
-            book.close()
     except Exception as error:  # openpyxl, zipfile and the XML parser fail each in their own way
         raise FileError(f"{path}: expected an xlsx file ({type(error).__name__})") from error

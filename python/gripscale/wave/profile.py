@@ -108,6 +108,7 @@ def solve_profile(
     """
     if not isinstance(profile, Profile):
         raise InputError(f"profile must be a gripscale.Profile; got {type(profile).__name__}")
+    checks.flag("periodic", periodic)
     heights = _one_period(profile, smallest_wavelength, periodic)
     chosen = _columns(heights) if columns is None else columns
     share = checks.positive("columns", chosen) / Mesh.columns
