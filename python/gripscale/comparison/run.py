@@ -169,8 +169,7 @@ def _compared(
 
     def rung_at(place: str, rung: Rung) -> SolvedRung:
         pairs = zip(drawn[place, rung.name], tasks[place, rung.name], strict=True)
-        rubber = subjects[place].rubber
-        return SolvedRung(rung, [sample_of(solved[t.key], rubber, draw.of) for draw, t in pairs])
+        return SolvedRung(rung, [sample_of(solved[task.key], draw.of) for draw, task in pairs])
 
     measured = choice.measured or _measured_of(file)
     out = []

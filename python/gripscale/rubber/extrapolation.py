@@ -1,0 +1,148 @@
+"""How much of a result rests on a rubber beyond its measured frequencies, and how far beyond.
+
+A rubber from a master curve is known within `Rubber.valid_band`; beyond it its series is an
+extrapolation. Whatever excites it there is told in the same three numbers by every model: the share
+of the friction that comes from there, and how many decades below and above the band it goes.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gripscale.rubber.material import Rubber
+
+Array = NDArray[np.float64]
+
+WORTH_SAYING = 0.01
+"""Share of the friction that does not count: of a spectrum, which has no end, both tails."""
+
+
+@dataclass(frozen=True)
+class Extrapolation:
+    """What of a friction rests on the rubber beyond its measured frequencies; NaN if not known."""
+
+    share: float
+    """Of the friction [-]; also NaN where there is no friction to share."""
+    below: float
+    """How far excitation goes below the band [decades]; 0 if not."""
+    above: float
+    """How far it goes above the band [decades]; 0 if not."""
+
+    @property
+    def anywhere(self) -> bool:
+        """Whether anything is beyond the band."""
+        return self.below > 0.0 or self.above > 0.0
+
+    @property
+    def furthest(self) -> str:
+        """How far it goes, in words; empty within the band."""
+        ends = [
+            f"{decades:.2g} decades {word}"
+            for decades, word in ((self.below, "below"), (self.above, "above"))
+            if decades > 0.0
+        ]
+        return f"up to {' and '.join(ends)} the measured band" if ends else ""
+
+
+UNKNOWN = Extrapolation(math.nan, math.nan, math.nan)
+"""Of a rubber without a measured band, or a model that does not tell."""
+NONE = Extrapolation(0.0, 0.0, 0.0)
+"""At rest, where nothing is excited."""
+
+
+def of_frequencies(rubber: Rubber, omega: ArrayLike) -> Extrapolation:
+    """Return how far excitation at all of `omega` [rad/s] goes; its share is all or nothing."""
+    if rubber.valid_band is None:
+        return UNKNOWN
+    frequency = np.abs(np.asarray(omega, dtype=float))
+    outside = bool(np.any(rubber.outside_band(frequency)))
+    return Extrapolation(float(outside), *_decades(rubber.valid_band, frequency))
+
+
+def of_spectrum(rubber: Rubber, omega: ArrayLike, friction: ArrayLike) -> Extrapolation:
+    """Return what of a friction that is split by frequency lies beyond the band.
+
+    Parameters
+    ----------
+    rubber : Rubber
+        The rubber.
+    omega, friction : array_like, same shape
+        Frequencies [rad/s] and the friction each adds [-].
+
+    Returns
+    -------
+    Extrapolation
+        How far: without the slowest and the fastest frequencies that `WORTH_SAYING` of the friction
+        comes from.
+    """
+    if rubber.valid_band is None:
+        return UNKNOWN
+    parts = np.abs(np.ravel(np.asarray(friction, dtype=float)))
+    frequency = np.abs(np.ravel(np.asarray(omega, dtype=float)))
+    total = float(parts.sum())
+    if not (math.isfinite(total) and total > 0.0):
+        return Extrapolation(math.nan, 0.0, 0.0)
+    share = float(parts[rubber.outside_band(frequency)].sum()) / total
+    order = np.argsort(frequency)
+    so_far = np.cumsum(parts[order]) / total
+    ends = np.searchsorted(so_far, [WORTH_SAYING, 1.0 - WORTH_SAYING])
+    counted = frequency[order[np.minimum(ends, len(order) - 1)]]
+    return Extrapolation(share, *_decades(rubber.valid_band, counted))
+
+
+def by_wavelength(
+    rubber: Rubber, speed: float, wavelength: Array, running_friction: Array
+) -> Extrapolation:
+    """Return what of a friction lies beyond the band, of a model that tells it by wavelength.
+
+    Parameters
+    ----------
+    rubber : Rubber
+        The rubber.
+    speed : float
+        Of sliding [m/s].
+    wavelength : array, shape (n,)
+        Falling [m].
+    running_friction : array, shape (n,)
+        Friction of the waves not shorter [-]. What an interval adds counts at its middle, at the
+        frequency 2 pi speed/wavelength.
+    """
+    if speed == 0.0:
+        return NONE
+    parts = np.diff(running_friction, prepend=0.0)
+    longer = np.append(wavelength[0], wavelength[:-1])
+    return of_spectrum(rubber, 2.0 * np.pi * speed / np.sqrt(longer * wavelength), parts)
+
+
+def of_sum(parts: Sequence[Extrapolation], friction: ArrayLike) -> Extrapolation:
+    """Return the extrapolation of a sum of which each of `parts` adds its `friction` [-].
+
+    The share is NaN where a friction is, or all are zero.
+    """
+    if not parts:
+        return UNKNOWN
+    weight = np.abs(np.asarray(friction, dtype=float))
+    share, below, above = np.array([(one.share, one.below, one.above) for one in parts]).T
+    total = float(weight.sum())
+    # a part without friction has no share to tell of, and adds none
+    told = float(weight @ np.where(weight > 0.0, share, 0.0))
+    return Extrapolation(
+        0.0 if not share.any() else told / total if total > 0.0 else math.nan,
+        float(below.max()),
+        float(above.max()),
+    )
+
+
+def _decades(band: tuple[float, float], omega: Array) -> tuple[float, float]:
+    """Return how far the frequencies go below and above the band [decades]."""
+    excited = omega[omega > 0.0]
+    if not excited.size:
+        return 0.0, 0.0
+    below = math.log10(band[0] / float(excited.min()))
+    above = math.log10(float(excited.max()) / band[1])
+    return max(below, 0.0), max(above, 0.0)
