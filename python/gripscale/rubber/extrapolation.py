@@ -14,9 +14,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gripscale.errors import ExtrapolationError
 from gripscale.rubber.material import Rubber
 
 Array = NDArray[np.float64]
+
+CHOICES = ("say", "refuse")
+"""What may be done about excitation beyond the band."""
 
 WORTH_SAYING = 0.01
 """Share of the friction that does not count: of a spectrum, which has no end, both tails."""
@@ -146,3 +150,50 @@ def _decades(band: tuple[float, float], omega: Array) -> tuple[float, float]:
     below = math.log10(band[0] / float(excited.min()))
     above = math.log10(float(excited.max()) / band[1])
     return max(below, 0.0), max(above, 0.0)
+
+
+def require_measured(rubber: Rubber, wavelength: ArrayLike, speed: float) -> None:
+    """Raise `ExtrapolationError` if a wave excites the rubber beyond its band.
+
+    Looked at are the fundamental frequencies 2 pi speed/wavelength; which harmonics there are only
+    the solution tells.
+
+    Parameters
+    ----------
+    rubber : Rubber
+        The rubber; without a band nothing is refused.
+    wavelength : array_like, shape (waves,)
+        Falling [m].
+    speed : float
+        Of sliding [m/s]; at rest nothing is excited.
+    """
+    lengths = np.atleast_1d(np.asarray(wavelength, dtype=float))
+    omega = 2.0 * np.pi * speed / lengths
+    if rubber.valid_band is None or speed == 0.0 or not rubber.outside_band(omega).any():
+        return
+    low, high = rubber.valid_band
+    at = int(np.argmax(np.maximum(np.log(low / omega), np.log(omega / high))))
+    if omega[at] > high:
+        side, most, end = "above", _down(high * lengths[-1] / (2.0 * np.pi)), "smallest"
+        reach, limit = f"at most {most} m/s", _up(2e3 * np.pi * speed / high)
+    else:
+        side, least, end = "below", _up(low * lengths[0] / (2.0 * np.pi)), "largest"
+        reach, limit = f"at least {least} m/s", _down(2e3 * np.pi * speed / low)
+    raise ExtrapolationError(
+        f"wave {at + 1} of {lengths.size} (wavelength {1e3 * lengths[at]:.4g} mm) excites the "
+        f"rubber at {omega[at]:.3g} rad/s, {side} the measured band, {low:.3g} to {high:.3g} "
+        f"rad/s, and extrapolation is to be refused; the data carry {reach} with these waves, or "
+        f"a {end} wavelength of {limit} mm at {speed:.4g} m/s"
+    )
+
+
+def _down(value: float) -> str:
+    """Return three digits of a number that must not be exceeded."""
+    step = 10.0 ** (math.floor(math.log10(value)) - 2)
+    return f"{math.floor(value / step) * step:.3g}"
+
+
+def _up(value: float) -> str:
+    """Return three digits of a number that must be reached."""
+    step = 10.0 ** (math.floor(math.log10(value)) - 2)
+    return f"{math.ceil(value / step) * step:.3g}"
