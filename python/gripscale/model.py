@@ -113,8 +113,9 @@ TOTALS = {
 }
 """Names and meanings of the numbers every model answers with."""
 
+FRICTION_OUTSIDE_BAND = "total_friction_outside_band"
 OUTSIDE_BAND = {
-    "total_friction_outside_band": (
+    FRICTION_OUTSIDE_BAND: (
         "share",
         "share of the friction that rests on the rubber outside the measured frequencies",
     ),

@@ -8,11 +8,12 @@ import numpy as np
 import xarray as xr
 
 from gripscale.figures.rungs import flawed, varied
+from gripscale.model import FRICTION_OUTSIDE_BAND
 from gripscale.report.charts.comparison import axis_charts, ladder_charts
 from gripscale.report.comparison_table import best_sentence, samples_of
 from gripscale.report.elements import Element, Heading, Notice, Table, Text
 from gripscale.report.numbers import decades, number, percent
-from gripscale.report.outside_band import SHARE, comparison_sentences
+from gripscale.report.outside_band import comparison_sentences
 from gripscale.report.source import Compared
 
 WHAT = (
@@ -117,6 +118,6 @@ def _row(one: xr.Dataset) -> list[str]:
         number(one.total_friction_from_dissipation),
         *friction,
         samples_of(one),
-        percent(one[SHARE]),
+        percent(one[FRICTION_OUTSIDE_BAND]),
         *(decades(one[f"total_decades_{end}_band"]) for end in ("below", "above")),
     ]

@@ -11,7 +11,8 @@ from rich import box
 from rich.table import Table
 
 from gripscale.figures.rungs import JUDGE, flawed
-from gripscale.report.outside_band import SHARE, comparison_sentences, friction_sentence
+from gripscale.model import FRICTION_OUTSIDE_BAND
+from gripscale.report.outside_band import comparison_sentences, friction_sentence
 from gripscale.report.tables import significant
 from gripscale.rubber.extrapolation import WORTH_SAYING
 from gripscale.study.display import LABELS
@@ -46,7 +47,7 @@ def comparison_table(comparison: xr.Dataset) -> Table:
         lost = significant(float(one.total_friction_from_dissipation))
         friction.insert(1, lost)
         table.add_row(
-            f"{label} *" if float(one[SHARE]) > WORTH_SAYING else label,
+            f"{label} *" if float(one[FRICTION_OUTSIDE_BAND]) > WORTH_SAYING else label,
             *area,
             *friction,
             samples_of(one),
@@ -70,7 +71,7 @@ def axis_table(comparison: xr.Dataset, axis: str, name: str) -> Table:
         one = comparison.isel({axis: at})
         marks = [
             ("!" if bad else "") + ("*" if share > WORTH_SAYING else "")
-            for bad, share in zip(flawed(one), one[SHARE].values, strict=True)
+            for bad, share in zip(flawed(one), one[FRICTION_OUTSIDE_BAND].values, strict=True)
         ]
         cells = [
             f"{significant(float(number))}{mark}"

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gripscale.model import extrapolation_of
+from gripscale.model import FRICTION_OUTSIDE_BAND, extrapolation_of
 from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from gripscale.figures.view import PredictionView
 
-SHARE = "total_friction_outside_band"
+
 MEASURED = "the measured band"
 
 
@@ -48,11 +48,13 @@ def friction_sentence(found: Extrapolation) -> str:
 
 def study_sentence(result: xr.Dataset) -> str:
     """Return how many predictions of a study, how much of their friction and how far."""
-    if SHARE not in result:
+    if FRICTION_OUTSIDE_BAND not in result:
         return ""
     every = [
-        extrapolation_of(result.isel(dict(zip(result[SHARE].dims, place, strict=True))))
-        for place in np.ndindex(result[SHARE].shape)
+        extrapolation_of(
+            result.isel(dict(zip(result[FRICTION_OUTSIDE_BAND].dims, place, strict=True)))
+        )
+        for place in np.ndindex(result[FRICTION_OUTSIDE_BAND].shape)
     ]
     beyond = [one for one in every if one.share > WORTH_SAYING]
     if not beyond:
@@ -67,6 +69,10 @@ def comparison_sentences(comparison: xr.Dataset) -> Iterator[tuple[str, str]]:
     """Yield the label of each rung with friction beyond the band, and its sentence."""
     for at in range(comparison.sizes["rung"]):
         one = comparison.isel(rung=at)
-        text = study_sentence(one) if one[SHARE].ndim else friction_sentence(extrapolation_of(one))
+        text = (
+            study_sentence(one)
+            if one[FRICTION_OUTSIDE_BAND].ndim
+            else friction_sentence(extrapolation_of(one))
+        )
         if text:
             yield str(one.label.item()), text

@@ -9,7 +9,8 @@ import xarray as xr
 from rich import box
 from rich.table import Table
 
-from gripscale.report.outside_band import SHARE, share_text, study_sentence
+from gripscale.model import FRICTION_OUTSIDE_BAND
+from gripscale.report.outside_band import share_text, study_sentence
 from gripscale.report.tables import significant
 from gripscale.study.display import dimensions, name_of
 
@@ -45,7 +46,7 @@ def study_table(result: xr.Dataset) -> Table:
             _largest(chain),
         ]
         if beyond:
-            cells.append(share_text(float(chain[SHARE])))
+            cells.append(share_text(float(chain[FRICTION_OUTSIDE_BAND])))
         if at_rest:
             cells.append(significant(float(chain.static_total_contact_fraction)))
         status = str(chain.prediction_status.item())
