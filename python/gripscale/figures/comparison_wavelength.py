@@ -59,7 +59,7 @@ def _line(axes: Axes, one: xr.Dataset, name: str, look: Look, label: str, *, str
     known = np.isfinite(values)
     if not known.any():
         return
-    beyond = down_to(one.outside_band.values == 1) if FLAG in one else np.zeros(known.size, bool)
+    beyond = down_to(one[FLAG] == 1) if FLAG in one else np.zeros(known.size, dtype=bool)
     line(
         axes,
         one.wavelength.values[known] / MILLI,

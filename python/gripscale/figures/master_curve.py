@@ -38,7 +38,7 @@ def master_curve_figure(
     excitation
         Angular frequencies of the waves [rad/s], marked on the axis.
     """
-    figure, panels = sheet(NARROW, 4.4, 2, 1, sharex=True, height_ratios=[2.0, 1.0])
+    figure, panels = sheet(NARROW, 4.9, 2, 1, sharex=True, height_ratios=[2.0, 1.0])
     moduli, loss = panels[:, 0]
     omega = np.asarray(excitation, dtype=float)
     _series(moduli, loss, rubber, master, omega)
@@ -53,7 +53,7 @@ def master_curve_figure(
     dashed_entry(moduli)
     if omega.size:
         _marks(moduli, loss, rubber, omega)
-    moduli.legend(loc="upper left")
+    figure.legend(*moduli.get_legend_handles_labels(), loc="outside upper center", ncols=2)
     return figure
 
 

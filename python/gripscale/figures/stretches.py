@@ -6,6 +6,7 @@ They are drawn dashed. Needs no drawing library.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import pairwise
 
 import numpy as np
 import xarray as xr
@@ -32,28 +33,24 @@ def stretches(beyond: ArrayLike) -> Iterator[tuple[slice, bool]]:
         yield slice(0, flags.size), bool(flags.any())
         return
     changes = [0, *(np.flatnonzero(np.diff(joined)) + 1), joined.size]
-    for first, last in zip(changes[:-1], changes[1:], strict=True):
+    for first, last in pairwise(changes):
         yield slice(int(first), int(last) + 1), bool(joined[first])
 
 
 def predictions_beyond(data: xr.Dataset) -> Flags:
     """Return for each prediction whether some of its friction rests on extrapolation."""
-    known = FRICTION_OUTSIDE_BAND in data
-    return np.asarray(
-        data[FRICTION_OUTSIDE_BAND].values > WORTH_SAYING if known else np.zeros(_shape(data), bool)
-    )
+    if FRICTION_OUTSIDE_BAND not in data:
+        return np.zeros(data["total_friction"].shape, dtype=bool)
+    return np.asarray(data[FRICTION_OUTSIDE_BAND] > WORTH_SAYING)
 
 
 def waves_beyond(data: xr.Dataset) -> Flags:
-    """Return for each wave of a prediction whether it excites the rubber beyond the band."""
-    known = FLAG in data
-    return np.asarray(data[FLAG].values == 1.0 if known else np.zeros(data.sizes["scale"], bool))
+    """Return for each wave whether it excites the rubber beyond the band."""
+    if FLAG not in data:
+        return np.zeros(data["wavelength"].shape, dtype=bool)
+    return np.asarray(data[FLAG] == 1.0)
 
 
 def down_to(beyond: ArrayLike) -> Flags:
     """Return for what is summed up over waves whether one of them so far is beyond the band."""
     return np.asarray(np.logical_or.accumulate(np.asarray(beyond, dtype=bool)))
-
-
-def _shape(data: xr.Dataset) -> tuple[int, ...]:
-    return tuple(data["total_friction"].shape)

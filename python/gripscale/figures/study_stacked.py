@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from gripscale.figures.palette import INK, WIDE
-from gripscale.figures.stretches import FLAG, Flags, predictions_beyond, stretches, waves_beyond
+from gripscale.figures.stretches import Flags, predictions_beyond, stretches, waves_beyond
 from gripscale.figures.study_axes import (
     Array,
     along,
@@ -79,11 +79,7 @@ def _shades(result: xr.Dataset) -> tuple[list[str], list[str]]:
 
 def _beyond(result: xr.Dataset, axis: str) -> Flags:
     """Return for each wave and point whether it excites the rubber beyond the measured band."""
-    return (
-        waves_beyond(result.transpose("scale", axis, ...))
-        if FLAG in result
-        else np.zeros((result.sizes["scale"], result.sizes[axis]), bool)
-    )
+    return waves_beyond(result.transpose("scale", axis, ...))
 
 
 def _stack(axes: Axes, x: Array, rows: Array, shades: list[str], beyond: Flags) -> None:

@@ -68,11 +68,12 @@ def _line(axes: Axes, piece: xr.Dataset, x: str, quantity: str, colour: str, lab
 
 def _name(area: Axes, friction: Axes, result: xr.Dataset, x: str) -> None:
     """Put the names of an axis below, a star at those whose friction is partly extrapolated."""
-    beyond = predictions_beyond(result.transpose(x, ...)).reshape(result.sizes[x], -1).any(axis=1)
-    names = [f"{name_of(result, x, i)}{' *' if star else ''}" for i, star in enumerate(beyond)]
+    flags = predictions_beyond(result.transpose(x, ...))
+    stars = [bool(np.any(one)) for one in flags]
+    names = [f"{name_of(result, x, i)}{' *' if star else ''}" for i, star in enumerate(stars)]
     for axes in (area, friction):
         axes.set_xticks(np.arange(len(names)), names)
-    if beyond.any():
+    if any(stars):
         area.plot([], [], ls="", marker="$*$", color=GREY, label=BEYOND)
 
 

@@ -17,9 +17,6 @@ if TYPE_CHECKING:
     from gripscale.figures.view import PredictionView
 
 
-MEASURED = "the measured band"
-
-
 def share_text(share: float) -> str:
     """Return a share of the friction in per cent, or a dash where it is not known."""
     return "-" if math.isnan(share) else f"{100.0 * share:.3g} %"
@@ -50,12 +47,7 @@ def study_sentence(result: xr.Dataset) -> str:
     """Return how many predictions of a study, how much of their friction and how far."""
     if FRICTION_OUTSIDE_BAND not in result:
         return ""
-    every = [
-        extrapolation_of(
-            result.isel(dict(zip(result[FRICTION_OUTSIDE_BAND].dims, place, strict=True)))
-        )
-        for place in np.ndindex(result[FRICTION_OUTSIDE_BAND].shape)
-    ]
+    every = list(_each(result))
     beyond = [one for one in every if one.share > WORTH_SAYING]
     if not beyond:
         return ""
@@ -69,10 +61,14 @@ def comparison_sentences(comparison: xr.Dataset) -> Iterator[tuple[str, str]]:
     """Yield the label of each rung with friction beyond the band, and its sentence."""
     for at in range(comparison.sizes["rung"]):
         one = comparison.isel(rung=at)
-        text = (
-            study_sentence(one)
-            if one[FRICTION_OUTSIDE_BAND].ndim
-            else friction_sentence(extrapolation_of(one))
-        )
+        alone = not one[FRICTION_OUTSIDE_BAND].ndim
+        text = friction_sentence(extrapolation_of(one)) if alone else study_sentence(one)
         if text:
             yield str(one.label.item()), text
+
+
+def _each(result: xr.Dataset) -> Iterator[Extrapolation]:
+    """Yield what each prediction of a study tells."""
+    share = result[FRICTION_OUTSIDE_BAND]
+    for place in np.ndindex(share.shape):
+        yield extrapolation_of(result.isel(dict(zip(share.dims, place, strict=True))))
