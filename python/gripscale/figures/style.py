@@ -99,8 +99,8 @@ def line(
     x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
     for part, dashed in stretches(beyond):
         axes.plot(x[part], y[part], **(look | {"ls": DASHED} if dashed else look))
-    if label is not None:
-        axes.plot([], [], **look, label=label)
+    if label is not None:  # nothing, unclipped, has no place on a logarithmic axis
+        axes.plot([], [], **(look | {"clip_on": True}), label=label)
 
 
 def dashed_entry(axes: Axes) -> None:

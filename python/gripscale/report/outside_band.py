@@ -53,8 +53,8 @@ def study_sentence(result: xr.Dataset) -> str:
         return ""
     most = max(one.share for one in beyond)
     worst = Extrapolation(most, max(o.below for o in beyond), max(o.above for o in beyond))
-    count = f"{len(beyond)} of {len(every)} predictions rest"
-    return f"{count}, with up to {share_text(most)} of the friction, {worst.furthest}."
+    count = f"{len(beyond)} of {len(every)} predictions, up to {share_text(most)} of their friction"
+    return f"{count}, lie {worst.furthest}."
 
 
 def comparison_sentences(comparison: xr.Dataset) -> Iterator[tuple[str, str]]:
