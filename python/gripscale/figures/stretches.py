@@ -17,6 +17,8 @@ from gripscale.rubber.extrapolation import WORTH_SAYING
 
 BEYOND = "beyond the measured band"
 """What a dashed line is, in legends."""
+BEYOND_BESIDE = "beyond the\nmeasured band"
+"""The same in a legend beside panels."""
 FLAG = "outside_band"
 
 Flags = NDArray[np.bool_]

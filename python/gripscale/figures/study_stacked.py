@@ -10,8 +10,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from gripscale.figures.palette import INK, WIDE
-from gripscale.figures.stretches import Flags, predictions_beyond, stretches, waves_beyond
+from gripscale.figures.palette import GREY, INK, WIDE
+from gripscale.figures.stretches import (
+    BEYOND_BESIDE,
+    Flags,
+    predictions_beyond,
+    stretches,
+    waves_beyond,
+)
 from gripscale.figures.study_axes import (
     Array,
     along,
@@ -43,7 +49,7 @@ def stacked_figure(result: xr.Dataset, axis: str, title: str = "") -> Figure:
     line(friction, x, result.total_friction, predictions_beyond(result), color=INK, lw=1.2)
     friction.set_ylabel("friction coefficient $\\mu$, wave upon wave [-]")
     running = result.running_contact_fraction.transpose("scale", axis).values
-    _nested(area, along(area, result, axis), running, shades)
+    _nested(area, along(area, result, axis), running, shades, beyond)
     area.set_ylabel("relative contact area after each wave [-]")
     _legend(figure, shades, names, title, hatched=bool(beyond.any()))
     return figure
@@ -90,19 +96,25 @@ def _stack(axes: Axes, x: Array, rows: Array, shades: list[str], beyond: Flags) 
     for low, high, colour in zip(lower, upper, shades, strict=True):
         axes.fill_between(x, low, high, color=colour, lw=0.3, ec="white")
     for low, high, flags in zip(lower, upper, beyond, strict=True):
-        for part, hatched in stretches(flags):
-            if hatched:
-                axes.fill_between(x[part], low[part], high[part], **HATCHED)
+        _hatch(axes, x, low, high, flags)
     axes.set_ylim(bottom=0.0)
 
 
-def _nested(axes: Axes, x: Array, running: Array, shades: list[str]) -> None:
-    """Fill between the running areas, largest wave first, on a log axis."""
+def _hatch(axes: Axes, x: Array, low: Array, high: Array, beyond: Flags) -> None:
+    """Hatch a band where it is beyond the measured frequencies."""
+    for part, hatched in stretches(beyond):
+        if hatched:
+            axes.fill_between(x[part], low[part], high[part], **HATCHED)
+
+
+def _nested(axes: Axes, x: Array, running: Array, shades: list[str], beyond: Flags) -> None:
+    """Fill between the running areas, largest wave first, on a log axis; hatched beyond."""
     upper = np.ones_like(x)
-    for row, colour in zip(running, shades, strict=True):
+    for row, colour, flags in zip(running, shades, beyond, strict=True):
         axes.fill_between(x, row, upper, color=colour, lw=0.3, ec="white")
+        _hatch(axes, x, row, upper, flags)
         upper = np.where(np.isnan(row), upper, row)
-    axes.plot(x, upper, color=INK, lw=1.2)
+    line(axes, x, upper, np.any(beyond, axis=0), color=INK, lw=1.2)
     axes.set_ylim(0.7 * float(np.nanmin(running)), 1.0)
     area_axis(axes)
 
@@ -113,7 +125,8 @@ def _legend(
     """Name the waves beside the panels, last on top as they are stacked."""
     patches = [Patch(color=colour) for colour in shades]
     if hatched:
-        patches, names = [Patch(**HATCHED), *patches], ["beyond the\nmeasured band", *names]
+        entry = Patch(**(HATCHED | {"facecolor": GREY}))
+        patches, names = [entry, *patches], [BEYOND_BESIDE, *names]
     legend_beside(figure, patches[::-1], names[::-1], "wavelength")
     if title:
         figure.suptitle(title, fontsize=9.0)

@@ -9,7 +9,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from gripscale.figures.palette import MILLI, WIDE
-from gripscale.figures.stretches import down_to, waves_beyond
+from gripscale.figures.stretches import BEYOND_BESIDE, down_to, waves_beyond
 from gripscale.figures.study_axes import colours, legend_beside
 from gripscale.figures.style import (
     area_axis,
@@ -50,7 +50,7 @@ def wavelength_figure(result: xr.Dataset, axis: str, title: str = "") -> Figure:
     wavelengths = result.wavelength.values[np.isfinite(result.wavelength.values)] / MILLI
     for panel in (area, friction):
         falling_wavelength(panel, wavelengths)
-    dashed_entry(area)
+    dashed_entry(area, BEYOND_BESIDE)
     legend_beside(figure, *area.get_legend_handles_labels())
     if title:
         figure.suptitle(title, fontsize=9.0)

@@ -103,10 +103,10 @@ def line(
         axes.plot([], [], **(look | {"clip_on": True}), label=label)
 
 
-def dashed_entry(axes: Axes) -> None:
+def dashed_entry(axes: Axes, text: str = BEYOND) -> None:
     """Say in the legend of `axes` what dashed is, where something is dashed."""
     if any(one.get_linestyle() == "--" for one in axes.lines):
-        axes.plot([], [], ls=DASHED, color=GREY, label=BEYOND)
+        axes.plot([], [], ls=DASHED, color=GREY, label=text)
 
 
 def area_axis(axes: Axes, top: float | None = None) -> None:
