@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gripscale.case.drawn import band
 from gripscale.figures.palette import BLUE, GREEN, GREY, INK, MEGA, NARROW, ORANGE
+from gripscale.figures.stretches import BEYOND
 from gripscale.figures.style import DASHED, dashed_entry, log_axis, sheet, styled
 from gripscale.rubber import MasterCurve, PronyFit, Rubber
 
@@ -80,7 +81,8 @@ def _series(
     )
     for axes, values, colour, label in curves:
         for shown, dash, text in _stretches(rubber, omega, label):
-            axes.plot(omega[shown], values[shown], ls=dash, color=colour, label=text)
+            kind = {"gid": BEYOND} if dash == DASHED else {}
+            axes.plot(omega[shown], values[shown], ls=dash, color=colour, label=text, **kind)
 
 
 def _stretches(

@@ -97,15 +97,18 @@ def line(
 ) -> None:
     """Draw a curve, dashed where it rests on the rubber beyond its measured band."""
     x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
+    if not np.any(beyond):
+        axes.plot(x, y, **look, label=label)
+        return
     for part, dashed in stretches(beyond):
-        axes.plot(x[part], y[part], **(look | {"ls": DASHED} if dashed else look))
+        axes.plot(x[part], y[part], **(look | {"ls": DASHED, "gid": BEYOND} if dashed else look))
     if label is not None:  # nothing, unclipped, has no place on a logarithmic axis
         axes.plot([], [], **(look | {"clip_on": True}), label=label)
 
 
 def dashed_entry(axes: Axes, text: str = BEYOND) -> None:
     """Say in the legend of `axes` what dashed is, where something is dashed."""
-    if any(one.get_linestyle() == "--" for one in axes.lines):
+    if any(one.get_gid() == BEYOND for one in axes.lines):
         axes.plot([], [], ls=DASHED, color=GREY, label=text)
 
 

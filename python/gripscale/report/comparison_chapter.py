@@ -12,7 +12,7 @@ from gripscale.model import FRICTION_OUTSIDE_BAND
 from gripscale.report.charts.comparison import axis_charts, ladder_charts
 from gripscale.report.comparison_table import best_sentence, samples_of
 from gripscale.report.elements import Element, Heading, Notice, Table, Text
-from gripscale.report.numbers import decades, number, percent
+from gripscale.report.numbers import number, percent
 from gripscale.report.outside_band import comparison_sentences
 from gripscale.report.source import Compared
 
@@ -119,5 +119,5 @@ def _row(one: xr.Dataset) -> list[str]:
         *friction,
         samples_of(one),
         percent(one[FRICTION_OUTSIDE_BAND]),
-        *(decades(one[f"total_decades_{end}_band"]) for end in ("below", "above")),
+        *(number(one[f"total_decades_{end}_band"], digits=2) for end in ("below", "above")),
     ]

@@ -32,9 +32,3 @@ def percent(value: object) -> str:
     """Return a ratio as a percentage of two significant digits."""
     real = 100.0 * float(np.asarray(value, dtype=float))
     return NONE if math.isnan(real) else f"{significant(real, 2).replace('-', '−')} %"
-
-
-def decades(value: object) -> str:
-    """Return how many decades something is off, a dash for none."""
-    real = float(np.asarray(value, dtype=float))
-    return number(real, digits=2) if real > 0.0 else NONE

@@ -10,7 +10,7 @@ import numpy as np
 from gripscale.figures.palette import MEGA, MILLI
 from gripscale.figures.view import PredictionView
 from gripscale.report.elements import Heading, Table
-from gripscale.report.numbers import NONE, decades, number, percent, whole
+from gripscale.report.numbers import NONE, number, percent, whole
 
 
 @dataclass(frozen=True)
@@ -49,8 +49,8 @@ LOAD = [
     Column("modulus", "|E*|", "MPa", _in(MEGA)),
     Column("loss_factor", "tan δ", moving_only=True),
     Column("outside_band", "beyond band", show=_yes_no, moving_only=True),
-    Column("decades_below_band", "below band", "decades", decades, moving_only=True),
-    Column("decades_above_band", "above band", "decades", decades, moving_only=True),
+    Column("decades_below_band", "below band", "decades", moving_only=True),
+    Column("decades_above_band", "above band", "decades", moving_only=True),
 ]
 CONTACT = [
     Column("contact_length", "contact length", "mm", _in(MILLI)),
