@@ -81,7 +81,7 @@ def _series(
     )
     for axes, values, colour, label in curves:
         for shown, dash, text in _stretches(rubber, omega, label):
-            kind = {"gid": BEYOND} if dash == DASHED else {}
+            kind: dict[str, Any] = {"gid": BEYOND} if dash == DASHED else {}
             axes.plot(omega[shown], values[shown], ls=dash, color=colour, label=text, **kind)
 
 

@@ -65,7 +65,8 @@ def _ladder(comparison: xr.Dataset, name: str) -> Chart:
     return Chart(
         f"ladder-{name}",
         f"{_title(name)} from rung to rung: a bar runs from the rung before, blue "
-        "where the number falls, orange where it rises; lines are one standard uncertainty.",
+        "where the number falls, orange where it rises; lines are one standard uncertainty, a "
+        "star is for friction partly beyond the measured band.",
         f"{QUANTITIES[name]} of each model, with the step from the one before.",
         figure,
     )
