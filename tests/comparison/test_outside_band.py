@@ -22,7 +22,7 @@ from gripscale.theory.full_contact import full_contact_friction
 from gripscale.wave import BlockOnProfile
 
 LONG, SHORT = 4e-3, 1e-3
-SINES = gs.SineStack([LONG, SHORT], [1e-5, 2e-6])
+SINES = gs.SineStack([LONG, SHORT], [1e-5, 4e-6])
 LOAD = NominalLoad(pressure=2e6, speed=0.1, footprint=0.1)
 OMEGA = 2 * np.pi * LOAD.speed / np.array([LONG, SHORT])
 RUBBER = gs.Rubber(6e6, [12e6, 8e6], [1e-2, 1e-3], valid_band=(1.0, OMEGA[1] / 2.0))
