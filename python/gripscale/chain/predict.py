@@ -23,6 +23,7 @@ from gripscale.errors import ConvergenceError, InputError
 from gripscale.model import LoadTime, NominalLoad
 from gripscale.rubber import Rubber
 from gripscale.rubber.carrying import require_solid
+from gripscale.rubber.extrapolation import CHOICES, require_measured
 from gripscale.surface import SineStack
 from gripscale.wave.problem import Load, Sine, WaveProblem
 
@@ -60,6 +61,7 @@ def predict(
     on_scale: Callable[[Prediction], None] | None = None,
     start: Prediction | None = None,
     rubber_at: RubberAt | None = None,
+    extrapolate: str = "say",
     **options: Any,
 ) -> Prediction:
     """Run the chain over the waves of `sines`, largest first.
@@ -99,6 +101,9 @@ def predict(
         found sooner.
     rubber_at
         Gives the rubber of each wave, from the wave and what was solved so far.
+    extrapolate
+        "say": waves that excite the rubber beyond its `valid_band` are solved, and the result says
+        so. "refuse": nothing is solved if one does, at its fundamental frequency.
     **options
         Of a solver given by name: columns, rows, depth, tolerance ...
 
@@ -109,6 +114,8 @@ def predict(
 
     Raises
     ------
+    ExtrapolationError
+        An `InputError`: extrapolation is to be refused.
     InputError
         A value that cannot be used; the pressure is more than ten times what is left of the
         rubber's modulus after the load time of the first wave.
@@ -120,6 +127,8 @@ def predict(
     require_solid(rubber, load.pressure, load.time_under(load.footprint))
     solve = wave_solver(solver, options).solve
     waves = select_waves(sines, smallest_wavelength=smallest_wavelength, max_scales=max_scales)
+    if checks.one_of("extrapolate", extrapolate, CHOICES) == "refuse":
+        require_measured(rubber, [wave.wavelength for wave in waves], load.speed)
     result = Prediction(rubber, sines, load, [], len(waves))
     count = checks.whole("pressure_classes", pressure_classes, least=1, most=MOST_CLASSES)
     classes, length = PressureClasses.uniform(load.pressure), load.footprint

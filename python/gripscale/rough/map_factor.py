@@ -23,6 +23,7 @@ from gripscale.rough.result import RoughContact
 from gripscale.rough.solve import solve_rough_contact
 from gripscale.rough.windows import WindowContacts, solve_windows
 from gripscale.rubber import Rubber
+from gripscale.rubber.extrapolation import Extrapolation, of_sum
 from gripscale.surface import HeightMap, Profile, isotropic_maps
 from gripscale.surface.maps.isotropic import seed_numbers
 
@@ -226,6 +227,7 @@ class Solved(NamedTuple):
     between_directions: dict[str, float]
     """Along x over along y; NaN over zero."""
     status: str
+    extrapolation: Extrapolation
 
 
 def solve_whole(
@@ -270,11 +272,16 @@ def _both_ways(contacts: list[list[RoughContact]]) -> Solved:
         {name: WindowContacts(group).mean(name) for name in (*QUANTITIES, "friction")}
         for group in contacts
     )
-    bad = [str(one.status) for group in contacts for one in group if not one.converged]
+    every = [one for group in contacts for one in group]
+    bad = [str(one.status) for one in every if not one.converged]
     return Solved(
         {name: 0.5 * (along[name] + across[name]) for name in along},
         {name: _ratio(along[name], across[name]) for name in along},
         bad[0] if bad else "converged",
+        of_sum(
+            [one.extrapolation for one in every],
+            [one.friction_from_dissipation for one in every],
+        ),
     )
 
 

@@ -21,6 +21,7 @@ from gripscale.rough.heights import PeriodicHeights, periodic_heights
 from gripscale.rough.magnitudes import check_magnitudes, half_space
 from gripscale.rough.result import RoughContact
 from gripscale.rubber import Rubber
+from gripscale.rubber.carrying import require_solid
 from gripscale.surface import HeightMap, Profile
 from gripscale.wave.status import Status
 
@@ -86,12 +87,15 @@ def solve_rough_contact(
     Raises
     ------
     InputError
-        If an argument is out of its range, the first full grid has more than `most_points`, or a
-        size is beyond what single precision can hold.
+        If an argument is out of its range, the first full grid has more than `most_points`, a size
+        is beyond what single precision can hold, or the rubber at rest is a melt: the pressure is
+        more than ten times the equilibrium modulus.
     """
     load = checks.positive("pressure", pressure, unit="Pa")
     body = half_space(rubber, speed)
     goal = math.inf if tolerance is None else _tolerance(tolerance)
+    if body.speed == 0.0:
+        require_solid(rubber, load, math.inf)
     heights = periodic_heights(
         surface,
         smallest_wavelength=smallest_wavelength,
