@@ -8,6 +8,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from gripscale.rubber import Rubber
+from gripscale.surface import SineStack
 from gripscale.wave import Status, WaveProblem, WaveResult
 
 
@@ -21,13 +22,7 @@ class Spring(Rubber):
         return np.full(np.shape(omega), 4e6 + 3e6j)
 
 
-@dataclass
-class Sines:
-    wavelength: list[float]
-    amplitude: list[float]
-
-
-THREE = Sines(wavelength=[16e-3, 4e-3, 1e-3], amplitude=[1e-3, 0.5e-3, 0.125e-3])
+THREE = SineStack(wavelength=[16e-3, 4e-3, 1e-3], amplitude=[1e-3, 0.5e-3, 0.125e-3])
 
 
 @dataclass

@@ -160,8 +160,6 @@ def select_waves(
     """
     pairs = zip(sines.wavelength, sines.amplitude, strict=True)
     waves = [Sine(float(wavelength), float(amplitude)) for wavelength, amplitude in pairs]
-    if not waves:
-        raise InputError("sines must hold at least one wave; got none")
     if smallest_wavelength is not None:
         least = checks.positive("smallest_wavelength", smallest_wavelength, unit="m")
         largest = waves[0].wavelength
