@@ -104,7 +104,9 @@ def test_reference_between_two_sweeps():
 
 def test_vertical_shift_is_found_where_the_moduli_tell():
     sweeps = measured(TRANSITION, 0.002, lift=0.004)
-    table = gs.superpose(sweeps, reference_temperature=ROOM, vertical=True).shift
+    master, report = superpose_report(sweeps, reference_temperature=ROOM, vertical=True)
+    assert "a_T and b_T were found together" in report.summary()
+    table = master.shift
     true = np.log10(1.0 + 0.004 * (sweeps.temperatures - ROOM))
     assert table.vertical - np.interp(ROOM, table.temperature, table.vertical) == pytest.approx(
         true, abs=0.006
