@@ -112,6 +112,10 @@ def test_vertical_shift_is_found_where_the_moduli_tell():
         true, abs=0.006
     )
     assert np.abs(shift_errors(sweeps, table)).max() < 0.03
+    # Moduli are multiplied by b_T, in the curve as in the report: there neighbours then agree.
+    lifted = np.repeat(table.b(table.temperature, ROOM), len(HERTZ)) * sweeps.storage
+    assert np.sort(lifted) == pytest.approx(np.sort(master.storage))
+    assert max(one.storage for one in report.overlaps) < 0.003
     flat = gs.superpose(sweeps, reference_temperature=ROOM)
     assert (flat.shift.vertical == 0.0).all()
 

@@ -50,7 +50,7 @@ PLAIN = "temperature (C), frequency (Hz), storage modulus E' (MPa), loss modulus
     ("title", "separator", "decimal", "encoding", "factor", "hertz"),
     [
         (PLAIN, ",", ".", "utf-8", 1.0, 1.0),
-        ("Temp. [°C]\tFreq. [Hz]\tE´ [MPa]\tE´´ [MPa]", "\t", ",", "cp1252", 1.0, 1.0),
+        ("Temp. [°C]\tFreq. [Hz]\tE’ [MPa]\tE’’ [MPa]", "\t", ",", "cp1252", 1.0, 1.0),
         ("Temperatur in °C;Frequenz in Hz;Speichermodul E’ in MPa;Verlustmodul E’’ in MPa",
          ";", ",", "cp1252", 1.0, 1.0),
         ("Temperatur;Frequenz;Speichermodul E;Verlustmodul E\n°C;Hz;MPa;MPa",

@@ -128,7 +128,8 @@ def _refuse_sweeps(table: TextTable, frequency: int, *, named: bool) -> None:
             raise FileError(
                 f"{table.path}: expected one master curve; got rows at temperatures from "
                 f"{kelvin.min():g} to {kelvin.max():g} in column {title.name}; shift the sweeps to "
-                "one master curve first, or name the columns if they are shifted"
+                "one master curve first (read_sweeps, superpose), or name the columns if they are "
+                "shifted"
             )
 
 
