@@ -222,3 +222,30 @@ def test_smooth_curve_through_scatter():
     assert 5.0 < found.freedoms < 18.0
     straight = smooth(functions, basis.penalty(), 2.0 * x, np.ones(200), weight=1e6)
     assert functions @ straight.coefficients == pytest.approx(2.0 * x, abs=1e-6)
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_whatever_is_measured_is_superposed_or_refused(seed):
+    """One to five sweeps of one to six rows, far apart, flat, scattered or at one frequency."""
+    generator = np.random.default_rng(seed)
+    rows = []
+    for at in range(generator.integers(1, 6)):
+        count = generator.integers(1, 7)
+        hertz = np.sort(10.0 ** generator.uniform(-2.0, 3.0, count))
+        if generator.random() < 0.3:
+            hertz = np.ones(count)
+        scatter = generator.choice([0.0, 0.01, 0.5]) * generator.standard_normal((2, count))
+        kelvin = 250.0 + 5.0 * at
+        decades = np.array([[6.0], [5.0]]) + 0.3 * np.log10(hertz) - 0.2 * at + scatter
+        rows.append([np.full(count, kelvin), hertz, *10.0**decades])
+    sweeps = Sweeps(*np.hstack(rows))
+    for vertical in (False, True):
+        try:
+            master = gs.superpose(
+                sweeps, reference_temperature=float(sweeps.temperatures[0]), vertical=vertical
+            )
+        except InputError as error:
+            assert "must overlap" in str(error)
+        else:
+            assert np.isfinite([master.frequency, master.storage, master.loss]).all()
+            assert np.isfinite(master.shift.horizontal_error).all()
