@@ -17,6 +17,8 @@ from .rubber import MasterCurve as MasterCurve
 from .rubber import Rubber as Rubber
 from .rubber import fit_prony as fit_prony
 from .rubber import read_master_curve as read_master_curve
+from .rubber import read_sweeps as read_sweeps
+from .rubber import superpose as superpose
 from .surface import HeightDifference as HeightDifference
 from .surface import HeightMap as HeightMap
 from .surface import Profile as Profile

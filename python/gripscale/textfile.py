@@ -1,6 +1,7 @@
 """Tables of numbers in text files: one set of rules for every instrument's export.
 
-- UTF-8, UTF-16 (with a byte order mark) or latin-1; any line ends. Control codes mean binary data.
+- UTF-8, UTF-16 (with a byte order mark), Windows-1252 or latin-1; any line ends. Control codes mean
+  binary data.
 - Lines that begin with #, % or ! are comments. Titles may stand in one.
 - Cells are parted by tabs, semicolons, commas or blanks: by the first of these that makes numbers
   of all cells of a line. That line is the first row; every later line must have as many cells.
@@ -136,11 +137,24 @@ def read_table(
         If the file cannot be read, is not text or has no rows; if a row has another number of
         cells than the first; if the decimal sign changes. The message names path and line.
     """
-    lines = [
-        (number, line)
-        for number, line in enumerate(_LINE_END.split(read_text(path)), start=1)
-        if line.strip()
-    ]
+    return table_in(path, numbered_lines(read_text(path)), expected, kinds=kinds, named=named)
+
+
+def numbered_lines(text: str) -> list[Line]:
+    """Return the lines of a text that are not empty."""
+    split = enumerate(_LINE_END.split(text), start=1)
+    return [(number, line) for number, line in split if line.strip()]
+
+
+def table_in(
+    path: Path,
+    lines: list[Line],
+    expected: str,
+    *,
+    kinds: Collection[str],
+    named: Callable[[str], bool],
+) -> TextTable:
+    """Return the table in `lines` of the file `path`, as `read_table` does."""
     if not lines:
         raise FileError(f"{path}: expected {expected}; got 0 in an empty file")
     first, separator = _first_row(path, lines, expected)
@@ -184,6 +198,14 @@ def read_text(path: Path) -> str:
     try:
         return raw.decode("utf-8-sig")
     except UnicodeDecodeError:
+        return _western(raw)
+
+
+def _western(raw: bytes) -> str:
+    """Return text in Windows' or, where that has no such letter, ISO's code of western Europe."""
+    try:
+        return raw.decode("cp1252")
+    except UnicodeDecodeError:
         return raw.decode("latin-1")
 
 
@@ -194,12 +216,20 @@ def parse_number(cell: str) -> float | None:
     return float(cell) if _NUMBER.fullmatch(cell) else None
 
 
+def is_row(line: str) -> bool:
+    """Return whether a line is a row: at least two cells, numbers or missing, not all missing."""
+    return not _is_comment(line) and any(_is_row(_cells(line, one)) for one in _SEPARATORS)
+
+
+def _is_row(cells: list[str]) -> bool:
+    return len(cells) >= 2 and any(map(_is_number, cells)) and all(map(_fits, cells))
+
+
 def _first_row(path: Path, lines: list[Line], expected: str) -> tuple[int, str | None]:
     """Return the index of the first line of numbers, and what parts its cells."""
     for at, (_, line) in enumerate(lines):
         for separator in () if _is_comment(line) else _SEPARATORS:
-            cells = _cells(line, separator)
-            if len(cells) >= 2 and any(map(_is_number, cells)) and all(map(_fits, cells)):
+            if _is_row(_cells(line, separator)):
                 return at, separator
     for separator in _SEPARATORS:
         _check_faults(path, lines, separator, range(2, sys.maxsize))

@@ -31,11 +31,12 @@ UNITS: dict[str, dict[str, float]] = {
     "speed": {"m/s": 1.0, "mm/s": 1e-3, "km/h": 1.0 / 3.6},
     "time": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0, "h": 3600.0},
     "frequency": {"Hz": 1.0, "kHz": 1e3, "MHz": 1e6, "GHz": 1e9, "rad/s": 0.5 / math.pi},
-    "temperature": {"K": 1.0, "C": 1.0},
+    "temperature": {"K": 1.0, "C": 1.0, "F": 5.0 / 9.0},
+    "strain": {"1": 1.0, "%": 1e-2},
 }
 """The units of each kind of quantity by their usual spelling; the first is the SI unit."""
 
-_ZERO = {"C": 273.15}
+_ZERO = {"C": 273.15, "F": 459.67 * 5.0 / 9.0}
 """Where a scale does not begin at the zero of the SI unit."""
 
 _SPELLINGS = {
@@ -52,7 +53,18 @@ _SPELLINGS = {
     "inch": "in",
     "n/mm2": "N/mm^2",
     "n/mm²": "N/mm^2",
+    "n/m2": "Pa",
+    "n/m^2": "Pa",
+    "hz": "Hz",
     "°c": "C",
+    "degc": "C",
+    "deg c": "C",
+    "celsius": "C",
+    "°f": "F",
+    "degf": "F",
+    "deg f": "F",
+    "fahrenheit": "F",
+    "kelvin": "K",
 }
 
 _EXAMPLES = {

@@ -101,6 +101,19 @@ def test_own_rubber(run):
     assert lost == pytest.approx([0.89] * 3, abs=0.02)
 
 
+def test_master_curve_from_sweeps(run):
+    printed = run("master_curve_from_sweeps")
+    hot, published = numbers(r"at 100 °C: (-[\d.]+), published (-[\d.]+)", printed)
+    assert published == pytest.approx(-19.0, abs=0.05)
+    assert hot == pytest.approx(published, abs=0.5)  # two standard errors of the sum of 14 steps
+    own, theirs = (float(v) for v in re.findall(r"up to ([\d.]+) decades, \w+ shift", printed))
+    assert own < 0.5 * theirs
+    (cold, _), (warm, _) = re.findall(r"E' (\d+) MPa, E'' (\d+) MPa", printed)
+    # As measured at 1 Hz and 40 °C, 4049 MPa, and at -5 °C, 7475 MPa.
+    assert float(warm) == pytest.approx(4049.0, rel=0.05)
+    assert float(cold) == pytest.approx(7475.0, rel=0.1)
+
+
 def test_measured_surface(run):
     printed = run("measured_surface")
     (hurst,) = numbers(r"Hurst exponent ([\d.]+)", printed)

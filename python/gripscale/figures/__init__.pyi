@@ -6,3 +6,6 @@ from .finite_strain import finite_strain_figure as finite_strain_figure
 from .master_curve import master_curve_figure as master_curve_figure
 from .profile import profile_figure as profile_figure
 from .style import save_figure as save_figure
+from .superposition import shift_figure as shift_figure
+from .superposition import superposition_figure as superposition_figure
+from .superposition import superposition_tests_figure as superposition_tests_figure

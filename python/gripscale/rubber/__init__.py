@@ -9,13 +9,30 @@ from gripscale.rubber.finite_strain_fit import (
     work_error,
 )
 from gripscale.rubber.master_curve import MasterCurve
+from gripscale.rubber.master_curve_file import write_master_curve
 from gripscale.rubber.material import Rubber
 from gripscale.rubber.material_point import simple_shear_stress, uniaxial_stress
 from gripscale.rubber.misfit import Misfit
 from gripscale.rubber.named import springpot_modulus, styrene_butadiene
 from gripscale.rubber.prony import fit_prony, fit_prony_report
 from gripscale.rubber.prony_report import PronyFit
+from gripscale.rubber.ramps import sweeps_from_ramps
 from gripscale.rubber.reader import read_master_curve
+from gripscale.rubber.same_temperature import temperature_doubts
+from gripscale.rubber.shift import (
+    SHIFTS,
+    WLF,
+    Arrhenius,
+    Shift,
+    ShiftFit,
+    ShiftTable,
+    WLFArrhenius,
+    fit_arrhenius,
+    fit_wlf,
+    read_shift_table,
+    shift_from_dict,
+    write_shift_table,
+)
 from gripscale.rubber.strain_energy import (
     STRAIN_ENERGIES,
     Isihara,
@@ -25,12 +42,24 @@ from gripscale.rubber.strain_energy import (
     Yeoh,
     strain_energy,
 )
+from gripscale.rubber.strain_sweep import StrainSweep, read_strain_sweep
+from gripscale.rubber.superposition import (
+    Overlap,
+    Superposition,
+    superpose,
+    superpose_report,
+)
+from gripscale.rubber.sweeps import Sweep, Sweeps
+from gripscale.rubber.sweeps_reader import read_sweeps
 from gripscale.rubber.term_choice import Candidate
 from gripscale.rubber.uniaxial_test import UniaxialTest, read_uniaxial_test
 
 __all__ = [
+    "SHIFTS",
     "STRAIN_ENERGIES",
+    "WLF",
     "AdmissibleSeries",
+    "Arrhenius",
     "Candidate",
     "Extrapolation",
     "FiniteStrainFit",
@@ -39,21 +68,42 @@ __all__ = [
     "Misfit",
     "MooneyRivlin",
     "NeoHookean",
+    "Overlap",
     "PronyFit",
     "Rubber",
+    "Shift",
+    "ShiftFit",
+    "ShiftTable",
     "StrainEnergy",
+    "StrainSweep",
+    "Superposition",
+    "Sweep",
+    "Sweeps",
     "UniaxialTest",
+    "WLFArrhenius",
     "Yeoh",
+    "fit_arrhenius",
     "fit_finite_strain",
     "fit_prony",
     "fit_prony_report",
+    "fit_wlf",
     "read_master_curve",
+    "read_shift_table",
+    "read_strain_sweep",
+    "read_sweeps",
     "read_uniaxial_test",
     "rms_error",
+    "shift_from_dict",
     "simple_shear_stress",
     "springpot_modulus",
     "strain_energy",
     "styrene_butadiene",
+    "superpose",
+    "superpose_report",
+    "sweeps_from_ramps",
+    "temperature_doubts",
     "uniaxial_stress",
     "work_error",
+    "write_master_curve",
+    "write_shift_table",
 ]

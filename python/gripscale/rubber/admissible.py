@@ -113,6 +113,12 @@ class AdmissibleSeries:
         loss = loss_shape(phase) @ self.moduli.T
         return np.moveaxis(storage + 1j * loss, -1, 0)
 
+    def shifted(self, a: float, b: float) -> AdmissibleSeries:
+        """Return the series with times multiplied by `a` and moduli divided by `b` [-]."""
+        return AdmissibleSeries(
+            self.relaxation_times * a, self.equilibrium_moduli / b, self.moduli / b
+        )
+
     def to_dict(self) -> dict[str, Any]:
         """Return all numbers as lists; whose they are is told by the rubber they stand beside."""
         return {

@@ -7,7 +7,7 @@ import re
 
 def quantity(name: str) -> str | None:
     """Return `frequency`, `storage` or `loss` if the column `name` clearly says so, else None."""
-    text = _plain(name)
+    text = plain(name)
     low = text.lower()
     if "factor" in low or "tan" in low or "log" in low:
         return None
@@ -27,7 +27,7 @@ def is_temperature(name: str) -> bool:
 
 def modulus_kind(name: str) -> str | None:
     """Return `E` or `G` if the column `name` says which modulus it is, else None."""
-    text = _plain(name)
+    text = plain(name)
     found = set()
     if re.search(r"(?<![A-Za-z])E(?![A-Za-z])", text.replace("_", " ")):
         found.add("E")
@@ -40,9 +40,9 @@ def modulus_kind(name: str) -> str | None:
     return found.pop() if len(found) == 1 else None
 
 
-def _plain(name: str) -> str:
+def plain(name: str) -> str:
     """Return the name with one kind of prime, so that E'' can be told from E'."""
     text = name.strip()
     for prime in ("’", "′", "`", "´"):
         text = text.replace(prime, "'")
-    return text.replace("″", "''").replace('"', "''")
+    return text.replace("″", "''").replace("”", "''").replace('"', "''")

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gripscale import checks
 from gripscale.errors import InputError
+from gripscale.rubber.shift import Shift, shift_at
 
 Array = NDArray[np.float64]
 
@@ -27,6 +28,9 @@ class MasterCurve:
         Temperature the curve holds for [K].
     name, source : str
         What was measured and where the numbers come from.
+    shift : Shift, optional
+        What the curve becomes at other temperatures; a law without a reference temperature of its
+        own takes that of the curve.
 
     Raises
     ------
@@ -41,6 +45,7 @@ class MasterCurve:
     reference_temperature: float | None = None
     name: str = ""
     source: str = ""
+    shift: Shift | None = field(default=None, repr=False)
 
     def __init__(
         self,
@@ -50,6 +55,7 @@ class MasterCurve:
         reference_temperature: float | None = None,
         name: str = "",
         source: str = "",
+        shift: Shift | None = None,
     ) -> None:
         columns = {
             "frequency": checks.in_reason("frequency", frequency, unit="Hz"),
@@ -74,6 +80,7 @@ class MasterCurve:
         object.__setattr__(self, "reference_temperature", reference_temperature)
         object.__setattr__(self, "name", checks.text("name", name))
         object.__setattr__(self, "source", checks.text("source", source))
+        object.__setattr__(self, "shift", shift_at(shift, reference_temperature))
 
     def __len__(self) -> int:
         return len(self.frequency)

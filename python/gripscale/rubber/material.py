@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 import numpy as np
@@ -25,6 +25,7 @@ from gripscale.rubber import material_checks
 from gripscale.rubber.admissible import AdmissibleSeries
 from gripscale.rubber.compressibility import too_compressible, warn_once
 from gripscale.rubber.maxwell_shapes import loss_shape, storage_shape
+from gripscale.rubber.shift import Shift, shift_at, shift_from_dict
 from gripscale.rubber.strain_energy import NeoHookean, StrainEnergy, strain_energy_from_dict
 
 Array = NDArray[np.float64]
@@ -57,6 +58,11 @@ class Rubber:
     admissible : AdmissibleSeries, optional
         Other series that fit the same measurement: what it leaves open. It is of this series only,
         and refused with others: whoever changes moduli or times leaves it out, or states another.
+    reference_temperature : float, optional
+        Temperature the numbers hold for [K].
+    shift : Shift, optional
+        What they become at other temperatures (`at`); a law without a reference temperature of its
+        own takes that of the rubber.
 
     Raises
     ------
@@ -80,6 +86,8 @@ class Rubber:
     valid_band: tuple[float, float] | None = None
     strain_energy: StrainEnergy = DEFAULT_ENERGY
     admissible: AdmissibleSeries | None = field(default=None, repr=False)
+    reference_temperature: float | None = None
+    shift: Shift | None = field(default=None, repr=False)
 
     def __init__(
         self,
@@ -92,6 +100,8 @@ class Rubber:
         valid_band: tuple[float, float] | None = None,
         strain_energy: StrainEnergy = DEFAULT_ENERGY,
         admissible: AdmissibleSeries | None = None,
+        reference_temperature: float | None = None,
+        shift: Shift | None = None,
     ) -> None:
         values = {
             "equilibrium_modulus": material_checks.modulus(
@@ -107,6 +117,8 @@ class Rubber:
             "valid_band": material_checks.band(valid_band),
             "strain_energy": material_checks.energy(strain_energy),
             "admissible": material_checks.admissible(admissible),
+            "reference_temperature": material_checks.temperature(reference_temperature),
+            "shift": shift_at(shift, reference_temperature),
         }
         self._set(**values)
         self._check_together()
@@ -165,6 +177,8 @@ class Rubber:
             self.valid_band,
             self.strain_energy,
             self.admissible,
+            self.reference_temperature,
+            self.shift,
         )
 
     def to_dict(self) -> dict[str, Any]:
@@ -177,21 +191,24 @@ class Rubber:
             "valid_band": None if self.valid_band is None else list(self.valid_band),
             "strain_energy": {"kind": energy.kind, **energy.parameters()},
             "admissible": None if self.admissible is None else self.admissible.to_dict(),
+            "shift": None if self.shift is None else self.shift.to_dict(),
         }
 
     @classmethod
     def from_dict(cls, values: Mapping[str, Any]) -> Rubber:
         """Return the rubber of `to_dict`, exactly; raise `InputError` if a key is another.
 
-        `admissible` may be absent, as in files of older versions.
+        `admissible`, `reference_temperature` and `shift` may be absent, as in files of older
+        versions.
         """
         known = [field.name for field in fields(cls)]
-        if set(values) | {"admissible"} != set(known):
+        if set(values) | {"admissible", "reference_temperature", "shift"} != set(known):
             raise InputError(f"values must have the keys {', '.join(known)}; got {list(values)}")
-        others = values.get("admissible")
+        others, shift = values.get("admissible"), values.get("shift")
         parts = {
             "strain_energy": strain_energy_from_dict(values["strain_energy"]),
             "admissible": None if others is None else AdmissibleSeries.from_dict(others),
+            "shift": None if shift is None else shift_from_dict(shift),
         }
         return cls(**{**values, **parts})
 
@@ -273,6 +290,46 @@ class Rubber:
         )
         other._check_together()
         return other
+
+    def at(self, temperature: float) -> Rubber:
+        """Return the same rubber at another temperature [K].
+
+        E*(w, T) = E*(a_T w, T_ref)/b_T: relaxation times are multiplied by a_T, the frequencies of
+        `valid_band` divided by it, and all Young's moduli, E_inf as well as E_i, divided by b_T.
+        The bulk modulus, which does not relax, and the strain energy's parameters, which have no
+        dimension, stay. The shift is kept, so that `at` goes on from any temperature to any other.
+
+        Raises
+        ------
+        InputError
+            If the rubber has no shift, the shift no value at `temperature`, or the moduli there do
+            not go with the bulk modulus.
+        """
+        kelvin = checks.positive("temperature", temperature, unit="K")
+        if self.shift is None or self.reference_temperature is None:
+            raise InputError(
+                "shift and reference_temperature must be those of the rubber for it to be had at "
+                f"{kelvin:g} K; got none with {self.name or 'this rubber'}"
+            )
+        a = float(self.shift.a(kelvin, self.reference_temperature))
+        b = float(self.shift.b(kelvin, self.reference_temperature))
+        band = self.valid_band and (self.valid_band[0] / a, self.valid_band[1] / a)
+        return replace(
+            self,
+            equilibrium_modulus=self.equilibrium_modulus / b,
+            moduli=self.moduli / b,
+            relaxation_times=self.relaxation_times * a,
+            valid_band=band,
+            admissible=None if self.admissible is None else self.admissible.shifted(a, b),
+            reference_temperature=kelvin,
+        )
+
+    @property
+    def shift_extrapolated(self) -> bool:
+        """Whether the temperature lies beyond those the shift rests on (`Shift.range`)."""
+        if self.shift is None or self.reference_temperature is None:
+            return False
+        return not self.shift.within(self.reference_temperature)
 
     def loss_factor(self, omega: ArrayLike) -> Array:
         """Return tan(delta) = E''/E' [-] at angular frequencies `omega` [rad/s], same shape."""

@@ -38,6 +38,11 @@ def admissible(value: AdmissibleSeries | None) -> AdmissibleSeries | None:
     return value
 
 
+def temperature(value: float | None) -> float | None:
+    """Return a reference temperature [K]; raise `InputError` unless above zero or None."""
+    return None if value is None else checks.positive("reference_temperature", value, unit="K")
+
+
 def energy(value: StrainEnergy) -> StrainEnergy:
     """Return `value`; raise `InputError` if it is something else."""
     if not isinstance(value, StrainEnergy):

@@ -76,8 +76,8 @@ def fit_prony(
     Returns
     -------
     Rubber
-        With `valid_band` set to the measured band [rad/s], and with the other series that fit in
-        `admissible`.
+        With `valid_band` set to the measured band [rad/s], the other series that fit in
+        `admissible`, and the reference temperature and the shift of the curve.
 
     Raises
     ------
@@ -218,4 +218,6 @@ def _rubber(
         source=master.source,
         valid_band=(float(rows.omega[0]), float(rows.omega[-1])),
         admissible=admissible,
+        reference_temperature=master.reference_temperature,
+        shift=master.shift,
     )

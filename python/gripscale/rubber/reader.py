@@ -75,9 +75,9 @@ def read_master_curve(
     table = _table(place, [column for column in names if isinstance(column, str)])
     chosen = _choose(table, columns)
     _refuse_sweeps(table, chosen[0], named=columns is not None)
-    hertz = _unit(table, chosen[:1], "frequency", frequency_unit)
-    pascal = _unit(table, chosen[1:], "modulus", modulus_unit)
-    to_young = 3.0 if _kind(table, chosen[1:], modulus) == "G" else 1.0
+    hertz = unit_of(table, chosen[:1], "frequency", frequency_unit)
+    pascal = unit_of(table, chosen[1:], "modulus", modulus_unit)
+    to_young = 3.0 if modulus_of(table, chosen[1:], modulus) == "G" else 1.0
     frequency, storage, loss = (
         _positive(table, column, wanted) for column, wanted in zip(chosen, _QUANTITIES, strict=True)
     )
@@ -129,7 +129,8 @@ def _refuse_sweeps(table: TextTable, frequency: int, *, named: bool) -> None:
             raise FileError(
                 f"{table.path}: expected one master curve; got rows at temperatures from "
                 f"{kelvin.min():g} to {kelvin.max():g} in column {checks.shortened(title.name)}; "
-                "shift the sweeps to one master curve first, or name the columns if they are "
+                "shift the sweeps to one master curve first (read_sweeps, superpose), or name the "
+                "columns if they are "
                 "shifted"
             )
 
@@ -137,7 +138,7 @@ def _refuse_sweeps(table: TextTable, frequency: int, *, named: bool) -> None:
 def _choose(table: TextTable, columns: Sequence[str | int] | None) -> list[int]:
     """Return the columns of frequency, storage and loss."""
     if columns is not None:
-        return [_position(table, column) for column in _three(columns)]
+        return [position_of(table, column) for column in _three(columns)]
     count = len(table.columns)
     if not table.names:
         if count == len(_QUANTITIES):
@@ -173,7 +174,8 @@ def _three(columns: Sequence[str | int]) -> Sequence[str | int]:
     return columns
 
 
-def _position(table: TextTable, column: str | int) -> int:
+def position_of(table: TextTable, column: str | int) -> int:
+    """Return the position of a column given by it or by its name in the header."""
     if isinstance(column, int):
         return checks.whole("columns", column, least=0, most=len(table.columns) - 1)
     if table.names.count(column) != 1:
@@ -185,7 +187,7 @@ def _position(table: TextTable, column: str | int) -> int:
     return table.names.index(column)
 
 
-def _unit(table: TextTable, chosen: list[int], kind: str, given: str | None) -> str:
+def unit_of(table: TextTable, chosen: list[int], kind: str, given: str | None) -> str:
     """Return the unit of the `chosen` columns: the caller's, or else the one the header states."""
     if given is not None:
         in_si(1.0, given, kind, f"{kind}_unit")
@@ -202,7 +204,7 @@ def _unit(table: TextTable, chosen: list[int], kind: str, given: str | None) -> 
     return unit
 
 
-def _kind(table: TextTable, chosen: list[int], given: str | None) -> str:
+def modulus_of(table: TextTable, chosen: list[int], given: str | None) -> str:
     """Return E or G, whichever modulus the `chosen` columns hold."""
     if given is not None:
         return checks.one_of("modulus", given, ("E", "G"))

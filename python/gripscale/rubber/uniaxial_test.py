@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gripscale import checks
 from gripscale.errors import FileError, InputError
+from gripscale.rubber.excel import read_sheets
 from gripscale.textfile import file_path
 from gripscale.units import in_si
 
@@ -90,7 +90,7 @@ def read_uniaxial_test(path: str | Path, *, stress_unit: str = "Pa") -> Uniaxial
     """
     pascal = in_si(1.0, stress_unit, "modulus", "stress_unit")
     path = file_path(path)
-    rows = _first_sheet(path)
+    rows = next(iter(read_sheets(path).values()))
     try:
         if any(len(row) < 3 for row in rows):
             raise InputError("a row has fewer than three cells")
@@ -98,18 +98,3 @@ def read_uniaxial_test(path: str | Path, *, stress_unit: str = "Pa") -> Uniaxial
         return UniaxialTest(path.stem, table[:, 0], table[:, 1], table[:, 2] * pascal)
     except (TypeError, ValueError) as error:
         raise FileError(f"{path}: expected rows of time, stretch, stress ({error})") from error
-
-
-def _first_sheet(path: Path) -> list[tuple[object, ...]]:
-    if not path.is_file():
-        raise FileError(f"{path}: no such file")
-    try:
-        openpyxl = import_module("openpyxl")
-    except ImportError as error:
-        raise FileError(f"{path}: xlsx needs openpyxl: pip install gripscale[formats]") from error
-    try:
-        with path.open("rb") as file:  # openpyxl leaves open what it cannot read
-            book = openpyxl.load_workbook(file, read_only=True, data_only=True)
-            return list(book.worksheets[0].iter_rows(values_only=True))
-    except Exception as error:  # openpyxl, zipfile and the XML parser fail each in their own way
-        raise FileError(f"{path}: expected an xlsx file ({type(error).__name__})") from error

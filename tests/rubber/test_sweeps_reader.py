@@ -1,0 +1,273 @@
+"""Sweeps as instruments write them: titles, units, separators, several tables, Excel, RepTate."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import openpyxl
+import pytest
+
+import gripscale as gs
+from gripscale.errors import FileError, InputError
+from gripscale.rubber import Sweeps, read_strain_sweep, sweeps_from_ramps
+from gripscale.rubber.sweeps_found import holds_sweeps
+from gripscale.rubber.titles import quantity, stated_temperature, with_primes
+
+DATA = Path(__file__).parents[2] / "examples/data/rubber"
+POLYMER = DATA / "multi_temperature_polymer" / "freq_user_raw.csv"
+CELSIUS = (19.9, 20.1, 40.0, 40.2)
+HERTZ = (1.0, 10.0, 1.0, 10.0)
+STORAGE = (8.0, 9.0, 6.0, 7.0)
+LOSS = (1.0, 1.5, 0.5, 0.75)
+"""Two sweeps of two rows [C, Hz, MPa, MPa]."""
+
+
+def rows(separator: str = ",", decimal: str = ".", order: str = "TfEL") -> list[str]:
+    columns = dict(zip("TfEL", (CELSIUS, HERTZ, STORAGE, LOSS), strict=True))
+    cells = zip(*(columns[letter] for letter in order), strict=True)
+    return [separator.join(str(v).replace(".", decimal) for v in row) for row in cells]
+
+
+def expect(sweeps: Sweeps, factor: float = 1.0, hertz: float = 1.0) -> None:
+    assert len(sweeps) == 2
+    assert sweeps.temperatures == pytest.approx([293.15, 313.25])
+    assert sweeps.frequency == pytest.approx(hertz * np.array(HERTZ))
+    assert sweeps.storage == pytest.approx(factor * 1e6 * np.array(STORAGE))
+    assert sweeps.loss == pytest.approx(factor * 1e6 * np.array(LOSS))
+
+
+def write(folder: Path, text: str, encoding: str = "utf-8", name: str = "dma.csv") -> Path:
+    path = folder / name
+    path.write_bytes(text.encode(encoding))
+    return path
+
+
+PLAIN = "temperature (C), frequency (Hz), storage modulus E' (MPa), loss modulus E'' (MPa)"
+
+
+@pytest.mark.parametrize(
+    ("title", "separator", "decimal", "encoding", "factor", "hertz"),
+    [
+        (PLAIN, ",", ".", "utf-8", 1.0, 1.0),
+        ("Temp. [°C]\tFreq. [Hz]\tE’ [MPa]\tE’’ [MPa]", "\t", ",", "cp1252", 1.0, 1.0),
+        ("Temperatur in °C;Frequenz in Hz;Speichermodul E’ in MPa;Verlustmodul E’’ in MPa",
+         ";", ",", "cp1252", 1.0, 1.0),
+        ("Temperatur;Frequenz;Speichermodul E;Verlustmodul E\n°C;Hz;MPa;MPa",
+         ";", ",", "utf-16", 1.0, 1.0),
+        ("T/°C;ω/(rad/s);G'/MPa;G\"/MPa", ";", ".", "utf-8", 3.0, 0.5 / np.pi),
+        ("T (C)\tAngular frequency (rad/s)\tG' (kPa)\tG'' (kPa)",
+         "\t", ".", "utf-8-sig", 3e-3, 0.5 / np.pi),
+    ],
+)  # fmt: skip
+def test_titles_units_and_signs(tmp_path, title, separator, decimal, encoding, factor, hertz):
+    lines = [title, *rows(separator, decimal)]
+    path = write(tmp_path, "\r\n".join(lines) + "\r\n", encoding)
+    expect(gs.read_sweeps(path), factor, hertz)
+
+
+def test_rows_in_any_order_are_grouped(tmp_path):
+    shuffled = [rows()[i] for i in (3, 0, 2, 1)]
+    expect(gs.read_sweeps(write(tmp_path, "\n".join([PLAIN, *shuffled]))))
+
+
+def test_fahrenheit_and_kelvin(tmp_path):
+    for unit, values in (("F", [68.0, 104.0]), ("K", [293.15, 313.15])):
+        text = [f"T ({unit}),f (Hz),E' (Pa),E'' (Pa)", *(f"{v},1,2,1" for v in values)]
+        sweeps = gs.read_sweeps(write(tmp_path, "\n".join(text)))
+        assert sweeps.temperatures == pytest.approx([293.15, 313.15])
+
+
+@pytest.mark.parametrize("known", ["E' (MPa)", "E'' (MPa)", "|E*| (MPa)"])
+def test_loss_factor_with_one_modulus(tmp_path, known):
+    storage, loss = np.array(STORAGE), np.array(LOSS)
+    value = {"E' (MPa)": storage, "E'' (MPa)": loss}.get(known, np.hypot(storage, loss))
+    columns = (CELSIUS, HERTZ, value, loss / storage)
+    lines = [",".join(repr(float(v)) for v in row) for row in zip(*columns, strict=True)]
+    title = f"T (C),f (Hz),{known},tan delta (-)"
+    expect(gs.read_sweeps(write(tmp_path, "\n".join([title, *lines]))))
+
+
+def test_one_table_for_each_temperature(tmp_path):
+    title, half = "f (Hz);E' (MPa);E'' (MPa)", rows(";", order="fEL")
+    parts = [f"Sweep at T = 20 °C\n{title}", *half[:2], "\nTemperature [°C]: 40.1", *half[2:]]
+    expect(gs.read_sweeps(write(tmp_path, "\n".join(parts))))
+    # A row with a fault between them is no new table.
+    parts[2] = "1.0;8.O;1.0"
+    with pytest.raises(FileError, match=r"line 4: expected a finite number; got '8\.O'"):
+        gs.read_sweeps(write(tmp_path, "\n".join(parts)))
+
+
+def test_several_files_with_given_temperatures(tmp_path):
+    title, half = "f (Hz),E' (MPa),E'' (MPa)", rows(order="fEL")
+    one = write(tmp_path, "\n".join(["T = 20 C", title, *half[:2]]), name="a.csv")
+    other = write(tmp_path, "\n".join(["T = 40.1 C", title, *half[2:]]), name="b.csv")
+    expect(gs.read_sweeps([one, other]))
+
+
+def test_excel(tmp_path):
+    book = openpyxl.Workbook()
+    sheet = book.active
+    sheet.title = "data"
+    sheet.append(["Operator", "N. N."])
+    sheet.append(["Temp.", "Freq.", "Speichermodul E'", "Verlustmodul E''"])
+    sheet.append(["°C", "Hz", "MPa", "MPa"])
+    for row in zip(CELSIUS, HERTZ, STORAGE, LOSS, strict=True):
+        sheet.append(list(row))
+    book.create_sheet("notes").append(["nothing"])
+    path = tmp_path / "dma.xlsx"
+    book.save(path)
+    expect(gs.read_sweeps(path))
+    expect(gs.read_sweeps(path, sheet="data"))
+    with pytest.raises(InputError, match="sheet must be one of data, notes; got 'other'"):
+        gs.read_sweeps(path, sheet="other")
+    book["notes"].append([1.0, 2.0])
+    book.save(path)
+    with pytest.raises(InputError, match=r"sheet must be given, .* \(data, notes\)"):
+        gs.read_sweeps(path)
+
+
+def test_reptate(tmp_path):
+    shifted = "T=20;Mw=13.5;chem=PI;\n 1.0E0  2.0E6  1.0E6  -10.0\n 6.283185307E0 3.0E6 1.5E6 -20\n"
+    sweeps = gs.read_sweeps(write(tmp_path, shifted, name="PI.tts"))
+    assert sweeps.temperatures == pytest.approx([293.15])
+    assert sweeps.frequency == pytest.approx([0.5 / np.pi, 1.0])
+    assert sweeps.storage == pytest.approx([6e6, 9e6])
+    assert sweeps.loss == pytest.approx([3e6, 4.5e6])
+    titles = "T=0;label=PI;\nFreq\tG'\tG\"\tTemp\tStrain\nrad/s\tPa\tPa\t°C\t%\n"
+    one = titles + "  100  3.4801E5  70871 -0.0079 0.967\n"
+    sweeps = gs.read_sweeps(write(tmp_path, one, name="PI.osc"))
+    assert sweeps.temperatures == pytest.approx([273.15])
+    assert sweeps.loss == pytest.approx([3 * 70871.0])
+
+
+def test_reptate_with_too_few_columns(tmp_path):
+    with pytest.raises(FileError, match="line 2: expected at least 3 columns"):
+        gs.read_sweeps(write(tmp_path, "T=20;\n1.0 2.0\n", name="PI.tts"))
+
+
+def test_measured_polymer():
+    sweeps = gs.read_sweeps(POLYMER)
+    assert len(sweeps) == 21
+    assert np.diff(sweeps.temperatures) == pytest.approx(np.full(20, 7.5), abs=0.5)
+    assert sweeps.storage[0] == pytest.approx(8097.175545e6)
+    assert {len(one) for one in sweeps} == {10}
+    assert sweeps.between(1.0, 10.0).frequency.tolist()[:4] == [1.0, 2.15443, 4.64159, 10.0]
+
+
+@pytest.mark.parametrize(
+    ("title", "names"),
+    [
+        (PLAIN.replace("(C)", ""), "temperature_unit must be given"),
+        (PLAIN.replace("(Hz)", ""), "frequency_unit must be given"),
+        (PLAIN.replace("(MPa)", ""), "modulus_unit must be given"),
+        (PLAIN.replace("E'", "").replace("'", ""), "modulus must be given"),
+        (PLAIN.replace("loss modulus E''", "force"), "columns must give the modulus as two of"),
+        (PLAIN.replace("temperature (C)", "time (s)"), "columns or temperature must give the temp"),
+        (PLAIN.replace("frequency (Hz)", "log f (Hz)"), "columns must give the frequency"),
+    ],
+)
+def test_what_is_not_stated_is_asked_for(tmp_path, title, names):
+    path = write(tmp_path, "\n".join([title, *rows()]))
+    with pytest.raises(InputError, match=names):
+        gs.read_sweeps(path)
+
+
+def test_what_is_given_goes_before_the_file(tmp_path):
+    path = write(tmp_path, "\n".join(["a,b,c,d", *rows()]))
+    named = {"temperature": "a", "frequency": 1, "storage": "c", "loss": "d"}
+    units = {"temperature_unit": "C", "frequency_unit": "rad/s", "modulus_unit": "kPa"}
+    expect(gs.read_sweeps(path, columns=named, modulus="G", **units), 3e-3, 0.5 / np.pi)
+    with pytest.raises(InputError, match="unknown quantity in columns storag; did you mean"):
+        gs.read_sweeps(path, columns={"storag": "c"})
+
+
+def test_two_columns_that_mean_the_same_are_asked_about(tmp_path):
+    lines = [f"{row},{row.split(',')[2]}1" for row in rows()]
+    path = write(tmp_path, "\n".join([f"{PLAIN}, E' corrected (MPa)", *lines]))
+    with pytest.raises(InputError, match="columns must say which is the storage, because 2 titles"):
+        gs.read_sweeps(path)
+    assert gs.read_sweeps(path, columns={"storage": 2}).storage[0] == 8e6
+
+
+def test_missing_values_are_left_out_and_bad_ones_named(tmp_path):
+    lines = rows()
+    gone = [lines[0].replace("8.0", "n/a"), *lines[1:]]
+    assert len(gs.read_sweeps(write(tmp_path, "\n".join([PLAIN, *gone]))).storage) == 3
+    bad = [*lines[:3], lines[3].replace("0.75", "-0.75")]
+    with pytest.raises(FileError, match=r"line 5: expected a loss above zero.* got -0.75"):
+        gs.read_sweeps(write(tmp_path, "\n".join([PLAIN, *bad])))
+    cold = [lines[0].replace("19.9", "-300"), *lines[1:]]
+    with pytest.raises(FileError, match="line 2: expected a temperature above absolute zero"):
+        gs.read_sweeps(write(tmp_path, "\n".join([PLAIN, *cold])))
+
+
+def ramp(frequency: float, offset: float) -> np.ndarray:
+    """E' and E'' whose logarithms are straight in temperature; rows every kelvin."""
+    kelvin = 273.15 + offset + np.arange(0.0, 41.0)
+    storage = 1e7 * frequency**0.1 * np.exp(-0.02 * (kelvin - 273.15))
+    return np.array([kelvin, np.full(41, frequency), storage, 0.2 * storage])
+
+
+def test_ramps_become_sweeps_at_nominal_temperatures():
+    measured = np.hstack([ramp(1.0, 0.0), ramp(10.0, 0.3), ramp(100.0, 0.7)])
+    with pytest.raises(InputError, match=r"without a gap; a ramp needs .* \(temperature_step\)"):
+        Sweeps(*measured)
+    sweeps = sweeps_from_ramps(*measured, step=5.0)
+    assert sweeps.temperatures - 273.15 == pytest.approx(np.arange(0.0, 41.0, 5.0))
+    expected = 1e7 * sweeps.frequency**0.1 * np.exp(-0.02 * (sweeps.temperature - 273.15))
+    assert sweeps.storage == pytest.approx(expected, rel=1e-9)
+    # Nothing beyond what was measured: the second and third frequency begin above 0 °C.
+    assert [len(one) for one in sweeps] == [1, 3, 3, 3, 3, 3, 3, 3, 3]
+
+
+def test_no_row_across_a_gap_of_a_ramp():
+    measured = ramp(1.0, 0.0)[:, [*range(6), *range(30, 41)]]
+    found = sweeps_from_ramps(*measured, step=5.0).temperatures - 273.15
+    assert found == pytest.approx([0.0, 5.0, 30.0, 35.0, 40.0])
+
+
+def test_master_curves_and_sweeps_are_told_apart(tmp_path):
+    assert holds_sweeps(POLYMER)
+    assert not holds_sweeps(DATA / "measured_dma.txt")
+    shifted = [f"{t},{10.0**i},{8 + i},1" for i, t in enumerate([40, 40, 20, 20, 0, 0])]
+    assert not holds_sweeps(write(tmp_path, "\n".join([PLAIN, *shifted])))
+
+
+@pytest.mark.parametrize(
+    ("title", "meant"),
+    [("t", None), ("T", "temperature"), ("F", None), ("f", "frequency"), ("log E'", None),
+     ("Eta'", None), ("E'", "storage"), ("E''", "loss"), ("tan(δ)", "loss_factor"),
+     ("Verlustfaktor", "loss_factor"), ("Probentemperatur", "temperature"), ("|G*|", "magnitude"),
+     ("Kreisfrequenz", "frequency"), ("shear rate", None), ("Dehnung", "strain"), ("F dyn", None)],
+)  # fmt: skip
+def test_what_titles_mean(title, meant):
+    assert quantity(title) == meant
+
+
+def test_temperatures_stated_above_a_table():
+    assert stated_temperature("# Temperature: 20 °C") == ("20", "°C")
+    assert stated_temperature("Temperatur [°C];20,5") == ("20,5", "°C")
+    assert stated_temperature("Title: tread 12") is None
+    assert with_primes('f;E";"Modul E"') == "f;E'';\"Modul E\""
+
+
+def test_strain_sweep(tmp_path):
+    title = "Strain p-p (%), G' (MPa), G'' (MPa), Frequency (Hz), T (C)"
+    lines = [title, "2.0,2.0,0.3,10,60.1", "0.2,3.0,0.2,10.05,59.9"]
+    sweep = read_strain_sweep(write(tmp_path, "\n".join(lines)))
+    assert sweep.strain == pytest.approx([0.001, 0.01])
+    assert sweep.storage == pytest.approx([9e6, 6e6])
+    assert (sweep.deformation, sweep.name) == ("shear", "dma")
+    assert sweep.temperature == pytest.approx(333.15)
+    assert sweep.frequency == pytest.approx(10.0, rel=0.01)
+    unknown = write(tmp_path, "\n".join([title, "2,2,1,n/a,-", "1,3,1,n/a,-"]))
+    assert read_strain_sweep(unknown).frequency is None
+    assert read_strain_sweep(unknown).temperature is None
+    unsaid = write(tmp_path, "\n".join([title.replace(" p-p", ""), *lines[1:]]))
+    with pytest.raises(InputError, match="amplitude must be given"):
+        read_strain_sweep(unsaid)
+    single = read_strain_sweep(unsaid, amplitude="single")
+    assert single.strain == pytest.approx([0.002, 0.02])
+    with pytest.raises(FileError, match=r"expected one temperature; got 313\.05 to 333\.25 K"):
+        read_strain_sweep(write(tmp_path, "\n".join([*lines, "4,1,1,10,39.9"])), amplitude="single")
