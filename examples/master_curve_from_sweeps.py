@@ -20,7 +20,7 @@ from gripscale.figures import (
     superposition_figure,
     superposition_tests_figure,
 )
-from gripscale.rubber import fit_wlf, read_shift_table, superpose_report
+from gripscale.rubber import fit_arrhenius, fit_wlf, read_shift_table, superpose_report
 
 DATA = Path(__file__).parent / "data" / "rubber" / "multi_temperature_polymer"
 REFERENCE = 268.15
@@ -44,8 +44,11 @@ def main(folder: str = "results/examples") -> None:
         worst = max(pair.storage for pair in one.overlaps)
         print(f"E' of neighbours apart by up to {worst:.4f} decades, {whose} shift factors")
 
-    law = fit_wlf(master.shift, lowest=313.0, reference_temperature=333.15)
-    print(law.summary())
+    laws = [
+        fit_wlf(master.shift, lowest=313.0, reference_temperature=333.15),
+        fit_arrhenius(master.shift, lowest=268.0, highest=306.0),
+    ]
+    print("\n".join(law.summary() for law in laws))
 
     believed = sweeps.between(0.1, HIGHEST)
     curve = gs.superpose(believed, reference_temperature=REFERENCE, shift=master.shift)
@@ -59,7 +62,7 @@ def main(folder: str = "results/examples") -> None:
 
     figures = {
         "shifted": superposition_figure(sweeps, master),
-        "shift": shift_figure(master.shift, [law]),
+        "shift": shift_figure(master.shift, laws),
         "tests": superposition_tests_figure(sweeps, report),
     }
     Path(folder).mkdir(parents=True, exist_ok=True)

@@ -6,6 +6,7 @@ Run as `python examples/own_rubber.py [FOLDER [MASTER_CURVE]]`.
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -18,12 +19,6 @@ from gripscale.rubber import MooneyRivlin, NeoHookean, Yeoh, fit_prony_report, u
 DATA = Path(__file__).parent / "data" / "rubber" / "measured_dma.txt"
 ENERGIES = (NeoHookean(), MooneyRivlin(share=0.4), Yeoh(second=-0.05, third=0.004))
 LARGEST, RATE = 2.5, 1.0  # stretch [-], its rate [1/s]
-
-
-def with_energy(rubber: gs.Rubber, energy: object) -> gs.Rubber:
-    """Return the same small-strain rubber with another permanent network."""
-    names = ("equilibrium_modulus", "moduli", "relaxation_times", "bulk_modulus")
-    return gs.Rubber(*(getattr(rubber, name) for name in names), strain_energy=energy)
 
 
 def main(folder: str = "results/examples", file: str = str(DATA)) -> None:
@@ -41,7 +36,7 @@ def main(folder: str = "results/examples", file: str = str(DATA)) -> None:
     figure = Figure(figsize=(4.6, 3.4), layout="constrained")
     axes = figure.subplots()
     for energy in ENERGIES:
-        stress = uniaxial_stress(with_energy(rubber, energy), time=time, stretch=stretch)
+        stress = uniaxial_stress(replace(rubber, strain_energy=energy), time=time, stretch=stretch)
         lost = np.trapezoid(stress, stretch)
         name = type(energy).__name__
         print(f"{name}: {stress.max() / 1e6:.2f} MPa at {LARGEST}, {lost / 1e6:.2f} MJ/m^3 lost")

@@ -6,9 +6,11 @@ from . import wave as wave
 from .chain.predict import predict as predict
 from .chain.prediction import Prediction as Prediction
 from .errors import ConvergenceError as ConvergenceError
+from .errors import ExtrapolationError as ExtrapolationError
 from .errors import FileError as FileError
 from .errors import GripscaleError as GripscaleError
 from .errors import InputError as InputError
+from .errors import RubberWarning as RubberWarning
 from .rough.result import RoughContact as RoughContact
 from .rough.solve import solve_rough_contact as solve_rough_contact
 from .rubber import MasterCurve as MasterCurve

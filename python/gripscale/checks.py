@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import MISSING, fields
 from typing import Any, TypeVar
 
@@ -20,9 +20,12 @@ LEAST, MOST = 1e-100, 1e100
 
 
 def number(name: str, value: Any, *, unit: str = "", infinite: bool = False) -> float:
-    """Return `value` as a float; raise `InputError` unless it is a finite (or allowed) number."""
+    """Return `value` as a float, zero or from `LEAST` to `MOST` in size; else raise `InputError`.
+
+    NaN is none; infinity is one only where it may be `infinite`.
+    """
     expected = f"{name} must be a finite number{_in(unit)}"
-    if isinstance(value, bool | str | bytes):
+    if not _is_one_real(value):
         raise InputError(f"{expected}; got {shown(value)}")
     try:
         result = float(value)
@@ -30,6 +33,10 @@ def number(name: str, value: Any, *, unit: str = "", infinite: bool = False) -> 
         raise InputError(f"{expected}; got {shown(value)}") from error
     if math.isnan(result) or (math.isinf(result) and not infinite):
         raise InputError(f"{expected}; got {result}")
+    if abs(result) > MOST and math.isfinite(result):
+        raise InputError(f"{expected} of at most {MOST:g}; got {result:g}")
+    if 0.0 < abs(result) < LEAST:
+        raise InputError(f"{expected} of at least {LEAST:g} in size; got {result:g}")
     return result
 
 
@@ -49,9 +56,17 @@ def not_negative(name: str, value: Any, *, unit: str = "", infinite: bool = Fals
     return result
 
 
+def complex_number(name: str, value: Any, *, unit: str = "") -> complex:
+    """Return `value` as a complex number of parts of at most `MOST`, real or complex as given."""
+    if not np.iscomplexobj(value):
+        return complex(number(name, value, unit=unit))
+    parts = np.real(value), np.imag(value)
+    return complex(*(number(name, part, unit=unit) for part in parts))
+
+
 def whole(name: str, value: Any, *, least: int, most: int) -> int:
     """Return `value` as an int; raise `InputError` unless it is whole and within its limits."""
-    result = number(name, value)
+    result = int(value) if _is_whole_number(value) else number(name, value)
     if result != math.floor(result) or not least <= result <= most:
         raise InputError(
             f"{name} must be a whole number from {least} to {most}; got {shown(value)}"
@@ -60,12 +75,24 @@ def whole(name: str, value: Any, *, least: int, most: int) -> int:
 
 
 def vector(name: str, value: ArrayLike, *, unit: str = "", missing: bool = False) -> NDArray[Any]:
-    """Return `value` as a 1-D float array; NaN passes only where values may be `missing`."""
-    expected = f"{name} must be a list of finite numbers{_in(unit)}"
-    try:
-        result = np.array(value, dtype=float)
-    except (TypeError, ValueError, OverflowError) as error:
-        raise InputError(f"{expected}; got {shown(value)}") from error
+    """Return `value` as a 1-D float array of entries of at most `MOST`.
+
+    NaN passes only where values may be `missing`; what is masked is NaN.
+    """
+    result = _finite(name, value, unit, missing=missing)
+    if (np.abs(result) > MOST).any():
+        at = int(np.nanargmax(np.abs(result)))
+        raise InputError(
+            f"{name} must be numbers of at most {MOST:g}{_in(unit)}; got {result[at]:g} at "
+            f"index {at}"
+        )
+    return result
+
+
+def _finite(name: str, value: ArrayLike, unit: str, *, missing: bool = False) -> NDArray[Any]:
+    """Return `value` as a 1-D float array without infinity."""
+    expected = f"{name} must be a list of finite numbers{' or NaN' * missing}{_in(unit)}"
+    result = array(value, expected)
     if result.ndim != 1:
         raise InputError(f"{expected} with one dimension; got {result.ndim} dimensions")
     bad = np.isinf(result) if missing else ~np.isfinite(result)
@@ -75,9 +102,36 @@ def vector(name: str, value: ArrayLike, *, unit: str = "", missing: bool = False
     return result
 
 
+def array(value: ArrayLike, expected: str) -> NDArray[Any]:
+    """Return a copy of `value` as a float array, NaN where it is masked.
+
+    Raises `InputError`, which begins with what was `expected`, if it holds something else than real
+    numbers: texts that spell numbers are none, nor are complex numbers without imaginary part.
+    """
+    try:
+        given = np.asarray(value)
+        if not _may_be_real(given):
+            raise InputError(f"{expected}; got {shown(value)}")
+        result = np.array(given, dtype=float)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise InputError(f"{expected}; got {shown(value)}") from error
+    if isinstance(value, np.ma.MaskedArray):
+        result[np.ma.getmaskarray(value)] = np.nan
+    return result
+
+
 def positive_vector(name: str, value: ArrayLike, *, unit: str = "") -> NDArray[Any]:
     """Return `value` as a 1-D float array; raise `InputError` unless all entries are above zero."""
-    result = vector(name, value, unit=unit)
+    result = _above_zero(name, vector(name, value, unit=unit), unit)
+    if (result < LEAST).any():
+        at = int(np.argmax(result < LEAST))
+        raise InputError(
+            f"{name} must be at least {LEAST:g}{_in(unit)}; got {result[at]:g} at index {at}"
+        )
+    return result
+
+
+def _above_zero(name: str, result: NDArray[Any], unit: str) -> NDArray[Any]:
     if (result <= 0.0).any():
         at = int(np.argmax(result <= 0.0))
         raise InputError(
@@ -93,6 +147,33 @@ def flag(name: str, value: Any) -> bool:
     return bool(value)
 
 
+def instance(name: str, value: Any, kind: type[T]) -> T:
+    """Return `value`; raise `InputError` unless it is one of `kind`."""
+    if not isinstance(value, kind):
+        article = "an" if kind.__name__[0] in "AEIOU" else "a"
+        raise InputError(f"{name} must be {article} {kind.__name__}; got {type(value).__name__}")
+    return value
+
+
+def instances(name: str, values: Any, kind: type[T]) -> list[T]:
+    """Return `values` as a list; raise `InputError` unless it holds `kind`, one at least."""
+    if not isinstance(values, Sequence) or isinstance(values, str | bytes) or not values:
+        raise InputError(
+            f"{name} must be a list of at least one {kind.__name__}; got {shown(values)}"
+        )
+    return [instance(f"each of {name}", value, kind) for value in values]
+
+
+def real(name: str, value: ArrayLike, *, unit: str = "") -> NDArray[Any]:
+    """Return `value`, of any shape, as a float array of entries of at most `MOST`."""
+    expected = f"{name} must be finite numbers of at most {MOST:g}{_in(unit)}"
+    result = array(value, expected)
+    bad = ~(np.abs(result) <= MOST)
+    if bad.any():
+        raise InputError(f"{expected}; got {result[bad][0]:g}")
+    return result
+
+
 def text(name: str, value: Any) -> str:
     """Return `value`; raise `InputError` unless it is a text."""
     if not isinstance(value, str):
@@ -102,7 +183,7 @@ def text(name: str, value: Any) -> str:
 
 def in_reason(name: str, value: ArrayLike, *, unit: str = "") -> NDArray[Any]:
     """Return `value` as a 1-D float array; raise `InputError` unless from `LEAST` to `MOST`."""
-    result = positive_vector(name, value, unit=unit)
+    result = _above_zero(name, _finite(name, value, unit), unit)
     bad = (result < LEAST) | (result > MOST)
     if bad.any():
         at = int(np.argmax(bad))
@@ -135,10 +216,35 @@ def shown(value: Any) -> str:
     """Return how a value is written in a message: on one line, not longer than it is read."""
     if isinstance(value, int) and abs(value) >= 10**80:
         return "a whole number of more than 80 digits"
+    if isinstance(value, np.ndarray) and value.ndim > 0:
+        return f"an array of shape {value.shape}"
     try:
-        return " ".join(repr(value).split())[:80]
+        return shortened(" ".join(repr(value).split()), 80)
     except ValueError:
         return "whole numbers too long to print"
+
+
+def shortened(text: str, most: int = 120) -> str:
+    """Return text of a file as a message quotes it: printable, and not longer than it is read."""
+    plain = "".join(letter if letter.isprintable() else "?" for letter in text)
+    return plain if len(plain) <= most else f"{plain[: most - 3]}..."
+
+
+def _may_be_real(value: Any) -> bool:
+    """Return whether `value` is no truth, text, complex number, date or mask, by type or dtype."""
+    if value is np.ma.masked or isinstance(value, bool | str | bytes | complex):
+        return False
+    return getattr(getattr(value, "dtype", None), "kind", "f") in "iufO"
+
+
+def _is_one_real(value: Any) -> bool:
+    """Return whether `value` is a number of Python or numpy, or an array of one without a shape."""
+    numeric = isinstance(value, int | float) or hasattr(value, "dtype")
+    return numeric and _may_be_real(value) and np.ndim(value) == 0
+
+
+def _is_whole_number(value: Any) -> bool:
+    return isinstance(value, int | np.integer) and not isinstance(value, bool)
 
 
 def _in(unit: str) -> str:

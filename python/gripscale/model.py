@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol, runtime_checkable
 import numpy as np
 
 from gripscale import checks
+from gripscale.rubber.extrapolation import UNKNOWN, Extrapolation, of_sum
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -112,6 +113,34 @@ TOTALS = {
 }
 """Names and meanings of the numbers every model answers with."""
 
+FRICTION_OUTSIDE_BAND = "total_friction_outside_band"
+OUTSIDE_BAND = {
+    FRICTION_OUTSIDE_BAND: (
+        "share",
+        "share of the friction that rests on the rubber outside the measured frequencies",
+    ),
+    "total_decades_below_band": (
+        "below",
+        "decades by which excitation goes below the measured frequencies",
+    ),
+    "total_decades_above_band": (
+        "above",
+        "decades by which excitation goes above the measured frequencies",
+    ),
+}
+"""Names of what every model tells of the rubber beyond its measured frequencies: attribute of
+`Extrapolation`, and meaning."""
+
+
+def extrapolation_of(data: xr.Dataset) -> Extrapolation:
+    """Return what an answer tells of the rubber beyond its measured frequencies.
+
+    Unknown of a file of an older version.
+    """
+    if not set(OUTSIDE_BAND) <= set(data.data_vars):
+        return UNKNOWN
+    return Extrapolation(**{part: float(data[name]) for name, (part, _) in OUTSIDE_BAND.items()})
+
 
 def answer_by_length(
     data: xr.Dataset,
@@ -128,7 +157,7 @@ def answer_by_length(
     data
         What is known of each profile.
     parts
-        Their results, with the attributes of `TOTALS` without `total_`.
+        Their results, with the attributes of `TOTALS` without `total_`, and `extrapolation`.
     why_not
         Why a profile does not count, empty where it does: then there are no totals.
     lengths
@@ -150,13 +179,26 @@ def answer_by_length(
     }
     attrs = {"units": "1", "long_name": "share of the length"}
     weighted = data.assign(weight=("profile", weight, attrs))
-    return answer(weighted, totals, "; ".join(bad) or "converged", model, load)
+    beyond = of_sum(
+        [part.extrapolation for part in parts],
+        weight * [part.friction_from_dissipation for part in parts],
+    )
+    return answer(weighted, totals, "; ".join(bad) or "converged", model, load, beyond)
 
 
 def answer(
-    data: xr.Dataset, totals: dict[str, float], status: str, model: str, load: NominalLoad
+    data: xr.Dataset,
+    totals: dict[str, float],
+    status: str,
+    model: str,
+    load: NominalLoad,
+    extrapolation: Extrapolation = UNKNOWN,
 ) -> xr.Dataset:
-    """Return `data` with the numbers every model answers with, and the load they are for."""
+    """Return `data` with the numbers every model answers with, and the load they are for.
+
+    `extrapolation` is what of the friction rests on the rubber beyond its measured frequencies; a
+    model that does not know leaves it out.
+    """
     import xarray as xr
 
     def number(value: Any, unit: str, long_name: str) -> xr.Variable:
@@ -166,6 +208,8 @@ def answer(
     if set(totals) != set(TOTALS):
         raise ValueError(f"totals must be {', '.join(TOTALS)}; got {', '.join(totals)}")
     variables = {name: number(totals[name], "1", text) for name, text in TOTALS.items()}
+    for name, (part, text) in OUTSIDE_BAND.items():
+        variables[name] = number(getattr(extrapolation, part), "1", text)
     variables["prediction_status"] = number(status, "1", "converged, or why not")
     variables["nominal_pressure"] = number(load.pressure, "Pa", "nominal pressure")
     variables["nominal_speed"] = number(load.speed, "m/s", "sliding speed")

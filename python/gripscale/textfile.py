@@ -14,6 +14,7 @@
 from __future__ import annotations
 
 import math
+import os
 import re
 import sys
 from collections.abc import Callable, Collection
@@ -25,13 +26,14 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from gripscale.errors import FileError
+from gripscale.checks import MOST, shortened, shown
+from gripscale.errors import FileError, InputError
 from gripscale.units import spelled
 
 _LINE_END = re.compile(r"\r*\n|\r")
 _COMMENT = ("#", "%", "!")
 _MISSING = {"", "nan", "na", "n/a", "null", "none", "-", "--", "---", "bad"}
-_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
+_NUMBER = re.compile(r"[+-]?(\d++(\.\d*)?|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 _COMMA_NUMBER = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?", re.ASCII)
 _SEPARATORS = ("\t", ";", ",", None)
 _TITLE_SEPARATORS = (r"\t", r";", r",", r"\s{2,}", r"\s+")
@@ -72,24 +74,30 @@ class TextTable:
         names = [column.name for column in self.columns]
         return names if any(names) else []
 
+    @property
+    def titles(self) -> str:
+        """The names of the columns as a message lists them, empty if the file has no titles."""
+        return shortened(", ".join(self.names))
+
     def numbers(self, column: int, expected: str, *, missing: bool = False) -> NDArray[np.float64]:
         """Return a column of numbers, NaN where a value is `missing` and may be.
 
-        Raises `FileError` with the line of the first other cell and what was `expected`.
+        Raises `FileError` with the line of the first other cell, or number beyond reason, and what
+        was `expected`.
         """
         cells = [self._with_point(row[column]) for row in self.rows]
         if _PLAIN.issuperset("".join(cells)):
             with suppress(ValueError):  # a word of these letters, which the loop below names
                 plain = np.array(cells, dtype=float)
-                if np.isfinite(plain).all():
+                if (np.abs(plain) <= MOST).all():
                     return plain
         values = np.empty(len(self.rows))
         for at, row in enumerate(self.rows):
             value = parse_number(self._with_point(row[column]))
-            if value is None or not (math.isfinite(value) or (missing and math.isnan(value))):
+            if value is None or not (abs(value) <= MOST or (missing and math.isnan(value))):
                 raise FileError(
                     f"{self.path}, line {self.line_numbers[at]}: expected {expected}; "
-                    f"got {row[column]!r}"
+                    f"got {shown(row[column])}"
                 )
             values[at] = value
         return values
@@ -100,7 +108,7 @@ class TextTable:
         if _DIGITS.issuperset("".join(cells)):
             return float(10.0 ** -max(len(cell.partition(".")[2]) for cell in cells))
         places = (Decimal(cell).as_tuple().exponent for cell in cells)
-        return float(10.0 ** min(place for place in places if isinstance(place, int)))
+        return 10.0 ** min(max(place, -300) for place in places if isinstance(place, int))
 
     def _with_point(self, cell: str) -> str:
         return cell.replace(",", ".") if self.decimal == "," else cell
@@ -159,6 +167,13 @@ def table_in(
     rows = _without_empty_columns(rows)
     columns = _columns([line for _, line in lines[:first]], len(rows[0]), kinds, named)
     return TextTable(path, columns, rows, numbers, decimal)
+
+
+def file_path(path: object) -> Path:
+    """Return `path` as one; raise `InputError` if it cannot be the path of a file."""
+    if not isinstance(path, str | os.PathLike):
+        raise InputError(f"path must be the path of a file; got {shown(path)}")
+    return Path(path)
 
 
 def read_bytes(path: Path) -> bytes:
@@ -249,7 +264,7 @@ def _check_faults(path: Path, lines: list[Line], separator: str | None, counts: 
             fault = next(at for at, cell in enumerate(cells) if not _fits(cell))
             raise FileError(
                 f"{path}, line {number}: expected a number in column {fault + 1}; "
-                f"got {cells[fault]!r}"
+                f"got {shown(cells[fault])}"
             )
 
 
@@ -272,8 +287,8 @@ def _decimal_sign(path: Path, rows: list[list[str]], numbers: list[int]) -> str:
         return ","
     (first, one), (second, other) = sorted((comma, point))
     raise FileError(
-        f"{path}, line {numbers[second]}: expected one decimal sign throughout; got {other!r} "
-        f"after {one!r} in line {numbers[first]}"
+        f"{path}, line {numbers[second]}: expected one decimal sign throughout; got {shown(other)} "
+        f"after {shown(one)} in line {numbers[first]}"
     )
 
 

@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from gripscale.checks import MOST, shown
 from gripscale.errors import InputError
 
 Value = TypeVar("Value", float, NDArray[np.float64])
@@ -73,7 +74,9 @@ _EXAMPLES = {
     "time": "0.1 s",
     "temperature": "20 C",
 }
-_QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|[-+]?inf|nan)\s*(\S*)\s*")
+_QUANTITY = re.compile(
+    r"\s*+([-+]?(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][-+]?\d++)?|[-+]?inf|nan)\s*+(\S*+)\s*+", re.ASCII
+)
 
 
 def spelled(unit: object, kind: str) -> str | None:
@@ -94,7 +97,7 @@ def in_si(value: Value, unit: str, kind: str, name: str = "unit") -> Value:
     """
     known = spelled(unit, kind)
     if known is None:
-        raise InputError(f"{name} must be one of {listed(kind)}; got {unit!r}")
+        raise InputError(f"{name} must be one of {listed(kind)}; got {shown(unit)}")
     return value * UNITS[kind][known] + _ZERO.get(known, 0.0)
 
 
@@ -109,7 +112,7 @@ def parse_quantity(value: Any, kind: str) -> float:
     Raises `ValueError` with what was expected; the caller adds the place.
     """
     if isinstance(value, int | float) and not isinstance(value, bool):
-        return _finite(float(value), kind)
+        return _finite(value, kind)
     match = _QUANTITY.fullmatch(value) if isinstance(value, str) else None
     if match is None:
         raise ValueError(f"expected a {kind} {_example(kind)}")
@@ -117,14 +120,14 @@ def parse_quantity(value: Any, kind: str) -> float:
     if unit == "":
         raise ValueError(f"the unit is missing; expected one of {listed(kind)}")
     if spelled(unit, kind) is None:
-        raise ValueError(f"unknown unit {unit!r}; expected one of {listed(kind)}")
+        raise ValueError(f"unknown unit {shown(unit)}; expected one of {listed(kind)}")
     return _finite(in_si(float(number), unit, kind), kind)
 
 
 def _finite(value: float, kind: str) -> float:
-    if not math.isfinite(value):
+    if not abs(value) <= MOST:
         raise ValueError(f"expected a finite {kind} {_example(kind)}")
-    return value
+    return float(value)
 
 
 def _example(kind: str) -> str:

@@ -216,6 +216,13 @@ WRONG = [
     ("scales = 8", 'scales = 8\nspike_slope = "2"', "spike_slope = '2': expected a number"),
     ("scales = 8", "scales = 8\nx_unit = 3", "[surface] x_unit = 3: expected a string"),
     ("[load]", "[solver]\ntolerance = 1\n[load]", "tolerance = 1: expected less than 1"),
+    ("[load]", "[solver]\ntime_limit = 0\n[load]", "time_limit = 0: expected a value greater than"),
+    (
+        "[load]",
+        '[solver]\nmodel = "half_plane"\ntime_limit = "1 s"\n[load]',
+        '[solver]: time_limit is not an option of model = "half_plane"',
+    ),
+    ('"dma.txt"', '"dma.txt"\nextrapolate = "no"', "extrapolate = 'no': expected 'say' or 'refus"),
     (
         '"dma.txt"',
         '"dma.txt"\nstrain_energy = "yeoh"',

@@ -10,6 +10,7 @@ import pytest
 import gripscale as gs
 from gripscale import netcdf
 from gripscale.case import WaveSolved, case_chain, prepare_case, read_case, run_case
+from gripscale.errors import ExtrapolationError
 from gripscale.wave import FiniteStrainBlock, Status, WaveProblem, WaveResult
 
 
@@ -81,3 +82,26 @@ def test_wave_that_fails_is_named_and_the_rest_goes_on(
     assert "fold in the load path" in str(results.failures["dynamic"])
     assert results.static is not None
     assert results.static.converged
+
+
+def test_refused_extrapolation_ends_before_anything_is_written(case: Path, tmp_path: Path) -> None:
+    """The named rubber is known from 0.01 rad/s; 10 mm at 1e-6 m/s is 6e-4 rad/s."""
+    slow = case.read_text().replace("0.3 m/s", "0.000001 m/s")
+    refused = slow.replace("[rubber]", '[rubber]\nextrapolate = "refuse"')
+    case.write_text(refused)
+    with pytest.raises(ExtrapolationError, match=r"wave 1 of 2 .* 0.000628 rad/s, below the measu"):
+        run_case(case, output=tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+    case.write_text(refused.replace("0.000001 m/s", "0.3 m/s"))
+    assert run_case(case).converged
+
+
+def test_time_limit_of_the_case_reaches_the_solver(case: Path) -> None:
+    solver = case.read_text().replace("[solver]", '[solver]\ntime_limit = "0.001 us"')
+    case.write_text(solver)
+    results = run_case(case)
+    assert case_chain(read_case(case).case).solver.time_limit == pytest.approx(1e-9)
+    assert results.dynamic is not None
+    assert results.dynamic.status == Status.TIME_LIMIT
+    case.write_text(solver.replace('"0.001 us"', "60"))
+    assert run_case(case).converged

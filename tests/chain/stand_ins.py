@@ -8,6 +8,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from gripscale.rubber import Rubber
+from gripscale.surface import SineStack
 from gripscale.wave import Status, WaveProblem, WaveResult
 
 
@@ -15,22 +16,13 @@ class Spring(Rubber):
     """A rubber with E* = 4 MPa + 3 MPa i at any frequency, so that |E*| is 5 MPa."""
 
     def __init__(self) -> None:
-        super().__init__(4e6, name="spring", source="by hand")
+        super().__init__(4e6, name="spring", source="by hand", valid_band=(1e-9, 2 * np.pi * 100.0))
 
     def complex_modulus(self, omega: Any) -> Any:
         return np.full(np.shape(omega), 4e6 + 3e6j)
 
-    def outside_band(self, omega: Any) -> Any:
-        return np.abs(omega) > 2 * np.pi * 100.0
 
-
-@dataclass
-class Sines:
-    wavelength: list[float]
-    amplitude: list[float]
-
-
-THREE = Sines(wavelength=[16e-3, 4e-3, 1e-3], amplitude=[1e-3, 0.5e-3, 0.125e-3])
+THREE = SineStack(wavelength=[16e-3, 4e-3, 1e-3], amplitude=[1e-3, 0.5e-3, 0.125e-3])
 
 
 @dataclass

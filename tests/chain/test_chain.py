@@ -14,7 +14,7 @@ from gripscale.surface import SineStack
 from gripscale.theory import HalfPlane, solve_half_plane
 from gripscale.wave import Sine
 
-from .stand_ins import THREE, Scripted, Sines, Spring
+from .stand_ins import THREE, Scripted, Spring
 
 LOAD = {"pressure": 2.0**18, "speed": 0.25, "footprint": 0.125}
 
@@ -220,8 +220,3 @@ def test_bad_input_is_refused_before_any_wave_is_solved(
         predict(Spring(), THREE, solver=solver, **{**LOAD, **change})
     assert words in str(caught.value)
     assert solver.asked == []
-
-
-def test_empty_stack_is_refused() -> None:
-    with pytest.raises(InputError, match="at least one wave"):
-        predict(Spring(), Sines([], []), solver=Scripted([]), **LOAD)

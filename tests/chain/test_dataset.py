@@ -27,7 +27,7 @@ def prediction() -> Prediction:
 def test_values_are_those_of_the_prediction(prediction: Prediction) -> None:
     data = prediction.to_dataset()
     assert data.sizes == {"scale": 3, "surface_node": 8, "wave": 3}
-    assert data.wavelength.values.tolist() == THREE.wavelength
+    assert data.wavelength.values.tolist() == THREE.wavelength.tolist()
     assert data.contact_fraction.values.tolist() == [0.5, 0.25, 0.125]
     np.testing.assert_array_equal(data.running_contact_fraction, [2.0**-1, 2.0**-3, 2.0**-6])
     np.testing.assert_array_equal(data.running_friction, [0.125, 0.375, 0.875])

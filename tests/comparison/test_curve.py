@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from gripscale.comparison.curve import Curve, octaves
-from gripscale.rubber import Rubber
 
 WAVES = Curve(
     np.array([10e-3, 3e-3, 1e-3]), np.array([0.3, 0.1, 0.05]), np.array([0.1, 0.3, 0.4]), True
@@ -29,15 +28,6 @@ def test_octaves_are_interpolated_and_the_unknown_stays_unknown() -> None:
     at = np.array([32e-3, 16e-3, 8e-3, np.sqrt(32.0) * 1e-3, 0.5e-3])
     assert SPLIT.at("friction", at) == pytest.approx([0.0, 0.0, 0.1, 0.2, 0.4])
     np.testing.assert_allclose(SPLIT.at("contact_fraction", at), [1.0, np.nan, 0.4, 0.3, 0.1])
-
-
-def test_share_outside_is_that_of_the_frequencies() -> None:
-    # waves of 10, 3 and 1 mm at 1 m/s: 628, 2094 and 6283 rad/s; the last makes 0.1 of 0.4
-    rubber = Rubber(6e6, [2e6], [1e-3], valid_band=(10.0, 4000.0))
-    assert WAVES.share_outside(rubber, 1.0) == pytest.approx(0.25)
-    assert WAVES.share_outside(rubber, 0.0) == 0.0
-    # octaves count at their middles: 2 to 1 mm, sqrt 2 mm, is 4443 rad/s, 0.05 of 0.4
-    assert SPLIT.share_outside(rubber, 1.0) == pytest.approx(0.125)
 
 
 def test_scale_of_wavelengths_holds_all() -> None:

@@ -11,6 +11,7 @@ import pytest
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.markers import TICKDOWN
 
 from gripscale.case.drawn import envelope, sine_curves, trace
@@ -25,6 +26,7 @@ from gripscale.figures import (
     save_figure,
 )
 from gripscale.figures.profile import kept_points
+from gripscale.figures.stretches import stretches
 from gripscale.figures.style import short_number
 from gripscale.rubber import MasterCurve, Rubber, fit_prony_report
 from gripscale.surface import (
@@ -60,6 +62,47 @@ def complete(figure: Figure) -> None:
     assert all("[" in label for label in labels if label)
     assert sum(bool(label) for label in labels) >= 2
     figure.draw_without_rendering()
+
+
+def dashed(axes: Axes) -> list[Line2D]:
+    """Return the curves that are drawn dashed, the entry of the legend left out."""
+    return [line for line in axes.lines if line.get_gid() and line.get_xdata().size]
+
+
+def labels(figure: Figure) -> list[str]:
+    return [text.get_text() for legend in figure.legends for text in legend.get_texts()]
+
+
+def test_what_is_beyond_the_band_is_dashed_and_the_legend_says_so(
+    make_prediction: Callable[..., xr.Dataset],
+) -> None:
+    data = make_prediction()
+    inside = contact_figure({"dynamic": data})
+    assert not any(dashed(axes) for axes in inside.axes)
+    assert "beyond the measured band" not in labels(inside)
+    data["outside_band"].values[:] = [0, 1, 0]
+    figure = contact_figure({"dynamic": data})
+    complete(figure)
+    assert labels(figure).count("beyond the measured band") == 1
+    for axes in figure.axes:
+        running, each = dashed(axes)
+        # from the second wave on the sum rests on it; of the waves alone only what joins it
+        assert running.get_xdata().tolist() == [20.0, 5.0, 1.25]
+        assert each.get_xdata().tolist() == [20.0, 5.0, 1.25]
+        assert running.get_linestyle() == "--"
+
+
+@pytest.mark.parametrize(
+    ("flags", "expected"),
+    [
+        ([0, 0, 1, 1], [(0, 2, False), (1, 4, True)]),
+        ([1, 0, 0, 0, 1], [(0, 2, True), (1, 4, False), (3, 5, True)]),
+        ([0, 0], [(0, 2, False)]),
+        ([1], [(0, 1, True)]),
+    ],
+)
+def test_a_curve_is_cut_where_the_band_ends(flags: list[int], expected: list[object]) -> None:
+    assert [(part.start, part.stop, beyond) for part, beyond in stretches(flags)] == expected
 
 
 def test_contact_is_drawn_against_falling_wavelength_in_mm(
@@ -202,8 +245,8 @@ def test_master_curve_shows_points_series_and_excitation() -> None:
     band = rubber.valid_band
     assert band is not None
     assert (x.min(), x.max()) == pytest.approx(band, rel=0.05)  # beyond it, dashed
-    dashed = [line for line in moduli.lines if line.get_linestyle() == "--"]
-    assert len(dashed) == 4
+    assert len(dashed(moduli)) == 4
+    assert labels(figure).count("beyond the measured band") == 1
     assert len(moduli.collections) >= 2  # what the data leave open, shaded
 
 

@@ -61,6 +61,7 @@ def test_shift_factors_with_formula_and_residual():
     assert celsius[known].min() == pytest.approx(0.0, abs=0.5)  # solid where it was fitted
     expected = fit.shift.log_a(celsius[known] + 273.15, 293.15)
     assert values[known] == pytest.approx(expected + table.horizontal[3], abs=1e-9)
+    assert above.get_ylim()[1] < table.horizontal.max() + 2.0
     assert below.lines[-1].get_ydata() == pytest.approx(-fit.residual)
     lifted = ShiftTable(kelvin, table.horizontal, vertical=np.linspace(-0.02, 0.02, 7))
     assert len(shift_figure(lifted).axes) == 3

@@ -15,7 +15,7 @@ import xarray as xr
 
 from gripscale import netcdf
 from gripscale.errors import FileError, InputError
-from gripscale.model import TOTALS, NominalLoad, answer
+from gripscale.model import OUTSIDE_BAND, TOTALS, NominalLoad, answer
 from gripscale.report import write_report
 from gripscale.report.input_tables import rubber_facts
 from gripscale.report.notices import cards, notices
@@ -169,13 +169,18 @@ def test_large_mismatch_and_foreign_frequencies_are_warned_of(
         data = data.copy(deep=True)
         data["friction_mismatch"].values[:] = [0.01, 0.2, 0.01]
         data["outside_band"].values[:] = [0, 0, 1]
+        for name, value in zip(OUTSIDE_BAND, (0.32, 0.0, 0.8), strict=True):
+            data[name].values[...] = value
         return data
 
     run = read_result(changed_run(edit, "dynamic"))
     assert isinstance(run, Run)
     text = " ".join(notice.text for notice in notices(run))
     assert "the two frictions of waves 2 are up to 20 % apart" in text
-    assert "waves 3 excite the rubber beyond the frequencies" in text
+    assert (
+        "Dynamic, 0.3 m/s: 1 of 3 waves, 32 % of the friction, lie up to 0.8 decades above the "
+        "measured band." in text
+    )
     assert [card.label for card in cards(run) if card.bad] == ["Largest mismatch of μ"]
 
 

@@ -1,6 +1,7 @@
 """The other series that fit: their envelope, their files, and what is refused."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -45,6 +46,25 @@ def test_they_are_part_of_the_rubber_and_of_its_file():
     assert Rubber.from_dict(older) != RUBBER
     fitted = fit_prony(flank())
     assert Rubber.from_dict(json.loads(json.dumps(fitted.to_dict()))) == fitted
+
+
+@pytest.mark.parametrize(
+    "change",
+    [{"moduli": [1e6, 3e6]}, {"relaxation_times": [1e-3, 2.0]}, {"equilibrium_modulus": 1.3e6}],
+)
+def test_they_belong_to_one_series(change):
+    with pytest.raises(InputError, match=r"admissible must be what fits beside this series; got"):
+        replace(RUBBER, **change)
+    assert replace(RUBBER, **change, admissible=None).admissible is None
+    # what does not change the series keeps them, and series not yet given away fit any
+    assert replace(RUBBER, name="x", bulk_modulus=1e9).admissible == RUBBER.admissible == SERIES
+    assert replace(RUBBER, **change, admissible=SERIES).admissible == SERIES
+    fitted = fit_prony(flank())
+    with pytest.raises(InputError, match="leave it out"):
+        replace(fitted, moduli=2.0 * fitted.moduli)
+    read = Rubber.from_dict(json.loads(json.dumps(fitted.to_dict())))
+    with pytest.raises(InputError, match="leave it out"):
+        replace(read, moduli=2.0 * fitted.moduli)
 
 
 @pytest.mark.parametrize(

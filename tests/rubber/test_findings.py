@@ -7,7 +7,7 @@ import pytest
 
 import gripscale as gs
 from gripscale.case import run_case
-from gripscale.errors import InputError
+from gripscale.errors import InputError, RubberWarning
 from gripscale.rubber import MasterCurve, Rubber, fit_prony, fit_prony_report
 from gripscale.rubber.carrying import require_solid
 from gripscale.rubber.plateau import fast_end, slow_end
@@ -82,6 +82,27 @@ def test_a_bulk_modulus_too_small_for_the_glass_is_said():
     assert wanted == pytest.approx(2.6 / 1.2 * abs(zener(1e10)) / 3e6, rel=0.005)
 
 
+def test_a_rubber_made_by_hand_is_warned_of_once():
+    """E = 3 GPa is G = 1 GPa; K = 2 GPa gives (3*2 - 2)/(2 (3*2 + 1)) = 0.286, 13/6 GPa 0.3."""
+    with pytest.warns(
+        RubberWarning, match="2000 MPa, gives Poisson's ratio 0.29 at high freq"
+    ) as w:
+        soft = Rubber(1e6, [2.999e9], [1e-7])
+    assert "2167 MPa would give 0.3" in str(w[0].message)
+    assert w[0].filename == __file__
+    # the same numbers again, in whatever way: nothing is said, and a warning would fail the test
+    assert Rubber(1e6, [2.999e9], [1e-7]) == soft
+    assert Rubber.from_dict(soft.to_dict()) == soft
+    # within its band it is soft enough; |E*| at 1e8 rad/s is nearly all of it
+    Rubber(1e6, [2.999e9], [1e-7], valid_band=(1.0, 1e5))
+    with pytest.warns(RubberWarning, match=r"at 1e\+08 rad/s"):
+        Rubber(1e6, [2.999e9], [1e-7], valid_band=(1.0, 1e8))
+    # of a fitted one the report says it, and of what fits as well nothing is said again
+    fitted, report = fit_prony_report(curve(zener, 1e-2, 1e10), bulk_modulus=0.6e9)
+    assert any("Poisson" in one for one in report.findings)
+    assert len(fitted.admissible_rubbers()) > 0
+
+
 def melt() -> Rubber:
     """A Maxwell liquid with a modulus of 1 MPa above 1 rad/s, measured three decades below."""
     omega = np.geomspace(1e-3, 1e3, 49)
@@ -97,8 +118,18 @@ def test_a_melt_is_told_before_any_solve():
         InputError, match=r"equilibrium_modulus \[Pa\] must be at least 1/10 .*3e.04"
     ):
         gs.predict(rubber, SINES, speed=0.0, **load)
-    with pytest.raises(InputError, match="leave out the static contact of a melt; got"):
-        gs.solve_scale(rubber, wavelength=1e-2, amplitude=1e-3, pressure=3e5, speed=0.0)
+    wave = {"wavelength": 1e-2, "amplitude": 1e-3, "pressure": 3e5, "speed": 0.0}
+    x = np.linspace(0.0, 1e-2, 65)
+    line = gs.Profile(x, 1e-3 * np.cos(2e2 * np.pi * x))
+    at_rest = {"pressure": 3e5, "speed": 0.0}
+    for solve in (
+        lambda: gs.solve_scale(rubber, **wave),
+        lambda: gs.theory.solve_half_plane(rubber, **wave),
+        lambda: gs.solve_profile(rubber, line, **at_rest),
+        lambda: gs.solve_rough_contact(rubber, line, **at_rest),
+    ):
+        with pytest.raises(InputError, match="static contact of a melt, in a case by static = fal"):
+            solve()
     with pytest.raises(InputError, match=r"the relaxation modulus after 100 s .* at least 1/10"):
         gs.predict(rubber, SINES, speed=1e-3, **load)
     # a footprint of 0.1 m passes in 0.1 s, a tenth of the relaxation time: exp(-0.1) MPa are left

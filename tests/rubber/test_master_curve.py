@@ -161,8 +161,14 @@ HEADER = "f [Hz],E' [MPa],E'' [MPa]\n"
     [
         ("", "expected at least 2 rows .* got 0"),
         (HEADER + "1,2,0.2\n", "expected at least 2 rows .* got 1"),
-        (HEADER + "1,2,0.2\n10,abc,0.3\n", "line 3: expected a finite number; got 'abc'"),
-        (HEADER + "1,2,0.2\n10,nan,0.3\n", "line 3: expected a finite number; got 'nan'"),
+        (
+            HEADER + "1,2,0.2\n10,abc,0.3\n",
+            "line 3: expected a storage between 1e-100 and 1e.100; got 'abc'",
+        ),
+        (
+            HEADER + "1,2,0.2\n10,nan,0.3\n",
+            "line 3: expected a storage between 1e-100 and 1e.100; got 'nan'",
+        ),
         (HEADER + "1,2,0.2\n10,3\n", "line 3: expected 3 columns as in line 2; got 2"),
         (HEADER + "1,2,0.2\n10,-3,0.3\n", "line 3: expected a storage above zero; got -3"),
         (HEADER + "0,2,0.2\n10,3,0.3\n", "line 2: expected a frequency above zero; got 0"),

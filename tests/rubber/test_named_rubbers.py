@@ -53,5 +53,5 @@ def test_bad_bands(band):
 
 @pytest.mark.parametrize("omega", [0.0, -1.0, np.inf])
 def test_bad_frequencies(omega):
-    with pytest.raises(InputError, match="omega must be greater than zero"):
+    with pytest.raises(InputError, match="omega must be"):
         springpot_modulus(omega)

@@ -104,12 +104,18 @@ def test_reference_between_two_sweeps():
 
 def test_vertical_shift_is_found_where_the_moduli_tell():
     sweeps = measured(TRANSITION, 0.002, lift=0.004)
-    table = gs.superpose(sweeps, reference_temperature=ROOM, vertical=True).shift
+    master, report = superpose_report(sweeps, reference_temperature=ROOM, vertical=True)
+    assert "a_T and b_T were found together" in report.summary()
+    table = master.shift
     true = np.log10(1.0 + 0.004 * (sweeps.temperatures - ROOM))
     assert table.vertical - np.interp(ROOM, table.temperature, table.vertical) == pytest.approx(
         true, abs=0.006
     )
     assert np.abs(shift_errors(sweeps, table)).max() < 0.03
+    # Moduli are multiplied by b_T, in the curve as in the report: there neighbours then agree.
+    lifted = np.repeat(table.b(table.temperature, ROOM), len(HERTZ)) * sweeps.storage
+    assert np.sort(lifted) == pytest.approx(np.sort(master.storage))
+    assert max(one.storage for one in report.overlaps) < 0.003
     flat = gs.superpose(sweeps, reference_temperature=ROOM)
     assert (flat.shift.vertical == 0.0).all()
 
@@ -216,3 +222,30 @@ def test_smooth_curve_through_scatter():
     assert 5.0 < found.freedoms < 18.0
     straight = smooth(functions, basis.penalty(), 2.0 * x, np.ones(200), weight=1e6)
     assert functions @ straight.coefficients == pytest.approx(2.0 * x, abs=1e-6)
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_whatever_is_measured_is_superposed_or_refused(seed):
+    """One to five sweeps of one to six rows, far apart, flat, scattered or at one frequency."""
+    generator = np.random.default_rng(seed)
+    rows = []
+    for at in range(generator.integers(1, 6)):
+        count = generator.integers(1, 7)
+        hertz = np.sort(10.0 ** generator.uniform(-2.0, 3.0, count))
+        if generator.random() < 0.3:
+            hertz = np.ones(count)
+        scatter = generator.choice([0.0, 0.01, 0.5]) * generator.standard_normal((2, count))
+        kelvin = 250.0 + 5.0 * at
+        decades = np.array([[6.0], [5.0]]) + 0.3 * np.log10(hertz) - 0.2 * at + scatter
+        rows.append([np.full(count, kelvin), hertz, *10.0**decades])
+    sweeps = Sweeps(*np.hstack(rows))
+    for vertical in (False, True):
+        try:
+            master = gs.superpose(
+                sweeps, reference_temperature=float(sweeps.temperatures[0]), vertical=vertical
+            )
+        except InputError as error:
+            assert "must overlap" in str(error)
+        else:
+            assert np.isfinite([master.frequency, master.storage, master.loss]).all()
+            assert np.isfinite(master.shift.horizontal_error).all()

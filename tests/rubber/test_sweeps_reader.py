@@ -50,7 +50,7 @@ PLAIN = "temperature (C), frequency (Hz), storage modulus E' (MPa), loss modulus
     ("title", "separator", "decimal", "encoding", "factor", "hertz"),
     [
         (PLAIN, ",", ".", "utf-8", 1.0, 1.0),
-        ("Temp. [°C]\tFreq. [Hz]\tE´ [MPa]\tE´´ [MPa]", "\t", ",", "cp1252", 1.0, 1.0),
+        ("Temp. [°C]\tFreq. [Hz]\tE’ [MPa]\tE’’ [MPa]", "\t", ",", "cp1252", 1.0, 1.0),
         ("Temperatur in °C;Frequenz in Hz;Speichermodul E’ in MPa;Verlustmodul E’’ in MPa",
          ";", ",", "cp1252", 1.0, 1.0),
         ("Temperatur;Frequenz;Speichermodul E;Verlustmodul E\n°C;Hz;MPa;MPa",
@@ -139,6 +139,11 @@ def test_reptate(tmp_path):
     sweeps = gs.read_sweeps(write(tmp_path, one, name="PI.osc"))
     assert sweeps.temperatures == pytest.approx([273.15])
     assert sweeps.loss == pytest.approx([3 * 70871.0])
+
+
+def test_reptate_with_too_few_columns(tmp_path):
+    with pytest.raises(FileError, match="line 2: expected at least 3 columns"):
+        gs.read_sweeps(write(tmp_path, "T=20;\n1.0 2.0\n", name="PI.tts"))
 
 
 def test_measured_polymer():
@@ -256,6 +261,9 @@ def test_strain_sweep(tmp_path):
     assert (sweep.deformation, sweep.name) == ("shear", "dma")
     assert sweep.temperature == pytest.approx(333.15)
     assert sweep.frequency == pytest.approx(10.0, rel=0.01)
+    unknown = write(tmp_path, "\n".join([title, "2,2,1,n/a,-", "1,3,1,n/a,-"]))
+    assert read_strain_sweep(unknown).frequency is None
+    assert read_strain_sweep(unknown).temperature is None
     unsaid = write(tmp_path, "\n".join([title.replace(" p-p", ""), *lines[1:]]))
     with pytest.raises(InputError, match="amplitude must be given"):
         read_strain_sweep(unsaid)

@@ -294,3 +294,28 @@ def test_decades_of_relaxation_share_out_the_friction(case: Path, tmp_path: Path
     slow, fast = (g * phase * t / (1 + (phase * t) ** 2) for g, t in ((1.0, 0.2), (5e6, 2e-3)))
     assert (shares.values > 0.0).all()
     assert (shares.values < slow / (slow + fast)).all()
+
+
+def test_a_refused_point_says_why_and_the_others_stand(case: Path, shell: Any) -> None:
+    """The named rubber is known from 0.01 rad/s; 10 mm at 1e-6 m/s is 6e-4 rad/s."""
+    case.write_text(case.read_text().replace("[rubber]", '[rubber]\nextrapolate = "refuse"'))
+    done = shell("study", case, "--vary", "speed=0.000001,0.3", "--output", case.parent / "study")
+    assert done.exit_code == 3
+    assert "1 of 2 predictions have no totals" in done.stderr
+    result = netcdf.load(case.parent / "study" / "study.nc")
+    assert np.isfinite(result.total_friction.values).tolist() == [False, True]
+    assert "below the measured band" in str(result.prediction_status.values[0])
+    assert result.prediction_status.values[1] == "converged"
+
+
+def test_a_study_says_what_lies_beyond_the_band(case: Path, shell: Any) -> None:
+    done = shell("study", case, "--vary", "speed=0.000001,0.3", "--output", case.parent / "study")
+    assert done.exit_code == 0
+    sentence = "1 of 2 predictions, up to 100 % of their friction, lie up to 1.2 decades below the"
+    for text in (done.stdout, (case.parent / "study" / "study.txt").read_text()):
+        assert sentence in " ".join(text.split())
+    result = netcdf.load(case.parent / "study" / "study.nc")
+    assert result.total_friction_outside_band.values.tolist() == [1.0, 0.0]
+    assert result.total_decades_below_band.values[0] == pytest.approx(
+        np.log10(0.01 / (2e-4 * np.pi))
+    )

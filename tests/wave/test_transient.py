@@ -95,7 +95,7 @@ def test_verdict_needs_two_wavelengths():
 @pytest.mark.parametrize(
     ("stages", "message"),
     [
-        ([], "stages must hold at least one Stage; got none"),
+        ([], "stages must be a list of at least one Stage"),
         ([(0.0, 1.0, 1e5)], "duration must be greater than zero"),
         ([(1.0, float("nan"), 1e5)], "speed must be a finite number"),
         ([(1.0, 1.0, -1e5)], "pressure must be greater than zero"),

@@ -10,4 +10,8 @@ from gripscale.chain.solvers import wave_solver
 def case_chain(case: Case) -> Chain:
     """Return the chain of `case`."""
     solver = wave_solver(case.solver.model, case.solver.options())
-    return Chain(solver, pressure_classes=case.chain.pressure_classes)
+    return Chain(
+        solver,
+        pressure_classes=case.chain.pressure_classes,
+        extrapolate=case.rubber.extrapolate,
+    )

@@ -19,7 +19,7 @@ from pydantic import (
     model_validator,
 )
 
-from gripscale.case.quantity import Length, Position, Pressure, Speed, Temperature
+from gripscale.case.quantity import Duration, Length, Position, Pressure, Speed, Temperature
 from gripscale.chain.pressure import MOST_CLASSES
 from gripscale.rubber.strain_energy import NeoHookean, StrainEnergy, strain_energy_from_dict
 from gripscale.units import listed, parse_quantity, spelled
@@ -179,6 +179,7 @@ class RubberSource(Table):
     terms: int | None = Field(default=None, ge=1, le=200)
     outlier_threshold: float | None = Field(default=None, gt=0.0)
     bulk_modulus: Pressure | None = None
+    extrapolate: Literal["say", "refuse"] = "say"
     strain_energy: Annotated[InstanceOf[StrainEnergy], BeforeValidator(_strain_energy)] = (
         NeoHookean()
     )
@@ -189,7 +190,13 @@ class RubberSource(Table):
             raise ValueError(
                 f"expected either file (a master curve) or name ({', '.join(NAMED_RUBBERS)})"
             )
-        foreign = self.model_fields_set - {"name", "bulk_modulus", "strain_energy", "file"}
+        foreign = self.model_fields_set - {
+            "name",
+            "bulk_modulus",
+            "strain_energy",
+            "extrapolate",
+            "file",
+        }
         if self.name is not None and foreign:
             raise ValueError(f"{min(foreign)} belongs to a measured file, not to a named rubber")
         return self
@@ -214,11 +221,12 @@ class Solver(Table):
     depth: float | None = Field(default=None, gt=0.0, allow_inf_nan=False)
     element_order: Literal[1, 2] | None = None
     tolerance: float | None = Field(default=None, gt=0.0, lt=1.0, allow_inf_nan=False)
+    time_limit: Duration | None = None
     points: int | None = Field(default=None, ge=16, le=8192)
 
     @model_validator(mode="after")
     def _options_of_the_model(self) -> Solver:
-        mesh = ["columns", "rows", "depth", "element_order", "tolerance"]
+        mesh = ["columns", "rows", "depth", "element_order", "tolerance", "time_limit"]
         foreign = ["points"] if self.model == "finite_strain" else mesh
         for name in foreign:
             if getattr(self, name) is not None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -155,7 +156,9 @@ def prepare_rubber(source: RubberSource, resolve: Resolve = Path) -> PreparedRub
 
     Raises `FileError` and `InputError` as reading and fitting do.
     """
-    stiffness = {} if source.bulk_modulus is None else {"bulk_modulus": source.bulk_modulus}
+    stiffness: dict[str, Any] = (
+        {} if source.bulk_modulus is None else {"bulk_modulus": source.bulk_modulus}
+    )
     if source.file is None:
         rubber = replace(styrene_butadiene(**stiffness), strain_energy=source.strain_energy)
         return PreparedRubber(rubber, rubber.source)

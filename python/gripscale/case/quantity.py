@@ -28,5 +28,6 @@ def _reader(kind: str, check: Any = float) -> BeforeValidator:
 Pressure = Annotated[float, _reader("pressure", _positive)]
 Length = Annotated[float, _reader("length", _positive)]
 Position = Annotated[float, _reader("length")]
+Duration = Annotated[float, _reader("time", _positive)]
 Speed = Annotated[float, _reader("speed", _not_negative)]
 Temperature = Annotated[float, _reader("temperature", _positive)]

@@ -22,6 +22,7 @@ _EXPECTED = {
     "float_type": "a number",
     "greater_than": "greater than {gt:g}",
     "greater_than_equal": "at least {ge:g}",
+    "int_parsing_size": "a whole number of fewer digits",
     "int_type": "a whole number",
     "less_than": "less than {lt:g}",
     "less_than_equal": "at most {le:g}",
@@ -66,6 +67,8 @@ def read_case(path: str | Path) -> CaseFile:
         tables = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise FileError(f"case file {path} is not valid TOML: {error}") from error
+    except (ValueError, RecursionError) as error:  # numbers of 4300 digits, a thousand brackets
+        raise FileError(f"case file {path} is beyond reading: {error}") from error
     return CaseFile(validate(Case, tables, str(path)), path, text)
 
 

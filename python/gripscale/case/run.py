@@ -20,6 +20,7 @@ from gripscale.chain.predict import ChainError, predict
 from gripscale.chain.prediction import Prediction
 from gripscale.model import NominalLoad
 from gripscale.rubber.carrying import require_solid
+from gripscale.rubber.extrapolation import require_measured
 
 
 @dataclass(frozen=True)
@@ -71,6 +72,7 @@ def run_case(
     """
     results = case if isinstance(case, CaseResults) else prepare_case(case)
     _require_solid(results)
+    _require_measured(results)
     if output is not None:
         results.folder = Path(output)
         folder.require_writable(results.folder)
@@ -88,6 +90,13 @@ def _require_solid(results: CaseResults) -> None:
         nominal = NominalLoad(load.pressure, speed, load.footprint, load.load_time)
         time = nominal.time_under(nominal.footprint)
         require_solid(results.rubber.rubber, nominal.pressure, time)
+
+
+def _require_measured(results: CaseResults) -> None:
+    """Raise `ExtrapolationError` before anything is solved or written if the case refuses it."""
+    if results.file.case.rubber.extrapolate == "refuse":
+        for _, speed in results.planned():
+            require_measured(results.rubber.rubber, results.surface.sines.wavelength, speed)
 
 
 def _solve(
@@ -112,6 +121,7 @@ def _solve(
             pressure_classes=chain.pressure_classes,
             load_time=load.load_time,
             solver=chain.solver,
+            extrapolate=chain.extrapolate,
             on_scale=keep,
         )
     except ChainError as failure:

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from gripscale import checks
+from gripscale import checks, model, versions
 from gripscale.chain.predict import ChainError, RubberAt, predict
 from gripscale.chain.pressure import MOST_CLASSES
+from gripscale.errors import ExtrapolationError
+from gripscale.rubber.extrapolation import CHOICES
 from gripscale.surface import PreparedSurface, SineStack
 from gripscale.wave.block import FiniteStrainBlock
 from gripscale.wave.solver import WaveSolver
@@ -32,11 +35,13 @@ class Chain:
         Conditions that change the rubber on the way; a frozen dataclass, so that it can be kept.
     pressure_classes : int
         In how many classes of equal load a wave hands its pressure down, see `predict`.
+    extrapolate : str
+        "say" or "refuse", see `predict`.
 
     Raises
     ------
     InputError
-        If `pressure_classes` is no whole number from 1 to 64.
+        If `pressure_classes` is no whole number from 1 to 64, or `extrapolate` another word.
     """
 
     name: ClassVar[str] = "chain"
@@ -44,8 +49,10 @@ class Chain:
     solver: WaveSolver = field(default_factory=FiniteStrainBlock)
     rubber_at: RubberAt | None = None
     pressure_classes: int = 1
+    extrapolate: str = "say"
 
     def __post_init__(self) -> None:
+        checks.one_of("extrapolate", self.extrapolate, CHOICES)
         checks.whole("pressure_classes", self.pressure_classes, least=1, most=MOST_CLASSES)
 
     def relevant(self, surface: PreparedSurface) -> PreparedSurface:
@@ -63,7 +70,8 @@ class Chain:
     ) -> xr.Dataset:
         """Return the prediction as a Dataset; `on_progress` gets the `Prediction` so far.
 
-        A wave that does not converge ends the chain and is its last; `prediction_status` says why.
+        A wave that does not converge ends the chain and is its last, refused extrapolation ends it
+        before the first; `prediction_status` says why.
         """
         try:
             result = predict(
@@ -76,8 +84,19 @@ class Chain:
                 load_time=load.load_time,
                 solver=self.solver,
                 rubber_at=self.rubber_at,
+                extrapolate=self.extrapolate,
                 on_scale=on_progress,
             )
         except ChainError as failure:
             return failure.partial.to_dataset().assign(prediction_status=str(failure))
+        except ExtrapolationError as refusal:
+            return _refused(str(refusal), load)
         return result.to_dataset()
+
+
+def _refused(why: str, load: NominalLoad) -> xr.Dataset:
+    """Return the answer of a chain that was not begun."""
+    import xarray as xr
+
+    nothing = xr.Dataset(attrs=versions.attributes())
+    return model.answer(nothing, dict.fromkeys(model.TOTALS, math.nan), why, Chain.name, load)

@@ -12,7 +12,7 @@ That is a mean. With several pressure classes its distribution is handed down in
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
 from gripscale import checks
@@ -25,6 +25,7 @@ from gripscale.errors import ConvergenceError, InputError
 from gripscale.model import LoadTime, NominalLoad
 from gripscale.rubber import Rubber
 from gripscale.rubber.carrying import require_solid
+from gripscale.rubber.extrapolation import CHOICES, require_measured
 from gripscale.surface import SineStack
 from gripscale.wave.problem import Load, Sine, WaveProblem
 from gripscale.wave.solver import RefinableSolver, WaveSolver
@@ -64,6 +65,7 @@ def predict(
     start: Prediction | None = None,
     rubber_at: RubberAt | None = None,
     conditions: Conditions | None = None,
+    extrapolate: str = "say",
     **options: Any,
 ) -> Prediction:
     """Run the chain over the waves of `sines`, largest first.
@@ -106,6 +108,9 @@ def predict(
     conditions
         Temperature, softening, heat and area term; the chain is solved until they agree with it.
         Not together with `rubber_at`.
+    extrapolate
+        "say": waves that excite the rubber beyond its `valid_band` are solved, and the result says
+        so. "refuse": nothing is solved if one does, at its fundamental frequency.
     **options
         Of a solver given by name: columns, rows, depth, tolerance ...
 
@@ -116,66 +121,31 @@ def predict(
 
     Raises
     ------
+    ExtrapolationError
+        An `InputError`: extrapolation is to be refused.
     InputError
         A value that cannot be used; the pressure is more than ten times what is left of the
         rubber's modulus after the load time of the first wave.
     ChainError
         A wave did not converge; a `ConvergenceError` whose `partial` is the prediction so far.
     """
+    checks.instance("sines", sines, SineStack)
     load = NominalLoad(pressure, speed, footprint, load_time)
     one = wave_solver(solver, options)
     waves = select_waves(sines, smallest_wavelength=smallest_wavelength, max_scales=max_scales)
     count = checks.whole("pressure_classes", pressure_classes, least=1, most=MOST_CLASSES)
-    nothing = Prediction(rubber, sines, load, [], len(waves))
-
-    def walk(own: RubberAt | None, first: Prediction | None) -> Prediction:
-        return _walk(nothing, waves, one, count, own, first, on_scale)
-
-    if conditions is None:
-        require_solid(rubber, load.pressure, load.time_under(load.footprint))
-        return walk(rubber_at, start)
-    if rubber_at is not None:
+    if conditions is not None and rubber_at is not None:
         raise InputError("rubber_at must be None with conditions, which give the rubber; got both")
-    before = conditions.before(rubber)
+    before = rubber if conditions is None else conditions.before(rubber)
     require_solid(before, load.pressure, load.time_under(load.footprint))
+    if checks.one_of("extrapolate", extrapolate, CHOICES) == "refuse":
+        require_measured(before, [wave.wavelength for wave in waves], load.speed)
+    walk = Walk(Prediction(rubber, sines, load, [], len(waves)), waves, one, count, on_scale)
+    if conditions is None:
+        return walk(rubber_at, start)
     if not conditions.iterated:
         return walk(lambda wave, so_far: before, start)
-    if not isinstance(one, RefinableSolver):
-        return settle(lambda own, _: walk(own, None), None, rubber, conditions)
-    quick = one.coarser()
-
-    def coarse(own: RubberAt | None, first: Prediction | None) -> Prediction:
-        return _walk(nothing, waves, quick, count, own, first, on_scale)
-
-    return settle(walk, coarse, rubber, conditions)
-
-
-def _walk(
-    nothing: Prediction,
-    waves: Sequence[Sine],
-    solver: WaveSolver,
-    count: int,
-    rubber_at: RubberAt | None,
-    start: Prediction | None,
-    on_scale: Callable[[Prediction], None] | None,
-) -> Prediction:
-    """Return all `waves` solved one after the other, added to `nothing`."""
-    result, load = nothing, nothing.load
-    classes, length = PressureClasses.uniform(load.pressure), load.footprint
-    for number, wave in enumerate(waves):
-        first = start.scales[number] if start is not None and number < len(start.scales) else None
-        own = result.rubber if rubber_at is None else rubber_at(wave, result)
-        time = load.time_under(length)
-        asked = [Load(float(pressure), load.speed, time) for pressure in classes.pressure]
-        solved = [solver.solve(WaveProblem(own, wave, one), first) for one in asked]
-        scale = classes.together(solved)
-        result = replace(result, scales=[*result.scales, scale])
-        if on_scale is not None:
-            on_scale(result)
-        _require_contact(result)
-        length = scale.contact_length
-        classes = classes.handed_down(solved, count)
-    return result
+    return settle(walk, rubber, conditions)
 
 
 def select_waves(
@@ -190,8 +160,6 @@ def select_waves(
     """
     pairs = zip(sines.wavelength, sines.amplitude, strict=True)
     waves = [Sine(float(wavelength), float(amplitude)) for wavelength, amplitude in pairs]
-    if not waves:
-        raise InputError("sines must hold at least one wave; got none")
     if smallest_wavelength is not None:
         least = checks.positive("smallest_wavelength", smallest_wavelength, unit="m")
         largest = waves[0].wavelength
@@ -204,6 +172,48 @@ def select_waves(
     if max_scales is not None:
         waves = waves[: checks.whole("max_scales", max_scales, least=1, most=1000)]
     return waves
+
+
+@dataclass(frozen=True)
+class Walk:
+    """All waves solved one after the other, added to `nothing`."""
+
+    nothing: Prediction
+    waves: Sequence[Sine]
+    solver: WaveSolver
+    count: int
+    """Of classes in which a wave hands its pressure down."""
+    on_scale: Callable[[Prediction], None] | None
+
+    def __call__(self, rubber_at: RubberAt | None, start: Prediction | None) -> Prediction:
+        """Return the prediction with the rubber of each wave, each from its wave of `start`."""
+        result, load = self.nothing, self.nothing.load
+        classes, length = PressureClasses.uniform(load.pressure), load.footprint
+        for number, wave in enumerate(self.waves):
+            first = start.scales[number] if start and number < len(start.scales) else None
+            own = result.rubber if rubber_at is None else rubber_at(wave, result)
+            time = load.time_under(length)
+            asked = [Load(float(pressure), load.speed, time) for pressure in classes.pressure]
+            solved = [self.solver.solve(WaveProblem(own, wave, one), first) for one in asked]
+            scale = classes.together(solved)
+            result = replace(result, scales=[*result.scales, scale])
+            if self.on_scale is not None:
+                self.on_scale(result)
+            _require_contact(result)
+            length = scale.contact_length
+            classes = classes.handed_down(solved, self.count)
+        return result
+
+    def coarser(self) -> Walk | None:
+        """Return the same in a fraction of the time, if the solver knows how."""
+        if not isinstance(self.solver, RefinableSolver):
+            return None
+        return replace(self, solver=self.solver.coarser(), on_scale=None)
+
+    @property
+    def warm(self) -> bool:
+        """Whether a wave can be started from its last solution."""
+        return isinstance(self.solver, RefinableSolver)
 
 
 def _require_contact(so_far: Prediction) -> None:

@@ -22,6 +22,7 @@ from gripscale import model, versions
 from gripscale.chain.pressure import CLASS_PRESSURES
 from gripscale.model import NominalLoad
 from gripscale.rubber import Rubber
+from gripscale.rubber.extrapolation import Extrapolation, of_sum
 from gripscale.surface import SineStack
 from gripscale.wave.result import WaveResult
 from gripscale.wave.status import Status
@@ -86,6 +87,12 @@ class Prediction:
         return float(each.sum()) if self.scales else math.nan
 
     @property
+    def extrapolation(self) -> Extrapolation:
+        """What of it rests on the rubber beyond its measured frequencies."""
+        friction = self._of_converged([s.friction for s in self.scales])
+        return of_sum([scale.extrapolation for scale in self.scales], friction)
+
+    @property
     def why(self) -> str:
         """`converged`, or which wave failed and why."""
         return "converged" if self.converged else self.failure()
@@ -147,7 +154,7 @@ class Prediction:
             method=f"{LW}, equations 1 to 3",
             **versions.attributes(),
         )
-        return model.answer(data, totals, self.why, "chain", self.load)
+        return model.answer(data, totals, self.why, "chain", self.load, self.extrapolation)
 
     @classmethod
     def from_dataset(cls, data: xr.Dataset) -> Prediction:

@@ -8,9 +8,8 @@ meshes asked for, each from the solutions of the last.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,7 +37,18 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-Walk = Callable[["RubberAt | None", Prediction | None], Prediction]
+class Walk(Protocol):
+    """Solves all waves of a chain."""
+
+    def __call__(self, rubber_at: RubberAt | None, start: Prediction | None) -> Prediction:
+        """Return the prediction with the rubber of each wave, each from its wave of `start`."""
+
+    def coarser(self) -> Walk | None:
+        """Return the same in a fraction of the time, if there is such a way."""
+
+    @property
+    def warm(self) -> bool:
+        """Whether a wave can be started from its last solution."""
 
 
 @dataclass(frozen=True)
@@ -66,16 +76,13 @@ class _OfLastPass:
         return self.state(len(so_far.scales), omega).rubber
 
 
-def settle(
-    walk: Walk, coarse: Walk | None, rubber: Rubber, conditions: Conditions
-) -> Prediction:
+def settle(walk: Walk, rubber: Rubber, conditions: Conditions) -> Prediction:
     """Return the prediction in which rubber, strains and heat agree.
 
     Parameters
     ----------
-    walk, coarse
-        Solve all waves, with the rubber of each and a prediction to start from, the second in less
-        time, if there is such a way.
+    walk
+        Solves all waves.
     rubber
         As measured.
     conditions
@@ -87,13 +94,13 @@ def settle(
         With strain, temperature and what is left of the moduli in the details of each wave. The
         status of the last is `conditions not settled` if passes still changed the result.
     """
-    before = conditions.before(rubber)
+    before, coarse = conditions.before(rubber), walk.coarser()
     first = (coarse or walk)(lambda wave, so_far: before, None)
     point = FixedPoint(_found(conditions, first))
-    if coarse is not None:
-        _passes(coarse, rubber, conditions, point, first)
-        return _passes(walk, rubber, conditions, point.anew(), None)
-    return _passes(walk, rubber, conditions, point, first)
+    if coarse is None:
+        return _passes(walk, rubber, conditions, point, first)
+    _passes(coarse, rubber, conditions, point, first)
+    return _passes(walk, rubber, conditions, point.anew(), None)
 
 
 def _passes(
@@ -106,7 +113,7 @@ def _passes(
     """Return the prediction after passes from `point`, which is moved."""
     for number in range(1, MOST_PASSES + 1):
         given = _OfLastPass(conditions, rubber, *separate(point.assumed))
-        now = walk(given, last)
+        now = walk(given, last if walk.warm else None)
         point.found(_found(conditions, now))
         settled = point.missed < AGREED and (last is None or _change(now, last) < SETTLED)
         if settled or number == MOST_PASSES:

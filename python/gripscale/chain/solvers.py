@@ -32,7 +32,7 @@ def wave_solver(solver: WaveSolverLike, options: Mapping[str, Any]) -> WaveSolve
     if not isinstance(solver, WaveSolver):
         raise InputError(
             f"solver must be one of {', '.join(WAVE_SOLVERS)} or a WaveSolver such as "
-            f"HalfPlane(points=1024); got {solver!r}"
+            f"HalfPlane(points=1024); got {checks.shown(solver)}"
         )
     if options:
         raise InputError(

@@ -83,12 +83,17 @@ def _conclude(
     """Print and keep the table, draw the figures, and say which predictions failed."""
     from gripscale.case import folder
     from gripscale.report import tables
+    from gripscale.report.outside_band import study_sentence
     from gripscale.report.study_table import study_table
 
-    table = study_table(result)
+    table, beyond = study_table(result), study_sentence(result)
     console.print()
     console.print(table)
-    folder.write_text(target / "study.txt", tables.as_text(*opening, table))
+    if beyond:
+        say(console, beyond)
+    folder.write_text(
+        target / "study.txt", tables.as_text(*opening, table, *filter(None, [beyond]))
+    )
     figures = target / "figures"
     if not (drawn and any(figures.iterdir())):
         from gripscale.figures.study_all import draw
@@ -102,7 +107,6 @@ def _conclude(
     failed = [status for status in statuses if status != "converged"]
     if failed:
         complain(
-            f"{len(failed)} of {len(statuses)} predictions did not converge and have no totals; "
-            f"the first: {failed[0]}"
+            f"{len(failed)} of {len(statuses)} predictions have no totals; the first: {failed[0]}"
         )
         raise typer.Exit(NOT_CONVERGED)

@@ -14,8 +14,6 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from gripscale.rubber import Rubber
-
 Array = NDArray[np.float64]
 
 ROUNDING = 1e-6
@@ -59,20 +57,6 @@ class Curve:
         found = np.interp(-np.log(wavelength), -np.log(own), values)
         found = np.where(wavelength > own[0] * (1.0 + ROUNDING), np.nan, found)
         return np.where(wavelength > first, before, found)
-
-    def share_outside(self, rubber: Rubber, speed: float) -> float:
-        """Return the share of friction at frequencies 2 pi speed/wavelength outside the measured.
-
-        Each part counts at its wavelength (stepped) or at the middle of its interval.
-        """
-        parts = np.abs(np.diff(self.friction, prepend=0.0))
-        longer = self.wavelength if self.stepped else np.append(np.nan, self.wavelength[:-1])
-        middle = np.sqrt(np.where(np.isfinite(longer), longer, self.wavelength) * self.wavelength)
-        total = float(parts.sum())
-        if speed == 0.0 or not total > 0.0:
-            return 0.0 if speed == 0.0 else float("nan")
-        outside = rubber.outside_band(2.0 * np.pi * speed / middle)
-        return float(parts[outside].sum() / total)
 
 
 _BEFORE = {"contact_fraction": 1.0, "friction": 0.0}

@@ -18,7 +18,7 @@ from gripscale.comparison.sample import QUANTITIES
 from gripscale.comparison.solved import SolvedRung
 from gripscale.comparison.solved_ladder import SolvedLadder
 from gripscale.comparison.uncertain import UNKNOWN
-from gripscale.model import TOTALS
+from gripscale.model import OUTSIDE_BAND, TOTALS
 from gripscale.study.assemble import coordinates
 from gripscale.study.axes import Axis
 from gripscale.wave.dataset import labelled
@@ -64,9 +64,16 @@ def _numbers(one: SolvedLadder, wavelength: NDArray[np.float64], most: int) -> d
         )
     for name, text in WORDS.items():
         data |= _of_quantity(one, name, text, wavelength, most)
-    data["extrapolated_share"] = _by_rung(
-        [_mean_of_known(rung.values("extrapolated")) for rung in rungs],
-        "share of the friction at frequencies outside the measured",
+    beyond = [rung.extrapolation for rung in rungs]
+    for name, (part, text) in OUTSIDE_BAND.items():
+        data[name] = _by_rung([getattr(each, part) for each in beyond], text)
+    excited = 2.0 * np.pi * load.speed / wavelength
+    data["outside_band"] = labelled(
+        "wavelength",
+        one.subject.rubber.outside_band(excited).astype(np.int8),
+        "1",
+        "1 where the wavelength excites the rubber outside the measured frequencies",
+        SOURCE,
     )
     data["samples"] = _by_rung([len(rung.samples) for rung in rungs], "number of samples")
     data["converged_samples"] = _by_rung(

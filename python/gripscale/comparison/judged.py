@@ -26,5 +26,5 @@ def judged(results: CaseResults) -> SolvedRung | None:
         clock = time.perf_counter()
         answer = model.predict(rubber, surface, load)
         answer.attrs["seconds"] = time.perf_counter() - clock
-        samples.append(sample_of(answer, rubber, name))
+        samples.append(sample_of(answer, name))
     return SolvedRung(rung, samples) if samples else None

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gripscale import checks
 from gripscale.errors import FileError, InputError
-from gripscale.textfile import Column, TextTable, read_table
+from gripscale.textfile import Column, TextTable, file_path, read_table
 from gripscale.units import in_si, listed, spelled
 
 Array = NDArray[np.float64]
@@ -30,6 +30,9 @@ _WORDS = {
 
 _UNITS = {"speed": ("speed", "m/s"), "temperature": ("temperature", "K")}
 """Kind of unit of a column, and the unit it is in where the title names none."""
+
+_MOST = {"friction": 100.0, "spread": 100.0, "temperature": 3000.0}
+"""Largest absolute values [-], [K]: far beyond any rubber's, below what marks missing values."""
 
 _RATIO = ("1", "-", "–")
 """Units of what has none."""
@@ -79,11 +82,13 @@ class MeasuredFriction:
         for name, given, unit in (("spread", spread, ""), ("temperature", temperature, "K")):
             values = np.full(found["speed"].size, np.nan) if given is None else given
             found[name] = checks.vector(name, values, unit=unit, missing=True)
+            _check_most(name, found[name])
             low = found[name] < 0.0 if name == "spread" else found[name] <= 0.0
             if low.any():
                 bad = found[name][low][0]
                 limit = "not be negative" if name == "spread" else "be above zero [K]"
                 raise InputError(f"{name} must {limit}; got {bad:g} at index {int(np.argmax(low))}")
+        _check_most("friction", found["friction"])
         sizes = {name: values.size for name, values in found.items()}
         if len(set(sizes.values())) > 1 or not sizes["speed"]:
             told = ", ".join(f"{count} of {name}" for name, count in sizes.items())
@@ -92,6 +97,16 @@ class MeasuredFriction:
         for name, values in found.items():
             object.__setattr__(self, name, values[order])
         object.__setattr__(self, "source", source)
+
+
+def _check_most(name: str, values: Array) -> None:
+    beyond = np.abs(values) > _MOST[name]
+    if beyond.any():
+        at = int(np.argmax(beyond))
+        raise InputError(
+            f"{name} must be at most {_MOST[name]:g}; got {values[at]:g} at index {at}: a missing "
+            "value is nan or an empty cell"
+        )
 
 
 def read_measured_friction(path: str | Path) -> MeasuredFriction:
@@ -103,7 +118,7 @@ def read_measured_friction(path: str | Path) -> MeasuredFriction:
         If the file is missing or unreadable, a column is missing or named twice, or a unit or a
         value cannot be used.
     """
-    path = Path(path)
+    path = file_path(path)
     table = read_table(
         path,
         "rows of speed and friction, with titles above them",
@@ -139,7 +154,7 @@ def _places(table: TextTable) -> dict[str, int]:
             places[word] = at
     absent = [word for word in ("speed", "friction") if word not in places]
     if absent:
-        found = ", ".join(table.names) or "no titles"
+        found = table.titles or "no titles"
         raise FileError(f"{table.path}: expected a column named {absent[0]}; got {found}")
     return places
 
@@ -147,10 +162,14 @@ def _places(table: TextTable) -> dict[str, int]:
 def _in_si(path: Path, word: str, column: Column, values: Array) -> Array:
     if word not in _UNITS:
         if column.unit not in (None, *_RATIO):
-            raise FileError(f"{path}: {word} has no unit; got {column.unit!r} in its title")
+            raise FileError(
+                f"{path}: {word} has no unit; got {checks.shown(column.unit)} in its title"
+            )
         return values
     kind, own = _UNITS[word]
     unit = column.unit or own
     if spelled(unit, kind) is None:
-        raise FileError(f"{path}: {word} must be in one of {listed(kind)}; got {unit!r}")
+        raise FileError(
+            f"{path}: {word} must be in one of {listed(kind)}; got {checks.shown(unit)}"
+        )
     return in_si(values, unit, kind)

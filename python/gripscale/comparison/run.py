@@ -21,6 +21,7 @@ from gripscale.comparison.rung import Draw, Rung, Subject
 from gripscale.comparison.sample import sample_of
 from gripscale.comparison.solved import SolvedRung
 from gripscale.errors import InputError
+from gripscale.rubber.extrapolation import require_measured
 from gripscale.study import Study
 from gripscale.study.store import Store
 from gripscale.study.task import Task
@@ -89,7 +90,8 @@ def compare_case(
     Raises
     ------
     InputError, FileError
-        If an input cannot be used by a model, or a result cannot be written.
+        If an input cannot be used by a model, a result cannot be written, or the case refuses
+        extrapolation and a wave excites the rubber beyond the measured band.
     """
     results = case if isinstance(case, CaseResults) else prepare_case(case)
     choice = Choice(seeds, tolerance, rungs, measured, factors)
@@ -152,6 +154,9 @@ def _compared(
 ) -> list[Comparison]:
     """Return the comparison of each rubber, surface and load in `places`."""
     ladder = chosen(choice.rungs)
+    if file.case.rubber.extrapolate == "refuse":
+        for task in places.values():
+            require_measured(task.rubber, task.surface.sines.wavelength, task.load.speed)
     subjects = {place: _subject(file, task, choice) for place, task in places.items()}
     drawn = {
         (place, rung.name): rung.draws(subject)
@@ -169,8 +174,7 @@ def _compared(
 
     def rung_at(place: str, rung: Rung) -> SolvedRung:
         pairs = zip(drawn[place, rung.name], tasks[place, rung.name], strict=True)
-        rubber = subjects[place].rubber
-        return SolvedRung(rung, [sample_of(solved[t.key], rubber, draw.of) for draw, t in pairs])
+        return SolvedRung(rung, [sample_of(solved[task.key], draw.of) for draw, task in pairs])
 
     measured = choice.measured or _measured_of(file)
     out = []

@@ -9,7 +9,8 @@ import numpy as np
 import xarray as xr
 
 from gripscale.comparison.curve import Curve, curve_of
-from gripscale.rubber import Rubber
+from gripscale.model import extrapolation_of
+from gripscale.rubber.extrapolation import UNKNOWN, Extrapolation
 
 CONVERGED = "converged"
 QUANTITIES = ("contact_fraction", "friction", "friction_from_dissipation")
@@ -31,8 +32,8 @@ class Sample:
     """Estimated by the model [-], absolute; NaN if it gives none."""
     friction_error: float = math.nan
     """The same of the friction coefficient."""
-    extrapolated: float = math.nan
-    """Share of the friction at frequencies outside the measured ones; NaN if not told."""
+    extrapolation: Extrapolation = UNKNOWN
+    """What of it rests on the rubber beyond its measured frequencies."""
     curve: Curve | None = None
     """Down to each wavelength, where the model tells it."""
     seconds: float = 0.0
@@ -43,12 +44,11 @@ class Sample:
         return self.status == CONVERGED
 
 
-def sample_of(answer: xr.Dataset, rubber: Rubber, of: str = "") -> Sample:
-    """Return the sample in the `answer` of a model for `rubber`.
+def sample_of(answer: xr.Dataset, of: str = "") -> Sample:
+    """Return the sample in the `answer` of a model.
 
     At rest there is no friction: what rounding leaves of it becomes zero.
     """
-    curve = curve_of(answer)
     rest = float(answer["nominal_speed"]) == 0.0
     totals = {name: float(answer[f"total_{name}"]) for name in QUANTITIES}
     if rest:
@@ -59,8 +59,8 @@ def sample_of(answer: xr.Dataset, rubber: Rubber, of: str = "") -> Sample:
         of=of,
         contact_fraction_error=_error(answer, "contact_fraction"),
         friction_error=math.nan if rest else _error(answer, "friction"),
-        extrapolated=_extrapolated(answer, rubber, curve),
-        curve=curve,
+        extrapolation=extrapolation_of(answer),
+        curve=curve_of(answer),
         seconds=float(answer.attrs.get("seconds", 0.0)),
     )
 
@@ -82,12 +82,3 @@ def _error(answer: xr.Dataset, name: str) -> float:
         each = values / answer[name].values if relative else values
         return float(each.sum() * (answer[f"total_{name}"] if relative else 1.0))
     return float(values)
-
-
-def _extrapolated(answer: xr.Dataset, rubber: Rubber, curve: Curve | None) -> float:
-    speed = float(answer["nominal_speed"])
-    if "outside_band" in answer and speed > 0.0:  # the chain looks at harmonics, too
-        friction = np.abs(answer["friction"].values)
-        total = float(friction.sum())
-        return float(friction @ answer["outside_band"].values / total) if total > 0.0 else math.nan
-    return math.nan if curve is None else curve.share_outside(rubber, speed)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from gripscale.comparison.rung import Rung
 from gripscale.comparison.sample import CONVERGED, Sample
 from gripscale.comparison.uncertain import Uncertain, of_mean, together
+from gripscale.rubber.extrapolation import Extrapolation, of_sum
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,6 +53,12 @@ class SolvedRung:
     def seconds(self) -> float:
         """Time its samples took to solve [s], added up."""
         return sum(sample.seconds for sample in self.samples)
+
+    @property
+    def extrapolation(self) -> Extrapolation:
+        """What of the samples that may be used rests on the rubber beyond its measured band."""
+        parts = [sample.extrapolation for sample in self.converged]
+        return of_sum(parts, self.values("friction"))
 
     def mean(self, name: str) -> float:
         """Return the mean of a number of the samples, such as `friction`; NaN if none converged."""

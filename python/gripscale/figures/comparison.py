@@ -10,10 +10,12 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
-from gripscale.figures.ladder_rows import BEST, Row, rows_of
-from gripscale.figures.palette import BLUE, FAINT, GREY, ORANGE, WIDE
+from gripscale.figures.ladder_rows import BEST, STAR, Row, rows_of
+from gripscale.figures.palette import BLUE, FAINT, GREY, INK, ORANGE, WIDE
 from gripscale.figures.rungs import JUDGE, on_the_surface
+from gripscale.figures.stretches import BEYOND
 from gripscale.figures.style import log_axis, sheet, styled
 
 LEAST_RANGE = 3.0
@@ -30,7 +32,8 @@ def comparison_figure(comparison: xr.Dataset) -> Figure:
     factor beside it. Marks carry one standard uncertainty of the mean, dots are the samples. The
     profile as measured, at once, is the one to judge the others by; below it stand the theories,
     the factors of the best estimate and the estimate itself, and what was measured at this speed. A
-    rung with failed samples is open.
+    rung with failed samples is open; one with a star rests partly on the rubber beyond its measured
+    band.
     """
     rows = {name: list(rows_of(comparison, name)) for name in ("contact_fraction", "friction")}
     count = len(rows["friction"])
@@ -46,8 +49,13 @@ def comparison_figure(comparison: xr.Dataset) -> Figure:
         axes.tick_params(axis="y", length=0)
         for at in _borders(comparison):
             axes.axhline(at, color=FAINT, lw=0.8, zorder=0)
+    if any(row.label.endswith(STAR) for row in rows["friction"]):
+        star = Line2D([], [], ls="", marker="$*$", color=INK)
+        figure.legend([star], [BEYOND], loc="outside lower left")
     for label in area.get_yticklabels():
-        label.set_fontweight("bold" if label.get_text() in _strong(comparison) else "normal")
+        label.set_fontweight(
+            "bold" if label.get_text().removesuffix(STAR) in _strong(comparison) else "normal"
+        )
     return figure
 
 

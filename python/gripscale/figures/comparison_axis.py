@@ -12,8 +12,9 @@ from matplotlib.figure import Figure
 from gripscale.figures.measured import COLOUR, measured
 from gripscale.figures.palette import INK, WIDE
 from gripscale.figures.rungs import JUDGE, Look, looks, on_the_surface, varied
+from gripscale.figures.stretches import predictions_beyond
 from gripscale.figures.study_axes import along
-from gripscale.figures.style import area_axis, sheet, styled
+from gripscale.figures.style import area_axis, dashed_entry, line, sheet, styled
 
 MARKS = "osd^v"
 """Of measurements, temperature by temperature."""
@@ -25,7 +26,8 @@ LEAST_SPREAD = 1e-3
 def comparison_axis_figure(comparison: xr.Dataset) -> Figure:
     """Draw area and friction of all rungs over the axis of a comparison.
 
-    Bands are the standard deviation over the samples. Where a sample failed the mark is open. The
+    Bands are the standard deviation over the samples. Dashed is what rests on the rubber beyond its
+    measured band. Where a sample failed the mark is open. The
     best estimate, where it has a factor, is drawn with its standard uncertainty; measured friction
     with its own.
     """
@@ -44,6 +46,7 @@ def comparison_axis_figure(comparison: xr.Dataset) -> Figure:
     area.set_ylabel("contact area $A_r/A_0$ [-]")
     friction.set_ylabel("friction coefficient $\\mu$ [-]")
     friction.set_ylim(bottom=min(0.0, float(comparison.total_friction.min())))
+    dashed_entry(friction)
     handles, labels = friction.get_legend_handles_labels()
     place: Any = "outside upper center"
     figure.legend(handles, labels, loc=place, ncols=3)
@@ -59,7 +62,8 @@ def _rung(
     width = 2.0 if strong else 1.2
     order = 3 if strong else 2
     label = str(one.label.item())
-    axes.plot(x, values, color=look.colour, ls=look.dash, lw=width, zorder=order)
+    beyond = predictions_beyond(one)
+    line(axes, x, values, beyond, color=look.colour, ls=look.dash, lw=width, zorder=order)
     whole = (one.converged_samples == one.samples).values
     for chosen, face in ((whole, look.colour), (~whole, "white")):
         if chosen.any():  # nothing, unclipped, has no place on a logarithmic axis

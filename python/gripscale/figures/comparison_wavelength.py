@@ -11,13 +11,22 @@ from matplotlib.figure import Figure
 
 from gripscale.figures.palette import MILLI, WIDE
 from gripscale.figures.rungs import JUDGE, Look, looks, on_the_surface, worth_drawing
-from gripscale.figures.style import area_axis, falling_wavelength, sheet, styled
+from gripscale.figures.stretches import FLAG, down_to
+from gripscale.figures.style import (
+    area_axis,
+    dashed_entry,
+    falling_wavelength,
+    line,
+    sheet,
+    styled,
+)
 
 
 @styled
 def comparison_wavelength_figure(comparison: xr.Dataset) -> Figure:
     """Draw area and friction of each rung down to each wavelength.
 
+    Wavelengths that excite the rubber beyond its measured band are dashed.
     Friction of the direct contacts goes on below the smallest wave of the surface: the edges of the
     contact do that. Their area is that of the contact without the shorter waves.
     """
@@ -38,6 +47,7 @@ def comparison_wavelength_figure(comparison: xr.Dataset) -> Figure:
     area.set_ylabel("contact area $A_r/A_0$ of longer waves [-]")
     friction.set_ylabel("friction $\\mu$ of longer waves [-]")
     friction.set_ylim(bottom=0.0)
+    dashed_entry(friction)
     handles, labels = friction.get_legend_handles_labels()
     place: Any = "outside upper center"
     figure.legend(handles, labels, loc=place, ncols=3)
@@ -49,14 +59,17 @@ def _line(axes: Axes, one: xr.Dataset, name: str, look: Look, label: str, *, str
     known = np.isfinite(values)
     if not known.any():
         return
-    axes.plot(
+    beyond = down_to(one[FLAG] == 1) if FLAG in one else np.zeros(known.size, dtype=bool)
+    line(
+        axes,
         one.wavelength.values[known] / MILLI,
         values[known],
+        beyond[known],
+        label,
         marker=look.marker,
         ms=4.0 if strong else 3.0,
         color=look.colour,
         ls=look.dash,
         lw=2.0 if strong else 1.2,
         zorder=3 if strong else 2,
-        label=label,
     )

@@ -3,14 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from gripscale.figures.palette import COLOURS, MILLI, WIDE
-from gripscale.figures.style import area_axis, falling_wavelength, sheet, styled
+from gripscale.figures.stretches import down_to, waves_beyond
+from gripscale.figures.style import (
+    DOTTED,
+    area_axis,
+    dashed_entry,
+    falling_wavelength,
+    line,
+    sheet,
+    styled,
+)
 from gripscale.figures.view import PredictionView
 
 if TYPE_CHECKING:
@@ -21,9 +30,9 @@ if TYPE_CHECKING:
 def contact_figure(predictions: Mapping[str, xr.Dataset]) -> Figure:
     """Draw relative contact area and friction of each named prediction, such as dynamic and static.
 
-    Filled symbols and full lines are the running values, open symbols and dashed lines those
-    of each wave; a model without waves is a level line at its total. Friction leaves out what is
-    at rest, which has none.
+    Filled symbols are the running values, open symbols and thin lines those of each wave; a model
+    without waves is a level line at its total. Friction leaves out what is at rest, which has none.
+    Lines are dashed beyond the measured band of the rubber.
     """
     figure, axes = sheet(WIDE, 3.1, 1, 2, gap=0.06)
     area, friction = axes[0]
@@ -42,7 +51,8 @@ def contact_figure(predictions: Mapping[str, xr.Dataset]) -> Figure:
             falling_wavelength(panel, waves)
         else:
             panel.set_xticks([])
-    figure.legend(*area.get_legend_handles_labels(), loc="outside upper center", ncols=4)
+    dashed_entry(area)
+    figure.legend(*area.get_legend_handles_labels(), loc="outside upper center", ncols=3)
     return figure
 
 
@@ -51,18 +61,12 @@ def _pair(axes: Axes, view: PredictionView, quantity: str, colour: str) -> None:
     if not view.waves:
         total = view.total(quantity)
         if np.isfinite(total):
-            axes.axhline(total, color=colour, ls=(0, (1, 1.5)), label=f"{view.name}, total")
+            axes.axhline(total, color=colour, ls=DOTTED, label=f"{view.name}, total")
         return
     wavelength = view.column("wavelength") / MILLI
     running = view.usable(f"running_{quantity}")
-    axes.plot(wavelength, running, color=colour, marker="o", label=f"{view.name}, running")
-    axes.plot(
-        wavelength,
-        view.usable(quantity),
-        color=colour,
-        marker="o",
-        mfc="white",
-        ls=(0, (4, 2)),
-        lw=1.0,
-        label=f"{view.name}, each wave",
-    )
+    beyond = waves_beyond(view.data)
+    look: dict[str, Any] = {"color": colour, "marker": "o"}
+    line(axes, wavelength, running, down_to(beyond), f"{view.name}, running", **look)
+    look |= {"mfc": "white", "lw": 0.8}
+    line(axes, wavelength, view.usable(quantity), beyond, f"{view.name}, each wave", **look)

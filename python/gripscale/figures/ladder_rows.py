@@ -12,8 +12,11 @@ import xarray as xr
 from gripscale.figures.measured import COLOUR, measured
 from gripscale.figures.palette import GREY, INK, ORANGE
 from gripscale.figures.rungs import JUDGE, flawed, on_the_surface
+from gripscale.figures.stretches import predictions_beyond
 
 BEST = "best estimate"
+STAR = " *"
+"""Behind the label of a rung whose friction rests partly on the rubber beyond its measured band."""
 
 
 @dataclass(frozen=True)
@@ -50,8 +53,9 @@ def rows_of(comparison: xr.Dataset, name: str) -> Iterator[Row]:
         one = comparison.isel(rung=at)
         theory, judge = str(one.group.item()) == "theory", rung == JUDGE
         samples = one[f"sample_{name}"].values
+        star = STAR if predictions_beyond(one) else ""
         yield Row(
-            str(one.label.item()),
+            f"{one.label.item()}{star}",
             values[rung],
             float(one[f"{name}_uncertainty"]),
             math.nan if theory else values.get(str(one.follows.item()), math.nan),

@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from gripscale.case.drawn import band
 from gripscale.figures.palette import BLUE, GREEN, GREY, INK, MEGA, NARROW, ORANGE
-from gripscale.figures.style import log_axis, sheet, styled
+from gripscale.figures.stretches import BEYOND
+from gripscale.figures.style import DASHED, dashed_entry, log_axis, sheet, styled
 from gripscale.rubber import MasterCurve, PronyFit, Rubber
 
 Array = NDArray[np.float64]
@@ -30,7 +31,7 @@ def master_curve_figure(
     Parameters
     ----------
     rubber
-        Its Prony series is drawn as lines.
+        Its Prony series is drawn as lines, dashed beyond the measured band.
     master
         The measured points, if any.
     fit
@@ -38,7 +39,7 @@ def master_curve_figure(
     excitation
         Angular frequencies of the waves [rad/s], marked on the axis.
     """
-    figure, panels = sheet(NARROW, 4.4, 2, 1, sharex=True, height_ratios=[2.0, 1.0])
+    figure, panels = sheet(NARROW, 4.9, 2, 1, sharex=True, height_ratios=[2.0, 1.0])
     moduli, loss = panels[:, 0]
     omega = np.asarray(excitation, dtype=float)
     _series(moduli, loss, rubber, master, omega)
@@ -50,9 +51,10 @@ def master_curve_figure(
     loss.set_ylabel("loss factor [-]")
     loss.set_xlabel("angular frequency $\\omega$ [rad/s]")
     loss.set_ylim(bottom=0.0)
+    dashed_entry(moduli)
     if omega.size:
         _marks(moduli, loss, rubber, omega)
-    moduli.legend(loc="upper left")
+    figure.legend(*moduli.get_legend_handles_labels(), loc="outside upper center", ncols=2)
     return figure
 
 
@@ -79,16 +81,17 @@ def _series(
     )
     for axes, values, colour, label in curves:
         for shown, dash, text in _stretches(rubber, omega, label):
-            axes.plot(omega[shown], values[shown], dash, color=colour, label=text)
+            kind: dict[str, Any] = {"gid": BEYOND} if dash == DASHED else {}
+            axes.plot(omega[shown], values[shown], ls=dash, color=colour, label=text, **kind)
 
 
 def _stretches(
     rubber: Rubber, omega: Array, label: str | None
-) -> list[tuple[NDArray[np.bool_], str, str | None]]:
+) -> list[tuple[NDArray[np.bool_], Any, str | None]]:
     """Return the frequencies within the measured band, solid, and those beyond it, dashed."""
     low, high = rubber.valid_band or (0.0, math.inf)
     inside = (omega >= low) & (omega <= high)
-    return [(inside, "-", label), (omega <= low, "--", None), (omega >= high, "--", None)]
+    return [(inside, "-", label), (omega <= low, DASHED, None), (omega >= high, DASHED, None)]
 
 
 def _marks(moduli: Axes, loss: Axes, rubber: Rubber, omega: Array) -> None:

@@ -1,6 +1,7 @@
 """How the rungs of a comparison look, on paper and on pages; needs no drawing library.
 
-A rung is told from the others by dash and marker as well as by colour.
+A rung is told from the others by marker as well as by colour. Its own line is solid or dotted:
+dashed is what rests on the rubber beyond its measured band.
 """
 
 from __future__ import annotations
@@ -32,19 +33,19 @@ class Look(NamedTuple):
 
 _LOOKS = {
     "chain": Look(BLUE, "solid", "o", "circle"),
-    "chain_half_plane": Look(SKY, "dashed", "s", "square"),
-    "chain_upper": Look(SKY, "solid", "<", "hex"),
-    "sines": Look(GREEN, "dashdot", "^", "triangle"),
-    "random_phases": Look(PURPLE, "dashed", "v", "inverted_triangle"),
+    "chain_half_plane": Look(SKY, "solid", "s", "square"),
+    "chain_upper": Look(SKY, "dotted", "<", "hex"),
+    "sines": Look(GREEN, "solid", "^", "triangle"),
+    "random_phases": Look(PURPLE, "solid", "v", "inverted_triangle"),
     JUDGE: Look(ORANGE, "solid", "D", "diamond"),
     "persson": Look(GREY, "dotted", "P", "plus"),
     "klueppel_heinrich": Look(YELLOW, "dotted", "X", "x"),
 }
 _OTHERS = (
     Look(YELLOW, "solid", "d", "diamond_cross"),
-    Look(YELLOW, "dashed", ">", "star"),
-    Look(INK, "dashdot", "h", "square_pin"),
-    Look(GREY, "dashed", "p", "triangle_pin"),
+    Look(YELLOW, "dotted", ">", "star"),
+    Look(INK, "solid", "h", "square_pin"),
+    Look(GREY, "dotted", "p", "triangle_pin"),
 )
 """For rungs that have no look of their own, in turn."""
 

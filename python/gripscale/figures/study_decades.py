@@ -10,8 +10,9 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from gripscale.figures.palette import INK, NARROW
+from gripscale.figures.stretches import BEYOND_BESIDE, predictions_beyond
 from gripscale.figures.study_axes import along, legend_beside
-from gripscale.figures.style import power_of_ten, sheet, styled
+from gripscale.figures.style import dashed_entry, line, power_of_ten, sheet, styled
 
 LEAST_SHARE = 0.005
 """Decades that never reach this share of the friction are not drawn."""
@@ -35,9 +36,10 @@ def decades_figure(result: xr.Dataset, axis: str, title: str = "") -> Figure:
         lower, upper = upper, upper + np.nan_to_num(row)
         label = power_of_ten(round(math.log10(time)))
         axes.fill_between(x, lower, upper, color=colour, lw=0.3, ec="white", label=label)
-    axes.plot(x, upper, color=INK, lw=0.8)
+    line(axes, x, upper, predictions_beyond(result), color=INK, lw=1.2, clip_on=False)
     axes.set_ylim(0.0, 1.0)
     axes.set_ylabel("share in $\\mu$, split as at small strain [-]")
+    dashed_entry(axes, BEYOND_BESIDE)
     handles, labels = axes.get_legend_handles_labels()
     legend_beside(figure, handles[::-1], labels[::-1], "relaxation\ntime from [s]")
     if title:

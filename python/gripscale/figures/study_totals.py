@@ -9,9 +9,10 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from gripscale.figures.palette import BLUE, INK, WIDE
+from gripscale.figures.palette import BLUE, GREY, INK, WIDE
+from gripscale.figures.stretches import BEYOND, predictions_beyond
 from gripscale.figures.study_axes import along, colours
-from gripscale.figures.style import area_axis, sheet, styled
+from gripscale.figures.style import DOTTED, area_axis, dashed_entry, line, sheet, styled
 from gripscale.study.display import WORDS, dimensions, name_of, numeric
 
 
@@ -20,7 +21,8 @@ def totals_figure(result: xr.Dataset) -> Figure:
     """Draw A_r/A_0 and friction over the first numeric axis, a line for each value of the other.
 
     Without a numeric axis they are drawn as points over the names of the first one. Contact at
-    rest is dashed where it was solved. Predictions that did not converge leave gaps.
+    rest is dotted where it was solved. Predictions that did not converge leave gaps. What rests on
+    the rubber beyond its measured band is dashed, of names has a star.
     """
     figure, panels = sheet(WIDE, 3.1, 1, 2, gap=0.06)
     area, friction = panels[0]
@@ -38,7 +40,10 @@ def totals_figure(result: xr.Dataset) -> Figure:
             _rest(area, piece, x, colour, "at rest" if other is None else None)
     if other is not None and "static_total_contact_fraction" in result:
         look: dict[str, Any] = {"ls": "", "marker": "o", "mfc": "white"} if x in WORDS else {}
-        area.plot([], [], **({"color": INK, "ls": (0, (4, 2)), "lw": 0.9} | look), label="at rest")
+        area.plot([], [], **({"color": INK, "ls": DOTTED, "lw": 0.9} | look), label="at rest")
+    if x in WORDS:
+        _name(area, friction, result, x)
+    dashed_entry(area)
     area_axis(area)
     area.set_ylabel("real contact area $A_r/A_0$ [-]")
     friction.set_ylabel("friction coefficient $\\mu$ [-]")
@@ -52,29 +57,33 @@ def totals_figure(result: xr.Dataset) -> Figure:
 def _line(axes: Axes, piece: xr.Dataset, x: str, quantity: str, colour: str, label: str) -> None:
     if x in WORDS:
         place = np.arange(piece.sizes[x])
-        axes.set_xticks(place, [name_of(piece, x, int(i)) for i in place])
         axes.set_xlabel(f"{WORDS[x]} [-]")
         axes.margins(x=0.3)
         axes.plot(place, piece[quantity], "o", color=colour, label=label)
     else:
-        axes.plot(
-            along(axes, piece, x),
-            piece[quantity],
-            "o-",
-            ms=3.0,
-            clip_on=False,
-            color=colour,
-            label=label,
-        )
+        look: dict[str, Any] = {"marker": "o", "ms": 3.0, "clip_on": False, "color": colour}
+        beyond = predictions_beyond(piece)
+        line(axes, along(axes, piece, x), piece[quantity], beyond, label, **look)
+
+
+def _name(area: Axes, friction: Axes, result: xr.Dataset, x: str) -> None:
+    """Put the names of an axis below, a star at those whose friction is partly extrapolated."""
+    flags = predictions_beyond(result.transpose(x, ...))
+    stars = [bool(np.any(one)) for one in flags]
+    names = [f"{name_of(result, x, i)}{' *' if star else ''}" for i, star in enumerate(stars)]
+    for axes in (area, friction):
+        axes.set_xticks(np.arange(len(names)), names)
+    if any(stars):
+        area.plot([], [], ls="", marker="$*$", color=GREY, label=BEYOND)
 
 
 def _rest(axes: Axes, piece: xr.Dataset, x: str, colour: str, label: str | None) -> None:
-    """Draw contact at rest, which has no speed, as a dashed level or over the same axis."""
+    """Draw contact at rest, which has no speed, as a dotted level or over the same axis."""
     rest = piece.static_total_contact_fraction
     style: dict[str, Any] = {
         "color": colour if label is None else INK,
-        "ls": (0, (4, 2)),
-        "lw": 0.9,
+        "ls": DOTTED,
+        "lw": 1.1,
     }
     if x not in rest.dims:
         axes.axhline(float(rest), label=label, **style)

@@ -2,13 +2,23 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
 from gripscale.figures.palette import MILLI, WIDE
+from gripscale.figures.stretches import BEYOND_BESIDE, down_to, waves_beyond
 from gripscale.figures.study_axes import colours, legend_beside
-from gripscale.figures.style import area_axis, falling_wavelength, sheet, styled
+from gripscale.figures.style import (
+    area_axis,
+    dashed_entry,
+    falling_wavelength,
+    line,
+    sheet,
+    styled,
+)
 from gripscale.study.display import name_of
 
 MOST_NAMES = 12
@@ -16,7 +26,10 @@ MOST_NAMES = 12
 
 @styled
 def wavelength_figure(result: xr.Dataset, axis: str, title: str = "") -> Figure:
-    """Draw running contact area and running friction against wavelength over one axis."""
+    """Draw running contact area and running friction against wavelength over one axis.
+
+    Dashed is what rests on the rubber beyond its measured band.
+    """
     figure, panels = sheet(WIDE, 3.1, 1, 2, gap=0.06)
     area, friction = panels[0]
     ordered = np.issubdtype(result[axis].dtype, np.number)
@@ -26,8 +39,10 @@ def wavelength_figure(result: xr.Dataset, axis: str, title: str = "") -> Figure:
         one = result.isel({axis: i})
         x = one.wavelength / MILLI
         label = name_of(result, axis, i) if i % every == 0 else None
-        area.plot(x, one.running_contact_fraction, "o-", ms=3.0, color=colour, label=label)
-        friction.plot(x, one.running_friction, "o-", ms=3.0, color=colour)
+        beyond = down_to(waves_beyond(one))
+        look: dict[str, Any] = {"marker": "o", "ms": 3.0, "color": colour}
+        line(area, x, one.running_contact_fraction, beyond, label, **look)
+        line(friction, x, one.running_friction, beyond, **look)
     area_axis(area, top=1.15)
     area.set_ylabel("relative contact area, running [-]")
     friction.set_ylabel("friction coefficient, running [-]")
@@ -35,6 +50,7 @@ def wavelength_figure(result: xr.Dataset, axis: str, title: str = "") -> Figure:
     wavelengths = result.wavelength.values[np.isfinite(result.wavelength.values)] / MILLI
     for panel in (area, friction):
         falling_wavelength(panel, wavelengths)
+    dashed_entry(area, BEYOND_BESIDE)
     legend_beside(figure, *area.get_legend_handles_labels())
     if title:
         figure.suptitle(title, fontsize=9.0)

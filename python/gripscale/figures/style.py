@@ -17,9 +17,10 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.lines import Line2D
 from matplotlib.markers import TICKDOWN, TICKLEFT
 from matplotlib.ticker import LogLocator, NullLocator
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from gripscale.figures.palette import FAINT, INK
+from gripscale.figures.palette import FAINT, GREY, INK
+from gripscale.figures.stretches import BEYOND, stretches
 from gripscale.netcdf import write_whole
 
 DPI = 200
@@ -53,6 +54,10 @@ RULES: Any = {
     "pdf.fonttype": 3,  # 42 cuts the whole font down for each figure, which costs 0.3 s
 }
 
+DASHED: Any = (0, (4, 2))
+"""Lines beyond the measured band, and only those."""
+DOTTED: Any = (0, (1, 1.5))
+
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 P = ParamSpec("P")
@@ -85,6 +90,26 @@ def log_axis(axes: Axes, which: str, steps: Sequence[float] = (1.0,)) -> None:
     axis.set_major_locator(LogLocator(subs=steps, numticks=12))
     axis.set_major_formatter(lambda value, _: short_number(value))
     axis.set_minor_locator(NullLocator())  # `_mark_between` draws them
+
+
+def line(
+    axes: Axes, x: Any, y: Any, beyond: ArrayLike, label: str | None = None, **look: Any
+) -> None:
+    """Draw a curve, dashed where it rests on the rubber beyond its measured band."""
+    x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
+    if not np.any(beyond):
+        axes.plot(x, y, **look, label=label)
+        return
+    for part, dashed in stretches(beyond):
+        axes.plot(x[part], y[part], **(look | {"ls": DASHED, "gid": BEYOND} if dashed else look))
+    if label is not None:  # nothing, unclipped, has no place on a logarithmic axis
+        axes.plot([], [], **(look | {"clip_on": True}), label=label)
+
+
+def dashed_entry(axes: Axes, text: str = BEYOND) -> None:
+    """Say in the legend of `axes` what dashed is, where something is dashed."""
+    if any(one.get_gid() == BEYOND for one in axes.lines):
+        axes.plot([], [], ls=DASHED, color=GREY, label=text)
 
 
 def area_axis(axes: Axes, top: float | None = None) -> None:

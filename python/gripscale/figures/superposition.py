@@ -93,6 +93,8 @@ def shift_figure(table: ShiftTable, fits: Sequence[ShiftFit] = ()) -> Figure:
     rest.errorbar(celsius, np.zeros_like(celsius), error, **look)
     for fit, colour in zip(fits, COLOURS, strict=False):
         _formula(horizontal, rest, table, fit, colour)
+    margin = 0.15 * max(float(np.ptp(table.horizontal)), 1.0)  # WLF has a pole
+    horizontal.set_ylim(table.horizontal.min() - margin, table.horizontal.max() + margin)
     horizontal.set_ylabel("$\\log_{10} a_T$ [-]")
     rest.set_ylabel("formula less\nsweeps [-]")
     if lifted:

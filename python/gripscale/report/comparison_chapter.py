@@ -8,10 +8,12 @@ import numpy as np
 import xarray as xr
 
 from gripscale.figures.rungs import flawed, varied
+from gripscale.model import FRICTION_OUTSIDE_BAND
 from gripscale.report.charts.comparison import axis_charts, ladder_charts
 from gripscale.report.comparison_table import best_sentence, samples_of
 from gripscale.report.elements import Element, Heading, Notice, Table, Text
 from gripscale.report.numbers import number, percent
+from gripscale.report.outside_band import comparison_sentences
 from gripscale.report.source import Compared
 
 WHAT = (
@@ -30,7 +32,7 @@ def comparison_elements(compared: Compared) -> list[Element]:
     """Return table, best estimate and figures of what there is; nothing if there is nothing."""
     if not compared.parts:
         return []
-    elements: list[Element] = [Text(WHAT), *_failures(compared)]
+    elements: list[Element] = [Text(WHAT), *_failures(compared), *_beyond(compared)]
     ladder = compared.ladder
     if ladder is not None:
         elements.append(_table(ladder))
@@ -54,6 +56,15 @@ def _failures(compared: Compared) -> Iterator[Notice]:
                     yield Notice("error", f"{where}{label}: {status}.")
 
 
+def _beyond(compared: Compared) -> Iterator[Notice]:
+    """Yield a warning for each rung with friction that rests on extrapolation."""
+    for data in compared.parts:
+        axis = varied(data)
+        where = f" over {axis.replace('_', ' ')}" if axis else ""
+        for label, text in comparison_sentences(data):
+            yield Notice("warning", f"{label}{where}: {text}")
+
+
 def _table(ladder: xr.Dataset) -> Table:
     numbers = [Heading(text) for text in ("spread", "error", "factor")]
     headings = [
@@ -64,21 +75,30 @@ def _table(ladder: xr.Dataset) -> Table:
         Heading("from energy lost"),
         *numbers,
         Heading("samples"),
-        Heading("extrapolated"),
+        Heading("μ beyond band"),
+        Heading("below", "decades"),
+        Heading("above", "decades"),
     ]
     return Table(
         "ladder",
         "The ladder of models",
         headings,
         [_row(ladder.isel(rung=at)) for at in range(ladder.sizes["rung"])],
-        groups=[("", 1), ("real contact area", 4), ("friction coefficient", 5), ("", 2)],
+        groups=[
+            ("", 1),
+            ("real contact area", 4),
+            ("friction coefficient", 5),
+            ("", 1),
+            ("measured frequencies", 3),
+        ],
         bad=frozenset(
             (at, column)
             for at, bad in enumerate(flawed(ladder))
             if bad
             for column in range(len(headings))
         ),
-        note="Extrapolated: share of the friction at frequencies beyond those of the master curve.",
+        note="Beyond band: share of the friction at frequencies beyond those of the master curve, "
+        "and how far they go.",
     )
 
 
@@ -98,5 +118,6 @@ def _row(one: xr.Dataset) -> list[str]:
         number(one.total_friction_from_dissipation),
         *friction,
         samples_of(one),
-        percent(one.extrapolated_share),
+        percent(one[FRICTION_OUTSIDE_BAND]),
+        *(number(one[f"total_decades_{end}_band"], digits=2) for end in ("below", "above")),
     ]

@@ -11,7 +11,10 @@ from rich import box
 from rich.table import Table
 
 from gripscale.figures.rungs import JUDGE, flawed
+from gripscale.model import FRICTION_OUTSIDE_BAND
+from gripscale.report.outside_band import comparison_sentences, friction_sentence
 from gripscale.report.tables import significant
+from gripscale.rubber.extrapolation import WORTH_SAYING
 from gripscale.study.display import LABELS
 
 if TYPE_CHECKING:
@@ -25,8 +28,6 @@ LABEL = 20
 """Characters of a label before it is folded where the table would be too wide."""
 TINY = 0.05
 """Per cent below which a spread or an error is as good as none."""
-EXTRAPOLATED = 0.01
-"""Share of the friction beyond the measured frequencies from which on a rung has a star."""
 
 
 def comparison_table(comparison: xr.Dataset) -> Table:
@@ -46,7 +47,7 @@ def comparison_table(comparison: xr.Dataset) -> Table:
         lost = significant(float(one.total_friction_from_dissipation))
         friction.insert(1, lost)
         table.add_row(
-            f"{label} *" if float(one.extrapolated_share) > EXTRAPOLATED else label,
+            f"{label} *" if float(one[FRICTION_OUTSIDE_BAND]) > WORTH_SAYING else label,
             *area,
             *friction,
             samples_of(one),
@@ -68,13 +69,16 @@ def axis_table(comparison: xr.Dataset, axis: str, name: str) -> Table:
         table.add_column("best\nestimate", justify="right")
     for at, value in enumerate(comparison[axis].values / divisor):
         one = comparison.isel({axis: at})
-        marks = ["!" if bad else "" for bad in flawed(one)]
+        marks = [
+            ("!" if bad else "") + ("*" if share > WORTH_SAYING else "")
+            for bad, share in zip(flawed(one), one[FRICTION_OUTSIDE_BAND].values, strict=True)
+        ]
         cells = [
             f"{significant(float(number))}{mark}"
             for number, mark in zip(one[f"total_{name}"].values, marks, strict=True)
         ]
         last = [_with_uncertainty(one, name)] if estimated else []
-        table.add_row(f"{value:.3g}", *cells, *last, style="bold red" if any(marks) else None)
+        table.add_row(f"{value:.3g}", *cells, *last, style="bold red" if any(flawed(one)) else None)
     return table
 
 
@@ -84,14 +88,15 @@ def remarks(comparison: xr.Dataset) -> Iterator[str]:
         one = comparison.isel(rung=at)
         if bad:
             yield f"{one.label.item()}: {one.status.item()}."
-        share = float(one.extrapolated_share)
-        if share > EXTRAPOLATED:
-            yield (
-                f"* {one.label.item()}: {share:.0%} of the friction is at frequencies beyond "
-                "the measured."
-            )
+    yield from beyond_band(comparison)
     if "best_friction" in comparison and np.isfinite(comparison.best_friction):
         yield best_sentence(comparison)
+
+
+def beyond_band(comparison: xr.Dataset) -> Iterator[str]:
+    """Yield a sentence for each rung with friction beyond the measured frequencies."""
+    for label, text in comparison_sentences(comparison):
+        yield f"* {label}: {text}"
 
 
 def best_sentence(comparison: xr.Dataset) -> str:
@@ -128,6 +133,9 @@ def judgement(prediction: Prediction, direct: SolvedRung) -> Iterator[str]:
     if prediction.load.speed > 0.0:
         words += f", mu = {significant(friction)}"
     yield f"Direct contact of the measured profiles, all waves at once at small strain: {words}."
+    beyond = friction_sentence(direct.extrapolation)
+    if beyond:
+        yield f"Of it, {beyond}"
     if not prediction.converged:
         return
     against = f"{prediction.contact_fraction / area:.2g} times its contact area"

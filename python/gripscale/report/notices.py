@@ -9,8 +9,9 @@ import numpy as np
 from gripscale.figures.view import CONVERGED, PredictionView
 from gripscale.report.elements import Card, Notice
 from gripscale.report.numbers import NONE, number, percent
+from gripscale.report.outside_band import prediction_sentence
 from gripscale.report.source import Run
-from gripscale.rubber.findings import LEAST_POISSON_RATIO
+from gripscale.rubber.compressibility import LEAST_POISSON_RATIO
 from gripscale.versions import versions
 from gripscale.wave.result import LARGE_MISMATCH
 
@@ -40,13 +41,11 @@ def _failures(one: PredictionView) -> Iterator[str]:
 
 def _doubts(run: Run) -> Iterator[str]:
     inputs = run.inputs
+    for one in run.predictions:
+        beyond = prediction_sentence(one)
+        if beyond:
+            yield f"{one.title}: {beyond} There the Prony series is an extrapolation."
     for one in run.by_wave:
-        if one.has("outside_band") and one.column("outside_band").any():
-            waves = ", ".join(str(i + 1) for i in np.flatnonzero(one.column("outside_band")))
-            yield (
-                f"{one.title}: waves {waves} excite the rubber beyond the frequencies that were "
-                "measured; there the Prony series is an extrapolation."
-            )
         if one.moving:
             yield from _mismatch(one)
         yield from _compressible(one, float(inputs.attrs.get("bulk_modulus_Pa", np.nan)))

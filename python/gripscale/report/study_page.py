@@ -16,6 +16,7 @@ from gripscale.report.elements import Card, Element, Facts, Heading, Notice, Pag
 from gripscale.report.elements import Table as PageTable
 from gripscale.report.input_tables import without_folder
 from gripscale.report.numbers import NONE, number
+from gripscale.report.outside_band import study_sentence
 from gripscale.report.run_page import method_elements, rerun_elements
 from gripscale.report.source import Study
 
@@ -37,7 +38,7 @@ def study_page(study: Study) -> Page:
     return Page(
         str(data.attrs.get("title", f"Study {study.name}")),
         f"varied: {', '.join(study.axes)}",
-        _notices(failed),
+        [*_notices(failed), *_beyond(data)],
         _cards(study, len(failed)),
         [section for section in sections if section.elements],
     )
@@ -164,6 +165,13 @@ def _notices(failed: Sequence[str]) -> list[Notice]:
         rest = len(failed) - NAMED_FAILURES
         shown.append(Notice("error", f"{rest} more did not converge; see the table of totals."))
     return shown
+
+
+def _beyond(data: xr.Dataset) -> Iterator[Notice]:
+    """Yield a warning if some of the friction rests on extrapolation."""
+    text = study_sentence(data)
+    if text:
+        yield Notice("warning", f"{text} There the Prony series is an extrapolation.")
 
 
 def _cards(study: Study, failed: int) -> list[Card]:

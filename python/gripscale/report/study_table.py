@@ -9,6 +9,8 @@ import xarray as xr
 from rich import box
 from rich.table import Table
 
+from gripscale.model import FRICTION_OUTSIDE_BAND
+from gripscale.report.outside_band import share_text, study_sentence
 from gripscale.report.tables import significant
 from gripscale.study.display import dimensions, name_of
 
@@ -19,6 +21,7 @@ def study_table(result: xr.Dataset) -> Table:
     """Return area, friction and status of each prediction of a study, over what was varied."""
     names = dimensions(result)
     at_rest = "static_total_contact_fraction" in result
+    beyond = study_sentence(result)
     table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
     for name in names:
         table.add_column(name.replace("_", " "), no_wrap=True)
@@ -27,6 +30,7 @@ def study_table(result: xr.Dataset) -> Table:
         "μ",
         "μ\ndiss.",
         "largest\nμ of",
+        *(["μ beyond\nband"] if beyond else []),
         *(["A_r/A_0\nat rest"] if at_rest else []),
     ]
     for head in heads:
@@ -41,6 +45,8 @@ def study_table(result: xr.Dataset) -> Table:
             significant(float(chain.total_friction_from_dissipation)),
             _largest(chain),
         ]
+        if beyond:
+            cells.append(share_text(float(chain[FRICTION_OUTSIDE_BAND])))
         if at_rest:
             cells.append(significant(float(chain.static_total_contact_fraction)))
         status = str(chain.prediction_status.item())

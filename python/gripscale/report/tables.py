@@ -16,6 +16,7 @@ from rich.text import Text
 
 from gripscale.figures.palette import MEGA, MILLI
 from gripscale.figures.view import CONVERGED, PredictionView
+from gripscale.report.outside_band import prediction_sentence
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -98,9 +99,7 @@ LEGEND = (
     "area: contact length over wavelength, and running A_r/A_0; μ run.: sum of the waves; "
     "μ diss.: from the energy lost; |E*| and tan δ at 2πv/λ."
 )
-OUTSIDE_BAND = (
-    "* the wave, or a harmonic of it, excites the rubber beyond the measured frequencies."
-)
+STAR = "* the wave, or a harmonic of it, excites the rubber beyond the measured frequencies:"
 
 
 def prediction_table(data: xr.Dataset, title: str, width: int) -> Group:
@@ -142,14 +141,18 @@ def totals(data: xr.Dataset) -> str:
 
 
 def _notes(view: PredictionView) -> Iterator[str]:
-    """Yield how far the two friction measures are apart, and the warning of the stars."""
+    """Yield how far the two friction measures are apart, and what the stars warn of."""
     if not view.waves:
+        beyond = prediction_sentence(view)
+        if beyond:
+            yield beyond
         return
     if view.moving and view.converged.all():
         apart = view.column("friction_mismatch").max()
         yield f"The two friction coefficients of a wave are at most {apart:.2%} apart."
-    if view.column("outside_band").any():
-        yield OUTSIDE_BAND
+    beyond = prediction_sentence(view)
+    if beyond:
+        yield f"{STAR} {beyond}"
 
 
 def as_text(*parts: object, width: int = 100) -> str:

@@ -48,7 +48,9 @@ LOAD = [
     Column("angular_frequency", "ω", "rad/s", moving_only=True),
     Column("modulus", "|E*|", "MPa", _in(MEGA)),
     Column("loss_factor", "tan δ", moving_only=True),
-    Column("outside_band", "outside band", show=_yes_no, moving_only=True),
+    Column("outside_band", "beyond band", show=_yes_no, moving_only=True),
+    Column("decades_below_band", "below band", "decades", moving_only=True),
+    Column("decades_above_band", "above band", "decades", moving_only=True),
 ]
 CONTACT = [
     Column("contact_length", "contact length", "mm", _in(MILLI)),

@@ -42,6 +42,13 @@ NUMBERS = {
     "full_contact": ("1", "1 where the contact is full"),
 }
 
+OUTSIDE_BAND = {
+    "friction_outside_band": ("share", "share of the friction lost outside the measured band"),
+    "decades_below_band": ("below", "decades by which excitation goes below it"),
+    "decades_above_band": ("above", "decades by which excitation goes above it"),
+}
+"""What of the friction rests on the rubber beyond its measured frequencies."""
+
 
 def by_wavelength(contact: SolvedContact) -> xr.Dataset:
     """Return friction and contact fraction over `wavelength`, from long to short."""
@@ -78,6 +85,11 @@ def to_dataset(contact: SolvedContact, *, fields: bool) -> xr.Dataset:
     data = {
         name: labelled((), float(getattr(contact, name)), unit, text, SOURCE)
         for name, (unit, text) in NUMBERS.items()
+    }
+    beyond = contact.extrapolation
+    data |= {
+        name: labelled((), getattr(beyond, part), "1", text, SOURCE)
+        for name, (part, text) in OUTSIDE_BAND.items()
     }
     octaves = by_wavelength(contact).rename(contact_fraction="contact_fraction_without_shorter")
     data |= {

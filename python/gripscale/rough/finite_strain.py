@@ -19,7 +19,6 @@ import numpy as np
 from scipy import stats
 
 from gripscale import checks
-from gripscale.errors import InputError
 from gripscale.parallel import Stopped, in_threads, worker_count
 from gripscale.rough.result import RoughContact
 from gripscale.rough.solve import solve_rough_contact
@@ -181,8 +180,7 @@ def solve_both_ways(
     InputError
         As `gripscale.solve_profile` and `gripscale.solve_rough_contact` do.
     """
-    if not lines:
-        raise InputError("lines must be one profile at least; got none")
+    lines = checks.instances("lines", lines, Profile)
 
     in_block = partial(solve_profile, rubber, pressure=pressure, speed=speed, load_time=load_time)
     in_half_space = partial(solve_rough_contact, rubber, pressure=pressure, speed=speed)
@@ -220,6 +218,7 @@ def spread_windows(
         As `windows` does, or if `most` is not a whole number from 1.
     """
     number = checks.whole("most", most, least=1, most=100_000)
-    every = [window for profile in profiles for window in windows(profile, length)]
+    given = checks.instances("profiles", profiles, Profile)
+    every = [window for profile in given for window in windows(profile, length)]
     taken = np.linspace(0, len(every) - 1, min(number, len(every))).round().astype(int)
     return [one_period(every[place], smallest_wavelength) for place in taken]

@@ -23,7 +23,9 @@ from gripscale.rough.result import RoughContact
 from gripscale.rough.solve import solve_rough_contact
 from gripscale.rough.windows import WindowContacts, solve_windows
 from gripscale.rubber import Rubber
+from gripscale.rubber.extrapolation import Extrapolation, of_sum
 from gripscale.surface import HeightMap, Profile, isotropic_maps
+from gripscale.surface.maps.isotropic import seed_numbers
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -161,7 +163,7 @@ def map_over_lines(
         "speed": speed,
         "smallest_wavelength": smallest_wavelength,
     }
-    chosen = list(seeds)
+    chosen = seed_numbers(seeds)
     drawn = isotropic_maps(
         profile,
         smallest_wavelength=smallest_wavelength,
@@ -211,6 +213,7 @@ def solve_map_and_lines(
     InputError
         If an argument is out of its range.
     """
+    checks.instance("surface", surface, HeightMap)
     whole = solve_whole(rubber, surface, workers=workers, **load)
     of_lines = solve_lines_of(rubber, surface, lines=lines, tolerance=tolerance, **load)
     return MapContact(whole.values, of_lines.values, whole.between_directions)
@@ -224,6 +227,7 @@ class Solved(NamedTuple):
     between_directions: dict[str, float]
     """Along x over along y; NaN over zero."""
     status: str
+    extrapolation: Extrapolation
 
 
 def solve_whole(
@@ -268,11 +272,16 @@ def _both_ways(contacts: list[list[RoughContact]]) -> Solved:
         {name: WindowContacts(group).mean(name) for name in (*QUANTITIES, "friction")}
         for group in contacts
     )
-    bad = [str(one.status) for group in contacts for one in group if not one.converged]
+    every = [one for group in contacts for one in group]
+    bad = [str(one.status) for one in every if not one.converged]
     return Solved(
         {name: 0.5 * (along[name] + across[name]) for name in along},
         {name: _ratio(along[name], across[name]) for name in along},
         bad[0] if bad else "converged",
+        of_sum(
+            [one.extrapolation for one in every],
+            [one.friction_from_dissipation for one in every],
+        ),
     )
 
 

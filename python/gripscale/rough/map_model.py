@@ -91,7 +91,7 @@ class SyntheticMap:
             synthetic=heights.source,
             **versions.attributes(),
         )
-        return model.answer(data, totals, found.status, self.name, load)
+        return model.answer(data, totals, found.status, self.name, load, found.extrapolation)
 
 
 @dataclass(eq=False)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from gripscale import model
+from gripscale import checks, model
 from gripscale.errors import InputError
 from gripscale.rough.result import RoughContact
 from gripscale.rough.solve import solve_rough_contact
@@ -44,6 +44,14 @@ class DirectContact:
     most_points: int = 2**22
     periodic: bool = False
 
+    def __post_init__(self) -> None:
+        if self.smallest_wavelength is not None:
+            checks.positive("smallest_wavelength", self.smallest_wavelength, unit="m")
+        if self.tolerance is not None:
+            checks.positive("tolerance", self.tolerance)
+        checks.positive("most_points", self.most_points)
+        checks.flag("periodic", self.periodic)
+
     def relevant(self, surface: PreparedSurface) -> PreparedSurface:
         """Return nothing of `surface` but what was measured and where its waves end."""
         return surface.as_measured()
@@ -70,7 +78,7 @@ class DirectContact:
                 measured,
                 pressure=load.pressure,
                 speed=load.speed,
-                smallest_wavelength=self.smallest_wavelength or self._end_of(surface, measured),
+                smallest_wavelength=self._smallest(surface, measured),
                 tolerance=self.tolerance,
                 most_points=self.most_points,
                 periodic=self.periodic,
@@ -80,8 +88,10 @@ class DirectContact:
                 on_progress(contact)
         return self._answer(contacts, load)
 
-    def _end_of(self, surface: PreparedSurface, measured: Profile | HeightMap) -> float:
-        """Return where the waves say it ends [m], or two steps where that is an extrapolation."""
+    def _smallest(self, surface: PreparedSurface, measured: Profile | HeightMap) -> float:
+        """Return the length given, or where the waves say it ends [m], two steps at least."""
+        if self.smallest_wavelength is not None:
+            return self.smallest_wavelength
         return max(surface.sines.roughness_end, 2.0 * float(np.max(measured.step)))
 
     def _answer(self, contacts: list[RoughContact], load: NominalLoad) -> xr.Dataset:

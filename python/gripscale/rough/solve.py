@@ -25,6 +25,7 @@ from gripscale.rough.magnitudes import check_magnitudes, half_space
 from gripscale.rough.result import RoughContact
 from gripscale.rough.settle import settle
 from gripscale.rubber import Rubber
+from gripscale.rubber.carrying import require_solid
 from gripscale.surface import HeightMap, Profile
 from gripscale.wave.status import Status
 
@@ -96,14 +97,17 @@ def solve_rough_contact(
     Raises
     ------
     InputError
-        If an argument is out of its range, the first full grid has more than `most_points`, or a
-        size is beyond what single precision can hold.
+        If an argument is out of its range, the first full grid has more than `most_points`, a size
+        is beyond what single precision can hold, or the rubber at rest is a melt: the pressure is
+        more than ten times the equilibrium modulus.
     """
     load = checks.positive("pressure", pressure, unit="Pa")
     under = Conditions() if conditions is None else conditions
     own = under.before(rubber)
     body = half_space(own, speed)
     goal = math.inf if tolerance is None else _tolerance(tolerance)
+    if body.speed == 0.0:
+        require_solid(rubber, load, math.inf)
     heights = periodic_heights(
         surface,
         smallest_wavelength=smallest_wavelength,

@@ -16,6 +16,7 @@ from gripscale.rough.half_space import HalfSpace
 from gripscale.rough.outcome import lost_by_harmonic
 from gripscale.rough.patches import patch_points
 from gripscale.rubber import Rubber
+from gripscale.rubber.extrapolation import NONE, Extrapolation, of_spectrum
 from gripscale.wave.status import Status
 
 STEEP = 0.5
@@ -97,6 +98,14 @@ class SolvedContact:
         scale = max(abs(self.friction), abs(self.friction_from_dissipation))
         difference = abs(self.friction - self.friction_from_dissipation)
         return difference / scale if scale > 0.0 else 0.0
+
+    @property
+    def extrapolation(self) -> Extrapolation:
+        """What of the friction is lost in harmonics beyond the rubber's measured frequencies."""
+        if self.speed == 0.0:
+            return NONE
+        omega = np.broadcast_to(self.grid.along * self.speed, self.grid.spectrum_shape)
+        return of_spectrum(self.rubber, omega, self.lost_by_harmonic())
 
     @property
     def slope_in_contact(self) -> float:

@@ -33,6 +33,7 @@ def one_period(line: Profile, smallest_wavelength: float | None = None) -> Profi
     InputError
         As `solve_rough_contact` does for its surface.
     """
+    checks.instance("line", line, Profile)
     heights = periodic_heights(line, smallest_wavelength=smallest_wavelength, periodic=False)
     period = heights.grid.lengths[0]
     waves = int(period / heights.smallest_wavelength * (1.0 + 1e-9))
@@ -59,6 +60,7 @@ def surface_of_sines(stack: SineStack, length: float, seed: int) -> Profile:
     InputError
         If an argument is out of its range, or there would be more than ten million points.
     """
+    checks.instance("stack", stack, SineStack)
     period = checks.positive("length", length, unit="m")
     if period < stack.wavelength.max():
         raise InputError(

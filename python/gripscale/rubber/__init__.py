@@ -1,6 +1,7 @@
 """Rubber: master curves, Prony series and the material they make."""
 
 from gripscale.rubber.admissible import AdmissibleSeries
+from gripscale.rubber.extrapolation import Extrapolation
 from gripscale.rubber.finite_strain_fit import (
     FiniteStrainFit,
     fit_finite_strain,
@@ -60,6 +61,7 @@ __all__ = [
     "AdmissibleSeries",
     "Arrhenius",
     "Candidate",
+    "Extrapolation",
     "FiniteStrainFit",
     "Isihara",
     "MasterCurve",

@@ -8,6 +8,7 @@ the same uncertainty of a friction is the spread of its predictions.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -34,6 +35,9 @@ class AdmissibleSeries:
         E_inf of each series [Pa], above zero.
     moduli : array_like, shape (series, terms)
         Moduli of their Maxwell elements [Pa], not negative.
+    belongs_to : str
+        Fingerprint of the rubber's own series, which the first rubber they are given to leaves: the
+        others tell nothing of another one.
 
     Raises
     ------
@@ -44,19 +48,23 @@ class AdmissibleSeries:
     relaxation_times: Array = field(repr=False)
     equilibrium_moduli: Array = field(repr=False)
     moduli: Array = field(repr=False)
+    belongs_to: str = field(default="", repr=False)
 
     def __init__(
-        self, relaxation_times: ArrayLike, equilibrium_moduli: ArrayLike, moduli: ArrayLike
+        self,
+        relaxation_times: ArrayLike,
+        equilibrium_moduli: ArrayLike,
+        moduli: ArrayLike,
+        belongs_to: str = "",
     ) -> None:
         times = checks.in_reason("relaxation_times", relaxation_times, unit="s")
         equilibrium = checks.in_reason("equilibrium_moduli", equilibrium_moduli, unit="Pa")
         shape = (len(equilibrium), len(times))
-        try:
-            elements = np.array(moduli, dtype=float).reshape(shape)
-        except (TypeError, ValueError, OverflowError) as error:
-            raise InputError(
-                f"moduli must be {shape[0]} rows of {shape[1]} numbers [Pa]; got {moduli!r:.80}"
-            ) from error
+        expected = f"moduli must be {shape[0]} rows of {shape[1]} numbers [Pa]"
+        elements = checks.array(moduli, expected)
+        if elements.size != math.prod(shape):
+            raise InputError(f"{expected}; got {checks.shown(moduli)}")
+        elements = elements.reshape(shape)
         if not ((elements >= 0.0) & (elements <= checks.MOST)).all():
             raise InputError(f"moduli must not be negative [Pa]; got {elements.min():g}")
         for name, value in (
@@ -66,6 +74,23 @@ class AdmissibleSeries:
         ):
             value.setflags(write=False)
             object.__setattr__(self, name, value)
+        object.__setattr__(self, "belongs_to", str(belongs_to))
+
+    def given_to(self, fingerprint: str) -> AdmissibleSeries:
+        """Return them as those of the series with this fingerprint.
+
+        Raises `InputError` if they belong to another.
+        """
+        if self.belongs_to not in ("", fingerprint):
+            raise InputError(
+                "admissible must be what fits beside this series; got that of other moduli or "
+                "relaxation times: leave it out (admissible=None) where they are changed"
+            )
+        if self.belongs_to:
+            return self
+        return AdmissibleSeries(
+            self.relaxation_times, self.equilibrium_moduli, self.moduli, fingerprint
+        )
 
     def __len__(self) -> int:
         return len(self.equilibrium_moduli)
@@ -95,7 +120,7 @@ class AdmissibleSeries:
         )
 
     def to_dict(self) -> dict[str, Any]:
-        """Return all numbers as lists."""
+        """Return all numbers as lists; whose they are is told by the rubber they stand beside."""
         return {
             "relaxation_times": self.relaxation_times.tolist(),
             "equilibrium_moduli": self.equilibrium_moduli.tolist(),
@@ -108,6 +133,6 @@ class AdmissibleSeries:
         known = {"relaxation_times", "equilibrium_moduli", "moduli"}
         if not isinstance(values, Mapping) or set(values) != known:
             raise InputError(
-                f"admissible must have the keys {', '.join(known)}; got {values!r:.80}"
+                f"admissible must have the keys {', '.join(known)}; got {checks.shown(values)}"
             )
         return cls(**values)

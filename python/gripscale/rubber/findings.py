@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from gripscale.rubber.compressibility import too_compressible
 from gripscale.rubber.material import Rubber
 from gripscale.rubber.misfit import END_ROWS, Misfit
 from gripscale.rubber.plateau import BEYOND, fast_end, slow_end
-
-LEAST_POISSON_RATIO = 0.3
-"""Below this no rubber and hardly a glassy polymer is: the bulk modulus is too small."""
 
 
 def findings(
@@ -71,15 +69,10 @@ def _fast(rubber: Rubber) -> Iterator[str]:
         )
     assert rubber.valid_band is not None
     omega = rubber.valid_band[1]
-    ratio = float(rubber.poisson_ratio(omega))
-    if ratio < LEAST_POISSON_RATIO:
-        shear = abs(complex(rubber.complex_modulus(omega))) / 3.0
-        least = 2.0 * shear * (1.0 + LEAST_POISSON_RATIO) / (3.0 - 6.0 * LEAST_POISSON_RATIO)
-        yield (
-            f"the bulk modulus, {_mega(rubber.bulk_modulus)} MPa, gives Poisson's ratio "
-            f"{ratio:.2f} at {omega:.3g} rad/s; {_mega(least)} MPa would give "
-            f"{LEAST_POISSON_RATIO:g}"
-        )
+    modulus = abs(complex(rubber.complex_modulus(omega)))
+    told = too_compressible(rubber.bulk_modulus, modulus, f"at {omega:.3g} rad/s")
+    if told:
+        yield told
 
 
 def _span(rubber: Rubber, fast: bool) -> str:

@@ -59,6 +59,7 @@ class FiniteStrainFit:
 
 def rms_error(rubber: Rubber, test: UniaxialTest) -> float:
     """Return the root mean square error of the predicted stress over the measured peak [-]."""
+    checks.instance("test", test, UniaxialTest)
     error = uniaxial_stress(rubber, test.time, test.stretch) - test.stress
     return float(np.sqrt(np.mean(error**2)) / test.peak)
 
@@ -71,6 +72,7 @@ def work_error(rubber: Rubber, test: UniaxialTest) -> float:
     """
     from scipy.integrate import trapezoid
 
+    checks.instance("test", test, UniaxialTest)
     predicted = uniaxial_stress(rubber, test.time, test.stretch)
     return float(trapezoid(predicted, test.stretch) / trapezoid(test.stress, test.stretch)) - 1
 
@@ -105,8 +107,7 @@ def fit_finite_strain(
     InputError
         If there is no test, or an argument is out of range.
     """
-    if len(tests) == 0:
-        raise InputError("tests must hold at least one UniaxialTest; got none")
+    tests = checks.instances("tests", tests, UniaxialTest)
     law = STRAIN_ENERGIES[checks.one_of("energy", energy, STRAIN_ENERGIES)]
     times = _relaxation_times(tests, checks.whole("terms", terms, least=1, most=40), band)
     left = np.vstack([_columns(law, times, test) * _weight(test) for test in tests])
@@ -123,10 +124,10 @@ def _relaxation_times(
     if band is None:
         durations = [test.duration for test in tests]
         band = _FASTEST * min(durations), max(durations)
-    low = checks.positive("band[0]", band[0], unit="s")
-    high = checks.positive("band[1]", band[1], unit="s")
-    if low >= high:
-        raise InputError(f"band [s] must be a shorter and a longer time; got {low:g} and {high:g}")
+    ends = checks.positive_vector("band", band, unit="s")
+    if len(ends) != 2 or ends[0] >= ends[1]:
+        raise InputError(f"band [s] must be a shorter and a longer time; got {checks.shown(band)}")
+    low, high = ends
     return np.geomspace(low, high, terms) if terms > 1 else np.array([np.sqrt(low * high)])
 
 

@@ -78,8 +78,8 @@ class MasterCurve:
             ordered.setflags(write=False)
             object.__setattr__(self, key, ordered)
         object.__setattr__(self, "reference_temperature", reference_temperature)
-        object.__setattr__(self, "name", str(name))
-        object.__setattr__(self, "source", str(source))
+        object.__setattr__(self, "name", checks.text("name", name))
+        object.__setattr__(self, "source", checks.text("source", source))
         object.__setattr__(self, "shift", shift_at(shift, reference_temperature))
 
     def __len__(self) -> int:

@@ -11,6 +11,7 @@ incompressible limit; the few per cent by which a finite K changes it enter thro
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from typing import Any
@@ -22,6 +23,7 @@ from gripscale import checks
 from gripscale.errors import InputError
 from gripscale.rubber import material_checks
 from gripscale.rubber.admissible import AdmissibleSeries
+from gripscale.rubber.compressibility import too_compressible, warn_once
 from gripscale.rubber.maxwell_shapes import loss_shape, storage_shape
 from gripscale.rubber.shift import Shift, shift_at, shift_from_dict
 from gripscale.rubber.strain_energy import NeoHookean, StrainEnergy, strain_energy_from_dict
@@ -54,8 +56,8 @@ class Rubber:
     strain_energy : StrainEnergy
         Strain energy of the permanent network at finite strain.
     admissible : AdmissibleSeries, optional
-        Other series that fit the same measurement: what it leaves open. It is of this series only;
-        whoever changes moduli or times changes it as well, or leaves it out.
+        Other series that fit the same measurement: what it leaves open. It is of this series only,
+        and refused with others: whoever changes moduli or times leaves it out, or states another.
     reference_temperature : float, optional
         Temperature the numbers hold for [K].
     shift : Shift, optional
@@ -65,8 +67,14 @@ class Rubber:
     Raises
     ------
     InputError
-        If a value is missing, not finite, not positive, beyond 1e-100 to 1e100, or the lengths
-        differ.
+        If a value is missing, not finite, not positive, beyond 1e-100 to 1e100, the lengths
+        differ, or `admissible` belongs to other moduli or times.
+
+    Warns
+    -----
+    RubberWarning
+        Once, if Poisson's ratio is below 0.3 at the fast end of `valid_band`, or at any frequency
+        without one. Of a rubber with `admissible` the report on its fit says so.
     """
 
     equilibrium_modulus: float
@@ -104,17 +112,39 @@ class Rubber:
                 checks.in_reason("relaxation_times", relaxation_times, unit="s")
             ),
             "bulk_modulus": material_checks.modulus("bulk_modulus", bulk_modulus),
-            "name": str(name),
-            "source": str(source),
+            "name": checks.text("name", name),
+            "source": checks.text("source", source),
             "valid_band": material_checks.band(valid_band),
             "strain_energy": material_checks.energy(strain_energy),
             "admissible": material_checks.admissible(admissible),
             "reference_temperature": material_checks.temperature(reference_temperature),
             "shift": shift_at(shift, reference_temperature),
         }
+        self._set(**values)
+        self._check_together()
+        if self.admissible is None:
+            self._warn_of_compressibility()
+        else:
+            self._set(admissible=self.admissible.given_to(self._fingerprint()))
+
+    def _set(self, **values: Any) -> None:
         for key, value in values.items():
             object.__setattr__(self, key, value)
-        self._check_together()
+
+    def _fingerprint(self) -> str:
+        """Return a text that only this series has: its moduli and times, to the last bit."""
+        series = np.array([self.equilibrium_modulus, *self.moduli, *self.relaxation_times])
+        return hashlib.sha256(series.tobytes()).hexdigest()
+
+    def _warn_of_compressibility(self) -> None:
+        if self.valid_band is None:
+            modulus, where = self.glassy_modulus, "at high frequency"
+        else:
+            fast = self.valid_band[1]
+            modulus, where = abs(complex(self.complex_modulus(fast))), f"at {fast:.3g} rad/s"
+        told = too_compressible(self.bulk_modulus, modulus, where)
+        if told:
+            warn_once(told)
 
     def _check_together(self) -> None:
         if len(self.moduli) != len(self.relaxation_times):
@@ -244,20 +274,22 @@ class Rubber:
         series = zip(self.admissible.equilibrium_moduli, self.admissible.moduli, strict=True)
         times = self.admissible.relaxation_times
         return [
-            Rubber(
-                float(equilibrium),
-                moduli[moduli > 0.0],
-                times[moduli > 0.0],
-                self.bulk_modulus,
-                self.name,
-                self.source,
-                self.valid_band,
-                self.strain_energy,
-                reference_temperature=self.reference_temperature,
-                shift=self.shift,
-            )
+            self._with_series(float(equilibrium), moduli[moduli > 0.0], times[moduli > 0.0])
             for equilibrium, moduli in series
         ]
+
+    def _with_series(self, equilibrium: float, moduli: Array, times: Array) -> Rubber:
+        """Return this rubber with another series that fits; what it warned of is said already."""
+        other = object.__new__(Rubber)
+        other._set(**{field.name: getattr(self, field.name) for field in fields(self)})
+        other._set(
+            equilibrium_modulus=equilibrium,
+            moduli=material_checks.read_only(moduli),
+            relaxation_times=material_checks.read_only(times),
+            admissible=None,
+        )
+        other._check_together()
+        return other
 
     def at(self, temperature: float) -> Rubber:
         """Return the same rubber at another temperature [K].
@@ -309,9 +341,9 @@ class Rubber:
 
         Raises `InputError` for a negative time or NaN.
         """
-        elapsed = np.asarray(time, dtype=float)
+        elapsed = checks.array(time, "time must be numbers, not negative [s]")
         if not (elapsed >= 0.0).all():
-            raise InputError(f"time must not be negative [s]; got {elapsed!r:.80}")
+            raise InputError(f"time must not be negative [s]; got {checks.shown(elapsed)}")
         with np.errstate(over="ignore"):  # infinitely many relaxation times have passed
             decay = np.exp(-elapsed[..., None] / self.relaxation_times)
         return np.asarray(self.equilibrium_modulus + (self.moduli * decay).sum(-1))

@@ -21,17 +21,7 @@ def read_only(values: Array) -> Array:
 
 def finite(name: str, value: ArrayLike, unit: str) -> Array:
     """Return `value` as an array of floats; raise `InputError` unless finite and in reason."""
-    try:
-        result = np.asarray(value, dtype=float)
-    except (TypeError, ValueError, OverflowError) as error:
-        raise InputError(
-            f"{name} must be finite numbers [{unit}]; got {checks.shown(value)}"
-        ) from error
-    if not (np.abs(result) <= checks.MOST).all():
-        raise InputError(
-            f"{name} must be finite numbers of at most {checks.MOST:g} [{unit}]; got {value!r:.80}"
-        )
-    return result
+    return checks.real(name, value, unit=unit)
 
 
 def modulus(name: str, value: float) -> float:
@@ -42,7 +32,9 @@ def modulus(name: str, value: float) -> float:
 def admissible(value: AdmissibleSeries | None) -> AdmissibleSeries | None:
     """Return `value`; raise `InputError` if it is something else."""
     if not isinstance(value, AdmissibleSeries | None):
-        raise InputError(f"admissible must be an AdmissibleSeries or None; got {value!r:.80}")
+        raise InputError(
+            f"admissible must be an AdmissibleSeries or None; got {checks.shown(value)}"
+        )
     return value
 
 
@@ -54,7 +46,9 @@ def temperature(value: float | None) -> float | None:
 def energy(value: StrainEnergy) -> StrainEnergy:
     """Return `value`; raise `InputError` if it is something else."""
     if not isinstance(value, StrainEnergy):
-        raise InputError(f"strain_energy must be a StrainEnergy, such as Yeoh; got {value!r}")
+        raise InputError(
+            f"strain_energy must be a StrainEnergy, such as Yeoh; got {checks.shown(value)}"
+        )
     return value
 
 
@@ -65,6 +59,6 @@ def band(value: tuple[float, float] | None) -> tuple[float, float] | None:
     band = checks.in_reason("valid_band", value, unit="rad/s")
     if len(band) != 2 or band[0] >= band[1]:
         raise InputError(
-            f"valid_band [rad/s] must be a lower and a higher frequency; got {value!r}"
+            f"valid_band [rad/s] must be a lower and a higher frequency; got {checks.shown(value)}"
         )
     return float(band[0]), float(band[1])

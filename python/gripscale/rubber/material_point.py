@@ -55,6 +55,7 @@ def uniaxial_stress(rubber: Rubber, time: ArrayLike, stretch: ArrayLike) -> Arra
     InputError
         If a time falls, a stretch is not positive, or the lengths differ.
     """
+    checks.instance("rubber", rubber, Rubber)
     ratio = checks.positive_vector("stretch", stretch)
     elapsed = _times(time, ratio, "stretch")
     permanent = rubber.strain_energy.uniaxial_factor(ratio) * (ratio - ratio**-2)
@@ -84,6 +85,7 @@ def simple_shear_stress(rubber: Rubber, time: ArrayLike, shear: ArrayLike) -> Ar
     InputError
         If a time falls, a value is not finite, or the lengths differ.
     """
+    checks.instance("rubber", rubber, Rubber)
     amount = checks.vector("shear", shear)
     elapsed = _times(time, amount, "shear")
     permanent = rubber.strain_energy.shear_factor(amount) * amount

@@ -52,9 +52,12 @@ def springpot_modulus(omega: ArrayLike) -> ComplexArray:
     InputError
         If a frequency is not finite or not above zero.
     """
-    frequency = np.asarray(omega, dtype=float)
-    if not (np.isfinite(frequency) & (frequency > 0.0)).all():
-        raise InputError(f"omega must be greater than zero [rad/s]; got {omega!r:.80}")
+    frequency = checks.real("omega", omega, unit="rad/s")
+    if not (frequency >= checks.LEAST).all():
+        raise InputError(
+            f"omega must be greater than zero, at least {checks.LEAST:g} [rad/s]; "
+            f"got {checks.shown(omega)}"
+        )
     scaled = 1j * frequency / _REFERENCE_FREQUENCY
     rubbery, transition, glassy = (
         modulus * scaled**exponent for modulus, exponent in (_RUBBERY, _TRANSITION, _GLASSY)
@@ -62,7 +65,6 @@ def springpot_modulus(omega: ArrayLike) -> ComplexArray:
     return np.asarray(rubbery + 1.0 / (1.0 / transition + 1.0 / glassy))
 
 
-@lru_cache(maxsize=8)
 def styrene_butadiene(
     *, band: tuple[float, float] = (1e-2, 1e10), bulk_modulus: float = 2e9
 ) -> Rubber:
@@ -93,9 +95,15 @@ def styrene_butadiene(
     InputError
         If the band or the bulk modulus cannot be used.
     """
-    low, high = checks.positive_vector("band", band, unit="rad/s")[:2]
-    if len(band) != 2 or high < 100.0 * low:
-        raise InputError(f"band [rad/s] must span at least two decades; got {band!r}")
+    ends = checks.positive_vector("band", band, unit="rad/s")
+    if len(ends) != 2 or ends[1] < 100.0 * ends[0]:
+        raise InputError(f"band [rad/s] must span at least two decades; got {checks.shown(band)}")
+    bulk = checks.positive("bulk_modulus", bulk_modulus, unit="Pa")
+    return _styrene_butadiene(float(ends[0]), float(ends[1]), bulk)
+
+
+@lru_cache(maxsize=8)
+def _styrene_butadiene(low: float, high: float, bulk_modulus: float) -> Rubber:
     decades = float(np.log10(high / low))
     omega = np.geomspace(low, high, round(10 * decades) + 1)
     modulus = springpot_modulus(omega)

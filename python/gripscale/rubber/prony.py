@@ -110,6 +110,7 @@ def fit_prony_report(
 
     Arguments and errors are those of `fit_prony`.
     """
+    checks.instance("master", master, MasterCurve)
     if len(master) < _FEWEST_ROWS or master.decades == 0.0:
         raise InputError(
             f"master must have at least {_FEWEST_ROWS} rows over more than one frequency; "

@@ -15,7 +15,7 @@ from gripscale import checks
 from gripscale.errors import FileError, InputError
 from gripscale.rubber.header import is_temperature, modulus_kind, quantity
 from gripscale.rubber.master_curve import Array, MasterCurve
-from gripscale.textfile import TextTable, read_table
+from gripscale.textfile import TextTable, file_path, read_table
 from gripscale.units import in_si, listed, spelled
 
 _QUANTITIES = ("frequency", "storage", "loss")
@@ -70,8 +70,9 @@ def read_master_curve(
     InputError
         If a unit, the kind of modulus or the columns are neither stated nor given.
     """
-    place = Path(path)
-    table = _table(place, [column for column in columns or () if isinstance(column, str)])
+    place = file_path(path)
+    names = () if columns is None else _three(columns)
+    table = _table(place, [column for column in names if isinstance(column, str)])
     chosen = _choose(table, columns)
     _refuse_sweeps(table, chosen[0], named=columns is not None)
     hertz = unit_of(table, chosen[:1], "frequency", frequency_unit)
@@ -123,12 +124,14 @@ def _refuse_sweeps(table: TextTable, frequency: int, *, named: bool) -> None:
         kelvin = kelvin[np.isfinite(kelvin)]
         if not kelvin.size or np.ptp(kelvin) <= _ONE_TEMPERATURE:
             continue
-        hertz = table.numbers(frequency, "a finite number")
+        hertz = _positive(table, frequency, "frequency")
         if not named or len(np.unique(hertz)) <= len(hertz) // 2:
             raise FileError(
                 f"{table.path}: expected one master curve; got rows at temperatures from "
-                f"{kelvin.min():g} to {kelvin.max():g} in column {title.name}; shift the sweeps to "
-                "one master curve first, or name the columns if they are shifted"
+                f"{kelvin.min():g} to {kelvin.max():g} in column {checks.shortened(title.name)}; "
+                "shift the sweeps to one master curve first (read_sweeps, superpose), or name the "
+                "columns if they are "
+                "shifted"
             )
 
 
@@ -150,17 +153,23 @@ def _choose(table: TextTable, columns: Sequence[str | int] | None) -> list[int]:
         if len(hits) != 1:
             raise InputError(
                 f"{table.path}: columns must name frequency, storage and loss, because {len(hits)} "
-                f"header names mean {wanted}; the header has {', '.join(table.names)}"
+                f"header names mean {wanted}; the header has {table.titles}"
             )
         found.append(hits[0])
     return found
 
 
 def _three(columns: Sequence[str | int]) -> Sequence[str | int]:
-    if isinstance(columns, str) or len(columns) != 3 or len(set(columns)) != 3:
+    if (
+        not isinstance(columns, Sequence)
+        or isinstance(columns, str)
+        or not all(isinstance(column, str | int) for column in columns)
+        or len(columns) != 3
+        or len(set(columns)) != 3
+    ):
         raise InputError(
             f"columns must be three different names or positions for frequency, storage and loss; "
-            f"got {columns!r}"
+            f"got {checks.shown(columns)}"
         )
     return columns
 
@@ -170,9 +179,10 @@ def position_of(table: TextTable, column: str | int) -> int:
     if isinstance(column, int):
         return checks.whole("columns", column, least=0, most=len(table.columns) - 1)
     if table.names.count(column) != 1:
-        known = ", ".join(table.names) or "no names"
+        known = table.titles or "no names"
         raise InputError(
-            f"{table.path}: columns must be among the header's names ({known}); got {column!r}"
+            f"{table.path}: columns must be among the header's names ({known}); "
+            f"got {checks.shown(column)}"
         )
     return table.names.index(column)
 
@@ -186,7 +196,7 @@ def unit_of(table: TextTable, chosen: list[int], kind: str, given: str | None) -
     stated = {spelled(unit, kind) or unit for unit in written}
     unit = stated.pop()
     if unit is None or stated or spelled(unit, kind) is None:
-        what = "no unit" if unit is None else repr(unit)
+        what = "no unit" if unit is None else checks.shown(unit)
         raise InputError(
             f"{table.path}: {kind}_unit must be given ({listed(kind)}), because the header states "
             f"{'different units' if stated else what}"
@@ -210,15 +220,10 @@ def modulus_of(table: TextTable, chosen: list[int], given: str | None) -> str:
 
 def _positive(table: TextTable, column: int, wanted: str) -> Array:
     """Return a column whose numbers are all above zero and within reason."""
-    values = table.numbers(column, "a finite number")
+    within = f"a {wanted} between {checks.LEAST:g} and {checks.MOST:g}"
+    values = table.numbers(column, within)
     for number, value in zip(table.line_numbers, values, strict=True):
-        if value <= 0.0:
-            raise FileError(
-                f"{table.path}, line {number}: expected a {wanted} above zero; got {value:g}"
-            )
-        if not checks.LEAST <= value <= checks.MOST:
-            raise FileError(
-                f"{table.path}, line {number}: expected a {wanted} between {checks.LEAST:g} and "
-                f"{checks.MOST:g}; got {value:g}"
-            )
+        if value < checks.LEAST:
+            expected = within if value > 0.0 else f"a {wanted} above zero"
+            raise FileError(f"{table.path}, line {number}: expected {expected}; got {value:g}")
     return values

@@ -225,12 +225,13 @@ def _temperature(
     if given is not None or stated is None or stated is False:
         return given
     kelvin = row_temperatures(block, chosen, None, unit)
-    if np.ptp(kelvin[np.isfinite(kelvin)]) > 2.0 * TOLERANCE:
+    kelvin = kelvin[np.isfinite(kelvin)]
+    if kelvin.size and np.ptp(kelvin) > 2.0 * TOLERANCE:
         raise FileError(
-            f"{block.table.path}: expected one temperature; got {np.nanmin(kelvin):.2f} to "
-            f"{np.nanmax(kelvin):.2f} K"
+            f"{block.table.path}: expected one temperature; got {kelvin.min():.2f} to "
+            f"{kelvin.max():.2f} K"
         )
-    return float(np.nanmean(kelvin))
+    return float(kelvin.mean()) if kelvin.size else None
 
 
 def _frequency(
@@ -241,9 +242,9 @@ def _frequency(
         return given
     written = unit_of(table, [column], "frequency", unit)
     hertz = in_si(above_zero(table, column, "frequency"), written, "frequency")
-    if np.nanmax(hertz) > (1.0 + _ONE_FREQUENCY) * np.nanmin(hertz):
+    hertz = hertz[np.isfinite(hertz)]
+    if hertz.size and hertz.max() > (1.0 + _ONE_FREQUENCY) * hertz.min():
         raise FileError(
-            f"{table.path}: expected one frequency; got {np.nanmin(hertz):g} to "
-            f"{np.nanmax(hertz):g} Hz"
+            f"{table.path}: expected one frequency; got {hertz.min():g} to {hertz.max():g} Hz"
         )
-    return float(np.nanmean(hertz))
+    return float(hertz.mean()) if hertz.size else None

@@ -188,6 +188,11 @@ def _reptate(path: Path, lines: list[Line], expected: list[str]) -> Block:
         )
     table = _table(path, lines[1:], expected)
     if not table.names:
+        if len(table.columns) < len(_REPTATE):
+            raise FileError(
+                f"{path}, line {table.line_numbers[0]}: expected at least 3 columns (frequency, "
+                f"G', G''); got {len(table.columns)}"
+            )
         others = [Column()] * (len(table.columns) - len(_REPTATE))
         table = replace(table, columns=[*_REPTATE, *others])
     return Block(table, celsius + 273.15)

@@ -81,5 +81,6 @@ def _cross_validate(
         squares[out] = 0.5 * (spectrum.storage(omega[out]) / storage[out] - 1.0) ** 2
         squares[out] += 0.5 * (spectrum.loss(omega[out]) / loss[out] - 1.0) ** 2
     error = float(np.sqrt(squares.mean()))
-    spread = float(squares.std(ddof=1) / np.sqrt(len(squares)))
+    most = max(float(squares.max()), np.finfo(float).tiny)  # its square may overflow
+    spread = most * float((squares / most).std(ddof=1) / np.sqrt(len(squares)))
     return Candidate(terms, error, 0.5 * spread / error if error > 0.0 else 0.0)

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from gripscale import checks
 from gripscale.errors import FileError, InputError
 from gripscale.rubber.excel import read_sheets
+from gripscale.textfile import file_path
 from gripscale.units import in_si
 
 Array = NDArray[np.float64]
@@ -43,7 +44,7 @@ class UniaxialTest:
     stress: Array = field(repr=False)
 
     def __init__(self, name: str, time: ArrayLike, stretch: ArrayLike, stress: ArrayLike) -> None:
-        object.__setattr__(self, "name", str(name))
+        object.__setattr__(self, "name", checks.text("name", name))
         object.__setattr__(self, "time", checks.vector("time", time, unit="s"))
         object.__setattr__(self, "stretch", checks.positive_vector("stretch", stretch))
         object.__setattr__(self, "stress", checks.vector("stress", stress, unit="Pa"))
@@ -88,7 +89,7 @@ def read_uniaxial_test(path: str | Path, *, stress_unit: str = "Pa") -> Uniaxial
         If the unit is unknown.
     """
     pascal = in_si(1.0, stress_unit, "modulus", "stress_unit")
-    path = Path(path)
+    path = file_path(path)
     rows = next(iter(read_sheets(path).values()))
     try:
         if any(len(row) < 3 for row in rows):

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gripscale.model import TOTALS
+from gripscale.model import OUTSIDE_BAND, TOTALS
 from gripscale.rubber import Rubber
 from gripscale.study.axes import LONG_NAMES, UNITS, Axis
 from gripscale.study.decades import friction_by_decade
@@ -16,7 +16,7 @@ from gripscale.study.decades import friction_by_decade
 Index = tuple[int, ...]
 Predictions = dict[Index, xr.Dataset]
 
-OF_ALL = (*TOTALS, "prediction_status")
+OF_ALL = (*TOTALS, *OUTSIDE_BAND, "prediction_status")
 """What every model says of the whole surface."""
 
 

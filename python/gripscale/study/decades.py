@@ -18,6 +18,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from gripscale.rubber import Rubber
+from gripscale.wave.harmonics import harmonics
 
 HARMONICS = 32
 """Harmonics of the contact pressure that count."""
@@ -61,23 +62,12 @@ def _shares(wave: xr.Dataset, rubber: Rubber) -> Array:
     """Return the part of each Maxwell element in the dissipation of one wave, adding to one."""
     order = np.arange(1, HARMONICS + 1)
     omega = order * float(wave.angular_frequency)
-    pressure = _harmonics(wave.surface_x.values, wave.surface_pressure.values, wave, order)
+    pressure = harmonics(
+        wave.surface_x.values, wave.surface_pressure.values, float(wave.wavelength), order
+    )
     weight = pressure**2 / np.abs(rubber.complex_modulus(omega)) ** 2
     phase = omega[:, None] * rubber.relaxation_times
     loss = rubber.moduli * phase / (1.0 + phase**2)
     parts = weight @ loss
     total = float(parts.sum())
     return np.asarray(parts / total if total > 0.0 else parts)
-
-
-def _harmonics(x: Array, pressure: Array, wave: xr.Dataset, order: NDArray[np.int_]) -> Array:
-    """Return |p_k| of a periodic pressure given at uneven abscissas, by the trapezoidal rule."""
-    period = float(wave.wavelength)
-    known = np.isfinite(x) & np.isfinite(pressure)
-    place = np.mod(x[known], period)
-    sequence = np.argsort(place)
-    place, height = place[sequence], pressure[known][sequence]
-    width = np.diff(np.append(place, place[0] + period))
-    weight = 0.5 * (width + np.roll(width, 1))
-    phase = np.exp(-2j * np.pi * np.outer(order, place) / period)
-    return np.asarray(np.abs(phase @ (weight * height)) / period)

@@ -301,7 +301,7 @@ class Study:
 
 def _at_rest(data: xr.Dataset) -> xr.Dataset:
     """Return what `data` says of rubber at rest, where there is no friction, as `static_...`."""
-    moving = ("friction", "angular_frequency", "loss_factor", "load_time", "speed")
+    moving = ("friction", "angular_frequency", "loss_factor", "load_time", "speed", "_band")
     names = [str(name) for name in data.data_vars if not any(word in str(name) for word in moving)]
     return data[names].rename({name: f"static_{name}" for name in names})
 

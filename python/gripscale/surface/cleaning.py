@@ -43,7 +43,7 @@ class CleaningReport:
             if report.step == step:
                 return report
         known = ", ".join(report.step for report in self.steps)
-        raise InputError(f"step must be one of {known}; got {step!r}")
+        raise InputError(f"step must be one of {known}; got {checks.shown(step)}")
 
     def table(self) -> str:
         """Return the steps as a plain table: points left, cut off, made missing, missing now."""
@@ -98,6 +98,7 @@ def clean(
     InputError
         If an argument is wrong, or a step leaves too few points or heights.
     """
+    checks.instance("profile", profile, Profile)
     reports = []
     if crop is not None:
         profile, report = crop_profile(profile, crop)
@@ -176,6 +177,7 @@ def mark_spikes(
     limit = checks.positive("spike_slope", slope) * profile.step
     z = profile.z.copy()
     passes = 1
+    checks.flag("across_gaps", across_gaps)
     spikes = _spikes(z, limit, across_gaps)
     while spikes.size:
         z[spikes] = np.nan

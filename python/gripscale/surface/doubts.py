@@ -87,6 +87,9 @@ def profile_doubts(
     InputError
         If `cleaned` is no part of `profile`.
     """
+    checks.instance("profile", profile, Profile)
+    if cleaned is not None:
+        checks.instance("cleaned", cleaned, Profile)
     checks.flag("steep", steep)
     measured, kept = _kept(profile, cleaned)
     valid = measured[np.isfinite(measured)]

@@ -32,6 +32,10 @@ Printed ones differ by the last decimal, at most half as much again; two in one 
 """
 
 
+_MOST_PLACES = 1e12
+"""Steps in a gap beyond which its points stand on no grid that floating point tells."""
+
+
 @dataclass(frozen=True, eq=False)
 class Grid:
     """Whole places of points on an even grid, and the largest distance from it in steps."""
@@ -100,6 +104,8 @@ def _places(steps: FloatArray) -> NDArray[np.int64]:
     enough to count how many a long gap holds.
     """
     step = steps[steps <= SINGLE * steps.min()].mean()
+    if steps.max() > _MOST_PLACES * step:
+        return np.arange(steps.size + 1)
     whole = np.maximum(np.rint(steps / step), 1.0)
     return np.concatenate(([0], np.cumsum(whole))).astype(np.int64)
 

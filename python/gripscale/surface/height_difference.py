@@ -10,7 +10,7 @@ nearer to what the rubber meets (`upper_share`).
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -173,7 +173,7 @@ def height_difference(
 
 def _profiles(profile: Profile | Sequence[Profile]) -> list[Profile]:
     given: object = [profile] if isinstance(profile, Profile) else profile
-    profiles = list(given) if isinstance(given, Iterable) else []
+    profiles = list(given) if isinstance(given, Sequence) else []
     if not profiles or not all(isinstance(p, Profile) for p in profiles):
         raise InputError(
             f"profile must be a Profile or a list of them; got {checks.shown(profile)}"

@@ -144,14 +144,11 @@ def _axis(name: str, values: FloatArray) -> FloatArray:
 
 def _heights(values: FloatArray) -> FloatArray:
     expected = "z must be a table of heights [m], numbers or NaN, with two dimensions"
-    try:
-        z = np.array(values, dtype=float)
-    except (TypeError, ValueError, OverflowError) as error:
-        raise InputError(f"{expected}; got {checks.shown(values)}") from error
+    z = checks.array(values, expected)
     if z.ndim != 2:
         raise InputError(f"{expected}; got {z.ndim} dimensions")
-    if np.isinf(z).any():
-        raise InputError(f"{expected}; got {z[np.isinf(z)][0]}")
+    if (np.abs(z) > checks.MOST).any():
+        raise InputError(f"{expected}; got {z[np.abs(z) > checks.MOST][0]:g}")
     return z
 
 

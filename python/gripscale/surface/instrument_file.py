@@ -7,6 +7,7 @@ doi:10.1088/2051-672X/ac860a.
 from __future__ import annotations
 
 import io
+import math
 import warnings
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -14,12 +15,16 @@ from typing import Any
 
 import numpy as np
 
+from gripscale import checks
 from gripscale.errors import FileError, InputError
 from gripscale.surface.height_map import line_label
 from gripscale.surface.length_unit import length_unit
 from gripscale.surface.profile import FloatArray, Profile
 from gripscale.textfile import read_bytes
 from gripscale.units import in_si
+
+MOST_POINTS_PER_BYTE = 1032
+"""Deflate, the densest packing of all formats, makes at most 1032 bytes of one."""
 
 
 @dataclass(frozen=True)
@@ -89,6 +94,7 @@ def read_instrument_file(
             reader = open_topography(io.BytesIO(raw))
             try:
                 topography = _topography(path, reader, channel, step)
+                _check_count(path, topography.nb_grid_pts, len(raw))
                 heights: FloatArray = np.ma.filled(
                     np.ma.asarray(topography.heights(), dtype=float), np.nan
                 )
@@ -125,6 +131,15 @@ def _topography(
     return chosen.topography(physical_sizes=sizes)
 
 
+def _check_count(path: Path, points: tuple[int, ...], length: int) -> None:
+    """Refuse a header with more points than any packing gets into the bytes of the file."""
+    if math.prod(points) > MOST_POINTS_PER_BYTE * length:
+        raise FileError(
+            f"{path}: expected a surface; its header states {' x '.join(map(str, points))} points, "
+            f"which {length} bytes cannot hold"
+        )
+
+
 def _channel(path: Path, channels: list[Any], wanted: str | int | None) -> Any:
     """Return the one channel of heights, or the one of them that is `wanted`."""
     known = [channel for channel in channels if channel.is_height_channel]
@@ -135,7 +150,9 @@ def _channel(path: Path, channels: list[Any], wanted: str | int | None) -> Any:
     if wanted is not None:
         known = [channel for channel in known if wanted in (channel.name, channel.index)]
         if not known:
-            raise InputError(f"channel of {path} must be one of {named}; got {wanted!r}")
+            raise InputError(
+                f"channel of {path} must be one of {named}; got {checks.shown(wanted)}"
+            )
     if len(known) > 1:
         raise FileError(f"{path}: expected one channel of heights; got {named}; give channel")
     return known[0]

@@ -60,12 +60,13 @@ def areal_spectrum(
     from scipy.optimize import nnls
     from scipy.special import gamma
 
+    checks.instance("spectrum", spectrum, ProfileSpectrum)
     mean = spectrum.averaged(per_decade)
     q, density = mean.wavenumber, mean.density
-    if q.size < _TAIL_POINTS or not (density > 0.0).all():
+    if q.size < _TAIL_POINTS or not (density >= checks.LEAST).all():
         raise InputError(
             f"spectrum must have at least {_TAIL_POINTS} points above zero to be turned into that "
-            f"of a surface; got {int((density > 0.0).sum())}"
+            f"of a surface; got {int((density >= checks.LEAST).sum())}"
         )
     if hurst is not None:
         exponent = checks.positive("hurst", hurst)

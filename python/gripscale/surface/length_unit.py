@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from gripscale import checks
 from gripscale.errors import FileError, InputError
 from gripscale.units import in_si, spelled
 
@@ -40,6 +41,7 @@ def length_unit(
         return found
     if stated:
         raise FileError(
-            f"{path}: {part} is in {stated!r}, which is no known unit of length; give {name}"
+            f"{path}: {part} is in {checks.shown(stated)}, which is no known unit of "
+            f"length; give {name}"
         )
     raise FileError(f"{path}: {part} names no unit of length; {how} {name}")

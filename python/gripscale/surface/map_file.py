@@ -61,7 +61,9 @@ def read_map(
     place = file_place(path, x_unit, z_unit, reader)
     steps = None if step is None else _steps(step)
     if steps is not None and x_unit is not None:
-        raise InputError(f"x_unit must be left out with step, which is in m; got {x_unit!r}")
+        raise InputError(
+            f"x_unit must be left out with step, which is in m; got {checks.shown(x_unit)}"
+        )
     if is_text(place, reader, MAP_TEXT_SUFFIXES):
         return read_text_map(place, x_unit=x_unit, z_unit=z_unit, step=steps)
     return _instrument_map(place, x_unit, z_unit, steps, channel)

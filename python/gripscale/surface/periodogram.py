@@ -120,6 +120,11 @@ def map_spectrum(
     ring = max(2.0 * np.pi / (n * step) for n, step in zip(heights.shape, steps, strict=True))
     number = np.rint(q / ring).astype(int)
     rings = int(np.pi / max(steps) / ring)
+    if rings < 1:
+        raise InputError(
+            "x_step and y_step must leave the map longer each way than twice the larger of them "
+            f"[m]; got {steps[0]:g} and {steps[1]:g}, of shape {heights.shape}"
+        )
     start = first_of_bins(np.arange(1, rings + 1), each) + 1
     inside = (number >= 1) & (number <= rings)
     which = np.searchsorted(start, number[inside], side="right") - 1
@@ -149,7 +154,8 @@ def _plane_waves(
 
 
 def _profiles(profile: Profile | Sequence[Profile]) -> list[Profile]:
-    profiles = [profile] if isinstance(profile, Profile) else list(profile)
+    given: object = [profile] if isinstance(profile, Profile) else profile
+    profiles = list(given) if isinstance(given, Sequence) else []
     if not profiles or not all(isinstance(one, Profile) for one in profiles):
         raise InputError(
             f"profile must be a Profile or a list of them; got {checks.shown(profile)}"
@@ -175,12 +181,12 @@ def _points(most: int, step: float, window: float) -> int:
 
 
 def _heights(z: ArrayLike) -> FloatArray:
-    heights = np.asarray(z, dtype=float)
-    if heights.ndim != 2 or min(heights.shape) < FEWEST_POINTS or np.isinf(heights).any():
-        raise InputError(
-            f"z must be heights of shape (nx, ny), at least {FEWEST_POINTS} each way [m]; "
-            f"got shape {heights.shape}"
-        )
+    expected = f"z must be heights of shape (nx, ny), at least {FEWEST_POINTS} each way [m]"
+    heights = checks.array(z, expected)
+    if heights.ndim != 2 or min(heights.shape) < FEWEST_POINTS:
+        raise InputError(f"{expected}; got shape {heights.shape}")
+    if (np.abs(heights) > checks.MOST).any():
+        raise InputError(f"{expected}; got one beyond {checks.MOST:g}")
     if np.isnan(heights).all():
         raise InputError(f"z must have some heights; got {heights.size} points, all missing")
     return heights

@@ -66,7 +66,9 @@ class Profile:
         x = checks.vector("x", self.x, unit="m")
         z = checks.vector("z", self.z, unit="m", missing=True)
         _check_lengths(x, z)
-        notes = tuple(checks.text("a note", note) for note in self.notes)
+        if not isinstance(self.notes, tuple | list):
+            raise InputError(f"notes must be a tuple of texts; got {checks.shown(self.notes)}")
+        notes = tuple(checks.text("each of notes", note) for note in self.notes)
         if x[0] > x[-1]:
             x, z = x[::-1].copy(), z[::-1].copy()
             notes += (TURNED_ROUND,)

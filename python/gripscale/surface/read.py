@@ -13,6 +13,7 @@ from gripscale.errors import FileError, InputError
 from gripscale.surface.instrument_file import HeightField, read_instrument_file
 from gripscale.surface.profile import Profile
 from gripscale.surface.text_profile import read_text_profile
+from gripscale.textfile import file_path
 from gripscale.units import in_si
 
 TEXT_SUFFIXES = ("", ".dat", ".txt", ".csv", ".tsv", ".prn")
@@ -105,10 +106,7 @@ def file_place(
     for name, unit in (("x_unit", x_unit), ("z_unit", z_unit)):
         if unit is not None:
             in_si(1.0, unit, "length", name)
-    try:
-        return Path(path)
-    except TypeError as error:
-        raise InputError(f"path must be the path of a file; got {checks.shown(path)}") from error
+    return file_path(path)
 
 
 def is_text(path: Path, reader: str, suffixes: Collection[str] = TEXT_SUFFIXES) -> bool:

@@ -41,6 +41,11 @@ class SelfAffineFit:
         Range of lags [m] over which C_z was found to be a power law.
     residual : float
         Root mean square departure from the power law over that range, in decades of C_z.
+
+    Raises
+    ------
+    InputError
+        If a value is not a number above zero; the residual may be zero.
     """
 
     hurst: float
@@ -49,6 +54,12 @@ class SelfAffineFit:
     lag_min: float
     lag_max: float
     residual: float
+
+    def __post_init__(self) -> None:
+        checks.positive("hurst", self.hurst)
+        for name in ("xi_parallel", "xi_perpendicular", "lag_min", "lag_max"):
+            checks.positive(name, getattr(self, name), unit="m")
+        checks.not_negative("residual", self.residual)
 
     @property
     def fractal_dimension(self) -> float:
@@ -92,6 +103,7 @@ def fit_self_affine(
     InputError
         If C_z vanishes somewhere, does not reach a plateau or does not rise before it.
     """
+    checks.instance("hdc", hdc, HeightDifference)
     checks.positive("tolerance", tolerance)
     checks.positive("shortest_range", shortest_range)
     if (hdc.value <= 0.0).any():

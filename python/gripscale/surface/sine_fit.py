@@ -143,6 +143,8 @@ def fit_sines(
             "give smallest_wavelength (the last wave) or cut_off (where the roughness ends); "
             f"got {smallest_wavelength:g} m and {cut_off:g} m"
         )
+    checks.instance("hdc", hdc, HeightDifference)
+    checks.flag("single_factor", single_factor)
     given = _given_logs(
         {
             "first_wavelength": first_wavelength,

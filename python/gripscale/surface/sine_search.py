@@ -12,6 +12,7 @@ from itertools import product
 
 import numpy as np
 
+from gripscale import checks
 from gripscale.surface.plateau import log_weights
 from gripscale.surface.profile import FloatArray
 
@@ -116,11 +117,16 @@ class Found:
 def fitted_curve(logs: FloatArray, waves: int, lag: FloatArray) -> FloatArray:
     """Return C_z [m^2] at lags [m], the first wave by its mean beyond a quarter wavelength."""
     order = np.arange(waves)
-    wavelength = np.exp(logs[FIRST_WAVELENGTH] - order * logs[S_WAVELENGTH])
-    amplitude = np.exp(logs[FIRST_AMPLITUDE] - order * logs[S_AMPLITUDE])
+    wavelength = _size(logs[FIRST_WAVELENGTH] - order * logs[S_WAVELENGTH])
+    amplitude = _size(logs[FIRST_AMPLITUDE] - order * logs[S_AMPLITUDE])
     turns = lag[:, None] / wavelength
     turns[:, 0] = np.minimum(turns[:, 0], 0.25)
     return np.asarray(2.0 * np.sin(np.pi * turns) ** 2 @ amplitude**2)
+
+
+def _size(log: FloatArray) -> FloatArray:
+    """Return the length of a logarithm; one beyond reason is kept where its square is finite."""
+    return np.asarray(np.exp(np.clip(log, np.log(checks.LEAST), np.log(checks.MOST))))
 
 
 def search(target: Target, trial: Trial, refined: int = 10) -> Found | None:

@@ -192,6 +192,7 @@ def _keep(spectrum: ProfileSpectrum | ArealSpectrum, unit: str) -> None:
     if (density < 0.0).any():
         at = int(np.argmax(density < 0.0))
         raise InputError(f"density must not be negative; got {density[at]:g} {unit} at index {at}")
+    checks.not_negative("interpolated", spectrum.interpolated)
     for name, values in (("wavenumber", q), ("density", density)):
         values.flags.writeable = False
         object.__setattr__(spectrum, name, values)

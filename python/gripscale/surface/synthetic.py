@@ -52,6 +52,11 @@ def self_affine_profile(
     variance = 0.5 * checks.positive("xi_perpendicular", xi_perpendicular, unit="m") ** 2
     x = _points(length, step)
     # A period twice as long as needed, and ten cut-offs more, keeps the spectrum positive.
+    if x.size + 10.0 * cut_off / step > MOST_POINTS:
+        raise InputError(
+            f"length + 10 xi_parallel must be at most {MOST_POINTS} steps; got xi_parallel "
+            f"{cut_off:g} m at steps of {x[1]:g} m"
+        )
     half = 2 ** int(np.ceil(np.log2(x.size + 10.0 * cut_off / step)))
     lag = step * np.concatenate((np.arange(half + 1), np.arange(half - 1, 0, -1)))
     spectrum = np.fft.fft(variance * np.exp(-((lag / cut_off) ** exponent))).real
@@ -78,6 +83,7 @@ def sine_profile(stack: SineStack, length: float, step: float, seed: int) -> Pro
     InputError
         If an argument is out of range.
     """
+    checks.instance("stack", stack, SineStack)
     x = _points(length, step)
     random = np.random.default_rng(checks.whole("seed", seed, least=0, most=2**32 - 1))
     z = np.zeros(x.size)

@@ -1,7 +1,8 @@
 """A map from a text file: a table of heights, or points with their two distances and their height.
 
 A table is an image: its rows run along y, its columns along x, and the steps are not in it. Points
-(x, y, z) may come in any order; those left out, single or whole lines, are missing heights.
+(x, y, z) may come in any order; those left out, single or whole lines, and those that hold a code
+such as -9999 are missing heights.
 """
 
 from __future__ import annotations
@@ -14,11 +15,15 @@ import numpy as np
 from gripscale.errors import FileError, InputError
 from gripscale.surface.height_map import HeightMap
 from gripscale.surface.length_unit import length_unit
+from gripscale.surface.missing_code import without_codes
 from gripscale.surface.printed_grid import printed_grid
 from gripscale.surface.profile import FEWEST_POINTS, FloatArray
 from gripscale.surface.text_profile import DISTANCE_TITLE, HEIGHT_TITLE, column_unit
 from gripscale.textfile import TextTable, read_table
 from gripscale.units import in_si
+
+_MOST_TIMES = 100
+"""Points of a grid, in those of a file: with fewer on it, they are not on a grid."""
 
 _ACROSS_TITLE = re.compile(r"^\W*(y\b|y_)", re.IGNORECASE)
 
@@ -100,6 +105,7 @@ def _table(
             for column in range(len(table.columns))
         ]
     )
+    z, _ = without_codes(z)
     x, y = (d * np.arange(n) for n, d in zip(z.shape, step, strict=True))
     return x, y, in_si(z, z_unit, "length")
 
@@ -114,7 +120,13 @@ def _points(
         )
     ]
     (x, across_x), (y, across_y) = (_axis(table, column) for column in columns[:2])
-    heights = table.numbers(columns[2], f"a number in column {columns[2] + 1}", missing=True)
+    printed = table.numbers(columns[2], f"a number in column {columns[2] + 1}", missing=True)
+    heights, _ = without_codes(printed)
+    if x.size * y.size > _MOST_TIMES * len(heights):
+        raise FileError(
+            f"{table.path}: expected points on a grid; got {len(heights)} on one of {x.size} x "
+            f"{y.size}"
+        )
     place = across_x * y.size + across_y
     _check_single(table, place)
     z = np.full(x.size * y.size, np.nan)

@@ -5,7 +5,8 @@ below a line "*****DATA*****" and a title line that names millimetres. Its point
 consecutive (they jump and repeat where scans are joined), while the distance column runs on at a
 constant step printed to three decimals: the step is therefore taken from the distance column.
 
-Rows may run either way, and those without a height may be left out: they become missing heights.
+Rows may run either way, and those without a height may be left out or hold a code such as -9999:
+they become missing heights.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ import numpy as np
 
 from gripscale.errors import FileError, InputError
 from gripscale.surface.length_unit import length_unit
+from gripscale.surface.missing_code import without_codes
 from gripscale.surface.printed_grid import printed_grid
 from gripscale.surface.profile import FEWEST_POINTS, TURNED_ROUND, FloatArray, Profile
 from gripscale.textfile import TextTable, read_table
@@ -61,7 +63,10 @@ def read_text_profile(path: Path, *, x_unit: str | None, z_unit: str | None) -> 
     x = table.numbers(x_column, f"a distance in column {x_column + 1}")
     z = table.numbers(z_column, f"a number in column {z_column + 1}", missing=True)
     _check_complete(path, z)
+    z, code = without_codes(z)
     x, z, notes = _on_grid(table, x_column, x, z)
+    if code is not None:
+        notes += (f"heights of {code:g} {z_unit} stand for missing ones",)
     x, z = in_si(x, x_unit, "length"), in_si(z, z_unit, "length")
     try:
         return Profile(x, z, name=path.stem, source=str(path), notes=notes)
@@ -80,7 +85,7 @@ def _columns(table: TextTable) -> tuple[int, int]:
     raise FileError(
         f"{table.path}, line {table.line_numbers[0]}: expected two columns, distance and height, "
         f"or titles that name them; got {len(table.columns)} columns titled "
-        f"{table.names or 'not at all'}"
+        f"{table.titles or 'not at all'}"
     )
 
 

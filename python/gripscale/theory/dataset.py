@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gripscale import model, versions
+from gripscale.rubber.extrapolation import by_wavelength
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -32,6 +33,8 @@ class TheoryResult(Protocol):
     def load(self) -> NominalLoad: ...  # noqa: D102
     @property
     def wavelength(self) -> NDArray[np.float64]: ...  # noqa: D102
+    @property
+    def running_friction(self) -> NDArray[np.float64]: ...  # noqa: D102
     @property
     def contact_fraction(self) -> float: ...  # noqa: D102
     @property
@@ -70,4 +73,7 @@ def theory_dataset(
         method=source,
         **versions.attributes(),
     )
-    return model.answer(made, totals, str(result.status), name, result.load)
+    beyond = by_wavelength(
+        result.rubber, result.load.speed, result.wavelength, result.running_friction
+    )
+    return model.answer(made, totals, str(result.status), name, result.load, beyond)

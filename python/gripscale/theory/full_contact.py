@@ -27,7 +27,8 @@ def plane_strain_modulus(youngs_modulus: complex, poisson_ratio: float) -> compl
 
     Raises `InputError` unless -1 < nu <= 0.5.
     """
-    return complex(youngs_modulus) / (1.0 - poisson(poisson_ratio) ** 2)
+    modulus = checks.complex_number("youngs_modulus", youngs_modulus, unit="Pa")
+    return modulus / (1.0 - poisson(poisson_ratio) ** 2)
 
 
 def poisson(value: float) -> float:
@@ -91,8 +92,8 @@ def full_contact_friction(
 
 
 def _modulus(value: complex) -> complex:
-    modulus = complex(value)
-    if not (np.isfinite(modulus) and modulus.real > 0.0 and modulus.imag >= 0.0):
+    modulus = checks.complex_number("plane_strain_modulus", value, unit="Pa")
+    if not (modulus.real > 0.0 and modulus.imag >= 0.0):
         raise InputError(
             "plane_strain_modulus must have a real part above zero and an imaginary part not "
             f"negative [Pa]; got {modulus}"

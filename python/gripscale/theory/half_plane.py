@@ -20,6 +20,7 @@ effect.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar
@@ -30,6 +31,7 @@ from numpy.typing import NDArray
 from gripscale import checks
 from gripscale.errors import InputError
 from gripscale.rubber import Rubber
+from gripscale.rubber.carrying import require_solid
 from gripscale.theory.full_contact import (
     full_contact_friction,
     full_contact_pressure,
@@ -165,9 +167,12 @@ def solve_half_plane(
     Raises
     ------
     InputError
-        If an argument is out of its range.
+        If an argument is out of its range, or the rubber at rest is a melt: the pressure is more
+        than ten times the equilibrium modulus.
     """
     problem = WaveProblem(rubber, Sine(wavelength, amplitude), Load(pressure, speed, load_time))
+    if problem.load.speed == 0.0:
+        require_solid(rubber, problem.load.pressure, math.inf)
     return HalfPlane(points, poisson_ratio, most_iterations).solve(problem)
 
 

@@ -162,6 +162,7 @@ def klueppel_heinrich(
         If an argument is out of its range, or the surface is not self-affine.
     """
     fit = _self_affine(surface)
+    checks.instance("rubber", rubber, Rubber)
     ratio = checks.positive("layer_ratio", layer_ratio)
     depth = checks.positive("penetration_depth", penetration_depth, unit="m")
     smallest = checks.positive("smallest_wavelength", smallest_wavelength, unit="m")
@@ -191,11 +192,15 @@ def _self_affine(
     if isinstance(surface, SelfAffineFit):
         return surface
     if not isinstance(surface, HeightDifference):
-        profiles = [surface] if isinstance(surface, Profile) else list(surface)
-        if not all(isinstance(one, Profile) for one in profiles):
+        profiles = [surface] if isinstance(surface, Profile) else surface
+        if (
+            not isinstance(profiles, Sequence)
+            or not profiles
+            or not all(isinstance(one, Profile) for one in profiles)
+        ):
             raise InputError(
                 "surface must be a SelfAffineFit, a HeightDifference or profiles; "
-                f"got {surface!r:.80}"
+                f"got {checks.shown(surface)}"
             )
         surface = height_difference(profiles, upper_share=UPPER_SHARE)
     return fit_self_affine(surface)

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from gripscale import checks
 from gripscale.errors import InputError
 from gripscale.model import NominalLoad
 from gripscale.rubber import Rubber
@@ -39,6 +40,10 @@ class Persson:
     smallest_wavelength: float | None = None
     gamma: float = 0.5
     window: float | None = None
+
+    def __post_init__(self) -> None:
+        _check_lengths(self, "smallest_wavelength", "window")
+        checks.not_negative("gamma", self.gamma)
 
     def relevant(self, surface: PreparedSurface) -> PreparedSurface:
         """Return the cleaned profiles of `surface` and where its waves end."""
@@ -86,6 +91,11 @@ class KlueppelHeinrich:
     penetration_depth: float
     smallest_wavelength: float | None = None
 
+    def __post_init__(self) -> None:
+        checks.positive("layer_ratio", self.layer_ratio)
+        checks.positive("penetration_depth", self.penetration_depth, unit="m")
+        _check_lengths(self, "smallest_wavelength")
+
     def relevant(self, surface: PreparedSurface) -> PreparedSurface:
         """Return the cleaned profiles of `surface` and where its waves end."""
         return surface.as_measured()
@@ -131,3 +141,10 @@ def _cleaned(surface: PreparedSurface, name: str) -> list[Profile]:
             f"{name} needs measured profiles; got a surface of sine waves only ({surface.source})"
         )
     return surface.measured.cleaned
+
+
+def _check_lengths(model: object, *names: str) -> None:
+    """Refuse a length of a model that is given and not above zero."""
+    for name in names:
+        if getattr(model, name) is not None:
+            checks.positive(name, getattr(model, name), unit="m")

@@ -114,7 +114,7 @@ def _edge_offset(gap: Array, active: Mask, node: int, side: int) -> float:
     """Return how far beyond the last active node the contact ends [elements, 0 to 1]."""
     points = len(gap)
     near, far = (node + side) % points, (node + 2 * side) % points
-    if active[far] or gap[far] <= gap[near]:
+    if active[far] or gap[far] <= max(gap[near], 0.0):
         return 0.5
     here, there = max(gap[near], 0.0) ** (2.0 / 3.0), gap[far] ** (2.0 / 3.0)
     return float(np.clip(1.0 - here / (there - here), 0.0, 1.0))
@@ -137,7 +137,10 @@ def _solve_level(
     transform = np.fft.fft(influence)
     fewest, patience = len(height) + 1, _PATIENCE
     for iteration in range(1, most_iterations + 1):
-        pressure, offset = _solve_active(influence, height, active)
+        try:
+            pressure, offset = _solve_active(influence, height, active)
+        except np.linalg.LinAlgError:  # no node is left, or compliances are lost in rounding
+            return PeriodicContact(np.zeros(len(height)), -height, active, iteration, False)
         gap = np.fft.ifft(transform * np.fft.fft(pressure)).real + offset - height
         wrong = np.where(active, pressure < 0.0, gap < -1e-12)
         count = int(wrong.sum())

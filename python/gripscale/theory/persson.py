@@ -160,11 +160,12 @@ def persson(
     InputError
         If an argument is out of its range.
     """
+    checks.instance("rubber", rubber, Rubber)
     if isinstance(spectrum, ProfileSpectrum):
         spectrum = areal_spectrum(spectrum)
     if not isinstance(spectrum, ArealSpectrum):
         raise InputError(
-            f"spectrum must be an ArealSpectrum or a ProfileSpectrum; got {spectrum!r:.80}"
+            f"spectrum must be an ArealSpectrum or a ProfileSpectrum; got {checks.shown(spectrum)}"
         )
     share = checks.not_negative("gamma", gamma)
     if share > 1.0:

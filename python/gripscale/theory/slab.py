@@ -47,9 +47,12 @@ def slab_compliance(
     InputError
         If an argument is out of its range.
     """
-    number = np.asarray(wavenumber, dtype=float)
-    if not (np.isfinite(number) & (number > 0.0)).all():
-        raise InputError(f"wavenumber must be greater than zero [rad/m]; got {wavenumber!r:.80}")
+    number = checks.real("wavenumber", wavenumber, unit="rad/m")
+    if not (number >= checks.LEAST).all():
+        raise InputError(
+            f"wavenumber must be greater than zero, at least {checks.LEAST:g} [rad/m]; "
+            f"got {checks.shown(wavenumber)}"
+        )
     thickness = checks.positive("depth", depth, unit="m", infinite=True)
     modulus = checks.positive("youngs_modulus", youngs_modulus, unit="Pa")
     ratio = poisson(poisson_ratio)

@@ -41,5 +41,6 @@ def step_relaxation_stress(rubber: Rubber, *, stretch: float, time: ArrayLike) -
     InputError
         If the stretch is not positive or a time is negative.
     """
+    checks.instance("rubber", rubber, Rubber)
     ratio = checks.positive("stretch", stretch)
     return np.asarray(rubber.relaxation_modulus(time) / 3.0 * (ratio - ratio**-2))

@@ -29,9 +29,9 @@ def contact_fraction(pressure_ratio: ArrayLike) -> Array:
 
     Raises `InputError` for a negative ratio or NaN.
     """
-    ratio = np.asarray(pressure_ratio, dtype=float)
+    ratio = checks.array(pressure_ratio, "pressure_ratio must be numbers not negative")
     if not (ratio >= 0.0).all():
-        raise InputError(f"pressure_ratio must not be negative; got {pressure_ratio!r:.80}")
+        raise InputError(f"pressure_ratio must not be negative; got {checks.shown(pressure_ratio)}")
     return np.asarray(2.0 / np.pi * np.arcsin(np.sqrt(np.minimum(ratio, 1.0))))
 
 
@@ -57,7 +57,7 @@ def contact_pressure(
     length = checks.positive("wavelength", wavelength, unit="m")
     mean = checks.positive("pressure", pressure, unit="Pa")
     full = checks.positive("full_contact_pressure", full_contact_pressure, unit="Pa")
-    psi = np.pi * np.asarray(x, dtype=float) / length
+    psi = np.pi * checks.real("x", x, unit="m") / length
     if mean >= full:
         return np.asarray(mean + full * np.cos(2.0 * psi))
     edge = mean / full

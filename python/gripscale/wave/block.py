@@ -50,6 +50,7 @@ class FiniteStrainBlock:
     time_limit: float | None = None
 
     def __post_init__(self) -> None:
+        checks.instance("mesh", self.mesh, Mesh)
         if self.tolerance is not None:
             object.__setattr__(self, "tolerance", checks.positive("tolerance", self.tolerance))
         if self.time_limit is not None:

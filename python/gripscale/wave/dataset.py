@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Sequence
+from operator import attrgetter
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -35,7 +36,7 @@ class Field(NamedTuple):
 
     @property
     def attribute(self) -> str:
-        """Name of the attribute of `WaveResult`."""
+        """Name of the attribute of `WaveResult`, or its path."""
         return self.other_name or self.name
 
     def variable(self, values: Any) -> xr.Variable:
@@ -74,6 +75,20 @@ DERIVED = (
         "1",
         "1 where the wave excites the rubber outside the measured frequencies",
         RUBBER,
+    ),
+    Field(
+        "decades_below_band",
+        "1",
+        "decades by which the slowest excitation is below the measured frequencies",
+        RUBBER,
+        "extrapolation.below",
+    ),
+    Field(
+        "decades_above_band",
+        "1",
+        "decades by which the fastest excitation is above the measured frequencies",
+        RUBBER,
+        "extrapolation.above",
     ),
     Field("friction_mismatch", "1", "relative difference of the two friction coefficients", CHAIN),
 )
@@ -130,7 +145,7 @@ def labelled(dims: Any, values: Any, unit: str, long_name: str, source: str) -> 
 
 
 def _column(field: Field, results: Sequence[WaveResult]) -> xr.Variable:
-    values = np.array([getattr(result, field.attribute) for result in results])
+    values = np.array([attrgetter(field.attribute)(result) for result in results])
     if field.name == "friction_mismatch":  # nothing slides: nothing to compare
         values = np.where([result.speed > 0.0 for result in results], values, math.nan)
     if values.dtype == bool:

@@ -38,6 +38,7 @@ def checked_settings(settings: Mapping[str, float]) -> Mapping[str, float]:
 
     The kernel refuses what is out of its range.
     """
+    checks.instance("settings", settings, Mapping)  # type: ignore[type-abstract]
     checks.known("setting", settings, default_settings())
     return {name: checks.number(name, value) for name, value in settings.items()}
 
@@ -85,6 +86,7 @@ def solution_of(start: WaveResult) -> Solution:
 
     Raises `InputError` if there is none: the result is of another solver, or from a file.
     """
+    checks.instance("start", start, WaveResult)
     if isinstance(start.solution, Solution):
         return start.solution
     raise InputError(

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from gripscale import model, versions
+from gripscale import checks, model, versions
 from gripscale.errors import InputError
 from gripscale.surface import Measured, PreparedSurface, Profile, SineStack
 from gripscale.wave.profile import solve_profile
@@ -44,6 +44,12 @@ class BlockOnProfile:
     periodic: bool = False
     tolerance: float | None = None
     most_mismatch: float = math.inf
+
+    def __post_init__(self) -> None:
+        if self.smallest_wavelength is not None:
+            checks.positive("smallest_wavelength", self.smallest_wavelength, unit="m")
+        checks.flag("periodic", self.periodic)
+        checks.positive("most_mismatch", self.most_mismatch, infinite=True)
 
     def relevant(self, surface: PreparedSurface) -> PreparedSurface:
         """Return nothing of `surface` but its profiles (and a wave, which a surface must have)."""

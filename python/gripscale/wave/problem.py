@@ -136,6 +136,9 @@ class WaveProblem:
     profile: Sine | SampledProfile
     load: Load
 
+    def __post_init__(self) -> None:
+        checks.instance("rubber", self.rubber, Rubber)
+
     @property
     def angular_frequency(self) -> float:
         """Fundamental excitation 2 pi speed / wavelength [rad/s]."""

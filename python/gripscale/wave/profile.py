@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from gripscale import checks
 from gripscale.errors import InputError
 from gripscale.rubber import Rubber
+from gripscale.rubber.carrying import require_solid
 from gripscale.surface.gaps import filled
 from gripscale.surface.profile import Profile
 from gripscale.wave import kernel
@@ -104,10 +105,12 @@ def solve_profile(
     Raises
     ------
     InputError
-        If a value is not a number or out of its range, or the smallest wave needs more columns.
+        If a value is not a number or out of its range, the smallest wave needs more columns, or
+        the rubber at rest is a melt: the pressure is more than ten times the equilibrium modulus.
     """
     if not isinstance(profile, Profile):
         raise InputError(f"profile must be a gripscale.Profile; got {type(profile).__name__}")
+    checks.flag("periodic", periodic)
     heights = _one_period(profile, smallest_wavelength, periodic)
     chosen = _columns(heights) if columns is None else columns
     share = checks.positive("columns", chosen) / Mesh.columns
@@ -122,7 +125,10 @@ def solve_profile(
         max_iterations=max_iterations,
         residual_tolerance=residual_tolerance,
     )
-    result = block.solve(WaveProblem(rubber, heights, Load(pressure, speed, load_time)), start)
+    problem = WaveProblem(rubber, heights, Load(pressure, speed, load_time))
+    if problem.load.speed == 0.0:
+        require_solid(rubber, problem.load.pressure, math.inf)
+    result = block.solve(problem, start)
     pressed = result.x[result.pressure > 0.0]
     told = {
         "missing_share": profile.missing / len(profile),

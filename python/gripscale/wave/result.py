@@ -10,7 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gripscale.rubber import Rubber
+from gripscale.rubber import Rubber, extrapolation
+from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
+from gripscale.wave.harmonics import harmonics
 from gripscale.wave.status import Status
 
 Array = NDArray[np.float64]
@@ -143,17 +145,31 @@ class WaveResult:
 
     @property
     def outside_band(self) -> bool:
-        """Whether the wave excites the rubber beyond what was measured, where it slides.
+        """Whether more than 1 % of its friction rests on the rubber beyond what was measured."""
+        return self.extrapolation.share > WORTH_SAYING
 
-        Looked at are the fundamental and its harmonic as long as the contact,
-        n = ceil(wavelength / contact length). The shorter waves of a profile excite it at higher
-        frequencies still, which this does not look at.
+    @property
+    def extrapolation(self) -> Extrapolation:
+        """What of it rests on the rubber beyond what was measured; nothing at rest.
+
+        A sine counts whole if its fundamental, or its harmonic as long as the contact,
+        n = ceil(wavelength / contact length), is beyond the band. The friction of a profile is
+        split by the harmonics of its pressure, |p_k|^2 Im(M)/|M|^2 each, as on a half-plane.
         """
-        if self.speed == 0.0 or self.rubber is None:
-            return False
+        if self.speed == 0.0:
+            return extrapolation.NONE
+        if self.rubber is None:
+            return extrapolation.UNKNOWN
+        if "smallest_wavelength" in self.details:
+            order = np.arange(1, len(self.x) // 2 + 1)
+            omega = self.angular_frequency * order
+            size = harmonics(self.x, self.pressure, self.wavelength, order)
+            modulus = self.rubber.plane_strain_modulus(omega)
+            lost = size**2 * modulus.imag / np.abs(modulus) ** 2
+            return extrapolation.of_spectrum(self.rubber, omega, lost)
         harmonic = math.ceil(1.0 / self.contact_fraction) if self.contact_fraction > 0.0 else 1
         omega = self.angular_frequency * np.array([1.0, harmonic])
-        return bool(self.rubber.outside_band(omega).any())
+        return extrapolation.of_frequencies(self.rubber, omega)
 
     def _complex_modulus(self) -> complex:
         if self.rubber is None:

@@ -158,12 +158,12 @@ def solve_transient(
     InputError
         If a value is not a number or out of its range, or there are no stages.
     """
-    if not stages:
-        raise InputError("stages must hold at least one Stage; got none")
+    checks.instance("rubber", rubber, Rubber)
+    stages = checks.instances("stages", stages, Stage)
     if options.get("tolerance") is not None:
         raise InputError(
             f"tolerance cannot be kept in time, where the mesh stays as it is: give columns and "
-            f"rows; got {options['tolerance']!r}"
+            f"rows; got {checks.shown(options['tolerance'])}"
         )
     first = None if start is None else kernel.solution_of(start)
     profile = Sine(wavelength, amplitude)

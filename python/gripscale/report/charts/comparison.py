@@ -13,7 +13,17 @@ from gripscale.figures.ladder_rows import Row, rows_of
 from gripscale.figures.measured import COLOUR, measured
 from gripscale.figures.palette import BLUE, MILLI, ORANGE
 from gripscale.figures.rungs import JUDGE, Look, looks, on_the_surface, varied, worth_drawing
-from gripscale.report.charts.look import hover, legend, plot, positive, tick_closely, whole_decades
+from gripscale.figures.stretches import FLAG, down_to, predictions_beyond
+from gripscale.report.charts.look import (
+    dashed_entry,
+    hover,
+    legend,
+    line,
+    plot,
+    positive,
+    tick_closely,
+    whole_decades,
+)
 from gripscale.report.elements import Chart
 from gripscale.study.display import LABELS
 
@@ -55,7 +65,8 @@ def _ladder(comparison: xr.Dataset, name: str) -> Chart:
     return Chart(
         f"ladder-{name}",
         f"{_title(name)} from rung to rung: a bar runs from the rung before, blue "
-        "where the number falls, orange where it rises; lines are one standard uncertainty.",
+        "where the number falls, orange where it rises; lines are one standard uncertainty, a "
+        "star is for friction partly beyond the measured band.",
         f"{QUANTITIES[name]} of each model, with the step from the one before.",
         figure,
     )
@@ -83,6 +94,7 @@ def _by_wavelength(comparison: xr.Dataset, name: str) -> Chart:
     label = f"{QUANTITIES[name]} of longer waves [-]"
     figure = plot("wavelength λ [mm]", label, log=log, wavelengths=length, height=400)
     values = data[f"running_{name}"].values
+    beyond = down_to(data[FLAG] == 1) if FLAG in data else np.zeros(length.size, dtype=bool)
     if log:
         whole_decades(figure, values)
     else:
@@ -91,11 +103,13 @@ def _by_wavelength(comparison: xr.Dataset, name: str) -> Chart:
         known = np.isfinite(values[at])
         if known.any():
             text = str(data.label.values[at])
-            _line(figure, length[known], values[at][known], look, text, strong=rung == JUDGE)
+            _line(figure, length[known], values[at][known], look, text, beyond[known],
+                  strong=rung == JUDGE)  # fmt: skip
+    dashed_entry(figure, beyond)
     return Chart(
         f"by-wavelength-{name}",
         f"{_title(name)} down to each wavelength, of every model: where area is lost and friction "
-        "made.",
+        "made. Dashed is beyond the measured band.",
         f"Running {QUANTITIES[name]} of each model against wavelength, which falls to the right.",
         legend(figure),
     )
@@ -118,17 +132,18 @@ def _over(comparison: xr.Dataset, axis: str, name: str) -> Chart:
         if not np.isfinite(values).any():
             continue
         text = str(one.label.item())
-        _line(figure, x, values, look, text, strong=rung == JUDGE)
+        _line(figure, x, values, look, text, predictions_beyond(one), strong=rung == JUDGE)
         if np.isfinite(spread).any():
             low, high = positive(values - spread), values + spread
             figure.varea(x=x, y1=low, y2=high, fill_color=look.colour, fill_alpha=0.15,
                          legend_label=text)  # fmt: skip
+    dashed_entry(figure, predictions_beyond(comparison))
     if axis == "speed" and name == "friction":
         _measured(figure, comparison)
     return Chart(
         f"over-{axis}-{name}",
         f"{_title(name)} of every model over {words}; bands are the standard "
-        "deviation over its samples.",
+        "deviation over its samples, dashed is beyond the measured band.",
         f"{QUANTITIES[name]} of each model against {words}.",
         legend(figure),
     )
@@ -138,9 +153,11 @@ def _title(name: str) -> str:
     return QUANTITIES[name][0].upper() + QUANTITIES[name][1:]
 
 
-def _line(figure: Any, x: Any, y: Any, look: Look, label: str, *, strong: bool) -> None:
-    width = 3.0 if strong else 1.6
-    figure.line(x, y, color=look.colour, line_width=width, line_dash=look.dash, legend_label=label)
+def _line(
+    figure: Any, x: Any, y: Any, look: Look, label: str, beyond: Any, *, strong: bool
+) -> None:
+    own = {"color": look.colour, "line_width": 3.0 if strong else 1.6, "line_dash": look.dash}
+    line(figure, x, y, beyond, legend_label=label, **own)
     dots = figure.scatter(x, y, size=8, marker=look.bokeh_marker, line_color=look.colour,
                           fill_color=look.colour, legend_label=label)  # fmt: skip
     hover(figure, [dots], [(label, "@y"), ("at", "@x")])

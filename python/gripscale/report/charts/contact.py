@@ -10,11 +10,13 @@ from bokeh.plotting import figure as Figure
 from numpy.typing import NDArray
 
 from gripscale.figures.palette import MEGA, MILLI
+from gripscale.figures.stretches import down_to, waves_beyond
 from gripscale.figures.view import PredictionView
 from gripscale.report.charts.look import (
     COLOURS,
     RED,
     curve,
+    dashed_entry,
     hover,
     legend,
     plot,
@@ -48,7 +50,8 @@ def _area(predictions: Sequence[PredictionView]) -> Chart:
     whole_decades(figure, *(one.usable(name) for one in predictions for name in pairs))
     return Chart(
         "contact-area",
-        "Relative contact area: A_r/A_0 down to each wave (filled), and of each wave (open).",
+        "Relative contact area: A_r/A_0 down to each wave (filled), and of each wave (open); "
+        "dashed beyond the measured band.",
         "Relative contact area against wavelength, which falls to the right.",
         legend(figure),
     )
@@ -62,7 +65,8 @@ def _friction(predictions: Sequence[PredictionView]) -> Chart:
     )
     return Chart(
         "friction",
-        "Friction coefficient: sum down to each wave (filled), and of each wave (open).",
+        "Friction coefficient: sum down to each wave (filled), and of each wave (open); "
+        "dashed beyond the measured band.",
         "Friction coefficient against wavelength, which falls to the right.",
         legend(figure),
     )
@@ -73,12 +77,15 @@ def _both(figure: Figure, predictions: Sequence[PredictionView], running: str, e
     for one, colour in zip(predictions, COLOURS, strict=False):
         x = one.column("wavelength") / MILLI
         name = one.name
-        dots = [curve(figure, x, one.usable(running), colour, f"{name}, down to the wave")]
-        options: dict[str, Any] = {"fill": "white", "dash": "dashed"}
+        beyond = waves_beyond(one.data)
+        label = f"{name}, down to the wave"
+        dots = [curve(figure, x, one.usable(running), colour, label, beyond=down_to(beyond))]
+        options: dict[str, Any] = {"fill": "white", "dash": "dotted"}
         label = f"{name}, each wave"
-        dots.append(curve(figure, x, one.usable(each), colour, label, **options))
+        dots.append(curve(figure, x, one.usable(each), colour, label, beyond=beyond, **options))
         hover(figure, dots, TIPS)
         failed(figure, x[~one.converged], one.column(each)[~one.converged])
+    dashed_entry(figure, *(waves_beyond(one.data) for one in predictions))
 
 
 def failed(figure: Figure, x: Array, y: Array) -> None:
@@ -96,7 +103,7 @@ def _load(predictions: Sequence[PredictionView]) -> Chart:
         pressure, modulus = one.column("pressure_received"), one.column("modulus")
         label = f"{one.name}, mean pressure"
         dots = [curve(figure, x, pressure / MEGA, colour, label)]
-        options: dict[str, Any] = {"fill": "white", "dash": "dashed"}
+        options: dict[str, Any] = {"fill": "white", "dash": "dotted"}
         dots.append(curve(figure, x, modulus / MEGA, colour, f"{one.name}, |E*|", **options))
         hover(figure, dots, TIPS)
     names = ("pressure_received", "modulus")
@@ -116,7 +123,7 @@ def _stretch(predictions: Sequence[PredictionView]) -> Chart:
         x = one.column("wavelength") / MILLI
         largest, least = one.usable("max_stretch"), one.usable("min_stretch")
         dots = [curve(figure, x, largest, colour, f"{one.name}, largest")]
-        options: dict[str, Any] = {"fill": "white", "dash": "dashed"}
+        options: dict[str, Any] = {"fill": "white", "dash": "dotted"}
         dots.append(curve(figure, x, least, colour, f"{one.name}, smallest", **options))
         hover(figure, dots, TIPS)
     return Chart(

@@ -16,6 +16,7 @@ from bokeh.plotting import figure as Figure
 from numpy.typing import ArrayLike
 
 from gripscale.figures.palette import BLUE, COLOURS, FAINT, GREEN, GREY, INK, ORANGE
+from gripscale.figures.stretches import BEYOND, stretches
 
 __all__ = ["BLUE", "COLOURS", "FAINT", "GREEN", "GREY", "INK", "ORANGE", "RED", "plot"]
 
@@ -157,16 +158,41 @@ def whole_decades(figure: Figure, *values: ArrayLike) -> None:
 
 
 def curve(
-    figure: Figure, x: ArrayLike, y: ArrayLike, colour: str, label: str, **options: Any
+    figure: Figure,
+    x: ArrayLike,
+    y: ArrayLike,
+    colour: str,
+    label: str,
+    *,
+    beyond: ArrayLike | None = None,
+    dash: str = "solid",
+    fill: str = "",
 ) -> Any:
-    """Draw a line with points on it; options go to both, `fill` is the colour inside a point."""
-    fill = options.pop("fill", colour)
-    dash = options.pop("dash", "solid")
+    """Draw a line with points on it, dashed where it is `beyond` the measured band.
+
+    `dash` is its own dash, `fill` the colour inside a point.
+    """
     x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
-    figure.line(x, y, color=colour, line_width=1.8, line_dash=dash, legend_label=label)
+    line(figure, x, y, beyond, color=colour, line_width=1.8, line_dash=dash, legend_label=label)
     return figure.scatter(
-        x, y, size=7, line_color=colour, fill_color=fill, legend_label=label, **options
+        x, y, size=7, line_color=colour, fill_color=fill or colour, legend_label=label
     )
+
+
+def line(
+    figure: Figure, x: np.ndarray, y: np.ndarray, beyond: ArrayLike | None, **look: Any
+) -> None:
+    """Draw a line, dashed where it is `beyond` the measured band."""
+    flags = np.zeros(x.size, dtype=bool) if beyond is None else np.asarray(beyond, dtype=bool)
+    for part, dashed in stretches(flags):
+        figure.line(x[part], y[part], **(look | {"line_dash": "dashed"} if dashed else look))
+
+
+def dashed_entry(figure: Figure, *beyond: ArrayLike) -> None:
+    """Say in the legend what dashed is, if any curve is beyond the measured band."""
+    if any(np.any(flags) for flags in beyond):
+        nowhere = [np.nan, np.nan]
+        figure.line(nowhere, nowhere, color=GREY, line_dash="dashed", legend_label=BEYOND)
 
 
 def shades(count: int) -> list[str]:

@@ -17,6 +17,7 @@ from gripscale.report.charts.look import (
     GREEN,
     INK,
     ORANGE,
+    dashed_entry,
     hover,
     legend,
     plot,
@@ -50,6 +51,7 @@ def _moduli(inputs: xr.Dataset, excited: PredictionView | None) -> Chart:
         )
         if f"master_{part}" in inputs:
             _points(figure, inputs, inputs[f"master_{part}"].values / MEGA, colour, name)
+    _say_dashed(figure, inputs)
     _marks(figure, excited, "modulus", MEGA)
     return Chart(
         "master-curve",
@@ -67,6 +69,7 @@ def _loss_factor(inputs: xr.Dataset, excited: PredictionView | None) -> Chart:
     if "master_loss" in inputs:
         measured = inputs["master_loss"].values / inputs["master_storage"].values
         _points(figure, inputs, measured, GREEN, "")
+    _say_dashed(figure, inputs)
     _marks(figure, excited, "loss_factor", 1.0)
     return Chart(
         "loss-factor",
@@ -96,6 +99,10 @@ def _line(figure: Figure, inputs: xr.Dataset, values: Array, colour: str, label:
         if shown.any():
             look: dict[str, Any] = {"line_width": 1.8, "line_dash": dash, "legend_label": label}
             figure.line(omega[shown], single(values[shown]), color=colour, **look)
+
+
+def _say_dashed(figure: Figure, inputs: xr.Dataset) -> None:
+    dashed_entry(figure, ["band_low_rad_per_s" in inputs.attrs])
 
 
 def _points(figure: Figure, inputs: xr.Dataset, values: Array, colour: str, name: str) -> None:

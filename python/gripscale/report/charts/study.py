@@ -11,9 +11,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from gripscale.figures.stretches import down_to, predictions_beyond, waves_beyond
 from gripscale.report.charts.look import (
     COLOURS,
     curve,
+    dashed_entry,
     hover,
     legend,
     plot,
@@ -71,16 +73,25 @@ def _total(study: Study, name: str, axis: str) -> Chart:
     figure = plot(_label(study.data, axis), _label(study.data, name), log="x" if spread else "")
     others = [str(dim) for dim in variable.dims if dim != axis]
     colours = _colours(variable, others)
-    for i, (label, one) in enumerate(_slices(variable, others)):
+    flags = xr.broadcast(_beyond(study.data, variable), variable)[0]
+    pairs = zip(_slices(variable, others), _slices(flags, others), strict=True)
+    for i, ((label, one), (_, beyond)) in enumerate(pairs):
         y = one.values.astype(float)
-        dots = curve(figure, x, y, colours[i], label or name)
+        dots = curve(figure, x, y, colours[i], label or name, beyond=beyond.transpose(axis))
         hover(figure, [dots], [(axis, "@x"), (name, "@y")])
+    dashed_entry(figure, flags)
     return Chart(
         f"{name}-over-{axis}",
         f"{variable.attrs.get('long_name', name)}, over {axis}.",
         f"{name} against {axis}.",
         legend(figure),
     )
+
+
+def _beyond(data: xr.Dataset, variable: xr.DataArray) -> xr.DataArray:
+    """Return which predictions rest on extrapolation; of what is at rest, or not known, none."""
+    flags = data["total_friction"].copy(data=predictions_beyond(data))
+    return flags if set(flags.dims) <= set(variable.dims) else xr.DataArray(False)
 
 
 def _per_wave(study: Study, name: str) -> Chart:
@@ -90,16 +101,19 @@ def _per_wave(study: Study, name: str) -> Chart:
     log = "y" if "fraction" in name else ""
     label = _label(data, name)
     figure = plot("wavelength λ [mm]", label, log=log, wavelengths=lengths, height=400)
-    both = xr.broadcast(data[name], data["wavelength"])
+    flags = data["wavelength"].copy(data=waves_beyond(data))
+    both = xr.broadcast(data[name], data["wavelength"], flags)
     others = [str(dim) for dim in both[0].dims if dim != "scale"]
-    pairs = zip(_slices(both[0], others), _slices(both[1], others), strict=True)
+    pairs = zip(*(_slices(one, others) for one in both), strict=True)
     colours = _colours(both[0], others)
     if log:
         whole_decades(figure, data[name].values)
-    for i, ((text, values), (_, wavelength)) in enumerate(pairs):
+    for i, ((text, values), (_, wavelength), (_, flag)) in enumerate(pairs):
+        beyond = down_to(flag) if name.startswith("running") else flag
         x, y = wavelength.values.astype(float) * 1e3, values.values.astype(float)
-        dots = curve(figure, x, y, colours[i], text or name)
+        dots = curve(figure, x, y, colours[i], text or name, beyond=beyond)
         hover(figure, [dots], [("λ", "@x mm"), (name, "@y")])
+    dashed_entry(figure, flags)
     return Chart(
         f"{name}-per-wave",
         f"{data[name].attrs.get('long_name', name)}, against wavelength.",

@@ -25,6 +25,9 @@ from gripscale.errors import InputError
 
 Array = NDArray[np.float64]
 
+_MOST = 100.0
+"""Largest log10 a_T that is a factor and no mistake: WLF has a pole."""
+
 EDGE = 1e-6
 """Temperatures this little beyond a range [K] are within it: printed numbers are rounded."""
 
@@ -83,8 +86,17 @@ class Shift(ABC):
         return np.asarray(law._log_b(here) - law._log_b(there))
 
     def a(self, temperature: ArrayLike, reference_temperature: float) -> Array:
-        """Return a_T [-] at `temperature` [K], same shape; errors as `log_a`."""
-        return np.asarray(10.0 ** self.log_a(temperature, reference_temperature))
+        """Return a_T [-] at `temperature` [K], same shape.
+
+        Raises `InputError` as `log_a`, and where a_T is beyond 1e-100 to 1e100.
+        """
+        log_a = self.log_a(temperature, reference_temperature)
+        if (np.abs(log_a) > _MOST).any():
+            raise InputError(
+                f"temperature must be one at which log10 a_T of the shift ({self.kind}) is at most "
+                f"{_MOST:g}; got {float(np.abs(log_a).max()):.3g}"
+            )
+        return np.asarray(10.0**log_a)
 
     def b(self, temperature: ArrayLike, reference_temperature: float) -> Array:
         """Return b_T [-] at `temperature` [K], same shape; errors as `log_a`."""

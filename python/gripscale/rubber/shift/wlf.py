@@ -200,8 +200,7 @@ class WLFArrhenius(_Formula):
         reference = self._reference
         above = np.maximum(temperature, self.glass_temperature) - reference
         below = arrhenius(self.activation_energy, np.minimum(temperature, self.glass_temperature))
-        glass = arrhenius(self.activation_energy, np.array(self.glass_temperature))
-        return np.asarray(-self.c1 * above / (self.c2 + above) + below - glass)
+        return np.asarray(-self.c1 * above / (self.c2 + above) + below)
 
 
 def arrhenius(activation_energy: float, temperature: Array) -> Array:

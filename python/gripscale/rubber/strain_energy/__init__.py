@@ -48,5 +48,7 @@ def strain_energy_from_dict(values: Mapping[str, Any]) -> StrainEnergy:
     Raises `InputError` as `strain_energy` does, or if `values` is no such mapping.
     """
     if not isinstance(values, Mapping):
-        raise InputError(f"strain_energy must be a mapping with its kind; got {values!r}")
+        raise InputError(
+            f"strain_energy must be a mapping with its kind; got {checks.shown(values)}"
+        )
     return strain_energy(**{"kind": None, **values})

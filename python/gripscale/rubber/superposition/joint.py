@@ -121,9 +121,8 @@ def _pass(
         curve = smooth(functions, penalty, y, count, weights[at])
         residual = y - functions @ curve.coefficients
         by_shift = _by_shift(rows, slopes @ curve.coefficients, lift)[:, free]
-        matrix = functions.T @ (count[:, None] * functions) + curve.weight * penalty.T @ penalty
         cross = functions.T @ (count[:, None] * by_shift)
-        solved = np.linalg.solve(matrix, cross)
+        solved = np.linalg.solve(curve.matrix, cross)
         normal += by_shift.T @ (count[:, None] * by_shift) - cross.T @ solved
         right += by_shift.T @ (count * residual) - solved.T @ (functions.T @ (count * residual))
         residuals.append(residual)

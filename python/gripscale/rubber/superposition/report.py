@@ -68,7 +68,7 @@ def report(
     ]
     pairs = zip(places, places[1:], shifted, shifted[1:], strict=False)
     overlaps = tuple(overlap(float(t), float(u), cold, warm) for t, u, cold, warm in pairs)
-    found = tuple(_findings(overlaps, shift))
+    found = (*_findings(overlaps, shift), *_lifted(shift, bool(joint)))
     return Superposition(sweeps.temperatures, overlaps, bool(joint), joint, found)
 
 
@@ -123,6 +123,15 @@ def _findings(overlaps: tuple[Overlap, ...], shift: Shift) -> Iterator[str]:
         yield (
             f"the standard error of log10 a_T reaches {shift.horizontal_error[at]:.2f}, at "
             f"{shift.temperature[at] - 273.15:.1f} °C"
+        )
+
+
+def _lifted(shift: Shift, fitted: bool) -> Iterator[str]:
+    if fitted and isinstance(shift, ShiftTable) and (shift.vertical != 0.0).any():
+        yield (
+            "a_T and b_T were found together: where E' and E'' are nearly one power law, as on a "
+            "rubbery plateau, one stands for the other, and both are worse than their standard "
+            "errors"
         )
 
 

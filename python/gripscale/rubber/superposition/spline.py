@@ -16,6 +16,8 @@ Array = NDArray[np.float64]
 _DEGREE = 3
 _PENALTIES = tuple(10.0 ** np.arange(-2.0, 5.0))
 """Tried, over the mean trust of a row."""
+_RIDGE = 1e-9
+"""Penalty of the coefficients themselves, over the same: one row determines no straight line."""
 
 
 @dataclass(frozen=True)
@@ -49,6 +51,8 @@ class Smooth:
     """Coefficients of a fitted curve, its penalty weight and its effective number of freedoms."""
 
     coefficients: Array
+    matrix: Array
+    """Of the normal equations, with the penalty."""
     weight: float
     freedoms: float
 
@@ -65,14 +69,15 @@ def smooth(
     best: Smooth | None = None
     least = np.inf
     unit = float(trust.mean())
+    ridge = _RIDGE * unit * np.eye(len(normal))
     for tried in [unit * one for one in _PENALTIES] if weight is None else [weight]:
-        matrix = normal + tried * penalty.T @ penalty
+        matrix = normal + tried * penalty.T @ penalty + ridge
         solved = np.linalg.solve(matrix, np.column_stack([right, normal]))
         freedoms = float(np.trace(solved[:, 1:]))
         error = values - functions @ solved[:, 0]
         left = max(float(trust.sum()) - freedoms, 1e-6)
         score = float(trust @ error**2) / left**2
         if score < least:
-            least, best = score, Smooth(solved[:, 0], float(tried), freedoms)
+            least, best = score, Smooth(solved[:, 0], matrix, float(tried), freedoms)
     assert best is not None
     return best

@@ -78,7 +78,7 @@ def isotropic_maps(
     profiles = _profiles(profile)
     square = _square(profiles, smallest_wavelength, points)
     checks.one_of("construction", construction, CONSTRUCTIONS)
-    chosen = [checks.whole("seeds", seed, least=0, most=2**32 - 1) for seed in seeds]
+    chosen = seed_numbers(seeds)
     lines = measured_lines(profiles, square.length)
     amplitudes = map_amplitudes(profiles, square)
     matching = LineMatching.of(lines, square) if construction == "lines" else None
@@ -125,7 +125,9 @@ def _profiles(profile: Profile | Sequence[Profile]) -> list[Profile]:
         or not profiles
         or not all(isinstance(one, Profile) for one in profiles)
     ):
-        raise InputError(f"profile must be a Profile or a list of them; got {profile!r:.80}")
+        raise InputError(
+            f"profile must be a Profile or a list of them; got {checks.shown(profile)}"
+        )
     return list(profiles)
 
 
@@ -142,3 +144,10 @@ def _square(profiles: list[Profile], smallest_wavelength: float, points: int) ->
             f"{least:.4g} m; got {smallest:.4g} m"
         )
     return Square(number, number * smallest / STEPS_IN_WAVE)
+
+
+def seed_numbers(seeds: Iterable[int]) -> list[int]:
+    """Return seeds as a list; raise `InputError` unless they are whole numbers, one at least."""
+    if not isinstance(seeds, Iterable) or isinstance(seeds, str | bytes):
+        raise InputError(f"seeds must be a list of whole numbers; got {checks.shown(seeds)}")
+    return [checks.whole("seeds", seed, least=0, most=2**32 - 1) for seed in seeds]

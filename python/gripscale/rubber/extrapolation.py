@@ -1,0 +1,199 @@
+"""How much of a result rests on a rubber beyond its measured frequencies, and how far beyond.
+
+A rubber from a master curve is known within `Rubber.valid_band`; beyond it its series is an
+extrapolation. Whatever excites it there is told in the same three numbers by every model: the share
+of the friction that comes from there, and how many decades below and above the band it goes.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gripscale.errors import ExtrapolationError
+from gripscale.rubber.material import Rubber
+
+Array = NDArray[np.float64]
+
+CHOICES = ("say", "refuse")
+"""What may be done about excitation beyond the band."""
+
+WORTH_SAYING = 0.01
+"""Share of the friction that does not count: of a spectrum, which has no end, both tails."""
+
+
+@dataclass(frozen=True)
+class Extrapolation:
+    """What of a friction rests on the rubber beyond its measured frequencies; NaN if not known."""
+
+    share: float
+    """Of the friction [-]; also NaN where there is no friction to share."""
+    below: float
+    """How far excitation goes below the band [decades]; 0 if not."""
+    above: float
+    """How far it goes above the band [decades]; 0 if not."""
+
+    @property
+    def anywhere(self) -> bool:
+        """Whether anything is beyond the band."""
+        return self.below > 0.0 or self.above > 0.0
+
+    @property
+    def furthest(self) -> str:
+        """How far it goes, in words; empty within the band."""
+        ends = [
+            f"{decades:.2g} decades {word}"
+            for decades, word in ((self.below, "below"), (self.above, "above"))
+            if decades > 0.0
+        ]
+        return f"up to {' and '.join(ends)} the measured band" if ends else ""
+
+
+UNKNOWN = Extrapolation(math.nan, math.nan, math.nan)
+"""Of a rubber without a measured band, or a model that does not tell."""
+NONE = Extrapolation(0.0, 0.0, 0.0)
+"""At rest, where nothing is excited."""
+
+
+def of_frequencies(rubber: Rubber, omega: ArrayLike) -> Extrapolation:
+    """Return how far excitation at all of `omega` [rad/s] goes; its share is all or nothing."""
+    if rubber.valid_band is None:
+        return UNKNOWN
+    frequency = np.abs(np.asarray(omega, dtype=float))
+    outside = bool(np.any(rubber.outside_band(frequency)))
+    return Extrapolation(float(outside), *_decades(rubber.valid_band, frequency))
+
+
+def of_spectrum(rubber: Rubber, omega: ArrayLike, friction: ArrayLike) -> Extrapolation:
+    """Return what of a friction that is split by frequency lies beyond the band.
+
+    Parameters
+    ----------
+    rubber : Rubber
+        The rubber.
+    omega, friction : array_like, same shape
+        Frequencies [rad/s] and the friction each adds [-].
+
+    Returns
+    -------
+    Extrapolation
+        How far: without the slowest and the fastest frequencies that `WORTH_SAYING` of the friction
+        comes from.
+    """
+    if rubber.valid_band is None:
+        return UNKNOWN
+    parts = np.abs(np.ravel(np.asarray(friction, dtype=float)))
+    frequency = np.abs(np.ravel(np.asarray(omega, dtype=float)))
+    total = float(parts.sum())
+    if not (math.isfinite(total) and total > 0.0):
+        return Extrapolation(math.nan, 0.0, 0.0)
+    share = float(parts[rubber.outside_band(frequency)].sum()) / total
+    order = np.argsort(frequency)
+    so_far = np.cumsum(parts[order]) / total
+    ends = np.searchsorted(so_far, [WORTH_SAYING, 1.0 - WORTH_SAYING])
+    counted = frequency[order[np.minimum(ends, len(order) - 1)]]
+    return Extrapolation(share, *_decades(rubber.valid_band, counted))
+
+
+def by_wavelength(
+    rubber: Rubber, speed: float, wavelength: Array, running_friction: Array
+) -> Extrapolation:
+    """Return what of a friction lies beyond the band, of a model that tells it by wavelength.
+
+    Parameters
+    ----------
+    rubber : Rubber
+        The rubber.
+    speed : float
+        Of sliding [m/s].
+    wavelength : array, shape (n,)
+        Falling [m].
+    running_friction : array, shape (n,)
+        Friction of the waves not shorter [-]. What an interval adds counts at its middle, at the
+        frequency 2 pi speed/wavelength.
+    """
+    if speed == 0.0:
+        return NONE
+    parts = np.diff(running_friction, prepend=0.0)
+    longer = np.append(wavelength[0], wavelength[:-1])
+    return of_spectrum(rubber, 2.0 * np.pi * speed / np.sqrt(longer * wavelength), parts)
+
+
+def of_sum(parts: Sequence[Extrapolation], friction: ArrayLike) -> Extrapolation:
+    """Return the extrapolation of a sum of which each of `parts` adds its `friction` [-].
+
+    The share is NaN where a friction is, or all are zero.
+    """
+    if not parts:
+        return UNKNOWN
+    weight = np.abs(np.asarray(friction, dtype=float))
+    share, below, above = np.array([(one.share, one.below, one.above) for one in parts]).T
+    total = float(weight.sum())
+    # a part without friction has no share to tell of, and adds none
+    told = float(weight @ np.where(weight > 0.0, share, 0.0))
+    return Extrapolation(
+        0.0 if not share.any() else told / total if total > 0.0 else math.nan,
+        float(below.max()),
+        float(above.max()),
+    )
+
+
+def _decades(band: tuple[float, float], omega: Array) -> tuple[float, float]:
+    """Return how far the frequencies go below and above the band [decades]."""
+    excited = omega[omega > 0.0]
+    if not excited.size:
+        return 0.0, 0.0
+    below = math.log10(band[0] / float(excited.min()))
+    above = math.log10(float(excited.max()) / band[1])
+    return max(below, 0.0), max(above, 0.0)
+
+
+def require_measured(rubber: Rubber, wavelength: ArrayLike, speed: float) -> None:
+    """Raise `ExtrapolationError` if a wave excites the rubber beyond its band.
+
+    Looked at are the fundamental frequencies 2 pi speed/wavelength; which harmonics there are only
+    the solution tells.
+
+    Parameters
+    ----------
+    rubber : Rubber
+        The rubber; without a band nothing is refused.
+    wavelength : array_like, shape (waves,)
+        Falling [m].
+    speed : float
+        Of sliding [m/s]; at rest nothing is excited.
+    """
+    lengths = np.atleast_1d(np.asarray(wavelength, dtype=float))
+    omega = 2.0 * np.pi * speed / lengths
+    if rubber.valid_band is None or speed == 0.0 or not rubber.outside_band(omega).any():
+        return
+    low, high = rubber.valid_band
+    at = int(np.argmax(np.maximum(np.log(low / omega), np.log(omega / high))))
+    if omega[at] > high:
+        side, most, end = "above", _down(high * lengths[-1] / (2.0 * np.pi)), "smallest"
+        reach, limit = f"at most {most} m/s", _up(2e3 * np.pi * speed / high)
+    else:
+        side, least, end = "below", _up(low * lengths[0] / (2.0 * np.pi)), "largest"
+        reach, limit = f"at least {least} m/s", _down(2e3 * np.pi * speed / low)
+    raise ExtrapolationError(
+        f"wave {at + 1} of {lengths.size} (wavelength {1e3 * lengths[at]:.4g} mm) excites the "
+        f"rubber at {omega[at]:.3g} rad/s, {side} the measured band, {low:.3g} to {high:.3g} "
+        f"rad/s, and extrapolation is to be refused; the data carry {reach} with these waves, or "
+        f"a {end} wavelength of {limit} mm at {speed:.4g} m/s"
+    )
+
+
+def _down(value: float) -> str:
+    """Return three digits of a number that must not be exceeded."""
+    step = 10.0 ** (math.floor(math.log10(value)) - 2)
+    return f"{math.floor(value / step) * step:.3g}"
+
+
+def _up(value: float) -> str:
+    """Return three digits of a number that must be reached."""
+    step = 10.0 ** (math.floor(math.log10(value)) - 2)
+    return f"{math.ceil(value / step) * step:.3g}"

@@ -1,0 +1,226 @@
+"""Public functions with arguments they take: each argument is then made absurd, one at a time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+import gripscale as gs
+from gripscale import rough, rubber, surface, theory, wave
+from gripscale.model import NominalLoad
+
+SOLID = gs.Rubber(1e6, [4e6], [1e-2], name="solid")
+FREQUENCY = np.geomspace(1e-2, 1e6, 30)
+MASTER = gs.MasterCurve(
+    FREQUENCY, SOLID.complex_modulus(FREQUENCY).real, SOLID.complex_modulus(FREQUENCY).imag
+)
+PLACE = np.arange(64) * 4e-4
+HEIGHT = 1e-4 * np.cos(2.0 * np.pi * np.arange(64) / 64.0) + 2e-5 * np.cos(0.9 * np.arange(64))
+LINE = gs.Profile(PLACE, HEIGHT)
+MAP = gs.HeightMap(PLACE[:32], PLACE[:32], HEIGHT[:32, None] + HEIGHT[None, :32])
+LONG = surface.self_affine_profile(0.8, 4e-3, 1e-4, length=0.2, step=2e-4, seed=1)
+CORRELATION = gs.height_difference(LONG)
+SINES = surface.SineStack([8e-3, 2e-3], [5e-4, 1e-4])
+SPECTRUM = surface.profile_spectrum(LONG)
+FIT = gs.fit_self_affine(CORRELATION)
+TEST = rubber.UniaxialTest("test", [0.0, 1.0, 2.0], [1.0, 1.1, 1.2], [0.0, 1e5, 2e5])
+WAVE = {"wavelength": 1e-3, "amplitude": 1e-4}
+PRESSED = {"pressure": 1e5, "speed": 0.1}
+MESH = {"columns": 8, "rows": 4, "depth": 1.5, "element_order": 1}
+ROUGH = {"smallest_wavelength": 3.2e-3, "tolerance": None}
+LAYER = {"layer_ratio": 1.0, "penetration_depth": 1e-3}
+
+
+@dataclass(frozen=True)
+class Door:
+    """A public function and arguments it takes."""
+
+    call: Callable[..., Any]
+    good: dict[str, Any]
+    slow: bool = False
+    """Whether an answer takes seconds, so that only what must be refused is tried."""
+
+    @property
+    def name(self) -> str:
+        return self.call.__qualname__
+
+
+def first_map(**arguments: Any) -> gs.HeightMap:
+    """Return the first of `isotropic_maps`, which checks its arguments when asked for it."""
+    return next(surface.isotropic_maps(**arguments))
+
+
+def doors() -> Iterator[Door]:
+    """Yield every one."""
+    yield from _theory()
+    yield from _rubber()
+    yield from _surface()
+    yield from _wave()
+    yield from _rough()
+    chain = {"solver": "half_plane", "footprint": 0.1, "points": 64, "pressure_classes": 1}
+    more = {"smallest_wavelength": None, "max_scales": None, "load_time": "passage"}
+    yield Door(gs.predict, {"rubber": SOLID, "sines": SINES, **PRESSED, **chain, **more})
+    load = {**PRESSED, "footprint": 0.1, "load_time": "passage"}
+    yield Door(NominalLoad, load)
+
+
+def _theory() -> Iterator[Door]:
+    hertz = {"load_per_length": 1.0, "radius": 1.0, "plane_strain_modulus": 1e6}
+    full = {"plane_strain_modulus": 1e6 + 1e5j, **WAVE}
+    yield Door(theory.contact_fraction, {"pressure_ratio": 0.5})
+    yield Door(theory.contact_half_width, hertz)
+    yield Door(theory.largest_pressure, hertz)
+    yield Door(theory.crest_radius, WAVE)
+    pressures = {"pressure": 1e5, "full_contact_pressure": 2e5}
+    yield Door(theory.contact_pressure, {"x": [0.0, 1e-4], "wavelength": 1e-3, **pressures})
+    yield Door(theory.full_contact_pressure, full)
+    yield Door(theory.full_contact_friction, {**full, "pressure": 1e6})
+    yield Door(theory.plane_strain_modulus, {"youngs_modulus": 1e6, "poisson_ratio": 0.5})
+    slab = {"depth": 1e-3, "youngs_modulus": 1e6, "poisson_ratio": 0.49}
+    yield Door(theory.slab_compliance, {"wavenumber": [1e3, 2e3], **slab})
+    step = {"rubber": SOLID, "stretch": 1.5, "time": [0.0, 1.0]}
+    yield Door(theory.step_relaxation_stress, step)
+    small = {"load_time": np.inf, "points": 64, "poisson_ratio": None, "most_iterations": 20}
+    yield Door(theory.solve_half_plane, {"rubber": SOLID, **WAVE, **PRESSED, **small})
+    yield Door(theory.HalfPlane, {"points": 64, "poisson_ratio": 0.5, "most_iterations": 20})
+    limits = {"smallest_wavelength": 1e-3, "gamma": 0.5, "footprint": None}
+    persson = {"rubber": SOLID, "spectrum": SPECTRUM, **PRESSED, **limits}
+    yield Door(theory.persson, persson, slow=True)
+    yield Door(theory.Persson, {"smallest_wavelength": 1e-3, "gamma": 0.5, "window": None})
+    yield Door(theory.KlueppelHeinrich, {**LAYER, "smallest_wavelength": 1e-3})
+    layer = {**LAYER, "smallest_wavelength": 1e-3, "footprint": None}
+    yield Door(theory.klueppel_heinrich, {"rubber": SOLID, "surface": FIT, **PRESSED, **layer})
+
+
+def _rubber() -> Iterator[Door]:
+    series = {"equilibrium_modulus": 1e6, "moduli": [1e6], "relaxation_times": [1.0]}
+    more = {"bulk_modulus": 2e9, "valid_band": (1.0, 2.0), "strain_energy": rubber.NeoHookean()}
+    yield Door(gs.Rubber, {**series, **more, "name": "", "source": ""})
+    yield Door(SOLID.complex_modulus, {"omega": [1.0, 2.0]})
+    yield Door(SOLID.loss_factor, {"omega": 1.0})
+    yield Door(SOLID.relaxation_modulus, {"time": 1.0})
+    yield Door(SOLID.poisson_ratio, {"omega": 1.0})
+    yield Door(SOLID.plane_strain_modulus, {"omega": 1.0})
+    yield Door(SOLID.outside_band, {"omega": 1.0})
+    curve = {"frequency": [1.0, 2.0], "storage": [1e6, 2e6], "loss": [1e5, 1e5]}
+    words = {"reference_temperature": 293.0, "name": "", "source": ""}
+    yield Door(gs.MasterCurve, {**curve, **words})
+    fit = {"terms": 3, "bulk_modulus": 2e9, "outlier_threshold": 8.0, "extrapolate_decades": 1.0}
+    yield Door(
+        gs.fit_prony, {"master": MASTER, **fit, "smoothing": 0.1, "loss_weight": 1.0}, slow=True
+    )
+    one, several = {"equilibrium_moduli": [1e6], "moduli": [[1e6]]}, {"relaxation_times": [1.0]}
+    yield Door(rubber.AdmissibleSeries, several | one)
+    yield Door(rubber.MooneyRivlin, {"share": 0.2})
+    yield Door(rubber.Yeoh, {"second": -0.1, "third": 0.02})
+    yield Door(rubber.Isihara, {"share": 0.2, "second": 0.1})
+    yield Door(rubber.strain_energy, {"kind": "yeoh", "second": -0.1, "third": 0.02})
+    test = {"time": [0.0, 1.0], "stretch": [1.0, 1.1], "stress": [0.0, 1e5]}
+    yield Door(rubber.UniaxialTest, {"name": "test", **test})
+    finite = {"tests": [TEST], "energy": "neo_hookean", "terms": 1, "band": None}
+    yield Door(rubber.fit_finite_strain, finite)
+    yield Door(rubber.rms_error, {"rubber": SOLID, "test": TEST})
+    yield Door(rubber.work_error, {"rubber": SOLID, "test": TEST})
+    shear = {"rubber": SOLID, "time": [0.0, 1.0], "shear": [0.0, 0.1]}
+    yield Door(rubber.simple_shear_stress, shear)
+    bar = {"rubber": SOLID, "time": [0.0, 1.0], "stretch": [1.0, 1.1]}
+    yield Door(rubber.uniaxial_stress, bar)
+    yield Door(rubber.springpot_modulus, {"omega": [1.0, 2.0]})
+    yield Door(rubber.styrene_butadiene, {"band": (1e-2, 1e6), "bulk_modulus": 2e9})
+
+
+def _surface() -> Iterator[Door]:
+    words = {"name": "", "source": "", "reliable": 1e-3}
+    yield Door(gs.Profile, {"x": PLACE, "z": HEIGHT, **words, "notes": ("one",)})
+    yield Door(gs.HeightMap, {"x": MAP.x, "y": MAP.y, "z": MAP.z, **words})
+    yield Door(MAP.line, {"number": 1, "direction": "x"})
+    yield Door(MAP.lines, {"direction": "x"})
+    cleaning = {"crop": (0.0, 1.0), "valid_range": (-1.0, 1.0), "remove_spikes": True}
+    more = {"spike_slope": 3.0, "across_gaps": False, "detrend": "linear"}
+    yield Door(gs.clean, {"profile": LINE, **cleaning, **more})
+    across = {"crop": None, "valid_range": (-1.0, 1.0), "trim": 0.5, "remove_spikes": True}
+    yield Door(gs.clean_map, {"surface": MAP, **across, "spike_slope": 3.0, "form": 1})
+    lags = {"upper_share": 1.0, "max_lag": None, "lags_per_decade": 20, "band_blocks": 16}
+    yield Door(gs.height_difference, {"profile": LINE, **lags})
+    yield Door(gs.fit_self_affine, {"hdc": CORRELATION, "tolerance": 0.02, "shortest_range": 0.5})
+    yield Door(surface.SelfAffineFit, dict(zip(FITTED, (0.8, 1e-2, 1e-3, 1e-3, 1e-2, 0.0))))  # noqa: B905
+    waves = {"scales": 2, "smallest_wavelength": None, "cut_off": None, "s_wavelength": 3.0}
+    first = {"s_amplitude": 2.0, "first_wavelength": 1e-2, "first_amplitude": 1e-3}
+    ends = {"single_factor": False, "smallest_lag": None, "largest_lag": None}
+    yield Door(gs.fit_sines, {"hdc": CORRELATION, **waves, **first, **ends})
+    stack = {"wavelength": [2e-3, 1e-3], "amplitude": [2e-4, 1e-4]}
+    yield Door(gs.SineStack, stack)
+    yield Door(surface.profile_spectrum, {"profile": LINE, "window": None, "taper": "hann"})
+    grid = {"z": MAP.z, "x_step": 4e-4, "y_step": 4e-4, "taper": "hann", "per_decade": 10}
+    yield Door(surface.map_spectrum, grid)
+    yield Door(surface.areal_spectrum, {"spectrum": SPECTRUM, "hurst": None, "per_decade": 10})
+    maps = {"construction": "lines", "points": 128, "seeds": [1]}
+    yield Door(first_map, {"profile": LONG, "smallest_wavelength": 4e-3, **maps}, slow=True)
+    yield Door(surface.profile_doubts, {"profile": LINE, "cleaned": None, "steep": True})
+    places = {"x": PLACE, "z": HEIGHT, "step": 5e-4, "bridge": None, "name": "", "source": ""}
+    yield Door(surface.resample, places)
+    road = {"hurst": 0.8, "xi_parallel": 1e-2, "xi_perpendicular": 1e-3}
+    size = {"length": 1e-2, "step": 2e-4, "seed": 1}
+    yield Door(surface.self_affine_profile, {**road, **size})
+    yield Door(surface.sine_profile, {"stack": SINES, **size})
+    density = {"wavenumber": [1e3, 2e3], "density": [1e-12, 1e-13], "interpolated": 0.0}
+    yield Door(surface.ArealSpectrum, density)
+    yield Door(surface.ProfileSpectrum, density)
+    lag = {"lag": [1e-3, 2e-3], "value": [1e-8, 2e-8], "carried": None}
+    yield Door(gs.HeightDifference, lag)
+    yield Door(surface.read_profiles, {"path": "none.txt", "direction": "x", "reader": "auto"})
+    yield Door(gs.read_map, {"path": "none.txt", "x_unit": None, "step": 1.0, "reader": "auto"})
+    units = {"frequency_unit": "Hz", "modulus_unit": "Pa", "modulus": "E", "columns": [0, 1, 2]}
+    yield Door(gs.read_master_curve, {"path": "none.txt", **units})
+
+
+FITTED = ("hurst", "xi_parallel", "xi_perpendicular", "lag_min", "lag_max", "residual")
+
+
+def _wave() -> Iterator[Door]:
+    yield Door(wave.Sine, WAVE)
+    yield Door(wave.SampledProfile, {"wavelength": 1e-3, "heights": HEIGHT})
+    yield Door(wave.Load, {**PRESSED, "load_time": 1.0})
+    yield Door(wave.Mesh, MESH)
+    limits = {"tolerance": None, "time_limit": 0.2}
+    small = {"max_iterations": 20, "residual_tolerance": 1e-8, "start": None}
+    steady = {"rubber": SOLID, **WAVE, **PRESSED, "load_time": 1.0, **MESH, **limits, **small}
+    yield Door(gs.solve_scale, steady, slow=True)
+    line = {"rubber": SOLID, "profile": LINE, **PRESSED, "load_time": 1.0, **limits, **small}
+    cut = {"smallest_wavelength": 8e-3, "periodic": False, "columns": 32, "rows": 4}
+    yield Door(gs.solve_profile, {**line, **cut, "depth": 1.5, "element_order": 1}, slow=True)
+    stages = {"stages": [gs.Stage(duration=1e-4, **PRESSED)], **MESH, "start": None}
+    yield Door(gs.solve_transient, {"rubber": SOLID, **WAVE, **stages})
+    yield Door(gs.Stage, {"duration": 1e-3, **PRESSED})
+    yield Door(wave.FiniteStrainBlock, {"mesh": wave.Mesh(**MESH), **limits, "settings": {}})
+    profile = {"smallest_wavelength": None, "periodic": False, "most_mismatch": 0.1}
+    yield Door(wave.BlockOnProfile, profile)
+
+
+def _rough() -> Iterator[Door]:
+    line = {"rubber": SOLID, "surface": LINE, **PRESSED, **ROUGH}
+    most = {"periodic": False, "most_points": 4096, "most_iterations": 20}
+    yield Door(gs.solve_rough_contact, {**line, **most})
+    direct = {"smallest_wavelength": None, "tolerance": 0.02, "most_points": 64}
+    yield Door(rough.DirectContact, {**direct, "periodic": False})
+    yield Door(rough.one_period, {"line": LINE, "smallest_wavelength": 4e-3})
+    yield Door(rough.random_phases, {"surface": LINE, "seed": 1})
+    yield Door(rough.surface_of_sines, {"stack": SINES, "length": 8e-3, "seed": 1})
+    yield Door(rough.windows, {"surface": LINE, "length": 1e-2})
+    yield Door(
+        rough.solve_windows,
+        {"rubber": SOLID, "surface": LINE, "length": 1e-2, **PRESSED},
+        slow=True,
+    )
+    spread = {"length": 1e-2, "most": 2, "smallest_wavelength": 2e-3}
+    yield Door(rough.spread_windows, {"profiles": [LINE], **spread})
+    pairs = {"lines": [LINE], **PRESSED, "load_time": 1.0, "workers": 1}
+    yield Door(rough.solve_both_ways, {"rubber": SOLID, **pairs}, slow=True)
+    whole = {"rubber": SOLID, "surface": MAP, "lines": 2, "tolerance": None, "workers": 1}
+    yield Door(rough.solve_map_and_lines, {**whole, **PRESSED}, slow=True)
+    made = {"construction": "lines", "points": 128, "seeds": [1], "lines": 1, "workers": 1}
+    over = {"rubber": SOLID, "profile": LONG, **PRESSED, "smallest_wavelength": 4e-3, **made}
+    yield Door(rough.map_over_lines, over, slow=True)

@@ -1,0 +1,70 @@
+"""Result files on disk: what was written is read, and nothing else."""
+
+from __future__ import annotations
+
+import random
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from gripscale import netcdf
+from gripscale.errors import FileError
+
+DATA = xr.Dataset({"friction": ("scale", np.arange(5.0))}, attrs={"title": "waves"})
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    return netcdf.save(DATA, tmp_path / "result.nc", {"group": DATA})
+
+
+def refused(path: Path) -> None:
+    for read in (netcdf.load, netcdf.load_tree):
+        with pytest.raises(FileError, match=r"result\.nc cannot be read as a netCDF result"):
+            read(path)
+
+
+def test_any_byte_changed_is_seen(path: Path) -> None:
+    """HDF5 alone reads one of six hundred such files as other numbers."""
+    sound, chance = path.read_bytes(), random.Random(1)
+    for at in [*range(60), *(chance.randrange(len(sound)) for _ in range(200)), len(sound) - 1]:
+        damaged = bytearray(sound)
+        damaged[at] ^= 1 << chance.randrange(8)
+        path.write_bytes(damaged)
+        refused(path)
+
+
+@pytest.mark.parametrize("change", ["cut", "half the seal", "more", "twice", "a bit lost"])
+def test_another_length(path: Path, change: str) -> None:
+    sound = path.read_bytes()
+    path.write_bytes(
+        {
+            "cut": sound[: len(sound) // 2],
+            "half the seal": sound[:-30],
+            "more": sound + b"\n",
+            "twice": 2 * sound,
+            "a bit lost": sound[:3000] + sound[3001:],
+        }[change]
+    )
+    refused(path)
+
+
+def test_files_from_elsewhere_have_no_seal(path: Path, tmp_path: Path) -> None:
+    other = tmp_path / "other.nc"
+    DATA.to_netcdf(other, engine=netcdf.ENGINE)
+    assert netcdf.load(other).identical(DATA)
+    assert xr.load_dataset(path, engine=netcdf.ENGINE).identical(DATA)
+
+
+def test_a_result_changed_on_purpose(path: Path) -> None:
+    """Another program that writes to the file takes the seal off."""
+    import netCDF4
+
+    with netCDF4.Dataset(path, "a") as file:
+        file.title = "a longer title, written by hand"
+        file["friction"][0] = 7.0
+    found = netcdf.load(path)
+    assert found.title.endswith("by hand")
+    assert found.friction[0] == 7.0
