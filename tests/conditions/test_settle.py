@@ -38,7 +38,7 @@ DIRECT = {"periodic": True, "tolerance": None, **LOAD}
 
 @pytest.mark.parametrize(("solver", "options"), SOLVERS)
 def test_a_settled_chain_is_its_own_rubber(solver, options):
-    """Solved once more with the rubber that its own strains and heat make, nothing moves by 1e-3."""
+    """Solved again with the rubber that its own strains and heat make, nothing moves by 1e-3."""
     found = gs.predict(RUBBER, SINES, solver=solver, conditions=BOTH, **options, **LOAD)
     assert found.converged
     assert found.scales[0].details["passes"] <= 8

@@ -31,7 +31,7 @@ def test_diffusivity():
 @pytest.mark.parametrize("speed", [0.0, 1e-3, 10.0])
 @pytest.mark.parametrize("a", [1e2, 1e5])
 def test_a_moving_harmonic_source_of_exponential_depth(a, speed):
-    """T = Q / (kappa m (m + a)) solves D (T'' - k^2 T) + Q exp(-a z) D/kappa = v dT/dx, T'(0) = 0."""
+    """T = Q/(kappa m (m + a)) solves D (T'' - k^2 T) + Q exp(-a z) D/kappa = v dT/dx, T'(0) = 0."""
     k = 1e4
     m = harmonic_decay(k, k, speed, THERMAL)
     assert m**2 == pytest.approx(k**2 + 1j * k * speed / D, rel=1e-12)
@@ -164,5 +164,5 @@ def test_thermal_properties_must_be_positive(name, value):
 
 @pytest.mark.parametrize(("mean", "shape"), [(-1.0, 3), (1e-3, 2), (math.inf, 1)])
 def test_a_depth_must_be_one_that_exists(mean, shape):
-    with pytest.raises(gs.InputError, match="mean|shape"):
+    with pytest.raises(gs.InputError, match=r"mean|shape"):
         LossDepth(mean, shape)

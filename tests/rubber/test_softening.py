@@ -79,7 +79,9 @@ def test_between_two_temperatures_factors_are_interpolated_and_flagged_beyond():
         table.factors(0.1)
 
 
-@pytest.mark.parametrize("law", [KRAUS, SofteningTable([[1e-3, 1.0]], [[2, 1]], [[1, 1]], 0.1, "shear")])
+@pytest.mark.parametrize(
+    "law", [KRAUS, SofteningTable([[1e-3, 1.0]], [[2, 1]], [[1, 1]], 0.1, "shear")]
+)
 def test_a_law_survives_its_dict(law):
     assert softening_from_dict(law.to_dict()) == law
 

@@ -37,6 +37,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+
 class Walk(Protocol):
     """Solves all waves of a chain."""
 
@@ -156,7 +157,7 @@ def _told(solved: Prediction, given: _OfLastPass, passes: int, *, settled: bool)
     scales = []
     for number, wave in enumerate(solved.scales):
         state = given.state(number, wave.angular_frequency)
-        told = {"passes": passes}
+        told: dict[str, float] = {"passes": passes}
         if conditions.softening is not None:
             told |= {
                 "strain": given.strain[number],

@@ -71,6 +71,8 @@ class RubberByScale:
 
     def _part(self, omega: Array, wavenumber: Array) -> ComplexArray:
         own = np.where(wavenumber > 0.0, wavenumber, self.factors.wavenumber[0])
-        at = {name: self.factors.at(name, own) for name in ("shift", "stiffening", "storage", "loss")}
+        at = {
+            name: self.factors.at(name, own) for name in ("shift", "stiffening", "storage", "loss")
+        }
         modulus = self.rubber.complex_modulus(omega * at["shift"]) * at["stiffening"]
         return np.asarray(at["storage"] * modulus.real + 1j * at["loss"] * modulus.imag)

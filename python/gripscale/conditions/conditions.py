@@ -100,7 +100,6 @@ class Conditions:
             )
         return rubber if self.temperature is None else rubber.at(self.temperature)
 
-
     def within_shift(self, rubber: Rubber, kelvin: ArrayLike) -> Array:
         """Return temperatures [K], those beyond what the shift of `rubber` has values for held."""
         if rubber.shift is None:

@@ -1,8 +1,8 @@
 """Anderson's acceleration of a fixed point x = f(x): the next x from the last few.
 
-    x_next = f_k - sum_j gamma_j (f_j+1 - f_j),   gamma minimising |r_k - sum_j gamma_j (r_j+1 - r_j)|
+    x_next = f_k - sum_j gamma_j (f_j+1 - f_j)
 
-with r = f - x. Source: D. G. Anderson, J. ACM 12 (1965) 547, doi:10.1145/321296.321305; as here in
+with r = f - x and gamma minimising |r_k - sum_j gamma_j (r_j+1 - r_j)|. Source: D. G. Anderson, J. ACM 12 (1965) 547, doi:10.1145/321296.321305; as here in
 H. F. Walker & P. Ni, SIAM J. Numer. Anal. 49 (2011) 1715, doi:10.1137/10078356X.
 """
 

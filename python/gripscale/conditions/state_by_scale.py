@@ -64,9 +64,7 @@ def state_by_scale(
         warm_beyond = np.array([not before.shift.within(t) for t in kelvin + warming])
     if conditions.softening is not None:
         at = [kelvin] * wavenumber.size if kelvin is None else list(kelvin + warming)
-        left = [
-            conditions.softening.factors(float(e), t) for e, t in zip(strain, at, strict=True)
-        ]
+        left = [conditions.softening.factors(float(e), t) for e, t in zip(strain, at, strict=True)]
         storage = np.array([float(one.storage) for one in left])
         loss = np.array([float(one.loss) for one in left])
         beyond = np.array([bool(one.outside) for one in left])

@@ -37,7 +37,7 @@ class WaveHeat:
     @property
     def wavenumbers(self) -> Array:
         """Of the harmonics [rad/m]."""
-        return 2.0 * math.pi / self.wavelength * np.arange(1, POINTS // 2)
+        return np.asarray(2.0 * math.pi / self.wavelength * np.arange(1.0, POINTS // 2))
 
     @classmethod
     def of(cls, wave: WaveResult, rubber: Rubber) -> WaveHeat:

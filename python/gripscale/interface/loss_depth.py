@@ -1,7 +1,7 @@
 """How deep below the surface energy is lost: distributions of depth, and averages over them.
 
-A pressure p cos(k x) on a half-plane, moving along, shears it with an amplitude p k z exp(-k z) that
-is the same everywhere along x (K. L. Johnson, Contact Mechanics (1985), sec. 13.2, eq. 13.7,
+A pressure p cos(k x) on a half-plane, moving along, shears it with an amplitude p k z exp(-k z)
+that is the same everywhere along x (K. L. Johnson, Contact Mechanics (1985), sec. 13.2,
 doi:10.1017/CBO9781139171731), so that its loss lies at depths distributed as (k z)^2 exp(-2 k z): a
 gamma distribution of shape 3 and mean 3/(2 k). Shape 1 is the exponential exp(-a z), mean 1/a.
 
@@ -68,7 +68,7 @@ class LossDepth:
 
     @property
     def rate(self) -> float:
-        """b = shape / mean [1/m], infinite at the surface."""
+        """B = shape / mean [1/m], infinite at the surface."""
         return self.shape / self.mean if self.mean > 0.0 else math.inf
 
     def decay(self, m: ComplexArray) -> ComplexArray:

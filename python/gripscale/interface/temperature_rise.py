@@ -7,13 +7,13 @@ The rubber moves with v along x over heat that stands still, lost at depths dist
     T(lost) = q (E exp(-m |Z - Z'|) + (E exp(-m Z))^2) / (2 kappa m)
 
 at the surface, and on the mean where the energy is lost; for the exponential depth exp(-a z) the
-first is Q / (kappa m (m + a)) with Q = a q. A uniform q that lasts for a time t, with l = 2 sqrt(D t):
+first is Q / (kappa m (m + a)) with Q = a q. A uniform q that lasts for a time t, l = 2 sqrt(D t):
 
     T(0)    = q l E ierfc(Z/l) / kappa        (2 q sqrt(t / (pi kappa rho c)) at the surface)
     T(lost) = q l (E ierfc(|Z - Z'|/l) + E ierfc((Z + Z')/l)) / (2 kappa)
 
-Source of the plane source and its image: H. S. Carslaw & J. C. Jaeger, Conduction of Heat in Solids,
-2nd ed. (1959), sec. 10.2 and 10.7; the averages over depths are derived here.
+Source of the plane source and its image: H. S. Carslaw & J. C. Jaeger, Conduction of Heat in
+Solids, 2nd ed. (1959), sec. 10.2 and 10.7; the averages over depths are derived here.
 """
 
 from __future__ import annotations
@@ -49,12 +49,16 @@ def harmonic_decay(
     return np.sqrt(number**2 + 1j * carried)
 
 
-def harmonic_at_surface(m: ComplexArray, depth: LossDepth, thermal: ThermalProperties) -> ComplexArray:
+def harmonic_at_surface(
+    m: ComplexArray, depth: LossDepth, thermal: ThermalProperties
+) -> ComplexArray:
     """Return the surface temperature of harmonics per heat per area [K m^2/W], shape of `m`."""
     return np.asarray(depth.decay(m) / (thermal.conductivity * m))
 
 
-def harmonic_where_lost(m: ComplexArray, depth: LossDepth, thermal: ThermalProperties) -> ComplexArray:
+def harmonic_where_lost(
+    m: ComplexArray, depth: LossDepth, thermal: ThermalProperties
+) -> ComplexArray:
     """Return the temperature of harmonics on the mean where they are lost, per heat per area.
 
     In [K m^2/W], shape of `m`.
@@ -64,13 +68,19 @@ def harmonic_where_lost(m: ComplexArray, depth: LossDepth, thermal: ThermalPrope
 
 
 def uniform_at_surface(time: float, depth: LossDepth, thermal: ThermalProperties) -> float:
-    """Return the surface temperature after a `time` [s] of uniform heat, per heat per area [K m^2/W]."""
+    """Return the surface temperature after a `time` [s] of uniform heat per heat per area.
+
+    In [K m^2/W].
+    """
     length = _spread(time, thermal)
     return length * depth.spread(length) / thermal.conductivity if length > 0.0 else 0.0
 
 
 def uniform_where_lost(time: float, depth: LossDepth, thermal: ThermalProperties) -> float:
-    """Return the temperature where the energy is lost after a `time` [s], per heat per area [K m^2/W]."""
+    """Return the temperature where the energy is lost after a `time` [s] per heat per area.
+
+    In [K m^2/W].
+    """
     length = _spread(time, thermal)
     if length == 0.0:
         return 0.0

@@ -2,8 +2,8 @@
 
 The harmonics of an octave lose mu_b p_0 v per nominal area, which the pattern of
 `gripscale.interface.heat_pattern` puts in its place; summed over octaves the heat is the friction
-work, exactly. It is lost at a mean depth of 3/2 over the wavenumber, averaged over the octave by the
-loss, and moves over the rubber; the road takes up none. Uniformly it lasts while the footprint
+work, exactly. It is lost at a mean depth of 3/2 over the wavenumber, averaged over the octave by
+the loss, and moves over the rubber; the road takes up none. Uniformly it lasts while the footprint
 passes.
 """
 
@@ -109,10 +109,9 @@ def grid_temperature(
     uniform = [
         flux * heat.friction * rise.uniform_at_surface(time, heat.depth, thermal) for heat in heats
     ]
-    surface = sum(
-        source * rise.harmonic_at_surface(m, heat.depth, thermal)
-        for source, heat in zip(sources, heats, strict=True)
-    )
+    surface = np.zeros(grid.spectrum_shape, dtype=complex)
+    for source, heat in zip(sources, heats, strict=True):
+        surface += source * rise.harmonic_at_surface(m, heat.depth, thermal)
     octave = []
     for which, heat in enumerate(heats):
         pattern = _without_mean(heat.density)

@@ -27,7 +27,7 @@ Solve = Callable[[RubberByScale | None], RoughContact]
 
 
 def settle(
-    solve: Solve, quick: Solve, rubber: Rubber, conditions: Conditions, *, time: float
+    solve: Solve, quick: Solve, rubber: Rubber, conditions: Conditions, time: float
 ) -> RoughContact:
     """Return the contact in which rubber, strains and heat agree.
 
@@ -54,7 +54,7 @@ def settle(
     last: RoughContact | None
     for how in (quick, solve):
         point, last = point.anew(), None
-        for count in range(1, MOST_PASSES + 1):
+        for passes in range(1, MOST_PASSES + 1):
             warming, strain = separate(point.assumed)
             state = state_by_scale(
                 conditions, rubber, wavenumber=number, warming=warming, strain=strain
@@ -67,7 +67,7 @@ def settle(
             last = now
         if not now.converged:
             break
-    return _told(now, conditions, state, count, time, settled=settled)
+    return _told(now, conditions, state, passes, time, settled=settled)
 
 
 def temperature(
@@ -88,7 +88,7 @@ def temperature(
 
 
 def _scales(contact: RoughContact) -> Array:
-    """Return the wavenumbers at which the state is known: octaves down to half the smallest wave."""
+    """Return the wavenumbers at which the state is known: octaves to half the smallest wave."""
     longest = 2.0 * np.pi / max(contact.grid.lengths)
     octaves = np.log2(4.0 * np.pi / contact.smallest_wavelength / longest)
     return np.asarray(longest * 2.0 ** (np.arange(int(np.ceil(octaves))) + 0.5))

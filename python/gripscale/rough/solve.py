@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -129,7 +130,8 @@ def solve_rough_contact(
     if not under.iterated:
         return solve(None, goal)
     time = _passage(under, speed, footprint)
-    return settle(lambda own: solve(own, goal), lambda own: solve(own, math.inf), rubber, under, time=time)
+    quick, whole = partial(solve, reach=math.inf), partial(solve, reach=goal)
+    return settle(whole, quick, rubber, under, time)
 
 
 def _solve(
@@ -161,7 +163,9 @@ def _passage(conditions: Conditions, speed: float, footprint: float | None) -> f
     if conditions.heat is None or speed == 0.0:
         return 0.0
     if footprint is None:
-        raise InputError("footprint must be the length of the nominal contact [m] with heat; got none")
+        raise InputError(
+            "footprint must be the length of the nominal contact [m] with heat; got none"
+        )
     return checks.positive("footprint", footprint, unit="m") / speed
 
 

@@ -64,7 +64,7 @@ class SolvedContact:
     by_scale: RubberByScale | None = field(default=None, repr=False)
     """The rubber at each scale, where conditions made it another; None: `rubber` at all."""
     scales: StateByScale | None = field(default=None, repr=False)
-    """Temperature, strain and what is left of the moduli at each scale, where they were asked for."""
+    """Temperature, strain and what is left of the moduli at each scale, if asked for."""
     passes: int = 1
     """Solutions until rubber, strains and heat agreed."""
     surface_warming: Array | None = field(default=None, repr=False)
@@ -142,7 +142,9 @@ class SolvedContact:
 
     def lost_by_harmonic(self) -> Array:
         """Return the friction each harmonic adds [-], over the half spectrum of the grid."""
-        return lost_by_harmonic(HalfSpace(self.rubber, self.speed, by_scale=self.by_scale), self.grid, self.pressure)
+        return lost_by_harmonic(
+            HalfSpace(self.rubber, self.speed, by_scale=self.by_scale), self.grid, self.pressure
+        )
 
     def _positions(self, axis: int) -> Array:
         place = self.grid.spacing[axis] * np.arange(self.grid.shape[axis], dtype=float)

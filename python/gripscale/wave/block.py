@@ -75,7 +75,7 @@ class FiniteStrainBlock:
         return cls(Mesh(**mesh), tolerance, settings, time_limit)
 
     def coarser(self) -> FiniteStrainBlock:
-        """Return the block with half the columns and two thirds of the rows, a sixth of the work."""
+        """Return the block on half the columns and two thirds of the rows, a sixth of the work."""
         mesh = self.mesh
         columns, rows = max(mesh.columns // 2, 4), max(2 * mesh.rows // 3, 2)
         return replace(self, mesh=replace(mesh, columns=columns, rows=rows), tolerance=None)

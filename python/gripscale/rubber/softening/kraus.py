@@ -68,7 +68,7 @@ class Kraus:
         checks.one_of("deformation", self.deformation, ["tension", "shear"])
 
     def factors(self, strain: ArrayLike, temperature: float | None = None) -> SofteningFactors:
-        """Return f and g at uniaxial strain amplitudes `strain` [-]; no temperature changes them."""
+        """Return f and g at uniaxial strain amplitudes `strain` [-], at any temperature."""
         own = np.asarray(strain, dtype=float)
         if self.deformation == "shear":
             own = own / UNIAXIAL_OF_SHEAR

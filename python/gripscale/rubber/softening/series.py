@@ -69,9 +69,7 @@ def softened(rubber: Rubber, storage: float, loss: float, omega: ArrayLike) -> S
     missed = np.abs(rows @ multiplier - 1.0).reshape(2, -1)
     own = np.empty(order.size + 1)
     own[0], own[1 + order] = multiplier[0], multiplier[1:]
-    return SoftenedSeries(
-        _multiplied(rubber, own), float(missed[:, 0].max()), float(missed.max())
-    )
+    return SoftenedSeries(_multiplied(rubber, own), float(missed[:, 0].max()), float(missed.max()))
 
 
 def _multipliers(rows: Array, omega: Array, f: float) -> Array:
@@ -91,7 +89,10 @@ def _rows(rubber: Rubber, order: NDArray[np.intp], omega: Array, f: float, g: fl
     modulus = rubber.complex_modulus(omega)
     phase = np.outer(omega, rubber.relaxation_times[order])
     storage = np.column_stack(
-        [np.full(omega.size, rubber.equilibrium_modulus), storage_shape(phase) * rubber.moduli[order]]
+        [
+            np.full(omega.size, rubber.equilibrium_modulus),
+            storage_shape(phase) * rubber.moduli[order],
+        ]
     )
     loss = np.column_stack([np.zeros(omega.size), loss_shape(phase) * rubber.moduli[order]])
     return np.vstack([storage / (f * modulus.real)[:, None], loss / (g * modulus.imag)[:, None]])
