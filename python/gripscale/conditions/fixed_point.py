@@ -2,8 +2,9 @@
 
     x_next = f_k - sum_j gamma_j (f_j+1 - f_j)
 
-with r = f - x and gamma minimising |r_k - sum_j gamma_j (r_j+1 - r_j)|. Source: D. G. Anderson, J. ACM 12 (1965) 547, doi:10.1145/321296.321305; as here in
-H. F. Walker & P. Ni, SIAM J. Numer. Anal. 49 (2011) 1715, doi:10.1137/10078356X.
+with r = f - x and gamma minimising |r_k - sum_j gamma_j (r_j+1 - r_j)|. Source: D. G. Anderson,
+J. ACM 12 (1965) 547, doi:10.1145/321296.321305; as here in H. F. Walker & P. Ni, SIAM J. Numer.
+Anal. 49 (2011) 1715, doi:10.1137/10078356X.
 """
 
 from __future__ import annotations

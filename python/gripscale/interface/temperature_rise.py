@@ -46,7 +46,7 @@ def harmonic_decay(
     """
     number = np.asarray(wavenumber, dtype=float)
     carried = np.asarray(along, dtype=float) * speed / thermal.diffusivity
-    return np.sqrt(number**2 + 1j * carried)
+    return np.asarray(np.sqrt(number**2 + 1j * carried))
 
 
 def harmonic_at_surface(

@@ -51,23 +51,34 @@ def settle(
     first = quick(None)
     number = _scales(first)
     point = FixedPoint(_found(conditions, first, number, time))
-    last: RoughContact | None
     for how in (quick, solve):
-        point, last = point.anew(), None
-        for passes in range(1, MOST_PASSES + 1):
-            warming, strain = separate(point.assumed)
-            state = state_by_scale(
-                conditions, rubber, wavenumber=number, warming=warming, strain=strain
-            )
-            now = how(state.rubber)
-            point.found(_found(conditions, now, number, time))
-            settled = point.missed < AGREED and (last is None or _change(now, last) < SETTLED)
-            if settled or not now.converged:
-                break
-            last = now
-        if not now.converged:
-            break
-    return _told(now, conditions, state, passes, time, settled=settled)
+        point = point.anew()
+        found = _passes(how, rubber, conditions, time, number, point)
+    return found
+
+
+def _passes(
+    solve: Solve,
+    rubber: Rubber,
+    conditions: Conditions,
+    time: float,
+    number: Array,
+    point: FixedPoint,
+) -> RoughContact:
+    """Return the contact after passes from `point`, which is moved."""
+    last: RoughContact | None = None
+    for passes in range(1, MOST_PASSES + 1):
+        warming, strain = separate(point.assumed)
+        state = state_by_scale(
+            conditions, rubber, wavenumber=number, warming=warming, strain=strain
+        )
+        now = solve(state.rubber)
+        point.found(_found(conditions, now, number, time))
+        settled = point.missed < AGREED and (last is None or _change(now, last) < SETTLED)
+        if settled or not now.converged or passes == MOST_PASSES:
+            return _told(now, conditions, state, passes, time, settled=settled)
+        last = now
+    raise AssertionError("unreachable")
 
 
 def temperature(
