@@ -142,6 +142,23 @@ def extrapolation_of(data: xr.Dataset) -> Extrapolation:
     return Extrapolation(**{part: float(data[name]) for name, (part, _) in OUTSIDE_BAND.items()})
 
 
+ADHESIVE_FRICTION = "total_adhesive_friction"
+"""Name of the area term's friction, where one was asked for."""
+
+
+def with_area_term(data: xr.Dataset, adhesive_friction: float) -> xr.Dataset:
+    """Return an answer with the friction of the area term [-], unchanged if that is NaN.
+
+    `total_friction` stays that of the hysteresis.
+    """
+    import xarray as xr
+
+    if math.isnan(adhesive_friction):
+        return data
+    attrs = {"units": "1", "long_name": "friction coefficient of the area term", "source": "input"}
+    return data.assign({ADHESIVE_FRICTION: xr.Variable((), adhesive_friction, attrs)})
+
+
 def answer_by_length(
     data: xr.Dataset,
     parts: Sequence[Any],

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from gripscale import checks, model, versions
 from gripscale.chain.predict import ChainError, RubberAt, predict
 from gripscale.chain.pressure import MOST_CLASSES
+from gripscale.conditions.conditions import Conditions
 from gripscale.errors import ExtrapolationError
 from gripscale.rubber.extrapolation import CHOICES
 from gripscale.surface import PreparedSurface, SineStack
@@ -37,6 +38,8 @@ class Chain:
         In how many classes of equal load a wave hands its pressure down, see `predict`.
     extrapolate : str
         "say" or "refuse", see `predict`.
+    conditions : Conditions, optional
+        Temperature, softening, heat and area term, see `predict`.
 
     Raises
     ------
@@ -50,6 +53,7 @@ class Chain:
     rubber_at: RubberAt | None = None
     pressure_classes: int = 1
     extrapolate: str = "say"
+    conditions: Conditions | None = None
 
     def __post_init__(self) -> None:
         checks.one_of("extrapolate", self.extrapolate, CHOICES)
@@ -85,6 +89,7 @@ class Chain:
                 solver=self.solver,
                 rubber_at=self.rubber_at,
                 extrapolate=self.extrapolate,
+                conditions=self.conditions,
                 on_scale=on_progress,
             )
         except ChainError as failure:

@@ -140,7 +140,8 @@ def predict(
     require_solid(before, load.pressure, load.time_under(load.footprint))
     if checks.one_of("extrapolate", extrapolate, CHOICES) == "refuse":
         require_measured(before, [wave.wavelength for wave in waves], load.speed)
-    walk = Walk(Prediction(rubber, sines, load, [], len(waves)), waves, one, count, on_scale)
+    nothing = Prediction(rubber, sines, load, [], len(waves), conditions)
+    walk = Walk(nothing, waves, one, count, on_scale)
     if conditions is None:
         return walk(rubber_at, start)
     if not conditions.iterated:

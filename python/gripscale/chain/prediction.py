@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from gripscale import model, versions
 from gripscale.chain.pressure import CLASS_PRESSURES
+from gripscale.conditions.conditions import Conditions
 from gripscale.model import NominalLoad
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import Extrapolation, of_sum
@@ -47,6 +48,8 @@ class Prediction:
     scales: list[WaveResult]
     planned: int
     """Number of waves to solve."""
+    conditions: Conditions | None = None
+    """What changed the rubber on the way, and the area term."""
 
     @property
     def status(self) -> Status:
@@ -85,6 +88,24 @@ class Prediction:
         """Friction coefficient of all waves from the energy lost in the rubber [-]."""
         each = self._of_converged([s.friction_from_dissipation for s in self.scales])
         return float(each.sum()) if self.scales else math.nan
+
+    @property
+    def adhesive_friction(self) -> float:
+        """Friction coefficient of the area term [-], NaN where none was asked for or at rest."""
+        if self.conditions is None or not self.scales:
+            return math.nan
+        kelvin = self.scales[-1].details.get("contact_temperature")
+        if kelvin is None:
+            kelvin = self.conditions.temperature_of(self.rubber)
+        load = self.load
+        return self.conditions.adhesive_friction(
+            self.contact_fraction, load.pressure, load.speed, kelvin
+        )
+
+    @property
+    def total_friction(self) -> float:
+        """Hysteresis and area term together [-], NaN where no area term was asked for."""
+        return self.friction + self.adhesive_friction
 
     @property
     def extrapolation(self) -> Extrapolation:
@@ -151,10 +172,12 @@ class Prediction:
             rubber=f"{self.rubber.name}; {self.rubber.source}".strip("; "),
             rubber_parameters=json.dumps(self.rubber.to_dict()),
             planned_waves=self.planned,
+            conditions=json.dumps(None if self.conditions is None else self.conditions.to_dict()),
             method=f"{LW}, equations 1 to 3",
             **versions.attributes(),
         )
-        return model.answer(data, totals, self.why, "chain", self.load, self.extrapolation)
+        answer = model.answer(data, totals, self.why, "chain", self.load, self.extrapolation)
+        return model.with_area_term(answer, self.adhesive_friction)
 
     @classmethod
     def from_dataset(cls, data: xr.Dataset) -> Prediction:
@@ -165,6 +188,7 @@ class Prediction:
         from gripscale.wave.dataset import waves_from_dataset
 
         stated = str(data.attrs["load_time"])
+        conditions = json.loads(data.attrs.get("conditions", "null"))
         load = NominalLoad(
             pressure=float(data["nominal_pressure"]),
             speed=float(data["nominal_speed"]),
@@ -177,6 +201,7 @@ class Prediction:
             load=load,
             scales=_with_class_pressures(waves_from_dataset(data), data),
             planned=int(data.attrs["planned_waves"]),
+            conditions=None if conditions is None else Conditions.from_dict(conditions),
         )
 
     def _of_converged(self, values: Sequence[float]) -> Array:

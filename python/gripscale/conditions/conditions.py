@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Literal
+import math
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gripscale import checks
 from gripscale.errors import InputError
-from gripscale.interface.area_term import InterfacialShearStress
+from gripscale.interface.area_term import (
+    InterfacialShearStress,
+    adhesive_friction,
+    shear_stress_from_dict,
+    shear_stress_to_dict,
+)
 from gripscale.interface.thermal import ThermalProperties
 from gripscale.rubber import Rubber
-from gripscale.rubber.softening import SofteningLaw, softened
+from gripscale.rubber.softening import SofteningLaw, softened, softening_from_dict
 
 Array = NDArray[np.float64]
 
@@ -78,6 +85,46 @@ class Conditions:
             value = getattr(self, name)
             if value is not None and not isinstance(value, kind):
                 raise InputError(f"{name} must be {expected}; got {checks.shown(value)}")
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return every effect as plain values, None where it is off."""
+        return {
+            "temperature": self.temperature,
+            "softening": None if self.softening is None else self.softening.to_dict(),
+            "strain_norm": self.strain_norm,
+            "heat": None if self.heat is None else asdict(self.heat),
+            "shear_stress": None
+            if self.shear_stress is None
+            else shear_stress_to_dict(self.shear_stress),
+        }
+
+    @classmethod
+    def from_dict(cls, values: Mapping[str, Any]) -> Conditions:
+        """Return the conditions of `to_dict`; raise `InputError` if a value is another."""
+        given = dict(values)
+        made = {
+            "softening": softening_from_dict,
+            "heat": lambda heat: checks.made(ThermalProperties, "heat", heat),
+            "shear_stress": shear_stress_from_dict,
+        }
+        for name, make in made.items():
+            if given.get(name) is not None:
+                given[name] = make(given[name])
+        return checks.made(cls, "conditions", given)
+
+    def adhesive_friction(
+        self, contact_fraction: float, pressure: float, speed: float, temperature: float | None
+    ) -> float:
+        """Return the area term's friction [-], NaN where none was asked for or nothing slides.
+
+        Of A_r/A_0 [-], the nominal pressure [Pa], the speed [m/s] and the temperature in the
+        contact [K], None for that before it.
+        """
+        if self.shear_stress is None or speed == 0.0:
+            return math.nan
+        kelvin = self.temperature if temperature is None else temperature
+        stress = float(self.shear_stress.stress(speed, kelvin))
+        return adhesive_friction(stress, contact_fraction, pressure)
 
     @property
     def iterated(self) -> bool:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from gripscale import checks, model
+from gripscale.conditions.conditions import Conditions
 from gripscale.errors import InputError
 from gripscale.rough.result import RoughContact
 from gripscale.rough.solve import solve_rough_contact
@@ -25,7 +26,8 @@ if TYPE_CHECKING:
 class DirectContact:
     """Every cleaned profile solved whole, averaged by length; of a map, the map.
 
-    Footprint and load time have no part in it: in small strain the mean state does nothing.
+    In small strain the mean state does nothing: the load time has no part in it, and the footprint
+    only in how long the rubber is heated.
 
     Parameters
     ----------
@@ -33,7 +35,7 @@ class DirectContact:
         Shorter waves are left out [m]; by default those shorter than the cut-off of the surface's
         sine waves or, without one, than the last of them, so that chain and direct contact see the
         same roughness.
-    tolerance, most_points, periodic
+    tolerance, most_points, periodic, conditions
         See `solve_rough_contact`.
     """
 
@@ -43,6 +45,7 @@ class DirectContact:
     tolerance: float | None = 0.02
     most_points: int = 2**22
     periodic: bool = False
+    conditions: Conditions | None = None
 
     def __post_init__(self) -> None:
         if self.smallest_wavelength is not None:
@@ -82,6 +85,8 @@ class DirectContact:
                 tolerance=self.tolerance,
                 most_points=self.most_points,
                 periodic=self.periodic,
+                conditions=self.conditions,
+                footprint=load.footprint,
             )
             contacts.append(contact)
             if on_progress is not None:
@@ -104,7 +109,9 @@ class DirectContact:
         data = xr.concat(parts, dim="profile", join="outer", combine_attrs="override")
         why_not = ["" if contact.converged else str(contact.status) for contact in contacts]
         lengths = [contact.grid.lengths[0] for contact in contacts]
-        return model.answer_by_length(data, contacts, why_not, lengths, self.name, load)
+        answer = model.answer_by_length(data, contacts, why_not, lengths, self.name, load)
+        adhesive = [contact.adhesive_friction for contact in contacts]
+        return model.with_area_term(answer, float(np.average(adhesive, weights=lengths)))
 
 
 def _measured(surface: PreparedSurface) -> list[Profile] | list[HeightMap]:

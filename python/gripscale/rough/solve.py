@@ -128,10 +128,10 @@ def solve_rough_contact(
         return _solve(own, heights, load, threads, iterations, most, reach, on_grid)
 
     if not under.iterated:
-        return solve(None, goal)
+        return replace(solve(None, goal), conditions=conditions)
     time = _passage(under, speed, footprint)
     quick, whole = partial(solve, reach=math.inf), partial(solve, reach=goal)
-    return settle(whole, quick, rubber, under, time)
+    return replace(settle(whole, quick, rubber, under, time), conditions=conditions)
 
 
 def _solve(

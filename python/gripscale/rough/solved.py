@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gripscale.conditions.by_scale import RubberByScale
+from gripscale.conditions.conditions import Conditions
 from gripscale.conditions.state_by_scale import StateByScale
 from gripscale.rough.grid import Array, Grid, Mask
 from gripscale.rough.grids import GridRecord
@@ -69,6 +70,26 @@ class SolvedContact:
     """Solutions until rubber, strains and heat agreed."""
     surface_warming: Array | None = field(default=None, repr=False)
     """Of the rubber's surface above its temperature before the contact [K]; None without heat."""
+
+    conditions: Conditions | None = None
+    """What changed the rubber on the way, and the area term."""
+
+    @property
+    def adhesive_friction(self) -> float:
+        """Friction coefficient of the area term [-], NaN where none was asked for or at rest."""
+        if self.conditions is None:
+            return math.nan
+        kelvin = self.conditions.temperature_of(self.rubber)
+        if kelvin is not None and self.surface_warming is not None:
+            kelvin += float(np.average(self.surface_warming, weights=self.pressure))
+        return self.conditions.adhesive_friction(
+            self.contact_fraction, self.nominal_pressure, self.speed, kelvin
+        )
+
+    @property
+    def total_friction(self) -> float:
+        """Hysteresis and area term together [-], NaN where no area term was asked for."""
+        return self.friction + self.adhesive_friction
 
     @property
     def converged(self) -> bool:

@@ -105,6 +105,18 @@ DETAILS = (
     Field("points", "1", "points along the wave"),
     Field("points_in_contact", "1", "points in contact"),
     Field("full_contact", "1", "1 where the contact is full"),
+    Field("passes", "1", "passes until rubber, strains and heat agreed"),
+    Field("strain", "1", "uniaxial strain amplitude the softening was taken at", CHAIN),
+    Field("storage_factor", "1", "what strain leaves of the storage modulus", CHAIN),
+    Field("loss_factor_left", "1", "what strain leaves of the loss modulus", CHAIN),
+    Field("series_misfit", "1", "relative misfit of the softened series at the wave", CHAIN),
+    Field("beyond_sweep", "1", "1 where the strain lies beyond the sweep of the softening", CHAIN),
+    Field("temperature", "K", "temperature of the rubber where the wave loses energy", CHAIN),
+    Field("warming_uniform", "K", "of it by the heat of all waves spread evenly", CHAIN),
+    Field("warming_larger_waves", "K", "of it in the contact of the larger waves", CHAIN),
+    Field("warming_own", "K", "of it by the wave's own heat", CHAIN),
+    Field("contact_temperature", "K", "temperature in the contact of the wave", CHAIN),
+    Field("beyond_shift", "1", "1 where the temperature lies beyond the shift's", CHAIN),
 )
 """Numbers only some solvers have."""
 
