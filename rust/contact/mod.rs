@@ -4,6 +4,7 @@ pub mod complementarity;
 pub mod edges;
 pub mod harmonics;
 pub mod linearised;
+pub mod pivoting;
 pub mod profile;
 
 use crate::fem::block::{Block, Field, RowState};
