@@ -3,6 +3,7 @@
 pub mod complementarity;
 pub mod edges;
 pub mod harmonics;
+pub mod hertz;
 pub mod linearised;
 pub mod pivoting;
 pub mod profile;

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 import gripscale as gs
 from gripscale.rubber import styrene_butadiene
+from gripscale.rubber.carrying import MOST_PRESSURE
 
 WAVELENGTH = 1e-3
 SPEED = 1.0
@@ -43,10 +44,12 @@ class Box:
     """E_glass / E_inf."""
     most_loss: float
     """Loss factor."""
+    most_soft: float
+    """p / E(t), t the load time."""
 
 
-ORDINARY = Box("ordinary", (0.02, 0.27), (0.03, 1.0), 1e3, 1.0)
-FAR = Box("far", (0.02, 0.35), (0.03, 1.5), 1e5, 3.0)
+ORDINARY = Box("ordinary", (0.02, 0.27), (0.03, 1.0), 1e3, 1.0, MOST_PRESSURE)
+FAR = Box("far", (0.02, 0.35), (0.03, 1.5), 1e5, 3.0, np.inf)
 BOXES = {box.name: box for box in (ORDINARY, FAR)}
 
 
@@ -61,6 +64,12 @@ class RandomWave:
     pressure_ratio: float
     passages: float
     """Load time in passages of the wave."""
+
+    @property
+    def softness(self) -> float:
+        """Pressure over the relaxation modulus after the load time."""
+        load = self.arguments()
+        return float(load["pressure"] / self.rubber.relaxation_modulus(load["load_time"]))
 
     def arguments(self) -> dict[str, float]:
         """Keyword arguments for `gripscale.solve_scale`."""
@@ -82,17 +91,20 @@ def random_waves(box: Box, count: int, *, first: int = 0, seed: int = SEED) -> I
 
 def _drawn(box: Box, number: int, generator: np.random.Generator) -> RandomWave:
     kind = str(generator.choice(list(SERIES)))
-    rubber = None
-    while rubber is None:
+    while True:
         rubber = _rubber(box, kind, generator)
-    return RandomWave(
-        number,
-        kind,
-        rubber,
-        slope=generator.uniform(*box.slopes),
-        pressure_ratio=_log_uniform(generator, *box.pressures),
-        passages=float(generator.choice(PASSAGES)),
-    )
+        if rubber is None:
+            continue
+        wave = RandomWave(
+            number,
+            kind,
+            rubber,
+            slope=generator.uniform(*box.slopes),
+            pressure_ratio=_log_uniform(generator, *box.pressures),
+            passages=float(generator.choice(PASSAGES)),
+        )
+        if wave.softness <= box.most_soft:
+            return wave
 
 
 def _rubber(box: Box, kind: str, generator: np.random.Generator) -> gs.Rubber | None:
@@ -189,6 +201,8 @@ class Row:
     passages: float
     pressure_over_relaxed: float
     """p / E(t), t the load time."""
+    mean_shear: float
+    """Friction over G(t)."""
     columns: int
     rows: int
     status: str
@@ -225,9 +239,10 @@ def solve(box: Box, wave: RandomWave, *, columns: int, rows: int, seed: int = SE
         rubber.glassy_modulus / rubber.equilibrium_modulus,
         3.0 * rubber.bulk_modulus / modulus,
         wave.passages,
-        arguments["pressure"] / float(rubber.relaxation_modulus(arguments["load_time"])),
-        columns,
-        rows,
+        wave.softness,
+        3.0 * abs(result.friction) * wave.softness,
+        int(result.details["columns"]),
+        int(result.details["rows"]),
         str(result.status),
         float(result.details["load_reached"]),
         result.friction,
