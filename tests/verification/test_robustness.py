@@ -1,4 +1,4 @@
-"""Random loads as real roads bring them, solved cold; how a wave ends is not a matter of the mesh."""
+"""Random loads, solved cold: as real roads bring them, and how a wave ends on other meshes."""
 
 import os
 import time
@@ -71,7 +71,9 @@ def test_a_contact_narrower_than_a_node_is_refused_at_once(speed, share):
         assert expected < 1e-3 * 2 / np.pi * np.sqrt(share)
 
 
-@pytest.mark.parametrize("wave", random_waves(ORDINARY, 60), ids=lambda wave: f"wave {wave.number}")
+@pytest.mark.parametrize(
+    "wave", list(random_waves(ORDINARY, 60)), ids=lambda wave: f"wave {wave.number}"
+)
 def test_an_ordinary_random_wave_converges_cold(wave):
     assert solve(ORDINARY, wave, columns=64, rows=12).status == "converged"
 
