@@ -66,6 +66,7 @@ getters! {
     friction_error: f64 = |s, _| Ok(s.finest.friction_error);
     columns: usize = |s, _| Ok(s.finest.mesh.columns);
     rows: usize = |s, _| Ok(s.finest.mesh.rows);
+    too_narrow: Option<(f64, f64)> = |s, _| Ok(s.too_narrow);
     min_stretch: f64 = |s, _| Ok(s.finest.outcome.min_stretch);
     max_stretch: f64 = |s, _| Ok(s.finest.outcome.max_stretch);
     x: Vector<'py> = |s, py| Ok(PyArray1::from_slice(py, &s.finest.outcome.x));

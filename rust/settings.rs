@@ -72,7 +72,7 @@ settings! {
     reuse_below: f64 = 0.1 in 1e-15..=1.0, "A factored tangent is used again only while the residual is below this [-].";
     reuse_reduction: f64 = 0.3 in 1e-6..=1.0, "A factored tangent is used again while each residual is below this share of the last [-].";
 
-    active_set_rounds: usize = 60 in 0..=10_000, "Changes of the whole active set before nodes change sides one by one.";
+    active_set_rounds: usize = 60 in 0..=10_000, "Changes of the whole active set before nodes change sides one by one, along a path that finds a set where there is one.";
     single_node_rounds: usize = 2000 in 1..=100_000, "Changes of single nodes of the active set.";
     active_set_tolerance: f64 = 1e-12 in 1e-15..=1e-3, "Largest tension and overlap, in units of the mean contact force and the largest gap [-].";
 
@@ -97,6 +97,9 @@ settings! {
     dwell_steps: usize = 40 in 2..=10_000, "Time steps of a dwell, their lengths growing geometrically.";
     dwell_first: f64 = 1e-4 in 1e-12..=0.5, "First time step of a dwell over its duration [-].";
     longest_stage: f64 = 10_000.0 in 1.0..=1e6, "Longest way of one stage [wavelengths].";
+    rescue_columns: usize = 256 in 4..=1024, "Most columns of the mesh, twice as fine, that is tried where the one asked for does not carry the load.";
+    large_mean_shear: f64 = 2.0 in 0.1..=100.0, "A load path that ends at a mean shear of the block beyond this ends because of it [-].";
+
     load_parts: usize = 8 in 1..=1000, "Parts a change of load is cut into where a time step fails.";
 }
 

@@ -27,6 +27,10 @@ statuses! {
     NotFinite = "not finite",
     /// The load can be raised no further, in however small steps.
     Fold = "fold in the load path",
+    /// Friction shears the bonded block, as soft as it is after the load time, beyond sense.
+    MeanShear = "mean shear too large",
+    /// The load is so small that no mesh allowed has a node for the contact.
+    TooNarrow = "contact too narrow",
     /// Ended early: what was solved by then.
     TimeLimit = "time limit",
     /// Solved, but the finest mesh allowed does not meet the accuracy asked for.

@@ -102,6 +102,13 @@ impl Harmonics {
         self.full_contact_pressure
     }
 
+    /// Size of the curvature where the heights are highest.
+    pub fn crest_curvature(&self) -> f64 {
+        let higher = |a: &f64, b: &f64| self.height(*a).total_cmp(&self.height(*b));
+        let crest = self.fine_points().max_by(higher);
+        crest.map_or(0.0, |x| self.curvature(x).abs())
+    }
+
     /// sum_n weight(n) c_n exp(2 pi i n x) by Horner's rule.
     fn sum(&self, x: f64, weight: impl Fn(f64) -> f64) -> (f64, f64) {
         let (sin, cos) = (TAU * x).sin_cos();

@@ -71,6 +71,14 @@ impl Heights {
         0.5 * (highest - lowest)
     }
 
+    /// Size of the curvature of the highest crest.
+    pub fn crest_curvature(&self) -> f64 {
+        match self {
+            Self::Sine { amplitude } => amplitude * TAU * TAU,
+            Self::Sampled(harmonics) => harmonics.crest_curvature(),
+        }
+    }
+
     /// Mean pressure that closes the gap of a half-plane with nu = 1/2 and unit shear modulus, for
     /// heights in periods: 4 pi A of a sine (K. L. Johnson, "Contact Mechanics" (1985), section
     /// 13.2).

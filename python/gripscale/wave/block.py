@@ -211,8 +211,20 @@ def _result(problem: WaveProblem, mesh: Mesh, solution: kernel.Solution) -> Wave
             "rows": solution.rows,
             "depth": mesh.depth,
             "element_order": mesh.element_order,
+            **_widths(profile.wavelength, solution.too_narrow),
         },
         contact_fraction_error=solution.contact_fraction_error,
         friction_error=solution.friction_error,
         solution=solution,
     )
+
+
+def _widths(wavelength: float, too_narrow: tuple[float, float] | None) -> dict[str, float]:
+    """Return contact widths [m], expected and smallest, where there was nothing to solve."""
+    if too_narrow is None:
+        return {}
+    expected, smallest = too_narrow
+    return {
+        "expected_contact_width": expected * wavelength,
+        "smallest_contact_width": smallest * wavelength,
+    }

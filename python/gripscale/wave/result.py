@@ -91,6 +91,12 @@ class WaveResult:
         if self.converged:
             return f"{self.status}, but {self.doubt}" if self.doubt else str(self.status)
         reached = self.details.get("load_reached", math.nan)
+        if self.status == Status.CONTACT_TOO_NARROW and "expected_contact_width" in self.details:
+            return (
+                f"{self.status}: about {self.details['expected_contact_width']:.2g} m is expected, "
+                f"the finest mesh follows {self.details['smallest_contact_width']:.2g} m; "
+                "the pressure is too small for the block"
+            )
         if not math.isfinite(reached):
             return str(self.status)
         return f"{self.status} at {100.0 * reached:.3g} % of the pressure"

@@ -14,6 +14,7 @@ class Status(StrEnum):
     NO_ACTIVE_SET = "no active set"
     NOT_FINITE = "not finite"
     FOLD = "fold in the load path"
+    MEAN_SHEAR = "mean shear too large"
     TIME_LIMIT = "time limit"
     TOLERANCE_NOT_MET = "tolerance not met"
     ACTIVE_SET_NOT_SETTLED = "active set not settled"
