@@ -31,4 +31,8 @@ statuses! {
     TimeLimit = "time limit",
     /// Solved, but the finest mesh allowed does not meet the accuracy asked for.
     ToleranceNotMet = "tolerance not met",
+    /// Solved, but friction from traction and from dissipation differ on the finest mesh allowed.
+    FrictionsDisagree = "frictions disagree",
+    /// Solved, but too few nodes carry the load on the finest mesh allowed.
+    ContactTooNarrow = "contact too narrow",
 }

@@ -15,6 +15,7 @@ use crate::outcome::Outcome;
 use crate::problem::Problem;
 use crate::settings::Settings;
 use crate::solution::Solution;
+use crate::solve::judge::Judge;
 use crate::solve::load_stepping::{raise, Counts};
 use crate::solve::mesh_sequence::{MeshSequence, MeshSolution};
 use crate::solve::newton;
@@ -46,10 +47,11 @@ pub fn solve(
         counts: Counts::default(),
     };
     let first = start.map(|solution| &solution.finest);
-    let fewest = problem.profile.heights.fewest_nodes();
-    let sequence = MeshSequence::new(&problem.mesh, tolerance, first, fewest, settings);
+    let heights = &model.heights;
+    let judge = Judge::new(heights, problem.load.speed > 0.0, tolerance, settings);
+    let sequence = MeshSequence::new(&problem.mesh, first, heights.fewest_nodes(), &judge);
     let on_mesh = |mesh: Mesh, coarse: Option<&MeshSolution>| work.on_mesh(mesh, coarse);
-    let finest = sequence.solve(tolerance, settings, on_mesh)?;
+    let finest = sequence.solve(&judge, on_mesh)?;
     Ok(Solution {
         problem: problem.clone(),
         stress_unit: model.stress_unit,
@@ -106,8 +108,10 @@ impl Work<'_> {
             report,
             load_reached,
             outcome,
+            judged_by: None,
             contact_fraction_error: f64::NAN,
             friction_error: f64::NAN,
+            friction_bound: None,
         })
     }
 

@@ -16,5 +16,6 @@ class Status(StrEnum):
     FOLD = "fold in the load path"
     TIME_LIMIT = "time limit"
     TOLERANCE_NOT_MET = "tolerance not met"
+    FRICTIONS_DISAGREE = "frictions disagree"
     ACTIVE_SET_NOT_SETTLED = "active set not settled"
     CONTACT_TOO_NARROW = "contact too narrow"
