@@ -82,11 +82,11 @@ def test_any_mesh_has_a_coarser_one_to_be_judged_by(columns, coarser, warm):
 
 
 def test_no_estimate_says_why():
-    coarse = gs.solve_scale(tread(), **LOAD, speed=0.3, columns=12, rows=4)
+    coarse = gs.solve_scale(tread(), **LOAD | {"pressure": 4e5}, speed=0.3, columns=12, rows=4)
     assert coarse.details["coarser_columns"] == 0
     assert coarse.details["no_error_estimate"] == "no coarser mesh than 12 columns was solved"
     assert np.isnan(coarse.friction_error)
-    failed = gs.solve_scale(tread(), **LOAD, speed=0.3, max_iterations=1)
+    failed = gs.solve_scale(tread(), **STEEP, speed=0.3, columns=32, rows=8, max_iterations=5)
     ended = "the solution ended early, iteration limit"
     assert failed.details["no_error_estimate"] == ended
 
