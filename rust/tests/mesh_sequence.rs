@@ -163,17 +163,17 @@ fn frictions_further_apart_than_the_bound_are_a_status() {
     assert_eq!((still.mesh.columns, still.friction_bound), (32, None));
 }
 
-/// Full on both meshes while the half-plane's gap is 0.024 wide: Westergaard, p/p* = 0.9986.
+/// Westergaard at p/p* = 0.995: the gap is 0.07 wide in place of 0.045, and was as wide on half of
+/// the columns, so that the change says half of the error.
 #[test]
-fn a_gap_between_nodes_is_within_the_error() {
+fn a_gap_of_few_nodes_is_within_the_error() {
     let amplitude = 1e-3;
-    let mut case = Case::elastic(amplitude, 0.9986 * 4.0 * std::f64::consts::PI * amplitude);
-    (case.columns, case.rows) = (32, 9);
+    let case = Case::elastic(amplitude, 0.995 * 4.0 * std::f64::consts::PI * amplitude);
     let found = case.solve(None).unwrap().finest;
-    let exact = 0.97618;
+    let exact = 0.95495;
     let error = (found.outcome.contact_fraction - exact).abs();
     assert!(
-        error > 0.01 && error <= found.contact_fraction_error,
+        error > 0.02 && error <= found.contact_fraction_error,
         "{error} {}",
         found.contact_fraction_error
     );
