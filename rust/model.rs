@@ -22,7 +22,7 @@ pub struct Model {
     pub maxwell: Maxwell,
     energy: Energy,
     bulk_modulus: f64,
-    heights: Heights,
+    pub heights: Heights,
 }
 
 impl Model {

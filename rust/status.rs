@@ -29,10 +29,12 @@ statuses! {
     Fold = "fold in the load path",
     /// Friction shears the bonded block, as soft as it is after the load time, beyond sense.
     MeanShear = "mean shear too large",
-    /// The load is so small that no mesh allowed has a node for the contact.
-    TooNarrow = "contact too narrow",
     /// Ended early: what was solved by then.
     TimeLimit = "time limit",
     /// Solved, but the finest mesh allowed does not meet the accuracy asked for.
     ToleranceNotMet = "tolerance not met",
+    /// Solved, but friction from traction and from dissipation differ on the finest mesh allowed.
+    FrictionsDisagree = "frictions disagree",
+    /// Too few nodes carry the load on the finest mesh allowed, or would: then nothing is solved.
+    ContactTooNarrow = "contact too narrow",
 }

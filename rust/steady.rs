@@ -15,6 +15,7 @@ use crate::outcome::Outcome;
 use crate::problem::Problem;
 use crate::settings::Settings;
 use crate::solution::Solution;
+use crate::solve::judge::Judge;
 use crate::solve::load_stepping::{raise, Counts};
 use crate::solve::mesh_sequence::{MeshSequence, MeshSolution};
 use crate::solve::newton;
@@ -46,15 +47,16 @@ pub fn solve(
         counts: Counts::default(),
     };
     let first = start.map(|solution| &solution.finest);
-    let fewest = problem.profile.heights.fewest_nodes();
-    let sequence = MeshSequence::new(&problem.mesh, tolerance, first, fewest, settings);
+    let heights = &model.heights;
+    let judge = Judge::new(heights, problem.load.speed > 0.0, tolerance, settings);
+    let sequence = MeshSequence::new(&problem.mesh, first, heights.fewest_nodes(), &judge);
     let too_narrow = work.too_narrow();
     let finest = match too_narrow {
         Some(_) => work.refused()?,
         None => {
             let on_mesh = |mesh: Mesh, coarse: Option<&MeshSolution>| work.on_mesh(mesh, coarse);
-            let finest = sequence.solve(tolerance, settings, on_mesh)?;
-            work.rescued(finest)?
+            let finest = sequence.solve(&judge, on_mesh)?;
+            work.rescued(finest, &judge)?
         }
     };
     Ok(Solution {
@@ -97,7 +99,7 @@ impl Work<'_> {
         let mesh = Mesh::new(&self.problem.mesh);
         let state = State::at_rest(&mesh);
         let report = newton::Report {
-            status: Status::TooNarrow,
+            status: Status::ContactTooNarrow,
             iterations: 0,
             residual: f64::NAN,
         };
@@ -107,7 +109,11 @@ impl Work<'_> {
 
     /// `finest` itself, or where its mesh did not carry the load what a mesh twice as fine gives:
     /// stretches that only a coarse mesh has end load paths that the rubber does not end.
-    fn rescued(&mut self, finest: MeshSolution) -> Result<MeshSolution, KernelError> {
+    fn rescued(
+        &mut self,
+        finest: MeshSolution,
+        judge: &Judge,
+    ) -> Result<MeshSolution, KernelError> {
         let mesh_may_be_why = matches!(
             finest.report.status,
             Status::Fold
@@ -124,7 +130,11 @@ impl Work<'_> {
         let finer = size.with_columns(columns, self.settings.row_exponent);
         let finer = self.on_mesh(Mesh::new(&finer), None)?;
         let solved = finer.report.status == Status::Converged;
-        Ok(if solved { finer } else { finest })
+        Ok(if solved {
+            finer.judged(None, judge).concluded(judge)
+        } else {
+            finest
+        })
     }
 
     /// Solve on `mesh`: from the coarser mesh, else from the start, else by raising the load.
@@ -181,8 +191,10 @@ impl Work<'_> {
             report,
             load_reached,
             outcome,
+            judged_by: None,
             contact_fraction_error: f64::NAN,
             friction_error: f64::NAN,
+            friction_bound: None,
         })
     }
 

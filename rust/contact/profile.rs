@@ -79,6 +79,14 @@ impl Heights {
         }
     }
 
+    /// Root of two times the rms slope of heights in periods: k A of a sine.
+    pub fn steepness(&self) -> f64 {
+        match self {
+            Self::Sine { amplitude } => TAU * amplitude,
+            Self::Sampled(harmonics) => harmonics.steepness(),
+        }
+    }
+
     /// Mean pressure that closes the gap of a half-plane with nu = 1/2 and unit shear modulus, for
     /// heights in periods: 4 pi A of a sine (K. L. Johnson, "Contact Mechanics" (1985), section
     /// 13.2).

@@ -17,5 +17,6 @@ class Status(StrEnum):
     MEAN_SHEAR = "mean shear too large"
     TIME_LIMIT = "time limit"
     TOLERANCE_NOT_MET = "tolerance not met"
+    FRICTIONS_DISAGREE = "frictions disagree"
     ACTIVE_SET_NOT_SETTLED = "active set not settled"
     CONTACT_TOO_NARROW = "contact too narrow"
