@@ -23,13 +23,11 @@ def read_sheets(path: Path) -> dict[str, Rows]:
     except ImportError as error:
         raise FileError(f"{path}: xlsx needs openpyxl: pip install gripscale[formats]") from error
     try:
-        book = openpyxl.load_workbook(path, read_only=True, data_only=True)
-        try:
+        with path.open("rb") as file:  # openpyxl leaves open what it cannot read
+            book = openpyxl.load_workbook(file, read_only=True, data_only=True)
             sheets = {
                 sheet.title: list(sheet.iter_rows(values_only=True)) for sheet in book.worksheets
             }
-        finally:
-            book.close()
     except Exception as error:  # openpyxl, zipfile and the XML parser fail each in their own way
         raise FileError(f"{path}: expected an xlsx file ({type(error).__name__})") from error
     if not sheets:
