@@ -115,6 +115,9 @@ impl<'a> Path<'a> {
             .collect();
         let opened = gaps(compliance, &vec![0.0; nodes], &held, 0.0);
         let set: Vec<usize> = (0..nodes).filter(|&i| self.active[i]).collect();
+        if set.is_empty() {
+            return Err(Status::NoActiveSet);
+        }
         let matrix = self.problem.bordered(&set);
         let border = self.problem.border(&set);
         let right = Matrix::from_fn(set.len() + 1, 2, |row, column| {

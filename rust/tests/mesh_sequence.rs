@@ -126,7 +126,7 @@ fn zener(amplitude: f64, pressure: f64, time: f64) -> Case {
 /// Two nodes of 32 touch, with frictions a third apart: refined until both are to be trusted.
 #[test]
 fn a_contact_of_few_nodes_is_refined() {
-    let narrow = zener(1e-3, 5e-5, 0.02);
+    let narrow = zener(1e-3, 4e-4, 0.02);
     let mut kept = narrow.clone();
     kept.settings = Settings::new([("finest_columns", 32.0)]).unwrap();
     let coarse = kept.solve(None).unwrap().finest;
