@@ -136,10 +136,20 @@ pub fn solve_dense(
     right: &[f64],
     watch: &Watch<'_>,
 ) -> Result<Option<Vec<f64>>, Status> {
-    let mut x = column(right);
-    Factor::new(matrix.as_ref(), watch)?.solve(&mut x, watch)?;
-    let x: Vec<f64> = (0..right.len()).map(|i| x[(i, 0)]).collect();
-    Ok(x.iter().all(|v| v.is_finite()).then_some(x))
+    let solved = solve_columns(matrix, column(right), watch)?;
+    Ok(solved.map(|x| column_ref(&x, 0).to_vec()))
+}
+
+/// The same for every column of `right`.
+pub fn solve_columns(
+    matrix: &Mat<f64>,
+    mut right: Mat<f64>,
+    watch: &Watch<'_>,
+) -> Result<Option<Mat<f64>>, Status> {
+    Factor::new(matrix.as_ref(), watch)?.solve(&mut right, watch)?;
+    let columns = 0..right.ncols();
+    let finite = |j: usize| column_ref(&right, j).iter().all(|v| v.is_finite());
+    Ok(columns.into_iter().all(finite).then_some(right))
 }
 
 pub fn column(values: &[f64]) -> Mat<f64> {

@@ -5,6 +5,7 @@
 use std::f64::consts::TAU;
 
 use crate::contact::edges::EdgeLaw;
+use crate::contact::hertz;
 use crate::contact::profile::Heights;
 use crate::contact::PressedBlock;
 use crate::fem::block::{Block, Memory};
@@ -21,7 +22,7 @@ pub struct Model {
     pub maxwell: Maxwell,
     energy: Energy,
     bulk_modulus: f64,
-    heights: Heights,
+    pub heights: Heights,
 }
 
 impl Model {
@@ -68,6 +69,13 @@ impl Model {
             heights: &self.heights,
             watch,
         }
+    }
+
+    /// Contact width in wavelengths that a small `load` will have, after Hertz.
+    pub fn expected_contact(&self, load: f64) -> f64 {
+        hertz::width(load, self.heights.crest_curvature(), |omega| {
+            self.maxwell.magnitude(omega)
+        })
     }
 
     /// Of the modulus that a wave of four node spacings meets at `speed` [wavelengths / time unit].

@@ -40,7 +40,9 @@ impl Outcome {
         }
         let gap = pressed.gaps(state, &x);
         let contacts = contacts(&x, &pressure, &gap, &state.active, law);
-        let length = contacts.iter().map(|(from, to)| to - from).sum::<f64>();
+        let length = contacts
+            .iter()
+            .fold(0.0, |sum, (from, to)| sum + (to - from));
         Ok(Self {
             contact_fraction: length.clamp(0.0, 1.0),
             contacts,

@@ -64,8 +64,11 @@ getters! {
     friction_from_dissipation: f64 = |s, _| Ok(s.finest.outcome.friction_from_dissipation);
     contact_fraction_error: f64 = |s, _| Ok(s.finest.contact_fraction_error);
     friction_error: f64 = |s, _| Ok(s.finest.friction_error);
+    friction_bound: Option<f64> = |s, _| Ok(s.finest.friction_bound);
+    judged_by: Option<usize> = |s, _| Ok(s.finest.judged_by);
     columns: usize = |s, _| Ok(s.finest.mesh.columns);
     rows: usize = |s, _| Ok(s.finest.mesh.rows);
+    too_narrow: Option<(f64, f64)> = |s, _| Ok(s.too_narrow);
     min_stretch: f64 = |s, _| Ok(s.finest.outcome.min_stretch);
     max_stretch: f64 = |s, _| Ok(s.finest.outcome.max_stretch);
     x: Vector<'py> = |s, py| Ok(PyArray1::from_slice(py, &s.finest.outcome.x));

@@ -72,7 +72,7 @@ settings! {
     reuse_below: f64 = 0.1 in 1e-15..=1.0, "A factored tangent is used again only while the residual is below this [-].";
     reuse_reduction: f64 = 0.3 in 1e-6..=1.0, "A factored tangent is used again while each residual is below this share of the last [-].";
 
-    active_set_rounds: usize = 60 in 0..=10_000, "Changes of the whole active set before nodes change sides one by one.";
+    active_set_rounds: usize = 60 in 0..=10_000, "Changes of the whole active set before nodes change sides one by one, along a path that finds a set where there is one.";
     single_node_rounds: usize = 2000 in 1..=100_000, "Changes of single nodes of the active set.";
     active_set_tolerance: f64 = 1e-12 in 1e-15..=1e-3, "Largest tension and overlap, in units of the mean contact force and the largest gap [-].";
 
@@ -90,13 +90,24 @@ settings! {
     coarsest_nodes: usize = 32 in 8..=2048, "Fewest nodes along the wave on the coarsest mesh of a sequence.";
     finest_columns: usize = 512 in 4..=1024, "Most columns of the mesh that a tolerance refines to.";
     row_exponent: f64 = 0.585 in 0.01..=1.0, "Rows grow with this power of the columns [-]: by 1.5 for every doubling.";
-    edge_error: f64 = 0.15 in 1e-6..=10.0, "Node spacings to which both contact edges together are known [-].";
+    edge_error: f64 = 0.15 in 1e-6..=10.0, "Node spacings to which both edges of a contact of many nodes together are known [-].";
+    edge_nodes: f64 = 16.0 in 0.0..=1000.0, "Nodes in a contact or gap with which that number doubles [-].";
+    most_edge_error: f64 = 0.4 in 1e-6..=10.0, "Node spacings to which the edges of any contact are known [-].";
     error_safety: f64 = 1.5 in 1.0..=100.0, "Estimated error of the contact fraction over its change between meshes [-].";
-    friction_noise: f64 = 1e-9 in 1e-15..=1e-2, "Friction coefficient below which it is round-off [-].";
+    closing_error: f64 = 1.5 in 0.0..=100.0, "Relative error of the pressure of full contact over (k h)^2, h the node spacing [-].";
+    friction_order_error: f64 = 0.6 in 0.0..=100.0, "Least relative error of friction over (k h)^2 [-].";
+    friction_node_error: f64 = 1.5 in 0.0..=100.0, "Least relative error of friction times the square of the nodes in a contact [-].";
+    pinning: f64 = 0.05 in 0.0..=10.0, "Node spacings by which a contact held by nodes may be shifted [-].";
+    most_mismatch: f64 = 0.05 in 1e-6..=1e6, "Largest difference of the two frictions of a solution to be trusted, over the larger [-].";
+    small_friction: f64 = 0.04 in 1e-6..=1.0, "Friction over the slope k A below which errors are relative to this share of k A [-].";
+    fewest_contact_nodes: usize = 4 in 1..=1000, "Nodes of the contacts that carry half of the load, in a solution to be trusted.";
 
     dwell_steps: usize = 40 in 2..=10_000, "Time steps of a dwell, their lengths growing geometrically.";
     dwell_first: f64 = 1e-4 in 1e-12..=0.5, "First time step of a dwell over its duration [-].";
     longest_stage: f64 = 10_000.0 in 1.0..=1e6, "Longest way of one stage [wavelengths].";
+    rescue_columns: usize = 256 in 4..=1024, "Most columns of the mesh, twice as fine, that is tried where the one asked for does not carry the load.";
+    large_mean_shear: f64 = 2.0 in 0.1..=100.0, "A load path that ends at a mean shear of the block beyond this ends because of it [-].";
+
     load_parts: usize = 8 in 1..=1000, "Parts a change of load is cut into where a time step fails.";
 }
 

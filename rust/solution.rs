@@ -12,6 +12,9 @@ pub struct Solution {
     pub stress_unit: f64,
     pub finest: MeshSolution,
     pub counts: Counts,
+    /// Contact widths in wavelengths, of Hertz and the smallest that can be followed, where there
+    /// was nothing to solve for that reason.
+    pub too_narrow: Option<(f64, f64)>,
 }
 
 impl Solution {

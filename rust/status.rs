@@ -27,8 +27,14 @@ statuses! {
     NotFinite = "not finite",
     /// The load can be raised no further, in however small steps.
     Fold = "fold in the load path",
+    /// Friction shears the bonded block, as soft as it is after the load time, beyond sense.
+    MeanShear = "mean shear too large",
     /// Ended early: what was solved by then.
     TimeLimit = "time limit",
     /// Solved, but the finest mesh allowed does not meet the accuracy asked for.
     ToleranceNotMet = "tolerance not met",
+    /// Solved, but friction from traction and from dissipation differ on the finest mesh allowed.
+    FrictionsDisagree = "frictions disagree",
+    /// Too few nodes carry the load on the finest mesh allowed, or would: then nothing is solved.
+    ContactTooNarrow = "contact too narrow",
 }

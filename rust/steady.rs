@@ -15,6 +15,7 @@ use crate::outcome::Outcome;
 use crate::problem::Problem;
 use crate::settings::Settings;
 use crate::solution::Solution;
+use crate::solve::judge::Judge;
 use crate::solve::load_stepping::{raise, Counts};
 use crate::solve::mesh_sequence::{MeshSequence, MeshSolution};
 use crate::solve::newton;
@@ -46,15 +47,24 @@ pub fn solve(
         counts: Counts::default(),
     };
     let first = start.map(|solution| &solution.finest);
-    let fewest = problem.profile.heights.fewest_nodes();
-    let sequence = MeshSequence::new(&problem.mesh, tolerance, first, fewest, settings);
-    let on_mesh = |mesh: Mesh, coarse: Option<&MeshSolution>| work.on_mesh(mesh, coarse);
-    let finest = sequence.solve(tolerance, settings, on_mesh)?;
+    let heights = &model.heights;
+    let judge = Judge::new(heights, problem.load.speed > 0.0, tolerance, settings);
+    let sequence = MeshSequence::new(&problem.mesh, first, heights.fewest_nodes(), &judge);
+    let too_narrow = work.too_narrow();
+    let finest = match too_narrow {
+        Some(_) => work.refused()?,
+        None => {
+            let on_mesh = |mesh: Mesh, coarse: Option<&MeshSolution>| work.on_mesh(mesh, coarse);
+            let finest = sequence.solve(&judge, on_mesh)?;
+            work.rescued(finest, &judge)?
+        }
+    };
     Ok(Solution {
         problem: problem.clone(),
         stress_unit: model.stress_unit,
         finest,
         counts: work.counts,
+        too_narrow,
     })
 }
 
@@ -68,6 +78,65 @@ struct Work<'a> {
 }
 
 impl Work<'_> {
+    fn load(&self) -> f64 {
+        self.problem.load.pressure / self.model.stress_unit
+    }
+
+    /// The contact's width after Hertz and the node spacing of the finest mesh allowed, in
+    /// wavelengths, if the contact is the narrower.
+    fn too_narrow(&self) -> Option<(f64, f64)> {
+        let size = &self.problem.mesh;
+        let finest = size.order * size.columns.max(self.settings.finest_columns);
+        let widths = (
+            self.model.expected_contact(self.load()),
+            1.0 / finest as f64,
+        );
+        (widths.0 < widths.1).then_some(widths)
+    }
+
+    /// Nothing solved: the block at rest.
+    fn refused(&self) -> Result<MeshSolution, KernelError> {
+        let mesh = Mesh::new(&self.problem.mesh);
+        let state = State::at_rest(&mesh);
+        let report = newton::Report {
+            status: Status::ContactTooNarrow,
+            iterations: 0,
+            residual: f64::NAN,
+        };
+        let memory = self.memory(&mesh);
+        self.solution(mesh, &memory, state, report, 0.0)
+    }
+
+    /// `finest` itself, or where its mesh did not carry the load what a mesh twice as fine gives:
+    /// stretches that only a coarse mesh has end load paths that the rubber does not end.
+    fn rescued(
+        &mut self,
+        finest: MeshSolution,
+        judge: &Judge,
+    ) -> Result<MeshSolution, KernelError> {
+        let mesh_may_be_why = matches!(
+            finest.report.status,
+            Status::Fold
+                | Status::IterationLimit
+                | Status::ElementInverted
+                | Status::NoActiveSet
+                | Status::NotFinite
+        );
+        let columns = 2 * finest.mesh.columns;
+        if !mesh_may_be_why || columns > self.settings.rescue_columns {
+            return Ok(finest);
+        }
+        let size = &self.problem.mesh;
+        let finer = size.with_columns(columns, self.settings.row_exponent);
+        let finer = self.on_mesh(Mesh::new(&finer), None)?;
+        let solved = finer.report.status == Status::Converged;
+        Ok(if solved {
+            finer.judged(None, judge).concluded(judge)
+        } else {
+            finest
+        })
+    }
+
     /// Solve on `mesh`: from the coarser mesh, else from the start, else by raising the load.
     fn on_mesh(
         &mut self,
@@ -76,7 +145,7 @@ impl Work<'_> {
     ) -> Result<MeshSolution, KernelError> {
         let memory = self.memory(&mesh);
         let pressed = self.model.pressed(&mesh, &memory, self.watch);
-        let load = self.problem.load.pressure / self.model.stress_unit;
+        let load = self.load();
         let mut solved = None;
         if let Some(mut state) = self.guess(&mesh, coarse) {
             let report = newton::solve(&pressed, &mut None, &mut state, load, self.settings);
@@ -96,8 +165,24 @@ impl Work<'_> {
         if let (Status::TimeLimit, Some(coarse)) = (report.status, coarse) {
             return Ok(coarse.out_of_time());
         }
+        let mut found = self.solution(mesh, &memory, state, report, load_reached)?;
+        let ended = [Status::Converged, Status::TimeLimit].contains(&report.status);
+        if !ended && self.mean_shear(&found) > self.settings.large_mean_shear {
+            found.report.status = Status::MeanShear;
+        }
+        Ok(found)
+    }
+
+    fn solution(
+        &self,
+        mesh: Mesh,
+        memory: &Memory,
+        state: State,
+        report: newton::Report,
+        load_reached: f64,
+    ) -> Result<MeshSolution, KernelError> {
         let to_the_end = self.watch.unlimited();
-        let pressed = self.model.pressed(&mesh, &memory, &to_the_end);
+        let pressed = self.model.pressed(&mesh, memory, &to_the_end);
         let outcome = Outcome::of(&pressed, &state, self.model.edge_law(&mesh, 1.0))
             .map_err(|_| KernelError::Stopped)?;
         Ok(MeshSolution {
@@ -106,9 +191,23 @@ impl Work<'_> {
             report,
             load_reached,
             outcome,
+            judged_by: None,
             contact_fraction_error: f64::NAN,
             friction_error: f64::NAN,
+            friction_bound: None,
         })
+    }
+
+    /// Friction over the modulus of the mean deformation, at the load that was reached.
+    fn mean_shear(&self, found: &MeshSolution) -> f64 {
+        let traction = found.outcome.friction * found.load_reached * self.load();
+        (traction / self.model.maxwell.relaxation_modulus(self.passages())).abs()
+    }
+
+    /// Load time in passages of the wave.
+    fn passages(&self) -> f64 {
+        let load = &self.problem.load;
+        load.load_time * load.speed / self.problem.profile.wavelength
     }
 
     fn guess(&self, mesh: &Mesh, coarse: Option<&MeshSolution>) -> Option<State> {
@@ -124,9 +223,7 @@ impl Work<'_> {
         if self.model.maxwell.moduli.is_empty() {
             return Memory::Relaxed;
         }
-        let load = &self.problem.load;
-        let passages = load.load_time * load.speed / self.problem.profile.wavelength;
-        let history = SlidingHistory::new(mesh.columns, &self.model.maxwell, passages);
+        let history = SlidingHistory::new(mesh.columns, &self.model.maxwell, self.passages());
         Memory::Sliding(history)
     }
 }

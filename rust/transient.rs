@@ -113,7 +113,14 @@ fn check_stage(stage: &Stage, profile: &Profile, settings: &Settings) -> Result<
 
 fn check_start(start: &Solution, rubber: &Rubber, profile: &Profile) -> Result<(), KernelError> {
     match start.finest.report.status {
-        Status::Converged | Status::ToleranceNotMet => start.problem.check_same(rubber, profile),
+        Status::Converged
+        | Status::ToleranceNotMet
+        | Status::FrictionsDisagree
+        | Status::ContactTooNarrow
+            if start.finest.load_reached == 1.0 =>
+        {
+            start.problem.check_same(rubber, profile)
+        }
         other => Err(KernelError::UnsolvedStart(other.word())),
     }
 }

@@ -2,9 +2,10 @@
 //!
 //! Find forces f >= 0 and the approach d with
 //!     gap = free + C f - d >= 0,   gap . f = 0,   sum f = load.
-//! Primal-dual active set (Hintermueller, Ito & Kunisch, SIAM J. Optim. 13 (2002) 865); when it
-//! repeats itself, only the worst node changes sides, which ends on the P-matrices of contact.
+//! Primal-dual active set (Hintermueller, Ito & Kunisch, SIAM J. Optim. 13 (2002) 865); where it
+//! repeats itself, `pivoting` goes on from there.
 
+use super::pivoting;
 use crate::linear::{solve_dense, Matrix};
 use crate::settings::Settings;
 use crate::status::Status;
@@ -17,24 +18,35 @@ pub struct Contact {
     pub active: Vec<bool>,
 }
 
+/// The problem: gaps without forces or approach, and what unit forces add to them.
+#[derive(Clone, Copy)]
+pub struct Linearised<'a> {
+    pub compliance: &'a Matrix<f64>,
+    pub free: &'a [f64],
+    pub load: f64,
+}
+
 /// Solve from the active set `start`; `NoActiveSet` if none satisfies the conditions.
 pub fn solve(
-    compliance: &Matrix<f64>,
-    free: &[f64],
-    load: f64,
+    problem: &Linearised<'_>,
     start: &[bool],
     settings: &Settings,
     watch: &Watch<'_>,
 ) -> Result<Contact, Status> {
-    let (rounds, tolerance) = (settings.active_set_rounds, settings.active_set_tolerance);
+    let &Linearised {
+        compliance,
+        free,
+        load,
+    } = problem;
+    let tolerance = settings.active_set_tolerance;
     let mut active = start.to_vec();
     if !active.iter().any(|&a| a) {
         active[lowest(free)] = true;
     }
     let mut seen: Vec<Vec<bool>> = Vec::new();
     let scale = free.iter().fold(1e-300_f64, |m, g| m.max(g.abs()));
-    for round in 0..rounds + settings.single_node_rounds {
-        let solved = on_set(compliance, free, load, &active, watch)?;
+    while seen.len() < settings.active_set_rounds && !seen.contains(&active) {
+        let solved = problem.on_set(&active, watch)?;
         let (force, approach) = solved.ok_or(Status::NoActiveSet)?;
         let gap = gaps(compliance, free, &force, approach);
         let force_scale = load / active.iter().filter(|&&a| a).count() as f64;
@@ -55,23 +67,17 @@ pub fn solve(
                 active,
             });
         }
-        let repeated = round >= rounds || seen.contains(&active);
         seen.push(active.clone());
-        if repeated {
-            let worst = lowest(&wrong.iter().map(|w| -w).collect::<Vec<_>>());
-            active[worst] = !active[worst];
-        } else {
-            for i in 0..active.len() {
-                if wrong[i] > tolerance {
-                    active[i] = !active[i];
-                }
+        for i in 0..active.len() {
+            if wrong[i] > tolerance {
+                active[i] = !active[i];
             }
         }
         if !active.iter().any(|&a| a) {
             active[lowest(free)] = true;
         }
     }
-    Err(Status::NoActiveSet)
+    pivoting::solve(problem, &active, settings, watch)
 }
 
 fn lowest(values: &[f64]) -> usize {
@@ -84,39 +90,54 @@ fn lowest(values: &[f64]) -> usize {
     best
 }
 
-fn on_set(
-    compliance: &Matrix<f64>,
-    free: &[f64],
-    load: f64,
-    active: &[bool],
-    watch: &Watch<'_>,
-) -> Result<Option<(Vec<f64>, f64)>, Status> {
-    let set: Vec<usize> = (0..active.len()).filter(|&i| active[i]).collect();
-    let n = set.len();
-    // Scale the border like the compliance so that pivoting sees comparable rows.
-    let border = compliance[(set[0], set[0])].abs().max(1e-300);
-    let matrix = Matrix::from_fn(n + 1, n + 1, |i, j| {
-        if i < n && j < n {
-            compliance[(set[i], set[j])]
-        } else if i < n || j < n {
-            border * if i < n { -1.0 } else { 1.0 }
-        } else {
-            0.0
-        }
-    });
-    let mut right: Vec<f64> = set.iter().map(|&i| -free[i]).collect();
-    right.push(border * load);
-    let Some(solution) = solve_dense(&matrix, &right, watch)? else {
-        return Ok(None);
-    };
-    let mut force = vec![0.0; active.len()];
-    for (&i, &f) in set.iter().zip(&solution) {
-        force[i] = f;
+impl Linearised<'_> {
+    /// Scale of the border like the compliance's, so that pivoting sees comparable rows.
+    pub(super) fn border(&self, set: &[usize]) -> f64 {
+        self.compliance[(set[0], set[0])].abs().max(1e-300)
     }
-    Ok(Some((force, border * solution[n])))
+
+    /// The compliance between the nodes of `set`, with the approach and the sum of forces.
+    pub(super) fn bordered(&self, set: &[usize]) -> Matrix<f64> {
+        let (n, border) = (set.len(), self.border(set));
+        Matrix::from_fn(n + 1, n + 1, |i, j| {
+            if i < n && j < n {
+                self.compliance[(set[i], set[j])]
+            } else if i < n || j < n {
+                border * if i < n { -1.0 } else { 1.0 }
+            } else {
+                0.0
+            }
+        })
+    }
+
+    /// Forces and approach where just these nodes touch; None if they cannot be told.
+    fn on_set(
+        &self,
+        active: &[bool],
+        watch: &Watch<'_>,
+    ) -> Result<Option<(Vec<f64>, f64)>, Status> {
+        let set: Vec<usize> = (0..active.len()).filter(|&i| active[i]).collect();
+        let border = self.border(&set);
+        let mut right: Vec<f64> = set.iter().map(|&i| -self.free[i]).collect();
+        right.push(border * self.load);
+        let Some(solution) = solve_dense(&self.bordered(&set), &right, watch)? else {
+            return Ok(None);
+        };
+        let mut force = vec![0.0; active.len()];
+        for (&i, &f) in set.iter().zip(&solution) {
+            force[i] = f;
+        }
+        Ok(Some((force, border * solution[set.len()])))
+    }
 }
 
-fn gaps(compliance: &Matrix<f64>, free: &[f64], force: &[f64], approach: f64) -> Vec<f64> {
+/// Gaps under `force` at `approach`.
+pub(super) fn gaps(
+    compliance: &Matrix<f64>,
+    free: &[f64],
+    force: &[f64],
+    approach: f64,
+) -> Vec<f64> {
     let mut gap: Vec<f64> = free.iter().map(|g| g - approach).collect();
     for (j, &f) in force.iter().enumerate() {
         if f != 0.0 {

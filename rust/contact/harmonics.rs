@@ -96,10 +96,28 @@ impl Harmonics {
         self.range
     }
 
+    /// Root of two times the rms slope: of N waves the root of the sum of their squares.
+    pub fn steepness(&self) -> f64 {
+        let slope = |(i, &(re, im)): (usize, &(f64, f64))| TAU * (i + 1) as f64 * re.hypot(im);
+        let squares = self
+            .coefficients
+            .iter()
+            .enumerate()
+            .map(|one| slope(one).powi(2));
+        squares.sum::<f64>().sqrt()
+    }
+
     /// Mean pressure that balances the largest pull closing the gap of a half-plane of nu = 1/2 and
     /// unit shear modulus: wave n of height h_n(x) takes the pressure 4 pi n h_n(x).
     pub fn full_contact_pressure(&self) -> f64 {
         self.full_contact_pressure
+    }
+
+    /// Size of the curvature where the heights are highest.
+    pub fn crest_curvature(&self) -> f64 {
+        let higher = |a: &f64, b: &f64| self.height(*a).total_cmp(&self.height(*b));
+        let crest = self.fine_points().max_by(higher);
+        crest.map_or(0.0, |x| self.curvature(x).abs())
     }
 
     /// sum_n weight(n) c_n exp(2 pi i n x) by Horner's rule.

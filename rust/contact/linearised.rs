@@ -10,7 +10,7 @@
 //! friction would push the contact from node to node while the load is raised, and every node
 //! passed is a snap of the discrete problem that the continuous one does not know.
 
-use super::complementarity::{self, Contact};
+use super::complementarity::{self, Contact, Linearised};
 use super::{PressedBlock, State};
 use crate::linear::{self, Elimination, Factor, Matrix};
 use crate::settings::Settings;
@@ -61,14 +61,12 @@ impl PressedBlock<'_> {
         if free.iter().any(|g| !g.is_finite()) {
             return Err(Status::NotFinite);
         }
-        let contact = complementarity::solve(
-            &compliance,
-            &free,
+        let problem = Linearised {
+            compliance: &compliance,
+            free: &free,
             load,
-            &state.active,
-            settings,
-            self.watch,
-        )?;
+        };
+        let contact = complementarity::solve(&problem, &state.active, settings, self.watch)?;
         let surface = (0..2 * nodes)
             .map(|i| {
                 let pushed: f64 = (0..nodes)

@@ -3,7 +3,9 @@
 pub mod complementarity;
 pub mod edges;
 pub mod harmonics;
+pub mod hertz;
 pub mod linearised;
+pub mod pivoting;
 pub mod profile;
 
 use crate::fem::block::{Block, Field, RowState};

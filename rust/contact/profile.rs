@@ -71,6 +71,22 @@ impl Heights {
         0.5 * (highest - lowest)
     }
 
+    /// Size of the curvature of the highest crest.
+    pub fn crest_curvature(&self) -> f64 {
+        match self {
+            Self::Sine { amplitude } => amplitude * TAU * TAU,
+            Self::Sampled(harmonics) => harmonics.crest_curvature(),
+        }
+    }
+
+    /// Root of two times the rms slope of heights in periods: k A of a sine.
+    pub fn steepness(&self) -> f64 {
+        match self {
+            Self::Sine { amplitude } => TAU * amplitude,
+            Self::Sampled(harmonics) => harmonics.steepness(),
+        }
+    }
+
     /// Mean pressure that closes the gap of a half-plane with nu = 1/2 and unit shear modulus, for
     /// heights in periods: 4 pi A of a sine (K. L. Johnson, "Contact Mechanics" (1985), section
     /// 13.2).

@@ -1,16 +1,18 @@
 //! A sequence of meshes, each twice as fine as the one before, the last two telling the error.
-//! With a tolerance an odd number of columns is halved too, and rounded up.
 //!
 //! The coarsest mesh has the load raised step by step, every finer one starts from its predecessor's
-//! solution; with a tolerance the sequence goes on until two agree well enough.
+//! solution. The sequence goes on until two agree as well as was asked, and the last can be trusted.
 
+use super::judge::Judge;
 use super::newton::Report;
 use crate::contact::State;
 use crate::error::KernelError;
 use crate::fem::mesh::{Mesh, MeshSize};
 use crate::outcome::Outcome;
-use crate::settings::Settings;
 use crate::status::Status;
+
+/// Nodes of the coarsest mesh that tells anything of a finer one.
+const FEWEST_NODES: usize = 8;
 
 /// What was found on one mesh.
 #[derive(Debug, Clone)]
@@ -21,89 +23,110 @@ pub struct MeshSolution {
     /// Pressure that was reached over the pressure asked for.
     pub load_reached: f64,
     pub outcome: Outcome,
-    /// Estimated discretisation errors, NaN where there is only one mesh to judge from.
+    /// Columns of the coarser mesh that tells the errors, if there is one.
+    pub judged_by: Option<usize>,
+    /// Estimated discretisation errors, NaN where there is no mesh to judge from.
     pub contact_fraction_error: f64,
     pub friction_error: f64,
+    /// Largest difference of the two frictions that is allowed; none at rest.
+    pub friction_bound: Option<f64>,
 }
 
-/// Meshes, coarsest first.
-pub struct MeshSequence(pub Vec<MeshSize>);
+/// Meshes, coarsest first, of which the first `required` are solved in any case.
+pub struct MeshSequence {
+    pub sizes: Vec<MeshSize>,
+    pub required: usize,
+}
 
 impl MeshSequence {
-    /// Up to the mesh asked for, or with a tolerance beyond it; less of it is needed where there is
-    /// a solution to `start` from. No mesh has less than half of the
-    /// `fewest_nodes` that resolve the profile: it would find contacts that are not there, and
-    /// finer meshes may keep them.
+    /// Up to the mesh asked for, or with a tolerance to any that meets it, and beyond as long as no
+    /// solution can be trusted; less of it is needed where there is a solution to `start` from. No
+    /// mesh has less than half of the `fewest_nodes` that resolve the profile: it would find
+    /// contacts that are not there, and finer meshes may keep them.
     pub fn new(
         finest: &MeshSize,
-        tolerance: Option<f64>,
         start: Option<&MeshSolution>,
         fewest_nodes: usize,
-        settings: &Settings,
+        judge: &Judge,
     ) -> Self {
-        let coarsest = settings.coarsest_nodes.max(fewest_nodes / 2);
+        let (settings, half) = (&judge.settings, fewest_nodes / 2);
         let mut columns = vec![finest.columns];
-        // Two meshes tell the error of the finer one: with a tolerance any mesh has a coarser one.
-        let halves = |count: usize| tolerance.is_some() || count % 4 == 0;
-        while halves(columns[0]) && finest.order * columns[0].div_ceil(2) >= coarsest {
-            columns.insert(0, columns[0].div_ceil(2));
-        }
-        if let Some(tolerance) = tolerance {
-            while columns[columns.len() - 1] * 2 <= settings.finest_columns {
-                columns.push(columns[columns.len() - 1] * 2);
+        let mut halve = |least: usize| {
+            let coarser = columns[0].div_ceil(2);
+            let enough = coarser < columns[0] && finest.order * coarser >= least.max(half);
+            if enough {
+                columns.insert(0, coarser);
             }
-            let least = start.map_or(0, |start| start.columns_within(tolerance, settings) / 2);
-            let last_two = columns.len().saturating_sub(2);
-            let coarser = columns.iter().filter(|&&count| count < least).count();
-            columns.drain(..coarser.min(last_two));
-        } else if start.is_some() {
-            columns.drain(..columns.len().saturating_sub(2));
+            enough
+        };
+        // Without a coarser mesh nothing is known of the errors: one is as coarse as it must.
+        if !halve(settings.coarsest_nodes) {
+            halve(FEWEST_NODES);
         }
+        while halve(settings.coarsest_nodes) {}
+        let mut required = columns.len();
+        while columns[columns.len() - 1] * 2 <= settings.finest_columns {
+            columns.push(columns[columns.len() - 1] * 2);
+        }
+        let needed = if judge.tolerance.is_none() {
+            start.map_or(0, |_| required.saturating_sub(2))
+        } else {
+            required = 0;
+            let least = start.map_or(0, |start| start.columns_within(judge) / 2);
+            let coarser = columns.iter().filter(|&&count| count < least).count();
+            coarser.min(columns.len().saturating_sub(2))
+        };
+        columns.drain(..needed);
         let size = |count| finest.with_columns(count, settings.row_exponent);
-        Self(columns.into_iter().map(size).collect())
+        Self {
+            sizes: columns.into_iter().map(size).collect(),
+            required: required.saturating_sub(needed),
+        }
     }
 
     /// Solve on one mesh after the other by `on_mesh(mesh, coarser solution)`, until time is over.
     pub fn solve(
         &self,
-        tolerance: Option<f64>,
-        settings: &Settings,
+        judge: &Judge,
         mut on_mesh: impl FnMut(Mesh, Option<&MeshSolution>) -> Result<MeshSolution, KernelError>,
     ) -> Result<MeshSolution, KernelError> {
         let mut last: Option<MeshSolution> = None;
-        let mut met = false;
-        for size in &self.0 {
-            let coarse = last.filter(MeshSolution::converged);
-            let mut fine = on_mesh(Mesh::new(size), coarse.as_ref())?;
+        for (i, size) in self.sizes.iter().enumerate() {
+            let coarse = last.as_ref().filter(|last| last.converged());
+            let fine = on_mesh(Mesh::new(size), coarse)?;
             if fine.report.status == Status::TimeLimit {
                 return Ok(fine);
             }
-            fine.estimate_errors(coarse.as_ref(), settings);
-            met = tolerance.is_none_or(|tolerance| fine.meets(tolerance, settings));
-            let done = tolerance.is_some() && met && fine.converged();
+            let fine = fine.judged(coarse, judge);
+            // What was asked for failed, or what was solved has no finer solution: that is the answer.
+            let ends = judge.tolerance.is_none() && i + 1 >= self.required && !fine.converged();
+            if ends && i + 1 > self.required {
+                break;
+            }
+            let enough = fine.converged()
+                && i + 1 >= self.required
+                && judge.meets(&fine, 1.0)
+                && judge.verdict(&fine) == Status::Converged;
             last = Some(fine);
-            if done {
+            if ends || enough {
                 break;
             }
         }
-        let mut finest = last.ok_or(KernelError::Internal("a sequence without a mesh"))?;
-        if finest.converged() && !met {
-            finest.report.status = Status::ToleranceNotMet;
-        }
-        Ok(finest)
+        let finest = last.ok_or(KernelError::Internal("a sequence without a mesh"))?;
+        Ok(finest.concluded(judge))
     }
 }
 
 impl MeshSolution {
-    /// Columns of the coarsest mesh known to meet `tolerance`, by errors that fall to a quarter at
+    /// Columns of the coarsest mesh known to meet the tolerance, by errors that fall to a quarter at
     /// most where columns are doubled; nothing is known from errors that were not estimated.
-    fn columns_within(&self, tolerance: f64, settings: &Settings) -> usize {
+    fn columns_within(&self, judge: &Judge) -> usize {
         if self.friction_error.is_nan() {
             return 0;
         }
-        let (mut columns, mut at_half) = (self.mesh.columns, tolerance / 4.0);
-        while columns > 1 && self.meets(at_half, settings) {
-            (columns, at_half) = (columns / 2, at_half / 4.0);
+        let (mut columns, mut part) = (self.mesh.columns, 0.25);
+        while columns > 1 && judge.meets(self, part) {
+            (columns, part) = (columns / 2, part / 4.0);
         }
         columns
     }
@@ -119,31 +142,24 @@ impl MeshSolution {
         self.report.status == Status::Converged
     }
 
-    /// Errors from the change since the mesh of half the resolution, never below what the contact
-    /// edges and the two friction measures leave open.
-    fn estimate_errors(&mut self, coarse: Option<&Self>, settings: &Settings) {
-        let Some(coarse) = coarse else {
-            return;
-        };
-        let (fine, rough) = (&self.outcome, &coarse.outcome);
-        let full = fine.contact_fraction == 1.0 && rough.contact_fraction == 1.0;
-        let edges = if full {
-            0.0
-        } else {
-            settings.edge_error * self.mesh.node_spacing()
-        };
-        let fraction = (fine.contact_fraction - rough.contact_fraction).abs();
-        let change = (fine.friction - rough.friction).abs();
-        let mismatch = (fine.friction - fine.friction_from_dissipation).abs();
-        self.contact_fraction_error = settings.error_safety * fraction.max(edges);
-        self.friction_error = change.max(mismatch);
+    /// The solution with its errors, as far as a coarser one tells them.
+    pub fn judged(mut self, coarse: Option<&Self>, judge: &Judge) -> Self {
+        self.friction_bound = judge.friction_bound(&self);
+        if let (true, Some(coarse)) = (self.converged(), coarse) {
+            self.judged_by = Some(coarse.mesh.columns);
+            (self.contact_fraction_error, self.friction_error) = judge.errors(&self, coarse);
+        }
+        self
     }
 
-    fn meets(&self, tolerance: f64, settings: &Settings) -> bool {
-        let friction = self.outcome.friction.abs();
-        // At rest friction is nothing but round-off.
-        let friction_met =
-            self.friction_error <= tolerance * friction || friction < settings.friction_noise;
-        friction_met && self.contact_fraction_error <= tolerance
+    /// The last solution, with what speaks against it as its status.
+    pub fn concluded(mut self, judge: &Judge) -> Self {
+        if self.converged() {
+            self.report.status = judge.verdict(&self);
+        }
+        if self.converged() && !judge.meets(&self, 1.0) {
+            self.report.status = Status::ToleranceNotMet;
+        }
+        self
     }
 }

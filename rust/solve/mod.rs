@@ -1,5 +1,6 @@
 //! Solving: one load, raising it, a sequence of meshes and the way from one mesh to another.
 
+pub mod judge;
 pub mod load_stepping;
 pub mod mesh_sequence;
 pub mod newton;

@@ -1,6 +1,8 @@
 //! The dense contact problem: its conditions hold, and the answer is that of trying every set.
 
-use gripscale_kernel::contact::complementarity::{solve, Contact};
+use std::f64::consts::{PI, TAU};
+
+use gripscale_kernel::contact::complementarity::{solve, Contact, Linearised};
 use gripscale_kernel::linear::{solve_dense, Matrix};
 use gripscale_kernel::settings::Settings;
 use gripscale_kernel::watch::Watch;
@@ -14,16 +16,28 @@ fn compliance(n: usize, skew: f64) -> Matrix<f64> {
     })
 }
 
+/// Compliance of a half-plane in steady sliding whose modulus grows like i w at the smallest waves:
+/// the reciprocal of k (1 + 1.4 i k); the mean and the smallest wave make it regular.
+fn viscous(n: usize) -> Matrix<f64> {
+    let part = |m: f64| -> f64 {
+        let wave = |k: usize| {
+            let k = k as f64;
+            let (turn, loss) = (TAU * k * m / n as f64, 1.4 * k);
+            2.0 * (turn.cos() + loss * turn.sin()) / (k * (1.0 + loss * loss))
+        };
+        1.0 + (1..n / 2).map(wave).sum::<f64>() + (PI * m).cos() / n as f64
+    };
+    let by_distance: Vec<f64> = (0..n).map(|m| part(m as f64)).collect();
+    Matrix::from_fn(n, n, |i, j| by_distance[(n + i - j) % n])
+}
+
 fn solved(c: &Matrix<f64>, free: &[f64], load: f64, start: &[bool]) -> Contact {
-    solve(
-        c,
+    let problem = Linearised {
+        compliance: c,
         free,
         load,
-        start,
-        &Settings::default(),
-        &Watch::endless(),
-    )
-    .unwrap()
+    };
+    solve(&problem, start, &Settings::default(), &Watch::endless()).unwrap()
 }
 
 fn fulfils(c: &Matrix<f64>, free: &[f64], load: f64, contact: &Contact) -> bool {
@@ -106,6 +120,24 @@ proptest! {
         start in prop::collection::vec(any::<bool>(), 60),
     ) {
         let c = compliance(60, 0.3);
+        let contact = solved(&c, &free, load, &start);
+        prop_assert!(fulfils(&c, &free, load, &contact));
+    }
+
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(40))]
+
+    #[test]
+    fn a_very_lossy_wave_under_any_load_from_any_start(
+        load in 1e-2_f64..100.0,
+        crest in 0_usize..48,
+        touching in 1_usize..48,
+    ) {
+        let c = viscous(48);
+        let free: Vec<f64> = (0..48).map(|i| -(TAU * i as f64 / 48.0).cos()).collect();
+        let start: Vec<bool> = (0..48).map(|i| (48 + i - crest) % 48 < touching).collect();
         let contact = solved(&c, &free, load, &start);
         prop_assert!(fulfils(&c, &free, load, &contact));
     }

@@ -8,6 +8,7 @@ use gripscale_kernel::material::kinematics::{
     contract, isochoric, remembered, Gradient, Symmetric,
 };
 use gripscale_kernel::material::maxwell::{decaying_moments, recurrence, Maxwell};
+use gripscale_kernel::settings::Settings;
 use gripscale_kernel::watch::Watch;
 
 use crate::{energy, mesh, noise, Case};
@@ -182,6 +183,7 @@ fn friction_from_dissipation_stays_of_the_size_of_friction() {
     let mut case = Case::elastic(0.6, 2.0);
     case.speed = 1.0;
     (case.columns, case.rows) = (32, 8);
+    case.settings = Settings::new([("finest_columns", 32.0)]).unwrap();
     case.moduli = (0..8).map(|i| 0.6 * 2.0_f64.powi(i)).collect();
     case.relaxation_times = (0..8).map(|i| 10.0_f64.powi(-i)).collect();
     case.load_time = 5.0;

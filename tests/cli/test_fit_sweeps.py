@@ -68,6 +68,25 @@ def test_a_table_edited_by_hand_is_honoured(shell: Shell, sweeps: Path, tmp_path
     assert master.frequency[-1] == pytest.approx(30.0 * 1e4)
 
 
+def test_one_sweep_is_a_master_curve_at_its_temperature(shell: Shell, tmp_path: Path) -> None:
+    omega = np.geomspace(1e-2, 1e4, 30)
+    modulus = Rubber(1e6, [2e6, 5e6], [1e-1, 1e-3]).complex_modulus(omega) / 3.0
+    rows = [f" {w:.5E} {g.real:.5E} {g.imag:.5E}" for w, g in zip(omega, modulus, strict=True)]
+    path = tmp_path / "PI.tts"
+    path.write_text("\n".join(["T=-35;Mw=13.5;chem=PI;", *rows]), encoding="utf-8")
+    result = shell("fit-rubber", path, "--output", tmp_path / "out")
+    assert result.exit_code == 0, result.output
+    assert "one sweep at -35.0 °C" in result.stdout
+    stated = json.loads((tmp_path / "out" / "rubber.json").read_text(encoding="utf-8"))
+    assert stated["reference_temperature"] == pytest.approx(238.15)
+    assert {p.name for p in (tmp_path / "out").iterdir()} == {
+        "master_curve.csv",
+        "master_curve.pdf",
+        "master_curve.png",
+        "rubber.json",
+    }
+
+
 def test_what_sweeps_need_and_a_master_curve_does_not(
     shell: Shell, sweeps: Path, inputs: Path
 ) -> None:

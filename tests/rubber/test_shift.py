@@ -100,7 +100,7 @@ def test_table_is_met_at_its_rows_and_refuses_beyond():
     [
         (lambda: WLF(-1.0, 50.0), "c1 must be greater than zero"),
         (lambda: WLF(8.0, 50.0, valid_range=(300.0, 200.0)), "a lower and a higher temperature"),
-        (lambda: WLF(8.0, 50.0).log_a(240.0, ROOM), r"within 243\.20 to inf K"),
+        (lambda: WLF(8.0, 50.0).log_a(240.0, ROOM), r"within 243\.20 to 10000\.00 K"),
         (lambda: WLF(8.0, 50.0).a(243.5, ROOM), "log10 a_T of the shift .* at most 100; got 1.1"),
         (lambda: WLFArrhenius(8.0, 50.0, 1e5, 200.0, ROOM), "glass_temperature must lie above"),
         (lambda: ShiftTable([300.0, 300.0], [0.0, 1.0]), "temperature .* must not repeat"),

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 import gripscale as gs
-from gripscale.theory import solve_half_plane
+from gripscale.theory import HalfPlane
+from gripscale.wave import Load, Sine, WaveProblem
 
 WAVELENGTH = 1e-3
 SPEED = 1.0
@@ -32,6 +33,12 @@ class LoadCase:
     """K / |G*(w_1)|."""
     passages: float
     """Load time in passages of the wave."""
+
+    @property
+    def problem(self) -> WaveProblem:
+        """The same as a `WaveProblem`."""
+        load = Load(self.pressure_ratio * MODULUS, SPEED, self.passages * WAVELENGTH / SPEED)
+        return WaveProblem(self.rubber, Sine(WAVELENGTH, self.slope * WAVELENGTH), load)
 
     def arguments(self) -> dict[str, float]:
         """Keyword arguments for `gripscale.solve_scale`."""
@@ -62,18 +69,23 @@ def _draw(number: int, generator: np.random.Generator) -> LoadCase | None:
     slope = generator.uniform(0.02, 0.35)
     pressure = np.exp(generator.uniform(np.log(0.03), np.log(1.0)))
     passages = generator.choice([1.0, 3.0, 10.0, 100.0, np.inf])
-    rubber = (_power_law if generator.random() < 0.7 else _single_term)(loss, bulk, generator)
-    if rubber is None:
+    solid = rubber(loss, bulk, generator)
+    if solid is None:
         return None
     omega = 2 * np.pi * SPEED / WAVELENGTH
-    growth = float(np.abs(rubber.complex_modulus(32 * omega) / rubber.complex_modulus(omega)))
+    growth = float(np.abs(solid.complex_modulus(32 * omega) / solid.complex_modulus(omega)))
     case = LoadCase(
-        number, rubber, slope, pressure, rubber.loss_factor(omega), growth, bulk, passages
+        number, solid, slope, pressure, solid.loss_factor(omega), growth, bulk, passages
     )
-    return case if growth <= 10.0 and _mean_shear(case) < 1.0 else None
+    return case if growth <= 10.0 and mean_shear(case.problem) < 1.0 else None
 
 
-def _power_law(loss: float, bulk: float, generator: np.random.Generator) -> gs.Rubber | None:
+def rubber(loss: float, bulk: float, generator: np.random.Generator) -> gs.Rubber | None:
+    """Return a power law seven of ten times, else a Zener solid; None where there is none."""
+    return (power_law if generator.random() < 0.7 else single_term)(loss, bulk, generator)
+
+
+def power_law(loss: float, bulk: float, generator: np.random.Generator) -> gs.Rubber | None:
     """Return a solid of nearly constant loss factor over the harmonics: E* ~ (i w)^a."""
     exponent = 2 / np.pi * np.arctan(loss)
     omega = 2 * np.pi * SPEED / WAVELENGTH
@@ -83,7 +95,7 @@ def _power_law(loss: float, bulk: float, generator: np.random.Generator) -> gs.R
     return _scaled(moduli, times, relaxed=(times[0] * 3.0) ** -exponent, bulk=bulk)
 
 
-def _single_term(loss: float, bulk: float, generator: np.random.Generator) -> gs.Rubber | None:
+def single_term(loss: float, bulk: float, generator: np.random.Generator) -> gs.Rubber | None:
     """Return a Zener solid with the wanted loss factor at the first harmonic."""
     ratio = generator.uniform(1.5, 10.0)
     omega = 2 * np.pi * SPEED / WAVELENGTH
@@ -107,9 +119,9 @@ def _scaled(moduli: np.ndarray, times: np.ndarray, relaxed: float, bulk: float) 
     return gs.Rubber(relaxed * factor, moduli * factor, times, bulk_modulus=bulk_modulus)
 
 
-def _mean_shear(case: LoadCase) -> float:
+def mean_shear(problem: WaveProblem) -> float:
     """Estimate friction traction over the relaxation modulus at the load time."""
-    arguments = case.arguments()
-    friction = solve_half_plane(case.rubber, **arguments, points=256).friction
-    shear_modulus = case.rubber.relaxation_modulus(arguments["load_time"]) / 3.0
-    return float(friction * arguments["pressure"] / shear_modulus)
+    load = problem.load
+    friction = HalfPlane(points=256).solve(problem).friction
+    shear_modulus = problem.rubber.relaxation_modulus(load.load_time) / 3.0
+    return float(friction * load.pressure / shear_modulus)

@@ -1,5 +1,7 @@
-"""Random loads as real roads bring them, solved cold."""
+"""Random loads, solved cold: as real roads bring them, and how a wave ends on other meshes."""
 
+import os
+import time
 from collections import Counter
 
 import numpy as np
@@ -7,16 +9,109 @@ import pytest
 
 import gripscale as gs
 from tests.verification.load_grid import cases
+from tests.verification.random_waves import FAR, ORDINARY, Row, random_waves, solve
 
 CASES = cases(30)
+COUNT = int(os.environ.get("GRIPSCALE_RANDOM_WAVES", "1000"))
+"""Random waves of the ordinary box that are verified, and five times those far outside of it."""
+VISCOUS = gs.Rubber(5.73e6, [5.76e9, 3.80e9], [1.12e-7, 1.73e-7], bulk_modulus=2.2e9)
+"""E* ~ i w over the harmonics: entering and leaving edge of a contact differ most."""
+
+
+@pytest.mark.parametrize("mesh", [(48, 10), (64, 12), (80, 14), (96, 16), (112, 18)])
+def test_a_viscous_wave_has_no_fold_on_any_mesh(mesh):
+    """Its contact sets cycle when nodes change sides in the order of their errors.
+
+    At 2 % strain the linearised problem has exactly one solution: the symmetric part of the
+    compliance is positive definite. Seven or eight load steps are what easy waves need.
+    """
+    columns, rows = mesh
+    load = {"wavelength": 1e-3, "amplitude": 8e-6, "pressure": 0.95e6, "speed": 1.0}
+    result = gs.solve_scale(VISCOUS, **load, columns=columns, rows=rows)
+    assert result.status == "converged"
+    assert result.details["load_steps"] <= 10
+    # Full contact, whose closed form is good to (k A)^2 = 0.0025.
+    full = VISCOUS.plane_strain_modulus(2e3 * np.pi).imag * (2e3 * np.pi * 8e-6) ** 2 / 4 / 0.95e6
+    assert result.contact_fraction == 1.0
+    assert result.friction == pytest.approx(full, rel=0.01)
+
+
+def test_a_wave_that_a_coarse_mesh_cannot_carry_is_solved_on_a_finer_one():
+    """Elastic, steep, near full contact: stretches of 0.13 on 64 columns, 0.40 on 128."""
+    (wave,) = random_waves(ORDINARY, 1, first=153)
+    found = solve(ORDINARY, wave, columns=64, rows=12)
+    assert (found.status, found.columns) == ("converged", 128)
+    assert found.mismatch < 0.01
+
+
+def test_too_much_mean_shear_is_named():
+    (wave,) = random_waves(FAR, 1, first=172)
+    found = solve(FAR, wave, columns=64, rows=12)
+    assert found.status == "mean shear too large"
+
+
+@pytest.mark.parametrize("speed", [0.0, 1.0])
+@pytest.mark.parametrize("share", [1e-12, 1e-9, 1e-6])
+def test_a_contact_narrower_than_a_node_is_refused_at_once(speed, share):
+    """Shares of the pressure of full contact; Hertz's width is 2/pi sqrt(share) at rest."""
+    rubber = gs.Rubber(3e6, [2e7], [1e-5])
+    full = np.pi * rubber.plane_strain_modulus(0.0).real * 0.02
+    start = time.process_time()
+    result = gs.solve_scale(
+        rubber, wavelength=1e-3, amplitude=2e-5, pressure=share * full, speed=speed
+    )
+    assert time.process_time() - start < 0.5
+    assert result.status == "contact too narrow"
+    expected = result.details["expected_contact_width"]
+    assert result.details["smallest_contact_width"] == pytest.approx(1e-3 / 512)
+    assert f"{expected:.2g} m is expected" in result.why
+    if speed == 0.0:
+        assert expected == pytest.approx(1e-3 * 2 / np.pi * np.sqrt(share), rel=0.01)
+    else:
+        assert expected < 1e-3 * 2 / np.pi * np.sqrt(share)
+
+
+@pytest.mark.parametrize(
+    "wave", list(random_waves(ORDINARY, 60)), ids=lambda wave: f"wave {wave.number}"
+)
+def test_an_ordinary_random_wave_converges_cold(wave):
+    assert solve(ORDINARY, wave, columns=64, rows=12).status == "converged"
+
+
+@pytest.mark.verification
+def test_ordinary_random_waves_converge_cold():
+    """999 of 1000; GRIPSCALE_RANDOM_WAVES says how many are drawn."""
+    found = [solve(ORDINARY, wave, columns=64, rows=12) for wave in random_waves(ORDINARY, COUNT)]
+    failed = _told(found)
+    assert len(failed) <= max(1, COUNT // 1000)
+
+
+@pytest.mark.verification
+def test_random_waves_far_outside_end_for_a_stated_cause():
+    """94 of 100 converge, nearly all others for mean shear beyond what a bonded block carries."""
+    count = max(COUNT // 5, 1)
+    found = [solve(FAR, wave, columns=64, rows=12) for wave in random_waves(FAR, count)]
+    failed = _told(found)
+    assert len(failed) <= 0.06 * count + 2
+    unnamed = [row for row in failed if row.status != "mean shear too large"]
+    assert len(unnamed) <= 0.01 * count + 1
+
+
+def _told(found: list[Row]) -> list[Row]:
+    """Print statuses and how far the two frictions differ; return what failed."""
+    solved = [row.mismatch for row in found if row.status == "converged"]
+    shares = (0.5, 0.9, 0.95, 0.99, 1.0)
+    differing = dict(zip(shares, np.quantile(solved, shares).round(4).tolist(), strict=True))
+    print(f"{Counter(row.status for row in found)}, mismatch {differing}")
+    return [row for row in found if row.status != "converged"]
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: f"case {case.number}")
 def test_a_random_load_converges_cold(case):
     result = gs.solve_scale(case.rubber, **case.arguments(), columns=64, rows=12)
     assert result.status == "converged"
-    # 5 % is what 64 columns owe to narrow, nearly elastic contacts (A/lambda 0.35, 4 nodes).
-    assert result.friction_mismatch < 0.07
+    # 64 columns, or more where narrow, nearly elastic contacts ask for them
+    assert abs(result.friction - result.friction_from_dissipation) <= result.friction_bound
     assert 0.0 < result.contact_fraction <= 1.0
     assert 0.0 < result.min_stretch < 1.0 < result.max_stretch
 
@@ -35,14 +130,11 @@ def test_the_random_loads_cover_the_range():
 
 
 @pytest.mark.verification
-@pytest.mark.parametrize(
-    ("columns", "rows", "typical", "most"), [(64, 12, 0.002, 0.09), (128, 20, 0.001, 0.05)]
-)
-def test_three_hundred_random_loads_converge_cold(columns, rows, typical, most):
-    """All of them, where 99 % is asked, with a mismatch of 5 % only in contacts of few nodes.
+@pytest.mark.parametrize(("columns", "rows", "typical"), [(64, 12, 0.002), (128, 20, 0.001)])
+def test_three_hundred_random_loads_converge_cold(columns, rows, typical):
+    """All of them, where 99 % is asked, with a mismatch above 2 % only in contacts of few nodes.
 
-    Bounds of the mismatch of the two friction measures, median and largest: five to seven per cent
-    are what four to eight nodes in contact give (A/lambda 0.35), and half the loads have many.
+    Half the loads have many. The columns are doubled where the frictions differ by more than 5 %.
     """
     results = [
         gs.solve_scale(case.rubber, **case.arguments(), columns=columns, rows=rows)
@@ -51,7 +143,6 @@ def test_three_hundred_random_loads_converge_cold(columns, rows, typical, most):
     assert Counter(result.status for result in results) == {"converged": 300}
     mismatch = [result.friction_mismatch for result in results]
     assert np.median(mismatch) < typical
-    assert max(mismatch) < most
-    nodes = [columns * result.contact_fraction for result in results]
+    nodes = [result.details["columns"] * result.contact_fraction for result in results]
     for many, off in zip(nodes, mismatch, strict=True):
         assert off < 0.02 or many < 24.0

@@ -1,15 +1,14 @@
-"""Friction from the energy lost where the mesh is too coarse, and the doubt that tells of it."""
-
-from dataclasses import replace
+"""Friction from the energy lost where the mesh is too coarse, and the status that tells of it."""
 
 import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.wave import SampledProfile, Status
+from gripscale.wave import FiniteStrainBlock, Load, Mesh, SampledProfile, Sine, WaveProblem
 from tests.verification.families import tread
 from tests.verification.profiles import road_windows, sums_of_sines
 
+LOAD = {"wavelength": 1e-3, "amplitude": 1e-5, "pressure": 5e4}
 STEEP = {"wavelength": 180e-6, "amplitude": 111e-6, "pressure": 14.95e6, "load_time": 1.326e-3}
 
 
@@ -18,39 +17,78 @@ def test_dissipation_on_a_mesh_too_coarse_keeps_sign_and_size():
 
     As work on the derivative of the strain along x it was -19 here, and 16.6 on 128 columns.
     """
-    one = gs.solve_scale(tread(), **STEEP, speed=0.3, columns=64, rows=12)
-    assert one.converged
+    one = steep(finest_columns=64)
+    assert one.status == "frictions disagree"
     assert 1.0 < one.friction_from_dissipation / one.friction < 1.6
-    assert one.why.startswith("converged, but the two frictions, 0.407 from traction and 0.60")
-
-
-@pytest.fixture(scope="module")
-def plain():
-    return gs.solve_scale(
-        tread(), wavelength=1e-3, amplitude=1e-4, pressure=2e6, speed=0.3, columns=32, rows=8
+    assert one.why == (
+        f"frictions disagree, 0.407 from traction and {one.friction_from_dissipation:.3g} from "
+        "dissipation: more columns are needed"
     )
 
 
-def test_frictions_within_five_per_cent_are_no_doubt(plain):
-    nearly = replace(plain, friction_from_dissipation=0.951 * plain.friction)
-    assert plain.doubt == nearly.doubt == ""
-    assert nearly.why == "converged"
+def steep(**settings):
+    """Solve the steep wave on 64 columns, or more if the frictions ask for them."""
+    block = FiniteStrainBlock(Mesh(64, 12), settings=settings)
+    sine = Sine(STEEP["wavelength"], STEEP["amplitude"])
+    load = Load(STEEP["pressure"], 0.3, STEEP["load_time"])
+    return block.solve(WaveProblem(tread(), sine, load))
 
 
-def test_frictions_apart_are_a_doubt_unless_nothing_slides_or_is_solved(plain):
-    apart = replace(plain, friction=0.1, friction_from_dissipation=0.0949)
-    sentence = (
-        "the two frictions, 0.1 from traction and 0.0949 from dissipation, differ: "
-        "more columns are needed"
-    )
-    assert apart.doubt == sentence
-    assert apart.why == f"converged, but {sentence}"
-    where = replace(apart, details={"contact_slope": 2.62})
-    assert "differ with contact on slopes up to 2.6: more" in where.doubt
-    assert replace(apart, speed=0.0).doubt == ""
-    failed = replace(apart, status=Status.FOLD)
-    assert failed.doubt == ""
-    assert failed.why == "fold in the load path at 100 % of the pressure"
+def test_frictions_that_disagree_refine_the_mesh():
+    """To 256 columns, on which they are within the bound of 5 %."""
+    one = steep()
+    assert one.converged
+    assert one.details["columns"] == 256
+    apart = abs(one.friction - one.friction_from_dissipation)
+    assert apart <= one.friction_bound
+    larger = max(one.friction, one.friction_from_dissipation)
+    assert one.friction_bound == pytest.approx(0.05 * larger, rel=1e-12)
+
+
+def test_a_friction_near_zero_is_known_to_a_share_of_the_slope():
+    """The bound does not fall below a twentieth of 0.04 of the slope 2 pi A/lambda."""
+    nearly_elastic = gs.Rubber(3e6, [3e3], [1e-4], bulk_modulus=3e9)
+    one = gs.solve_scale(nearly_elastic, **LOAD, speed=1.0)
+    slope = 2.0 * np.pi * 0.01
+    assert one.converged
+    assert 0.0 < one.friction_from_dissipation < 0.04 * slope
+    assert one.friction_bound == pytest.approx(0.002 * slope, rel=1e-12)
+    assert one.friction_error >= 0.05 / 128 * slope
+    at_rest = gs.solve_scale(nearly_elastic, **LOAD, speed=0.0)
+    assert np.isnan(at_rest.friction_bound)
+
+
+def test_a_sampled_sine_has_the_bound_of_the_sine():
+    x = 1e-3 * np.arange(48) / 48
+    sampled = gs.Profile(x, 1e-5 * np.cos(2.0 * np.pi * x / 1e-3))
+    rubber = gs.Rubber(3e6, [3e3], [1e-4], bulk_modulus=3e9)
+    mesh = {"columns": 64, "rows": 12, "speed": 1.0}
+    sine = gs.solve_scale(rubber, **LOAD, **mesh)
+    one = gs.solve_profile(rubber, sampled, pressure=LOAD["pressure"], periodic=True, **mesh)
+    assert one.friction_bound == pytest.approx(sine.friction_bound, rel=1e-9)
+    assert one.friction_error == pytest.approx(sine.friction_error, rel=1e-3)
+
+
+@pytest.mark.parametrize(("columns", "coarser"), [(130, 65), (63, 32), (48, 24)])
+@pytest.mark.parametrize("warm", [False, True])
+def test_any_mesh_has_a_coarser_one_to_be_judged_by(columns, coarser, warm):
+    start = gs.solve_scale(tread(), **LOAD, speed=0.3, columns=64, rows=12) if warm else None
+    one = gs.solve_scale(tread(), **LOAD, speed=0.3, columns=columns, rows=12, start=start)
+    assert one.converged
+    assert (one.details["columns"], one.details["coarser_columns"]) == (columns, coarser)
+    assert 0.0 < one.contact_fraction_error < 0.1
+    assert 0.0 < one.friction_error < 0.1 * one.friction
+    assert "no_error_estimate" not in one.details
+
+
+def test_no_estimate_says_why():
+    coarse = gs.solve_scale(tread(), **LOAD | {"pressure": 4e5}, speed=0.3, columns=12, rows=4)
+    assert coarse.details["coarser_columns"] == 0
+    assert coarse.details["no_error_estimate"] == "no coarser mesh than 12 columns was solved"
+    assert np.isnan(coarse.friction_error)
+    failed = gs.solve_scale(tread(), **STEEP, speed=0.3, columns=32, rows=8, max_iterations=5)
+    ended = "the solution ended early, iteration limit"
+    assert failed.details["no_error_estimate"] == ended
 
 
 @pytest.mark.parametrize("points", [8, 9, 48])

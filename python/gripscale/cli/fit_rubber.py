@@ -193,11 +193,12 @@ def _write(
     assert master is not None
     write_master_curve(output / "master_curve.csv", master)
     folder.write_text(output / "rubber.json", json.dumps(prepared.rubber.to_dict(), indent=1))
-    save_figure(superposition_figure(sweeps, master), output, "superposition")
-    save_figure(
-        superposition_tests_figure(sweeps, superposed.report), output, "superposition_tests"
-    )
-    if isinstance(master.shift, ShiftTable):
+    if len(sweeps) > 1:
+        save_figure(superposition_figure(sweeps, master), output, "superposition")
+        tests = superposition_tests_figure(sweeps, superposed.report)
+        save_figure(tests, output, "superposition_tests")
+    if len(sweeps) > 1 and isinstance(master.shift, ShiftTable):
         write_shift_table(output / "shift_table.csv", master.shift)
         save_figure(shift_figure(master.shift, superposed.fits()), output, "shift")
-    say(console, f"Figures, shift table, master curve and rubber are in {output}")
+    what = "Figures, shift table, master curve" if len(sweeps) > 1 else "The figure, master curve"
+    say(console, f"{what} and rubber are in {output}")

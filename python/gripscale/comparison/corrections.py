@@ -34,9 +34,7 @@ def windows_half_plane(subject: Subject) -> Sequence[Draw]:
 
 def windows_finite_strain(subject: Subject) -> Sequence[Draw]:
     """Return the same windows for the block."""
-    from gripscale.rough.finite_strain import MOST_MISMATCH
-
-    return _on_windows(subject, BlockOnProfile(periodic=True, most_mismatch=MOST_MISMATCH))
+    return _on_windows(subject, BlockOnProfile(periodic=True))
 
 
 def maps(subject: Subject) -> Sequence[Draw]:

@@ -148,10 +148,12 @@ def _overlaps(width: Axes, apart: Axes, report: Superposition) -> None:
         ("loss", "$E''$", ORANGE),
         ("loss_factor", "$E''/E'$", GREEN),
     )
+    shown = []
     for name, label, colour in names:
         values = [getattr(one, name) for one in report.overlaps]
+        shown += [value for value in values if value > 0.0]
         apart.plot(middle, values, "o-", color=colour, ms=3.2, lw=0.9, label=label)
-    log_axis(apart, "y")
+    log_axis(apart, "y", _steps(np.array(shown or [1.0])))
     apart.set(xlabel=DEGREES, ylabel="rms distance [decades]", title="distance in the overlap")
     if report.overlaps:
         apart.legend()

@@ -62,6 +62,7 @@ CONTACT = [
 ]
 ERRORS = [
     Column("friction_mismatch", "mismatch of μ", "", percent, moving_only=True),
+    Column("friction_bound", "allowed", "difference of μ", moving_only=True),
     Column("contact_fraction_error", "est. error", "area"),
     Column("friction_error", "est. error", "μ", moving_only=True),
     Column("min_stretch", "stretch", "least"),
@@ -74,6 +75,7 @@ SOLUTION = [
 ]
 MESH = [
     Column("columns", "columns", "", whole),
+    Column("coarser_columns", "columns", "of the coarser mesh", whole),
     Column("rows", "rows", "", whole),
     Column("depth", "depth", "wavelengths"),
     Column("element_order", "order", "", whole),

@@ -35,8 +35,6 @@ if TYPE_CHECKING:
 ANSWERS = ("contact_fraction", "friction_from_dissipation")
 """What a correction is for. Where crests are as narrow as columns the friction from dissipation is
 the better of the two: traction hangs on the flank a single node happens to sit on."""
-MOST_MISMATCH = 0.1
-"""Relative difference of the block's two frictions beyond which its mesh is too coarse."""
 RESAMPLES = 9999
 
 
@@ -55,8 +53,6 @@ class Pair:
             return self.block.why
         if not self.half_space.converged:
             return f"half-space: {self.half_space.status}"
-        if self.block.friction_mismatch > MOST_MISMATCH:
-            return f"the block's two frictions differ by {self.block.friction_mismatch:.0%}"
         return "converged"
 
     @property

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from gripscale.netcdf import write_whole
+from gripscale.rubber.arguments import file_path, instance
 from gripscale.rubber.master_curve import MasterCurve
 
 
@@ -15,6 +16,7 @@ def write_master_curve(path: str | Path, master: MasterCurve) -> Path:
 
     Raises `FileError` if the file cannot be written.
     """
+    instance("master", master, MasterCurve)
     lines = [f"# {' '.join(text.split())}" for text in (master.name, master.source) if text]
     if master.reference_temperature is not None:
         lines.append(f"# reference temperature (K): {master.reference_temperature:g}")
@@ -22,7 +24,7 @@ def write_master_curve(path: str | Path, master: MasterCurve) -> Path:
     rows = zip(master.frequency, master.storage, master.loss, strict=True)
     lines += [",".join(repr(float(value)) for value in row) for row in rows]
     text = "\n".join(lines) + "\n"
-    return write_whole(Path(path), lambda part: _write(part, text))
+    return write_whole(file_path(path), lambda part: _write(part, text))
 
 
 def _write(path: Path, text: str) -> None:

@@ -15,6 +15,7 @@ from gripscale.rubber.sweeps import Array, Sweeps, checked_rows
 
 _ONE_FREQUENCY = 0.01
 """Frequencies that differ by less than this share are one."""
+_LEAST_STEP = 0.01
 _NEAR = 0.5
 """Distance of a row from a nominal temperature, over the step, so that it can be interpolated."""
 
@@ -49,6 +50,8 @@ def sweeps_from_ramps(
     """
     rows = checked_rows(temperature, frequency, storage, loss)
     step = checks.positive("step", step, unit="K")
+    if step < _LEAST_STEP:
+        raise InputError(f"step must be at least {_LEAST_STEP:g} K; got {step:g}")
     group = _frequencies(rows["frequency"])
     found = [_at_steps(rows, group == one, step) for one in range(int(group.max()) + 1)]
     together = np.concatenate(found, axis=1)

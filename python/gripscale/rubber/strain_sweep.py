@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from gripscale import checks
 from gripscale.errors import FileError, InputError
+from gripscale.rubber.arguments import file_path
 from gripscale.rubber.reader import modulus_of, unit_of
 from gripscale.rubber.sweep_blocks import Block, read_blocks
 from gripscale.rubber.sweeps import TOLERANCE, Array
@@ -171,7 +172,7 @@ def read_strain_sweep(
     InputError
         If a unit, the kind of modulus or of amplitude, or a column is neither stated nor given.
     """
-    place, chosen = Path(path), dict(columns or {})
+    place, chosen = file_path(path), dict(columns or {})
     checks.known("quantity in columns", chosen, _NAMES)
     expected = [one for one in chosen.values() if isinstance(one, str)]
     blocks = read_blocks(place, sheet=sheet, expected=expected, temperature_unit=temperature_unit)

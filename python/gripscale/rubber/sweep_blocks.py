@@ -68,7 +68,9 @@ def read_blocks(
 
 def _text_lines(path: Path, sheet: str | int | None) -> list[Line]:
     if sheet is not None:
-        raise InputError(f"{path}: sheet must be left out, a text file has none; got {sheet!r}")
+        raise InputError(
+            f"{path}: sheet must be left out, a text file has none; got {checks.shown(sheet)}"
+        )
     return [(number, with_primes(line)) for number, line in numbered_lines(read_text(path))]
 
 

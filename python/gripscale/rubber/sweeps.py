@@ -163,8 +163,11 @@ class Sweeps:
     def summary(self) -> str:
         """Return the sweeps in a line of text."""
         celsius = self.temperatures - 273.15
+        where = f"{len(self)} sweeps from {celsius[0]:.1f} to {celsius[-1]:.1f} °C"
+        if len(self) == 1:
+            where = f"one sweep at {celsius[0]:.1f} °C"
         return (
-            f"{len(self)} sweeps from {celsius[0]:.1f} to {celsius[-1]:.1f} °C, "
+            f"{where}, "
             f"{self.frequency.min():.3g} to {self.frequency.max():.3g} Hz, "
             f"{len(self.frequency)} rows"
         )

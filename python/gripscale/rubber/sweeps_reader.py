@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from gripscale import checks
 from gripscale.errors import FileError, InputError
+from gripscale.rubber.arguments import file_paths
 from gripscale.rubber.ramps import sweeps_from_ramps
 from gripscale.rubber.reader import modulus_of, position_of, unit_of
 from gripscale.rubber.sweep_blocks import Block, read_blocks
@@ -97,9 +98,7 @@ def read_sweeps(
     InputError
         If a unit, the kind of modulus, a column or a temperature is neither stated nor given.
     """
-    paths = [Path(path)] if isinstance(path, str | Path) else [Path(one) for one in path]
-    if not paths:
-        raise InputError("path must name at least one file; got none")
+    paths = file_paths(path)
     if temperature is not None:
         temperature = checks.positive("temperature", temperature, unit="K")
     given = {"frequency": frequency_unit, "modulus": modulus_unit, "temperature": temperature_unit}

@@ -17,6 +17,14 @@ from gripscale.wave.result import WaveResult
 from gripscale.wave.solver import face_of
 from gripscale.wave.status import Status
 
+SOLVED = (
+    Status.CONVERGED,
+    Status.TOLERANCE_NOT_MET,
+    Status.FRICTIONS_DISAGREE,
+    Status.CONTACT_TOO_NARROW,
+)
+"""Endings at the whole pressure."""
+
 
 @dataclass(frozen=True)
 class FiniteStrainBlock:
@@ -25,10 +33,13 @@ class FiniteStrainBlock:
     Parameters
     ----------
     mesh : Mesh
-        The mesh, or with a tolerance the one whose proportions are kept.
+        The mesh, or with a tolerance the one whose proportions are kept. Its columns are doubled,
+        to 512 at most, as long as the two frictions differ by more than the `friction_bound` of
+        the result, or contacts of fewer than 4 nodes carry half of the load.
     tolerance : float, optional
-        Largest estimated discretisation error, relative in friction and absolute in contact
-        fraction. The mesh is refined until it is met, from coarser than `mesh` to 512 columns.
+        Largest estimated discretisation error, absolute in contact fraction and relative in
+        friction (to 0.04 of the slope 2 pi amplitude/wavelength where friction is less). The mesh
+        is refined until it is met, from coarser than `mesh` to 512 columns.
     settings : mapping
         What differs from `gripscale.wave.default_settings()`.
     time_limit : float, optional
@@ -142,9 +153,11 @@ def solve_scale(
     element_order : int
         1: bilinear with one pressure; 2: biquadratic with linear discontinuous pressure.
     tolerance : float, optional
-        Largest estimated discretisation error, relative in friction and absolute in contact
-        fraction. The mesh is refined until it is met, from coarser than `columns` x `rows` to
-        512 columns; without it the mesh is the one given.
+        Largest estimated discretisation error, absolute in contact fraction and relative in
+        friction (to 0.04 of the slope 2 pi amplitude/wavelength where friction is less). The mesh
+        is refined until it is met, from coarser than `columns` x `rows` to 512 columns; without it
+        the mesh is the one given, refined only where its two frictions differ by more than the
+        `friction_bound` of the result or fewer than 4 nodes touch.
     time_limit : float, optional
         Seconds after which the solution ends early, as `time limit`: with the finest mesh that was
         solved, or where there is none with the pressure reached. None: as long as it takes.
@@ -205,7 +218,8 @@ def _result(problem: WaveProblem, mesh: Mesh, solution: kernel.Solution) -> Wave
             solution.mesh_x * profile.wavelength,
             solution.mesh_z * profile.wavelength,
         ),
-        details={
+        details=_no_estimate(solution)
+        | {
             "contact_edges": [
                 (start * profile.wavelength, end * profile.wavelength)
                 for start, end in solution.contacts
@@ -214,11 +228,38 @@ def _result(problem: WaveProblem, mesh: Mesh, solution: kernel.Solution) -> Wave
             "load_reached": solution.load_reached,
             "indentation": solution.approach * profile.wavelength,
             "columns": solution.columns,
+            "coarser_columns": solution.judged_by or 0,
             "rows": solution.rows,
             "depth": mesh.depth,
             "element_order": mesh.element_order,
+            **_widths(profile.wavelength, solution.too_narrow),
         },
         contact_fraction_error=solution.contact_fraction_error,
         friction_error=solution.friction_error,
+        friction_bound=math.nan if solution.friction_bound is None else solution.friction_bound,
         solution=solution,
     )
+
+
+def _widths(wavelength: float, too_narrow: tuple[float, float] | None) -> dict[str, float]:
+    """Return contact widths [m], expected and smallest, where there was nothing to solve."""
+    if too_narrow is None:
+        return {}
+    expected, smallest = too_narrow
+    return {
+        "expected_contact_width": expected * wavelength,
+        "smallest_contact_width": smallest * wavelength,
+    }
+
+
+def _no_estimate(solution: kernel.Solution) -> dict[str, Any]:
+    """Return why there is no estimate of the errors, as a detail, where there is none."""
+    if solution.judged_by is not None:
+        return {}
+    if not math.isfinite(solution.friction):
+        why = "nothing was solved"
+    elif solution.status not in SOLVED:
+        why = f"the solution ended early, {solution.status}"
+    else:
+        why = f"no coarser mesh than {solution.columns} columns was solved"
+    return {"no_error_estimate": why}

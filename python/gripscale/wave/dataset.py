@@ -57,6 +57,7 @@ FIELDS = (
     ),
     Field("contact_fraction_error", "1", "estimated error of the contact fraction"),
     Field("friction_error", "1", "estimated error of the friction coefficient"),
+    Field("friction_bound", "1", "largest difference of the two frictions of a converged wave"),
     Field("min_stretch", "1", "smallest principal stretch"),
     Field("max_stretch", "1", "largest principal stretch"),
     Field("newton_iterations", "1", "Newton iterations"),
@@ -99,6 +100,7 @@ DETAILS = (
     Field("load_reached", "1", "share of the pressure that was reached"),
     Field("indentation", "m", "approach of wave and block"),
     Field("columns", "1", "elements along the block"),
+    Field("coarser_columns", "1", "columns of the mesh that the errors are judged by, 0 for none"),
     Field("rows", "1", "elements across the block"),
     Field("depth", "1", "height of the block in wavelengths"),
     Field("element_order", "1", "order of the elements"),
@@ -197,7 +199,7 @@ def _padded(arrays: Sequence[Array]) -> Array:
 
 
 def _wave(one: xr.Dataset) -> WaveResult:
-    fields = {field.attribute: float(one[field.name]) for field in FIELDS}
+    fields = {field.attribute: float(one[field.name]) for field in FIELDS if field.name in one}
     details = {f.name: float(one[f.name]) for f in DETAILS if f.name in one}
     known = np.isfinite(one["surface_x"].values)
     return WaveResult(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -33,9 +32,6 @@ class BlockOnProfile:
     ----------
     smallest_wavelength, periodic, tolerance
         See `gripscale.solve_profile`.
-    most_mismatch : float
-        Relative difference of the two frictions of a profile from which on its mesh is too coarse,
-        and it counts as not converged.
     """
 
     name: ClassVar[str] = "block_on_profile"
@@ -43,7 +39,6 @@ class BlockOnProfile:
     smallest_wavelength: float | None = None
     periodic: bool = False
     tolerance: float | None = None
-    most_mismatch: float = math.inf
 
     def __post_init__(self) -> None:
         if self.smallest_wavelength is not None:
@@ -76,12 +71,8 @@ class BlockOnProfile:
             results.append(self._solve(rubber, line, load))
             if on_progress is not None:
                 on_progress(results[-1])
-        return _answer(results, [self._why_not(one) for one in results], load)
-
-    def _why_not(self, result: WaveResult) -> str:
-        """Return why a result does not count, or nothing."""
-        doubtful = result.converged and result.friction_mismatch > self.most_mismatch
-        return result.why if doubtful or not result.converged else ""
+        why_not = ["" if result.converged else result.why for result in results]
+        return _answer(results, why_not, load)
 
     def _solve(self, rubber: Rubber, line: Profile, load: NominalLoad) -> WaveResult:
         return solve_profile(

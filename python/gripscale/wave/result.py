@@ -68,6 +68,12 @@ class WaveResult:
     """Estimated discretisation error of the contact fraction [-], NaN if unknown."""
     friction_error: float = math.nan
     """Estimated discretisation error of the friction coefficient [-], NaN if unknown."""
+    friction_bound: float = math.nan
+    """Largest difference of the two frictions of a converged wave [-]; NaN at rest, or if unknown.
+
+    A twentieth of the larger, or of 0.04 of the slope 2 pi amplitude/wavelength (root of two times
+    the rms slope of a profile) where friction is less: so small a friction is known to no more.
+    """
     solution: Any = field(default=None, repr=False, compare=False)
     """What the solver keeps to start another wave from; not written to files."""
 
@@ -87,29 +93,29 @@ class WaveResult:
 
     @property
     def why(self) -> str:
-        """The status, with the doubt about it or how much of the pressure a failure reached."""
+        """The status, with how the frictions disagree or how much of the pressure was reached."""
         if self.converged:
-            return f"{self.status}, but {self.doubt}" if self.doubt else str(self.status)
+            return str(self.status)
+        if self.status == Status.FRICTIONS_DISAGREE:
+            return f"{self.status}, {self._frictions}"
         reached = self.details.get("load_reached", math.nan)
-        if not math.isfinite(reached):
+        if self.status == Status.CONTACT_TOO_NARROW and "expected_contact_width" in self.details:
+            return (
+                f"{self.status}: about {self.details['expected_contact_width']:.2g} m is expected, "
+                f"the finest mesh follows {self.details['smallest_contact_width']:.2g} m; "
+                "the pressure is too small for the block"
+            )
+        if not math.isfinite(reached) or reached == 1.0:
             return str(self.status)
         return f"{self.status} at {100.0 * reached:.3g} % of the pressure"
 
     @property
-    def doubt(self) -> str:
-        """What the two frictions say against a converged wave: empty if within 5 %, or at rest.
-
-        Then the mesh does not follow the contact. The friction from the energy lost is then the
-        better of the two as a rule, and more columns better than both.
-        """
-        if not self.converged or self.speed == 0.0 or self.friction_mismatch <= LARGE_MISMATCH:
-            return ""
+    def _frictions(self) -> str:
         slope = self.details.get("contact_slope")
         where = "" if slope is None else f" with contact on slopes up to {slope:.2g}"
         return (
-            f"the two frictions, {self.friction:.3g} from traction and "
-            f"{self.friction_from_dissipation:.3g} from dissipation, differ{where}: "
-            "more columns are needed"
+            f"{self.friction:.3g} from traction and {self.friction_from_dissipation:.3g} from "
+            f"dissipation{where}: more columns are needed"
         )
 
     @property

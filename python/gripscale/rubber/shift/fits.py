@@ -15,7 +15,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from gripscale import checks
 from gripscale.errors import InputError
+from gripscale.rubber.arguments import instance
 from gripscale.rubber.shift.base import EDGE, Array
 from gripscale.rubber.shift.table import ShiftTable
 from gripscale.rubber.shift.wlf import GAS_CONSTANT, WLF, Arrhenius
@@ -157,11 +159,13 @@ def fit_arrhenius(
 
 
 def _reference(table: ShiftTable, given: float | None) -> float:
+    instance("table", table, ShiftTable)
     reference = table.reference_temperature if given is None else given
     if reference is None:
         raise InputError("reference_temperature [K] must be given, because the table states none")
+    reference = checks.positive("reference_temperature", reference, unit="K")
     table.log_a(reference, reference)
-    return float(reference)
+    return reference
 
 
 def _rows(
@@ -169,7 +173,8 @@ def _rows(
 ) -> tuple[Array, Array, Array]:
     """Return temperature, log10 a against the reference and its error, of the rows that count."""
     kelvin = table.temperature
-    low, high = lowest or -math.inf, highest or math.inf
+    low = 0.0 if lowest is None else checks.not_negative("lowest", lowest, unit="K")
+    high = math.inf if highest is None else checks.positive("highest", highest, unit="K")
     chosen = (kelvin >= low - EDGE) & (kelvin <= high + EDGE)
     if chosen.sum() < least:
         raise InputError(

@@ -15,6 +15,7 @@ import numpy as np
 
 from gripscale.errors import FileError, InputError
 from gripscale.netcdf import write_whole
+from gripscale.rubber.arguments import file_path, instance
 from gripscale.rubber.shift.base import Array
 from gripscale.rubber.shift.table import ShiftTable
 from gripscale.textfile import TextTable, read_table, read_text
@@ -38,6 +39,7 @@ def write_shift_table(path: str | Path, table: ShiftTable) -> Path:
 
     Raises `FileError` if it cannot be written.
     """
+    instance("table", table, ShiftTable)
     columns = (
         np.round(table.temperature - _ZERO_CELSIUS, _DECIMALS),
         table.horizontal,
@@ -52,7 +54,7 @@ def write_shift_table(path: str | Path, table: ShiftTable) -> Path:
     lines.append(",".join(_TITLES))
     lines += [",".join(repr(float(v)) for v in row) for row in zip(*columns, strict=True)]
     text = "\n".join(lines) + "\n"
-    return write_whole(Path(path), lambda part: _write(part, text))
+    return write_whole(file_path(path), lambda part: _write(part, text))
 
 
 def _write(path: Path, text: str) -> None:
@@ -79,7 +81,7 @@ def read_shift_table(path: str | Path, *, temperature_unit: str | None = None) -
     InputError
         If the unit is not known, or the numbers are no table.
     """
-    place = Path(path)
+    place = file_path(path)
     table = read_table(
         place,
         "rows of temperature and log10 a_T",

@@ -24,8 +24,8 @@ GAS_CONSTANT = 8.314462618
 """R [J/(mol K)]."""
 _FROM_POLE = 1e-3
 """Distance from the pole of WLF at which it ends, over c2: log a_T is a thousand c1 there."""
-_COLDEST = 1.0
-"""Lower end of what a law is asked for [K]."""
+_COLDEST, _HOTTEST = 1.0, 1e4
+"""Ends of what a law is asked for [K]."""
 
 
 class _Formula(Shift):
@@ -42,7 +42,7 @@ class _Formula(Shift):
     @property
     def limits(self) -> tuple[float, float]:
         """Above absolute zero [K]."""
-        return _COLDEST, math.inf
+        return _COLDEST, _HOTTEST
 
     def _set(self, **units: str) -> None:
         """Check the constants, each named with its unit, and what all formulas have."""
@@ -113,7 +113,7 @@ class WLF(_Formula):
     @property
     def limits(self) -> tuple[float, float]:
         """From just above the pole [K]."""
-        return max(self._reference - self.c2 * (1.0 - _FROM_POLE), _COLDEST), math.inf
+        return max(self._reference - self.c2 * (1.0 - _FROM_POLE), _COLDEST), _HOTTEST
 
 
 @dataclass(frozen=True, eq=False)

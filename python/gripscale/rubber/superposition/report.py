@@ -42,6 +42,8 @@ class Superposition:
 
     def summary(self) -> str:
         """Return the report as a few lines of text."""
+        if len(self.temperatures) == 1:
+            return "one sweep: there is nothing to superpose"
         how = "found from the sweeps" if self.fitted else "as given"
         lines = [f"{len(self.temperatures)} sweeps superposed, shift {how}"]
         if self.overlaps:
@@ -130,8 +132,8 @@ def _lifted(shift: Shift, fitted: bool) -> Iterator[str]:
     if fitted and isinstance(shift, ShiftTable) and (shift.vertical != 0.0).any():
         yield (
             "a_T and b_T were found together: where E' and E'' are nearly one power law, as on a "
-            "rubbery plateau, one stands for the other, and both are worse than their standard "
-            "errors"
+            "rubbery plateau, one stands for the other, and both may be worse than their "
+            "standard errors"
         )
 
 

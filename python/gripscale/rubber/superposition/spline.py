@@ -71,8 +71,9 @@ def smooth(
     unit = float(trust.mean())
     ridge = _RIDGE * unit * np.eye(len(normal))
     for tried in [unit * one for one in _PENALTIES] if weight is None else [weight]:
-        matrix = normal + tried * penalty.T @ penalty + ridge
-        solved = np.linalg.solve(matrix, np.column_stack([right, normal]))
+        matrix = np.asarray(normal + tried * penalty.T @ penalty + ridge, dtype=np.float64)
+        both = np.column_stack([right, normal])
+        solved = np.asarray(np.linalg.solve(matrix, both), dtype=np.float64)
         freedoms = float(np.trace(solved[:, 1:]))
         error = values - functions @ solved[:, 0]
         left = max(float(trust.sum()) - freedoms, 1e-6)

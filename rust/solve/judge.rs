@@ -1,0 +1,207 @@
+//! What the discretisation leaves open of a solution, and whether it can be trusted at all.
+//!
+//! Lengths in periods of the profile, h the node spacing, k A the steepness of the profile.
+//!
+//! The contact fraction is as uncertain as (a) its change from the mesh of half the resolution; (b)
+//! the places of the edges, a share of h that grows where few nodes lie beside an edge; (c) near full
+//! contact, f = (2/pi) asin sqrt(p/p*) with p* known to c (k h)^2: a gap of width sqrt(1 - p/p*)
+//! opens between nodes that see none (K. L. Johnson, "Contact Mechanics" (1985), section 13.2).
+//!
+//! Friction is as uncertain as (a) its change; (b) the difference of its two measures; (c) what meshes
+//! may agree on by chance: c (k h)^2 of itself, c / n^2 for n nodes in a contact, and c h k A, by
+//! which a nearly symmetric contact held by nodes cannot shift.
+
+use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
+
+use super::mesh_sequence::MeshSolution;
+use crate::contact::profile::Heights;
+use crate::settings::Settings;
+use crate::status::Status;
+
+/// What solutions on one profile are judged by.
+#[derive(Debug, Clone, Copy)]
+pub struct Judge {
+    /// Largest error allowed, relative in friction and absolute in contact fraction.
+    pub tolerance: Option<f64>,
+    pub settings: Settings,
+    pub slides: bool,
+    /// k A of a sine.
+    steepness: f64,
+    /// k of a sine.
+    wave_number: f64,
+}
+
+/// Nodes in a row that touch, and in the gap after them.
+#[derive(Debug, PartialEq)]
+struct Patch {
+    closed: usize,
+    open: usize,
+    load: f64,
+}
+
+impl Judge {
+    pub fn new(
+        heights: &Heights,
+        slides: bool,
+        tolerance: Option<f64>,
+        settings: &Settings,
+    ) -> Self {
+        let steepness = heights.steepness();
+        Self {
+            tolerance,
+            settings: *settings,
+            slides,
+            steepness,
+            wave_number: steepness / heights.half_range(),
+        }
+    }
+
+    /// Friction that relative differences are relative to: below a share of k A it is not resolved.
+    fn friction_scale(&self, one: &MeshSolution) -> f64 {
+        let (traction, lost) = (one.outcome.friction, one.outcome.friction_from_dissipation);
+        let least = self.settings.small_friction * self.steepness;
+        traction.abs().max(lost.abs()).max(least)
+    }
+
+    /// Largest difference of the two frictions of a solution that is to be trusted; none at rest.
+    pub fn friction_bound(&self, one: &MeshSolution) -> Option<f64> {
+        let bound = self.settings.most_mismatch * self.friction_scale(one);
+        self.slides.then_some(bound)
+    }
+
+    /// `Converged`, or what a solution that converged is not to be trusted for.
+    pub fn verdict(&self, one: &MeshSolution) -> Status {
+        let patches = patches(&one.state.active, &one.state.force);
+        let few = |patch: &&Patch| patch.closed < self.settings.fewest_contact_nodes;
+        let load = |patch: &Patch| patch.load;
+        let narrow: f64 = patches.iter().filter(few).map(load).sum();
+        if narrow > 0.5 * patches.iter().map(load).sum::<f64>() {
+            return Status::ContactTooNarrow;
+        }
+        match self.friction_bound(one) {
+            Some(bound) if mismatch(one) > bound => Status::FrictionsDisagree,
+            _ => Status::Converged,
+        }
+    }
+
+    /// Whether the estimated errors of a solution are within the share `part` of the tolerance.
+    pub fn meets(&self, one: &MeshSolution, part: f64) -> bool {
+        let Some(tolerance) = self.tolerance else {
+            return true;
+        };
+        let scale = self.friction_scale(one);
+        let friction_met = !self.slides || one.friction_error <= part * tolerance * scale;
+        friction_met && one.contact_fraction_error <= part * tolerance
+    }
+
+    /// Estimated errors of contact fraction and friction, by the solution on a coarser mesh.
+    pub fn errors(&self, fine: &MeshSolution, coarse: &MeshSolution) -> (f64, f64) {
+        let patches = patches(&fine.state.active, &fine.state.force);
+        let (new, old) = (&fine.outcome, &coarse.outcome);
+        let change = (new.contact_fraction - old.contact_fraction).abs();
+        let fraction = self.settings.error_safety * change.max(self.edges(fine, &patches));
+        let friction = (new.friction - old.friction).abs().max(mismatch(fine));
+        (
+            fraction.max(self.closing(fine)),
+            friction.max(self.chance(fine, &patches)),
+        )
+    }
+
+    /// To what the edges of all contacts are known, those of one independent of the others'.
+    fn edges(&self, one: &MeshSolution, patches: &[Patch]) -> f64 {
+        let (edge, few) = (self.settings.edge_error, self.settings.edge_nodes);
+        let known_to = |patch: &Patch| {
+            let nodes = patch.closed.min(patch.open) as f64;
+            (edge * (1.0 + few / nodes)).min(self.settings.most_edge_error)
+        };
+        let squares = patches.iter().map(|patch| known_to(patch).powi(2));
+        one.mesh.node_spacing() * squares.sum::<f64>().sqrt()
+    }
+
+    /// (k h)^2 of the mesh, times a constant below one or so.
+    fn second_order(&self, one: &MeshSolution, constant: f64) -> f64 {
+        constant * (self.wave_number * one.mesh.node_spacing()).powi(2)
+    }
+
+    /// What an error of the pressure of full contact is worth.
+    fn closing(&self, one: &MeshSolution) -> f64 {
+        let full = |share: f64| FRAC_2_PI * share.clamp(0.0, 1.0).sqrt().asin();
+        let fraction = one.outcome.contact_fraction;
+        let share = if one.state.active.iter().all(|&closed| closed) {
+            // How far the lowest pressure is from opening a gap, for a sine of pressure.
+            let pressure = one.outcome.pressure.iter();
+            let low = pressure.clone().fold(f64::INFINITY, |low, &p| low.min(p));
+            let high = pressure.fold(f64::NEG_INFINITY, |high, &p| high.max(p));
+            1.0 + 2.0 * low / (high - low)
+        } else {
+            (FRAC_PI_2 * fraction).sin().powi(2)
+        };
+        let error = self.second_order(one, self.settings.closing_error);
+        let (less, more) = (full(share * (1.0 - error)), full(share * (1.0 + error)));
+        (fraction - less).max(more - fraction)
+    }
+
+    /// What meshes may agree on by chance in friction.
+    fn chance(&self, one: &MeshSolution, patches: &[Patch]) -> f64 {
+        if !self.slides {
+            return 0.0;
+        }
+        let settings = &self.settings;
+        let mut relative = self.second_order(one, settings.friction_order_error);
+        let mut shift = 0.0;
+        if !patches.is_empty() {
+            relative += settings.friction_node_error / mean_nodes(patches).powi(2);
+            shift = settings.pinning * one.mesh.node_spacing() * self.steepness;
+        }
+        relative * one.outcome.friction.abs() + shift
+    }
+}
+
+fn mismatch(one: &MeshSolution) -> f64 {
+    (one.outcome.friction - one.outcome.friction_from_dissipation).abs()
+}
+
+/// Nodes of a contact, the mean over the load.
+fn mean_nodes(patches: &[Patch]) -> f64 {
+    let load: f64 = patches.iter().map(|patch| patch.load).sum();
+    let nodes = patches.iter().map(|patch| patch.load * patch.closed as f64);
+    nodes.sum::<f64>() / load
+}
+
+/// Runs of closed nodes around the period, each with the gap after it; none where contact is full.
+fn patches(active: &[bool], force: &[f64]) -> Vec<Patch> {
+    let n = active.len();
+    let run = |first: usize, closed: bool| {
+        let along = (0..n).take_while(|i| active[(first + i) % n] == closed);
+        along.count()
+    };
+    let starts = (0..n).filter(|&a| active[a] && !active[(a + n - 1) % n]);
+    starts
+        .map(|first| {
+            let closed = run(first, true);
+            Patch {
+                closed,
+                open: run(first + closed, false),
+                load: (0..closed).map(|i| force[(first + i) % n]).sum(),
+            }
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn patches_go_around_the_period() {
+        let active = [true, false, false, true, false, true, true];
+        let force = [1.0, 0.0, 0.0, 2.0, 0.0, 3.0, 4.0];
+        let patch = |closed, open, load| Patch { closed, open, load };
+        assert_eq!(
+            patches(&active, &force),
+            [patch(1, 1, 2.0), patch(3, 2, 8.0)]
+        );
+        assert!(patches(&[true; 4], &[1.0; 4]).is_empty());
+        assert!(patches(&[false; 4], &[0.0; 4]).is_empty());
+    }
+}
