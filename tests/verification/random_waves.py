@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import csv
 import time
+import warnings
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -19,6 +20,7 @@ import typer
 from numpy.typing import NDArray
 
 import gripscale as gs
+from gripscale.errors import RubberWarning
 from gripscale.rubber import styrene_butadiene
 from gripscale.rubber.carrying import MOST_PRESSURE
 
@@ -121,7 +123,8 @@ def _rubber(box: Box, kind: str, generator: np.random.Generator) -> gs.Rubber | 
         bulk = _log_uniform(generator, 100.0, 1000.0) * 1e7 / 3.0
     if bulk <= 0.25 * scale * loose.glassy_modulus:
         return None
-    return gs.Rubber(scale * relaxed, scale * moduli, times, bulk_modulus=bulk)
+    with warnings.catch_warnings(action="ignore", category=RubberWarning):
+        return gs.Rubber(scale * relaxed, scale * moduli, times, bulk_modulus=bulk)
 
 
 def _few_terms(box: Box, generator: np.random.Generator) -> tuple[float, Array, Array]:

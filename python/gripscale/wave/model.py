@@ -44,7 +44,8 @@ class BlockOnProfile:
         if self.smallest_wavelength is not None:
             checks.positive("smallest_wavelength", self.smallest_wavelength, unit="m")
         checks.flag("periodic", self.periodic)
-        checks.positive("most_mismatch", self.most_mismatch, infinite=True)
+        if self.tolerance is not None:
+            checks.positive("tolerance", self.tolerance)
 
     def relevant(self, surface: PreparedSurface) -> PreparedSurface:
         """Return nothing of `surface` but its profiles (and a wave, which a surface must have)."""
