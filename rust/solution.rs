@@ -2,7 +2,7 @@
 
 use crate::problem::Problem;
 use crate::solve::load_stepping::Counts;
-use crate::solve::mesh_sequence::MeshSolution;
+use crate::solve::mesh_solution::MeshSolution;
 
 /// Contact and friction of one wave; also the start of another.
 #[derive(Debug, Clone)]

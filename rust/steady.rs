@@ -17,7 +17,8 @@ use crate::settings::Settings;
 use crate::solution::Solution;
 use crate::solve::judge::Judge;
 use crate::solve::load_stepping::{raise, Counts};
-use crate::solve::mesh_sequence::{MeshSequence, MeshSolution};
+use crate::solve::mesh_sequence::MeshSequence;
+use crate::solve::mesh_solution::MeshSolution;
 use crate::solve::newton;
 use crate::solve::transfer::transfer;
 use crate::status::Status;
@@ -131,7 +132,7 @@ impl Work<'_> {
         let finer = self.on_mesh(Mesh::new(&finer), None)?;
         let solved = finer.report.status == Status::Converged;
         Ok(if solved {
-            finer.judged(None, judge).concluded(judge)
+            judge.concluded(judge.judged(finer, None))
         } else {
             finest
         })

@@ -10,7 +10,8 @@
 //! friction would push the contact from node to node while the load is raised, and every node
 //! passed is a snap of the discrete problem that the continuous one does not know.
 
-use super::complementarity::{self, Contact, Linearised};
+use super::complementarity;
+use super::touching::{Contact, Linearised};
 use super::{PressedBlock, State};
 use crate::linear::{self, Elimination, Factor, Matrix};
 use crate::settings::Settings;

@@ -8,7 +8,7 @@
 //! compliance is positive definite, symmetric or not, there is one solution for every t and t only
 //! falls. Elsewhere it may rise in between; where it rises for ever there is no answer.
 
-use super::complementarity::{gaps, Contact, Linearised};
+use super::touching::{gaps, Contact, Linearised};
 use crate::linear::{solve_columns, Matrix};
 use crate::settings::Settings;
 use crate::status::Status;

@@ -13,7 +13,7 @@
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
-use super::mesh_sequence::MeshSolution;
+use super::mesh_solution::MeshSolution;
 use crate::contact::profile::Heights;
 use crate::settings::Settings;
 use crate::status::Status;
@@ -105,6 +105,40 @@ impl Judge {
             fraction.max(self.closing(fine)),
             friction.max(self.chance(fine, &patches)),
         )
+    }
+
+    /// Columns of the coarsest mesh known to meet the tolerance, by errors that fall to a quarter at
+    /// most where columns are doubled; nothing is known from errors that were not estimated.
+    pub fn columns_within(&self, one: &MeshSolution) -> usize {
+        if one.friction_error.is_nan() {
+            return 0;
+        }
+        let (mut columns, mut part) = (one.mesh.columns, 0.25);
+        while columns > 1 && self.meets(one, part) {
+            (columns, part) = (columns / 2, part / 4.0);
+        }
+        columns
+    }
+
+    /// A solution with its errors, as far as a coarser one tells them.
+    pub fn judged(&self, mut fine: MeshSolution, coarse: Option<&MeshSolution>) -> MeshSolution {
+        fine.friction_bound = self.friction_bound(&fine);
+        if let (true, Some(coarse)) = (fine.converged(), coarse) {
+            fine.judged_by = Some(coarse.mesh.columns);
+            (fine.contact_fraction_error, fine.friction_error) = self.errors(&fine, coarse);
+        }
+        fine
+    }
+
+    /// The last solution, with what speaks against it as its status.
+    pub fn concluded(&self, mut last: MeshSolution) -> MeshSolution {
+        if last.converged() {
+            last.report.status = self.verdict(&last);
+        }
+        if last.converged() && !self.meets(&last, 1.0) {
+            last.report.status = Status::ToleranceNotMet;
+        }
+        last
     }
 
     /// To what the edges of all contacts are known, those of one independent of the others'.

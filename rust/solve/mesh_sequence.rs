@@ -4,33 +4,13 @@
 //! solution. The sequence goes on until two agree as well as was asked, and the last can be trusted.
 
 use super::judge::Judge;
-use super::newton::Report;
-use crate::contact::State;
+use super::mesh_solution::MeshSolution;
 use crate::error::KernelError;
 use crate::fem::mesh::{Mesh, MeshSize};
-use crate::outcome::Outcome;
 use crate::status::Status;
 
 /// Nodes of the coarsest mesh that tells anything of a finer one.
 const FEWEST_NODES: usize = 8;
-
-/// What was found on one mesh.
-#[derive(Debug, Clone)]
-pub struct MeshSolution {
-    pub mesh: Mesh,
-    pub state: State,
-    pub report: Report,
-    /// Pressure that was reached over the pressure asked for.
-    pub load_reached: f64,
-    pub outcome: Outcome,
-    /// Columns of the coarser mesh that tells the errors, if there is one.
-    pub judged_by: Option<usize>,
-    /// Estimated discretisation errors, NaN where there is no mesh to judge from.
-    pub contact_fraction_error: f64,
-    pub friction_error: f64,
-    /// Largest difference of the two frictions that is allowed; none at rest.
-    pub friction_bound: Option<f64>,
-}
 
 /// Meshes, coarsest first, of which the first `required` are solved in any case.
 pub struct MeshSequence {
@@ -72,7 +52,7 @@ impl MeshSequence {
             start.map_or(0, |_| required.saturating_sub(2))
         } else {
             required = 0;
-            let least = start.map_or(0, |start| start.columns_within(judge) / 2);
+            let least = start.map_or(0, |start| judge.columns_within(start) / 2);
             let coarser = columns.iter().filter(|&&count| count < least).count();
             coarser.min(columns.len().saturating_sub(2))
         };
@@ -97,7 +77,7 @@ impl MeshSequence {
             if fine.report.status == Status::TimeLimit {
                 return Ok(fine);
             }
-            let fine = fine.judged(coarse, judge);
+            let fine = judge.judged(fine, coarse);
             // What was asked for failed, or what was solved has no finer solution: that is the answer.
             let ends = judge.tolerance.is_none() && i + 1 >= self.required && !fine.converged();
             if ends && i + 1 > self.required {
@@ -113,53 +93,6 @@ impl MeshSequence {
             }
         }
         let finest = last.ok_or(KernelError::Internal("a sequence without a mesh"))?;
-        Ok(finest.concluded(judge))
-    }
-}
-
-impl MeshSolution {
-    /// Columns of the coarsest mesh known to meet the tolerance, by errors that fall to a quarter at
-    /// most where columns are doubled; nothing is known from errors that were not estimated.
-    fn columns_within(&self, judge: &Judge) -> usize {
-        if self.friction_error.is_nan() {
-            return 0;
-        }
-        let (mut columns, mut part) = (self.mesh.columns, 0.25);
-        while columns > 1 && judge.meets(self, part) {
-            (columns, part) = (columns / 2, part / 4.0);
-        }
-        columns
-    }
-
-    /// What is left if there was no time for a finer mesh.
-    pub fn out_of_time(&self) -> Self {
-        let mut left = self.clone();
-        left.report.status = Status::TimeLimit;
-        left
-    }
-
-    fn converged(&self) -> bool {
-        self.report.status == Status::Converged
-    }
-
-    /// The solution with its errors, as far as a coarser one tells them.
-    pub fn judged(mut self, coarse: Option<&Self>, judge: &Judge) -> Self {
-        self.friction_bound = judge.friction_bound(&self);
-        if let (true, Some(coarse)) = (self.converged(), coarse) {
-            self.judged_by = Some(coarse.mesh.columns);
-            (self.contact_fraction_error, self.friction_error) = judge.errors(&self, coarse);
-        }
-        self
-    }
-
-    /// The last solution, with what speaks against it as its status.
-    pub fn concluded(mut self, judge: &Judge) -> Self {
-        if self.converged() {
-            self.report.status = judge.verdict(&self);
-        }
-        if self.converged() && !judge.meets(&self, 1.0) {
-            self.report.status = Status::ToleranceNotMet;
-        }
-        self
+        Ok(judge.concluded(finest))
     }
 }

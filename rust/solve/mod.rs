@@ -3,5 +3,6 @@
 pub mod judge;
 pub mod load_stepping;
 pub mod mesh_sequence;
+pub mod mesh_solution;
 pub mod newton;
 pub mod transfer;

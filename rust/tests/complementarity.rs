@@ -2,7 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use gripscale_kernel::contact::complementarity::{solve, Contact, Linearised};
+use gripscale_kernel::contact::complementarity::solve;
+use gripscale_kernel::contact::touching::{Contact, Linearised};
 use gripscale_kernel::linear::{solve_dense, Matrix};
 use gripscale_kernel::settings::Settings;
 use gripscale_kernel::watch::Watch;

@@ -1,0 +1,83 @@
+//! The linearised contact problem: a dense complementarity problem with one border.
+//!
+//! Find forces f >= 0 and the approach d with
+//!     gap = free + C f - d >= 0,   gap . f = 0,   sum f = load.
+//! Where it is known which nodes touch it is linear.
+
+use crate::linear::{solve_dense, Matrix};
+use crate::status::Status;
+use crate::watch::Watch;
+
+#[derive(Debug, Clone)]
+pub struct Contact {
+    pub force: Vec<f64>,
+    pub approach: f64,
+    pub active: Vec<bool>,
+}
+
+/// The problem: gaps without forces or approach, and what unit forces add to them.
+#[derive(Clone, Copy)]
+pub struct Linearised<'a> {
+    pub compliance: &'a Matrix<f64>,
+    pub free: &'a [f64],
+    pub load: f64,
+}
+
+impl Linearised<'_> {
+    /// Scale of the border like the compliance's, so that pivoting sees comparable rows.
+    pub(super) fn border(&self, set: &[usize]) -> f64 {
+        self.compliance[(set[0], set[0])].abs().max(1e-300)
+    }
+
+    /// The compliance between the nodes of `set`, with the approach and the sum of forces.
+    pub(super) fn bordered(&self, set: &[usize]) -> Matrix<f64> {
+        let (n, border) = (set.len(), self.border(set));
+        Matrix::from_fn(n + 1, n + 1, |i, j| {
+            if i < n && j < n {
+                self.compliance[(set[i], set[j])]
+            } else if i < n || j < n {
+                border * if i < n { -1.0 } else { 1.0 }
+            } else {
+                0.0
+            }
+        })
+    }
+
+    /// Forces and approach where just these nodes touch; None if they cannot be told.
+    pub(super) fn on_set(
+        &self,
+        active: &[bool],
+        watch: &Watch<'_>,
+    ) -> Result<Option<(Vec<f64>, f64)>, Status> {
+        let set: Vec<usize> = (0..active.len()).filter(|&i| active[i]).collect();
+        let border = self.border(&set);
+        let mut right: Vec<f64> = set.iter().map(|&i| -self.free[i]).collect();
+        right.push(border * self.load);
+        let Some(solution) = solve_dense(&self.bordered(&set), &right, watch)? else {
+            return Ok(None);
+        };
+        let mut force = vec![0.0; active.len()];
+        for (&i, &f) in set.iter().zip(&solution) {
+            force[i] = f;
+        }
+        Ok(Some((force, border * solution[set.len()])))
+    }
+}
+
+/// Gaps under `force` at `approach`.
+pub(super) fn gaps(
+    compliance: &Matrix<f64>,
+    free: &[f64],
+    force: &[f64],
+    approach: f64,
+) -> Vec<f64> {
+    let mut gap: Vec<f64> = free.iter().map(|g| g - approach).collect();
+    for (j, &f) in force.iter().enumerate() {
+        if f != 0.0 {
+            for (i, g) in gap.iter_mut().enumerate() {
+                *g += compliance[(i, j)] * f;
+            }
+        }
+    }
+    gap
+}
