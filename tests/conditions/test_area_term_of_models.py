@@ -8,18 +8,10 @@ import pytest
 import gripscale as gs
 from gripscale.conditions import Conditions
 from gripscale.interface import ConstantStress, GaussianStress, ThermalProperties
-from gripscale.rubber import WLF
 from gripscale.rubber.softening import Kraus
 
-RUBBER = gs.Rubber(
-    5e6,
-    np.geomspace(3e6, 3e8, 10),
-    np.geomspace(1e-1, 1e-9, 10),
-    reference_temperature=293.15,
-    shift=WLF(c1=8.86, c2=101.6),
-)
-SINES = gs.SineStack([4e-3, 1e-3], [2e-4, 6e-5])
-LOAD = {"pressure": 3e5, "speed": 1.0, "footprint": 0.05}
+from .shifted import LOAD, RUBBER, SINES
+
 TURNS = 2.0 * np.pi * np.arange(512) / 512
 LINE = gs.Profile(np.arange(512) * 2e-5, 2e-4 * np.cos(3 * TURNS) + 3e-5 * np.cos(17 * TURNS))
 EVERYTHING = Conditions(

@@ -10,18 +10,10 @@ from gripscale.conditions.conditions import rubber_under
 from gripscale.conditions.wave_heat import WaveHeat
 from gripscale.conditions.wave_strain import strains
 from gripscale.interface import ThermalProperties
-from gripscale.rubber import WLF
 from gripscale.rubber.softening import Kraus
 
-RUBBER = gs.Rubber(
-    5e6,
-    np.geomspace(3e6, 3e8, 10),
-    np.geomspace(1e-1, 1e-9, 10),
-    reference_temperature=293.15,
-    shift=WLF(c1=8.86, c2=101.6),
-)
-SINES = gs.SineStack([4e-3, 1e-3], [2e-4, 6e-5])
-LOAD = {"pressure": 3e5, "speed": 1.0, "footprint": 0.05}
+from .shifted import LOAD, RUBBER, SINES
+
 KRAUS = Kraus(0.3, 0.15, 0.02, 1e-3, "shear")
 THERMAL = ThermalProperties(conductivity=0.25, density=1150.0, specific_heat=1500.0)
 BOTH = Conditions(softening=KRAUS, heat=THERMAL)

@@ -5,16 +5,9 @@ import pytest
 
 import gripscale as gs
 from gripscale.conditions import Conditions
-from gripscale.rubber import WLF
 
-RUBBER = gs.Rubber(
-    5e6,
-    np.geomspace(3e6, 3e8, 10),
-    np.geomspace(1e-1, 1e-9, 10),
-    reference_temperature=293.15,
-    shift=WLF(c1=8.86, c2=101.6),
-)
-SINES = gs.SineStack([4e-3, 1e-3], [2e-4, 6e-5])
+from .shifted import RUBBER, SINES
+
 LOAD = {"pressure": 3e5, "footprint": 0.05}
 WARM = 313.15
 SHIFT = float(RUBBER.shift.a(WARM, 293.15))

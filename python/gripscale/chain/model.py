@@ -8,8 +8,9 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from gripscale import checks, model, versions
-from gripscale.chain.predict import ChainError, RubberAt, predict
+from gripscale.chain.predict import ChainError, predict
 from gripscale.chain.pressure import MOST_CLASSES
+from gripscale.chain.rubber_at import RubberAt
 from gripscale.conditions.conditions import Conditions
 from gripscale.errors import ExtrapolationError
 from gripscale.rubber.extrapolation import CHOICES

@@ -13,11 +13,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Protocol
+from typing import Any
 
 from gripscale import checks
 from gripscale.chain.prediction import Prediction
 from gripscale.chain.pressure import MOST_CLASSES, PressureClasses, usable
+from gripscale.chain.rubber_at import RubberAt
 from gripscale.chain.settle import settle
 from gripscale.chain.solvers import WaveSolverLike, wave_solver
 from gripscale.conditions.conditions import Conditions
@@ -29,13 +30,6 @@ from gripscale.rubber.extrapolation import CHOICES, require_measured
 from gripscale.surface import SineStack
 from gripscale.wave.problem import Load, Sine, WaveProblem
 from gripscale.wave.solver import RefinableSolver, WaveSolver
-
-
-class RubberAt(Protocol):
-    """Conditions that change the rubber on the way: temperature, strain, what was solved so far."""
-
-    def __call__(self, wave: Sine, so_far: Prediction) -> Rubber:
-        """Return the rubber as it is on `wave`, next after those of `so_far`."""
 
 
 class ChainError(ConvergenceError):

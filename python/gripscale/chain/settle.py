@@ -9,12 +9,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gripscale.chain.prediction import Prediction
+from gripscale.chain.rubber_at import RubberAt
 from gripscale.conditions.chain_heat import Warming, warming
 from gripscale.conditions.conditions import (
     AGREED,
@@ -31,9 +32,6 @@ from gripscale.conditions.wave_strain import strains
 from gripscale.rubber import Rubber
 from gripscale.wave.problem import Sine
 from gripscale.wave.status import Status
-
-if TYPE_CHECKING:
-    from gripscale.chain.predict import RubberAt
 
 Array = NDArray[np.float64]
 
