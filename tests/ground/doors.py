@@ -196,7 +196,7 @@ def _wave() -> Iterator[Door]:
     yield Door(gs.solve_transient, {"rubber": SOLID, **WAVE, **stages})
     yield Door(gs.Stage, {"duration": 1e-3, **PRESSED})
     yield Door(wave.FiniteStrainBlock, {"mesh": wave.Mesh(**MESH), **limits, "settings": {}})
-    profile = {"smallest_wavelength": None, "periodic": False, "most_mismatch": 0.1}
+    profile = {"smallest_wavelength": None, "periodic": False, "tolerance": 0.1}
     yield Door(wave.BlockOnProfile, profile)
 
 

@@ -93,7 +93,7 @@ def test_a_time_limit_on_the_first_mesh_leaves_the_pressure_that_was_reached():
 def test_enough_time_changes_nothing():
     mesh = {"columns": 64, "rows": 12}
     free = gs.solve_scale(RUBBER, **LOAD, **mesh)
-    limited = gs.solve_scale(RUBBER, **LOAD, **mesh, time_limit=1e300)
+    limited = gs.solve_scale(RUBBER, **LOAD, **mesh, time_limit=1e99)
     assert limited.converged
     assert limited.friction == free.friction
 
