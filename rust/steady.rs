@@ -45,6 +45,7 @@ pub fn solve(
         settings,
         start,
         watch,
+        tolerance,
         counts: Counts::default(),
     };
     let first = start.map(|solution| &solution.finest);
@@ -75,8 +76,16 @@ struct Work<'a> {
     settings: &'a Settings,
     start: Option<&'a Solution>,
     watch: &'a Watch<'a>,
+    tolerance: Option<f64>,
     counts: Counts,
 }
+
+/// What is said of a mesh that was not worth a load path.
+const GIVEN_UP: newton::Report = newton::Report {
+    status: Status::IterationLimit,
+    iterations: 0,
+    residual: f64::NAN,
+};
 
 impl Work<'_> {
     fn load(&self) -> f64 {
@@ -156,6 +165,10 @@ impl Work<'_> {
                 solved = Some((state, report, 1.0));
             }
         }
+        if solved.is_none() && coarse.is_some() && self.beyond(&mesh) {
+            let nothing = State::at_rest(&mesh);
+            return self.solution(mesh, &memory, nothing, GIVEN_UP, 0.0);
+        }
         let (state, report, load_reached) = solved.unwrap_or_else(|| {
             let mut state = State::at_rest(&mesh);
             let (report, reached) =
@@ -172,6 +185,12 @@ impl Work<'_> {
             found.report.status = Status::MeanShear;
         }
         Ok(found)
+    }
+
+    /// Whether a mesh is finer than what was asked for, and wanted for trust alone: it is worth the
+    /// way from its coarser solution, and not a load path of its own.
+    fn beyond(&self, mesh: &Mesh) -> bool {
+        self.tolerance.is_none() && mesh.columns > self.problem.mesh.columns
     }
 
     fn solution(

@@ -45,7 +45,11 @@ impl MeshSequence {
         }
         while halve(settings.coarsest_nodes) {}
         let mut required = columns.len();
-        while columns[columns.len() - 1] * 2 <= settings.finest_columns {
+        let most = match judge.tolerance {
+            Some(_) => settings.finest_columns,
+            None => settings.rescue_columns.min(settings.finest_columns),
+        };
+        while columns[columns.len() - 1] * 2 <= most {
             columns.push(columns[columns.len() - 1] * 2);
         }
         let needed = if judge.tolerance.is_none() {

@@ -89,7 +89,7 @@ fn a_start_needs_two_meshes() {
         let found = visited(columns, None, Some(&start));
         assert_eq!(found, [columns.div_ceil(2), columns]);
     }
-    assert_eq!(sequence(128, None, Some(&start)).sizes.len(), 4);
+    assert_eq!(sequence(128, None, Some(&start)).sizes.len(), 3);
 }
 
 /// Errors fall to a quarter at most where columns are doubled, so a start that is good to 0.9 of the
