@@ -34,7 +34,7 @@ class FiniteStrainBlock:
     ----------
     mesh : Mesh
         The mesh, or with a tolerance the one whose proportions are kept. Its columns are doubled,
-        to 512 at most, as long as the two frictions differ by more than the `friction_bound` of
+        to 256 at most, as long as the two frictions differ by more than the `friction_bound` of
         the result, or contacts of fewer than 4 nodes carry half of the load.
     tolerance : float, optional
         Largest estimated discretisation error, absolute in contact fraction and relative in
