@@ -105,6 +105,7 @@ settings! {
     dwell_steps: usize = 40 in 2..=10_000, "Time steps of a dwell, their lengths growing geometrically.";
     dwell_first: f64 = 1e-4 in 1e-12..=0.5, "First time step of a dwell over its duration [-].";
     longest_stage: f64 = 10_000.0 in 1.0..=1e6, "Longest way of one stage [wavelengths].";
+    path_columns: usize = 128 in 4..=1024, "Most columns of a mesh, finer than asked for trust alone, on which the load is raised anew.";
     rescue_columns: usize = 256 in 4..=1024, "Most columns of a mesh finer than the one asked for, where that does not carry the load or is not to be trusted.";
     large_mean_shear: f64 = 2.0 in 0.1..=100.0, "A load path that ends at a mean shear of the block beyond this ends because of it [-].";
 

@@ -187,10 +187,11 @@ impl Work<'_> {
         Ok(found)
     }
 
-    /// Whether a mesh is finer than what was asked for, and wanted for trust alone: it is worth the
-    /// way from its coarser solution, and not a load path of its own.
+    /// Whether a mesh is finer than what was asked for, wanted for trust alone, and too fine to be
+    /// worth a load path of its own.
     fn beyond(&self, mesh: &Mesh) -> bool {
-        self.tolerance.is_none() && mesh.columns > self.problem.mesh.columns
+        let asked = self.problem.mesh.columns.max(self.settings.path_columns);
+        self.tolerance.is_none() && mesh.columns > asked
     }
 
     fn solution(
