@@ -156,16 +156,17 @@ impl Work<'_> {
         let memory = self.memory(&mesh);
         let pressed = self.model.pressed(&mesh, &memory, self.watch);
         let load = self.load();
-        let mut solved = None;
+        let (mut solved, mut time_left) = (None, true);
         if let Some(mut state) = self.guess(&mesh, coarse) {
             let report = newton::solve(&pressed, &mut None, &mut state, load, self.settings);
             self.counts.iterations += report.iterations;
             self.counts.load_steps += 1;
+            time_left = report.status != Status::TimeLimit;
             if report.status == Status::Converged {
                 solved = Some((state, report, 1.0));
             }
         }
-        if solved.is_none() && coarse.is_some() && self.beyond(&mesh) {
+        if time_left && solved.is_none() && coarse.is_some() && self.beyond(&mesh) {
             let nothing = State::at_rest(&mesh);
             return self.solution(mesh, &memory, nothing, GIVEN_UP, 0.0);
         }
