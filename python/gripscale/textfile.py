@@ -17,7 +17,7 @@ import math
 import os
 import re
 import sys
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from decimal import Decimal
@@ -174,6 +174,15 @@ def file_path(path: object) -> Path:
     if not isinstance(path, str | os.PathLike):
         raise InputError(f"path must be the path of a file; got {shown(path)}")
     return Path(path)
+
+
+def file_paths(path: object) -> list[Path]:
+    """Return one path or several; raise `InputError` if there is none or something else."""
+    if isinstance(path, Sequence) and not isinstance(path, str | bytes):
+        if not path:
+            raise InputError("path must name at least one file; got none")
+        return [file_path(one) for one in path]
+    return [file_path(path)]
 
 
 def read_bytes(path: Path) -> bytes:

@@ -17,15 +17,8 @@ from numpy.typing import NDArray
 from gripscale.chain.prediction import Prediction
 from gripscale.chain.rubber_at import RubberAt
 from gripscale.conditions.chain_heat import Warming, warming
-from gripscale.conditions.conditions import (
-    AGREED,
-    MOST_PASSES,
-    SETTLED,
-    Conditions,
-    RubberState,
-    rubber_under,
-)
-from gripscale.conditions.fixed_point import FixedPoint
+from gripscale.conditions.conditions import Conditions, RubberState, rubber_under
+from gripscale.conditions.fixed_point import MOST_PASSES, FixedPoint
 from gripscale.conditions.mixing import mixed, separate
 from gripscale.conditions.wave_heat import WaveHeat
 from gripscale.conditions.wave_strain import strains
@@ -114,7 +107,7 @@ def _passes(
         given = _OfLastPass(conditions, rubber, *separate(point.assumed))
         now = walk(given, last if walk.warm else None)
         point.found(_found(conditions, now))
-        settled = point.missed < AGREED and (last is None or _change(now, last) < SETTLED)
+        settled = point.settled(_results(now), None if last is None else _results(last))
         if settled or number == MOST_PASSES:
             return _told(now, given, number, settled=settled)
         last = now
@@ -140,11 +133,9 @@ def chain_warming(conditions: Conditions, solved: Prediction) -> list[Warming]:
     return warming(heats, speed=speed, time=time, thermal=conditions.heat)
 
 
-def _change(now: Prediction, last: Prediction) -> float:
-    pairs = [(now.contact_fraction, last.contact_fraction)]
-    if now.load.speed > 0.0:
-        pairs.append((now.friction, last.friction))
-    return max(abs(a - b) / max(abs(b), 1e-300) for a, b in pairs)
+def _results(now: Prediction) -> list[float]:
+    """Return what must not change any more: friction only where it slides."""
+    return [now.contact_fraction, *([now.friction] if now.load.speed > 0.0 else [])]
 
 
 def _told(solved: Prediction, given: _OfLastPass, passes: int, *, settled: bool) -> Prediction:

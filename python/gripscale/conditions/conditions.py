@@ -27,15 +27,6 @@ Array = NDArray[np.float64]
 StrainNorm = Literal["slope", "stretch"]
 STRAIN_NORMS = ("slope", "stretch")
 
-MOST_PASSES = 8
-"""After which iteration ends, on the meshes or grids asked for and before on coarse ones."""
-SETTLED = 3e-4
-"""Relative change of contact fraction and friction between passes at which they have settled: a
-third of the 1e-3 that is promised."""
-AGREED = 2e-3
-"""Largest difference of what was found from what was assumed, of log strains and temperatures
-(`mixing`), at which they agree: friction changes by less than half of it."""
-
 HARMONICS = np.geomspace(1.0, 16.0, 12)
 """Multiples of a wave's frequency at which the softened moduli are asked for."""
 

@@ -109,24 +109,18 @@ def grid_temperature(
     uniform = [
         flux * heat.friction * rise.uniform_at_surface(time, heat.depth, thermal) for heat in heats
     ]
-    surface = np.zeros(grid.spectrum_shape, dtype=complex)
-    for source, heat in zip(sources, heats, strict=True):
-        surface += source * rise.harmonic_at_surface(m, heat.depth, thermal)
+    surfaces = [
+        source * rise.harmonic_at_surface(m, heat.depth, thermal)
+        for source, heat in zip(sources, heats, strict=True)
+    ]
+    surface = sum(surfaces, np.zeros(grid.spectrum_shape, dtype=complex))
     octave = []
     for which, heat in enumerate(heats):
         pattern = _without_mean(heat.density)
-        seen = np.zeros(grid.spectrum_shape, dtype=complex)
-        level = 0.0
-        for other, source in enumerate(sources):
-            of = heats[other]
-            if other == which:
-                response = rise.harmonic_where_lost(m, heat.depth, thermal)
-                lasting = rise.uniform_where_lost(time, heat.depth, thermal)
-                level += flux * heat.friction * lasting
-            else:
-                response = heat.depth.decay(m) * rise.harmonic_at_surface(m, of.depth, thermal)
-                level += uniform[other]
-            seen += source * response
+        seen = heat.depth.decay(m) * (surface - surfaces[which])
+        seen += sources[which] * rise.harmonic_where_lost(m, heat.depth, thermal)
+        lasting = rise.uniform_where_lost(time, heat.depth, thermal)
+        level = sum(uniform) - uniform[which] + flux * heat.friction * lasting
         octave.append(level + _mean_product(grid, seen, pattern))
     field = scipy.fft.irfftn(surface, s=grid.shape) + sum(uniform)
     return GridTemperature(np.asarray(field), np.array(octave))

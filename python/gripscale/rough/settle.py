@@ -12,8 +12,8 @@ from dataclasses import replace
 import numpy as np
 
 from gripscale.conditions.by_scale import RubberByScale
-from gripscale.conditions.conditions import AGREED, MOST_PASSES, SETTLED, Conditions
-from gripscale.conditions.fixed_point import FixedPoint
+from gripscale.conditions.conditions import Conditions
+from gripscale.conditions.fixed_point import MOST_PASSES, FixedPoint
 from gripscale.conditions.mixing import mixed, separate
 from gripscale.conditions.state_by_scale import StateByScale, state_by_scale
 from gripscale.rough.grid import Array
@@ -74,7 +74,7 @@ def _passes(
         )
         now = solve(state.rubber)
         point.found(_found(conditions, now, number, time))
-        settled = point.missed < AGREED and (last is None or _change(now, last) < SETTLED)
+        settled = point.settled(_results(now), None if last is None else _results(last))
         if settled or not now.converged or passes == MOST_PASSES:
             return _told(now, conditions, state, passes, time, settled=settled)
         last = now
@@ -116,11 +116,9 @@ def _found(conditions: Conditions, contact: RoughContact, number: Array, time: f
     return mixed(warm, strain)
 
 
-def _change(now: RoughContact, last: RoughContact) -> float:
-    pairs = [(now.contact_fraction, last.contact_fraction)]
-    if now.speed > 0.0:
-        pairs.append((now.friction_from_dissipation, last.friction_from_dissipation))
-    return max(abs(a - b) / max(abs(b), 1e-300) for a, b in pairs)
+def _results(now: RoughContact) -> list[float]:
+    """Return what must not change any more: friction only where it slides."""
+    return [now.contact_fraction, *([now.friction_from_dissipation] if now.speed > 0.0 else [])]
 
 
 def _told(

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from gripscale import checks
 from gripscale.netcdf import write_whole
-from gripscale.rubber.arguments import file_path, instance
 from gripscale.rubber.master_curve import MasterCurve
+from gripscale.textfile import file_path
 
 
 def write_master_curve(path: str | Path, master: MasterCurve) -> Path:
@@ -16,7 +17,7 @@ def write_master_curve(path: str | Path, master: MasterCurve) -> Path:
 
     Raises `FileError` if the file cannot be written.
     """
-    instance("master", master, MasterCurve)
+    checks.instance("master", master, MasterCurve)
     lines = [f"# {' '.join(text.split())}" for text in (master.name, master.source) if text]
     if master.reference_temperature is not None:
         lines.append(f"# reference temperature (K): {master.reference_temperature:g}")

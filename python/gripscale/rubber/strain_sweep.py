@@ -15,7 +15,6 @@ from numpy.typing import ArrayLike
 
 from gripscale import checks
 from gripscale.errors import FileError, InputError
-from gripscale.rubber.arguments import file_path
 from gripscale.rubber.reader import modulus_of, unit_of
 from gripscale.rubber.sweep_blocks import Block, read_blocks
 from gripscale.rubber.sweeps import TOLERANCE, Array
@@ -28,7 +27,7 @@ from gripscale.rubber.sweeps_reader import (
     row_temperatures,
     young_moduli,
 )
-from gripscale.textfile import TextTable
+from gripscale.textfile import TextTable, file_path
 from gripscale.units import in_si
 
 AMPLITUDES = {"single": 1.0, "peak-to-peak": 0.5}

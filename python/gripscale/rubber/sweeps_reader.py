@@ -17,13 +17,12 @@ from numpy.typing import NDArray
 
 from gripscale import checks
 from gripscale.errors import FileError, InputError
-from gripscale.rubber.arguments import file_paths
 from gripscale.rubber.ramps import sweeps_from_ramps
 from gripscale.rubber.reader import modulus_of, position_of, unit_of
 from gripscale.rubber.sweep_blocks import Block, read_blocks
 from gripscale.rubber.sweeps import TOLERANCE, Array, Sweeps
 from gripscale.rubber.titles import quantity
-from gripscale.textfile import TextTable
+from gripscale.textfile import TextTable, file_paths
 from gripscale.units import in_si
 
 MODULI = ("storage", "loss", "loss_factor", "magnitude")

@@ -17,7 +17,6 @@ import numpy as np
 
 from gripscale import checks
 from gripscale.errors import InputError
-from gripscale.rubber.arguments import instance
 from gripscale.rubber.shift.base import EDGE, Array
 from gripscale.rubber.shift.table import ShiftTable
 from gripscale.rubber.shift.wlf import GAS_CONSTANT, WLF, Arrhenius
@@ -159,7 +158,7 @@ def fit_arrhenius(
 
 
 def _reference(table: ShiftTable, given: float | None) -> float:
-    instance("table", table, ShiftTable)
+    checks.instance("table", table, ShiftTable)
     reference = table.reference_temperature if given is None else given
     if reference is None:
         raise InputError("reference_temperature [K] must be given, because the table states none")

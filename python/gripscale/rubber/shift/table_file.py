@@ -13,12 +13,12 @@ from pathlib import Path
 
 import numpy as np
 
+from gripscale import checks
 from gripscale.errors import FileError, InputError
 from gripscale.netcdf import write_whole
-from gripscale.rubber.arguments import file_path, instance
 from gripscale.rubber.shift.base import Array
 from gripscale.rubber.shift.table import ShiftTable
-from gripscale.textfile import TextTable, read_table, read_text
+from gripscale.textfile import TextTable, file_path, read_table, read_text
 from gripscale.units import in_si, listed, spelled
 
 _TITLES = (
@@ -39,7 +39,7 @@ def write_shift_table(path: str | Path, table: ShiftTable) -> Path:
 
     Raises `FileError` if it cannot be written.
     """
-    instance("table", table, ShiftTable)
+    checks.instance("table", table, ShiftTable)
     columns = (
         np.round(table.temperature - _ZERO_CELSIUS, _DECIMALS),
         table.horizontal,

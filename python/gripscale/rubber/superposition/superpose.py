@@ -12,7 +12,6 @@ import numpy as np
 
 from gripscale import checks
 from gripscale.errors import InputError
-from gripscale.rubber.arguments import instance
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.shift import Shift, ShiftTable
 from gripscale.rubber.superposition.joint import Joint, align
@@ -85,7 +84,7 @@ def superpose_report(
 
     Arguments and errors are those of `superpose`.
     """
-    instance("sweeps", sweeps, Sweeps)
+    checks.instance("sweeps", sweeps, Sweeps)
     reference = checks.positive("reference_temperature", reference_temperature, unit="K")
     lifted = checks.flag("vertical", vertical)
     checks.one_of("moduli", moduli, MODULI)
