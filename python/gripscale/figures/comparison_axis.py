@@ -110,7 +110,7 @@ def _measured(axes: Axes, comparison: xr.Dataset) -> None:
         axes.errorbar(
             series.speed, series.friction, yerr=np.nan_to_num(series.spread),
             fmt=MARKS[number % len(MARKS)], ms=5.5, mfc="white", mec=COLOUR, ecolor=COLOUR,
-            mew=1.3, capsize=2.5, zorder=5, label=series.label,
+            mew=1.3, capsize=2.5, zorder=5, label=series.label, clip_on=False,
         )  # fmt: skip
         low, high = min(low, series.speed[0]), max(high, series.speed[-1])
     axes.set_xlim(low, high)
