@@ -21,6 +21,7 @@ from gripscale.rubber import (
 )
 from gripscale.surface import (
     CleaningReport,
+    CutOffRule,
     HeightDifference,
     HeightMap,
     Measured,
@@ -30,6 +31,7 @@ from gripscale.surface import (
     SineStack,
     clean,
     clean_map,
+    find_cut_off,
     fit_self_affine,
     fit_sines,
     height_difference,
@@ -85,15 +87,29 @@ def prepare_surface(surface: Surface, resolve: Resolve = Path) -> PreparedSurfac
     counted = {key: getattr(surface, key) for key in COUNTED_KEYS}
     correlation = height_difference(measured.cleaned, **counted)
     self_affine, why_not = _self_affine(correlation)
+    measured = replace(measured, self_affine=self_affine, no_self_affine=why_not)
     fit = {key: getattr(surface, key) for key in FIT_KEYS}
+    if surface.cut_off is not None:
+        fit["cut_off"] = _cut_off(measured, surface.cut_off, paths[0])
     return PreparedSurface(
         fit_sines(correlation, **fit),
         ", ".join(str(path) for path in paths),
         correlation,
         fit,
-        replace(measured, self_affine=self_affine, no_self_affine=why_not),
+        measured,
         counted,
+        surface.cut_off,
     )
+
+
+def _cut_off(measured: Measured, rule: CutOffRule, path: Path) -> float:
+    """Return where the roughness ends [m]; an error names the file."""
+    if isinstance(rule, float):
+        return rule
+    try:
+        return find_cut_off(measured.slopes, rule).wavelength
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from error
 
 
 def _profiles(surface: Surface, paths: list[Path]) -> Measured:

@@ -9,7 +9,8 @@ import numpy as np
 import xarray as xr
 
 from gripscale.comparison.curve import Curve, curve_of
-from gripscale.model import extrapolation_of
+from gripscale.cut_off_exponents import NOT_TOLD, CutOffExponents
+from gripscale.model import cut_off_exponents_of, extrapolation_of
 from gripscale.rubber.extrapolation import UNKNOWN, Extrapolation
 
 CONVERGED = "converged"
@@ -34,6 +35,8 @@ class Sample:
     """The same of the friction coefficient."""
     extrapolation: Extrapolation = UNKNOWN
     """What of it rests on the rubber beyond its measured frequencies."""
+    cut_off_exponents: CutOffExponents = NOT_TOLD
+    """How it changes with the smallest wavelength."""
     curve: Curve | None = None
     """Down to each wavelength, where the model tells it."""
     seconds: float = 0.0
@@ -60,6 +63,7 @@ def sample_of(answer: xr.Dataset, of: str = "") -> Sample:
         contact_fraction_error=_error(answer, "contact_fraction"),
         friction_error=math.nan if rest else _error(answer, "friction"),
         extrapolation=extrapolation_of(answer),
+        cut_off_exponents=cut_off_exponents_of(answer),
         curve=curve_of(answer),
         seconds=float(answer.attrs.get("seconds", 0.0)),
     )

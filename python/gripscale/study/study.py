@@ -69,7 +69,7 @@ class Study:
         The case, or its file. What is not varied is as it says.
     vary
         One or two of speed, pressure, smallest_wavelength, cut_off (numbers in SI units, or texts
-        with a unit), upper_share (numbers), waves, pressure_classes (whole numbers), factors
+        with a unit; a cut_off also as a rule, see `gripscale.surface.cut_off_rule`), upper_share (numbers), waves, pressure_classes (whole numbers), factors
         (pairs of magnification factors, or "3.5/2.4"), rubber and surface (names and files, or a
         mapping from names to `Rubber`, `SineStack`, names and files), each with its values, or
         with a text as on the command line
