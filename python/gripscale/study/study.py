@@ -69,10 +69,10 @@ class Study:
         The case, or its file. What is not varied is as it says.
     vary
         One or two of speed, pressure, smallest_wavelength, cut_off (numbers in SI units, or texts
-        with a unit; a cut_off also as a rule, see `gripscale.surface.cut_off_rule`), upper_share (numbers), waves, pressure_classes (whole numbers), factors
-        (pairs of magnification factors, or "3.5/2.4"), rubber and surface (names and files, or a
-        mapping from names to `Rubber`, `SineStack`, names and files), each with its values, or
-        with a text as on the command line
+        with a unit; a cut_off also as a rule, see `gripscale.surface.cut_off_rule`), upper_share
+        (numbers), waves, pressure_classes (whole numbers), factors (pairs of magnification factors,
+        or "3.5/2.4"), rubber and surface (names and files, or a mapping from names to `Rubber`,
+        `SineStack`, names and files), each with its values, or with a text as on the command line
         ("0.003:30:log9", "1 bar,3 bar"). A speed of zero is static contact.
     static
         Whether the relaxed rubber at rest is solved, too; as the case says by default.

@@ -179,6 +179,8 @@ def cut_off_rule(value: Any) -> CutOffRule:
     words = _WORDS.fullmatch(value) if isinstance(value, str) else None
     if words is not None:
         number, of, extrapolate = words.groups()
+        if not _NUMBER.fullmatch(number):
+            raise ValueError('expected a number after rms_slope, such as "rms_slope 1.3"')
         return RmsSlope(float(number), of or "surface", extrapolate is not None)
     try:
         length = parse_quantity(value, "length")
@@ -191,7 +193,8 @@ def cut_off_rule(value: Any) -> CutOffRule:
     return length
 
 
-_WORDS = re.compile(r"\s*rms_slope\s+([0-9.eE+-]+)(?:\s+of\s+(\w+))?(\s+extrapolate)?\s*")
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
+_WORDS = re.compile(r"\s*rms_slope\s+(\S+)(?:\s+of\s+(\w+))?(\s+extrapolate)?\s*")
 
 
 def _at(slopes: SlopeByWavelength, length: float, why: str) -> CutOff:

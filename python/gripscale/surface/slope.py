@@ -77,6 +77,8 @@ class SlopeByWavelength:
     """Of the surface; None where the lines do not determine it."""
     carried: float
     """Shortest wavelength the measurement carries [m]."""
+    isotropic: bool = True
+    """Whether the surface is the isotropic one of the lines, and not measured itself."""
 
     @property
     def wavelength(self) -> FloatArray:
@@ -139,28 +141,44 @@ class SlopeByWavelength:
     def power_law(self, of: str = "surface") -> PowerLaw:
         """Return how the slope goes on beyond the measurement.
 
+        For the surface of profiles the exponent is that of their own spectrum, with the closed form
+        of `areal_spectrum`.
+
         Raises `InputError` if the last decade that is carried has fewer than four points, or does
         not fall as the spectrum of a self-affine surface (H above zero).
         """
-        spectrum = self.areal if of == "surface" else self.line.averaged()
+        from scipy.special import gamma
+
+        checks.one_of("of", of, DEFINITIONS)
+        own = of == "surface" and not self.isotropic
+        if own and self.areal is not None:
+            q, growth = self.areal.wavenumber, 2.0 * np.pi * self.areal.wavenumber**4
+            law = self._fitted(q, growth * self.areal.density)
+        else:
+            mean = self.line.averaged()
+            law = self._fitted(mean.wavenumber, mean.wavenumber**3 * mean.density)
+        if own or of == "profile":
+            return law
+        seen = math.sqrt(math.pi) * gamma(law.hurst + 1.0) / gamma(law.hurst + 0.5)
+        return PowerLaw(law.hurst, float(seen) * law.growth)
+
+    def _fitted(self, q: FloatArray, growth: FloatArray) -> PowerLaw:
+        """Return the power law of what the mean square slope grows by per unit of log q."""
         last = 2.0 * np.pi / self.carried
-        q = np.zeros(0) if spectrum is None else spectrum.wavenumber
-        used = (q <= last * (1.0 + ROUNDING)) & (q >= last / _FITTED)
-        if spectrum is None or used.sum() < _FEWEST or (spectrum.density[used] <= 0.0).any():
+        used = (q <= last * (1.0 + ROUNDING)) & (q >= last / _FITTED) & (growth > 0.0)
+        if used.sum() < _FEWEST:
             raise InputError(
-                f"the spectrum of the {of} must have {_FEWEST} points above zero in the decade "
-                f"above {self.carried:.4g} m to be continued; got "
-                f"{0 if spectrum is None else int((spectrum.density[used] > 0.0).sum())}"
+                f"the spectrum must have {_FEWEST} points above zero in the decade above "
+                f"{self.carried:.4g} m to be continued; got {used.sum()}"
             )
-        weight = 2.0 * np.pi * q**4 if of == "surface" else q**3
-        growth = np.log((weight * spectrum.density)[used])
-        power, at_end = np.polyfit(np.log(q[used] / last), growth, 1)
+        # bins evenly spaced in log q hold waves in proportion to q, and scatter by their root
+        logs, weight = np.log(q[used] / last), np.sqrt(q[used])
+        power, at_end = np.polyfit(logs, np.log(growth[used]), 1, w=weight)
         hurst = 1.0 - 0.5 * float(power)
         if hurst <= 0.0:
             raise InputError(
-                f"the spectrum of the {of} must fall as that of a self-affine surface to be "
-                f"continued; above {self.carried:.4g} m its exponent is H = {hurst:.2f}, as of "
-                "noise"
+                f"the spectrum must fall as that of a self-affine surface to be continued; above "
+                f"{self.carried:.4g} m its exponent is H = {hurst:.2f}, as of noise"
             )
         return PowerLaw(hurst, math.exp(float(at_end)))
 
@@ -203,10 +221,11 @@ def slope_by_wavelength(
     """
     if isinstance(surface, HeightMap):
         x_step, y_step = surface.step
-        line = profile_spectrum(surface.lines())
+        # of many lines no windows are needed: the waves longer than a window have their slope, too
+        line = profile_spectrum(surface.lines(), window=x_step * surface.x.size)
         areal = map_spectrum(surface.z, x_step=x_step, y_step=y_step)
         carried = max(CARRIED_STEPS * max(surface.step), surface.reliable or 0.0)
-        return SlopeByWavelength(line, areal, carried)
+        return SlopeByWavelength(line, areal, carried, isotropic=False)
     line = profile_spectrum(surface)
     profiles = [surface] if isinstance(surface, Profile) else surface
     return SlopeByWavelength(line, _isotropic(line), max(one.carried for one in profiles))
