@@ -90,7 +90,8 @@ def prepare_surface(surface: Surface, resolve: Resolve = Path) -> PreparedSurfac
     measured = replace(measured, self_affine=self_affine, no_self_affine=why_not)
     fit = {key: getattr(surface, key) for key in FIT_KEYS}
     if surface.cut_off is not None:
-        fit["cut_off"] = _cut_off(measured, surface.cut_off, paths[0])
+        where = str(paths[0]) if len(paths) == 1 else f"{len(paths)} profiles"
+        fit["cut_off"] = _cut_off(measured, surface.cut_off, where)
     return PreparedSurface(
         fit_sines(correlation, **fit),
         ", ".join(str(path) for path in paths),
@@ -102,14 +103,14 @@ def prepare_surface(surface: Surface, resolve: Resolve = Path) -> PreparedSurfac
     )
 
 
-def _cut_off(measured: Measured, rule: CutOffRule, path: Path) -> float:
-    """Return where the roughness ends [m]; an error names the file."""
+def _cut_off(measured: Measured, rule: CutOffRule, where: str) -> float:
+    """Return where the roughness ends [m]; an error begins with `where`."""
     if isinstance(rule, float):
         return rule
     try:
         return find_cut_off(measured.slopes, rule).wavelength
     except InputError as error:
-        raise InputError(f"{path}: {error}") from error
+        raise InputError(f"{where}: {error}") from error
 
 
 def _profiles(surface: Surface, paths: list[Path]) -> Measured:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from gripscale.cut_off_exponents import OCTAVE
+from gripscale.cut_off_exponents import NOT_CONVERGED, NOT_TOLD, OCTAVE
 from gripscale.figures.palette import MILLI
 from gripscale.model import cut_off_exponents_of
 
@@ -20,9 +20,12 @@ EXPONENT = "d ln μ / d ln λ_min"
 
 
 def exponent_sentence(data: xr.Dataset) -> str:
-    """Return how a prediction changes with its smallest wavelength; empty if it has no totals."""
+    """Return how a prediction changes with its smallest wavelength, or why that is not known.
+
+    Empty where there are no totals, or the model does not tell.
+    """
     found = cut_off_exponents_of(data)
-    if math.isnan(float(data["total_contact_fraction"])) and math.isnan(found.friction):
+    if found.why_not in (NOT_TOLD.why_not, NOT_CONVERGED.why_not):
         return ""
     known = [
         f"d ln {symbol} / d ln λ_min = {value:.2f}"

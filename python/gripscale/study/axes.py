@@ -171,9 +171,10 @@ def _quantity(name: str, value: Any) -> float:
 
 def _cut_off(name: str, value: Any) -> CutOffRule:
     """Read a length, or one of the other rules."""
+    if not isinstance(value, str | dict | RmsSlope) or (isinstance(value, str) and _bare(value)):
+        return _quantity(name, value)
     try:
-        stated = float(value) if isinstance(value, str) and _bare(value) else value
-        return cut_off_rule(stated)
+        return cut_off_rule(value)
     except ValueError as error:
         raise InputError(f"{name} = {value!r}: {error}") from error
 

@@ -1,7 +1,7 @@
 """The surface: measured profile, its height difference correlation, and the sines that match it."""
 
 from gripscale.surface.cleaning import CleaningReport, StepReport, clean
-from gripscale.surface.cut_off import CutOff, CutOffRule, RmsSlope, cut_off_rule, find_cut_off
+from gripscale.surface.cut_off import CutOff, CutOffRule, RmsSlope, find_cut_off
 from gripscale.surface.doubts import profile_doubts
 from gripscale.surface.height_difference import HeightDifference, height_difference
 from gripscale.surface.height_map import HeightMap
@@ -43,7 +43,6 @@ __all__ = [
     "areal_spectrum",
     "clean",
     "clean_map",
-    "cut_off_rule",
     "find_cut_off",
     "fit_self_affine",
     "fit_sines",
