@@ -59,7 +59,7 @@ def test_slope_beyond_the_measurement_is_extrapolated_only_where_asked_for() -> 
     assert found.surface_slope == pytest.approx(wanted)
     # h'^2 ~ q^(2 - 2H) far above xi: 1.2^(1/(1 - H)) = 1.84 further down, H itself within 0.05
     assert 1.5 < SLOPES.carried / found.wavelength < 2.2
-    with pytest.raises(gs.InputError, match="within a factor of 100 below 0.4 mm"):
+    with pytest.raises(gs.InputError, match=r"within a factor of 100 below 0\.4 mm"):
         find_cut_off(SLOPES, RmsSlope(100.0, extrapolate=True))
 
 

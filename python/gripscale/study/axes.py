@@ -117,7 +117,9 @@ def _axis(name: str, given: Any) -> Axis:
         values, labels = _named(name, given)
     else:
         values = tuple(_READERS[name](name, entry) for entry in _entries(name, given))
-        labels = tuple(_label(value) for value in values)
+        worded = any(isinstance(value, RmsSlope | str) for value in values)
+        unit = f" {UNITS[name]}" if worded else ""
+        labels = tuple(f"{_label(v)}{unit if isinstance(v, float) else ''}" for v in values)
     if not 1 <= len(values) <= MOST_VALUES:
         raise InputError(f"{name} must have 1 to {MOST_VALUES} values; got {len(values)}")
     twice = {label for label in labels if labels.count(label) > 1}
