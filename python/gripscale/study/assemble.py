@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gripscale.model import OUTSIDE_BAND, TOTALS
+from gripscale.model import CUT_OFF_EXPONENTS, OUTSIDE_BAND, TOTALS, WHY_NO_EXPONENT
 from gripscale.rubber import Rubber
 from gripscale.study.axes import LONG_NAMES, UNITS, Axis
 from gripscale.study.decades import friction_by_decade
@@ -16,7 +16,7 @@ from gripscale.study.decades import friction_by_decade
 Index = tuple[int, ...]
 Predictions = dict[Index, xr.Dataset]
 
-OF_ALL = (*TOTALS, *OUTSIDE_BAND, "prediction_status")
+OF_ALL = (*TOTALS, *OUTSIDE_BAND, *CUT_OFF_EXPONENTS, WHY_NO_EXPONENT, "prediction_status")
 """What every model says of the whole surface."""
 
 
@@ -71,7 +71,9 @@ def coordinates(axes: Iterable[Axis]) -> dict[str, xr.DataArray]:
     out = {}
     for axis in axes:
         values = np.array(axis.coordinate, dtype=None if axis.numeric else object)
-        out[axis.name] = _labelled(axis.name, values, UNITS[axis.name], LONG_NAMES[axis.name])
+        out[axis.name] = _labelled(
+            axis.name, values, UNITS[axis.name] if axis.numeric else "1", LONG_NAMES[axis.name]
+        )
         if axis.name == "factors":
             for at, name in enumerate(("s_wavelength", "s_amplitude")):
                 each = [pair[at] for pair in axis.values]

@@ -2,6 +2,7 @@
 
 - speed=0.003:30:log9: nine speeds [m/s], evenly spaced in their logarithm (lin9: evenly)
 - pressure=1 bar,3 bar: a list, with units
+- cut_off=0.5 mm,instrument,rms_slope 1.3: lengths and the other rules of a case file
 - upper_share=0.3:1:lin8, pressure_classes=1,2,4,8: numbers and whole numbers
 - factors=3.5/2.4,3/2.2,6/3: magnification factors of wavelength and amplitude
 - rubber=case,dma.txt: the case's own, a master curve, a rubber known by name
@@ -20,6 +21,7 @@ import numpy as np
 from gripscale import checks
 from gripscale.chain.pressure import MOST_CLASSES
 from gripscale.errors import InputError
+from gripscale.surface.cut_off import CutOffRule, RmsSlope, cut_off_rule
 from gripscale.surface.sine_fit import MOST_WAVES
 from gripscale.units import parse_quantity
 
@@ -81,7 +83,9 @@ class Axis:
     @property
     def numeric(self) -> bool:
         """Whether the values are numbers, in the unit of `UNITS`."""
-        return self.name in NUMBERS
+        return self.name in NUMBERS and not any(
+            isinstance(value, str | RmsSlope) for value in self.values
+        )
 
     @property
     def coordinate(self) -> list[Any]:
@@ -113,7 +117,9 @@ def _axis(name: str, given: Any) -> Axis:
         values, labels = _named(name, given)
     else:
         values = tuple(_READERS[name](name, entry) for entry in _entries(name, given))
-        labels = tuple(_label(value) for value in values)
+        worded = any(isinstance(value, RmsSlope | str) for value in values)
+        unit = f" {UNITS[name]}" if worded else ""
+        labels = tuple(f"{_label(v)}{unit if isinstance(v, float) else ''}" for v in values)
     if not 1 <= len(values) <= MOST_VALUES:
         raise InputError(f"{name} must have 1 to {MOST_VALUES} values; got {len(values)}")
     twice = {label for label in labels if labels.count(label) > 1}
@@ -163,6 +169,16 @@ def _quantity(name: str, value: Any) -> float:
             raise InputError(f"{name} = {value!r}: {error}") from error
     check = checks.not_negative if name == "speed" else checks.positive
     return check(name, float(value) if isinstance(value, str) else value, unit=UNITS[name])
+
+
+def _cut_off(name: str, value: Any) -> CutOffRule:
+    """Read a length, or one of the other rules."""
+    if not isinstance(value, str | dict | RmsSlope) or (isinstance(value, str) and _bare(value)):
+        return _quantity(name, value)
+    try:
+        return cut_off_rule(value)
+    except ValueError as error:
+        raise InputError(f"{name} = {value!r}: {error}") from error
 
 
 def _count(name: str, value: Any) -> int:
@@ -218,6 +234,8 @@ def _bare(text: str) -> bool:
 
 
 def _label(value: Any) -> str:
+    if isinstance(value, str | RmsSlope):
+        return str(value)
     return "/".join(f"{part:g}" for part in value) if isinstance(value, tuple) else f"{value:.6g}"
 
 
@@ -226,4 +244,5 @@ _READERS: dict[str, Callable[[str, Any], Any]] = {
     **dict.fromkeys(COUNTS, _count),
     "upper_share": _share,
     "factors": _pair,
+    "cut_off": _cut_off,
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import xarray as xr
 
 LABELS = {
@@ -16,10 +17,12 @@ LABELS = {
 """Numeric axes: what their values are divided by, the label of the axis, the unit of a value."""
 
 WORDS = {
+    "cut_off": "where the roughness ends",
     "factors": "magnification factors $s_\\lambda/s_A$",
     "rubber": "rubber",
     "surface": "surface",
 }
+"""Axes that may have names for values."""
 
 
 def dimensions(result: xr.Dataset) -> list[str]:
@@ -29,14 +32,19 @@ def dimensions(result: xr.Dataset) -> list[str]:
 
 def numeric(result: xr.Dataset) -> list[str]:
     """Return the varied axes of numbers with at least two values, longest first."""
-    found = [n for n in dimensions(result) if n in LABELS and result.sizes[n] > 1]
+    found = [n for n in dimensions(result) if result.sizes[n] > 1 and of_numbers(result, n)]
     return sorted(found, key=lambda name: -result.sizes[name])
+
+
+def of_numbers(result: xr.Dataset, axis: str) -> bool:
+    """Return whether an axis has numbers for values; a cut-off may be a rule in words."""
+    return axis in LABELS and bool(np.issubdtype(result[axis].dtype, np.number))
 
 
 def name_of(result: xr.Dataset, axis: str, i: int) -> str:
     """Return what value `i` of an axis is called, with its unit."""
     value = result[axis].values[i]
-    if axis not in LABELS:
+    if not of_numbers(result, axis):
         return str(value).replace("_", " ")
     divisor, _, unit = LABELS[axis]
     return f"{value / divisor:.3g} {unit}"

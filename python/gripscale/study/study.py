@@ -69,11 +69,11 @@ class Study:
         The case, or its file. What is not varied is as it says.
     vary
         One or two of speed, pressure, smallest_wavelength, cut_off (numbers in SI units, or texts
-        with a unit), upper_share (numbers), waves, pressure_classes (whole numbers), factors
-        (pairs of magnification factors, or "3.5/2.4"), rubber and surface (names and files, or a
-        mapping from names to `Rubber`, `SineStack`, names and files), each with its values, or
-        with a text as on the command line
-        ("0.003:30:log9", "1 bar,3 bar"). A speed of zero is static contact.
+        with a unit; a cut_off also "instrument", "rms_slope 1.3" or another `CutOffRule`),
+        upper_share (numbers), waves, pressure_classes (whole numbers), factors (pairs of
+        magnification factors, or "3.5/2.4"), rubber and surface (names and files, or a mapping
+        from names to `Rubber`, `SineStack`, names and files), each with its values, or with a text
+        as on the command line ("0.003:30:log9", "1 bar,3 bar"). A speed of zero is static contact.
     static
         Whether the relaxed rubber at rest is solved, too; as the case says by default.
     model
@@ -301,7 +301,15 @@ class Study:
 
 def _at_rest(data: xr.Dataset) -> xr.Dataset:
     """Return what `data` says of rubber at rest, where there is no friction, as `static_...`."""
-    moving = ("friction", "angular_frequency", "loss_factor", "load_time", "speed", "_band")
+    moving = (
+        "friction",
+        "angular_frequency",
+        "loss_factor",
+        "load_time",
+        "speed",
+        "_band",
+        "_missing",
+    )
     names = [str(name) for name in data.data_vars if not any(word in str(name) for word in moving)]
     return data[names].rename({name: f"static_{name}" for name in names})
 
