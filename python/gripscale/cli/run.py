@@ -75,7 +75,17 @@ def _opening(results: CaseResults) -> list[str]:
         "",
         "Rubber",
         *(f"  {line}" for line in rubber_lines(results.rubber)),
+        *_conditions(results),
     ]
+
+
+def _conditions(results: CaseResults) -> list[str]:
+    from gripscale.report.inputs_text import conditions_lines
+
+    if results.conditions is None:
+        return []
+    told = conditions_lines(results.conditions, results.rubber.rubber)
+    return ["", "Conditions", *(f"  {line}" for line in told)]
 
 
 def _spinner(console: Console) -> AbstractContextManager[Any]:

@@ -69,7 +69,8 @@ def _logarithms(x: ArrayLike, y: ArrayLike) -> Curve:
     both = np.array([np.ravel(x), np.ravel(y)], dtype=float)
     with np.errstate(invalid="ignore"):
         logs = np.log(both[:, ((both > 0.0) & np.isfinite(both)).all(axis=0)])
-    return tuple(logs[:, np.argsort(logs[0])])  # type: ignore[return-value]
+    abscissas, values = logs[:, np.argsort(logs[0])]
+    return abscissas, values
 
 
 def _apart(one: Curve, other: Curve) -> Iterator[tuple[float, float]]:

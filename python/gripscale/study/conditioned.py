@@ -59,7 +59,8 @@ def with_effects(model: M, selection: str) -> M:
                 f"effects must be left out of those the conditions have, "
                 f"{', '.join(asked) or 'none'}; got {selection!r}"
             )
-    return _with(model, replace(conditions_of(model), **dict.fromkeys(left_out)))
+    nothing: dict[str, Any] = dict.fromkeys(left_out)
+    return _with(model, replace(conditions_of(model), **nothing))
 
 
 def rubber_before(rubber: Rubber, model: Model) -> Rubber:

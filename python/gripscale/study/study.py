@@ -100,7 +100,7 @@ class Study:
         self.file = case if isinstance(case, CaseFile) else read_case(case)
         self.axes: tuple[Axis, ...] = axes_of(vary)
         self.static = self.file.case.load.static if static is None else static
-        self.model = model_of(model, self.file.case)
+        self.model = model_of(model, self.file)
         for value in self._values("temperature"):
             at_temperature(self.model, value)
         for value in self._values("effects"):

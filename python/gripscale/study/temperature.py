@@ -49,7 +49,8 @@ def with_master_curve(result: xr.Dataset, rubber: Rubber) -> xr.Dataset:
 
     The shift factors are those to the reference temperature of `rubber`.
     """
-    assert rubber.shift is not None and rubber.reference_temperature is not None
+    assert rubber.shift is not None
+    assert rubber.reference_temperature is not None
     kelvin, reference = result.temperature.values, rubber.reference_temperature
     factors = {
         "shift_factor": (rubber.shift.a(kelvin, reference), "horizontal shift factor a_T"),
