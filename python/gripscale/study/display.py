@@ -47,6 +47,9 @@ WORDS = {
     "surface": "surface",
 }
 
+EFFECTS = {"all": "all effects", "none": "no effects"}
+"""What selections of effects are called where nothing else says what they are of."""
+
 
 def dimensions(result: xr.Dataset) -> list[str]:
     """Return the axes that were varied, in order."""
@@ -62,6 +65,8 @@ def numeric(result: xr.Dataset) -> list[str]:
 def name_of(result: xr.Dataset, axis: str, i: int) -> str:
     """Return what value `i` of an axis is called, with its unit."""
     value = result[axis].values[i]
+    if axis == "effects":
+        return EFFECTS.get(str(value), str(value))
     if axis not in LABELS:
         return str(value).replace("_", " ")
     shown = LABELS[axis]
