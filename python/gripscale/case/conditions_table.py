@@ -28,7 +28,13 @@ Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
 Share = Annotated[float, Field(gt=0.0, le=1.0)]
 
 
-class KrausTable(Table):
+class SofteningSource(Table):
+    """A law of softening, or where one was measured."""
+
+    kind: str
+
+
+class KrausTable(SofteningSource):
     """Kraus' law with its parameters."""
 
     kind: Literal["kraus"]
@@ -44,7 +50,7 @@ class KrausTable(Table):
         return Kraus(**self.model_dump(exclude={"kind"}))
 
 
-class StrainSweeps(Table):
+class StrainSweeps(SofteningSource):
     """Measured strain sweeps, with what their files do not state."""
 
     kind: Literal["table"]
@@ -134,7 +140,7 @@ class ConditionsTable(Table):
     """Effects beside the rubber as measured, each off unless asked for."""
 
     temperature: Temperature | None = None
-    softening: Annotated[InstanceOf[KrausTable | StrainSweeps], by_kind(SOFTENING)] | None = None
+    softening: Annotated[InstanceOf[SofteningSource], by_kind(SOFTENING)] | None = None
     strain_norm: Literal["slope", "stretch"] | None = None
     heat: Heat | None = None
     shear_stress: Annotated[InstanceOf[ShearStress], by_kind(SHEAR_STRESS)] | None = None

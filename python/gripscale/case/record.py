@@ -35,6 +35,7 @@ def inputs(results: CaseResults) -> xr.Dataset:
     surface = results.surface
     excitation = excited(results.file.case.load.speed, surface.sines)
     parts = [_waves(surface), _files(results.file), _rubber(results.rubber, excitation)]
+    parts.append(({}, {"conditions_notes": "\n".join(results.conditions_notes()) or None}))
     if surface.measured is not None and surface.correlation is not None:
         parts.append(_profiles(surface.measured))
         parts.append(_correlation(surface.correlation, surface.measured, surface.sines))

@@ -13,7 +13,7 @@ from gripscale.chain.predict import ChainError
 from gripscale.chain.prediction import Prediction
 from gripscale.conditions.conditions import Conditions
 from gripscale.model import NominalLoad
-from gripscale.rubber import Rubber
+from gripscale.rubber import Rubber, temperature_doubts
 from gripscale.surface import PreparedSurface
 
 DYNAMIC, STATIC = "dynamic", "static"
@@ -59,6 +59,16 @@ class CaseResults:
         """The rubber at the temperature before the contact."""
         rubber = self.rubber.rubber
         return rubber if self.conditions is None else self.conditions.before(rubber)
+
+    def conditions_notes(self) -> list[str]:
+        """Return what the conditions ask for that was not measured."""
+        if self.conditions is None or self.conditions.temperature is None:
+            return []
+        name = self.rubber.rubber.name or "rubber"
+        return [
+            f"{text[0].upper()}{text[1:]}."
+            for text in temperature_doubts({name: self.rubber_before})
+        ]
 
     @property
     def dynamic(self) -> Prediction | None:

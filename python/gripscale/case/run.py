@@ -125,7 +125,7 @@ def _solve(
             on_wave(WaveSolved(name, so_far))
 
     try:
-        predict(
+        results.predictions[name] = predict(
             results.rubber.rubber,
             results.surface.sines,
             pressure=load.pressure,

@@ -85,7 +85,8 @@ def _conditions(results: CaseResults) -> list[str]:
     if results.conditions is None:
         return []
     told = conditions_lines(results.conditions, results.rubber.rubber)
-    return ["", "Conditions", *(f"  {line}" for line in told)]
+    notes = (f"note: {text}" for text in results.conditions_notes())
+    return ["", "Conditions", *(f"  {line}" for line in (*told, *notes))]
 
 
 def _spinner(console: Console) -> AbstractContextManager[Any]:

@@ -11,11 +11,10 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from gripscale.figures.palette import INK
+from gripscale.units import ZERO_CELSIUS
 
 COLOUR = INK
 """Of everything measured."""
-
-ZERO_CELSIUS = 273.15
 
 Array = NDArray[np.float64]
 
