@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import LogLocator, MaxNLocator
 
 from gripscale.figures.palette import GREY, INK, WIDE
 from gripscale.figures.stretches import predictions_beyond
@@ -33,6 +33,8 @@ PANELS = {
     "total_contact_fraction": "real contact area $A_r/A_0$ [-]",
 }
 LEVELS = 9
+MOST_DECADES = 7
+"""Numbers below the reduced speed, which may go over many powers of ten."""
 TEMPERATURES = mpl.colors.ListedColormap(mpl.colormaps["plasma"](np.linspace(0.0, 0.88, 256)))
 
 
@@ -78,6 +80,7 @@ def friction_master_figure(result: xr.Dataset) -> Figure:
             look: dict[str, Any] = {"color": colour, "marker": "o", "ms": 2.6, "lw": 1.0}
             line(axes, one[REDUCED_SPEED], one[name], predictions_beyond(one), **look)
         log_axis(axes, "x")
+        axes.xaxis.set_major_locator(LogLocator(numticks=MOST_DECADES))
         axes.set_xlabel("reduced speed $a_T v$ [m/s]")
         axes.set_ylabel(label)
         dashed_entry(axes)

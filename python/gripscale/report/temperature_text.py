@@ -52,7 +52,7 @@ def _collapse(found: xr.DataArray) -> str:
         )
     verdict = "one curve" if distance <= ONE_CURVE else "not one curve"
     return (
-        f"{verdict}, temperatures at most {significant(100.0 * distance, 2)} % apart at the "
+        f"{verdict}, temperatures up to {significant(100.0 * distance, 2)} % apart at the "
         f"{found.attrs['points']} of {found.attrs['overlapping_points']} points that interpolation "
         f"reaches to {significant(100.0 * float(found.attrs['interpolation_error']), 2)} %"
     )
