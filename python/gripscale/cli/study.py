@@ -122,5 +122,5 @@ def _below(result: xr.Dataset) -> list[str]:
     return [
         *([beyond] if beyond else []),
         *([f"* {shifted}"] if shifted else []),
-        *(f"Over a_T v {words} is {text}." for words, text in collapse_sentences(result)),
+        *(f"Over a_T v, {words}: {text}." for words, text in collapse_sentences(result)),
     ]

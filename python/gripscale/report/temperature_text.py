@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.report.tables import significant
+from gripscale.study.collapse import PER_DECADE
 from gripscale.study.display import name_of
 from gripscale.study.temperature import BEYOND_SHIFT, COLLAPSED
 
@@ -47,12 +48,12 @@ def _collapse(found: xr.DataArray) -> str:
     distance = float(found)
     if np.isnan(distance):
         return (
-            "cannot be compared: the temperatures do not overlap, or more speeds are needed to "
-            "interpolate between them"
+            "cannot be compared: the temperatures do not overlap, or the speeds are less than "
+            f"{PER_DECADE} in a power of ten"
         )
     verdict = "one curve" if distance <= ONE_CURVE else "not one curve"
     return (
-        f"{verdict}, temperatures up to {significant(100.0 * distance, 2)} % apart at the "
+        f"{verdict}: temperatures up to {significant(100.0 * distance, 2)} % apart at the "
         f"{found.attrs['points']} of {found.attrs['overlapping_points']} points that interpolation "
         f"reaches to {significant(100.0 * float(found.attrs['interpolation_error']), 2)} %"
     )

@@ -7,8 +7,10 @@ the polynomial through its six nearest points, in the logarithms of both. Its er
 
 between the neighbours a and b, with the difference to the polynomial through four points at the
 middle of this interval and the two beside it: that of the coarser one, and no accident of a change
-of sign. Only points where it is at most `TRUSTED` count, so that curves that are one are found to
-lie less than 1e-3 apart, however coarse their points. At a point the curves share it is nothing.
+of sign. At a point the curves share it is nothing. Only points where it is at most `TRUSTED` count,
+and between points further apart than `WIDEST` it counts as infinite: friction of a series of one
+relaxation time a decade may ripple by the decade, which coarser points do not show. So curves that
+are one are found to lie less than 1e-3 apart, however coarse their points.
 """
 
 from __future__ import annotations
@@ -28,6 +30,9 @@ TRUSTED = 4e-4
 """Relative error of the interpolation up to which two curves are compared."""
 NEAREST, FEWER = 6, 4
 """Points of the interpolation, and of the one that tells its error."""
+PER_DECADE = 6
+"""Points of a curve in a power of ten of its abscissa, at least, to be interpolated."""
+WIDEST = math.log(10.0) / PER_DECADE
 SAME = 1e-9
 """Difference of two logarithms that is rounding."""
 
@@ -85,18 +90,20 @@ def _apart(one: Curve, other: Curve) -> Iterator[tuple[float, float]]:
 
 
 def _error(x: float, nodes: Array, values: Array) -> float:
-    """Return e(x); infinite where there are too few points to tell."""
+    """Return e(x); infinite where points are too few or too far apart to tell."""
     if np.abs(nodes - x).min() <= SAME:
         return 0.0
     if nodes.size < NEAREST:
         return math.inf
     at = int(np.searchsorted(nodes, x)) - 1
+    low, high = nodes[at : at + 2]
+    if high - low > WIDEST + SAME:
+        return math.inf
     middles = (nodes[1:] + nodes[:-1])[max(at - 1, 0) : at + 2] / 2.0
     apart = max(
         abs(_interpolated(m, nodes, values, NEAREST) - _interpolated(m, nodes, values, FEWER))
         for m in middles
     )
-    low, high = nodes[at : at + 2]
     return float(4.0 * (x - low) * (high - x) / (high - low) ** 2 * apart)
 
 
