@@ -21,6 +21,7 @@ from gripscale.report.study_table import study_table
 from gripscale.report.tables import as_text
 from gripscale.report.temperature_text import collapse_sentences, shift_sentence
 from gripscale.rough.model import DirectContact
+from gripscale.rubber import ShiftTable
 from gripscale.study import Study
 from gripscale.surface import self_affine_profile
 from gripscale.theory import HalfPlane, Persson
@@ -105,10 +106,25 @@ def test_heat_makes_them_several(case: Path, model: Any) -> None:
     assert all(text.startswith("not one curve") for _, text in collapse_sentences(result))
 
 
+def test_a_vertical_shift_makes_them_several(case: Path) -> None:
+    """Moduli a tenth higher where it is warmer: another contact at the same a_T v."""
+    study = Study(case, {"speed": "0.1:10:log5", "temperature": COMMON[1:]})
+    table = ShiftTable(
+        temperature=[COMMON[1], COMMON[2], 293.15],
+        horizontal=[2.5, 2.0, 0.0],
+        vertical=[np.log10(1.1), 0.0, 0.0],
+    )
+    study.rubbers = [replace(study.rubbers[0], shift=table)]
+    result = study.run(case.parent / "study")
+    np.testing.assert_allclose(result.vertical_shift_factor, [1.1, 1.0], rtol=1e-9)
+    assert float(result.contact_fraction_collapse) > 0.02
+
+
 def test_any_temperatures_are_one_curve_by_interpolation(case: Path) -> None:
-    result = over(case, Chain(HalfPlane(points=1024)), "-10 C, -4 C", "0.01:1:log17")
+    result = over(case, Chain(HalfPlane(points=512)), "-5.5 C, -4 C", "0.1:1:log9")
     assert float(result.friction_collapse) < 1e-3
-    assert int(result.friction_collapse.attrs["points"]) > 10
+    assert float(result.friction_collapse.attrs["interpolation_error"]) > 0.0
+    assert int(result.friction_collapse.attrs["points"]) > 5
 
 
 def test_too_few_speeds_are_said_to_be_so(case: Path) -> None:

@@ -27,7 +27,8 @@ def study(
         list[str],
         typer.Option(
             help="What to vary, once or twice: speed=0.003:30:log9, pressure='1 bar,3 bar', "
-            "temperature='0 C:60 C:lin7', effects=all,no_heat,none, smallest_wavelength, cut_off, upper_share, waves, pressure_classes, "
+            "temperature='0 C:60 C:lin7', effects=all,no_heat,none, smallest_wavelength, cut_off, "
+            "upper_share, waves, pressure_classes, "
             "factors=3.5/2.4,3/2.2, rubber=case,dma.txt, surface.",
             metavar="NAME=VALUES",
         ),

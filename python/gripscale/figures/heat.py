@@ -141,4 +141,4 @@ def _map(figure: Figure, axes: Axes, contact: RoughContact, warming: Any) -> Non
     axes.set_xlabel("along the way of sliding $x$ [mm]")
     axes.set_ylabel("$y$ [mm]")
     bar = figure.colorbar(shown, ax=axes, label="warming of the surface [K]")
-    bar.outline.set_linewidth(0.0)  # type: ignore[operator]
+    bar.outline.set_linewidth(0.0)

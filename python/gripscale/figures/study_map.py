@@ -54,7 +54,7 @@ def map_figure(result: xr.Dataset) -> Figure:
         filled = axes.contourf(x, y, values, levels=levels, cmap="viridis")
         axes.contour(x, y, values, levels=levels, colors="white", linewidths=0.4)
         bar = figure.colorbar(filled, ax=axes, label=label, pad=0.02)
-        bar.outline.set_linewidth(0.0)  # type: ignore[operator]
+        bar.outline.set_linewidth(0.0)
         bar.ax.yaxis.set_major_formatter(lambda value, _: short_number(value))
         _points(axes, result, x, y)
         axes.grid(visible=False)
@@ -88,7 +88,7 @@ def friction_master_figure(result: xr.Dataset) -> Figure:
     friction.set_ylim(bottom=0.0)
     area_axis(area)
     bar = figure.colorbar(scale, ax=panels[0], label=LABELS["temperature"].label, pad=0.02)
-    bar.outline.set_linewidth(0.0)  # type: ignore[operator]
+    bar.outline.set_linewidth(0.0)
     handles, labels = friction.get_legend_handles_labels()
     if handles:
         figure.legend(handles, labels, loc="outside upper center")
@@ -98,7 +98,9 @@ def friction_master_figure(result: xr.Dataset) -> Figure:
 def _points(axes: Axes, result: xr.Dataset, x: Any, y: Any) -> None:
     """Mark the predictions by what they rest on."""
     beyond = np.asarray(
-        result.total_friction.copy(data=predictions_beyond(result)).transpose("temperature", "speed")
+        result.total_friction.copy(data=predictions_beyond(result)).transpose(
+            "temperature", "speed"
+        )
     ).astype(bool)
     shifted = result[BEYOND_SHIFT].transpose("temperature", "speed").values.astype(bool)
     shape = np.shape(shifted)
