@@ -28,8 +28,7 @@ def softening_of_sweeps(sweeps: Sequence[StrainSweep], *, measured_at: float) ->
         If sweeps are of different deformations, several are without or at one temperature, or
         `measured_at` lies outside a sweep.
     """
-    for sweep in sweeps:
-        checks.instance("sweeps", sweep, StrainSweep)
+    sweeps = checks.instances("sweeps", sweeps, StrainSweep)
     kinds = sorted({sweep.deformation for sweep in sweeps})
     if len(kinds) != 1:
         told = " and ".join(kinds) or "none"
