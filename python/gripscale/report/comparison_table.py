@@ -69,16 +69,16 @@ def comparison_table(comparison: xr.Dataset) -> Table:
 
 def axis_table(comparison: xr.Dataset, axis: str, name: str) -> Table:
     """Return `contact_fraction` or `friction` of each rung over the axis that was varied."""
-    divisor, _, unit = LABELS[axis]
+    shown = LABELS[axis]
     table = _empty()
-    table.add_column(f"{SYMBOLS[name]}\n{axis.replace('_', ' ')} [{unit}]", no_wrap=True)
+    table.add_column(f"{SYMBOLS[name]}\n{axis.replace('_', ' ')} [{shown.unit}]", no_wrap=True)
     for rung in comparison.rung.values:
         table.add_column(str(rung).replace("_", "\n"), justify="right")
     best = f"best_{name}"
     estimated = bool(np.isfinite(comparison[f"{best}_factor"]).any())
     if estimated:
         table.add_column("best\nestimate", justify="right")
-    for at, value in enumerate(comparison[axis].values / divisor):
+    for at, value in enumerate(shown.of(comparison[axis].values)):
         one = comparison.isel({axis: at})
         marks = [
             ("!" if bad else "") + ("*" if share > WORTH_SAYING else "")

@@ -14,6 +14,7 @@ from gripscale.figures.palette import MEGA, MILLI
 from gripscale.report.elements import Facts, Heading, Table
 from gripscale.report.numbers import NONE, number, percent, whole
 from gripscale.report.source import Run
+from gripscale.units import ZERO_CELSIUS
 
 GIGA, BAR = 1e9, 1e5
 
@@ -187,7 +188,7 @@ def rubber_facts(inputs: xr.Dataset) -> Facts:
         ("Bulk modulus", f"{number(get('bulk_modulus_Pa', math.nan), GIGA)} GPa"),
         ("Maxwell elements", str(moduli.size)),
         ("Measured band", f"{low} to {high} rad/s"),
-        ("Temperature", f"{number(kelvin)} K ({number(kelvin - 273.15)} °C)"),
+        ("Temperature", f"{number(kelvin)} K ({number(kelvin - ZERO_CELSIUS)} °C)"),
     ]
     if "prony_rms_storage" in inputs.attrs:
         names = (

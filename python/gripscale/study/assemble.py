@@ -8,15 +8,31 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gripscale.model import CUT_OFF_EXPONENTS, OUTSIDE_BAND, TOTALS, WHY_NO_EXPONENT
+from gripscale.model import (
+    ADHESIVE_FRICTION,
+    CUT_OFF_EXPONENTS,
+    OUTSIDE_BAND,
+    TOTALS,
+    WHY_NO_EXPONENT,
+)
 from gripscale.rubber import Rubber
 from gripscale.study.axes import LONG_NAMES, UNITS, Axis
 from gripscale.study.decades import friction_by_decade
 
+RENAMED = {"temperature": "wave_temperature"}
+"""Variables over waves that have the name of an axis."""
+
 Index = tuple[int, ...]
 Predictions = dict[Index, xr.Dataset]
 
-OF_ALL = (*TOTALS, *OUTSIDE_BAND, *CUT_OFF_EXPONENTS, WHY_NO_EXPONENT, "prediction_status")
+OF_ALL = (
+    *TOTALS,
+    ADHESIVE_FRICTION,
+    *OUTSIDE_BAND,
+    *CUT_OFF_EXPONENTS,
+    WHY_NO_EXPONENT,
+    "prediction_status",
+)
 """What every model says of the whole surface."""
 
 
@@ -93,7 +109,8 @@ def _kept(data: xr.Dataset) -> xr.Dataset:
         data.attrs["prediction_key"],
         attrs={"units": "1", "long_name": "name of the file the prediction is kept in"},
     )
-    return data[names].assign(prediction_key=key).drop_encoding()
+    kept = data[names].assign(prediction_key=key).drop_encoding()
+    return kept.rename({old: new for old, new in RENAMED.items() if old in kept})
 
 
 def _labelled(dims: Any, values: Any, unit: str, long_name: str) -> xr.DataArray:

@@ -5,6 +5,8 @@
 - cut_off=0.5 mm,instrument,rms_slope 1.3: lengths and the other rules of a case file
 - upper_share=0.3:1:lin8, pressure_classes=1,2,4,8: numbers and whole numbers
 - factors=3.5/2.4,3/2.2,6/3: magnification factors of wavelength and amplitude
+- temperature=0 C:60 C:lin7, 20 C,40 C: always with a unit; effects=all,no heat,none: what of the
+  conditions of the model counts
 - rubber=case,dma.txt: the case's own, a master curve, a rubber known by name
 """
 
@@ -21,9 +23,10 @@ import numpy as np
 from gripscale import checks
 from gripscale.chain.pressure import MOST_CLASSES
 from gripscale.errors import InputError
+from gripscale.study.conditioned import SELECTIONS
 from gripscale.surface.cut_off import CutOffRule, RmsSlope, cut_off_rule
 from gripscale.surface.sine_fit import MOST_WAVES
-from gripscale.units import parse_quantity
+from gripscale.units import ZERO_CELSIUS, parse_quantity
 
 MOST_VALUES = 1000
 MOST_AXES = 2
@@ -31,6 +34,7 @@ MOST_AXES = 2
 QUANTITIES = {
     "speed": "speed",
     "pressure": "pressure",
+    "temperature": "temperature",
     "smallest_wavelength": "length",
     "cut_off": "length",
 }
@@ -45,12 +49,14 @@ NUMBERS = (*QUANTITIES, *COUNTS, "upper_share")
 UNITS = {
     "speed": "m/s",
     "pressure": "Pa",
+    "temperature": "K",
     "smallest_wavelength": "m",
     "cut_off": "m",
     "upper_share": "1",
     "waves": "1",
     "pressure_classes": "1",
     "factors": "1",
+    "effects": "1",
     "rubber": "1",
     "surface": "1",
 }
@@ -59,12 +65,14 @@ UNITS = {
 LONG_NAMES = {
     "speed": "sliding speed",
     "pressure": "nominal pressure",
+    "temperature": "temperature of the rubber before the contact",
     "smallest_wavelength": "smallest wavelength",
     "cut_off": "shortest wavelength of the roughness",
     "upper_share": "share of the heights that counts",
     "waves": "number of waves",
     "pressure_classes": "number of pressure classes",
     "factors": "magnification factors of wavelength and amplitude",
+    "effects": "effects of the conditions on the rubber",
     "rubber": "rubber",
     "surface": "surface",
 }
@@ -119,7 +127,7 @@ def _axis(name: str, given: Any) -> Axis:
         values = tuple(_READERS[name](name, entry) for entry in _entries(name, given))
         worded = any(isinstance(value, RmsSlope | str) for value in values)
         unit = f" {UNITS[name]}" if worded else ""
-        labels = tuple(f"{_label(v)}{unit if isinstance(v, float) else ''}" for v in values)
+        labels = tuple(f"{_label(name, v)}{unit if isinstance(v, float) else ''}" for v in values)
     if not 1 <= len(values) <= MOST_VALUES:
         raise InputError(f"{name} must have 1 to {MOST_VALUES} values; got {len(values)}")
     twice = {label for label in labels if labels.count(label) > 1}
@@ -167,6 +175,8 @@ def _quantity(name: str, value: Any) -> float:
             value = parse_quantity(value, QUANTITIES[name])
         except ValueError as error:
             raise InputError(f"{name} = {value!r}: {error}") from error
+    if isinstance(value, str) and name == "temperature":
+        raise InputError(f'temperature must have a unit, such as "20 C"; got {value!r}')
     check = checks.not_negative if name == "speed" else checks.positive
     return check(name, float(value) if isinstance(value, str) else value, unit=UNITS[name])
 
@@ -209,6 +219,11 @@ def _pair(name: str, value: Any) -> tuple[float, float]:
     return first, second
 
 
+def _selection(name: str, value: Any) -> str:
+    text = value.replace("_", " ") if isinstance(value, str) else value
+    return checks.one_of(name, text, SELECTIONS)
+
+
 def _named(name: str, given: Any) -> tuple[tuple[Any, ...], tuple[str, ...]]:
     """Return values and labels of rubbers or surfaces: a mapping, or texts and paths."""
     if isinstance(given, Mapping):
@@ -233,10 +248,12 @@ def _bare(text: str) -> bool:
     return True
 
 
-def _label(value: Any) -> str:
+def _label(name: str, value: Any) -> str:
     if isinstance(value, str | RmsSlope):
         return str(value)
-    return "/".join(f"{part:g}" for part in value) if isinstance(value, tuple) else f"{value:.6g}"
+    if isinstance(value, tuple):
+        return "/".join(f"{part:g}" for part in value)
+    return f"{value - ZERO_CELSIUS:.6g} C" if name == "temperature" else f"{value:.6g}"
 
 
 _READERS: dict[str, Callable[[str, Any], Any]] = {
@@ -245,4 +262,5 @@ _READERS: dict[str, Callable[[str, Any], Any]] = {
     "upper_share": _share,
     "factors": _pair,
     "cut_off": _cut_off,
+    "effects": _selection,
 }
