@@ -13,6 +13,7 @@ from gripscale.report.charts.surface import correlation_charts, profile_charts
 from gripscale.report.charts.verification import verification_charts
 from gripscale.report.comparison_chapter import STALE, comparison_elements
 from gripscale.report.cut_off import exponent_sentence
+from gripscale.report.effects_chapter import effects_elements
 from gripscale.report.elements import Code, Element, Facts, Notice, Page, Section, Table, Text
 from gripscale.report.equations import equations
 from gripscale.report.notices import cards, notices
@@ -42,6 +43,7 @@ def run_page(run: Run) -> Page:
         Section("surface", "Surface", _surface(run)),
         Section("rubber", "Rubber", _rubber(run)),
         Section("results", "Contact and friction, wave by wave", _results(run, tables)),
+        Section("effects", "What each effect is worth", effects_elements(run.effects)),
         Section("blocks", "Deformed blocks", _blocks(run)),
         Section("comparison", "Models side by side", _comparison(run)),
         Section("verification", "Verification", _verification(run, tables)),
