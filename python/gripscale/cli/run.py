@@ -154,12 +154,8 @@ def _conclude(
     for line in last:
         say(console, line)
     written = [tables.prediction_table(data, name, REPORT_WIDTH) for name, data in solved.items()]
-    folder.write_text(
-        target / "report.txt",
-        tables.as_text(
-            *opening, "", *written, tables.LEGEND, *beside, "", *last, width=REPORT_WIDTH
-        ),
-    )
+    parts = (*opening, "", *written, tables.LEGEND, *beside, "", *last)
+    folder.write_text(target / "report.txt", tables.as_text(*parts, width=REPORT_WIDTH))
 
 
 def _conditions_tables(results: CaseResults, worth: xr.Dataset | None) -> Iterator[Any]:

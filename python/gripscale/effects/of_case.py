@@ -71,7 +71,7 @@ def case_effects(
 
 
 def stored_effects(folders: Iterable[Path], case: object) -> list[xr.Dataset]:
-    """Return what is kept in the first of `folders` that has effects of just this text of a case."""
+    """Return what the first of `folders` that has effects of this text of a case keeps."""
     for folder in folders:
         found = []
         for path in sorted(folder.glob(FILE.format(model="*"))):
