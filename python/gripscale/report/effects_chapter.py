@@ -40,9 +40,8 @@ def effects_elements(results: Sequence[xr.Dataset]) -> list[Element]:
         for effect in one.effect.values
     ]
     headings.append(Heading("status", words=True))
-    bad = frozenset(
-        (at, len(headings) - 1) for at, row in enumerate(rows) if row[-1] != "converged"
-    )
+    status = len(headings) - 1
+    bad = frozenset((at, status) for at, row in enumerate(rows) if row[status] != "converged")
     table = Table("effects", "What each effect is worth", headings, rows, [], bad)
     return [Text(WHAT), table]
 

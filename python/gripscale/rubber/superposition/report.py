@@ -119,7 +119,8 @@ def _findings(overlaps: tuple[Overlap, ...], shift: Shift) -> Iterator[str]:
                 f"{words} of {len(apart)} of {len(overlaps)} neighbours does not superpose (apart "
                 f"by up to {10.0**worst - 1.0:.0%} in the root mean square), from "
                 f"{apart[0].colder - ZERO_CELSIUS:.1f} to {apart[-1].warmer - ZERO_CELSIUS:.1f} "
-                "°C: vertical shifts, another strain amplitude or a second relaxation are the usual causes"
+                "°C: vertical shifts, another strain amplitude or a second relaxation are the "
+                "usual causes"
             )
     if isinstance(shift, ShiftTable) and np.nanmax(shift.horizontal_error, initial=0.0) > _LARGE:
         at = int(np.nanargmax(shift.horizontal_error))
