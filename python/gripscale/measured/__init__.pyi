@@ -1,0 +1,5 @@
+from .friction import MeasuredFriction as MeasuredFriction
+from .friction import read_measured_friction as read_measured_friction
+from .predicted import Predicted as Predicted
+from .predicted import predictions_at as predictions_at
+from .residuals import residuals as residuals

@@ -1,0 +1,203 @@
+"""What a model predicts at the points of a measurement: its speeds, temperatures and pressures."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gripscale import checks
+from gripscale.conditions.conditions import Conditions
+from gripscale.errors import InputError
+from gripscale.interface.area_term import InterfacialShearStress
+from gripscale.measured.friction import MeasuredFriction
+from gripscale.measured.probe import TemperatureProbe, probed_temperature
+from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, Model, NominalLoad
+from gripscale.rubber import Rubber
+from gripscale.study.store import Store
+from gripscale.study.task import Task
+from gripscale.study.threads import OnTask, solve_all
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from gripscale.surface import PreparedSurface
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Predicted:
+    """Contact and friction at the points of a measurement, arrays of shape (n,) in its order.
+
+    Parameters
+    ----------
+    friction : array
+        Of the hysteresis [-]; NaN where the model has no answer.
+    contact_fraction : array
+        A_r/A_0 [-].
+    pressure : array
+        Nominal [Pa], above zero.
+    temperature : array
+        In the contact [K], the mean over the real contact area; NaN where not known.
+    outside_band : array, optional
+        Share of the friction that rests on the rubber outside its measured frequencies [-].
+    status : sequence of str, optional
+        "converged", or why there is no answer.
+
+    Raises
+    ------
+    InputError
+        If the lengths differ, or a pressure is not above zero.
+    """
+
+    friction: Array
+    contact_fraction: Array
+    pressure: Array
+    temperature: Array
+    outside_band: Array | None = None
+    status: Sequence[str] | None = None
+
+    def __post_init__(self) -> None:
+        size = np.size(self.friction)
+        unknown: dict[str, Any] = {
+            "outside_band": np.full(size, np.nan),
+            "status": ["converged"] * size,
+        }
+        for name, default in unknown.items():
+            if getattr(self, name) is None:
+                object.__setattr__(self, name, default)
+        for name in ("friction", "contact_fraction", "temperature", "outside_band"):
+            values = checks.vector(name, getattr(self, name), missing=True)
+            object.__setattr__(self, name, values)
+        pressure = checks.positive_vector("pressure", self.pressure, unit="Pa")
+        object.__setattr__(self, "pressure", pressure)
+        sizes = {one.name: len(getattr(self, one.name)) for one in fields(self)}
+        if len(set(sizes.values())) > 1:
+            told = ", ".join(f"{count} of {name}" for name, count in sizes.items())
+            raise InputError(f"a prediction needs as many values of each; got {told}")
+
+    @property
+    def known(self) -> NDArray[np.bool_]:
+        """Where the model has an answer."""
+        return np.isfinite(self.friction) & np.isfinite(self.contact_fraction)
+
+    @property
+    def leverage(self) -> Array:
+        """A_r/(A_0 p) [1/Pa]: the friction of the area term for each pascal of shear stress."""
+        return self.contact_fraction / self.pressure
+
+    def area_term(self, law: InterfacialShearStress, speed: Array) -> Array:
+        """Return the friction of the area term [-] under `law` at the speeds [m/s] of the points.
+
+        NaN where the model has no answer.
+        Raises `InputError` if it depends on a temperature that is not known.
+        """
+        out, known = np.full(self.friction.size, np.nan), self.known
+        kelvin = self.temperature[known]
+        at = None if np.isnan(kelvin).all() else kelvin
+        out[known] = self.leverage[known] * law.stress(speed[known], at)
+        return out
+
+
+def predictions_at(
+    measured: MeasuredFriction,
+    model: Model,
+    rubber: Rubber,
+    surface: PreparedSurface,
+    load: NominalLoad,
+    store: Store,
+    *,
+    workers: int | None = None,
+    client: Any = None,
+    on_task: OnTask | None = None,
+) -> Predicted:
+    """Return what `model` predicts at each measured speed, temperature and pressure.
+
+    Parameters
+    ----------
+    measured : MeasuredFriction
+        The points. A missing temperature is that of the model's conditions or, without one, of the
+        rubber; a missing pressure is that of the load.
+    model : Model
+        What predicts. Where it has `conditions` they get the temperature and a shear stress that
+        tells the temperature in the contact; else the rubber is brought to the temperature.
+    rubber, surface, load
+        What slides on what, and the load of the case.
+    store : Store
+        Keeps each answer as soon as it is there; what it has is not solved again.
+    workers, client, on_task
+        As for `gripscale.study.solve_all`.
+
+    Raises
+    ------
+    InputError, FileError
+        As the model and `solve_all` do; a temperature other than that of the rubber needs a shift.
+    """
+    pressure = np.where(np.isnan(measured.pressure), load.pressure, measured.pressure)
+    own = _temperature(model, rubber)
+    kelvin = [own if math.isnan(one) else float(one) for one in measured.temperature]
+    tasks = [
+        _task(model, rubber, surface, replace(load, pressure=float(p), speed=float(v)), own, one)
+        for p, v, one in zip(pressure, measured.speed, kelvin, strict=True)
+    ]
+    labels = [_label(task.load, one) for task, one in zip(tasks, kelvin, strict=True)]
+    named = {f"{at}: {label}": task for at, (label, task) in enumerate(zip(labels, tasks), start=1)}
+    solved = solve_all(named, store, workers=workers, client=client, on_task=on_task)
+    answers = [solved[task.key] for task in tasks]
+    before = [math.nan if one is None else one for one in kelvin]
+    return Predicted(
+        np.array([_number(one, "total_friction") for one in answers]),
+        np.array([_number(one, "total_contact_fraction") for one in answers]),
+        pressure,
+        np.array([_contact_temperature(*both) for both in zip(answers, before, strict=True)]),
+        np.array([_number(one, FRICTION_OUTSIDE_BAND) for one in answers]),
+        [str(one.prediction_status.item()) for one in answers],
+    )
+
+
+def _temperature(model: Model, rubber: Rubber) -> float | None:
+    conditions: Conditions | None = getattr(model, "conditions", None)
+    return (conditions or Conditions()).temperature_of(rubber)
+
+
+def _task(
+    model: Model,
+    rubber: Rubber,
+    surface: PreparedSurface,
+    load: NominalLoad,
+    own: float | None,
+    kelvin: float | None,
+) -> Task:
+    """Return what is to be solved at one point; `own` is the temperature of the case."""
+    elsewhere = kelvin is not None and kelvin != own
+    if not hasattr(model, "conditions"):
+        return Task(rubber.at(kelvin) if elsewhere and kelvin else rubber, surface, load, model)
+    conditions = replace(model.conditions or Conditions(), shear_stress=TemperatureProbe())
+    if elsewhere:
+        conditions = replace(conditions, temperature=kelvin)
+    return Task(rubber, surface, load, replace(model, conditions=conditions))  # type: ignore[type-var]
+
+
+def _label(load: NominalLoad, kelvin: float | None) -> str:
+    at = "" if kelvin is None else f", {kelvin - 273.15:.4g} C"
+    return f"speed {load.speed:.4g} m/s{at}, pressure {load.pressure / 1e5:.4g} bar"
+
+
+def _contact_temperature(answer: xr.Dataset, before: float) -> float:
+    """Return the temperature the probe tells [K], or that before the contact without one."""
+    if ADHESIVE_FRICTION not in answer:
+        return before
+    return probed_temperature(
+        _number(answer, ADHESIVE_FRICTION),
+        _number(answer, "total_contact_fraction"),
+        _number(answer, "nominal_pressure"),
+    )
+
+
+def _number(answer: xr.Dataset, name: str) -> float:
+    return float(answer[name]) if name in answer else math.nan
