@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from gripscale import checks
 from gripscale.conditions.conditions import Conditions
@@ -30,21 +30,21 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, init=False, eq=False)
 class Predicted:
     """Contact and friction at the points of a measurement, arrays of shape (n,) in its order.
 
     Parameters
     ----------
-    friction : array
+    friction : array_like
         Of the hysteresis [-]; NaN where the model has no answer.
-    contact_fraction : array
+    contact_fraction : array_like
         A_r/A_0 [-].
-    pressure : array
+    pressure : array_like
         Nominal [Pa], above zero.
-    temperature : array
+    temperature : array_like
         In the contact [K], the mean over the real contact area; NaN where not known.
-    outside_band : array, optional
+    outside_band : array_like, optional
         Share of the friction that rests on the rubber outside its measured frequencies [-].
     status : sequence of str, optional
         "converged", or why there is no answer.
@@ -55,36 +55,46 @@ class Predicted:
         If the lengths differ, or a pressure is not above zero.
     """
 
-    friction: Array
-    contact_fraction: Array
-    pressure: Array
-    temperature: Array
-    outside_band: Array | None = None
-    status: Sequence[str] | None = None
+    friction: Array = field(repr=False)
+    contact_fraction: Array = field(repr=False)
+    pressure: Array = field(repr=False)
+    temperature: Array = field(repr=False)
+    outside_band: Array = field(repr=False)
+    status: Sequence[str] = field(repr=False)
 
-    def __post_init__(self) -> None:
-        size = np.size(self.friction)
-        unknown: dict[str, Any] = {
-            "outside_band": np.full(size, np.nan),
-            "status": ["converged"] * size,
+    def __init__(
+        self,
+        friction: ArrayLike,
+        contact_fraction: ArrayLike,
+        pressure: ArrayLike,
+        temperature: ArrayLike,
+        outside_band: ArrayLike | None = None,
+        status: Sequence[str] | None = None,
+    ) -> None:
+        size = np.size(friction)
+        found: dict[str, Any] = {
+            "pressure": checks.positive_vector("pressure", pressure, unit="Pa")
         }
-        for name, default in unknown.items():
-            if getattr(self, name) is None:
-                object.__setattr__(self, name, default)
-        for name in ("friction", "contact_fraction", "temperature", "outside_band"):
-            values = checks.vector(name, getattr(self, name), missing=True)
-            object.__setattr__(self, name, values)
-        pressure = checks.positive_vector("pressure", self.pressure, unit="Pa")
-        object.__setattr__(self, "pressure", pressure)
-        sizes = {one.name: len(getattr(self, one.name)) for one in fields(self)}
+        numbers = {
+            "friction": friction,
+            "contact_fraction": contact_fraction,
+            "temperature": temperature,
+            "outside_band": np.full(size, np.nan) if outside_band is None else outside_band,
+        }
+        for name, given in numbers.items():
+            found[name] = checks.vector(name, given, missing=True)
+        found["status"] = ["converged"] * size if status is None else list(status)
+        sizes = {name: len(values) for name, values in found.items()}
         if len(set(sizes.values())) > 1:
             told = ", ".join(f"{count} of {name}" for name, count in sizes.items())
             raise InputError(f"a prediction needs as many values of each; got {told}")
+        for name, values in found.items():
+            object.__setattr__(self, name, values)
 
     @property
     def known(self) -> NDArray[np.bool_]:
         """Where the model has an answer."""
-        return np.isfinite(self.friction) & np.isfinite(self.contact_fraction)
+        return np.isfinite(self.friction) & (self.contact_fraction > 0.0)
 
     @property
     def leverage(self) -> Array:
@@ -145,8 +155,10 @@ def predictions_at(
         _task(model, rubber, surface, replace(load, pressure=float(p), speed=float(v)), own, one)
         for p, v, one in zip(pressure, measured.speed, kelvin, strict=True)
     ]
-    labels = [_label(task.load, one) for task, one in zip(tasks, kelvin, strict=True)]
-    named = {f"{at}: {label}": task for at, (label, task) in enumerate(zip(labels, tasks), start=1)}
+    named = {
+        f"point {at}, {_label(task.load, one)}": task
+        for at, (task, one) in enumerate(zip(tasks, kelvin, strict=True), start=1)
+    }
     solved = solve_all(named, store, workers=workers, client=client, on_task=on_task)
     answers = [solved[task.key] for task in tasks]
     before = [math.nan if one is None else one for one in kelvin]
