@@ -8,22 +8,21 @@ from numpy.typing import NDArray
 from gripscale.interface import GaussianStress, InterfacialShearStress
 from gripscale.measured import MeasuredFriction, Predicted
 
-TRUE = GaussianStress(5e6, 0.15, 0.02, 0.9, 293.15)
+Array = NDArray[np.float64]
+
 TRUTH = {"stress_0": 5e6, "width": 0.15, "speed_0": 0.02, "activation_energy": 0.9}
-SPREAD = 0.02
-PRESSURE = 3e5
+REFERENCE = {"reference_temperature": 293.15}
+TRUE = GaussianStress(**TRUTH, **REFERENCE)
 SPEEDS = np.geomspace(1e-4, 1.0, 9)
 TEMPERATURES = (278.15, 293.15, 313.15)
 
 
-def hysteresis(speed: NDArray[np.float64], temperature: NDArray[np.float64]) -> Predicted:
+def hysteresis(speed: Array, temperature: Array) -> Predicted:
     """Return a bell of friction and an area that falls with speed, both shifted by temperature."""
     moved = np.log10(speed) - 0.08 * (temperature - 293.15)
+    friction = 0.1 + 0.3 * np.exp(-0.1 * (moved - 1.0) ** 2)
     return Predicted(
-        0.1 + 0.3 * np.exp(-0.1 * (moved - 1.0) ** 2),
-        0.03 * 10.0 ** (-0.08 * moved),
-        np.full(speed.size, PRESSURE),
-        temperature,
+        friction, 0.03 * 10.0 ** (-0.08 * moved), np.full(speed.size, 3e5), temperature
     )
 
 
@@ -32,18 +31,19 @@ def measurement(
     seed: int | None = 0,
     *,
     stated: bool = True,
-    speeds: NDArray[np.float64] = SPEEDS,
+    speeds: Array = SPEEDS,
     temperatures: tuple[float, ...] = TEMPERATURES,
 ) -> tuple[MeasuredFriction, Predicted]:
     """Return friction measured at every speed and temperature, and the hysteresis beside it.
 
-    With noise of `SPREAD` drawn from `seed`, none without one; the spread `stated` or not.
+    With noise drawn from `seed`, none without one; its spread, 0.01 and 0.06 in turn, is `stated`
+    or else 0.02 throughout and not.
     """
-    kelvin, speed = (grid.ravel() for grid in np.meshgrid(temperatures, speeds, indexing="ij"))
-    order = np.argsort(speed, kind="stable")
-    speed, kelvin = speed[order], kelvin[order]
+    speed, kelvin = (grid.ravel() for grid in np.meshgrid(speeds, temperatures, indexing="ij"))
     predicted = hysteresis(speed, kelvin)
-    noise = 0.0 if seed is None else np.random.default_rng(seed).normal(0.0, SPREAD, speed.size)
+    spread = (
+        np.where(np.arange(speed.size) % 2, 0.06, 0.01) if stated else np.full(speed.size, 0.02)
+    )
+    noise = 0.0 if seed is None else np.random.default_rng(seed).normal(0.0, spread)
     friction = predicted.friction + predicted.area_term(law, speed) + noise
-    spread = np.full(speed.size, SPREAD) if stated else None
-    return MeasuredFriction(speed, friction, spread, kelvin), predicted
+    return MeasuredFriction(speed, friction, spread if stated else None, kelvin), predicted

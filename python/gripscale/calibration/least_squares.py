@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 
 BEST_STARTS = 3
 """Starts, of all that are tried, from which the search goes on to its end."""
-TOLERANCE = 1e-10
+TOLERANCE = 1e-8
 AT_LIMIT = 1e-3
 """Share of the range of a parameter within which it is at a limit."""
 

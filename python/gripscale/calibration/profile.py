@@ -88,6 +88,7 @@ class Profile:
         """
         limit = free_limits(self.problem, self.place)[(way + 1) // 2]
         near, others = self.centre, np.delete(self.optimum.theta, self.place)
+        below = 0.0
         if way * (limit - near) <= 0.0:
             return way * math.inf
         step = self._first_step(threshold)
@@ -96,10 +97,10 @@ class Profile:
             far = limit if way * (far - limit) >= 0.0 else far
             excess, met = self.excess(far, others)
             if excess >= threshold:
-                return self._crossing(near, far, others, threshold)
+                return self._crossing({near: (below, others), far: (excess, met)}, threshold)
             if far == limit:
                 return way * math.inf
-            near, others, step = far, met, REACH * step
+            near, below, others, step = far, excess, met, REACH * step
 
     def curve(self, low: float, high: float) -> tuple[Array, Array]:
         """Return values from `low` to `high` and E there, each from its neighbour's others."""
@@ -118,16 +119,23 @@ class Profile:
         low, high = free_limits(self.problem, self.place)
         return float(np.clip(errors[self.place] * math.sqrt(threshold), 1e-6, 0.02 * (high - low)))
 
-    def _crossing(self, near: float, far: float, others: Array, threshold: float) -> float:
-        """Return where the root of E, nearly a straight line, crosses that of the threshold."""
+    def _crossing(self, known: dict[float, tuple[float, Array]], threshold: float) -> float:
+        """Return where E crosses the threshold between two values, before and behind it.
+
+        By its root, nearly a straight line; `known` holds E and the others at the two values.
+        """
+        near, far = known
+        start = known[near][1]
 
         def above(scaled: float) -> float:
-            return math.sqrt(self.excess(scaled, others)[0]) - math.sqrt(threshold)
+            if scaled not in known:
+                known[scaled] = self.excess(scaled, start)
+            return math.sqrt(known[scaled][0]) - math.sqrt(threshold)
 
         fine = FINE * abs(far - self.centre)
         end = float(scipy.optimize.brentq(above, near, far, xtol=fine, rtol=1e-9))
-        met = self.excess(end, others)[1]
-        if self.problem.holding(self.place, end).at_limit(met):
+        above(end)
+        if self.problem.holding(self.place, end).at_limit(known[end][1]):
             return math.copysign(math.inf, far - near)
         return end
 

@@ -74,4 +74,4 @@ def _line(name: str, value: float, estimate: Estimate | None) -> Iterator[str]:
     unit = estimate.unit if estimate is not None else HELD_UNITS.get(name, "")
     text = written(value, unit)
     yield f"{name} = {text}" if not unit else f'{name} = "{text}"'
-    yield f"# {'held' if estimate is None else interval(estimate)}"
+    yield f" # {'held' if estimate is None else interval(estimate)}"
