@@ -59,7 +59,7 @@ def calibrate(
         problem, best(problem), lambda found: _ends(problem, found, points.spread is not None)
     )
     out = () if groups is None else held_out(points, groups, law, known)
-    return Calibration(measured, predicted, problem, optimum, tuple(ends), out)
+    return Calibration(measured, predicted, problem, optimum, tuple(ends), out, hold_out or "")
 
 
 def _ends(problem: Problem, optimum: Optimum, known: bool) -> list[tuple[float, float]]:

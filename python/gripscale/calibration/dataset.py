@@ -55,6 +55,8 @@ def to_dataset(calibration: Calibration) -> xr.Dataset:
             "held": json.dumps(dict(calibration.problem.family.held)),
             "measured_source": calibration.measured.source,
             "level": LEVEL,
+            "threshold": calibration.threshold,
+            "held_out_by": calibration.held_out_by,
             "spread_known": int(calibration.spread_known),
             "sum_of_squares": calibration.optimum.sum_of_squares,
             "degrees_of_freedom": calibration.freedom,
@@ -117,7 +119,7 @@ def _of_parameters(calibration: Calibration) -> dict[str, Any]:
     for at, (name, text) in enumerate(
         {
             "profile_value": "value at which the parameter is held",
-            "profile_excess": "sum of squares over its least there, per square of the spread",
+            "profile_excess": "rise of the sum of squares there, NaN where another parameter has no room",
         }.items()
     ):
         rows = [profiles[one.name][at] for one in estimates]

@@ -103,14 +103,19 @@ class Profile:
             near, below, others, step = far, excess, met, REACH * step
 
     def curve(self, low: float, high: float) -> tuple[Array, Array]:
-        """Return values from `low` to `high` and E there, each from its neighbour's others."""
+        """Return values from `low` to `high` and E there, each from its neighbour's others.
+
+        NaN where another parameter is held back by its own limit.
+        """
         values = np.linspace(low, high, CURVE)
         excess = np.empty(CURVE)
         middle = int(np.argmin(np.abs(values - self.centre)))
         for way in (range(middle, CURVE), range(middle - 1, -1, -1)):
             others = None
             for at in way:
-                excess[at], others = self.excess(float(values[at]), others)
+                rise, others = self.excess(float(values[at]), others)
+                held_back = self.problem.holding(self.place, values[at]).at_limit(others)
+                excess[at] = math.nan if held_back else rise
         return values, excess
 
     def _first_step(self, threshold: float) -> float:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from gripscale.calibration.held_out import HeldOut
 from gripscale.calibration.least_squares import Optimum, Problem
 from gripscale.calibration.parameters import Parameter
-from gripscale.calibration.profile import LEVEL, Profile, covariance
+from gripscale.calibration.profile import LEVEL, Profile, covariance, threshold_of
 from gripscale.interface.area_term import InterfacialShearStress
 from gripscale.measured.friction import MeasuredFriction
 from gripscale.measured.predicted import Predicted
@@ -67,6 +67,8 @@ class Calibration:
     """Of each interval in the numbers of the search; infinite where not determined."""
     held_out: tuple[HeldOut, ...] = ()
     """What the law says of points it was not fitted to, where asked for."""
+    held_out_by: str = ""
+    """Whether a temperature or a decade of speed was left out; empty for neither."""
 
     @property
     def law(self) -> InterfacialShearStress:
@@ -100,6 +102,12 @@ class Calibration:
         if not self.spread_known:
             return math.nan
         return float(scipy.stats.chi2.sf(self.optimum.sum_of_squares, self.freedom))
+
+    @property
+    def threshold(self) -> float:
+        """By how much the sum of squares rises at the ends of an interval, as in `profiles`."""
+        scale = 1.0 if self.spread_known else self.scatter**2
+        return threshold_of(self.optimum, known=self.spread_known) / scale
 
     @property
     def estimates(self) -> list[Estimate]:

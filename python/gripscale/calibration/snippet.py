@@ -52,10 +52,12 @@ def shear_stress_table(calibration: Calibration) -> str:
     return "\n".join(lines) + "\n"
 
 
-def written(value: float, unit: str, digits: int = 6) -> str:
-    """Return a number of the law with the unit it is written in."""
+def written(value: float, unit: str, digits: int | None = None) -> str:
+    """Return a number of the law with its unit: six digits as far as they count, or `digits`."""
     convert, name = WRITTEN[unit]
-    return f"{convert(value):.{digits}g} {name}".strip()
+    number = convert(value)
+    text = f"{number:.6g}" if digits is None else f"{number:#.{digits}g}".rstrip(".")
+    return f"{text} {name}".strip()
 
 
 def interval(estimate: Estimate) -> str:
