@@ -146,6 +146,11 @@ ADHESIVE_FRICTION = "total_adhesive_friction"
 """Name of the area term's friction, where one was asked for."""
 
 
+def with_adhesive(data: xr.Dataset) -> xr.DataArray | None:
+    """Return hysteresis and area term together, or None where no area term was asked for."""
+    return data["total_friction"] + data[ADHESIVE_FRICTION] if ADHESIVE_FRICTION in data else None
+
+
 def with_area_term(data: xr.Dataset, adhesive_friction: float) -> xr.Dataset:
     """Return an answer with the friction of the area term [-], unchanged if that is NaN.
 

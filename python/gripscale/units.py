@@ -16,6 +16,9 @@ Value = TypeVar("Value", float, NDArray[np.float64])
 
 _PASCALS = {"Pa": 1.0, "kPa": 1e3, "bar": 1e5, "MPa": 1e6, "N/mm^2": 1e6, "GPa": 1e9}
 
+_JOULES_PER_MOLE_IN_EV = 1.602176634e-19 * 6.02214076e23
+"""Elementary charge times Avogadro's number: both exact in the SI."""
+
 UNITS: dict[str, dict[str, float]] = {
     "length": {
         "m": 1.0,
@@ -32,12 +35,25 @@ UNITS: dict[str, dict[str, float]] = {
     "time": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0, "h": 3600.0},
     "frequency": {"Hz": 1.0, "kHz": 1e3, "MHz": 1e6, "GHz": 1e9, "rad/s": 0.5 / math.pi},
     "temperature": {"K": 1.0, "C": 1.0, "F": 5.0 / 9.0},
+    "temperature difference": {"K": 1.0, "C": 1.0, "F": 5.0 / 9.0},
+    "conductivity": {"W/(m K)": 1.0, "mW/(m K)": 1e-3},
+    "density": {"kg/m^3": 1.0, "g/cm^3": 1e3},
+    "specific heat": {"J/(kg K)": 1.0, "kJ/(kg K)": 1e3},
+    "molar energy": {"J/mol": 1.0, "kJ/mol": 1e3, "kcal/mol": 4184.0},
+    "bond energy": {"eV": 1.0, "meV": 1e-3, "kJ/mol": 1e3 / _JOULES_PER_MOLE_IN_EV},
     "strain": {"1": 1.0, "%": 1e-2},
 }
-"""The units of each kind of quantity by their usual spelling; the first is the SI unit."""
+"""The units of each kind of quantity by their usual spelling; the first is the one used inside, the
+SI unit but for the energy of a bond."""
 
-_ZERO = {"C": 273.15, "F": 459.67 * 5.0 / 9.0}
-"""Where a scale does not begin at the zero of the SI unit."""
+ZERO_CELSIUS = 273.15
+"""0 C [K]."""
+
+_ZERO = {"C": ZERO_CELSIUS, "F": 459.67 * 5.0 / 9.0}
+"""Where a scale of temperature does not begin at the zero of the SI unit."""
+
+_UNIT_NEEDED = ("temperature",)
+"""Kinds whose plain numbers mean one thing to a program and another to whoever writes them."""
 
 _SPELLINGS = {
     "micron": "um",
@@ -51,6 +67,19 @@ _SPELLINGS = {
     "millimeter": "mm",
     "millimetre": "mm",
     "inch": "in",
+    "w/mk": "W/(m K)",
+    "w/(mk)": "W/(m K)",
+    "w/(m*k)": "W/(m K)",
+    "w/m/k": "W/(m K)",
+    "j/kgk": "J/(kg K)",
+    "j/(kgk)": "J/(kg K)",
+    "j/(kg*k)": "J/(kg K)",
+    "j/kg/k": "J/(kg K)",
+    "kj/(kgk)": "kJ/(kg K)",
+    "kg/m3": "kg/m^3",
+    "kg/m³": "kg/m^3",
+    "g/cm3": "g/cm^3",
+    "g/cm³": "g/cm^3",
     "n/mm2": "N/mm^2",
     "n/mm²": "N/mm^2",
     "n/m2": "Pa",
@@ -73,9 +102,18 @@ _EXAMPLES = {
     "speed": "0.3 m/s",
     "time": "0.1 s",
     "temperature": "20 C",
+    "temperature difference": "100 K",
+    "strain": "2 %",
+    "conductivity": "0.25 W/(m K)",
+    "density": "1150 kg/m^3",
+    "specific heat": "1500 J/(kg K)",
+    "molar energy": "80 kJ/mol",
+    "bond energy": "0.9 eV",
 }
 _QUANTITY = re.compile(
-    r"\s*+([-+]?(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][-+]?\d++)?|[-+]?inf|nan)\s*+(\S*+)\s*+", re.ASCII
+    r"\s*+([-+]?(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][-+]?\d++)?|[-+]?inf|nan)"
+    r"\s*+(\S*+(?: [^\s\d]\S*+)*+)\s*+",
+    re.ASCII,
 )
 
 
@@ -84,7 +122,7 @@ def spelled(unit: object, kind: str) -> str | None:
     if not isinstance(unit, str):
         return None
     word = unit.strip()
-    word = _SPELLINGS.get(word.lower(), word)
+    word = _SPELLINGS.get(word.lower(), _SPELLINGS.get(word.lower().replace(" ", ""), word))
     # Two characters look like this: the micro sign and the Greek letter.
     word = re.sub("^[µμ]", "u", word)
     return word if word in UNITS[kind] else None
@@ -98,7 +136,8 @@ def in_si(value: Value, unit: str, kind: str, name: str = "unit") -> Value:
     known = spelled(unit, kind)
     if known is None:
         raise InputError(f"{name} must be one of {listed(kind)}; got {shown(unit)}")
-    return value * UNITS[kind][known] + _ZERO.get(known, 0.0)
+    zero = _ZERO.get(known, 0.0) if kind == "temperature" else 0.0
+    return value * UNITS[kind][known] + zero
 
 
 def listed(kind: str) -> str:
@@ -109,9 +148,12 @@ def listed(kind: str) -> str:
 def parse_quantity(value: Any, kind: str) -> float:
     """Return `value`, such as "3 bar" or a plain number in the SI unit, in the SI unit of `kind`.
 
-    Raises `ValueError` with what was expected; the caller adds the place.
+    Temperatures must have their unit. Raises `ValueError` with what was expected; the caller adds
+    the place.
     """
     if isinstance(value, int | float) and not isinstance(value, bool):
+        if kind in _UNIT_NEEDED:
+            raise ValueError(f"the unit is missing; expected a {kind} {_example(kind)}")
         return _finite(value, kind)
     match = _QUANTITY.fullmatch(value) if isinstance(value, str) else None
     if match is None:
@@ -131,4 +173,8 @@ def _finite(value: float, kind: str) -> float:
 
 
 def _example(kind: str) -> str:
-    return f'such as "{_EXAMPLES[kind]}", or a plain number in {next(iter(UNITS[kind]))}'
+    if kind in _UNIT_NEEDED:
+        return f'such as "{_EXAMPLES[kind]}"'
+    own = next(iter(UNITS[kind]))
+    plain = "a plain number" if own == "1" else f"a plain number in {own}"
+    return f'such as "{_EXAMPLES[kind]}", or {plain}'

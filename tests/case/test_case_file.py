@@ -61,12 +61,13 @@ def test_quantities_become_si_and_defaults_are_filled_in(tmp_path: Path) -> None
 def test_the_closer_chain_of_the_documentation_is_a_case(tmp_path: Path) -> None:
     page = Path(__file__).parents[2] / "docs" / "chain-and-direct-contact.md"
     [stated] = re.findall(r"```toml\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
-    case = read_case(written(tmp_path, stated + GOOD[GOOD.index("[rubber]") :])).case
+    file = read_case(written(tmp_path, stated + GOOD[GOOD.index("[rubber]") :]))
+    case = file.case
     assert (case.surface.upper_share, case.surface.scales) == (0.5, 4)
     assert (case.surface.cut_off, case.surface.smallest_wavelength) == (pytest.approx(1e-4), None)
-    assert case_chain(case).pressure_classes == 8
-    plain = read_case(written(tmp_path, GOOD)).case
-    assert (plain.surface.upper_share, plain.surface.cut_off) == (1.0, None)
+    assert case_chain(file).pressure_classes == 8
+    plain = read_case(written(tmp_path, GOOD))
+    assert (plain.case.surface.upper_share, plain.case.surface.cut_off) == (1.0, None)
     assert case_chain(plain).pressure_classes == 1
 
 

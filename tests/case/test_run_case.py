@@ -38,7 +38,7 @@ def test_case_gives_its_results_as_objects(case: Path, capsys: pytest.CaptureFix
 def test_pressure_classes_of_the_case_are_those_of_the_chain(case: Path) -> None:
     case.write_text(case.read_text() + "[chain]\npressure_classes = 2\n")
     results = run_case(case)
-    alone = case_chain(read_case(case).case).predict(
+    alone = case_chain(read_case(case)).predict(
         results.rubber.rubber, results.surface, results.load
     )
     assert results.dynamic is not None
@@ -100,7 +100,7 @@ def test_time_limit_of_the_case_reaches_the_solver(case: Path) -> None:
     solver = case.read_text().replace("[solver]", '[solver]\ntime_limit = "0.001 us"')
     case.write_text(solver)
     results = run_case(case)
-    assert case_chain(read_case(case).case).solver.time_limit == pytest.approx(1e-9)
+    assert case_chain(read_case(case)).solver.time_limit == pytest.approx(1e-9)
     assert results.dynamic is not None
     assert results.dynamic.status == Status.TIME_LIMIT
     case.write_text(solver.replace('"0.001 us"', "60"))

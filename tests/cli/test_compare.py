@@ -206,7 +206,8 @@ def test_what_cannot_be_compared_is_one_sentence(
 def test_case_names_its_measurement_and_the_fits_of_a_theory(changed: Callable[..., Path]) -> None:
     case = changed(
         "[output]",
-        '[compare]\nmeasured = "mu.csv"\nlayer_ratio = 2.0\npenetration_depth = "0.5 mm"\n[output]',
+        '[measured]\nfriction = "mu.csv"\n'
+        '[compare]\nlayer_ratio = 2.0\npenetration_depth = "0.5 mm"\n[output]',
     )
     case.write_text(case.read_text().replace("scales = 3", "scales = 6"))  # below the cut-off
     (case.parent / "mu.csv").write_text(MEASURED)

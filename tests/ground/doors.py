@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 import gripscale as gs
-from gripscale import rough, rubber, surface, theory, wave
+from gripscale import interface, rough, rubber, surface, theory, wave
+from gripscale.conditions import Conditions
 from gripscale.model import NominalLoad
+from gripscale.rubber import softening
 
 SOLID = gs.Rubber(1e6, [4e6], [1e-2], name="solid")
 FREQUENCY = np.geomspace(1e-2, 1e6, 30)
@@ -60,6 +62,7 @@ def doors() -> Iterator[Door]:
     yield from _surface()
     yield from _wave()
     yield from _rough()
+    yield from _conditions()
     chain = {"solver": "half_plane", "footprint": 0.1, "points": 64, "pressure_classes": 1}
     more = {"smallest_wavelength": None, "max_scales": None, "load_time": "passage"}
     yield Door(gs.predict, {"rubber": SOLID, "sines": SINES, **PRESSED, **chain, **more})
@@ -130,6 +133,50 @@ def _rubber() -> Iterator[Door]:
     yield Door(rubber.uniaxial_stress, bar)
     yield Door(rubber.springpot_modulus, {"omega": [1.0, 2.0]})
     yield Door(rubber.styrene_butadiene, {"band": (1e-2, 1e6), "bulk_modulus": 2e9})
+
+
+def _conditions() -> Iterator[Door]:
+    yield from _shifts()
+    kraus = {"storage_ratio": 0.3, "loss_ratio": 0.2, "critical_strain": 0.02, "measured_at": 1e-3}
+    yield Door(softening.Kraus, {**kraus, "deformation": "shear", "exponent": 0.5})
+    sweep = {"strain": [1e-3, 1e-2], "storage": [2e6, 1e6], "loss": [2e5, 1e5]}
+    table = {name: [values] for name, values in sweep.items()}
+    known = {"measured_at": 2e-3, "deformation": "tension", "temperature": [293.0]}
+    yield Door(softening.SofteningTable, {**table, **known})
+    words = {"temperature": 293.0, "frequency": 10.0, "name": "", "source": ""}
+    yield Door(rubber.StrainSweep, {**sweep, "deformation": "shear", **words})
+    one = rubber.StrainSweep(**sweep, deformation="shear")
+    yield Door(softening.softening_of_sweeps, {"sweeps": [one], "measured_at": 2e-3})
+    thermal = {"conductivity": 0.25, "density": 1150.0, "specific_heat": 1500.0}
+    yield Door(interface.ThermalProperties, thermal)
+    yield Door(interface.ConstantStress, {"stress_0": 1e6})
+    bell = {"stress_0": 1e6, "width": 0.1, "speed_0": 6e-3}
+    warm = {"activation_energy": 0.9, "reference_temperature": 293.0}
+    yield Door(interface.GaussianStress, {**bell, **warm})
+    yield Door(
+        interface.GaussianStress(**bell, **warm).stress, {"speed": 0.1, "temperature": 300.0}
+    )
+    step = {"stress_0": 1e6, "ratio": 10.0, "critical_speed": 0.1, "exponent": 0.5}
+    yield Door(interface.LeGalKlueppelStress, step)
+    yield Door(interface.TableStress, {"speed": [0.1, 1.0], "stress_at": [1e6, 2e6]})
+    term = {"shear_stress": 1e6, "contact_fraction": 0.1, "pressure": 1e5}
+    yield Door(interface.adhesive_friction, term)
+    heat, shear = interface.ThermalProperties(**thermal), interface.ConstantStress(1e6)
+    law = softening.Kraus(**kraus, deformation="shear")
+    asked = {"temperature": 293.0, "softening": law, "strain_norm": "slope"}
+    yield Door(Conditions, {**asked, "heat": heat, "shear_stress": shear})
+
+
+def _shifts() -> Iterator[Door]:
+    span = {"reference_temperature": 293.0, "valid_range": (250.0, 350.0)}
+    yield Door(rubber.WLF, {"c1": 8.0, "c2": 120.0, **span})
+    yield Door(rubber.Arrhenius, {"activation_energy": 8e4, "valid_range": (250.0, 350.0)})
+    glass = {"activation_energy": 2e5, "glass_temperature": 240.0}
+    yield Door(rubber.WLFArrhenius, {"c1": 8.0, "c2": 120.0, **glass, **span})
+    table = {"temperature": [280.0, 300.0], "horizontal": [1.0, -1.0]}
+    yield Door(rubber.ShiftTable, table)
+    moved = replace(SOLID, reference_temperature=293.0, shift=rubber.WLF(8.0, 120.0))
+    yield Door(moved.at, {"temperature": 300.0})
 
 
 def _surface() -> Iterator[Door]:

@@ -119,7 +119,7 @@ def _of_parameters(calibration: Calibration) -> dict[str, Any]:
     for at, (name, text) in enumerate(
         {
             "profile_value": "value at which the parameter is held",
-            "profile_excess": "rise of the sum of squares there, NaN where another parameter has no room",
+            "profile_excess": "rise of the sum of squares, NaN where another parameter has no room",
         }.items()
     ):
         rows = [profiles[one.name][at] for one in estimates]

@@ -17,6 +17,7 @@ from gripscale import checks
 from gripscale.calibration.points import Points
 from gripscale.errors import InputError
 from gripscale.interface.area_term import SHEAR_STRESSES, InterfacialShearStress
+from gripscale.units import ZERO_CELSIUS
 
 Array = NDArray[np.float64]
 
@@ -126,7 +127,7 @@ def _temperature_of(points: Points, held: Mapping[str, float]) -> dict[str, floa
     if points.temperature is None:
         raise InputError("activation_energy needs the temperatures of the points; got none")
     middle = 0.5 * (points.temperature.min() + points.temperature.max())
-    return {"reference_temperature": round(float(middle) - 273.15) + 273.15}
+    return {"reference_temperature": round(float(middle) - ZERO_CELSIUS) + ZERO_CELSIUS}
 
 
 def _parameters(kind: str, points: Points) -> tuple[Parameter, ...]:

@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING
 
 from gripscale.calibration.profile import LEVEL
 from gripscale.interface.area_term import shear_stress_to_dict
+from gripscale.units import ZERO_CELSIUS
 
 if TYPE_CHECKING:
     from gripscale.calibration.result import Calibration, Estimate
-
-ZERO_CELSIUS = 273.15
 
 WRITTEN: Mapping[str, tuple[Callable[[float], float], str]] = {
     "Pa": (lambda value: value / 1e6, "MPa"),

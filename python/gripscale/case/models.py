@@ -11,15 +11,24 @@ from typing import Annotated, Any, Literal
 
 from pydantic import (
     AfterValidator,
-    BaseModel,
     BeforeValidator,
-    ConfigDict,
     Field,
     InstanceOf,
     model_validator,
 )
 
-from gripscale.case.quantity import Duration, Length, Position, Pressure, Speed, Temperature
+from gripscale.case.conditions_table import ConditionsTable
+from gripscale.case.quantity import (
+    Duration,
+    Length,
+    Position,
+    Pressure,
+    Speed,
+    Temperature,
+    TemperatureDifference,
+)
+from gripscale.case.shift_table import ShiftSource
+from gripscale.case.table import Table
 from gripscale.chain.pressure import MOST_CLASSES
 from gripscale.rubber.strain_energy import NeoHookean, StrainEnergy, strain_energy_from_dict
 from gripscale.units import listed, parse_quantity, spelled
@@ -70,12 +79,6 @@ def _strain_energy(value: Any) -> StrainEnergy:
 
 
 Column = Annotated[str | int, BeforeValidator(_column)]
-
-
-class Table(BaseModel):
-    """One table of the case file: unknown keys are refused, values are not bent into shape."""
-
-    model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
 
 
 class Wave(Table):
@@ -166,7 +169,10 @@ class Surface(Table):
 
 
 class RubberSource(Table):
-    """A measured master curve, with what its header does not state, or a rubber known by name."""
+    """Measured moduli, with what their file does not state, or a rubber known by name.
+
+    The file is a master curve, or sweeps at several temperatures to make one of.
+    """
 
     file: str | None = None
     name: Literal["styrene_butadiene"] | None = None
@@ -174,7 +180,11 @@ class RubberSource(Table):
     modulus_unit: Annotated[str, _unit("modulus")] | None = None
     modulus: Literal["E", "G"] | None = None
     columns: Annotated[list[Column], Field(min_length=3, max_length=3)] | None = None
+    temperature_unit: Annotated[str, _unit("temperature")] | None = None
+    temperature_step: TemperatureDifference | None = None
     reference_temperature: Temperature | None = None
+    shift: ShiftSource | None = None
+    vertical: bool = False
     source: str = ""
     terms: int | None = Field(default=None, ge=1, le=200)
     outlier_threshold: float | None = Field(default=None, gt=0.0)
@@ -195,11 +205,20 @@ class RubberSource(Table):
             "bulk_modulus",
             "strain_energy",
             "extrapolate",
+            "shift",
             "file",
         }
         if self.name is not None and foreign:
             raise ValueError(f"{min(foreign)} belongs to a measured file, not to a named rubber")
+        if self.vertical and self.shift is not None:
+            raise ValueError("expected either shift (given) or vertical (found from the sweeps)")
         return self
+
+    @property
+    def files(self) -> list[str]:
+        """Names of the files it was measured in."""
+        shift = [self.shift] if isinstance(self.shift, str) else []
+        return [*filter(None, [self.file]), *shift]
 
 
 class Load(Table):
@@ -250,10 +269,15 @@ class Output(Table):
     folder: str = "results"
 
 
-class Compare(Table):
-    """What `gripscale compare` puts beside the models: measured friction, fits of a theory."""
+class MeasuredTable(Table):
+    """Friction measured elsewhere: a table of speed and friction, drawn over what is predicted."""
 
-    measured: str | None = None
+    friction: str | None = None
+
+
+class Compare(Table):
+    """What `gripscale compare` puts beside the models: fits of a theory."""
+
     layer_ratio: float | None = Field(default=None, gt=0.0, allow_inf_nan=False)
     penetration_depth: Length | None = None
 
@@ -275,6 +299,8 @@ class Case(Table):
     load: Load
     solver: Solver = Solver()
     chain: ChainOptions = ChainOptions()
+    conditions: ConditionsTable = ConditionsTable()
+    measured: MeasuredTable = MeasuredTable()
     output: Output = Output()
     compare: Compare = Compare()
 
@@ -286,3 +312,14 @@ class Case(Table):
                 'model = "finite_strain" with it'
             )
         return self
+
+    def named_files(self) -> list[tuple[str, str]]:
+        """Return role and name of every file it names."""
+        friction = [self.measured.friction] if self.measured.friction is not None else []
+        roles = (
+            ("surface", self.surface.measured_files),
+            ("rubber", self.rubber.files),
+            ("conditions", self.conditions.files),
+            ("measured", friction),
+        )
+        return [(role, name) for role, names in roles for name in names]

@@ -1,24 +1,15 @@
-"""From what a case names to what a model needs: cleaned profiles, sine waves, a rubber."""
+"""From the surface a case names to what a model needs: cleaned profiles, sine waves."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from gripscale.case.models import RubberSource, Surface
+from gripscale.case.models import Surface
 from gripscale.errors import GripscaleError, InputError
-from gripscale.rubber import (
-    MasterCurve,
-    PronyFit,
-    Rubber,
-    fit_prony_report,
-    read_master_curve,
-    styrene_butadiene,
-)
 from gripscale.surface import (
     CleaningReport,
     HeightDifference,
@@ -55,16 +46,6 @@ FIT_KEYS = (
 
 COUNTED_KEYS = ("upper_share", "max_lag")
 """Keys of the case's [surface] that say which heights and lags count in the correlation."""
-
-
-@dataclass(frozen=True)
-class PreparedRubber:
-    """A rubber and, where it comes from a master curve, the curve and the report on its fit."""
-
-    rubber: Rubber
-    source: str
-    master: MasterCurve | None = None
-    fit: PronyFit | None = None
 
 
 def prepare_surface(surface: Surface, resolve: Resolve = Path) -> PreparedSurface:
@@ -149,35 +130,6 @@ def _middle(raw: HeightMap, cleaned: HeightMap) -> tuple[Profile, Profile]:
         for surface in (raw, cleaned)
     )
     return one, replace(other, name=one.name, source=one.source)
-
-
-def prepare_rubber(source: RubberSource, resolve: Resolve = Path) -> PreparedRubber:
-    """Read and fit the master curve of `source`, or take the rubber it names.
-
-    Raises `FileError` and `InputError` as reading and fitting do.
-    """
-    stiffness: dict[str, Any] = (
-        {} if source.bulk_modulus is None else {"bulk_modulus": source.bulk_modulus}
-    )
-    if source.file is None:
-        rubber = replace(styrene_butadiene(**stiffness), strain_energy=source.strain_energy)
-        return PreparedRubber(rubber, rubber.source)
-    path = resolve(source.file)
-    master = read_master_curve(
-        path,
-        frequency_unit=source.frequency_unit,
-        modulus_unit=source.modulus_unit,
-        modulus=source.modulus,
-        reference_temperature=source.reference_temperature,
-        columns=source.columns,
-        source=source.source or str(path),
-    )
-    choice = (
-        {} if source.outlier_threshold is None else {"outlier_threshold": source.outlier_threshold}
-    )
-    rubber, report = fit_prony_report(master, terms=source.terms, **stiffness, **choice)
-    rubber = replace(rubber, strain_energy=source.strain_energy)
-    return PreparedRubber(rubber, master.source, master, report)
 
 
 def _clean(raw: Profile, surface: Surface, path: Path) -> tuple[Profile, CleaningReport]:

@@ -17,7 +17,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from gripscale.case.drawn import band, close_up, envelope, excited, sine_curves
-from gripscale.case.prepare import PreparedRubber
+from gripscale.case.prepare_rubber import PreparedRubber
 from gripscale.case.read import CaseFile
 from gripscale.case.results import CaseResults
 from gripscale.rubber import Rubber
@@ -35,6 +35,7 @@ def inputs(results: CaseResults) -> xr.Dataset:
     surface = results.surface
     excitation = excited(results.file.case.load.speed, surface.sines)
     parts = [_waves(surface), _files(results.file), _rubber(results.rubber, excitation)]
+    parts.append(({}, {"conditions_notes": "\n".join(results.conditions_notes()) or None}))
     if surface.measured is not None and surface.correlation is not None:
         parts.append(_profiles(surface.measured))
         parts.append(_correlation(surface.correlation, surface.measured, surface.sines))
@@ -48,9 +49,7 @@ def inputs(results: CaseResults) -> xr.Dataset:
 
 def _files(file: CaseFile) -> tuple[Variables, Variables]:
     """Return names, sizes and checksums of the measured files of the case."""
-    surface, rubber = file.case.surface.measured_files, file.case.rubber.file
-    named = [("surface", name) for name in surface]
-    named += [("rubber", rubber)] if rubber is not None else []
+    named = file.case.named_files()
     contents = [read_bytes(file.resolve(name)) for _, name in named]
     if not named:
         return {}, {}

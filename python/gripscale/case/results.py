@@ -6,11 +6,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from gripscale.case.prepare import PreparedRubber
+from gripscale.case.prepare_rubber import PreparedRubber
 from gripscale.case.read import CaseFile
+from gripscale.chain.model import Chain
 from gripscale.chain.predict import ChainError
 from gripscale.chain.prediction import Prediction
+from gripscale.conditions.conditions import Conditions
 from gripscale.model import NominalLoad
+from gripscale.rubber import Rubber, temperature_doubts
 from gripscale.surface import PreparedSurface
 
 DYNAMIC, STATIC = "dynamic", "static"
@@ -22,8 +25,8 @@ class CaseResults:
 
     Attributes
     ----------
-    file, surface, rubber
-        What was run, and the inputs as prepared.
+    file, surface, rubber, chain
+        What was run, the inputs as prepared, and the chain with its conditions.
     predictions
         By name, "dynamic" and "static", as far as they were asked for and got.
     failures
@@ -35,6 +38,7 @@ class CaseResults:
     file: CaseFile
     surface: PreparedSurface
     rubber: PreparedRubber
+    chain: Chain
     predictions: dict[str, Prediction] = field(default_factory=dict)
     failures: dict[str, ChainError] = field(default_factory=dict)
     folder: Path | None = None
@@ -44,6 +48,27 @@ class CaseResults:
         """The load of the case, at its speed."""
         load = self.file.case.load
         return NominalLoad(load.pressure, load.speed, load.footprint, load.load_time)
+
+    @property
+    def conditions(self) -> Conditions | None:
+        """What changes the rubber, or None where nothing was asked for."""
+        return self.chain.conditions
+
+    @property
+    def rubber_before(self) -> Rubber:
+        """The rubber at the temperature before the contact."""
+        rubber = self.rubber.rubber
+        return rubber if self.conditions is None else self.conditions.before(rubber)
+
+    def conditions_notes(self) -> list[str]:
+        """Return what the conditions ask for that was not measured."""
+        if self.conditions is None or self.conditions.temperature is None:
+            return []
+        name = self.rubber.rubber.name or "rubber"
+        return [
+            f"{text[0].upper()}{text[1:]}."
+            for text in temperature_doubts({name: self.rubber_before})
+        ]
 
     @property
     def dynamic(self) -> Prediction | None:

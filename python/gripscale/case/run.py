@@ -13,11 +13,13 @@ from pathlib import Path
 from gripscale import netcdf
 from gripscale.case import folder, record
 from gripscale.case.chain import case_chain
-from gripscale.case.prepare import prepare_rubber, prepare_surface
+from gripscale.case.prepare import prepare_surface
+from gripscale.case.prepare_rubber import prepare_rubber
 from gripscale.case.read import CaseFile, read_case
 from gripscale.case.results import CaseResults
 from gripscale.chain.predict import ChainError, predict
 from gripscale.chain.prediction import Prediction
+from gripscale.errors import InputError
 from gripscale.model import NominalLoad
 from gripscale.rubber.carrying import require_solid
 from gripscale.rubber.extrapolation import require_measured
@@ -37,8 +39,11 @@ def prepare_case(case: CaseFile | str | Path) -> CaseResults:
     Raises `FileError` and `InputError` for what cannot be used.
     """
     file = case if isinstance(case, CaseFile) else read_case(case)
+    chain = case_chain(file)
     surface = prepare_surface(file.case.surface, file.resolve)
-    return CaseResults(file, surface, prepare_rubber(file.case.rubber, file.resolve))
+    results = CaseResults(file, surface, prepare_rubber(file.case.rubber, file.resolve), chain)
+    _require_shift(results)
+    return results
 
 
 def run_case(
@@ -83,27 +88,35 @@ def run_case(
     return results
 
 
+def _require_shift(results: CaseResults) -> None:
+    """Raise `InputError` if a temperature or heat is asked for and the rubber has no shift."""
+    try:
+        _ = results.rubber_before
+    except InputError as error:
+        raise InputError(f"{results.file.path}: [conditions] {error}") from error
+
+
 def _require_solid(results: CaseResults) -> None:
     """Raise `InputError` before anything is solved or written if the rubber cannot carry a load."""
     load = results.file.case.load
     for _, speed in results.planned():
         nominal = NominalLoad(load.pressure, speed, load.footprint, load.load_time)
         time = nominal.time_under(nominal.footprint)
-        require_solid(results.rubber.rubber, nominal.pressure, time)
+        require_solid(results.rubber_before, nominal.pressure, time)
 
 
 def _require_measured(results: CaseResults) -> None:
     """Raise `ExtrapolationError` before anything is solved or written if the case refuses it."""
     if results.file.case.rubber.extrapolate == "refuse":
         for _, speed in results.planned():
-            require_measured(results.rubber.rubber, results.surface.sines.wavelength, speed)
+            require_measured(results.rubber_before, results.surface.sines.wavelength, speed)
 
 
 def _solve(
     results: CaseResults, name: str, speed: float, on_wave: Callable[[WaveSolved], None] | None
 ) -> None:
     """Add one prediction to `results`, on disk after each wave; the inputs follow at the end."""
-    load, chain = results.file.case.load, case_chain(results.file.case)
+    load, chain = results.file.case.load, results.chain
 
     def keep(so_far: Prediction) -> None:
         results.predictions[name] = so_far
@@ -112,7 +125,7 @@ def _solve(
             on_wave(WaveSolved(name, so_far))
 
     try:
-        predict(
+        results.predictions[name] = predict(
             results.rubber.rubber,
             results.surface.sines,
             pressure=load.pressure,
@@ -122,6 +135,7 @@ def _solve(
             load_time=load.load_time,
             solver=chain.solver,
             extrapolate=chain.extrapolate,
+            conditions=chain.conditions,
             on_scale=keep,
         )
     except ChainError as failure:

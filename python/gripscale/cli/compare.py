@@ -106,7 +106,13 @@ def _conclude(console: Console, data: xr.Dataset, target: Path) -> list[str]:
     from gripscale.figures.comparison_all import draw
     from gripscale.figures.rungs import varied
     from gripscale.report import tables
-    from gripscale.report.comparison_table import axis_table, beyond_band, comparison_table, remarks
+    from gripscale.report.comparison_table import (
+        axis_table,
+        beyond_band,
+        comparison_table,
+        remarks,
+        temperature_only,
+    )
 
     axis = varied(data)
     name = f"over_{axis}" if axis else "comparison"
@@ -114,7 +120,7 @@ def _conclude(console: Console, data: xr.Dataset, target: Path) -> list[str]:
     parts: list[Any]
     if axis:
         parts = [axis_table(data, axis, quantity) for quantity in ("contact_fraction", "friction")]
-        parts += beyond_band(data)
+        parts += [*beyond_band(data), *temperature_only(data)]
     else:
         parts = [comparison_table(data), *remarks(data)]
     _print(console, parts)

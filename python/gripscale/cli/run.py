@@ -75,7 +75,18 @@ def _opening(results: CaseResults) -> list[str]:
         "",
         "Rubber",
         *(f"  {line}" for line in rubber_lines(results.rubber)),
+        *_conditions(results),
     ]
+
+
+def _conditions(results: CaseResults) -> list[str]:
+    from gripscale.report.inputs_text import conditions_lines
+
+    if results.conditions is None:
+        return []
+    told = conditions_lines(results.conditions, results.rubber.rubber)
+    notes = (f"note: {text}" for text in results.conditions_notes())
+    return ["", "Conditions", *(f"  {line}" for line in (*told, *notes))]
 
 
 def _spinner(console: Console) -> AbstractContextManager[Any]:

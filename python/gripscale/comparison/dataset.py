@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Sequence
 from typing import Any
@@ -18,7 +19,7 @@ from gripscale.comparison.solved import SolvedRung
 from gripscale.comparison.solved_ladder import SolvedLadder
 from gripscale.comparison.uncertain import UNKNOWN
 from gripscale.measured.friction import MeasuredFriction
-from gripscale.model import OUTSIDE_BAND, TOTALS
+from gripscale.model import ADHESIVE_FRICTION, OUTSIDE_BAND, TOTALS
 from gripscale.study.assemble import coordinates
 from gripscale.study.axes import Axis
 from gripscale.wave.dataset import labelled
@@ -41,12 +42,14 @@ def to_dataset(comparisons: Sequence[SolvedLadder], axis: Axis | None = None) ->
         rung=[rung.name for rung in first.rungs],
         wavelength=labelled("wavelength", wavelength, "m", "lower end of the octave", SOURCE),
     )
+    conditions = first.subject.conditions
     if first.measured is not None:
         data = data.assign(_measured(first.measured))
     return data.assign_attrs(
         title="Contact and friction by model",
         case=first.file.text,
         case_file=str(first.file.path),
+        conditions=json.dumps(conditions and conditions.to_dict()),
         seeds=first.subject.seeds,
         tolerance=first.subject.tolerance,
         measured_source="" if first.measured is None else first.measured.source,
@@ -64,6 +67,9 @@ def _numbers(one: SolvedLadder, wavelength: NDArray[np.float64], most: int) -> d
         )
     for name, text in WORDS.items():
         data |= _of_quantity(one, name, text, wavelength, most)
+    adhesive = [rung.mean("adhesive_friction") for rung in rungs]
+    if np.isfinite(adhesive).any():
+        data[ADHESIVE_FRICTION] = _by_rung(adhesive, "friction coefficient of the area term")
     beyond = [rung.extrapolation for rung in rungs]
     for name, (part, text) in OUTSIDE_BAND.items():
         data[name] = _by_rung([getattr(each, part) for each in beyond], text)

@@ -20,7 +20,8 @@ def judged(results: CaseResults) -> SolvedRung | None:
     None if no profile was measured. Solved to an estimated relative error of `JUDGED_TO`.
     """
     rung = next(one for one in LADDER if one.name == DIRECT)
-    model, rubber, load = DirectContact(tolerance=JUDGED_TO), results.rubber.rubber, results.load
+    model = DirectContact(tolerance=JUDGED_TO, conditions=results.conditions)
+    rubber, load = results.rubber.rubber, results.load
     samples: list[Sample] = []
     for name, surface in each_measured(results.surface):
         clock = time.perf_counter()

@@ -38,6 +38,7 @@ from gripscale.surface.periodogram import profile_spectrum
 from gripscale.surface.spectrum import ArealSpectrum
 from gripscale.theory.half_plane import HalfPlane
 from gripscale.theory.models import Persson
+from gripscale.wave.solver import WaveSolver
 
 Measurement = TypeVar("Measurement", Profile, HeightMap)
 
@@ -76,12 +77,20 @@ def _chain(subject: Subject) -> Sequence[Draw]:
     small_strain = isinstance(subject.solver, HalfPlane)
     if small_strain:
         return []
-    return [Draw(Chain(subject.solver, pressure_classes=subject.pressure_classes), subject.surface)]
+    return [Draw(_chain_of(subject, subject.solver), subject.surface)]
+
+
+def _chain_of(subject: Subject, solver: WaveSolver) -> Chain:
+    return Chain(solver, pressure_classes=subject.pressure_classes, conditions=subject.conditions)
+
+
+def _direct_of(subject: Subject) -> DirectContact:
+    return DirectContact(tolerance=subject.tolerance, conditions=subject.conditions)
 
 
 def _chain_half_plane(subject: Subject) -> Sequence[Draw]:
     solver = subject.solver if isinstance(subject.solver, HalfPlane) else HalfPlane()
-    return [Draw(Chain(solver, pressure_classes=subject.pressure_classes), subject.surface)]
+    return [Draw(_chain_of(subject, solver), subject.surface)]
 
 
 def _chain_upper(subject: Subject) -> Sequence[Draw]:
@@ -95,7 +104,8 @@ def _chain_upper(subject: Subject) -> Sequence[Draw]:
     sines = _of_upper_half(lines, surface.counted.get("max_lag"), end) if lines else None
     if sines is None:
         return []
-    chain = Chain(HalfPlane(points=POINTS_OF_A_CLASS), pressure_classes=CLASSES)
+    solver = HalfPlane(points=POINTS_OF_A_CLASS)
+    chain = Chain(solver, pressure_classes=CLASSES, conditions=subject.conditions)
     return [Draw(chain, PreparedSurface(sines, "waves of the upper half"))]
 
 
@@ -112,13 +122,13 @@ def _of_upper_half(
 
 
 def _sines(subject: Subject) -> Sequence[Draw]:
-    model, surface = DirectContact(tolerance=subject.tolerance), subject.surface
+    model, surface = _direct_of(subject), subject.surface
     lines = (_of_sines(surface.sines, seed) for seed in range(subject.seeds))
     return [Draw(model, only(surface, line)) for line in lines]
 
 
 def _random_phases(subject: Subject) -> Sequence[Draw]:
-    model, surface = DirectContact(tolerance=subject.tolerance), subject.surface
+    model, surface = _direct_of(subject), subject.surface
     measured = [] if surface.measured is None else surface.measured.surfaces
     return [
         Draw(model, only(surface, _shuffled(one, seed)), one.name)
@@ -128,7 +138,7 @@ def _random_phases(subject: Subject) -> Sequence[Draw]:
 
 
 def _direct(subject: Subject) -> Sequence[Draw]:
-    model = DirectContact(tolerance=subject.tolerance)
+    model = _direct_of(subject)
     return [Draw(model, one, name) for name, one in each_measured(subject.surface)]
 
 

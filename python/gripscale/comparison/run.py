@@ -9,10 +9,10 @@ from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
 from gripscale import checks
-from gripscale.case.chain import case_chain
 from gripscale.case.read import CaseFile
 from gripscale.case.results import CaseResults
 from gripscale.case.run import prepare_case
+from gripscale.chain.model import Chain
 from gripscale.comparison.estimate import Factor
 from gripscale.comparison.ladder import chosen
 from gripscale.comparison.result import Comparison, ComparisonOverAxis
@@ -73,7 +73,7 @@ def compare_case(
     rungs : sequence of str
         Names and groups of the rungs wanted, see `LADDER`; by default all.
     measured : MeasuredFriction, optional
-        Friction measured elsewhere; what `[compare] measured` of the case names by default.
+        Friction measured elsewhere; what `[measured] friction` of the case names by default.
     factors : sequence of Factor
         Factors of the best estimate known from elsewhere.
     folder : path, optional
@@ -95,7 +95,7 @@ def compare_case(
     """
     results = case if isinstance(case, CaseResults) else prepare_case(case)
     choice = Choice(seeds, tolerance, rungs, measured, factors)
-    task = Task(results.rubber.rubber, results.surface, results.load)
+    task = Task(results.rubber.rubber, results.surface, results.load, results.chain)
     with _store(folder) as store:
         made = _compared(results.file, {"": task}, choice, store, workers, client, on_task)
     return made[0]
@@ -154,10 +154,12 @@ def _compared(
 ) -> list[Comparison]:
     """Return the comparison of each rubber, surface and load in `places`."""
     ladder = chosen(choice.rungs)
-    if file.case.rubber.extrapolate == "refuse":
-        for task in places.values():
-            require_measured(task.rubber, task.surface.sines.wavelength, task.load.speed)
     subjects = {place: _subject(file, task, choice) for place, task in places.items()}
+    if file.case.rubber.extrapolate == "refuse":
+        for place, task in places.items():
+            require_measured(
+                subjects[place].rubber_before, task.surface.sines.wavelength, task.load.speed
+            )
     drawn = {
         (place, rung.name): rung.draws(subject)
         for place, subject in subjects.items()
@@ -187,7 +189,8 @@ def _compared(
 
 
 def _subject(file: CaseFile, task: Task, choice: Choice) -> Subject:
-    chain, theory = case_chain(file.case), file.case.compare
+    theory = file.case.compare
+    chain = checks.instance("model", task.model, Chain)
     return Subject(
         task.rubber,
         task.surface,
@@ -199,11 +202,12 @@ def _subject(file: CaseFile, task: Task, choice: Choice) -> Subject:
         if theory.layer_ratio is None or theory.penetration_depth is None
         else KlueppelHeinrich(theory.layer_ratio, theory.penetration_depth),
         chain.pressure_classes,
+        chain.conditions,
     )
 
 
 def _task(subject: Subject, draw: Draw) -> Task:
-    return Task(subject.rubber, draw.surface, subject.load, draw.model)
+    return Task(subject.rubber_for(draw.model), draw.surface, subject.load, draw.model)
 
 
 def _label(place: str, label: str, draws: Sequence[Draw], at: int) -> str:
@@ -213,7 +217,7 @@ def _label(place: str, label: str, draws: Sequence[Draw], at: int) -> str:
 
 
 def _measured_of(file: CaseFile) -> MeasuredFriction | None:
-    name = file.case.compare.measured
+    name = file.case.measured.friction
     return None if name is None else read_measured_friction(file.resolve(name))
 
 

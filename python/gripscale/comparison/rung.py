@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
+from gripscale.conditions.conditions import Conditions
 from gripscale.model import Model, NominalLoad
 from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Measured, PreparedSurface, Profile
@@ -31,6 +32,9 @@ class Subject:
         That theory with its fitted parameters; without them it says nothing.
     pressure_classes : int
         In how many classes of equal load the chain hands its pressure down, as the case says.
+    conditions : Conditions, optional
+        What changes the rubber. Chain and direct contact know all of it, every other model only the
+        temperature.
     """
 
     rubber: Rubber
@@ -41,6 +45,17 @@ class Subject:
     tolerance: float = 0.05
     klueppel_heinrich: KlueppelHeinrich | None = None
     pressure_classes: int = 1
+    conditions: Conditions | None = None
+
+    @property
+    def rubber_before(self) -> Rubber:
+        """The rubber at the temperature before the contact, for models that know no more."""
+        return self.rubber if self.conditions is None else self.conditions.before(self.rubber)
+
+    def rubber_for(self, model: Model) -> Rubber:
+        """Return the rubber as measured for a model with conditions, else `rubber_before`."""
+        knows = getattr(model, "conditions", None) is not None
+        return self.rubber if knows else self.rubber_before
 
 
 class Draw(NamedTuple):

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.comparison.curve import Curve, curve_of
-from gripscale.model import extrapolation_of
+from gripscale.model import ADHESIVE_FRICTION, extrapolation_of
 from gripscale.rubber.extrapolation import UNKNOWN, Extrapolation
 
 CONVERGED = "converged"
@@ -32,6 +32,8 @@ class Sample:
     """Estimated by the model [-], absolute; NaN if it gives none."""
     friction_error: float = math.nan
     """The same of the friction coefficient."""
+    adhesive_friction: float = math.nan
+    """Of the area term [-]; NaN where none was asked for or the model knows none."""
     extrapolation: Extrapolation = UNKNOWN
     """What of it rests on the rubber beyond its measured frequencies."""
     curve: Curve | None = None
@@ -59,6 +61,7 @@ def sample_of(answer: xr.Dataset, of: str = "") -> Sample:
         of=of,
         contact_fraction_error=_error(answer, "contact_fraction"),
         friction_error=math.nan if rest else _error(answer, "friction"),
+        adhesive_friction=float(answer.get(ADHESIVE_FRICTION, math.nan)),
         extrapolation=extrapolation_of(answer),
         curve=curve_of(answer),
         seconds=float(answer.attrs.get("seconds", 0.0)),

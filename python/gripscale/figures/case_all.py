@@ -14,10 +14,16 @@ from gripscale.figures.correlation import correlation_figure
 from gripscale.figures.master_curve import master_curve_figure
 from gripscale.figures.profile import profile_figure
 from gripscale.figures.style import save_figure
+from gripscale.figures.superposition import (
+    shift_figure,
+    superposition_figure,
+    superposition_tests_figure,
+)
 from gripscale.figures.view import PredictionView
+from gripscale.rubber import ShiftTable
 
 if TYPE_CHECKING:
-    from gripscale.case.prepare import PreparedRubber
+    from gripscale.case.prepare_rubber import PreparedRubber
     from gripscale.case.results import CaseResults
     from gripscale.surface import PreparedSurface
 
@@ -26,7 +32,7 @@ def draw_inputs(results: CaseResults, folder: Path) -> None:
     """Draw profiles, correlation and master curve into `folder`."""
     surface_figures(results.surface, folder)
     omega = excited(results.file.case.load.speed, results.surface.sines)
-    rubber_figure(results.rubber, omega, folder)
+    rubber_figures(results.rubber, omega, folder)
 
 
 def draw_blocks(results: CaseResults, name: str, folder: Path) -> None:
@@ -52,7 +58,17 @@ def surface_figures(surface: PreparedSurface, folder: Path) -> None:
     save_figure(figure, folder, "correlation")
 
 
-def rubber_figure(rubber: PreparedRubber, omega: ArrayLike, folder: Path) -> None:
-    """Draw the master curve with the angular frequencies `omega` [rad/s] marked."""
+def rubber_figures(rubber: PreparedRubber, omega: ArrayLike, folder: Path) -> None:
+    """Draw the master curve with the angular frequencies `omega` [rad/s] marked.
+
+    Of sweeps at several temperatures also how they meet, and the shift factors.
+    """
     figure = master_curve_figure(rubber.rubber, rubber.master, rubber.fit, omega)
     save_figure(figure, folder, "master_curve")
+    sweeps, master, report = rubber.sweeps, rubber.master, rubber.superposition
+    if sweeps is None or master is None or report is None or len(sweeps) < 2:
+        return
+    save_figure(superposition_figure(sweeps, master), folder, "superposition")
+    save_figure(superposition_tests_figure(sweeps, report), folder, "superposition_tests")
+    if isinstance(master.shift, ShiftTable):
+        save_figure(shift_figure(master.shift, rubber.shift_fits()), folder, "shift")

@@ -15,9 +15,12 @@ from gripscale.figures.rungs import JUDGE, Look, looks, on_the_surface, varied
 from gripscale.figures.stretches import predictions_beyond
 from gripscale.figures.study_axes import along
 from gripscale.figures.style import area_axis, dashed_entry, line, sheet, styled
+from gripscale.model import with_adhesive
 
 MARKS = "osd^v"
 """Of measurements, temperature by temperature."""
+WITH_AREA_TERM = (0, (6, 1.5, 1, 1.5))
+"""Dashes of friction with the area term."""
 LEAST_SPREAD = 1e-3
 """Lower end of a band over the number itself, where the spread is larger than that."""
 
@@ -40,6 +43,8 @@ def comparison_axis_figure(comparison: xr.Dataset) -> Figure:
         for at, (rung, look) in enumerate(looks(comparison)):
             _rung(axes, x, comparison.isel(rung=at), name, look, strong=rung == JUDGE)
         _best(axes, x, comparison, name)
+        if name == "friction":
+            _with_area_term(axes, x, comparison)
     if axis == "speed":
         _measured(friction, comparison)
     area_axis(area)
@@ -77,6 +82,18 @@ def _rung(
         axes.fill_between(x, low, values + spread, color=look.colour, alpha=0.18, lw=0)
 
 
+def _with_area_term(axes: Axes, x: np.ndarray, comparison: xr.Dataset) -> None:
+    """Draw friction with the area term of the rungs that have one, thin, without marks."""
+    both = with_adhesive(comparison)
+    if both is None:
+        return
+    for at, (_, look) in enumerate(looks(comparison)):
+        values = both.isel(rung=at).values
+        if np.isfinite(values).any():
+            axes.plot(x, values, color=look.colour, lw=0.9, ls=WITH_AREA_TERM)
+    axes.plot([], [], color=INK, lw=0.9, ls=WITH_AREA_TERM, label="with the area term")
+
+
 def _best(axes: Axes, x: np.ndarray, comparison: xr.Dataset, name: str) -> None:
     if not np.isfinite(comparison[f"best_{name}_factor"]).any():
         return
@@ -93,7 +110,7 @@ def _measured(axes: Axes, comparison: xr.Dataset) -> None:
         axes.errorbar(
             series.speed, series.friction, yerr=np.nan_to_num(series.spread),
             fmt=MARKS[number % len(MARKS)], ms=5.5, mfc="white", mec=COLOUR, ecolor=COLOUR,
-            mew=1.3, capsize=2.5, zorder=5, label=series.label,
+            mew=1.3, capsize=2.5, zorder=5, label=series.label, clip_on=False,
         )  # fmt: skip
         low, high = min(low, series.speed[0]), max(high, series.speed[-1])
     axes.set_xlim(low, high)

@@ -11,11 +11,11 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from gripscale.figures.palette import INK
+from gripscale.units import ZERO_CELSIUS
 
 COLOUR = INK
 """Of everything measured."""
 
-ZERO_CELSIUS = 273.15
 BAR = 1e5
 
 Array = NDArray[np.float64]
@@ -58,8 +58,11 @@ def measured(data: xr.Dataset) -> Iterator[Series]:
             chosen = _same(kelvin, value) & _same(pascal, load)
             if chosen.any():
                 parts = ["measured", *_words(float(value), float(load), several=several)]
-                columns = (data[f"measured_{n}"].values for n in ("speed", "friction", "spread"))
-                yield Series(", ".join(parts), *(column[chosen] for column in columns), chosen)
+                speed, friction, spread = (
+                    data[f"measured_{name}"].values[chosen]
+                    for name in ("speed", "friction", "spread")
+                )
+                yield Series(", ".join(parts), speed, friction, spread, chosen)
 
 
 def _same(values: Array, value: float) -> NDArray[np.bool_]:

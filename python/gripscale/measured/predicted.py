@@ -21,6 +21,7 @@ from gripscale.rubber import Rubber
 from gripscale.study.store import Store
 from gripscale.study.task import Task
 from gripscale.study.threads import OnTask, solve_all
+from gripscale.units import ZERO_CELSIUS
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -196,7 +197,7 @@ def _task(
 
 
 def _label(load: NominalLoad, kelvin: float | None) -> str:
-    at = "" if kelvin is None else f", {kelvin - 273.15:.4g} C"
+    at = "" if kelvin is None else f", {kelvin - ZERO_CELSIUS:.4g} C"
     return f"speed {load.speed:.4g} m/s{at}, pressure {load.pressure / 1e5:.4g} bar"
 
 

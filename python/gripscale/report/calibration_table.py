@@ -10,9 +10,11 @@ from rich.table import Table
 
 from gripscale.calibration.snippet import interval, written
 from gripscale.report.tables import significant
+from gripscale.units import ZERO_CELSIUS
 
 if TYPE_CHECKING:
     from gripscale.calibration import Calibration, HeldOut
+
 
 def parameter_table(calibration: Calibration) -> Table:
     """Return value, standard error and interval of each parameter, and what was held."""
@@ -59,5 +61,5 @@ def held_out_table(calibration: Calibration) -> Table:
 def group_name(calibration: Calibration, one: HeldOut) -> str:
     """Return a group in words: its temperature, or its decade of speed."""
     if calibration.held_out_by == "temperature":
-        return f"{one.value - 273.15:.0f} °C"
+        return f"{one.value - ZERO_CELSIUS:.0f} °C"
     return f"{one.value:g} to {10.0 * one.value:g} m/s"

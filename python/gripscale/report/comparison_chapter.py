@@ -10,7 +10,7 @@ import xarray as xr
 from gripscale.figures.rungs import flawed, varied
 from gripscale.model import FRICTION_OUTSIDE_BAND
 from gripscale.report.charts.comparison import axis_charts, ladder_charts
-from gripscale.report.comparison_table import best_sentence, samples_of
+from gripscale.report.comparison_table import best_sentence, samples_of, temperature_only
 from gripscale.report.elements import Element, Heading, Notice, Table, Text
 from gripscale.report.numbers import number, percent
 from gripscale.report.outside_band import comparison_sentences
@@ -36,6 +36,7 @@ def comparison_elements(compared: Compared) -> list[Element]:
     ladder = compared.ladder
     if ladder is not None:
         elements.append(_table(ladder))
+        elements += [Text(one) for one in temperature_only(ladder)]
         if np.isfinite(ladder.best_friction):
             elements.append(Text(best_sentence(ladder)))
         elements += ladder_charts(ladder)

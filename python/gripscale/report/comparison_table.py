@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
@@ -11,7 +12,7 @@ from rich import box
 from rich.table import Table
 
 from gripscale.figures.rungs import JUDGE, flawed
-from gripscale.model import FRICTION_OUTSIDE_BAND
+from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, with_adhesive
 from gripscale.report.outside_band import comparison_sentences, friction_sentence
 from gripscale.report.tables import significant
 from gripscale.rubber.extrapolation import WORTH_SAYING
@@ -38,7 +39,9 @@ def comparison_table(comparison: xr.Dataset) -> Table:
     table = _empty()
     table.add_column("model", overflow="fold", min_width=LABEL)
     parts = ["spread\n%", "error\n%", "×"]
-    for head in ["A_r/A_0", *parts, "μ", "μ\ndiss.", *parts, "n"]:
+    both = with_adhesive(comparison)
+    total = [] if both is None else ["μ + area\nterm"]
+    for head in ["A_r/A_0", *parts, "μ", "μ\ndiss.", *parts, *total, "n"]:
         table.add_column(head, justify="right", no_wrap=True)
     for at, bad in enumerate(flawed(comparison)):
         one = comparison.isel(rung=at)
@@ -50,6 +53,7 @@ def comparison_table(comparison: xr.Dataset) -> Table:
             f"{label} *" if float(one[FRICTION_OUTSIDE_BAND]) > WORTH_SAYING else label,
             *area,
             *friction,
+            *([] if both is None else [significant(float(both[at]))]),
             samples_of(one),
             style="bold red" if bad else "bold" if str(one.rung.item()) == JUDGE else None,
         )
@@ -89,8 +93,21 @@ def remarks(comparison: xr.Dataset) -> Iterator[str]:
         if bad:
             yield f"{one.label.item()}: {one.status.item()}."
     yield from beyond_band(comparison)
+    yield from temperature_only(comparison)
     if "best_friction" in comparison and np.isfinite(comparison.best_friction):
         yield best_sentence(comparison)
+
+
+def temperature_only(comparison: xr.Dataset) -> Iterator[str]:
+    """Yield what is not in every model, where strain or heat change the rubber."""
+    asked = json.loads(comparison.attrs.get("conditions", "null")) or {}
+    effects = [name for name in ("softening", "heat") if asked.get(name) is not None]
+    if effects:
+        yield (
+            f"{' and '.join(effects).capitalize()}: in the chains and in the direct contacts; the "
+            "theories, and the windows and maps whose ratios make the best estimate's factors, "
+            "know the temperature before the contact only."
+        )
 
 
 def beyond_band(comparison: xr.Dataset) -> Iterator[str]:
@@ -112,9 +129,20 @@ def best_sentence(comparison: xr.Dataset) -> str:
         else:
             missing.append(label)
     text = f"Best estimate: {numbers}, from {' × '.join(parts)}."
+    if ADHESIVE_FRICTION in comparison:
+        text += (
+            f" With the area term, of its contact area, μ = {significant(_best_total(comparison))}."
+        )
     if missing:
         text += f" Not included, neither factor nor uncertainty: {'; '.join(missing)}."
     return text
+
+
+def _best_total(comparison: xr.Dataset) -> float:
+    """Return the best estimate with the area term, which goes with the contact area."""
+    judge = comparison.sel(rung=JUDGE)
+    share = comparison.best_contact_fraction / judge.total_contact_fraction
+    return float(comparison.best_friction + judge[ADHESIVE_FRICTION] * share)
 
 
 def samples_of(one: xr.Dataset) -> str:
@@ -132,6 +160,9 @@ def judgement(prediction: Prediction, direct: SolvedRung) -> Iterator[str]:
     words = f"A_r/A_0 = {significant(area)}"
     if prediction.load.speed > 0.0:
         words += f", mu = {significant(friction)}"
+        adhesive = direct.mean("adhesive_friction")
+        if math.isfinite(adhesive):
+            words += f", with the area term {significant(friction + adhesive)}"
     yield f"Direct contact of the measured profiles, all waves at once at small strain: {words}."
     beyond = friction_sentence(direct.extrapolation)
     if beyond:

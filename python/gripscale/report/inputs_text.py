@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from dataclasses import fields
+from typing import TYPE_CHECKING, Any
 
 from gripscale.figures.palette import MEGA, MILLI
 from gripscale.report.tables import significant
+from gripscale.rubber import ShiftTable
 from gripscale.rubber.plateau import BEYOND, End, fast_end, slow_end
+from gripscale.units import ZERO_CELSIUS
 
 if TYPE_CHECKING:
-    from gripscale.case.prepare import PreparedRubber
+    from gripscale.case.prepare_rubber import PreparedRubber
+    from gripscale.conditions.conditions import Conditions
     from gripscale.rubber import Rubber
     from gripscale.surface import PreparedSurface, SineStack
 
@@ -74,6 +78,57 @@ def rubber_lines(prepared: PreparedRubber) -> Iterator[str]:
         yield from prepared.fit.summary().splitlines()
     if prepared.source:
         yield f"source: {prepared.source}"
+    yield from shift_lines(prepared)
+
+
+def shift_lines(prepared: PreparedRubber) -> Iterator[str]:
+    """Yield the sweeps a master curve was made of, how they meet, and the shift factors."""
+    shift, reference = prepared.rubber.shift, prepared.rubber.reference_temperature
+    if prepared.sweeps is not None and prepared.superposition is not None:
+        yield prepared.sweeps.summary()
+        yield from prepared.superposition.summary().splitlines()
+    elif shift is not None and reference is not None:
+        yield f"shift, as stated: {shift.kind}, from {reference - ZERO_CELSIUS:.4g} C"
+    if isinstance(shift, ShiftTable) and prepared.sweeps is not None:
+        yield f"{'temperature [C]':>16} {'log10 a_T':>10} {'+-':>7} {'b_T':>7}"
+        for kelvin, log_a, error, log_b in zip(
+            shift.temperature,
+            shift.horizontal,
+            shift.horizontal_error,
+            shift.vertical,
+            strict=True,
+        ):
+            celsius = kelvin - ZERO_CELSIUS
+            yield f"{celsius:>16.1f} {log_a:>10.3f} {error:>7.3f} {10.0**log_b:>7.3f}"
+    yield from (fit.summary() for fit in prepared.shift_fits())
+
+
+def conditions_lines(conditions: Conditions, rubber: Rubber) -> Iterator[str]:
+    """Yield the effects that are asked for, with their numbers."""
+    kelvin = conditions.temperature_of(rubber)
+    if kelvin is not None:
+        stated = "" if conditions.temperature is not None else ", of the master curve"
+        yield f"temperature before the contact {kelvin - ZERO_CELSIUS:.4g} C{stated}"
+    for name, law in (("softening", conditions.softening), ("heat", conditions.heat)):
+        if law is not None:
+            yield f"{name}: {_numbers(law)}"
+    if conditions.softening is not None:
+        yield f"strain of a wave: {conditions.strain_norm}"
+    if conditions.shear_stress is not None:
+        yield f"area term, as stated: {_numbers(conditions.shear_stress)}"
+
+
+def _numbers(law: Any) -> str:
+    """Return kind and numbers of a law; of tables how many."""
+    values = {f.name: getattr(law, f.name) for f in fields(law)}
+    told = (
+        f"{name} {len(value)} values"
+        if isinstance(value, tuple)
+        else f"{name} {value if isinstance(value, str) else format(value, 'g')}"
+        for name, value in values.items()
+        if value is not None
+    )
+    return ", ".join([*filter(None, [getattr(law, "kind", "")]), *told])
 
 
 def _end(end: End, plateau: str) -> str:

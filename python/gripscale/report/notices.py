@@ -7,6 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from gripscale.figures.view import CONVERGED, PredictionView
+from gripscale.model import with_adhesive
+from gripscale.report.conditions_notes import conditions_sentences
 from gripscale.report.elements import Card, Notice
 from gripscale.report.numbers import NONE, number, percent
 from gripscale.report.outside_band import prediction_sentence
@@ -48,7 +50,9 @@ def _doubts(run: Run) -> Iterator[str]:
     for one in run.by_wave:
         if one.moving:
             yield from _mismatch(one)
+        yield from (f"{one.title}: {text}" for text in conditions_sentences(one))
         yield from _compressible(one, float(inputs.attrs.get("bulk_modulus_Pa", np.nan)))
+    yield from str(inputs.attrs.get("conditions_notes", "")).splitlines()
     for finding in str(inputs.attrs.get("prony_findings", "")).splitlines():
         yield f"Rubber: {finding}."
     yield from str(inputs.attrs.get("surface_notes", "")).splitlines()
@@ -110,6 +114,9 @@ def _cards(one: PredictionView) -> Iterator[Card]:
     lost = number(one.total("friction_from_dissipation"))
     friction = number(one.total("friction"))
     yield Card("Friction coefficient μ", friction, f"{one.title}; {lost} from energy lost")
+    both = with_adhesive(one.data)
+    if both is not None:
+        yield Card("With the area term, μ", number(float(both)), f"{one.title}; as stated")
     if not one.has("friction_mismatch"):
         return
     mismatch = one.usable("friction_mismatch")

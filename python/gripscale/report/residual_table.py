@@ -9,8 +9,9 @@ import numpy as np
 from rich import box
 from rich.table import Table
 
-from gripscale.figures.measured import BAR, ZERO_CELSIUS
+from gripscale.figures.measured import BAR
 from gripscale.report.tables import significant
+from gripscale.units import ZERO_CELSIUS
 
 if TYPE_CHECKING:
     import xarray as xr

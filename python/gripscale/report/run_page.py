@@ -95,7 +95,7 @@ def _rubber(run: Run) -> list[Element]:
 def _results(run: Run, tables: dict[str, Table]) -> list[Element]:
     if not run.by_wave:
         return [Text("The model does not go wave by wave; its totals stand above.")]
-    names = [name for name in ("load", "contact", "further") if name in tables]
+    names = [name for name in ("load", "contact", "conditions", "further") if name in tables]
     shown: list[Element] = [tables[name] for name in names]
     if any(not one.moving for one in run.by_wave):
         shown.insert(0, Text("Nothing slides at rest: the columns of friction are left out there."))

@@ -16,6 +16,8 @@ from rich.text import Text
 
 from gripscale.figures.palette import MEGA, MILLI
 from gripscale.figures.view import CONVERGED, PredictionView
+from gripscale.model import with_adhesive
+from gripscale.report.conditions_notes import conditions_sentences
 from gripscale.report.outside_band import prediction_sentence
 
 if TYPE_CHECKING:
@@ -137,7 +139,9 @@ def totals(data: xr.Dataset) -> str:
     if not view.moving:
         return f"{area}; no friction at rest."
     lost = _fixed(view.total("friction_from_dissipation"))
-    return f"{area}, friction mu = {_fixed(view.total('friction'))} ({lost} from dissipation)."
+    text = f"{area}, friction mu = {_fixed(view.total('friction'))} ({lost} from dissipation)"
+    both = with_adhesive(data)
+    return f"{text}." if both is None else f"{text}; with the area term {_fixed(float(both))}."
 
 
 def _notes(view: PredictionView) -> Iterator[str]:
@@ -153,6 +157,7 @@ def _notes(view: PredictionView) -> Iterator[str]:
     beyond = prediction_sentence(view)
     if beyond:
         yield f"{STAR} {beyond}"
+    yield from conditions_sentences(view)
 
 
 def as_text(*parts: object, width: int = 100) -> str:

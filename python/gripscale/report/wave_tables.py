@@ -11,6 +11,7 @@ from gripscale.figures.palette import MEGA, MILLI
 from gripscale.figures.view import PredictionView
 from gripscale.report.elements import Heading, Table
 from gripscale.report.numbers import NONE, number, percent, whole
+from gripscale.units import ZERO_CELSIUS
 
 
 @dataclass(frozen=True)
@@ -30,6 +31,10 @@ def _in(unit: float, digits: int = 3) -> Callable[[float], str]:
 
 def _plain(value: float) -> str:
     return whole(value) if float(value).is_integer() else number(value)
+
+
+def _celsius(value: float) -> str:
+    return number(value - ZERO_CELSIUS)
 
 
 def _yes_no(value: float) -> str:
@@ -68,6 +73,20 @@ ERRORS = [
     Column("min_stretch", "stretch", "least"),
     Column("max_stretch", "stretch", "largest"),
 ]
+CONDITIONS = [
+    Column("strain", "strain", "%", _in(0.01)),
+    Column("storage_factor", "E′ left", "", percent),
+    Column("loss_factor_left", "E″ left", "", percent),
+    Column("series_misfit", "misfit", "of the series", percent),
+    Column("beyond_sweep", "beyond sweep", show=_yes_no),
+    Column("warming_uniform", "warming", "uniform, K"),
+    Column("warming_larger_waves", "warming", "larger waves, K"),
+    Column("warming_own", "warming", "own, K"),
+    Column("temperature", "temperature", "°C", _celsius),
+    Column("contact_temperature", "in contact", "°C", _celsius),
+    Column("beyond_shift", "beyond shift", show=_yes_no),
+    Column("passes", "passes", "", whole),
+]
 SOLUTION = [
     Column("residual", "residual", "force", _in(1.0, 2)),
     Column("load_steps", "load steps", "", whole),
@@ -92,6 +111,7 @@ def wave_tables(predictions: Sequence[PredictionView]) -> list[Table]:
     tables = [
         _table("load", "What each wave receives, and the rubber there", predictions, LOAD),
         _table("contact", "Contact and friction of each wave", predictions, CONTACT),
+        _table("conditions", "The rubber in its conditions", predictions, CONDITIONS),
         _table("errors", "Errors and stretches of each wave", predictions, ERRORS),
         _table("solution", "Solution of each wave", predictions, SOLUTION, status=True),
         _table("mesh", "Mesh of each wave", predictions, MESH),
@@ -102,7 +122,9 @@ def wave_tables(predictions: Sequence[PredictionView]) -> list[Table]:
 
 def _further(predictions: Sequence[PredictionView]) -> list[Column]:
     """Return a column for every number per wave that no other table shows."""
-    known = {column.name for column in [*WAVE, *LOAD, *CONTACT, *ERRORS, *SOLUTION, *MESH]}
+    known = {
+        column.name for column in [*WAVE, *LOAD, *CONTACT, *CONDITIONS, *ERRORS, *SOLUTION, *MESH]
+    }
     found: dict[str, Column] = {}
     for name, variable in (item for one in predictions for item in one.data.data_vars.items()):
         if name not in known and variable.dims == ("scale",) and variable.dtype.kind in "fiu":

@@ -107,8 +107,8 @@ class StrainSweep:
         for key, value, unit in (("temperature", temperature, "K"), ("frequency", frequency, "Hz")):
             known = None if value is None else checks.positive(key, value, unit=unit)
             object.__setattr__(self, key, known)
-        object.__setattr__(self, "name", str(name))
-        object.__setattr__(self, "source", str(source))
+        object.__setattr__(self, "name", checks.text("name", name))
+        object.__setattr__(self, "source", checks.text("source", source))
 
     def __len__(self) -> int:
         return len(self.strain)

@@ -89,8 +89,8 @@ class Sweeps:
             ordered.setflags(write=False)
             object.__setattr__(self, key, ordered)
         object.__setattr__(self, "tolerance", tolerance)
-        object.__setattr__(self, "name", str(name))
-        object.__setattr__(self, "source", str(source))
+        object.__setattr__(self, "name", checks.text("name", name))
+        object.__setattr__(self, "source", checks.text("source", source))
         self._refuse_ramp()
 
     def _refuse_ramp(self) -> None:

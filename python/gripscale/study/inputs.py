@@ -7,7 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from gripscale.case.models import NAMED_RUBBERS, RubberSource, Surface
-from gripscale.case.prepare import prepare_rubber, prepare_surface
+from gripscale.case.prepare import prepare_surface
+from gripscale.case.prepare_rubber import prepare_rubber
 from gripscale.case.read import CaseFile, read_case, validate
 from gripscale.errors import FileError
 from gripscale.rubber import Rubber
@@ -89,8 +90,8 @@ def contents(file: CaseFile) -> list[str]:
 
     Raises `FileError` if one cannot be read.
     """
-    named = [*file.case.surface.measured_files, *filter(None, [file.case.rubber.file])]
-    return [str(file.path), file.text, *(_digest(file.resolve(name)) for name in named)]
+    named = file.case.named_files()
+    return [str(file.path), file.text, *(_digest(file.resolve(name)) for _, name in named)]
 
 
 def _digest(path: Path) -> str:

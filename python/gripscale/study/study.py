@@ -96,7 +96,7 @@ class Study:
         self.file = case if isinstance(case, CaseFile) else read_case(case)
         self.axes: tuple[Axis, ...] = axes_of(vary)
         self.static = self.file.case.load.static if static is None else static
-        self.model = model or case_chain(self.file.case)
+        self.model = model or case_chain(self.file)
         if "pressure_classes" in vary and not isinstance(self.model, Chain):
             raise InputError(
                 f"pressure_classes belongs to the chain; got the model {self.model.name}"

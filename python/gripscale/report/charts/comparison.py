@@ -14,6 +14,7 @@ from gripscale.figures.measured import COLOUR, measured
 from gripscale.figures.palette import BLUE, MILLI, ORANGE
 from gripscale.figures.rungs import JUDGE, Look, looks, on_the_surface, varied, worth_drawing
 from gripscale.figures.stretches import FLAG, down_to, predictions_beyond
+from gripscale.model import with_adhesive
 from gripscale.report.charts.look import (
     dashed_entry,
     hover,
@@ -138,6 +139,8 @@ def _over(comparison: xr.Dataset, axis: str, name: str) -> Chart:
             figure.varea(x=x, y1=low, y2=high, fill_color=look.colour, fill_alpha=0.15,
                          legend_label=text)  # fmt: skip
     dashed_entry(figure, predictions_beyond(comparison))
+    if name == "friction":
+        _with_area_term(figure, x, comparison)
     if axis == "speed" and name == "friction":
         _measured(figure, comparison)
     return Chart(
@@ -147,6 +150,17 @@ def _over(comparison: xr.Dataset, axis: str, name: str) -> Chart:
         f"{QUANTITIES[name]} of each model against {words}.",
         legend(figure),
     )
+
+
+def _with_area_term(figure: Any, x: Any, comparison: xr.Dataset) -> None:
+    both = with_adhesive(comparison)
+    if both is None:
+        return
+    for at, (_, look) in enumerate(looks(comparison)):
+        values = both.isel(rung=at).values
+        if np.isfinite(values).any():
+            figure.line(x, values, color=look.colour, line_dash="dotdash",
+                        legend_label="with the area term")  # fmt: skip
 
 
 def _title(name: str) -> str:

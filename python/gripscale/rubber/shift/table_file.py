@@ -19,7 +19,7 @@ from gripscale.netcdf import write_whole
 from gripscale.rubber.shift.base import Array
 from gripscale.rubber.shift.table import ShiftTable
 from gripscale.textfile import TextTable, file_path, read_table, read_text
-from gripscale.units import in_si, listed, spelled
+from gripscale.units import ZERO_CELSIUS, in_si, listed, spelled
 
 _TITLES = (
     "temperature (C)",
@@ -29,7 +29,6 @@ _TITLES = (
     "standard error of log10 b_T",
 )
 _REFERENCE = re.compile(r"^\s*[#%!].*reference temperature \((\w)\):\s*([-+.\deE]+)", re.MULTILINE)
-_ZERO_CELSIUS = 273.15
 _DECIMALS = 6
 """Of a temperature in degrees Celsius: 20.1, not 20.100000000000023."""
 
@@ -41,7 +40,7 @@ def write_shift_table(path: str | Path, table: ShiftTable) -> Path:
     """
     checks.instance("table", table, ShiftTable)
     columns = (
-        np.round(table.temperature - _ZERO_CELSIUS, _DECIMALS),
+        np.round(table.temperature - ZERO_CELSIUS, _DECIMALS),
         table.horizontal,
         table.horizontal_error,
         10.0**table.vertical,
@@ -49,7 +48,7 @@ def write_shift_table(path: str | Path, table: ShiftTable) -> Path:
     )
     lines = ["# E*(w, T) = E*(a_T w, T_ref) / b_T"]
     if table.reference_temperature is not None:
-        celsius = round(table.reference_temperature - _ZERO_CELSIUS, _DECIMALS)
+        celsius = round(table.reference_temperature - ZERO_CELSIUS, _DECIMALS)
         lines.append(f"# reference temperature (C): {celsius!r}")
     lines.append(",".join(_TITLES))
     lines += [",".join(repr(float(v)) for v in row) for row in zip(*columns, strict=True)]

@@ -6,6 +6,7 @@ from typing import Any
 from gripscale import checks
 from gripscale.rubber.softening.kraus import Kraus
 from gripscale.rubber.softening.law import SofteningFactors, SofteningLaw
+from gripscale.rubber.softening.of_sweeps import softening_of_sweeps
 from gripscale.rubber.softening.series import SoftenedSeries, softened
 from gripscale.rubber.softening.table import SofteningTable
 
@@ -18,6 +19,7 @@ __all__ = [
     "SofteningTable",
     "softened",
     "softening_from_dict",
+    "softening_of_sweeps",
 ]
 
 SOFTENING_LAWS: dict[str, Any] = {law.kind: law for law in (Kraus, SofteningTable)}

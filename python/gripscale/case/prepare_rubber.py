@@ -1,0 +1,158 @@
+"""From the rubber a case names to what a model needs: a fitted series, and its shift."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from gripscale.case.models import RubberSource
+from gripscale.errors import InputError
+from gripscale.rubber import (
+    MasterCurve,
+    PronyFit,
+    Rubber,
+    Shift,
+    ShiftFit,
+    ShiftTable,
+    Superposition,
+    Sweeps,
+    fit_prony_report,
+    fit_wlf,
+    read_master_curve,
+    read_shift_table,
+    read_sweeps,
+    styrene_butadiene,
+    superpose_report,
+)
+from gripscale.rubber.sweeps_found import holds_sweeps
+
+Resolve = Callable[[str], Path]
+
+OF_SWEEPS = ("temperature_unit", "temperature_step", "vertical")
+"""Keys of the case's [rubber] that only sweeps at several temperatures have."""
+
+
+@dataclass(frozen=True)
+class PreparedRubber:
+    """A rubber and what it comes from.
+
+    Of a master curve the curve and the report on its fit; of sweeps at several temperatures those,
+    too, and how they meet.
+    """
+
+    rubber: Rubber
+    source: str
+    master: MasterCurve | None = None
+    fit: PronyFit | None = None
+    sweeps: Sweeps | None = None
+    superposition: Superposition | None = None
+
+    def shift_fits(self) -> list[ShiftFit]:
+        """Return the WLF law of the shift that was found, where it follows one."""
+        if self.master is None or not isinstance(self.master.shift, ShiftTable):
+            return []
+        try:
+            found = fit_wlf(
+                self.master.shift, reference_temperature=self.master.reference_temperature
+            )
+        except InputError:
+            return []
+        return [found]
+
+
+def prepare_rubber(source: RubberSource, resolve: Resolve = Path) -> PreparedRubber:
+    """Read and fit the file of `source`, or take the rubber it names.
+
+    `resolve` turns the name of a file into its path.
+
+    Raises `FileError` and `InputError` as reading, superposition and fitting do.
+    """
+    bulk: dict[str, Any] = (
+        {} if source.bulk_modulus is None else {"bulk_modulus": source.bulk_modulus}
+    )
+    if source.file is None:
+        rubber = replace(styrene_butadiene(**bulk), strain_energy=source.strain_energy)
+        return PreparedRubber(_shifted(rubber, source, resolve), rubber.source)
+    path = resolve(source.file)
+    if holds_sweeps(path):
+        sweeps, master, report = _superposed(path, source, resolve)
+    else:
+        sweeps, master, report = None, _master_curve(path, source), None
+    choice = (
+        {} if source.outlier_threshold is None else {"outlier_threshold": source.outlier_threshold}
+    )
+    rubber, fit = fit_prony_report(master, terms=source.terms, **bulk, **choice)
+    rubber = replace(rubber, strain_energy=source.strain_energy)
+    if sweeps is None:
+        rubber = _shifted(rubber, source, resolve)
+    return PreparedRubber(rubber, master.source, master, fit, sweeps, report)
+
+
+def _master_curve(path: Path, source: RubberSource) -> MasterCurve:
+    foreign = [name for name in OF_SWEEPS if name in source.model_fields_set]
+    if foreign:
+        raise InputError(
+            f"{path}: {foreign[0]} is for sweeps at several temperatures; got a master curve"
+        )
+    return read_master_curve(
+        path,
+        frequency_unit=source.frequency_unit,
+        modulus_unit=source.modulus_unit,
+        modulus=source.modulus,
+        reference_temperature=source.reference_temperature,
+        columns=source.columns,
+        source=source.source or str(path),
+    )
+
+
+def _superposed(
+    path: Path, source: RubberSource, resolve: Resolve
+) -> tuple[Sweeps, MasterCurve, Superposition]:
+    """Return sweeps, the master curve they make, and how they meet."""
+    if source.columns is not None:
+        raise InputError(f"{path}: columns are for a master curve; got sweeps, found by titles")
+    sweeps = read_sweeps(
+        path,
+        temperature_unit=source.temperature_unit,
+        temperature_step=source.temperature_step,
+        frequency_unit=source.frequency_unit,
+        modulus_unit=source.modulus_unit,
+        modulus=source.modulus,
+        source=source.source or str(path),
+    )
+    reference = source.reference_temperature
+    if reference is None and len(sweeps) > 1:
+        raise InputError(
+            f'{path}: reference_temperature must be given, such as "20 C", for sweeps at '
+            f"{len(sweeps)} temperatures to be shifted to"
+        )
+    master, report = superpose_report(
+        sweeps,
+        reference_temperature=float(sweeps.temperatures[0]) if reference is None else reference,
+        vertical=source.vertical,
+        shift=_shift(source, resolve),
+    )
+    return sweeps, master, report
+
+
+def _shifted(rubber: Rubber, source: RubberSource, resolve: Resolve) -> Rubber:
+    """Return a rubber of one master curve with the shift that is stated, if one is."""
+    shift = _shift(source, resolve)
+    if shift is None:
+        return rubber
+    if rubber.reference_temperature is None:
+        raise InputError(
+            f"{source.file or source.name}: reference_temperature must be given with shift, such "
+            'as "20 C": the master curve does not state what it holds for'
+        )
+    return replace(rubber, shift=shift)
+
+
+def _shift(source: RubberSource, resolve: Resolve) -> Shift | None:
+    if source.shift is None:
+        return None
+    if isinstance(source.shift, str):
+        return read_shift_table(resolve(source.shift))
+    return source.shift.law()

@@ -1,0 +1,105 @@
+"""A comparison in its conditions: what reaches which model, and what is said of it."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import gripscale as gs
+from gripscale.case import prepare_case
+from gripscale.comparison import Comparison, compare_case
+from gripscale.report.comparison_table import best_sentence, comparison_table, remarks
+from gripscale.report.tables import as_text
+from gripscale.surface import self_affine_profile
+
+CASE = """
+[surface]
+files = ["road.dat"]
+x_unit = "m"
+z_unit = "m"
+scales = 3
+smallest_wavelength = "0.5 mm"
+[rubber]
+name = "styrene_butadiene"
+shift = { kind = "wlf", c1 = 8.0, c2 = "120 K" }
+[load]
+pressure = "3 bar"
+speed = "0.1 m/s"
+footprint = "50 mm"
+[solver]
+model = "half_plane"
+[conditions]
+temperature = "35 C"
+[conditions.softening]
+kind = "kraus"
+storage_ratio = 0.3
+loss_ratio = 0.2
+critical_strain = "2 %"
+measured_at = "0.1 %"
+deformation = "shear"
+[conditions.shear_stress]
+kind = "constant"
+stress_0 = "2 MPa"
+"""
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Comparison:
+    folder = tmp_path_factory.mktemp("conditions")
+    line = self_affine_profile(0.8, 5e-3, 0.1e-3, 0.1, 1e-4, seed=4)
+    np.savetxt(folder / "road.dat", np.column_stack([line.x, line.z]))
+    case = folder / "case.toml"
+    case.write_text(CASE, encoding="utf-8")
+    return compare_case(
+        prepare_case(case), seeds=1, rungs=["chain_half_plane", "direct", "persson"]
+    )
+
+
+def test_chain_and_direct_contact_know_every_effect(made: Comparison) -> None:
+    subject = made.subject
+    alone = gs.solve_rough_contact(
+        subject.rubber,
+        subject.surface.measured.cleaned[0],  # type: ignore[union-attr]
+        pressure=3e5,
+        speed=0.1,
+        footprint=0.05,
+        smallest_wavelength=float(subject.surface.sines.wavelength[-1]),
+        tolerance=subject.tolerance,
+        conditions=subject.conditions,
+    )
+    direct = made.by_name["direct"]
+    assert direct.mean("friction") == pytest.approx(alone.friction, rel=1e-12)
+    assert direct.mean("adhesive_friction") == pytest.approx(
+        2e6 * alone.contact_fraction / 3e5, rel=1e-12
+    )
+    chain = made.by_name["chain_half_plane"]
+    assert chain.mean("adhesive_friction") == pytest.approx(
+        2e6 * chain.mean("contact_fraction") / 3e5, rel=1e-12
+    )
+
+
+def test_a_theory_knows_the_temperature_only(made: Comparison) -> None:
+    subject, persson = made.subject, made.by_name["persson"]
+    warm = subject.rubber.at(308.15)
+    spectrum = gs.surface.areal_spectrum(
+        gs.surface.profile_spectrum(subject.surface.measured.cleaned[0])  # type: ignore[union-attr]
+    )
+    smallest = max(
+        float(subject.surface.sines.wavelength[-1]), 2 * math.pi / spectrum.wavenumber[-1]
+    )
+    alone = gs.theory.persson(warm, spectrum, pressure=3e5, speed=0.1, smallest_wavelength=smallest)
+    assert persson.mean("friction") == pytest.approx(alone.friction, rel=1e-9)
+    assert math.isnan(persson.mean("adhesive_friction"))
+    data = made.to_dataset()
+    assert any("Softening: in the chains" in line for line in remarks(data))
+
+
+def test_table_and_best_estimate_have_the_area_term(made: Comparison) -> None:
+    data = made.to_dataset()
+    text = as_text(comparison_table(data), width=120)
+    direct = made.by_name["direct"]
+    total = direct.mean("friction") + direct.mean("adhesive_friction")
+    assert f"{total:.2f}" in text
+    assert f"With the area term, of its contact area, μ = {total:.2f}" in best_sentence(data)
