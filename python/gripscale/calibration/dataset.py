@@ -16,7 +16,7 @@ import xarray as xr
 from gripscale import versions
 from gripscale.calibration.profile import LEVEL
 from gripscale.interface.area_term import shear_stress_to_dict
-from gripscale.measured.residuals import in_spread, measured_variables
+from gripscale.measured.differences import in_spread, measured_variables
 from gripscale.wave.dataset import labelled
 
 if TYPE_CHECKING:

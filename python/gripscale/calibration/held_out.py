@@ -14,7 +14,7 @@ from gripscale.calibration.least_squares import Problem, best
 from gripscale.calibration.parameters import family_of
 from gripscale.calibration.points import Points
 from gripscale.errors import InputError
-from gripscale.measured.residuals import rms
+from gripscale.measured.differences import rms
 
 Array = NDArray[np.float64]
 

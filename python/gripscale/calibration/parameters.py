@@ -6,8 +6,8 @@ Limits are far beyond what data can say, so that reaching one means: not determi
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
@@ -80,6 +80,13 @@ class Family:
         return made
 
 
+def check_names(kind: str, fixed: Iterable[str]) -> None:
+    """Raise `InputError` unless a law can be fitted and names of what is fixed belong to it."""
+    checks.one_of("law", kind, KINDS)
+    names = [one.name for one in fields(SHEAR_STRESSES[kind])]
+    checks.known("parameter", fixed, names)
+
+
 def family_of(kind: str, points: Points, fixed: Mapping[str, float]) -> Family:
     """Return the law of a kind with what is fixed held and all else free.
 
@@ -93,10 +100,8 @@ def family_of(kind: str, points: Points, fixed: Mapping[str, float]) -> Family:
         If the kind is none of `KINDS`, a fixed name is no parameter of it, its value cannot be
         used, nothing is left to be fitted, or there are not more points than free parameters.
     """
-    checks.one_of("law", kind, KINDS)
+    check_names(kind, fixed)
     every = _parameters(kind, points)
-    extra = ("reference_temperature",) if kind == "gaussian" else ()
-    checks.known(f"parameter of the law {kind}", fixed, [*(one.name for one in every), *extra])
     held: dict[str, Any] = {name: checks.number(name, value) for name, value in fixed.items()}
     if kind == "gaussian":
         held |= _temperature_of(points, held)

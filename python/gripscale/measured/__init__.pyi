@@ -1,5 +1,5 @@
+from .differences import residuals as residuals
 from .friction import MeasuredFriction as MeasuredFriction
 from .friction import read_measured_friction as read_measured_friction
 from .predicted import Predicted as Predicted
 from .predicted import predictions_at as predictions_at
-from .residuals import residuals as residuals
