@@ -146,7 +146,9 @@ def test_points_without_a_prediction_do_not_count() -> None:
     assert fit.problem.points.speed.size == 26
     assert np.isnan(fit.friction).tolist() == [at == 3 for at in range(27)]
     assert [one.points for one in fit.held_out] == [8, 9, 9]
-    assert "1 measured points have no prediction" in " ".join(notes(fit))
+    assert "without a prediction, which do not count: 1, as wave 2 did not converge" in " ".join(
+        notes(fit)
+    )
 
 
 def test_the_table_of_a_case_gives_the_law_back() -> None:

@@ -41,7 +41,7 @@ LINE = gs.Profile(np.arange(256) * 4e-5, 2e-4 * np.cos(3 * TURNS) + 3e-5 * np.co
 def test_each_point_is_the_prediction_at_its_speed_temperature_and_pressure(
     tmp_path: Path, heat: ThermalProperties | None
 ) -> None:
-    chain = Chain(HalfPlane(), conditions=Conditions(temperature=298.15, heat=heat))
+    chain = Chain(HalfPlane(points=64), conditions=Conditions(temperature=298.15, heat=heat))
     found = predictions_at(
         MEASURED, chain, RUBBER, PreparedSurface(SINES, ""), LOAD, Store(tmp_path)
     )
@@ -49,7 +49,7 @@ def test_each_point_is_the_prediction_at_its_speed_temperature_and_pressure(
     term = found.area_term(LAW, MEASURED.speed)
     for at, kelvin in enumerate([303.15, 313.15, 298.15]):
         alone = gs.predict(
-            RUBBER, SINES, solver="half_plane", pressure=found.pressure[at],
+            RUBBER, SINES, solver=HalfPlane(points=64), pressure=found.pressure[at],
             speed=MEASURED.speed[at], footprint=0.05,
             conditions=Conditions(temperature=kelvin, heat=heat, shear_stress=LAW),
         )  # fmt: skip
@@ -78,7 +78,7 @@ def test_the_direct_contact_of_a_line(tmp_path: Path) -> None:
 
 def test_what_was_solved_is_not_solved_again(tmp_path: Path) -> None:
     stored: list[bool] = []
-    chain, surface = Chain(HalfPlane()), PreparedSurface(SINES, "")
+    chain, surface = Chain(HalfPlane(points=64)), PreparedSurface(SINES, "")
     for _ in range(2):
         predictions_at(
             MEASURED, chain, RUBBER, surface, LOAD, Store(tmp_path),
@@ -116,14 +116,19 @@ def test_another_temperature_needs_a_shift(tmp_path: Path) -> None:
     plain = gs.Rubber(5e6, [3e6], [1e-3])
     with pytest.raises(InputError, match="shift and reference_temperature"):
         predictions_at(
-            MEASURED, Chain(HalfPlane()), plain, PreparedSurface(SINES, ""), LOAD, Store(tmp_path)
+            MEASURED,
+            Chain(HalfPlane(points=64)),
+            plain,
+            PreparedSurface(SINES, ""),
+            LOAD,
+            Store(tmp_path),
         )
 
 
 def test_without_any_temperature_none_is_needed(tmp_path: Path) -> None:
     plain, surface = gs.Rubber(5e6, [3e6], [1e-3]), PreparedSurface(SINES, "")
     one = MeasuredFriction([1.0], [0.5])
-    found = predictions_at(one, Chain(HalfPlane()), plain, surface, LOAD, Store(tmp_path))
+    found = predictions_at(one, Chain(HalfPlane(points=64)), plain, surface, LOAD, Store(tmp_path))
     assert np.isnan(found.temperature).all()
     with pytest.raises(InputError, match="temperature must be given"):
         found.area_term(LAW, one.speed)

@@ -62,13 +62,13 @@ def _of_predictions(calibration: Calibration) -> Iterator[str]:
     without = int((~predicted.known).sum())
     if without:
         why = next(s for s, k in zip(predicted.status, predicted.known, strict=True) if not k)
-        yield f"{without} measured points have no prediction and do not count; the first: {why}."
+        yield f"Measured points without a prediction, which do not count: {without}, as {why}."
     below = int((calibration.problem.points.difference < 0.0).sum())
     if below:
-        yield f"The hysteresis alone exceeds the measured friction at {below} points."
+        yield f"Measured points below the hysteresis alone: {below}."
     beyond = int((predicted.outside_band > WORTH_SAYING).sum())
     if beyond:
         yield (
-            f"At {beyond} points more than {WORTH_SAYING:.0%} of the hysteresis rests on the "
-            "rubber outside its measured frequencies."
+            f"Points where more than {WORTH_SAYING:.0%} of the hysteresis rests on the rubber "
+            f"outside its measured frequencies: {beyond}."
         )

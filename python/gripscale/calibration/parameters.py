@@ -91,7 +91,7 @@ def family_of(kind: str, points: Points, fixed: Mapping[str, float]) -> Family:
     """Return the law of a kind with what is fixed held and all else free.
 
     An activation energy is free only where temperatures differ; without one the law has none. Its
-    reference temperature is held: by default the middle of the temperatures, a whole number of
+    reference temperature is held: by default the median of the temperatures, a whole number of
     degrees Celsius.
 
     Raises
@@ -131,8 +131,8 @@ def _temperature_of(points: Points, held: Mapping[str, float]) -> dict[str, floa
         return {}
     if points.temperature is None:
         raise InputError("activation_energy needs the temperatures of the points; got none")
-    middle = 0.5 * (points.temperature.min() + points.temperature.max())
-    return {"reference_temperature": round(float(middle) - ZERO_CELSIUS) + ZERO_CELSIUS}
+    middle = float(np.median(points.temperature)) - ZERO_CELSIUS
+    return {"reference_temperature": round(middle) + ZERO_CELSIUS}
 
 
 def _parameters(kind: str, points: Points) -> tuple[Parameter, ...]:

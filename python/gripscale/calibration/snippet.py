@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gripscale.calibration.profile import LEVEL
@@ -36,7 +37,7 @@ def shear_stress_table(calibration: Calibration) -> str:
     """Return the table [conditions.shear_stress] of the fitted law, with its intervals."""
     law = shear_stress_to_dict(calibration.law)
     estimates = {one.name: one for one in calibration.estimates}
-    source = calibration.measured.source or "a measurement"
+    source = Path(calibration.measured.source).name or "a measurement"
     lines = [
         f"# Fitted to {calibration.problem.points.speed.size} points of {source};",
         f"# intervals of {LEVEL:.0%} by profile likelihood, for this rubber on this surface.",

@@ -101,7 +101,10 @@ def calibrate(
     say(console, f"Table, figures, result and [conditions.shear_stress] are in {target}")
     failed = [status for status in made.predicted.status if status != "converged"]
     if failed:
-        complain(f"{len(failed)} of the measured points have no prediction; {failed[0]}")
+        complain(
+            f"{len(failed)} of {len(made.predicted.status)} measured points have no prediction; "
+            f"the first: {failed[0]}"
+        )
         raise typer.Exit(NOT_CONVERGED)
 
 
