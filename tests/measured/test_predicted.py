@@ -16,7 +16,8 @@ from gripscale.chain.model import Chain
 from gripscale.conditions import Conditions
 from gripscale.errors import InputError
 from gripscale.interface import GaussianStress, ThermalProperties
-from gripscale.measured import MeasuredFriction, Predicted, predictions_at
+from gripscale.measured import MeasuredFriction, Predicted, averaged, predictions_at
+from gripscale.measured.probe import TemperatureProbe
 from gripscale.model import NominalLoad
 from gripscale.rough.model import DirectContact
 from gripscale.study import Store
@@ -132,6 +133,28 @@ def test_without_any_temperature_none_is_needed(tmp_path: Path) -> None:
     assert np.isnan(found.temperature).all()
     with pytest.raises(InputError, match="temperature must be given"):
         found.area_term(LAW, one.speed)
+
+
+def test_samples_of_a_model_are_averaged() -> None:
+    one = Predicted([0.2, 0.3], [0.02, 0.03], [3e5] * 2, [300.0, 310.0], [0.0, 0.1])
+    other = Predicted(
+        [0.4, np.nan], [0.06, np.nan], [3e5] * 2, [320.0, np.nan], [0.2, np.nan],
+        ["converged", "no contact"],
+    )  # fmt: skip
+    both = averaged([one, other])
+    np.testing.assert_allclose(both.friction, [0.3, np.nan])
+    np.testing.assert_allclose(both.contact_fraction, [0.04, np.nan])
+    np.testing.assert_allclose(both.temperature, [315.0, np.nan])  # by area, 1 to 3
+    np.testing.assert_allclose(both.outside_band, [0.1, np.nan])
+    assert list(both.status) == ["converged", "no contact"]
+    # a law linear in the temperature gives the mean of both terms
+    term = averaged([one]).area_term(TemperatureProbe(), np.ones(2))[0]
+    mean = 0.5 * (term + other.area_term(TemperatureProbe(), np.ones(2))[0])
+    assert both.area_term(TemperatureProbe(), np.ones(2))[0] == pytest.approx(mean)
+    with pytest.raises(InputError, match="at least one Predicted; got"):
+        averaged([])
+    with pytest.raises(InputError, match="same pressures"):
+        averaged([one, Predicted([0.2], [0.02], [3e5], [300.0])])
 
 
 def test_lengths_must_agree() -> None:

@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+CONVERGED = "converged"
+
 
 @dataclass(frozen=True, init=False, eq=False)
 class Predicted:
@@ -84,7 +86,7 @@ class Predicted:
         }
         for name, given in numbers.items():
             found[name] = checks.vector(name, given, missing=True)
-        found["status"] = ["converged"] * size if status is None else list(status)
+        found["status"] = [CONVERGED] * size if status is None else list(status)
         sizes = {name: len(values) for name, values in found.items()}
         if len(set(sizes.values())) > 1:
             told = ", ".join(f"{count} of {name}" for name, count in sizes.items())
@@ -113,6 +115,32 @@ class Predicted:
         at = None if np.isnan(kelvin).all() else kelvin
         out[known] = self.leverage[known] * law.stress(speed[known], at)
         return out
+
+
+def averaged(parts: Sequence[Predicted]) -> Predicted:
+    """Return the mean of the predictions of several samples of one model at the same points.
+
+    A point at which one of them has no answer has none. Temperatures are weighted by the contact
+    area, which the area term is the sum over.
+
+    Raises `InputError` if there is none, or their points differ in number or pressure.
+    """
+    checks.instances("parts", parts, Predicted)
+    first = parts[0]
+    for one in parts:
+        if not np.array_equal(one.pressure, first.pressure):
+            raise InputError("parts must be predicted at the same pressures; got others")
+    area = np.array([one.contact_fraction for one in parts])
+    kelvin = np.array([one.temperature for one in parts])
+    statuses = zip(*(one.status for one in parts), strict=True)
+    return Predicted(
+        np.mean([one.friction for one in parts], axis=0),
+        area.mean(axis=0),
+        first.pressure,
+        (area * kelvin).sum(axis=0) / area.sum(axis=0),
+        np.mean([one.outside_band for one in parts], axis=0),
+        [next((one for one in each if one != CONVERGED), CONVERGED) for each in statuses],
+    )
 
 
 def predictions_at(
