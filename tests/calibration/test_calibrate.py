@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+import re
 import tomllib
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -217,7 +219,11 @@ def test_what_cannot_be_used_is_one_sentence(change: dict, sentence: str) -> Non
             {"spread": [0.1, 0.0, 0.1]},
             "spread must be above zero to weigh a point",
         ),
-        ([0.3, 0.3, 0.3], {"law": "gaussian"}, "3 parameters .* need more than 3 measured points"),
+        (
+            [0.3, 0.3, 0.3],
+            {"law": "gaussian"},
+            "fitting stress_0, width, speed_0 needs more than 3 measured points; got 3",
+        ),
         ([0.3, 0.3, 0.3], {"hold_out": "temperature"}, "needs the temperature of every point"),
         (
             [0.3, 0.3, 0.3],
@@ -234,3 +240,10 @@ def test_what_does_not_suffice_is_one_sentence(
     predicted = Predicted([0.2] * 3, [0.03] * 3, [3e5] * 3, [293.15] * 3)
     with pytest.raises(InputError, match=sentence):
         calibrate(measured, predicted, **({"law": "constant"} | more))
+
+
+def test_the_page_lists_every_variable() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "measured-friction.md").read_text(encoding="utf-8")
+    listed = set(re.findall(r"`(\w+)`", page))
+    data = calibrate(*measurement(), hold_out="speed").to_dataset()
+    assert set(map(str, data.variables)) <= listed

@@ -124,3 +124,23 @@ def test_fixed_parameters_have_units() -> None:
     )
     with pytest.raises(InputError, match="each name once"):
         parse_fixed(["width=1", "width=2"])
+
+
+def test_the_direct_contact_of_a_measured_profile(
+    shell: Shell, inputs: Path, tmp_path: Path
+) -> None:
+    friction = tmp_path / "mu.csv"
+    friction.write_text("speed,friction,pressure [bar]\n0.1,0.9,3\n0.3,0.9,3\n0.3,0.9,2\n")
+    target = tmp_path / "out"
+    result = shell(
+        "calibrate", inputs / "case.toml", "--law", "constant", "--measured", friction,
+        "--output", target,
+    )  # fmt: skip
+    assert result.exit_code == 0, result.output
+    assert "No spread is stated" in result.stdout
+    data = netcdf.load(target / "calibration.nc")
+    stress = float(data.estimate[0])
+    term = stress * data.contact_fraction / data.nominal_pressure
+    assert data.area_term.values == pytest.approx(term.values)
+    assert sorted(data.nominal_pressure.values) == [2e5, 3e5, 3e5]
+    assert [axes.get_title() for axes in fitted_figure(data).axes] == ["2 bar", "3 bar"]

@@ -20,7 +20,7 @@ from gripscale.measured.differences import in_spread, measured_variables
 from gripscale.wave.dataset import labelled
 
 if TYPE_CHECKING:
-    from gripscale.calibration.result import Calibration
+    from gripscale.calibration.fitted import FittedLaw
 
 SOURCE = "gripscale calibrate"
 
@@ -34,7 +34,7 @@ HELD_OUT = {
 """Numbers of what was left out, with their meaning."""
 
 
-def to_dataset(calibration: Calibration) -> xr.Dataset:
+def to_dataset(calibration: FittedLaw) -> xr.Dataset:
     """Return `calibration` as a Dataset."""
     data = {
         **measured_variables(calibration.measured),
@@ -66,7 +66,7 @@ def to_dataset(calibration: Calibration) -> xr.Dataset:
     )
 
 
-def _at_points(calibration: Calibration) -> dict[str, Any]:
+def _at_points(calibration: FittedLaw) -> dict[str, Any]:
     predicted, measured = calibration.predicted, calibration.measured
     apart = calibration.friction - measured.friction
     columns = {
@@ -96,7 +96,7 @@ def _at_points(calibration: Calibration) -> dict[str, Any]:
     }
 
 
-def _of_parameters(calibration: Calibration) -> dict[str, Any]:
+def _of_parameters(calibration: FittedLaw) -> dict[str, Any]:
     estimates, profiles = calibration.estimates, calibration.profiles
     columns = {
         "estimate": "best value of the parameter, in its unit",
@@ -127,7 +127,7 @@ def _of_parameters(calibration: Calibration) -> dict[str, Any]:
     return data
 
 
-def _left_out(calibration: Calibration) -> dict[str, Any]:
+def _left_out(calibration: FittedLaw) -> dict[str, Any]:
     groups = calibration.held_out
     if not groups:
         return {}

@@ -10,20 +10,20 @@ import numpy as np
 from gripscale.rubber.extrapolation import WORTH_SAYING
 
 if TYPE_CHECKING:
-    from gripscale.calibration.result import Calibration
+    from gripscale.calibration.fitted import FittedLaw
 
 UNLIKELY = 0.01
 """Chance of the sum of squares below which something must be wrong."""
 
 
-def notes(calibration: Calibration) -> Iterator[str]:
+def notes(calibration: FittedLaw) -> Iterator[str]:
     """Yield a sentence on each thing to know before the numbers are used."""
     yield from _of_fit(calibration)
     yield from _of_parameters(calibration)
     yield from _of_predictions(calibration)
 
 
-def _of_fit(calibration: Calibration) -> Iterator[str]:
+def _of_fit(calibration: FittedLaw) -> Iterator[str]:
     if not calibration.spread_known:
         yield (
             f"No spread is stated: the scatter of the residuals, {calibration.scatter:.2g}, "
@@ -40,7 +40,7 @@ def _of_fit(calibration: Calibration) -> Iterator[str]:
     )
 
 
-def _of_parameters(calibration: Calibration) -> Iterator[str]:
+def _of_parameters(calibration: FittedLaw) -> Iterator[str]:
     held = calibration.problem.family.held
     if calibration.law.kind == "gaussian" and held.get("activation_energy") == 0.0:
         yield (
@@ -57,7 +57,7 @@ def _of_parameters(calibration: Calibration) -> Iterator[str]:
             yield f"The {missing[0]} end of {one.name} is not determined by the data."
 
 
-def _of_predictions(calibration: Calibration) -> Iterator[str]:
+def _of_predictions(calibration: FittedLaw) -> Iterator[str]:
     predicted = calibration.predicted
     without = int((~predicted.known).sum())
     if without:

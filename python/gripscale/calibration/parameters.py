@@ -110,8 +110,8 @@ def family_of(kind: str, points: Points, fixed: Mapping[str, float]) -> Family:
         raise InputError(f"fixed must leave a parameter of the law {kind} to be fitted; got all")
     if points.speed.size <= len(free):
         raise InputError(
-            f"{len(free)} parameters ({', '.join(one.name for one in free)}) need more than "
-            f"{len(free)} measured points; got {points.speed.size}"
+            f"fitting {', '.join(one.name for one in free)} needs more than {len(free)} measured "
+            f"point{'s' * (len(free) > 1)}; got {points.speed.size}"
         )
     family = Family(kind, free, held)
     family.law(np.array([one.scaled(one.starts[0]) for one in free]))  # the law checks what is held

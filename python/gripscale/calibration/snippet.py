@@ -12,7 +12,7 @@ from gripscale.interface.area_term import shear_stress_to_dict
 from gripscale.units import ZERO_CELSIUS
 
 if TYPE_CHECKING:
-    from gripscale.calibration.result import Calibration, Estimate
+    from gripscale.calibration.fitted import Estimate, FittedLaw
 
 WRITTEN: Mapping[str, tuple[Callable[[float], float], str]] = {
     "Pa": (lambda value: value / 1e6, "MPa"),
@@ -33,7 +33,7 @@ HELD_UNITS = {
 """Units of parameters that may be held; the others have none."""
 
 
-def shear_stress_table(calibration: Calibration) -> str:
+def shear_stress_table(calibration: FittedLaw) -> str:
     """Return the table [conditions.shear_stress] of the fitted law, with its intervals."""
     law = shear_stress_to_dict(calibration.law)
     estimates = {one.name: one for one in calibration.estimates}

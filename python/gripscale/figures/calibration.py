@@ -115,7 +115,7 @@ def profiles_figure(data: xr.Dataset) -> Figure:
     )
     for at, axes in enumerate(panels.flat):
         if at < count:
-            _profile(axes, data.isel(parameter=at), data.attrs["threshold"])
+            _profile(axes, data.isel(parameter=at))
         else:
             axes.set_visible(False)
     for axes in panels[:, 0]:
@@ -143,7 +143,8 @@ def _fitted(axes: Axes, data: xr.Dataset, one: Series) -> None:
     axes.set_title(title)
 
 
-def _profile(axes: Axes, one: xr.Dataset, threshold: float) -> None:
+def _profile(axes: Axes, one: xr.Dataset) -> None:
+    threshold, level = (float(one.attrs[name]) for name in ("threshold", "level"))
     divisor, unit = SHOWN[str(one.unit.item())]
     told = np.isfinite(one.profile_excess.values)
     value, excess = one.profile_value.values[told] / divisor, one.profile_excess.values[told]
@@ -156,7 +157,7 @@ def _profile(axes: Axes, one: xr.Dataset, threshold: float) -> None:
         color=FAINT, alpha=0.5, lw=0, label="interval",
     )  # fmt: skip
     axes.plot(value, excess, color=BLUE, label="profile")
-    axes.axhline(threshold, color=ORANGE, lw=1.0, label="90 %")
+    axes.axhline(threshold, color=ORANGE, lw=1.0, label=f"{100.0 * level:.0f} %")
     axes.axvline(best, color=GREY, lw=1.0, label="best")
     axes.set_ylim(0.0, CEILING * threshold)
     axes.set_xlim(value.min(), value.max())

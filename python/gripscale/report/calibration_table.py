@@ -8,6 +8,7 @@ import numpy as np
 from rich import box
 from rich.table import Table
 
+from gripscale.calibration.profile import LEVEL
 from gripscale.calibration.snippet import interval, written
 from gripscale.report.tables import significant
 from gripscale.units import ZERO_CELSIUS
@@ -22,7 +23,7 @@ def parameter_table(calibration: Calibration) -> Table:
     table.add_column("parameter")
     for head in ("value", "standard error"):
         table.add_column(head, justify="right", no_wrap=True)
-    table.add_column("90 % by profile likelihood")
+    table.add_column(f"{100 * LEVEL:.0f} % by profile likelihood")
     for one in calibration.estimates:
         error = written(one.standard_error, one.unit, 2) if one.determined else "-"
         style = None if one.determined else "yellow"
