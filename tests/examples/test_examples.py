@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import re
 import subprocess
 import sys
@@ -149,6 +150,38 @@ def test_toy_condition(tmp_path):
     slow, fast = (float(value) for value in re.findall(r"m/s: friction ([\d.]+)", printed))
     assert fast == pytest.approx(warm.sum(), abs=2e-4)
     assert slow < fast
+
+
+def test_area_term(tmp_path):
+    printed = start("area_term", tmp_path, "out")
+    rows = re.findall(r"(\S+) to ([\d.e+-]+); true (\S+)", printed)
+    held = [float(low) <= float(true) <= float(high) for low, high, true in rows]
+    # four intervals of 90 %: three or all of them, with probability 0.95
+    assert len(held) == 4
+    assert sum(held) >= 3
+    errors = [float(value) for value in re.findall(r"from the others: rms ([\d.]+)", printed)]
+    assert len(errors) == 3
+    assert max(errors) < 1.5 * 0.02  # the noise, and what the others leave open
+    (wrong,) = numbers(r"constant stress: rms up to ([\d.]+)", printed)
+    assert wrong > 5.0 * 0.02
+    assert len(list((tmp_path / "out" / "area_term" / "predictions").glob("*.nc"))) == 24
+
+
+def test_the_synthetic_friction_is_what_its_source_says():
+    spec = importlib.util.spec_from_file_location("area_term", EXAMPLES / "area_term.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    friction = EXAMPLES / "measured_friction" / "synthetic_friction.csv"
+    titles, *shipped = friction.read_text().splitlines()
+    made_titles, *made = module.measure()
+    assert made_titles == titles
+    numbers_of = [
+        [[float(cell) for cell in row.split(",")] for row in rows] for rows in (made, shipped)
+    ]
+    np.testing.assert_allclose(*numbers_of, rtol=0.0, atol=1.1e-3)  # the last digit of the friction
+    stated = (EXAMPLES / "measured_friction" / "SOURCE.txt").read_text()
+    for number in ("0.35 MPa", "-0.15 log10", "5 mm/s", "0.95 eV", "293.15 K", "deviation 0.02"):
+        assert number in stated
 
 
 def test_run_case(tmp_path):

@@ -19,12 +19,12 @@ from gripscale.comparison import (
     Comparison,
     ComparisonOverAxis,
     Factor,
-    MeasuredFriction,
     Sample,
     SolvedRung,
     Uncertain,
     compare_case,
 )
+from gripscale.measured import MeasuredFriction
 from gripscale.model import TOTALS
 from gripscale.rubber import Rubber
 from gripscale.study.axes import axes_of

@@ -16,7 +16,7 @@ import xarray as xr
 import gripscale as gs
 from gripscale import netcdf
 from gripscale.case import read_case
-from gripscale.comparison.measured import MeasuredFriction, read_measured_friction
+from gripscale.measured.friction import MeasuredFriction, read_measured_friction
 from gripscale.rubber import read_uniaxial_test
 from gripscale.surface import read_profiles
 

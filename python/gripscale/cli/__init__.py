@@ -10,6 +10,7 @@ from typing import Annotated
 
 import typer
 
+from gripscale.cli.calibrate import calibrate
 from gripscale.cli.compare import compare
 from gripscale.cli.fit_rubber import fit_rubber
 from gripscale.cli.fit_surface import fit_surface
@@ -28,6 +29,7 @@ app = typer.Typer(
 )
 app.command("run")(run)
 app.command("compare")(compare)
+app.command("calibrate")(calibrate)
 app.command("report")(report)
 app.command("study")(study)
 app.command("reproduce", context_settings=PASS_ON)(reproduce)

@@ -70,7 +70,8 @@ def compare(
 ) -> None:
     """Show what each assumption of the chain costs; resumes where it was stopped."""
     from gripscale.case import folder, prepare_case, read_case
-    from gripscale.comparison import compare_case, compare_over, read_measured_friction
+    from gripscale.comparison import compare_case, compare_over
+    from gripscale.measured import read_measured_friction
     from gripscale.study.axes import parse_vary
 
     axes = None if vary is None else dict([parse_vary(vary)])

@@ -2,8 +2,6 @@ from .estimate import BestEstimate as BestEstimate
 from .estimate import Factor as Factor
 from .judged import judged as judged
 from .ladder import LADDER as LADDER
-from .measured import MeasuredFriction as MeasuredFriction
-from .measured import read_measured_friction as read_measured_friction
 from .result import Comparison as Comparison
 from .result import ComparisonOverAxis as ComparisonOverAxis
 from .run import compare_case as compare_case

@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 from gripscale import versions
 from gripscale.comparison.curve import octaves
 from gripscale.comparison.estimate import Factor
-from gripscale.comparison.measured import MeasuredFriction
 from gripscale.comparison.sample import QUANTITIES
 from gripscale.comparison.solved import SolvedRung
 from gripscale.comparison.solved_ladder import SolvedLadder
 from gripscale.comparison.uncertain import UNKNOWN
+from gripscale.measured.friction import MeasuredFriction
 from gripscale.model import (
     ADHESIVE_FRICTION,
     CUT_OFF_EXPONENTS,

@@ -15,12 +15,12 @@ from gripscale.case.run import prepare_case
 from gripscale.chain.model import Chain
 from gripscale.comparison.estimate import Factor
 from gripscale.comparison.ladder import chosen
-from gripscale.comparison.measured import MeasuredFriction, read_measured_friction
 from gripscale.comparison.result import Comparison, ComparisonOverAxis
 from gripscale.comparison.rung import Draw, Rung, Subject
 from gripscale.comparison.sample import sample_of
 from gripscale.comparison.solved import SolvedRung
 from gripscale.errors import InputError
+from gripscale.measured.friction import MeasuredFriction, read_measured_friction
 from gripscale.rubber.extrapolation import require_measured
 from gripscale.study import Study
 from gripscale.study.store import Store

@@ -8,10 +8,10 @@ from functools import cached_property
 
 from gripscale.case.read import CaseFile
 from gripscale.comparison.estimate import BestEstimate, Factor, best_estimate
-from gripscale.comparison.measured import MeasuredFriction
 from gripscale.comparison.rung import Subject
 from gripscale.comparison.solved import SolvedRung
 from gripscale.comparison.uncertain import UNKNOWN, Uncertain
+from gripscale.measured.friction import MeasuredFriction
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,16 +16,23 @@ from gripscale.units import ZERO_CELSIUS
 COLOUR = INK
 """Of everything measured."""
 
+BAR = 1e5
+
 Array = NDArray[np.float64]
 
 
 class Series(NamedTuple):
-    """Measured friction at one temperature over rising speed [m/s]; spreads may be NaN."""
+    """Measured friction at one temperature and pressure over rising speed [m/s].
+
+    Spreads may be NaN.
+    """
 
     label: str
     speed: Array
     friction: Array
     spread: Array
+    chosen: NDArray[np.bool_]
+    """Which points of the measurement these are."""
 
     def at(self, speed: float) -> tuple[float, float] | None:
         """Return friction and spread at `speed`, interpolated in its logarithm; None outside."""
@@ -35,14 +42,35 @@ class Series(NamedTuple):
         return float(np.interp(at, place, self.friction)), float(np.interp(at, place, self.spread))
 
 
-def measured(comparison: xr.Dataset) -> Iterator[Series]:
-    """Yield what was measured at each temperature, to the kelvin; nothing without a measurement."""
-    if "measured_friction" not in comparison:
+def measured(data: xr.Dataset) -> Iterator[Series]:
+    """Yield what was measured at each temperature, to the kelvin, and each pressure.
+
+    Nothing without a measurement.
+    """
+    if "measured_friction" not in data:
         return
-    kelvin = np.round(comparison.measured_temperature.values)
+    kelvin = np.round(data.measured_temperature.values)
+    unknown = np.full(kelvin.size, np.nan)
+    pascal = data.measured_pressure.values if "measured_pressure" in data else unknown
+    several = np.unique(pascal).size > 1
     for value in np.unique(kelvin):
-        unknown = bool(np.isnan(value))
-        chosen = np.isnan(kelvin) if unknown else kelvin == value
-        label = "measured" if unknown else f"measured, {value - ZERO_CELSIUS:.0f} °C"
-        columns = (comparison[f"measured_{n}"].values for n in ("speed", "friction", "spread"))
-        yield Series(label, *(column[chosen] for column in columns))
+        for load in np.unique(pascal):
+            chosen = _same(kelvin, value) & _same(pascal, load)
+            if chosen.any():
+                parts = ["measured", *_words(float(value), float(load), several=several)]
+                speed, friction, spread = (
+                    data[f"measured_{name}"].values[chosen]
+                    for name in ("speed", "friction", "spread")
+                )
+                yield Series(", ".join(parts), speed, friction, spread, chosen)
+
+
+def _same(values: Array, value: float) -> NDArray[np.bool_]:
+    return np.isnan(values) if np.isnan(value) else values == value
+
+
+def _words(kelvin: float, pascal: float, *, several: bool) -> Iterator[str]:
+    if not math.isnan(kelvin):
+        yield f"{kelvin - ZERO_CELSIUS:.0f} °C"
+    if several and not math.isnan(pascal):
+        yield f"{pascal / BAR:.3g} bar"

@@ -7,6 +7,7 @@ Its parameters are fits to measured friction of one rubber on one surface; there
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from typing import Any, ClassVar, Protocol, runtime_checkable
@@ -31,8 +32,8 @@ class InterfacialShearStress(Protocol):
     def kind(self) -> str:
         """Word for it in case files and results."""
 
-    def stress(self, speed: ArrayLike, temperature: float | None = None) -> Array:
-        """Return tau_f [Pa] at speeds [m/s], same shape, and a temperature [K].
+    def stress(self, speed: ArrayLike, temperature: ArrayLike | None = None) -> Array:
+        """Return tau_f [Pa] at speeds [m/s] and temperatures [K], broadcast together.
 
         Raises `InputError` if it depends on the temperature and none is given.
         """
@@ -55,7 +56,7 @@ class ConstantStress:
     def __post_init__(self) -> None:
         _checked(self, stress_0="Pa")
 
-    def stress(self, speed: ArrayLike, temperature: float | None = None) -> Array:
+    def stress(self, speed: ArrayLike, temperature: ArrayLike | None = None) -> Array:
         """Return tau_f [Pa] at speeds [m/s], same shape."""
         return np.full(np.shape(speed), self.stress_0)
 
@@ -103,20 +104,24 @@ class GaussianStress:
                 "reference_temperature must be given with an activation_energy; got none"
             )
 
-    def stress(self, speed: ArrayLike, temperature: float | None = None) -> Array:
-        """Return tau_f [Pa] at speeds [m/s], same shape, and a temperature [K]."""
-        ratio = np.asarray(speed, dtype=float) * self._shift(temperature) / self.speed_0
+    def stress(self, speed: ArrayLike, temperature: ArrayLike | None = None) -> Array:
+        """Return tau_f [Pa] at speeds [m/s] and temperatures [K], broadcast together."""
         with np.errstate(divide="ignore"):
-            return np.asarray(self.stress_0 * np.exp(-self.width * np.log10(ratio) ** 2))
+            decades = np.log10(np.asarray(speed, dtype=float) / self.speed_0)
+        away = decades + self._log_shift(temperature)
+        return np.asarray(self.stress_0 * np.exp(-self.width * away**2))
 
-    def _shift(self, temperature: float | None) -> float:
+    def _log_shift(self, temperature: ArrayLike | None) -> Array:
+        """Return log10 a_T [-], zero where the temperature does not matter."""
         if self.reference_temperature is None or self.activation_energy == 0.0:
-            return 1.0
+            return np.zeros(())
         if temperature is None:
             raise InputError("temperature must be given for an area term that depends on it [K]")
-        kelvin = checks.positive("temperature", temperature, unit="K")
+        kelvin = checks.real("temperature", temperature, unit="K")
+        if (kelvin <= 0.0).any():
+            raise InputError(f"temperature must be greater than zero [K]; got {kelvin.min():g}")
         apart = 1.0 / kelvin - 1.0 / self.reference_temperature
-        return float(np.exp(self.activation_energy / BOLTZMANN * apart))
+        return np.asarray(self.activation_energy / BOLTZMANN * apart / math.log(10.0))
 
 
 @dataclass(frozen=True)
@@ -152,7 +157,7 @@ class LeGalKlueppelStress:
         for name, unit in (("critical_speed", "m/s"), ("exponent", "")):
             object.__setattr__(self, name, checks.positive(name, getattr(self, name), unit=unit))
 
-    def stress(self, speed: ArrayLike, temperature: float | None = None) -> Array:
+    def stress(self, speed: ArrayLike, temperature: ArrayLike | None = None) -> Array:
         """Return tau_f [Pa] at speeds [m/s], same shape."""
         power = (np.asarray(speed, dtype=float) / self.critical_speed) ** self.exponent
         return np.asarray(self.stress_0 * (1.0 + self.ratio * power / (1.0 + power)))
@@ -188,7 +193,7 @@ class TableStress:
         object.__setattr__(self, "speed", tuple(speeds.tolist()))
         object.__setattr__(self, "stress_at", tuple(stresses.tolist()))
 
-    def stress(self, speed: ArrayLike, temperature: float | None = None) -> Array:
+    def stress(self, speed: ArrayLike, temperature: ArrayLike | None = None) -> Array:
         """Return tau_f [Pa] at speeds [m/s], same shape."""
         with np.errstate(divide="ignore"):
             at = np.log(np.asarray(speed, dtype=float))

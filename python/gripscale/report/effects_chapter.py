@@ -13,7 +13,7 @@ from gripscale.report.numbers import NONE, number, percent
 from gripscale.study.display import EFFECTS
 
 WHAT = (
-    "The same case with all effects of its conditions, without each of them in turn, and with none: "
+    "The same case with all effects of its conditions, without each in turn, and with none: "
     "a change is what the effects left out do to the number beside it."
 )
 NAMES = {"chain": "chain", "direct": "direct contact"}

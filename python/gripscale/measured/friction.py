@@ -1,8 +1,9 @@
 """Friction measured elsewhere, to be drawn over what the models say: a table of speed and friction.
 
-A text or CSV file with columns named speed and friction, and if known spread (of the friction) and
-temperature. Units stand in the titles, as in `speed [mm/s]` or `temperature (C)`; without one
-speeds are in m/s and temperatures in K. Otherwise the rules of `gripscale.textfile` hold.
+A text or CSV file with columns named speed and friction, and if known spread (of the friction),
+temperature and pressure. Units stand in the titles, as in `speed [mm/s]` or `temperature (C)`;
+without one speeds are in m/s, temperatures in K and pressures in Pa. Otherwise the rules of
+`gripscale.textfile` hold.
 """
 
 from __future__ import annotations
@@ -25,14 +26,22 @@ _WORDS = {
     "friction": ("friction", "friction coefficient", "mu", "µ", "μ", "cof"),
     "spread": ("spread", "std", "standard deviation", "uncertainty", "error"),
     "temperature": ("temperature", "temp", "t"),
+    "pressure": ("pressure", "nominal pressure", "p"),
 }
 """What the titles of the columns may be called, in lower case; the first word is ours."""
 
-_UNITS = {"speed": ("speed", "m/s"), "temperature": ("temperature", "K")}
+_UNITS = {
+    "speed": ("speed", "m/s"),
+    "temperature": ("temperature", "K"),
+    "pressure": ("pressure", "Pa"),
+}
 """Kind of unit of a column, and the unit it is in where the title names none."""
 
-_MOST = {"friction": 100.0, "spread": 100.0, "temperature": 3000.0}
-"""Largest absolute values [-], [K]: far beyond any rubber's, below what marks missing values."""
+_OPTIONAL = {"spread": "", "temperature": "K", "pressure": "Pa"}
+"""Columns that may be absent, and where values may be missing, with their units."""
+
+_MOST = {"friction": 100.0, "spread": 100.0, "temperature": 3000.0, "pressure": 1e11}
+"""Largest absolute values [-], [K], [Pa]: beyond any rubber's, below what marks missing ones."""
 
 _RATIO = ("1", "-", "–")
 """Units of what has none."""
@@ -52,6 +61,8 @@ class MeasuredFriction:
         Standard deviations of the friction coefficients [-]; NaN where unknown, as by default.
     temperature : array_like, shape (n,), optional
         Temperatures of the rubber [K]; NaN where unknown, as by default.
+    pressure : array_like, shape (n,), optional
+        Nominal pressures [Pa]; NaN where unknown, as by default.
     source : str
         Where they come from.
 
@@ -65,6 +76,7 @@ class MeasuredFriction:
     friction: Array = field(repr=False)
     spread: Array = field(repr=False)
     temperature: Array = field(repr=False)
+    pressure: Array = field(repr=False)
     source: str
 
     def __init__(
@@ -74,20 +86,17 @@ class MeasuredFriction:
         spread: ArrayLike | None = None,
         temperature: ArrayLike | None = None,
         source: str = "",
+        *,
+        pressure: ArrayLike | None = None,
     ) -> None:
         found = {
             "speed": checks.positive_vector("speed", speed, unit="m/s"),
             "friction": checks.vector("friction", friction),
         }
-        for name, given, unit in (("spread", spread, ""), ("temperature", temperature, "K")):
+        optional = {"spread": spread, "temperature": temperature, "pressure": pressure}
+        for name, given in optional.items():
             values = np.full(found["speed"].size, np.nan) if given is None else given
-            found[name] = checks.vector(name, values, unit=unit, missing=True)
-            _check_most(name, found[name])
-            low = found[name] < 0.0 if name == "spread" else found[name] <= 0.0
-            if low.any():
-                bad = found[name][low][0]
-                limit = "not be negative" if name == "spread" else "be above zero [K]"
-                raise InputError(f"{name} must {limit}; got {bad:g} at index {int(np.argmax(low))}")
+            found[name] = _checked(name, values)
         _check_most("friction", found["friction"])
         sizes = {name: values.size for name, values in found.items()}
         if len(set(sizes.values())) > 1 or not sizes["speed"]:
@@ -97,6 +106,19 @@ class MeasuredFriction:
         for name, values in found.items():
             object.__setattr__(self, name, values[order])
         object.__setattr__(self, "source", source)
+
+
+def _checked(name: str, given: ArrayLike) -> Array:
+    """Return an optional column; raise `InputError` if a value is out of its range."""
+    unit = _OPTIONAL[name]
+    values = checks.vector(name, given, unit=unit, missing=True)
+    _check_most(name, values)
+    low = values < 0.0 if name == "spread" else values <= 0.0
+    if low.any():
+        limit = "not be negative" if name == "spread" else f"be above zero [{unit}]"
+        at = int(np.argmax(low))
+        raise InputError(f"{name} must {limit}; got {values[at]:g} at index {at}")
+    return values
 
 
 def _check_most(name: str, values: Array) -> None:
@@ -122,14 +144,13 @@ def read_measured_friction(path: str | Path) -> MeasuredFriction:
     table = read_table(
         path,
         "rows of speed and friction, with titles above them",
-        kinds=("speed", "temperature"),
+        kinds=tuple(kind for kind, _ in _UNITS.values()),
         named=lambda title: _word(title) is not None,
     )
     places = _places(table)
     columns = {}
     for word, place in places.items():
-        missing = word in ("spread", "temperature")
-        values = table.numbers(place, f"a {word}", missing=missing)
+        values = table.numbers(place, f"a {word}", missing=word in _OPTIONAL)
         columns[word] = _in_si(path, word, table.columns[place], values)
     try:
         return MeasuredFriction(**columns, source=str(path))

@@ -1,0 +1,75 @@
+"""The area term fitted to measured friction, where the truth is known.
+
+The friction is synthetic: `measure` made it, from the hysteresis of a case, a law of the shear
+stress and noise. The fit is given the friction and the hysteresis, and has to find the law.
+
+Run as `python examples/area_term.py [FOLDER]`.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+
+from gripscale.calibration import calibrate_case
+from gripscale.case import prepare_case
+from gripscale.figures.calibration import draw
+from gripscale.interface import GaussianStress
+from gripscale.measured import MeasuredFriction, predictions_at
+from gripscale.study import Store
+
+CASE = Path(__file__).parent / "measured_friction" / "case.toml"
+TRUE = GaussianStress(
+    stress_0=0.35e6,  # [Pa]
+    width=0.15,
+    speed_0=5e-3,  # [m/s]
+    activation_energy=0.95,  # [eV]
+    reference_temperature=293.15,  # [K]
+)
+SPREAD, SEED = 0.02, 20
+FRICTION = "speed [m/s],temperature [C],friction,spread"
+
+
+def measure() -> list[str]:
+    """Return the lines of a table of friction at three temperatures and eight speeds."""
+    speed, celsius = (
+        grid.ravel() for grid in np.meshgrid(np.geomspace(1e-4, 1.0, 8), [5.0, 20.0, 40.0])
+    )
+    points = MeasuredFriction(speed, np.zeros(speed.size), temperature=celsius + 273.15)
+    case = prepare_case(CASE)
+    with TemporaryDirectory() as folder:
+        found = predictions_at(
+            points, case.chain, case.rubber.rubber, case.surface, case.load, Store(folder)
+        )
+    exact = found.friction + found.area_term(TRUE, points.speed)
+    friction = np.random.default_rng(SEED).normal(exact, SPREAD)
+    columns = points.speed, points.temperature - 273.15, friction
+    rows = [f"{v:.4g},{c:.0f},{mu:.3f},{SPREAD}" for v, c, mu in zip(*columns, strict=True)]
+    return [FRICTION, *rows]
+
+
+def main(folder: str = "results/examples") -> None:
+    """Fit the law and print it beside the truth."""
+    target = Path(folder) / "area_term"
+    target.mkdir(parents=True, exist_ok=True)
+    fixed = {"reference_temperature": 293.15}
+    fit = calibrate_case(CASE, model="chain", fixed=fixed, hold_out="temperature", folder=target)
+    for one in fit.estimates:
+        true = getattr(TRUE, one.name)
+        print(f"{one.name}: {one.value:.4g}, {one.low:.4g} to {one.high:.4g}; true {true:.4g}")
+    for left_out in fit.held_out:
+        celsius = left_out.value - 273.15
+        print(f"{celsius:.0f} C from the others: rms {left_out.rms_outside:.3f}")
+    wrong = calibrate_case(
+        CASE, model="chain", law="constant", hold_out="temperature", folder=target
+    )
+    worst = max(one.rms_outside for one in wrong.held_out)
+    print(f"with a constant stress: rms up to {worst:.3f}")
+    draw(fit.to_dataset(), target)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:2])

@@ -1,0 +1,178 @@
+"""Profile likelihood: how far a parameter can go while all others do their best to follow.
+
+    E(x) = min over the others of S(x, others) - S_min
+
+An interval holds every x with E(x) below a threshold: chi^2_1 where the spreads are known, and
+F_(1, n - k) times S_min/(n - k) where the scatter of the residuals stands for them. Unlike the
+standard error it follows a curved valley, and finds an end that is not there.
+
+Source: S. M. Murphy & A. W. van der Vaart, J. Am. Stat. Assoc. 95 (2000) 449,
+doi:10.1080/01621459.2000.10474219; D. M. Bates & D. G. Watts, Nonlinear Regression Analysis and
+its Applications (1988), sec. 6.1, doi:10.1002/9780470316757.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.optimize
+import scipy.stats
+from numpy.typing import NDArray
+
+from gripscale.calibration.least_squares import Optimum, Problem, free_limits, refined
+
+Array = NDArray[np.float64]
+
+LEVEL = 0.9
+"""Share of measurements like this one whose interval holds the true value."""
+REACH = 2.0
+"""How much further each step of a search for an end goes."""
+FINE = 1e-3
+"""Relative accuracy of the distance to an end."""
+LESS = 1e-6
+"""Relative decrease of the sum of squares beyond which another minimum has been met."""
+CURVE = 25
+"""Values of a parameter at which its profile is kept."""
+
+
+class Better(Exception):
+    """A profile has met a smaller sum of squares than the fit."""
+
+    def __init__(self, theta: Array) -> None:
+        super().__init__()
+        self.theta = theta
+
+
+@dataclass(frozen=True)
+class Profile:
+    """The profile of one parameter, in the numbers the search works with.
+
+    Parameters
+    ----------
+    problem, optimum
+        What is fitted, and its least sum of squares.
+    place : int
+        Which free parameter.
+    """
+
+    problem: Problem
+    optimum: Optimum
+    place: int
+
+    @property
+    def centre(self) -> float:
+        """Where the sum of squares is least."""
+        return float(self.optimum.theta[self.place])
+
+    def excess(self, scaled: float, start: Array | None = None) -> tuple[float, Array]:
+        """Return E at a value, and what the others are there.
+
+        Raises `Better` where E is below zero.
+        """
+        held = self.problem.holding(self.place, scaled)
+        others = np.delete(self.optimum.theta, self.place) if start is None else start
+        found = refined(held, others)
+        apart = found.sum_of_squares - self.optimum.sum_of_squares
+        if apart < -LESS * self.optimum.sum_of_squares - 1e-12:
+            raise Better(np.insert(found.theta, self.place, scaled))
+        return max(apart, 0.0), found.theta
+
+    def end(self, way: int, threshold: float) -> float:
+        """Return where E reaches `threshold` below (`way` -1) or above (1) the centre.
+
+        Infinite where it does not before the limit of the search, or only because another
+        parameter is held back by its own.
+        """
+        limit = free_limits(self.problem, self.place)[(way + 1) // 2]
+        near, others = self.centre, np.delete(self.optimum.theta, self.place)
+        below = 0.0
+        if way * (limit - near) <= 0.0:
+            return way * math.inf
+        step = self._first_step(threshold)
+        while True:
+            far = near + way * step
+            far = limit if way * (far - limit) >= 0.0 else far
+            excess, met = self.excess(far, others)
+            if excess >= threshold:
+                return self._crossing({near: (below, others), far: (excess, met)}, threshold)
+            if far == limit:
+                return way * math.inf
+            near, below, others, step = far, excess, met, REACH * step
+
+    def curve(self, low: float, high: float) -> tuple[Array, Array]:
+        """Return values from `low` to `high` and E there, each from its neighbour's others.
+
+        NaN where another parameter is held back by its own limit.
+        """
+        values = np.linspace(low, high, CURVE)
+        excess = np.empty(CURVE)
+        middle = int(np.argmin(np.abs(values - self.centre)))
+        for way in (range(middle, CURVE), range(middle - 1, -1, -1)):
+            others = None
+            for at in way:
+                rise, others = self.excess(float(values[at]), others)
+                held_back = self.problem.holding(self.place, values[at]).at_limit(others)
+                excess[at] = math.nan if held_back else rise
+        return values, excess
+
+    def _first_step(self, threshold: float) -> float:
+        """Return how far the end would be on a parabola, within reason."""
+        errors = scaled_errors(self.optimum.jacobian)
+        low, high = free_limits(self.problem, self.place)
+        return float(np.clip(errors[self.place] * math.sqrt(threshold), 1e-6, 0.02 * (high - low)))
+
+    def _crossing(self, known: dict[float, tuple[float, Array]], threshold: float) -> float:
+        """Return where E crosses the threshold between two values, before and behind it.
+
+        By its root, nearly a straight line; `known` holds E and the others at the two values.
+        """
+        near, far = known
+        start = known[near][1]
+
+        def above(scaled: float) -> float:
+            if scaled not in known:
+                known[scaled] = self.excess(scaled, start)
+            return math.sqrt(known[scaled][0]) - math.sqrt(threshold)
+
+        fine = FINE * abs(far - self.centre)
+        end = float(scipy.optimize.brentq(above, near, far, xtol=fine, rtol=1e-9))
+        above(end)
+        if self.problem.holding(self.place, end).at_limit(known[end][1]):
+            return math.copysign(math.inf, far - near)
+        return end
+
+
+def threshold_of(optimum: Optimum, *, known: bool) -> float:
+    """Return the excess that ends an interval, with spreads `known` or taken from the residuals."""
+    if known:
+        return float(scipy.stats.chi2.ppf(LEVEL, 1))
+    points, free = optimum.jacobian.shape
+    ratio = float(scipy.stats.f.ppf(LEVEL, 1, points - free))
+    return ratio * optimum.sum_of_squares / float(points - free)
+
+
+def scaled_errors(jacobian: Array) -> Array:
+    """Return the standard errors of the numbers for residuals of unit spread, shape (free,)."""
+    return np.asarray(np.sqrt(np.diag(covariance(jacobian))))
+
+
+def covariance(jacobian: Array) -> Array:
+    """Return (J^T J)^-1; directions without any influence count as hardly having one."""
+    _, sizes, rows = np.linalg.svd(jacobian, full_matrices=False)
+    least = np.finfo(float).eps * max(float(sizes.max()), np.finfo(float).tiny)
+    scaled = rows / np.maximum(sizes, least)[:, None]
+    return np.asarray(scaled.T @ scaled)
+
+
+def settled(
+    problem: Problem, optimum: Optimum, find: Callable[[Optimum], list[tuple[float, float]]]
+) -> tuple[Optimum, list[tuple[float, float]]]:
+    """Return the optimum and what `find` makes of it, begun again where a better one is met."""
+    while True:
+        try:
+            return optimum, find(optimum)
+        except Better as better:
+            optimum = refined(problem, better.theta)

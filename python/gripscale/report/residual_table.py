@@ -1,0 +1,91 @@
+"""Measured friction beside what models predict, point by point, in text."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+from rich import box
+from rich.table import Table
+
+from gripscale.figures.measured import BAR
+from gripscale.report.tables import significant
+from gripscale.units import ZERO_CELSIUS
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+def residual_table(data: xr.Dataset) -> Table:
+    """Return measured and predicted friction, their difference, and it over the spread.
+
+    `data` is what `gripscale.measured.residuals` answers; the last row has root mean squares.
+    """
+    terms = "area_term" in data
+    spread = bool(np.isfinite(data.measured_spread).any())
+    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
+    for head in _opening(data, spread=spread):
+        table.add_column(head, justify="right", no_wrap=True)
+    parts = ["μ hyst.", "μ"] if terms else ["μ"]
+    parts += ["Δμ", "Δμ/\nspread"] if spread else ["Δμ"]
+    for name in data.model.values:
+        for at, part in enumerate(parts):
+            table.add_column(f"{name if at == 0 else ''}\n{part}", justify="right")
+    for at in range(data.sizes["measurement"]):
+        one = data.isel(measurement=at)
+        table.add_row(*_point(one, data), *_numbers(one, terms=terms, spread=spread))
+    table.add_section()
+    table.add_row("rms", *[""] * (len(list(_opening(data, spread=spread))) - 1), *_rms(data, parts))
+    return table
+
+
+def _opening(data: xr.Dataset, *, spread: bool) -> Iterator[str]:
+    """Yield the titles of the columns of the measurement, those that say something."""
+    yield "v\nm/s"
+    if np.isfinite(data.measured_temperature).any():
+        yield "T\n°C"
+    if np.isfinite(data.measured_pressure).any():
+        yield "p\nbar"
+    yield "measured\nμ"
+    if spread:
+        yield "\nspread"
+
+
+def _point(one: xr.Dataset, data: xr.Dataset) -> Iterator[str]:
+    yield significant(float(one.measured_speed))
+    if np.isfinite(data.measured_temperature).any():
+        yield f"{float(one.measured_temperature) - ZERO_CELSIUS:.1f}"
+    if np.isfinite(data.measured_pressure).any():
+        yield significant(float(one.measured_pressure) / BAR)
+    yield _fixed(float(one.measured_friction))
+    if np.isfinite(data.measured_spread).any():
+        yield _fixed(float(one.measured_spread))
+
+
+def _numbers(one: xr.Dataset, *, terms: bool, spread: bool) -> Iterator[str]:
+    for at in range(one.sizes["model"]):
+        model = one.isel(model=at)
+        if terms:
+            yield _fixed(float(model.hysteresis))
+        yield _fixed(float(model.friction))
+        yield _signed(float(model.difference), 3)
+        if spread:
+            yield _signed(float(model.difference_in_spread), 1)
+
+
+def _rms(data: xr.Dataset, parts: list[str]) -> Iterator[str]:
+    for at in range(data.sizes["model"]):
+        model = data.isel(model=at)
+        yield from [""] * (parts.index("Δμ"))
+        yield _fixed(float(model.rms_difference))
+        if parts[-1] != "Δμ":
+            yield f"{float(model.rms_difference_in_spread):.1f}"
+
+
+def _fixed(value: float) -> str:
+    return "-" if np.isnan(value) else f"{value:.3f}"
+
+
+def _signed(value: float, digits: int) -> str:
+    return "-" if np.isnan(value) else f"{value:+.{digits}f}"

@@ -1,0 +1,146 @@
+"""`gripscale calibrate`: the area term of a case from its measured friction."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from typer.testing import Result
+
+from gripscale import netcdf
+from gripscale.calibration import calibrate_case
+from gripscale.calibration.of_case import parse_fixed
+from gripscale.case import prepare_conditions, read_case
+from gripscale.errors import ExtrapolationError, InputError
+from gripscale.figures.calibration import fitted_figure, profiles_figure, residual_figure
+from gripscale.interface import GaussianStress
+
+Shell = Callable[..., Result]
+FOLDER = Path(__file__).parents[2] / "examples" / "measured_friction"
+FIGURES = {"measured_and_fitted", "residuals", "profiles"}
+
+
+@pytest.fixture(scope="module")
+def case(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A copy of the shipped case with synthetic friction."""
+    folder = tmp_path_factory.mktemp("case")
+    for name in ("case.toml", "synthetic_friction.csv"):
+        shutil.copy(FOLDER / name, folder)
+    return folder / "case.toml"
+
+
+def test_command_leaves_everything_behind(shell: Shell, case: Path) -> None:
+    result = shell("calibrate", case, "--model", "chain", "--hold-out", "temperature")
+    assert result.exit_code == 0, result.output
+    target = case.parent / "results" / "calibration"
+    figures = {f"{name}.{kind}" for name in FIGURES for kind in ("png", "pdf")}
+    files = {"calibration.nc", "calibration.txt", "shear_stress.toml", "predictions"}
+    assert {path.name for path in target.iterdir()} == figures | files
+    assert len(list((target / "predictions").iterdir())) == 24
+    for word in ("stress_0", "left out", "90 % by profile likelihood", "Correlations"):
+        assert word in result.stdout
+        assert word in (target / "calibration.txt").read_text()
+    data = netcdf.load(target / "calibration.nc")
+    for figure in (fitted_figure(data), residual_figure(data), profiles_figure(data)):
+        assert all(axes.lines or axes.collections for axes in figure.axes)
+    panels = fitted_figure(data).axes
+    assert [axes.get_title() for axes in panels] == ["5 °C", "20 °C", "40 °C"]
+    line = next(line for line in panels[1].lines if line.get_label() == "hysteresis alone")
+    chosen = abs(data.measured_temperature - 293.15) < 0.5
+    assert line.get_ydata() == pytest.approx(data.hysteresis.values[chosen.values])
+
+
+def test_the_table_can_be_pasted_into_the_case(shell: Shell, case: Path, tmp_path: Path) -> None:
+    target = tmp_path / "out"
+    result = shell("calibrate", case, "--model", "chain", "--output", target)
+    assert result.exit_code == 0, result.output
+    written = case.with_name("with_area_term.toml")
+    table = (target / "shear_stress.toml").read_text()
+    written.write_text(f"{case.read_text()}\n{table}")
+    file = read_case(written)
+    conditions = prepare_conditions(file.case.conditions, file.resolve)
+    fit = calibrate_case(case, model="chain", folder=target)
+    assert conditions is not None
+    assert isinstance(conditions.shear_stress, GaussianStress)
+    assert vars(conditions.shear_stress) == pytest.approx(vars(fit.law), rel=1e-5)
+    # with its own area term in the case, the fit is the same
+    again = calibrate_case(written, model="chain", folder=target)
+    assert again.law == fit.law
+
+
+def test_a_case_that_refuses_extrapolation(case: Path, tmp_path: Path) -> None:
+    text = case.read_text().replace("[rubber]\n", '[rubber]\nextrapolate = "refuse"\n')
+    strict = case.with_name("strict.toml")
+    strict.write_text(text)
+    too_fast = tmp_path / "fast.csv"
+    too_fast.write_text("speed,friction\n0.1,0.9\n1e9,0.9\n1,0.9\n")
+    strict.write_text(text.replace("synthetic_friction.csv", str(too_fast)))
+    with pytest.raises(ExtrapolationError):
+        calibrate_case(strict, model="chain", law="constant")
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        (["--law", "bell"], "law must be one of constant, gaussian, le_gal_klueppel; got 'bell'"),
+        (["--model", "wave"], "model must be one of direct, chain; got 'wave'"),
+        (["--hold-out", "p"], "hold_out must be one of temperature, speed; got 'p'"),
+        (["--fixed", "widt=1"], "unknown parameter widt; did you mean width?"),
+        (["--fixed", "width"], "fixed must be name=value, each name once; got 'width'"),
+        (["--fixed", "width=a"], "fixed width = 'a': expected a number"),
+        (["--fixed", "stress_0=3"], "fixed stress_0 = '3': the unit is missing; expected one of"),
+        (["--model", "direct"], "the direct contact needs a measured profile"),
+    ],
+)
+def test_a_bad_option_is_one_sentence(
+    shell: Shell, case: Path, tmp_path: Path, options: list[str], sentence: str
+) -> None:
+    result = shell("calibrate", case, "--output", tmp_path / "out", *options)
+    assert result.exit_code == 2
+    assert sentence in " ".join(result.output.split())
+
+
+def test_a_case_without_measured_friction(shell: Shell, inputs: Path) -> None:
+    result = shell("calibrate", inputs / "case.toml")
+    assert result.exit_code == 2
+    assert "[measured] friction must name a table of measured friction; got none" in " ".join(
+        result.output.split()
+    )
+
+
+def test_fixed_parameters_have_units() -> None:
+    texts = ["stress_0=5 MPa", "speed_0 = 6 mm/s", "activation_energy=0.9 eV", "width=0.1",
+             "reference_temperature=20 C"]  # fmt: skip
+    assert parse_fixed(texts) == pytest.approx(
+        {
+            "stress_0": 5e6,
+            "speed_0": 6e-3,
+            "activation_energy": 0.9,
+            "width": 0.1,
+            "reference_temperature": 293.15,
+        }
+    )
+    with pytest.raises(InputError, match="each name once"):
+        parse_fixed(["width=1", "width=2"])
+
+
+def test_the_direct_contact_of_a_measured_profile(
+    shell: Shell, inputs: Path, tmp_path: Path
+) -> None:
+    friction = tmp_path / "mu.csv"
+    friction.write_text("speed,friction,pressure [bar]\n0.1,0.9,3\n0.3,0.9,3\n0.3,0.9,2\n")
+    target = tmp_path / "out"
+    result = shell(
+        "calibrate", inputs / "case.toml", "--law", "constant", "--measured", friction,
+        "--output", target,
+    )  # fmt: skip
+    assert result.exit_code == 0, result.output
+    assert "No spread is stated" in result.stdout
+    data = netcdf.load(target / "calibration.nc")
+    stress = float(data.estimate[0])
+    term = stress * data.contact_fraction / data.nominal_pressure
+    assert data.area_term.values == pytest.approx(term.values)
+    assert sorted(data.nominal_pressure.values) == [2e5, 3e5, 3e5]
+    assert [axes.get_title() for axes in fitted_figure(data).axes] == ["2 bar", "3 bar"]
