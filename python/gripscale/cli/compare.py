@@ -70,7 +70,8 @@ def compare(
 ) -> None:
     """Show what each assumption of the chain costs; resumes where it was stopped."""
     from gripscale.case import folder, prepare_case, read_case
-    from gripscale.comparison import compare_case, compare_over
+    from gripscale.comparison import at_measured, compare_case, compare_over
+    from gripscale.comparison.run import PREDICTIONS
     from gripscale.measured import read_measured_friction
     from gripscale.study.axes import parse_vary
 
@@ -93,14 +94,16 @@ def compare(
     }
     made: Made
     worth: list[xr.Dataset] = []
+    beside: xr.Dataset | None = None
     if axes is None:
         results = prepare_case(file)
         made = compare_case(results, **options)
         solving = {key: options[key] for key in ("workers", "client", "on_task")}
         worth = _effects(results, options["tolerance"], target, solving)
+        beside = at_measured(made, target / PREDICTIONS, **solving)
     else:
         made = compare_over(file, axes, **options)
-    failed = _conclude(console, made.to_dataset(), target, worth)
+    failed = _conclude(console, made.to_dataset(), target, worth, beside)
     if failed:
         complain(f"{failed[0]}; {len(failed)} of the rungs have failed samples")
         raise typer.Exit(NOT_CONVERGED)
@@ -127,14 +130,20 @@ def _effects(
 
 
 def _conclude(
-    console: Console, data: xr.Dataset, target: Path, worth: list[xr.Dataset]
+    console: Console,
+    data: xr.Dataset,
+    target: Path,
+    worth: list[xr.Dataset],
+    beside: xr.Dataset | None,
 ) -> list[str]:
     """Print and keep tables, figures and the result; return what did not converge."""
     from gripscale import netcdf
     from gripscale.case import folder
+    from gripscale.figures.at_measured import at_measured_figure
     from gripscale.figures.case_all import draw_effects
     from gripscale.figures.comparison_all import draw
     from gripscale.figures.rungs import varied
+    from gripscale.figures.style import save_figure
     from gripscale.report import tables
     from gripscale.report.comparison_table import (
         axis_table,
@@ -144,6 +153,7 @@ def _conclude(
         temperature_only,
     )
     from gripscale.report.effects_table import effects_table
+    from gripscale.report.residual_table import residual_tables
 
     axis = varied(data)
     name = f"over_{axis}" if axis else "comparison"
@@ -157,6 +167,11 @@ def _conclude(
     if worth:
         parts.append(effects_table(*worth))
         draw_effects(worth, target)
+    if beside is not None:
+        netcdf.save(beside, target / "at_measured.nc")
+        parts += residual_tables(beside)
+        labels = dict(zip(data.rung.values.tolist(), data.label.values.tolist(), strict=True))
+        save_figure(at_measured_figure(beside, labels), target, "at_measured")
     _print(console, parts)
     folder.write_text(target / f"{name}.txt", tables.as_text(*parts))
     draw(data, target)

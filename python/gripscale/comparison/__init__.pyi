@@ -1,3 +1,4 @@
+from .at_measured import at_measured as at_measured
 from .estimate import BestEstimate as BestEstimate
 from .estimate import Factor as Factor
 from .judged import judged as judged

@@ -50,6 +50,11 @@ _OTHERS = (
 """For rungs that have no look of their own, in turn."""
 
 
+def look_of(rung: str) -> Look:
+    """Return the look of a rung of its own, or of a stranger."""
+    return _LOOKS.get(rung) or _OTHERS[0]
+
+
 def looks(comparison: xr.Dataset) -> list[tuple[str, Look]]:
     """Return name and look of each rung, in order."""
     names = [str(name) for name in comparison["rung"].values]

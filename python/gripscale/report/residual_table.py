@@ -17,6 +17,16 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
+MOST_MODELS = 2
+"""In one table: more would not fit on a screen."""
+
+
+def residual_tables(data: xr.Dataset) -> list[Table]:
+    """Return `residual_table` for two models at a time."""
+    groups = range(0, data.sizes["model"], MOST_MODELS)
+    return [residual_table(data.isel(model=slice(at, at + MOST_MODELS))) for at in groups]
+
+
 def residual_table(data: xr.Dataset) -> Table:
     """Return measured and predicted friction, their difference, and it over the spread.
 
