@@ -79,6 +79,15 @@ def test_grooves_on_a_map_are_not_taken_for_isotropic(along: bool) -> None:
     assert lines == pytest.approx(SINE_SLOPE if along else 0.0, rel=2e-3, abs=1e-12)
 
 
+def test_waves_longer_than_a_window_count_along_the_lines_of_a_map() -> None:
+    x = STEP * np.arange(400)
+    wave = AMPLITUDE * np.sin(2.0 * np.pi * x * 3.0 / (400 * STEP))
+    slopes = slope_by_wavelength(gs.HeightMap(x, x, np.broadcast_to(wave[:, None], (400, 400))))
+    exact = math.sqrt(2.0) * math.pi * AMPLITUDE * 3.0 / (400 * STEP)
+    # three waves: Hann's window adds 1/(6 3^2), the line taken out of each takes some of it away
+    assert slopes.down_to(LENGTH, "profile") == pytest.approx(exact, rel=0.05)
+
+
 def test_lines_of_a_self_affine_surface() -> None:
     slopes = slope_by_wavelength(rough())
     for first, last in ((2e-3, 1e-3), (1e-3, 0.5e-3)):

@@ -149,6 +149,7 @@ def _conclude(
         axis_table,
         beyond_band,
         comparison_table,
+        further_table,
         remarks,
         temperature_only,
     )
@@ -163,7 +164,7 @@ def _conclude(
         parts = [axis_table(data, axis, quantity) for quantity in ("contact_fraction", "friction")]
         parts += [*beyond_band(data), *temperature_only(data)]
     else:
-        parts = [comparison_table(data), *remarks(data)]
+        parts = [comparison_table(data), *remarks(data), further_table(data)]
     if worth:
         parts.append(effects_table(*worth))
         draw_effects(worth, target)

@@ -178,7 +178,10 @@ def _compared(
 
     def rung_at(place: str, rung: Rung) -> SolvedRung:
         pairs = zip(drawn[place, rung.name], tasks[place, rung.name], strict=True)
-        return SolvedRung(rung, [sample_of(solved[task.key], draw.of) for draw, task in pairs])
+        subject = subjects[place]
+        known = (subject.conditions, subject.rubber_before.reference_temperature)
+        samples = [sample_of(solved[task.key], draw.of, *known) for draw, task in pairs]
+        return SolvedRung(rung, samples)
 
     measured = choice.measured or _measured_of(file)
     out = []

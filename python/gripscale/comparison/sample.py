@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.comparison.curve import Curve, curve_of
+from gripscale.conditions.conditions import Conditions
 from gripscale.cut_off_exponents import NOT_TOLD, CutOffExponents
 from gripscale.model import ADHESIVE_FRICTION, cut_off_exponents_of, extrapolation_of
 from gripscale.rubber.extrapolation import UNKNOWN, Extrapolation
@@ -49,9 +50,16 @@ class Sample:
         return self.status == CONVERGED
 
 
-def sample_of(answer: xr.Dataset, of: str = "") -> Sample:
+def sample_of(
+    answer: xr.Dataset,
+    of: str = "",
+    conditions: Conditions | None = None,
+    temperature: float | None = None,
+) -> Sample:
     """Return the sample in the `answer` of a model.
 
+    Where the model does not know the area term of `conditions`, it is that of its contact area at
+    the `temperature` before the contact [K].
     At rest there is no friction: what rounding leaves of it becomes zero.
     """
     rest = float(answer["nominal_speed"]) == 0.0
@@ -64,12 +72,21 @@ def sample_of(answer: xr.Dataset, of: str = "") -> Sample:
         of=of,
         contact_fraction_error=_error(answer, "contact_fraction"),
         friction_error=math.nan if rest else _error(answer, "friction"),
-        adhesive_friction=float(answer.get(ADHESIVE_FRICTION, math.nan)),
+        adhesive_friction=_adhesive(answer, conditions, temperature),
         extrapolation=extrapolation_of(answer),
         cut_off_exponents=cut_off_exponents_of(answer),
         curve=curve_of(answer),
         seconds=float(answer.attrs.get("seconds", 0.0)),
     )
+
+
+def _adhesive(
+    answer: xr.Dataset, conditions: Conditions | None, temperature: float | None
+) -> float:
+    if ADHESIVE_FRICTION in answer or conditions is None:
+        return float(answer.get(ADHESIVE_FRICTION, math.nan))
+    names = ("total_contact_fraction", "nominal_pressure", "nominal_speed")
+    return conditions.adhesive_friction(*(float(answer[name]) for name in names), temperature)
 
 
 def _error(answer: xr.Dataset, name: str) -> float:

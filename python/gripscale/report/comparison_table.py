@@ -14,11 +14,10 @@ from rich.table import Table
 from gripscale.figures.rungs import JUDGE, flawed
 from gripscale.model import (
     ADHESIVE_FRICTION,
-    FRICTION_CUT_OFF_EXPONENT,
+    CUT_OFF_EXPONENTS,
     FRICTION_OUTSIDE_BAND,
     with_adhesive,
 )
-from gripscale.report.cut_off import EXPONENT
 from gripscale.report.outside_band import comparison_sentences, friction_sentence
 from gripscale.report.tables import significant
 from gripscale.rubber.extrapolation import WORTH_SAYING
@@ -45,9 +44,7 @@ def comparison_table(comparison: xr.Dataset) -> Table:
     table = _empty()
     table.add_column("model", overflow="fold", min_width=LABEL)
     parts = ["spread\n%", "error\n%", "×"]
-    both = with_adhesive(comparison)
-    total = [] if both is None else ["μ + area\nterm"]
-    for head in ["A_r/A_0", *parts, "μ", "μ\ndiss.", *parts, *total, "λ_min", "n"]:
+    for head in ["A_r/A_0", *parts, "μ", "μ\ndiss.", *parts, "n"]:
         table.add_column(head, justify="right", no_wrap=True)
     for at, bad in enumerate(flawed(comparison)):
         one = comparison.isel(rung=at)
@@ -59,11 +56,24 @@ def comparison_table(comparison: xr.Dataset) -> Table:
             f"{label} *" if float(one[FRICTION_OUTSIDE_BAND]) > WORTH_SAYING else label,
             *area,
             *friction,
-            *([] if both is None else [significant(float(both[at]))]),
-            _exponent(one),
             samples_of(one),
             style="bold red" if bad else "bold" if str(one.rung.item()) == JUDGE else None,
         )
+    return table
+
+
+def further_table(comparison: xr.Dataset) -> Table:
+    """Return friction with the area term, where there is one, and what the cut-off does."""
+    both = with_adhesive(comparison)
+    table = _empty()
+    table.add_column("model", overflow="fold", min_width=LABEL)
+    heads = [] if both is None else ["μ + area\nterm"]
+    for head in [*heads, "d ln A_r/A_0 /\nd ln λ_min", "d ln μ /\nd ln λ_min"]:
+        table.add_column(head, justify="right", no_wrap=True)
+    for at, label in enumerate(comparison.label.values):
+        one = comparison.isel(rung=at)
+        total = [] if both is None else [significant(float(both[at]))]
+        table.add_row(str(label), *total, *(_exponent(one, name) for name in CUT_OFF_EXPONENTS))
     return table
 
 
@@ -101,8 +111,6 @@ def remarks(comparison: xr.Dataset) -> Iterator[str]:
             yield f"{one.label.item()}: {one.status.item()}."
     yield from beyond_band(comparison)
     yield from temperature_only(comparison)
-    if FRICTION_CUT_OFF_EXPONENT in comparison:
-        yield f"λ_min: {EXPONENT}, the change of μ with the smallest wavelength that counts."
     if "best_friction" in comparison and np.isfinite(comparison.best_friction):
         yield best_sentence(comparison)
 
@@ -198,9 +206,9 @@ def _cells(one: xr.Dataset, name: str) -> Iterator[str]:
     yield significant(float(one[f"{name}_factor"]))
 
 
-def _exponent(one: xr.Dataset) -> str:
-    """Return how friction changes with the smallest wavelength, a dash where that is not known."""
-    value = float(one.get(FRICTION_CUT_OFF_EXPONENT, math.nan))
+def _exponent(one: xr.Dataset, name: str) -> str:
+    """Return a change with the smallest wavelength, a dash where that is not known."""
+    value = float(one.get(name, math.nan))
     return "-" if math.isnan(value) else f"{value:.2f}"
 
 

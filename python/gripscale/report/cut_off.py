@@ -15,9 +15,6 @@ if TYPE_CHECKING:
 
     from gripscale.surface import SlopeByWavelength
 
-EXPONENT = "d ln μ / d ln λ_min"
-"""What it is called in tables."""
-
 
 def exponent_sentence(data: xr.Dataset) -> str:
     """Return how a prediction changes with its smallest wavelength, or why that is not known.
