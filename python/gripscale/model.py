@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol, runtime_checkable
 import numpy as np
 
 from gripscale import checks
+from gripscale.cut_off_exponents import NOT_CONVERGED, NOT_TOLD, CutOffExponents, of_mean
 from gripscale.rubber.extrapolation import UNKNOWN, Extrapolation, of_sum
 
 if TYPE_CHECKING:
@@ -142,6 +143,35 @@ def extrapolation_of(data: xr.Dataset) -> Extrapolation:
     return Extrapolation(**{part: float(data[name]) for name, (part, _) in OUTSIDE_BAND.items()})
 
 
+FRICTION_CUT_OFF_EXPONENT = "total_friction_cut_off_exponent"
+CUT_OFF_EXPONENTS = {
+    "total_contact_fraction_cut_off_exponent": (
+        "contact_fraction",
+        "d ln(real contact area)/d ln(cut-off length), over the last octave",
+    ),
+    FRICTION_CUT_OFF_EXPONENT: (
+        "friction",
+        "d ln(friction coefficient)/d ln(cut-off length), over the last octave",
+    ),
+}
+"""Names of what every model tells of the choice of the smallest wavelength: attribute of
+`CutOffExponents`, and meaning."""
+
+WHY_NO_EXPONENT = "cut_off_exponent_missing"
+"""Name of the text that says why one of them is not known; empty if both are."""
+
+
+_EXPONENTS_OF = ("contact_fraction", "friction_from_dissipation")
+
+
+def cut_off_exponents_of(data: xr.Dataset) -> CutOffExponents:
+    """Return what an answer tells of its cut-off; not told in a file of an older version."""
+    if not {*CUT_OFF_EXPONENTS, WHY_NO_EXPONENT} <= set(data.data_vars):
+        return NOT_TOLD
+    numbers = {part: float(data[name]) for name, (part, _) in CUT_OFF_EXPONENTS.items()}
+    return CutOffExponents(**numbers, why_not=str(data[WHY_NO_EXPONENT].item()))
+
+
 ADHESIVE_FRICTION = "total_adhesive_friction"
 """Name of the area term's friction, where one was asked for."""
 
@@ -171,6 +201,7 @@ def answer_by_length(
     lengths: Sequence[float],
     model: str,
     load: NominalLoad,
+    cut_off_exponents: Sequence[CutOffExponents] = (),
 ) -> xr.Dataset:
     """Return `data` over `profile` with the answers of the profiles averaged by length.
 
@@ -186,6 +217,8 @@ def answer_by_length(
         Of the profiles [m].
     model, load
         As for `answer`.
+    cut_off_exponents
+        Of the profiles; none of a model that does not tell them.
     """
     weight = np.asarray(lengths) / np.sum(lengths)
     bad = [
@@ -205,7 +238,12 @@ def answer_by_length(
         [part.extrapolation for part in parts],
         weight * [part.friction_from_dissipation for part in parts],
     )
-    return answer(weighted, totals, "; ".join(bad) or "converged", model, load, beyond)
+    exponents = NOT_CONVERGED
+    if not bad:
+        added = [weight * [getattr(part, name) for part in parts] for name in _EXPONENTS_OF]
+        exponents = of_mean(cut_off_exponents, *added)
+    status = "; ".join(bad) or "converged"
+    return answer(weighted, totals, status, model, load, beyond, exponents)
 
 
 def answer(
@@ -215,11 +253,13 @@ def answer(
     model: str,
     load: NominalLoad,
     extrapolation: Extrapolation = UNKNOWN,
+    cut_off_exponents: CutOffExponents = NOT_TOLD,
 ) -> xr.Dataset:
     """Return `data` with the numbers every model answers with, and the load they are for.
 
-    `extrapolation` is what of the friction rests on the rubber beyond its measured frequencies; a
-    model that does not know leaves it out.
+    `extrapolation` is what of the friction rests on the rubber beyond its measured frequencies,
+    `cut_off_exponents` how it changes with the smallest wavelength; a model that does not know
+    leaves them out.
     """
     import xarray as xr
 
@@ -232,6 +272,11 @@ def answer(
     variables = {name: number(totals[name], "1", text) for name, text in TOTALS.items()}
     for name, (part, text) in OUTSIDE_BAND.items():
         variables[name] = number(getattr(extrapolation, part), "1", text)
+    for name, (part, text) in CUT_OFF_EXPONENTS.items():
+        variables[name] = number(getattr(cut_off_exponents, part), "1", text)
+    variables[WHY_NO_EXPONENT] = number(
+        cut_off_exponents.why_not, "1", "why an exponent of the cut-off is not known"
+    )
     variables["prediction_status"] = number(status, "1", "converged, or why not")
     variables["nominal_pressure"] = number(load.pressure, "Pa", "nominal pressure")
     variables["nominal_speed"] = number(load.speed, "m/s", "sliding speed")

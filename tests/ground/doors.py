@@ -28,6 +28,7 @@ LONG = surface.self_affine_profile(0.8, 4e-3, 1e-4, length=0.2, step=2e-4, seed=
 CORRELATION = gs.height_difference(LONG)
 SINES = surface.SineStack([8e-3, 2e-3], [5e-4, 1e-4])
 SPECTRUM = surface.profile_spectrum(LONG)
+SLOPES = surface.slope_by_wavelength(LONG)
 FIT = gs.fit_self_affine(CORRELATION)
 TEST = rubber.UniaxialTest("test", [0.0, 1.0, 2.0], [1.0, 1.1, 1.2], [0.0, 1e5, 2e5])
 WAVE = {"wavelength": 1e-3, "amplitude": 1e-4}
@@ -224,6 +225,12 @@ def _surface() -> Iterator[Door]:
     grid = {"z": MAP.z, "x_step": 4e-4, "y_step": 4e-4, "taper": "hann", "per_decade": 10}
     yield Door(surface.map_spectrum, grid)
     yield Door(surface.areal_spectrum, {"spectrum": SPECTRUM, "hurst": None, "per_decade": 10})
+    yield Door(surface.slope_by_wavelength, {"surface": LONG})
+    yield Door(SLOPES.down_to, {"wavelength": 1e-3, "of": "surface"})
+    yield Door(SLOPES.reaches, {"slope": 0.1, "of": "surface"})
+    yield Door(SLOPES.power_law, {"of": "surface"})
+    yield Door(surface.RmsSlope, {"rms_slope": 1.3, "of": "surface", "extrapolate": False})
+    yield Door(surface.find_cut_off, {"surface": LONG, "rule": 1e-3})
     maps = {"construction": "lines", "points": 128, "seeds": [1]}
     yield Door(first_map, {"profile": LONG, "smallest_wavelength": 4e-3, **maps}, slow=True)
     yield Door(surface.profile_doubts, {"profile": LINE, "cleaned": None, "steep": True})

@@ -15,10 +15,16 @@ FIGURES = (
     "contact_and_friction",
     "blocks_dynamic",
     "blocks_static",
+    "heat",
+    "effects",
+    "superposition",
+    "superposition_tests",
+    "shift",
 )
 RESULTS = (
     "dynamic.nc",
     "static.nc",
+    "effects_chain.nc",
     "report.txt",
     "case.toml",
     *(f"figures/{name}.{kind}" for name in FIGURES for kind in ("png", "pdf")),

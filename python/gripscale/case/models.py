@@ -31,6 +31,7 @@ from gripscale.case.shift_table import ShiftSource
 from gripscale.case.table import Table
 from gripscale.chain.pressure import MOST_CLASSES
 from gripscale.rubber.strain_energy import NeoHookean, StrainEnergy, strain_energy_from_dict
+from gripscale.surface.cut_off import CutOffRule, cut_off_rule
 from gripscale.units import listed, parse_quantity, spelled
 
 NAMED_RUBBERS = ("styrene_butadiene",)
@@ -78,6 +79,11 @@ def _strain_energy(value: Any) -> StrainEnergy:
     return strain_energy_from_dict(value)
 
 
+def _cut_off(value: Any) -> CutOffRule | None:
+    """Accept a length, "instrument" or a table such as { rms_slope = 1.3, of = "surface" }."""
+    return None if value is None else cut_off_rule(value)
+
+
 Column = Annotated[str | int, BeforeValidator(_column)]
 
 
@@ -118,7 +124,7 @@ class Surface(Table):
     max_lag: Length | None = None
     scales: int | None = Field(default=None, ge=1, le=24)
     smallest_wavelength: Length | None = None
-    cut_off: Length | None = None
+    cut_off: Annotated[Any, BeforeValidator(_cut_off)] = None
     s_wavelength: float | None = Field(default=None, gt=1.0, allow_inf_nan=False)
     s_amplitude: float | None = Field(default=None, gt=1.0, allow_inf_nan=False)
     first_wavelength: Length | None = None
@@ -145,6 +151,8 @@ class Surface(Table):
                 "expected either smallest_wavelength (the last wave) or cut_off (where the "
                 "roughness ends)"
             )
+        if self.sines is not None and self.cut_off is not None:
+            raise ValueError("cut_off belongs to a measured surface, not to waves by hand")
         foreign, owner = (MAP_KEYS, "map") if self.map is None else (PROFILE_KEYS, "files")
         for name in foreign:
             if getattr(self, name) != type(self).model_fields[name].default:

@@ -12,6 +12,7 @@ from gripscale.case.models import Surface
 from gripscale.errors import GripscaleError, InputError
 from gripscale.surface import (
     CleaningReport,
+    CutOffRule,
     HeightDifference,
     HeightMap,
     Measured,
@@ -21,6 +22,7 @@ from gripscale.surface import (
     SineStack,
     clean,
     clean_map,
+    find_cut_off,
     fit_self_affine,
     fit_sines,
     height_difference,
@@ -66,15 +68,30 @@ def prepare_surface(surface: Surface, resolve: Resolve = Path) -> PreparedSurfac
     counted = {key: getattr(surface, key) for key in COUNTED_KEYS}
     correlation = height_difference(measured.cleaned, **counted)
     self_affine, why_not = _self_affine(correlation)
+    measured = replace(measured, self_affine=self_affine, no_self_affine=why_not)
     fit = {key: getattr(surface, key) for key in FIT_KEYS}
+    if surface.cut_off is not None:
+        where = str(paths[0]) if len(paths) == 1 else f"{len(paths)} profiles"
+        fit["cut_off"] = _cut_off(measured, surface.cut_off, where)
     return PreparedSurface(
         fit_sines(correlation, **fit),
         ", ".join(str(path) for path in paths),
         correlation,
         fit,
-        replace(measured, self_affine=self_affine, no_self_affine=why_not),
+        measured,
         counted,
+        surface.cut_off,
     )
+
+
+def _cut_off(measured: Measured, rule: CutOffRule, where: str) -> float:
+    """Return where the roughness ends [m]; an error begins with `where`."""
+    if isinstance(rule, float):
+        return rule
+    try:
+        return find_cut_off(measured.slopes, rule).wavelength
+    except InputError as error:
+        raise InputError(f"{where}: {error}") from error
 
 
 def _profiles(surface: Surface, paths: list[Path]) -> Measured:

@@ -23,6 +23,7 @@ from gripscale.case.results import CaseResults
 from gripscale.rubber import Rubber
 from gripscale.rubber.plateau import fast_end, slow_end
 from gripscale.surface import HeightDifference, Measured, PreparedSurface, SineStack
+from gripscale.surface.slope import DEFINITIONS
 from gripscale.textfile import read_bytes
 
 Variables = dict[str, Any]
@@ -38,6 +39,7 @@ def inputs(results: CaseResults) -> xr.Dataset:
     parts.append(({}, {"conditions_notes": "\n".join(results.conditions_notes()) or None}))
     if surface.measured is not None and surface.correlation is not None:
         parts.append(_profiles(surface.measured))
+        parts.append(_cut_off(surface, surface.measured))
         parts.append(_correlation(surface.correlation, surface.measured, surface.sines))
     data: Variables = {}
     attrs: Variables = {}
@@ -73,6 +75,25 @@ def _waves(surface: PreparedSurface) -> tuple[Variables, Variables]:
         "sines_cut_off_m": sines.cut_off,
         "correlation_upper_share": surface.counted.get("upper_share"),
         "surface_notes": "\n".join(surface.notes) or None,
+    }
+
+
+def _cut_off(surface: PreparedSurface, measured: Measured) -> tuple[Variables, Variables]:
+    """Return where the roughness ends and why, and the rms slope down to each wavelength."""
+    found, slopes = surface.cut_off, measured.slopes
+    assert found is not None
+    lengths = slopes.wavelength
+    data: Variables = {"slope_wavelength": ("slope_wavelength", lengths, {"units": "m"})}
+    for of in DEFINITIONS:
+        values = np.array([slopes.down_to(float(length), of) for length in lengths])
+        data[f"rms_slope_of_{of}"] = ("slope_wavelength", values, {"units": "1"})
+    return data, {
+        "cut_off_m": found.wavelength,
+        "cut_off_rule": found.rule,
+        "cut_off_surface_slope": found.surface_slope,
+        "cut_off_profile_slope": found.profile_slope,
+        "cut_off_carried_m": found.carried,
+        "cut_off_beyond_measurement": int(found.beyond_measurement),
     }
 
 

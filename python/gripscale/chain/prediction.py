@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from gripscale import model, versions
 from gripscale.chain.pressure import CLASS_PRESSURES
 from gripscale.conditions.conditions import Conditions
+from gripscale.cut_off_exponents import NOT_CONVERGED, CutOffExponents, of_curve
 from gripscale.model import NominalLoad
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import Extrapolation, of_sum
@@ -114,6 +115,18 @@ class Prediction:
         return of_sum([scale.extrapolation for scale in self.scales], friction)
 
     @property
+    def cut_off_exponents(self) -> CutOffExponents:
+        """How it changes with the cut-off length, over the last octave of its own waves."""
+        if not self.converged:
+            return NOT_CONVERGED
+        return of_curve(
+            [scale.wavelength for scale in self.scales],
+            self.running_contact_fraction,
+            self.running_friction,
+            moving=self.load.speed > 0.0,
+        )
+
+    @property
     def why(self) -> str:
         """`converged`, or which wave failed and why."""
         return "converged" if self.converged else self.failure()
@@ -176,7 +189,15 @@ class Prediction:
             method=f"{LW}, equations 1 to 3",
             **versions.attributes(),
         )
-        answer = model.answer(data, totals, self.why, "chain", self.load, self.extrapolation)
+        answer = model.answer(
+            data,
+            totals,
+            self.why,
+            "chain",
+            self.load,
+            self.extrapolation,
+            self.cut_off_exponents,
+        )
         return model.with_area_term(answer, self.adhesive_friction)
 
     @classmethod

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     import xarray as xr
     from rich.console import Console
 
+    from gripscale.case import CaseResults
     from gripscale.comparison import Comparison, ComparisonOverAxis
 
     Made = Comparison | ComparisonOverAxis
@@ -68,7 +69,7 @@ def compare(
     cluster: Cluster = None,
 ) -> None:
     """Show what each assumption of the chain costs; resumes where it was stopped."""
-    from gripscale.case import folder, read_case
+    from gripscale.case import folder, prepare_case, read_case
     from gripscale.comparison import compare_case, compare_over
     from gripscale.measured import read_measured_friction
     from gripscale.study.axes import parse_vary
@@ -90,19 +91,48 @@ def compare(
         "client": cluster,
         "on_task": teller(console),
     }
-    made: Made = (
-        compare_case(file, **options) if axes is None else compare_over(file, axes, **options)
-    )
-    failed = _conclude(console, made.to_dataset(), target)
+    made: Made
+    worth: list[xr.Dataset] = []
+    if axes is None:
+        results = prepare_case(file)
+        made = compare_case(results, **options)
+        solving = {key: options[key] for key in ("workers", "client", "on_task")}
+        worth = _effects(results, options["tolerance"], target, solving)
+    else:
+        made = compare_over(file, axes, **options)
+    failed = _conclude(console, made.to_dataset(), target, worth)
     if failed:
         complain(f"{failed[0]}; {len(failed)} of the rungs have failed samples")
         raise typer.Exit(NOT_CONVERGED)
 
 
-def _conclude(console: Console, data: xr.Dataset, target: Path) -> list[str]:
+def _effects(
+    results: CaseResults, tolerance: float, target: Path, solving: dict[str, Any]
+) -> list[xr.Dataset]:
+    """Return what each effect is worth in the chain and in the direct contact of what was measured.
+
+    Nothing without conditions.
+    """
+    from gripscale.comparison.run import PREDICTIONS
+    from gripscale.effects import case_effects
+    from gripscale.model import Model
+    from gripscale.rough.model import DirectContact
+
+    models: list[Model] = [results.chain] if results.conditions is not None else []
+    if models and results.surface.measured is not None:
+        models.append(DirectContact(tolerance=tolerance, conditions=results.conditions))
+    store = target / PREDICTIONS
+    found = (case_effects(results, model, target, store, **solving) for model in models)
+    return [one for one in found if one is not None]
+
+
+def _conclude(
+    console: Console, data: xr.Dataset, target: Path, worth: list[xr.Dataset]
+) -> list[str]:
     """Print and keep tables, figures and the result; return what did not converge."""
     from gripscale import netcdf
     from gripscale.case import folder
+    from gripscale.figures.case_all import draw_effects
     from gripscale.figures.comparison_all import draw
     from gripscale.figures.rungs import varied
     from gripscale.report import tables
@@ -113,6 +143,7 @@ def _conclude(console: Console, data: xr.Dataset, target: Path) -> list[str]:
         remarks,
         temperature_only,
     )
+    from gripscale.report.effects_table import effects_table
 
     axis = varied(data)
     name = f"over_{axis}" if axis else "comparison"
@@ -123,6 +154,9 @@ def _conclude(console: Console, data: xr.Dataset, target: Path) -> list[str]:
         parts += [*beyond_band(data), *temperature_only(data)]
     else:
         parts = [comparison_table(data), *remarks(data)]
+    if worth:
+        parts.append(effects_table(*worth))
+        draw_effects(worth, target)
     _print(console, parts)
     folder.write_text(target / f"{name}.txt", tables.as_text(*parts))
     draw(data, target)

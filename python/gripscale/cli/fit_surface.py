@@ -23,7 +23,14 @@ def fit_surface(
     files: Annotated[list[str], typer.Argument(help="Profiles.", show_default=False)],
     scales: Annotated[int | None, _option("Number of sine waves.")] = None,
     smallest_wavelength: Annotated[str | None, _option('The last wave, such as "0.1 mm".')] = None,
-    cut_off: Annotated[str | None, _option("Where the roughness ends, in its place.")] = None,
+    cut_off: Annotated[
+        str | None,
+        _option(
+            'Where the roughness ends, in its place: "0.1 mm", "instrument", "rms_slope 1.3" (of '
+            'the surface), "rms_slope 1.3 of profile", either with "extrapolate" at its end.'
+        ),
+    ] = None,
+    slopes: Annotated[bool, _option("Print the rms slope down to each wavelength.")] = False,
     upper_share: Annotated[float, typer.Option(help="Share of the heights that counts.")] = 1.0,
     s_wavelength: Annotated[float | None, _option("Given instead of fitted.")] = None,
     s_amplitude: Annotated[float | None, _option("Given instead of fitted.")] = None,
@@ -39,6 +46,7 @@ def fit_surface(
 ) -> None:
     """Clean profiles, find their height difference correlation and fit sine waves to it."""
     from gripscale.case import Surface, folder, prepare_surface, validate
+    from gripscale.report.cut_off import slope_table
     from gripscale.report.inputs_text import surface_lines, waves_table
 
     stated = {
@@ -62,7 +70,9 @@ def fit_surface(
         folder.require_writable(output)
     prepared = prepare_surface(surface)
     console = screen()
-    lines = (*surface_lines(prepared), *waves_table(prepared.sines), *_ambiguity(prepared))
+    lines = [*surface_lines(prepared), *waves_table(prepared.sines), *_ambiguity(prepared)]
+    if slopes and prepared.measured is not None:
+        lines += slope_table(prepared.measured.slopes)
     for line in lines:
         say(console, line)
     if output is not None:

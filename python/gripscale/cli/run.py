@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -13,6 +13,7 @@ import typer
 from gripscale.cli.terminal import command, complain, say, screen
 
 if TYPE_CHECKING:
+    import xarray as xr
     from rich.console import Console
 
     from gripscale.case import CaseResults, WaveSolved
@@ -36,6 +37,7 @@ def run(
     """Predict contact area and friction of a case: tables, figures and result files."""
     from gripscale.case import folder, prepare_case, read_case, run_case
     from gripscale.comparison import judged
+    from gripscale.effects import case_effects
     from gripscale.figures.beside import drawn_beside
 
     console = screen()
@@ -56,7 +58,8 @@ def run(
         with _spinner(console):
             run_case(results, output=target, on_wave=look)
             direct = judged(results)
-        _conclude(console, target, opening, results, direct)
+            worth = case_effects(results, results.chain, target, target / "effects")
+        _conclude(console, target, opening, results, direct, worth)
     console.print()
     say(console, f"Results, report and figures are in {target}")
     _fail_if_any(results)
@@ -125,8 +128,9 @@ def _conclude(
     opening: list[str],
     results: CaseResults,
     direct: SolvedRung | None,
+    worth: xr.Dataset | None,
 ) -> None:
-    """Print the tables and what the chain is worth, and write them down."""
+    """Print the tables and what chain and effects are worth, and write them down."""
     from gripscale.case import folder
     from gripscale.case.results import title
     from gripscale.report import tables
@@ -136,6 +140,10 @@ def _conclude(
     for name, data in solved.items():
         console.print()
         console.print(tables.prediction_table(data, name, console.width))
+    beside = list(_conditions_tables(results, worth))
+    for table in beside:
+        console.print()
+        console.print(table)
     if solved:
         console.print()
         say(console, tables.LEGEND)
@@ -146,10 +154,27 @@ def _conclude(
     for line in last:
         say(console, line)
     written = [tables.prediction_table(data, name, REPORT_WIDTH) for name, data in solved.items()]
-    folder.write_text(
-        target / "report.txt",
-        tables.as_text(*opening, "", *written, tables.LEGEND, "", *last, width=REPORT_WIDTH),
-    )
+    parts = (*opening, "", *written, tables.LEGEND, *beside, "", *last)
+    folder.write_text(target / "report.txt", tables.as_text(*parts, width=REPORT_WIDTH))
+
+
+def _conditions_tables(results: CaseResults, worth: xr.Dataset | None) -> Iterator[Any]:
+    """Yield the temperature of each wave and what each effect is worth, and draw both."""
+    from gripscale.figures.case_all import draw_effects, draw_heat
+    from gripscale.report.effects_table import effects_table
+    from gripscale.report.heat_table import heat_table
+
+    moving = results.dynamic
+    figures = None if results.folder is None else results.folder / "figures"
+    if moving is not None and moving.conditions is not None and moving.conditions.heat is not None:
+        data = moving.to_dataset()
+        if figures is not None:
+            draw_heat(data, figures)
+        yield heat_table(data)
+    if worth is not None:
+        if figures is not None:
+            draw_effects([worth], figures)
+        yield effects_table(worth)
 
 
 def _fail_if_any(results: CaseResults) -> None:

@@ -27,7 +27,8 @@ def study(
         list[str],
         typer.Option(
             help="What to vary, once or twice: speed=0.003:30:log9, pressure='1 bar,3 bar', "
-            "smallest_wavelength, cut_off, upper_share, waves, pressure_classes, "
+            "temperature='0 C:60 C:lin7', effects=all,no_heat,none, smallest_wavelength, cut_off, "
+            "upper_share, waves, pressure_classes, "
             "factors=3.5/2.4,3/2.2, rubber=case,dma.txt, surface.",
             metavar="NAME=VALUES",
         ),
@@ -40,6 +41,9 @@ def study(
             readable=False,
         ),
     ] = None,
+    model: Annotated[
+        str, typer.Option(help="What predicts: chain, or direct (the whole surface at once).")
+    ] = "chain",
     workers: Workers = None,
     cluster: Cluster = None,
     static: Annotated[
@@ -60,7 +64,7 @@ def study(
     axes = dict(pairs)
     if len(axes) < len(pairs):
         raise InputError(f"vary must name different inputs; got {', '.join(n for n, _ in pairs)}")
-    made = Study(case, axes, static=static)
+    made = Study(case, axes, static=static, model=model)
     target = output or made.file.resolve(made.file.case.output.folder) / "study"
     folder.require_writable(target)
     console = screen()
@@ -83,17 +87,15 @@ def _conclude(
     """Print and keep the table, draw the figures, and say which predictions failed."""
     from gripscale.case import folder
     from gripscale.report import tables
-    from gripscale.report.outside_band import study_sentence
     from gripscale.report.study_table import study_table
 
-    table, beyond = study_table(result), study_sentence(result)
+    table = study_table(result)
+    below = _below(result)
     console.print()
     console.print(table)
-    if beyond:
-        say(console, beyond)
-    folder.write_text(
-        target / "study.txt", tables.as_text(*opening, table, *filter(None, [beyond]))
-    )
+    for line in below:
+        say(console, line)
+    folder.write_text(target / "study.txt", tables.as_text(*opening, table, *below))
     figures = target / "figures"
     if not (drawn and any(figures.iterdir())):
         from gripscale.figures.study_all import draw
@@ -110,3 +112,16 @@ def _conclude(
             f"{len(failed)} of {len(statuses)} predictions have no totals; the first: {failed[0]}"
         )
         raise typer.Exit(NOT_CONVERGED)
+
+
+def _below(result: xr.Dataset) -> list[str]:
+    """Return the sentences below the table: what is extrapolated, and temperatures over a_T v."""
+    from gripscale.report.outside_band import study_sentence
+    from gripscale.report.temperature_text import collapse_sentences, shift_sentence
+
+    beyond, shifted = study_sentence(result), shift_sentence(result)
+    return [
+        *([beyond] if beyond else []),
+        *([f"* {shifted}"] if shifted else []),
+        *(f"Over a_T v, {words}: {text}." for words, text in collapse_sentences(result)),
+    ]

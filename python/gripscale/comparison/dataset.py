@@ -19,7 +19,13 @@ from gripscale.comparison.solved import SolvedRung
 from gripscale.comparison.solved_ladder import SolvedLadder
 from gripscale.comparison.uncertain import UNKNOWN
 from gripscale.measured.friction import MeasuredFriction
-from gripscale.model import ADHESIVE_FRICTION, OUTSIDE_BAND, TOTALS
+from gripscale.model import (
+    ADHESIVE_FRICTION,
+    CUT_OFF_EXPONENTS,
+    OUTSIDE_BAND,
+    TOTALS,
+    WHY_NO_EXPONENT,
+)
 from gripscale.study.assemble import coordinates
 from gripscale.study.axes import Axis
 from gripscale.wave.dataset import labelled
@@ -73,6 +79,12 @@ def _numbers(one: SolvedLadder, wavelength: NDArray[np.float64], most: int) -> d
     beyond = [rung.extrapolation for rung in rungs]
     for name, (part, text) in OUTSIDE_BAND.items():
         data[name] = _by_rung([getattr(each, part) for each in beyond], text)
+    exponents = [rung.cut_off_exponents for rung in rungs]
+    for name, (part, text) in CUT_OFF_EXPONENTS.items():
+        data[name] = _by_rung([getattr(each, part) for each in exponents], text)
+    data[WHY_NO_EXPONENT] = _by_rung(
+        [each.why_not for each in exponents], "why an exponent of the cut-off is not known"
+    )
     excited = 2.0 * np.pi * load.speed / wavelength
     data["outside_band"] = labelled(
         "wavelength",

@@ -134,6 +134,8 @@ def compare_over(
     if len(study.axes) > 1 or axis.name not in VARIED:
         names = ", ".join(one.name for one in study.axes)
         raise InputError(f"a comparison varies one of {', '.join(VARIED)}; got {names}")
+    if not axis.numeric:
+        raise InputError(f"a comparison varies {axis.name} by numbers; got {axis.labels[0]}")
     if len(axis.values) < 2:
         raise InputError(f"{axis.name} must have at least two values; got {axis.labels[0]}")
     choice = Choice(seeds, tolerance, rungs, measured, factors)

@@ -9,7 +9,8 @@ import numpy as np
 import xarray as xr
 
 from gripscale.comparison.curve import Curve, curve_of
-from gripscale.model import ADHESIVE_FRICTION, extrapolation_of
+from gripscale.cut_off_exponents import NOT_TOLD, CutOffExponents
+from gripscale.model import ADHESIVE_FRICTION, cut_off_exponents_of, extrapolation_of
 from gripscale.rubber.extrapolation import UNKNOWN, Extrapolation
 
 CONVERGED = "converged"
@@ -36,6 +37,8 @@ class Sample:
     """Of the area term [-]; NaN where none was asked for or the model knows none."""
     extrapolation: Extrapolation = UNKNOWN
     """What of it rests on the rubber beyond its measured frequencies."""
+    cut_off_exponents: CutOffExponents = NOT_TOLD
+    """How it changes with the smallest wavelength."""
     curve: Curve | None = None
     """Down to each wavelength, where the model tells it."""
     seconds: float = 0.0
@@ -63,6 +66,7 @@ def sample_of(answer: xr.Dataset, of: str = "") -> Sample:
         friction_error=math.nan if rest else _error(answer, "friction"),
         adhesive_friction=float(answer.get(ADHESIVE_FRICTION, math.nan)),
         extrapolation=extrapolation_of(answer),
+        cut_off_exponents=cut_off_exponents_of(answer),
         curve=curve_of(answer),
         seconds=float(answer.attrs.get("seconds", 0.0)),
     )

@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 from gripscale.comparison.rung import Rung
 from gripscale.comparison.sample import CONVERGED, Sample
 from gripscale.comparison.uncertain import Uncertain, of_mean, together
+from gripscale.cut_off_exponents import CutOffExponents
+from gripscale.cut_off_exponents import of_mean as exponents_of_mean
 from gripscale.rubber.extrapolation import Extrapolation, of_sum
 
 
@@ -59,6 +61,12 @@ class SolvedRung:
         """What of the samples that may be used rests on the rubber beyond its measured band."""
         parts = [sample.extrapolation for sample in self.converged]
         return of_sum(parts, self.values("friction"))
+
+    @property
+    def cut_off_exponents(self) -> CutOffExponents:
+        """How the means change with the smallest wavelength."""
+        parts = [sample.cut_off_exponents for sample in self.converged]
+        return exponents_of_mean(parts, self.values("contact_fraction"), self.values("friction"))
 
     def mean(self, name: str) -> float:
         """Return the mean of a number of the samples, such as `friction`; NaN if none converged."""

@@ -2,9 +2,14 @@ from .blocks import block_figure as block_figure
 from .blocks import blocks_figure as blocks_figure
 from .contact import contact_figure as contact_figure
 from .correlation import correlation_figure as correlation_figure
+from .effects import effects_figure as effects_figure
 from .finite_strain import finite_strain_figure as finite_strain_figure
+from .heat import direct_heat_figure as direct_heat_figure
+from .heat import heat_figure as heat_figure
 from .master_curve import master_curve_figure as master_curve_figure
 from .profile import profile_figure as profile_figure
+from .study_map import friction_master_figure as friction_master_figure
+from .study_map import map_figure as map_figure
 from .style import save_figure as save_figure
 from .superposition import shift_figure as shift_figure
 from .superposition import superposition_figure as superposition_figure

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,6 +12,8 @@ from gripscale.case.drawn import excited
 from gripscale.figures.blocks import blocks_figure
 from gripscale.figures.contact import contact_figure
 from gripscale.figures.correlation import correlation_figure
+from gripscale.figures.effects import effects_figure
+from gripscale.figures.heat import heat_figure
 from gripscale.figures.master_curve import master_curve_figure
 from gripscale.figures.profile import profile_figure
 from gripscale.figures.style import save_figure
@@ -23,6 +26,8 @@ from gripscale.figures.view import PredictionView
 from gripscale.rubber import ShiftTable
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from gripscale.case.prepare_rubber import PreparedRubber
     from gripscale.case.results import CaseResults
     from gripscale.surface import PreparedSurface
@@ -46,6 +51,16 @@ def draw_contact(results: CaseResults, folder: Path) -> None:
     found = [prediction.to_dataset() for prediction in results.predictions.values()]
     titles = {PredictionView(data).title.lower(): data for data in found}
     save_figure(contact_figure(titles), folder, "contact_and_friction")
+
+
+def draw_heat(data: xr.Dataset, folder: Path) -> None:
+    """Draw the temperature of each wave of a chain into `folder`."""
+    save_figure(heat_figure(data), folder, "heat")
+
+
+def draw_effects(results: Sequence[xr.Dataset], folder: Path) -> None:
+    """Draw what each effect of the conditions is worth into `folder`."""
+    save_figure(effects_figure(*results), folder, "effects")
 
 
 def surface_figures(surface: PreparedSurface, folder: Path) -> None:

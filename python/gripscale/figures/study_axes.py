@@ -22,9 +22,9 @@ Array = NDArray[np.float64]
 
 def along(axes: Axes, result: xr.Dataset, name: str) -> Array:
     """Label `axes` below with a varied axis and return its values as they are drawn."""
-    divisor, label, _ = LABELS[name]
-    values = np.asarray(result[name].values / divisor, dtype=float)
-    axes.set_xlabel(label)
+    shown = LABELS[name]
+    values = shown.of(result[name].values)
+    axes.set_xlabel(shown.label)
     if values.min() > 0.0 and values.max() > 20.0 * values.min():
         log_axis(axes, "x")
     axes.set_xlim(values.min(), values.max())

@@ -13,7 +13,7 @@ from gripscale.figures.palette import BLUE, GREY, INK, WIDE
 from gripscale.figures.stretches import BEYOND, predictions_beyond
 from gripscale.figures.study_axes import along, colours
 from gripscale.figures.style import DOTTED, area_axis, dashed_entry, line, sheet, styled
-from gripscale.study.display import WORDS, dimensions, name_of, numeric
+from gripscale.study.display import WORDS, dimensions, name_of, numeric, of_numbers
 
 
 @styled
@@ -39,9 +39,11 @@ def totals_figure(result: xr.Dataset) -> Figure:
         if "static_total_contact_fraction" in result:
             _rest(area, piece, x, colour, "at rest" if other is None else None)
     if other is not None and "static_total_contact_fraction" in result:
-        look: dict[str, Any] = {"ls": "", "marker": "o", "mfc": "white"} if x in WORDS else {}
+        look: dict[str, Any] = (
+            {"ls": "", "marker": "o", "mfc": "white"} if not of_numbers(result, x) else {}
+        )
         area.plot([], [], **({"color": INK, "ls": DOTTED, "lw": 0.9} | look), label="at rest")
-    if x in WORDS:
+    if not of_numbers(result, x):
         _name(area, friction, result, x)
     dashed_entry(area)
     area_axis(area)
@@ -55,7 +57,7 @@ def totals_figure(result: xr.Dataset) -> Figure:
 
 
 def _line(axes: Axes, piece: xr.Dataset, x: str, quantity: str, colour: str, label: str) -> None:
-    if x in WORDS:
+    if not of_numbers(piece, x):
         place = np.arange(piece.sizes[x])
         axes.set_xlabel(f"{WORDS[x]} [-]")
         axes.margins(x=0.3)

@@ -19,10 +19,10 @@ from gripscale.figures.palette import BLUE, COLOURS, GREEN, GREY, INK, MEGA, NAR
 from gripscale.figures.style import log_axis, sheet, styled
 from gripscale.rubber import MasterCurve, ShiftFit, ShiftTable, Superposition, Sweep, Sweeps
 from gripscale.rubber.superposition.report import temperatures_in
+from gripscale.units import ZERO_CELSIUS
 
 Array = NDArray[np.float64]
 
-ZERO_CELSIUS = 273.15
 DEGREES = "temperature [°C]"
 
 

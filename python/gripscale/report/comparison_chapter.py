@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.figures.rungs import flawed, varied
-from gripscale.model import FRICTION_OUTSIDE_BAND
+from gripscale.model import CUT_OFF_EXPONENTS, FRICTION_OUTSIDE_BAND
 from gripscale.report.charts.comparison import axis_charts, ladder_charts
 from gripscale.report.comparison_table import best_sentence, samples_of, temperature_only
 from gripscale.report.elements import Element, Heading, Notice, Table, Text
@@ -76,6 +76,8 @@ def _table(ladder: xr.Dataset) -> Table:
         Heading("from energy lost"),
         *numbers,
         Heading("samples"),
+        Heading("A_r/A_0"),
+        Heading("μ"),
         Heading("μ beyond band"),
         Heading("below", "decades"),
         Heading("above", "decades"),
@@ -90,6 +92,7 @@ def _table(ladder: xr.Dataset) -> Table:
             ("real contact area", 4),
             ("friction coefficient", 5),
             ("", 1),
+            ("exponent of the cut-off", 2),
             ("measured frequencies", 3),
         ],
         bad=frozenset(
@@ -98,8 +101,9 @@ def _table(ladder: xr.Dataset) -> Table:
             if bad
             for column in range(len(headings))
         ),
-        note="Beyond band: share of the friction at frequencies beyond those of the master curve, "
-        "and how far they go.",
+        note="Exponent of the cut-off: d ln/d ln of the smallest wavelength that counts, over its "
+        "last octave. Beyond band: share of the friction at frequencies beyond those of the "
+        "master curve, and how far they go.",
     )
 
 
@@ -119,6 +123,7 @@ def _row(one: xr.Dataset) -> list[str]:
         number(one.total_friction_from_dissipation),
         *friction,
         samples_of(one),
+        *(number(one.get(name, np.nan), digits=2) for name in CUT_OFF_EXPONENTS),
         percent(one[FRICTION_OUTSIDE_BAND]),
         *(number(one[f"total_decades_{end}_band"], digits=2) for end in ("below", "above")),
     ]

@@ -12,7 +12,13 @@ from rich import box
 from rich.table import Table
 
 from gripscale.figures.rungs import JUDGE, flawed
-from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, with_adhesive
+from gripscale.model import (
+    ADHESIVE_FRICTION,
+    FRICTION_CUT_OFF_EXPONENT,
+    FRICTION_OUTSIDE_BAND,
+    with_adhesive,
+)
+from gripscale.report.cut_off import EXPONENT
 from gripscale.report.outside_band import comparison_sentences, friction_sentence
 from gripscale.report.tables import significant
 from gripscale.rubber.extrapolation import WORTH_SAYING
@@ -41,7 +47,7 @@ def comparison_table(comparison: xr.Dataset) -> Table:
     parts = ["spread\n%", "error\n%", "×"]
     both = with_adhesive(comparison)
     total = [] if both is None else ["μ + area\nterm"]
-    for head in ["A_r/A_0", *parts, "μ", "μ\ndiss.", *parts, *total, "n"]:
+    for head in ["A_r/A_0", *parts, "μ", "μ\ndiss.", *parts, *total, "λ_min", "n"]:
         table.add_column(head, justify="right", no_wrap=True)
     for at, bad in enumerate(flawed(comparison)):
         one = comparison.isel(rung=at)
@@ -54,6 +60,7 @@ def comparison_table(comparison: xr.Dataset) -> Table:
             *area,
             *friction,
             *([] if both is None else [significant(float(both[at]))]),
+            _exponent(one),
             samples_of(one),
             style="bold red" if bad else "bold" if str(one.rung.item()) == JUDGE else None,
         )
@@ -62,16 +69,16 @@ def comparison_table(comparison: xr.Dataset) -> Table:
 
 def axis_table(comparison: xr.Dataset, axis: str, name: str) -> Table:
     """Return `contact_fraction` or `friction` of each rung over the axis that was varied."""
-    divisor, _, unit = LABELS[axis]
+    shown = LABELS[axis]
     table = _empty()
-    table.add_column(f"{SYMBOLS[name]}\n{axis.replace('_', ' ')} [{unit}]", no_wrap=True)
+    table.add_column(f"{SYMBOLS[name]}\n{axis.replace('_', ' ')} [{shown.unit}]", no_wrap=True)
     for rung in comparison.rung.values:
         table.add_column(str(rung).replace("_", "\n"), justify="right")
     best = f"best_{name}"
     estimated = bool(np.isfinite(comparison[f"{best}_factor"]).any())
     if estimated:
         table.add_column("best\nestimate", justify="right")
-    for at, value in enumerate(comparison[axis].values / divisor):
+    for at, value in enumerate(shown.of(comparison[axis].values)):
         one = comparison.isel({axis: at})
         marks = [
             ("!" if bad else "") + ("*" if share > WORTH_SAYING else "")
@@ -94,6 +101,8 @@ def remarks(comparison: xr.Dataset) -> Iterator[str]:
             yield f"{one.label.item()}: {one.status.item()}."
     yield from beyond_band(comparison)
     yield from temperature_only(comparison)
+    if FRICTION_CUT_OFF_EXPONENT in comparison:
+        yield f"λ_min: {EXPONENT}, the change of μ with the smallest wavelength that counts."
     if "best_friction" in comparison and np.isfinite(comparison.best_friction):
         yield best_sentence(comparison)
 
@@ -187,6 +196,12 @@ def _cells(one: xr.Dataset, name: str) -> Iterator[str]:
         share = 100.0 * float(one[f"{name}_{part}"]) / value if value else math.nan
         yield "0" if share < TINY else significant(share, 2)
     yield significant(float(one[f"{name}_factor"]))
+
+
+def _exponent(one: xr.Dataset) -> str:
+    """Return how friction changes with the smallest wavelength, a dash where that is not known."""
+    value = float(one.get(FRICTION_CUT_OFF_EXPONENT, math.nan))
+    return "-" if math.isnan(value) else f"{value:.2f}"
 
 
 def _with_uncertainty(one: xr.Dataset, name: str) -> str:

@@ -14,6 +14,7 @@ from gripscale.figures.palette import MEGA, MILLI
 from gripscale.report.elements import Facts, Heading, Table
 from gripscale.report.numbers import NONE, number, percent, whole
 from gripscale.report.source import Run
+from gripscale.units import ZERO_CELSIUS
 
 GIGA, BAR = 1e9, 1e5
 
@@ -124,7 +125,7 @@ def surface_facts(inputs: xr.Dataset, count: int) -> list[Facts]:
     waves.append(("Fitted lags", _span(get, "sines_lag_min_m", "sines_lag_max_m")))
     if (share := get("correlation_upper_share", 1.0)) < 1.0:
         waves.append(("Heights that count", f"the upper {100.0 * share:.3g} %"))
-    facts = [Facts("Sine waves", waves)]
+    facts = [Facts("Sine waves", waves), *_cut_off(get)]
     if "self_affine_hurst" in inputs.attrs:
         hurst = float(inputs.attrs["self_affine_hurst"])
         residual = number(get("self_affine_residual_decades", math.nan))
@@ -140,6 +141,23 @@ def surface_facts(inputs: xr.Dataset, count: int) -> list[Facts]:
     elif "no_self_affine" in inputs.attrs:
         facts.append(Facts("Self-affine description", [("None", str(get("no_self_affine")))]))
     return facts
+
+
+def _cut_off(get: Any) -> list[Facts]:
+    """Return where the roughness ends; nothing of a file that does not tell."""
+    if get("cut_off_m") is None:
+        return []
+    beyond = get("cut_off_beyond_measurement", 0)
+    pairs = [
+        ("Shortest wavelength that counts", f"{number(get('cut_off_m'), MILLI)} mm"),
+        ("Rule", str(get("cut_off_rule", NONE))),
+        ("Rms slope of the surface", number(get("cut_off_surface_slope", math.nan))),
+        ("Rms slope along a profile", number(get("cut_off_profile_slope", math.nan))),
+        ("The measurement carries", f"{number(get('cut_off_carried_m', math.nan), MILLI)} mm"),
+    ]
+    if beyond:
+        pairs.append(("Beyond the measurement", "extrapolated: slopes and waves below it"))
+    return [Facts("The cut-off", pairs)]
 
 
 def _span(get: Any, first: str, last: str) -> str:
@@ -170,7 +188,7 @@ def rubber_facts(inputs: xr.Dataset) -> Facts:
         ("Bulk modulus", f"{number(get('bulk_modulus_Pa', math.nan), GIGA)} GPa"),
         ("Maxwell elements", str(moduli.size)),
         ("Measured band", f"{low} to {high} rad/s"),
-        ("Temperature", f"{number(kelvin)} K ({number(kelvin - 273.15)} °C)"),
+        ("Temperature", f"{number(kelvin)} K ({number(kelvin - ZERO_CELSIUS)} °C)"),
     ]
     if "prony_rms_storage" in inputs.attrs:
         names = (

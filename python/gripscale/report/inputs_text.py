@@ -40,6 +40,8 @@ def surface_lines(surface: PreparedSurface) -> Iterator[str]:
                 f"xi_perpendicular = {fit.xi_perpendicular / MILLI:.3g} mm"
             )
     yield sines_line(surface.sines)
+    if surface.cut_off is not None:
+        yield f"cut-off: {surface.cut_off}"
     yield from (f"note: {note}" for note in surface.notes)
 
 

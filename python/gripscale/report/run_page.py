@@ -12,6 +12,8 @@ from gripscale.report.charts.rubber import rubber_charts
 from gripscale.report.charts.surface import correlation_charts, profile_charts
 from gripscale.report.charts.verification import verification_charts
 from gripscale.report.comparison_chapter import STALE, comparison_elements
+from gripscale.report.cut_off import exponent_sentence
+from gripscale.report.effects_chapter import effects_elements
 from gripscale.report.elements import Code, Element, Facts, Notice, Page, Section, Table, Text
 from gripscale.report.equations import equations
 from gripscale.report.notices import cards, notices
@@ -41,6 +43,7 @@ def run_page(run: Run) -> Page:
         Section("surface", "Surface", _surface(run)),
         Section("rubber", "Rubber", _rubber(run)),
         Section("results", "Contact and friction, wave by wave", _results(run, tables)),
+        Section("effects", "What each effect is worth", effects_elements(run.effects)),
         Section("blocks", "Deformed blocks", _blocks(run)),
         Section("comparison", "Models side by side", _comparison(run)),
         Section("verification", "Verification", _verification(run, tables)),
@@ -93,13 +96,16 @@ def _rubber(run: Run) -> list[Element]:
 
 
 def _results(run: Run, tables: dict[str, Table]) -> list[Element]:
+    sentences = [(one.title, exponent_sentence(one.data)) for one in run.predictions]
+    by_cut_off: list[Element] = [Text(f"{title}. {text}") for title, text in sentences if text]
     if not run.by_wave:
-        return [Text("The model does not go wave by wave; its totals stand above.")]
+        whole = Text("The model does not go wave by wave; its totals stand above.")
+        return [whole, *by_cut_off]
     names = [name for name in ("load", "contact", "conditions", "further") if name in tables]
     shown: list[Element] = [tables[name] for name in names]
     if any(not one.moving for one in run.by_wave):
         shown.insert(0, Text("Nothing slides at rest: the columns of friction are left out there."))
-    return [*shown, *contact_charts(run.by_wave)]
+    return [*shown, *by_cut_off, *contact_charts(run.by_wave)]
 
 
 def _blocks(run: Run) -> list[Element]:

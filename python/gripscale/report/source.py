@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 import xarray as xr
 
 from gripscale import netcdf
+from gripscale.effects import stored_effects
 from gripscale.errors import FileError
 from gripscale.figures.rungs import varied
 from gripscale.figures.view import PredictionView
@@ -53,6 +54,8 @@ class Run:
     inputs: xr.Dataset
     compared: Compared = field(default_factory=Compared)
     """Models side by side over the same case, as far as they are there."""
+    effects: list[xr.Dataset] = field(default_factory=list)
+    """What each effect of its conditions is worth, model by model."""
 
     @property
     def data(self) -> xr.Dataset:
@@ -104,7 +107,9 @@ def _read_folder(folder: Path) -> Run | Study | Compared:
     paths = [folder / f"{name}.nc" for name in PREDICTIONS]
     there = {path.stem: _checked(path) for path in paths if path.is_file()}
     if there:
-        return _run(there, _comparisons(folder / COMPARISON))
+        found = _run(there, _comparisons(folder / COMPARISON))
+        effects = stored_effects((folder / COMPARISON, folder), found.attrs.get("case"))
+        return replace(found, effects=effects)
     compared = _comparisons(folder)
     if compared.parts:
         return compared

@@ -19,6 +19,7 @@ from gripscale.report.numbers import NONE, number
 from gripscale.report.outside_band import study_sentence
 from gripscale.report.run_page import method_elements, rerun_elements
 from gripscale.report.source import Study
+from gripscale.report.temperature_text import collapse_sentences, shift_sentence
 
 NAMED_FAILURES = 12
 """Failed predictions named one by one at the head of the page."""
@@ -47,10 +48,17 @@ def study_page(study: Study) -> Page:
 def _command(study: Study) -> str:
     """Return the command that makes a study of these axes."""
     varied = " ".join(
-        shlex.join(["--vary", f"{name}={','.join(map(_plain, _values(study, name)))}"])
-        for name in study.axes
+        shlex.join(["--vary", f"{name}={','.join(_given(study, name))}"]) for name in study.axes
     )
-    return f"gripscale study case.toml {varied}"
+    chosen = " --model direct" if study.data.attrs.get("model") == "direct" else ""
+    return f"gripscale study case.toml {varied}{chosen}"
+
+
+def _given(study: Study, name: str) -> Iterator[str]:
+    """Yield the values of an axis as `--vary` takes them."""
+    unit = " K" if name == "temperature" else ""
+    for value in _values(study, name):
+        yield f"{_plain(value)}{unit}"
 
 
 def _plain(value: Any) -> str:
@@ -88,7 +96,9 @@ def _facts(data: xr.Dataset) -> list[Element]:
         for name, value in data.attrs.items()
         if not str(name).startswith("version_") and name != "case" and len(str(value)) <= 600
     ]
-    return [Facts("Provenance", pairs)] if pairs else []
+    over = [(f"{words} over a_T v", text) for words, text in collapse_sentences(data)]
+    facts = (("Speed and temperature", over), ("Provenance", pairs))
+    return [Facts(title, told) for title, told in facts if told]
 
 
 def _totals(study: Study) -> list[Element]:
@@ -172,6 +182,9 @@ def _beyond(data: xr.Dataset) -> Iterator[Notice]:
     text = study_sentence(data)
     if text:
         yield Notice("warning", f"{text} There the Prony series is an extrapolation.")
+    shifted = shift_sentence(data)
+    if shifted:
+        yield Notice("warning", shifted)
 
 
 def _cards(study: Study, failed: int) -> list[Card]:

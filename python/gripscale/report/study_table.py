@@ -9,10 +9,11 @@ import xarray as xr
 from rich import box
 from rich.table import Table
 
-from gripscale.model import FRICTION_OUTSIDE_BAND
+from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND
 from gripscale.report.outside_band import share_text, study_sentence
 from gripscale.report.tables import significant
 from gripscale.study.display import dimensions, name_of
+from gripscale.study.temperature import BEYOND_SHIFT
 
 MOST_ROWS = 200
 
@@ -22,6 +23,7 @@ def study_table(result: xr.Dataset) -> Table:
     names = dimensions(result)
     at_rest = "static_total_contact_fraction" in result
     beyond = study_sentence(result)
+    area_term = ADHESIVE_FRICTION in result
     table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
     for name in names:
         table.add_column(name.replace("_", " "), no_wrap=True)
@@ -29,6 +31,7 @@ def study_table(result: xr.Dataset) -> Table:
         "A_r/A_0",
         "μ",
         "μ\ndiss.",
+        *(["μ area\nterm", "μ with\nit"] if area_term else []),
         "largest\nμ of",
         *(["μ beyond\nband"] if beyond else []),
         *(["A_r/A_0\nat rest"] if at_rest else []),
@@ -43,8 +46,11 @@ def study_table(result: xr.Dataset) -> Table:
             significant(float(chain.total_contact_fraction)),
             significant(float(chain.total_friction)),
             significant(float(chain.total_friction_from_dissipation)),
-            _largest(chain),
         ]
+        if area_term:
+            added = float(chain[ADHESIVE_FRICTION])
+            cells += [significant(added), significant(float(chain.total_friction) + added)]
+        cells.append(_largest(chain))
         if beyond:
             cells.append(share_text(float(chain[FRICTION_OUTSIDE_BAND])))
         if at_rest:
@@ -52,6 +58,8 @@ def study_table(result: xr.Dataset) -> Table:
         status = str(chain.prediction_status.item())
         style = None if status == "converged" else "bold red"
         words = [name_of(result, name, i) for name, i in place.items()]
+        if BEYOND_SHIFT in chain and bool(chain[BEYOND_SHIFT]):
+            words[-1] += " *"
         table.add_row(*words, *cells, status, style=style)
     return table
 

@@ -18,6 +18,7 @@ from gripscale.figures.palette import MEGA, MILLI
 from gripscale.figures.view import CONVERGED, PredictionView
 from gripscale.model import with_adhesive
 from gripscale.report.conditions_notes import conditions_sentences
+from gripscale.report.cut_off import exponent_sentence
 from gripscale.report.outside_band import prediction_sentence
 
 if TYPE_CHECKING:
@@ -123,7 +124,7 @@ def prediction_table(data: xr.Dataset, title: str, width: int) -> Group:
     if view.waves and not tables:
         halves = ([*LOAD], [*CONTACT, *EVIDENCE])
         tables = [_table(view, [WAVE, LENGTH, *half], 1) for half in halves]
-    below = [totals(data), *_notes(view)]
+    below = [totals(data), *filter(None, [exponent_sentence(data)]), *_notes(view)]
     return Group(Text(title, style="bold"), *tables, *map(Text, below))
 
 

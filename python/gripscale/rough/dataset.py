@@ -49,6 +49,12 @@ OUTSIDE_BAND = {
 }
 """What of the friction rests on the rubber beyond its measured frequencies."""
 
+CUT_OFF_EXPONENTS = {
+    "contact_fraction_cut_off_exponent": ("contact_fraction", "contact fraction"),
+    "friction_cut_off_exponent": ("friction", "friction coefficient"),
+}
+"""How it changes with the cut-off length, over the last octave."""
+
 
 def by_wavelength(contact: SolvedContact) -> xr.Dataset:
     """Return friction and contact fraction over `wavelength`, from long to short."""
@@ -90,6 +96,11 @@ def to_dataset(contact: SolvedContact, *, fields: bool) -> xr.Dataset:
     data |= {
         name: labelled((), getattr(beyond, part), "1", text, SOURCE)
         for name, (part, text) in OUTSIDE_BAND.items()
+    }
+    exponents = contact.cut_off_exponents
+    data |= {
+        name: labelled((), getattr(exponents, part), "1", f"d ln({text})/d ln(cut-off)", SOURCE)
+        for name, (part, text) in CUT_OFF_EXPONENTS.items()
     }
     octaves = by_wavelength(contact).rename(contact_fraction="contact_fraction_without_shorter")
     data |= {

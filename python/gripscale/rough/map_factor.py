@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from gripscale import checks, versions
+from gripscale.cut_off_exponents import NOT_CONVERGED, CutOffExponents, of_mean
 from gripscale.errors import InputError
 from gripscale.rough.grid import Array
 from gripscale.rough.result import RoughContact
@@ -228,6 +229,7 @@ class Solved(NamedTuple):
     """Along x over along y; NaN over zero."""
     status: str
     extrapolation: Extrapolation
+    cut_off_exponents: CutOffExponents
 
 
 def solve_whole(
@@ -281,6 +283,12 @@ def _both_ways(contacts: list[list[RoughContact]]) -> Solved:
         of_sum(
             [one.extrapolation for one in every],
             [one.friction_from_dissipation for one in every],
+        ),
+        NOT_CONVERGED
+        if bad
+        else of_mean(
+            [one.cut_off_exponents for one in every],
+            *([getattr(one, name) for one in every] for name in QUANTITIES),
         ),
     )
 

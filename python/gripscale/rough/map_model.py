@@ -91,7 +91,15 @@ class SyntheticMap:
             synthetic=heights.source,
             **versions.attributes(),
         )
-        return model.answer(data, totals, found.status, self.name, load, found.extrapolation)
+        return model.answer(
+            data,
+            totals,
+            found.status,
+            self.name,
+            load,
+            found.extrapolation,
+            found.cut_off_exponents,
+        )
 
 
 @dataclass(eq=False)

@@ -109,7 +109,15 @@ class DirectContact:
         data = xr.concat(parts, dim="profile", join="outer", combine_attrs="override")
         why_not = ["" if contact.converged else str(contact.status) for contact in contacts]
         lengths = [contact.grid.lengths[0] for contact in contacts]
-        answer = model.answer_by_length(data, contacts, why_not, lengths, self.name, load)
+        answer = model.answer_by_length(
+            data,
+            contacts,
+            why_not,
+            lengths,
+            self.name,
+            load,
+            [contact.cut_off_exponents for contact in contacts],
+        )
         adhesive = [contact.adhesive_friction for contact in contacts]
         return model.with_area_term(answer, float(np.average(adhesive, weights=lengths)))
 

@@ -11,9 +11,11 @@ from numpy.typing import ArrayLike
 from gripscale.conditions.by_scale import RubberByScale
 from gripscale.conditions.conditions import Conditions
 from gripscale.conditions.state_by_scale import StateByScale
+from gripscale.cut_off_exponents import CutOffExponents
 from gripscale.rough.grid import Array, Grid, Mask
 from gripscale.rough.grids import GridRecord
 from gripscale.rough.half_space import HalfSpace
+from gripscale.rough.last_octave import last_octave
 from gripscale.rough.outcome import lost_by_harmonic
 from gripscale.rough.patches import patch_points
 from gripscale.rubber import Rubber
@@ -127,6 +129,11 @@ class SolvedContact:
             return NONE
         omega = np.broadcast_to(self.grid.along * self.speed, self.grid.spectrum_shape)
         return of_spectrum(self.rubber, omega, self.lost_by_harmonic())
+
+    @property
+    def cut_off_exponents(self) -> CutOffExponents:
+        """How it changes with the cut-off length: of contacts solved with it and with twice it."""
+        return last_octave(self.grids, moving=self.speed > 0.0)
 
     @property
     def slope_in_contact(self) -> float:

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from gripscale import checks
 from gripscale.errors import InputError
 from gripscale.rubber.sweeps import Array, Sweeps, checked_rows
+from gripscale.units import ZERO_CELSIUS
 
 _ONE_FREQUENCY = 0.01
 """Frequencies that differ by less than this share are one."""
@@ -80,14 +81,14 @@ def _at_steps(rows: dict[str, Array], chosen: Array, step: float) -> Array:
     celsius, frequency, storage, loss = (
         rows[key][chosen][order] for key in ("temperature", "frequency", "storage", "loss")
     )
-    celsius = celsius - 273.15
+    celsius = celsius - ZERO_CELSIUS
     first, last = np.ceil(celsius[0] / step - 1e-9), np.floor(celsius[-1] / step + 1e-9)
     nominal = step * np.arange(first, last + 1.0)
     away = np.abs(np.subtract.outer(nominal, celsius)).min(axis=1, initial=np.inf)
     nominal = nominal[away <= _NEAR * step]
     return np.array(
         [
-            nominal + 273.15,
+            nominal + ZERO_CELSIUS,
             np.full(len(nominal), np.exp(np.log(frequency).mean())),
             np.exp(np.interp(nominal, celsius, np.log(storage))),
             np.exp(np.interp(nominal, celsius, np.log(loss))),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from gripscale.rubber.material import Rubber
+from gripscale.units import ZERO_CELSIUS
 
 _SAME = 0.5
 """Temperatures that differ by less are one [K]: 20 °C and 293 K."""
@@ -31,7 +32,9 @@ def temperature_doubts(rubbers: Mapping[str, Rubber]) -> tuple[str, ...]:
     }
     doubts = []
     if stated and max(stated.values()) - min(stated.values()) > _SAME:
-        each = ", ".join(f"{name} {kelvin - 273.15:.1f} °C" for name, kelvin in stated.items())
+        each = ", ".join(
+            f"{name} {kelvin - ZERO_CELSIUS:.1f} °C" for name, kelvin in stated.items()
+        )
         doubts.append(f"the rubbers hold for different temperatures: {each}")
     if stated and len(stated) < len(rubbers):
         others = ", ".join(name for name in rubbers if name not in stated)

@@ -27,7 +27,7 @@ from gripscale.textfile import (
     read_text,
     table_in,
 )
-from gripscale.units import in_si, listed, spelled
+from gripscale.units import ZERO_CELSIUS, in_si, listed, spelled
 
 KINDS = ("temperature", "frequency", "modulus", "strain")
 EXCEL = (".xlsx", ".xlsm")
@@ -197,4 +197,4 @@ def _reptate(path: Path, lines: list[Line], expected: list[str]) -> Block:
             )
         others = [Column()] * (len(table.columns) - len(_REPTATE))
         table = replace(table, columns=[*_REPTATE, *others])
-    return Block(table, celsius + 273.15)
+    return Block(table, celsius + ZERO_CELSIUS)

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gripscale import checks
 from gripscale.errors import InputError
+from gripscale.units import ZERO_CELSIUS
 
 Array = NDArray[np.float64]
 
@@ -162,7 +163,7 @@ class Sweeps:
 
     def summary(self) -> str:
         """Return the sweeps in a line of text."""
-        celsius = self.temperatures - 273.15
+        celsius = self.temperatures - ZERO_CELSIUS
         where = f"{len(self)} sweeps from {celsius[0]:.1f} to {celsius[-1]:.1f} °C"
         if len(self) == 1:
             where = f"one sweep at {celsius[0]:.1f} °C"

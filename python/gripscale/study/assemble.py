@@ -8,15 +8,31 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gripscale.model import OUTSIDE_BAND, TOTALS
+from gripscale.model import (
+    ADHESIVE_FRICTION,
+    CUT_OFF_EXPONENTS,
+    OUTSIDE_BAND,
+    TOTALS,
+    WHY_NO_EXPONENT,
+)
 from gripscale.rubber import Rubber
 from gripscale.study.axes import LONG_NAMES, UNITS, Axis
 from gripscale.study.decades import friction_by_decade
 
+RENAMED = {"temperature": "wave_temperature"}
+"""Variables over waves that have the name of an axis."""
+
 Index = tuple[int, ...]
 Predictions = dict[Index, xr.Dataset]
 
-OF_ALL = (*TOTALS, *OUTSIDE_BAND, "prediction_status")
+OF_ALL = (
+    *TOTALS,
+    ADHESIVE_FRICTION,
+    *OUTSIDE_BAND,
+    *CUT_OFF_EXPONENTS,
+    WHY_NO_EXPONENT,
+    "prediction_status",
+)
 """What every model says of the whole surface."""
 
 
@@ -71,7 +87,9 @@ def coordinates(axes: Iterable[Axis]) -> dict[str, xr.DataArray]:
     out = {}
     for axis in axes:
         values = np.array(axis.coordinate, dtype=None if axis.numeric else object)
-        out[axis.name] = _labelled(axis.name, values, UNITS[axis.name], LONG_NAMES[axis.name])
+        out[axis.name] = _labelled(
+            axis.name, values, UNITS[axis.name] if axis.numeric else "1", LONG_NAMES[axis.name]
+        )
         if axis.name == "factors":
             for at, name in enumerate(("s_wavelength", "s_amplitude")):
                 each = [pair[at] for pair in axis.values]
@@ -91,7 +109,8 @@ def _kept(data: xr.Dataset) -> xr.Dataset:
         data.attrs["prediction_key"],
         attrs={"units": "1", "long_name": "name of the file the prediction is kept in"},
     )
-    return data[names].assign(prediction_key=key).drop_encoding()
+    kept = data[names].assign(prediction_key=key).drop_encoding()
+    return kept.rename({old: new for old, new in RENAMED.items() if old in kept})
 
 
 def _labelled(dims: Any, values: Any, unit: str, long_name: str) -> xr.DataArray:

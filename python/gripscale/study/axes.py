@@ -2,8 +2,11 @@
 
 - speed=0.003:30:log9: nine speeds [m/s], evenly spaced in their logarithm (lin9: evenly)
 - pressure=1 bar,3 bar: a list, with units
+- cut_off=0.5 mm,instrument,rms_slope 1.3: lengths and the other rules of a case file
 - upper_share=0.3:1:lin8, pressure_classes=1,2,4,8: numbers and whole numbers
 - factors=3.5/2.4,3/2.2,6/3: magnification factors of wavelength and amplitude
+- temperature=0 C:60 C:lin7, 20 C,40 C: always with a unit; effects=all,no heat,none: what of the
+  conditions of the model counts
 - rubber=case,dma.txt: the case's own, a master curve, a rubber known by name
 """
 
@@ -20,8 +23,10 @@ import numpy as np
 from gripscale import checks
 from gripscale.chain.pressure import MOST_CLASSES
 from gripscale.errors import InputError
+from gripscale.study.conditioned import SELECTIONS
+from gripscale.surface.cut_off import CutOffRule, RmsSlope, cut_off_rule
 from gripscale.surface.sine_fit import MOST_WAVES
-from gripscale.units import parse_quantity
+from gripscale.units import ZERO_CELSIUS, parse_quantity
 
 MOST_VALUES = 1000
 MOST_AXES = 2
@@ -29,6 +34,7 @@ MOST_AXES = 2
 QUANTITIES = {
     "speed": "speed",
     "pressure": "pressure",
+    "temperature": "temperature",
     "smallest_wavelength": "length",
     "cut_off": "length",
 }
@@ -43,12 +49,14 @@ NUMBERS = (*QUANTITIES, *COUNTS, "upper_share")
 UNITS = {
     "speed": "m/s",
     "pressure": "Pa",
+    "temperature": "K",
     "smallest_wavelength": "m",
     "cut_off": "m",
     "upper_share": "1",
     "waves": "1",
     "pressure_classes": "1",
     "factors": "1",
+    "effects": "1",
     "rubber": "1",
     "surface": "1",
 }
@@ -57,12 +65,14 @@ UNITS = {
 LONG_NAMES = {
     "speed": "sliding speed",
     "pressure": "nominal pressure",
+    "temperature": "temperature of the rubber before the contact",
     "smallest_wavelength": "smallest wavelength",
     "cut_off": "shortest wavelength of the roughness",
     "upper_share": "share of the heights that counts",
     "waves": "number of waves",
     "pressure_classes": "number of pressure classes",
     "factors": "magnification factors of wavelength and amplitude",
+    "effects": "effects of the conditions on the rubber",
     "rubber": "rubber",
     "surface": "surface",
 }
@@ -81,7 +91,9 @@ class Axis:
     @property
     def numeric(self) -> bool:
         """Whether the values are numbers, in the unit of `UNITS`."""
-        return self.name in NUMBERS
+        return self.name in NUMBERS and not any(
+            isinstance(value, str | RmsSlope) for value in self.values
+        )
 
     @property
     def coordinate(self) -> list[Any]:
@@ -113,7 +125,9 @@ def _axis(name: str, given: Any) -> Axis:
         values, labels = _named(name, given)
     else:
         values = tuple(_READERS[name](name, entry) for entry in _entries(name, given))
-        labels = tuple(_label(value) for value in values)
+        worded = any(isinstance(value, RmsSlope | str) for value in values)
+        unit = f" {UNITS[name]}" if worded else ""
+        labels = tuple(f"{_label(name, v)}{unit if isinstance(v, float) else ''}" for v in values)
     if not 1 <= len(values) <= MOST_VALUES:
         raise InputError(f"{name} must have 1 to {MOST_VALUES} values; got {len(values)}")
     twice = {label for label in labels if labels.count(label) > 1}
@@ -161,8 +175,20 @@ def _quantity(name: str, value: Any) -> float:
             value = parse_quantity(value, QUANTITIES[name])
         except ValueError as error:
             raise InputError(f"{name} = {value!r}: {error}") from error
+    if isinstance(value, str) and name == "temperature":
+        raise InputError(f'temperature must have a unit, such as "20 C"; got {value!r}')
     check = checks.not_negative if name == "speed" else checks.positive
     return check(name, float(value) if isinstance(value, str) else value, unit=UNITS[name])
+
+
+def _cut_off(name: str, value: Any) -> CutOffRule:
+    """Read a length, or one of the other rules."""
+    if not isinstance(value, str | dict | RmsSlope) or (isinstance(value, str) and _bare(value)):
+        return _quantity(name, value)
+    try:
+        return cut_off_rule(value)
+    except ValueError as error:
+        raise InputError(f"{name} = {value!r}: {error}") from error
 
 
 def _count(name: str, value: Any) -> int:
@@ -193,6 +219,11 @@ def _pair(name: str, value: Any) -> tuple[float, float]:
     return first, second
 
 
+def _selection(name: str, value: Any) -> str:
+    text = value.replace("_", " ") if isinstance(value, str) else value
+    return checks.one_of(name, text, SELECTIONS)
+
+
 def _named(name: str, given: Any) -> tuple[tuple[Any, ...], tuple[str, ...]]:
     """Return values and labels of rubbers or surfaces: a mapping, or texts and paths."""
     if isinstance(given, Mapping):
@@ -217,8 +248,12 @@ def _bare(text: str) -> bool:
     return True
 
 
-def _label(value: Any) -> str:
-    return "/".join(f"{part:g}" for part in value) if isinstance(value, tuple) else f"{value:.6g}"
+def _label(name: str, value: Any) -> str:
+    if isinstance(value, str | RmsSlope):
+        return str(value)
+    if isinstance(value, tuple):
+        return "/".join(f"{part:g}" for part in value)
+    return f"{value - ZERO_CELSIUS:.6g} C" if name == "temperature" else f"{value:.6g}"
 
 
 _READERS: dict[str, Callable[[str, Any], Any]] = {
@@ -226,4 +261,6 @@ _READERS: dict[str, Callable[[str, Any], Any]] = {
     **dict.fromkeys(COUNTS, _count),
     "upper_share": _share,
     "factors": _pair,
+    "cut_off": _cut_off,
+    "effects": _selection,
 }

@@ -13,6 +13,8 @@ solver's, at finite strain; the split is that of small strain.
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
@@ -34,7 +36,7 @@ def friction_by_decade(solved: xr.Dataset, rubber: Rubber) -> dict[int, float]:
     solved
         A prediction in motion, as `Prediction.to_dataset` returns it.
     rubber
-        What it was solved for.
+        What it was solved for; of waves that say which rubber they met, that one counts.
 
     Returns
     -------
@@ -48,14 +50,21 @@ def friction_by_decade(solved: xr.Dataset, rubber: Rubber) -> dict[int, float]:
         return {}
     if solved.nominal_speed == 0.0:
         return {}
-    decade = np.floor(np.log10(rubber.relaxation_times) + 1e-9).astype(int)
-    parts = {int(n): 0.0 for n in np.unique(decade)}
+    parts: dict[int, float] = {}
     for i in range(solved.sizes["scale"]):
         wave = solved.isel(scale=i)
-        share = _shares(wave, rubber) * float(wave.friction)
-        for n in parts:
-            parts[n] += float(share[decade == n].sum())
+        own = _rubber_of(wave, rubber)
+        decade = np.floor(np.log10(own.relaxation_times) + 1e-9).astype(int)
+        share = _shares(wave, own) * float(wave.friction)
+        for n in np.unique(decade).tolist():
+            parts[n] = parts.get(n, 0.0) + float(share[decade == n].sum())
     return parts
+
+
+def _rubber_of(wave: xr.Dataset, rubber: Rubber) -> Rubber:
+    """Return the rubber a wave met: conditions may have made it another one than was given."""
+    text = str(wave.rubber_parameters.item()) if "rubber_parameters" in wave else ""
+    return Rubber.from_dict(json.loads(text)) if text else rubber
 
 
 def _shares(wave: xr.Dataset, rubber: Rubber) -> Array:

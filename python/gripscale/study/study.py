@@ -21,7 +21,6 @@ from typing import Any
 import xarray as xr
 
 from gripscale import netcdf, versions
-from gripscale.case.chain import case_chain
 from gripscale.case.read import CaseFile, read_case
 from gripscale.chain.model import Chain
 from gripscale.errors import FileError, InputError
@@ -30,6 +29,7 @@ from gripscale.rubber import Rubber
 from gripscale.study import assemble
 from gripscale.study.assemble import Index
 from gripscale.study.axes import Axis, axes_of
+from gripscale.study.conditioned import at_temperature, rubber_before, with_effects
 from gripscale.study.inputs import (
     case_rubber,
     case_surface,
@@ -38,9 +38,11 @@ from gripscale.study.inputs import (
     stated_by,
     surface_of,
 )
+from gripscale.study.models import model_of
 from gripscale.study.software import software
 from gripscale.study.store import Store
 from gripscale.study.task import Task, exact
+from gripscale.study.temperature import beyond_shift, with_master_curve
 from gripscale.study.threads import OnTask, Progress, solve_all
 from gripscale.surface import PreparedSurface
 
@@ -68,16 +70,18 @@ class Study:
     case
         The case, or its file. What is not varied is as it says.
     vary
-        One or two of speed, pressure, smallest_wavelength, cut_off (numbers in SI units, or texts
-        with a unit), upper_share (numbers), waves, pressure_classes (whole numbers), factors
-        (pairs of magnification factors, or "3.5/2.4"), rubber and surface (names and files, or a
-        mapping from names to `Rubber`, `SineStack`, names and files), each with its values, or
-        with a text as on the command line
-        ("0.003:30:log9", "1 bar,3 bar"). A speed of zero is static contact.
+        One or two of speed, pressure, temperature, smallest_wavelength, cut_off (numbers in SI
+        units, or texts with a unit; a cut_off also "instrument", "rms_slope 1.3" or another
+        `CutOffRule`), upper_share (numbers), waves, pressure_classes (whole numbers), factors
+        (pairs of magnification factors, or "3.5/2.4"), effects (of the conditions: "all",
+        "no heat", "none"), rubber and surface (names and files, or a mapping from names to
+        `Rubber`, `SineStack`, names and files), each with its values, or with a text as on the
+        command line ("0.003:30:log9", "1 bar,3 bar"). A speed of zero is static contact.
     static
         Whether the relaxed rubber at rest is solved, too; as the case says by default.
     model
-        What predicts; the chain with the solver of the case by default.
+        What predicts: "chain" with the solver of the case, "direct", both under its conditions, or
+        a model.
 
     Raises
     ------
@@ -91,12 +95,16 @@ class Study:
         vary: Mapping[str, Any],
         *,
         static: bool | None = None,
-        model: Model | None = None,
+        model: Model | str = "chain",
     ) -> None:
         self.file = case if isinstance(case, CaseFile) else read_case(case)
         self.axes: tuple[Axis, ...] = axes_of(vary)
         self.static = self.file.case.load.static if static is None else static
-        self.model = model or case_chain(self.file)
+        self.model = model_of(model, self.file)
+        for value in self._values("temperature"):
+            at_temperature(self.model, value)
+        for value in self._values("effects"):
+            with_effects(self.model, value)
         if "pressure_classes" in vary and not isinstance(self.model, Chain):
             raise InputError(
                 f"pressure_classes belongs to the chain; got the model {self.model.name}"
@@ -233,6 +241,9 @@ class Study:
             at_rest = _at_rest(assemble.combined(rest, self.static_axes))
             result = xr.merge([result, at_rest], join="outer", compat="no_conflicts")
         result = result.assign_coords(assemble.coordinates(self.axes))
+        result = result.assign(beyond_shift([p.task for p in self.points], self.axes))
+        if {"speed", "temperature"} == {axis.name for axis in self.axes}:
+            result = with_master_curve(result, self.rubbers[0])
         return result.drop_attrs(deep=False).assign_attrs(self._provenance())
 
     def _places(self, axes: tuple[Axis, ...], *, static: bool) -> Iterator[tuple[Index, str]]:
@@ -255,11 +266,10 @@ class Study:
     def _task(self, chosen: dict[str, Any], place: dict[str, int], *, static: bool) -> Task:
         load = self.file.case.load
         speed = 0.0 if static else chosen.get("speed", load.speed)
-        model = self.model
-        if "pressure_classes" in chosen and isinstance(model, Chain):
-            model = replace(model, pressure_classes=chosen["pressure_classes"])
+        model, rubber = self._model(chosen), self.rubbers[place.get("rubber", 0)]
+        rubber_before(rubber, model)  # nothing is solved if one point of the study is impossible
         return Task(
-            rubber=self.rubbers[place.get("rubber", 0)],
+            rubber=rubber,
             surface=self._surface(place.get("surface", 0), chosen),
             load=NominalLoad(
                 pressure=chosen.get("pressure", load.pressure),
@@ -269,6 +279,14 @@ class Study:
             ),
             model=model,
         )
+
+    def _model(self, chosen: dict[str, Any]) -> Model:
+        model = self.model
+        if "pressure_classes" in chosen and isinstance(model, Chain):
+            model = replace(model, pressure_classes=chosen["pressure_classes"])
+        if "temperature" in chosen:
+            model = at_temperature(model, chosen["temperature"])
+        return with_effects(model, chosen["effects"]) if "effects" in chosen else model
 
     def _surface(self, number: int, chosen: dict[str, Any]) -> PreparedSurface:
         """Return the surface of a point; each choice of waves is fitted once."""
@@ -301,7 +319,15 @@ class Study:
 
 def _at_rest(data: xr.Dataset) -> xr.Dataset:
     """Return what `data` says of rubber at rest, where there is no friction, as `static_...`."""
-    moving = ("friction", "angular_frequency", "loss_factor", "load_time", "speed", "_band")
+    moving = (
+        "friction",
+        "angular_frequency",
+        "loss_factor",
+        "load_time",
+        "speed",
+        "_band",
+        "_missing",
+    )
     names = [str(name) for name in data.data_vars if not any(word in str(name) for word in moving)]
     return data[names].rename({name: f"static_{name}" for name in names})
 

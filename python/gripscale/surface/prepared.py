@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from gripscale.errors import InputError
 from gripscale.surface.cleaning import CleaningReport
+from gripscale.surface.cut_off import CutOff, CutOffRule, find_cut_off
 from gripscale.surface.doubts import profile_doubts, stack_notes
 from gripscale.surface.height_difference import HeightDifference, height_difference
 from gripscale.surface.height_map import HeightMap
@@ -17,6 +19,7 @@ from gripscale.surface.profile import Profile
 from gripscale.surface.self_affine import SelfAffineFit
 from gripscale.surface.sine_fit import fit_sines
 from gripscale.surface.sines import SineStack
+from gripscale.surface.slope import SlopeByWavelength, slope_by_wavelength
 
 
 @dataclass(frozen=True)
@@ -53,6 +56,11 @@ class Measured:
         """What a contact can be solved on: the profiles as cleaned, or the map."""
         return self.cleaned if self.map is None else [self.map]
 
+    @cached_property
+    def slopes(self) -> SlopeByWavelength:
+        """Rms slope of what was measured, down to each wavelength."""
+        return slope_by_wavelength(self.cleaned if self.map is None else self.map)
+
     @property
     def notes(self) -> tuple[str, ...]:
         """What reading changed and what is implausible, a sentence each."""
@@ -85,6 +93,8 @@ class PreparedSurface:
     counted
         Arguments of `height_difference` the correlation was found with: which heights and lags
         count.
+    rule
+        By which the waves end where they do, or None for the last wave.
     """
 
     sines: SineStack
@@ -93,6 +103,25 @@ class PreparedSurface:
     fit: Mapping[str, Any] = field(default_factory=dict)
     measured: Measured | None = None
     counted: Mapping[str, Any] = field(default_factory=dict)
+    rule: CutOffRule | None = None
+
+    @property
+    def cut_off(self) -> CutOff | None:
+        """Where the roughness ends and by which rule, or None if nothing was measured."""
+        if self.measured is None:
+            return None
+        end = self.sines.roughness_end
+        if self.rule is None:
+            return replace(find_cut_off(self.measured.slopes, end), rule="the last wave")
+        found = find_cut_off(self.measured.slopes, self.rule)
+        # with s_wavelength given, whole waves end above the cut-off that was asked for
+        return (
+            found
+            if np.isclose(found.wavelength, end, rtol=1e-6)
+            else replace(
+                find_cut_off(self.measured.slopes, end), rule=f"whole waves down to {found.rule}"
+            )
+        )
 
     def as_measured(self) -> PreparedSurface:
         """Return nothing but what was measured and where the waves end."""
@@ -106,7 +135,14 @@ class PreparedSurface:
         found = () if self.measured is None else self.measured.notes
         if self.correlation is None:
             return found
-        return (*found, *stack_notes(self.sines, self.correlation, self.fit))
+        notes = [*found, *stack_notes(self.sines, self.correlation, self.fit)]
+        end, carried = self.sines.cut_off, self.correlation.carried
+        if end is not None and carried is not None and end < carried * (1.0 - 1e-6):
+            notes.append(
+                f"the cut-off, {end * 1e3:.3g} mm, lies beyond what the measurement carries, "
+                f"{carried * 1e3:.3g} mm: the roughness between them is extrapolated"
+            )
+        return tuple(notes)
 
     def varied(
         self,
@@ -114,7 +150,7 @@ class PreparedSurface:
         factors: tuple[float, float] | None = None,
         waves: int | None = None,
         smallest_wavelength: float | None = None,
-        cut_off: float | None = None,
+        cut_off: CutOffRule | None = None,
         upper_share: float | None = None,
     ) -> PreparedSurface:
         """Return the surface with other waves.
@@ -129,8 +165,8 @@ class PreparedSurface:
         smallest_wavelength
             The last wave [m], in place of a cut-off: fitted anew, or cut off.
         cut_off
-            Where the roughness ends that they stand for [m], in place of a smallest wavelength;
-            of fitted waves only.
+            Where the roughness ends that they stand for, in place of a smallest wavelength: a
+            length [m] or another rule of `find_cut_off`; of fitted waves only.
         upper_share
             Share of the heights that counts, see `height_difference`; of a measured surface only.
 
@@ -155,13 +191,23 @@ class PreparedSurface:
             )
         if cut_off is not None and (self.correlation is None or not self.fit):
             raise InputError(f"cut_off varies waves that were fitted; got {self.source}")
+        end = None if cut_off is None else self._length_of(cut_off)
         if factors is not None:
-            stack = self._magnified(factors, waves, smallest_wavelength, cut_off)
+            stack = self._magnified(factors, waves, smallest_wavelength, end)
         elif self.correlation is None or not self.fit:
             stack = self._shortened(waves, smallest_wavelength)
         else:
-            stack = self._fitted(self.correlation, waves, smallest_wavelength, cut_off)
-        return replace(self, sines=stack)
+            stack = self._fitted(self.correlation, waves, smallest_wavelength, end)
+        kept = self.rule if stack.cut_off is not None else None
+        return replace(self, sines=stack, rule=kept if cut_off is None else cut_off)
+
+    def _length_of(self, rule: CutOffRule) -> float:
+        """Return where the roughness ends by a rule [m]."""
+        if isinstance(rule, int | float):
+            return rule
+        if self.measured is None:
+            raise InputError(f"cut_off = {rule} needs a measured surface; got {self.source}")
+        return find_cut_off(self.measured.slopes, rule).wavelength
 
     def _of_upper(self, share: float) -> PreparedSurface:
         """Return the surface with waves fitted to the correlation of the upper part."""

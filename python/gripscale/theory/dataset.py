@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gripscale import model, versions
+from gripscale.cut_off_exponents import NOT_CONVERGED, of_curve
 from gripscale.rubber.extrapolation import by_wavelength
 
 if TYPE_CHECKING:
@@ -76,4 +77,9 @@ def theory_dataset(
     beyond = by_wavelength(
         result.rubber, result.load.speed, result.wavelength, result.running_friction
     )
-    return model.answer(made, totals, str(result.status), name, result.load, beyond)
+    area = getattr(result, "running_contact_fraction", np.full(number.size, math.nan))
+    exponents = NOT_CONVERGED
+    if result.converged:
+        moving = result.load.speed > 0.0
+        exponents = of_curve(result.wavelength, area, result.running_friction, moving=moving)
+    return model.answer(made, totals, str(result.status), name, result.load, beyond, exponents)

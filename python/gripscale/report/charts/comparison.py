@@ -117,12 +117,12 @@ def _by_wavelength(comparison: xr.Dataset, name: str) -> Chart:
 
 
 def _over(comparison: xr.Dataset, axis: str, name: str) -> Chart:
-    divisor, _, unit = LABELS[axis]
-    x = comparison[axis].values / divisor
+    shown = LABELS[axis]
+    x = shown.of(comparison[axis].values)
     spread_out = bool(x.min() > 0.0 and x.max() > 8.0 * x.min())
     log = ("x" if spread_out else "") + ("y" if name == "contact_fraction" else "")
     words = axis.replace("_", " ")
-    figure = plot(f"{words} [{unit}]", f"{QUANTITIES[name]} [-]", log=log, height=400)
+    figure = plot(f"{words} [{shown.unit}]", f"{QUANTITIES[name]} [-]", log=log, height=400)
     if name == "contact_fraction":
         whole_decades(figure, comparison[f"total_{name}"].values)
     else:

@@ -24,6 +24,8 @@ from gripscale.report.charts.look import (
 )
 from gripscale.report.elements import Chart
 from gripscale.report.source import Study
+from gripscale.study.temperature import COLLAPSED, REDUCED_SPEED
+from gripscale.units import ZERO_CELSIUS
 
 MOST_CURVES = 12
 """Curves in one figure; of more, so many evenly spaced ones are drawn."""
@@ -50,6 +52,8 @@ def study_charts(study: Study) -> list[Chart]:
         for name, variable in study.data.data_vars.items()
         if "decade" in variable.dims and _numeric(study.data, "decade")
     ]
+    if REDUCED_SPEED in study.data.coords:
+        charts += [_master(study, name) for name in COLLAPSED]
     if "wavelength" in study.data:
         charts += [_per_wave(study, name) for name in PER_WAVE if _drawable(study, name)]
     return charts
@@ -68,7 +72,7 @@ def _drawable(study: Study, name: str) -> bool:
 
 def _total(study: Study, name: str, axis: str) -> Chart:
     variable = study.data[name]
-    x = study.data[axis].values.astype(float) / _display(study.data, axis)[0]
+    x = _shown(study.data, axis)
     spread = bool((x > 0.0).all() and x.max() / x.min() > 8.0)
     figure = plot(_label(study.data, axis), _label(study.data, name), log="x" if spread else "")
     others = [str(dim) for dim in variable.dims if dim != axis]
@@ -84,6 +88,28 @@ def _total(study: Study, name: str, axis: str) -> Chart:
         f"{name}-over-{axis}",
         f"{variable.attrs.get('long_name', name)}, over {axis}.",
         f"{name} against {axis}.",
+        legend(figure),
+    )
+
+
+def _master(study: Study, name: str) -> Chart:
+    """Draw a total at every temperature over the reduced speed."""
+    variable, reduced = study.data[name], study.data[REDUCED_SPEED]
+    figure = plot("reduced speed a_T v [m/s]", _label(study.data, name), log="x")
+    temperatures = list(range(variable.sizes["temperature"]))
+    colours = shades(len(temperatures))
+    flags = _beyond(study.data, variable)
+    for i in temperatures:
+        x, y, beyond = (one.isel(temperature=i) for one in (reduced, variable, flags))
+        words = _value(variable, "temperature", i)
+        dots = curve(figure, x.values, y.values, colours[i], words, beyond=beyond)
+        hover(figure, [dots], [("a_T v", "@x"), (name, "@y")])
+    dashed_entry(figure, flags)
+    return Chart(
+        f"{name}-over-{REDUCED_SPEED}",
+        f"{variable.attrs.get('long_name', name)}, over the reduced speed a_T v: one curve where "
+        "temperature does nothing but shift the relaxation times of the rubber.",
+        f"{name} against a_T v at every temperature.",
         legend(figure),
     )
 
@@ -147,17 +173,24 @@ def _value(variable: xr.DataArray, name: str, i: int) -> str:
     value: Any = variable[name].values[i]
     if not isinstance(value, np.number):
         return str(value)
-    scale, unit = _display(variable, name)
-    return f"{name} {value:.3g}" if unit == "-" else f"{value / scale:.3g} {unit}"
+    unit = _unit(variable, name)
+    shown = float(_shown(variable, name)[i])
+    return f"{name} {shown:.3g}" if unit == "-" else f"{shown:.3g} {unit}"
 
 
 def _label(data: xr.Dataset, name: str) -> str:
-    return f"{name.replace('_', ' ')} [{_display(data, name)[1]}]"
+    return f"{name.replace('_', ' ')} [{_unit(data, name)}]"
 
 
-def _display(data: xr.Dataset | xr.DataArray, name: str) -> tuple[float, str]:
-    """Return the unit in which a coordinate is drawn, and its size in the unit it has."""
-    if name not in data.coords:
-        return 1.0, "-"
-    unit = str(data[name].attrs.get("units", "1"))
-    return {"Pa": (1e6, "MPa"), "m": (1e-3, "mm"), "1": (1.0, "-")}.get(unit, (1.0, unit))
+def _unit(data: xr.Dataset | xr.DataArray, name: str) -> str:
+    """Return the unit in which a coordinate is drawn."""
+    unit = str(data[name].attrs.get("units", "1")) if name in data.coords else "1"
+    return {"Pa": "MPa", "m": "mm", "K": "°C", "1": "-"}.get(unit, unit)
+
+
+def _shown(data: xr.Dataset | xr.DataArray, name: str) -> Array:
+    """Return a coordinate in the unit in which it is drawn."""
+    size, zero = {"MPa": (1e6, 0.0), "mm": (1e-3, 0.0), "°C": (1.0, ZERO_CELSIUS)}.get(
+        _unit(data, name), (1.0, 0.0)
+    )
+    return np.asarray((data[name].values.astype(float) - zero) / size)

@@ -20,6 +20,7 @@ from gripscale.errors import InputError
 from gripscale.rubber.shift.base import EDGE, Array
 from gripscale.rubber.shift.table import ShiftTable
 from gripscale.rubber.shift.wlf import GAS_CONSTANT, WLF, Arrhenius
+from gripscale.units import ZERO_CELSIUS
 
 _LEAST_ERROR = 0.01
 """Standard error of log10 a_T below which none is believed [decades]."""
@@ -52,7 +53,7 @@ class ShiftFit:
             f"{name} = {getattr(self.shift, name):.4g} +- {error:.2g}{units.get(name, '')}"
             for name, error in self.errors.items()
         )
-        low, high = self.temperature[[0, -1]] - 273.15
+        low, high = self.temperature[[0, -1]] - ZERO_CELSIUS
         return (
             f"{self.shift.kind}: {constants}; {low:.1f} to {high:.1f} °C, "
             f"misfit {self.misfit:.3f} decades"

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gripscale.rubber.superposition.rows import Array, Rows
+from gripscale.units import ZERO_CELSIUS
 
 _STEP = 0.02
 """Steps of the shifts that are tried [decades]."""
@@ -47,7 +48,7 @@ class Overlap:
 
     def __str__(self) -> str:
         """Return the overlap in words."""
-        pair = f"{self.colder - 273.15:.1f} and {self.warmer - 273.15:.1f} °C"
+        pair = f"{self.colder - ZERO_CELSIUS:.1f} and {self.warmer - ZERO_CELSIUS:.1f} °C"
         return f"{pair}: {self.decades:.2f} decades"
 
 

@@ -16,6 +16,7 @@ from gripscale.rubber.superposition.neighbours import (
 )
 from gripscale.rubber.superposition.rows import Array
 from gripscale.rubber.sweeps import Sweeps
+from gripscale.units import ZERO_CELSIUS
 
 _LITTLE = 0.5
 """Overlap below which a shift rests on a few rows [decades]."""
@@ -117,14 +118,15 @@ def _findings(overlaps: tuple[Overlap, ...], shift: Shift) -> Iterator[str]:
             yield (
                 f"{words} of {len(apart)} of {len(overlaps)} neighbours does not superpose (apart "
                 f"by up to {10.0**worst - 1.0:.0%} in the root mean square), from "
-                f"{apart[0].colder - 273.15:.1f} to {apart[-1].warmer - 273.15:.1f} °C: vertical "
-                "shifts, another strain amplitude or a second relaxation are the usual causes"
+                f"{apart[0].colder - ZERO_CELSIUS:.1f} to {apart[-1].warmer - ZERO_CELSIUS:.1f} "
+                "°C: vertical shifts, another strain amplitude or a second relaxation are the "
+                "usual causes"
             )
     if isinstance(shift, ShiftTable) and np.nanmax(shift.horizontal_error, initial=0.0) > _LARGE:
         at = int(np.nanargmax(shift.horizontal_error))
         yield (
             f"the standard error of log10 a_T reaches {shift.horizontal_error[at]:.2f}, at "
-            f"{shift.temperature[at] - 273.15:.1f} °C"
+            f"{shift.temperature[at] - ZERO_CELSIUS:.1f} °C"
         )
 
 

@@ -19,6 +19,7 @@ from gripscale.rubber.superposition.neighbours import no_common_modulus, start
 from gripscale.rubber.superposition.report import Superposition, report, temperatures_in
 from gripscale.rubber.superposition.rows import MODULI, Array, Rows, rows_of
 from gripscale.rubber.sweeps import Sweeps
+from gripscale.units import ZERO_CELSIUS
 
 _NOISE = 0.01
 """Scatter of a good laboratory [decades], for whether two sweeps have a value in common."""
@@ -137,7 +138,7 @@ def _require_common(sweeps: Sweeps, rows: Rows) -> None:
 
 
 def _nothing_common(sweeps: Sweeps, colder: int) -> InputError:
-    low, high = sweeps.temperatures[colder : colder + 2] - 273.15
+    low, high = sweeps.temperatures[colder : colder + 2] - ZERO_CELSIUS
     return InputError(
         f"sweeps at neighbouring temperatures must overlap for a shift to be found; those at "
         f"{low:.2f} and {high:.2f} °C do not: give the shift, or superpose either side alone"

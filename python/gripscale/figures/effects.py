@@ -1,0 +1,95 @@
+"""What each effect of the conditions is worth: area and friction with and without it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from gripscale.effects.effects import CHANGES, WITH_AREA_TERM
+from gripscale.figures.palette import COLOURS, INK, WIDE
+from gripscale.figures.style import sheet, styled
+from gripscale.study.display import EFFECTS
+
+HEIGHT, ROW = 1.5, 0.32
+"""Of the figure without rows, and of each [inch]."""
+BESIDE = 0.6
+"""Of the height of a row that the bars of all models take."""
+NAMES = {"chain": "chain", "direct": "direct contact"}
+
+
+PANELS = {
+    "total_contact_fraction": "real contact area $A_r/A_0$ [-]",
+    "total_friction": "friction, hysteresis $\\mu$ [-]",
+    WITH_AREA_TERM: "friction with area term [-]",
+}
+PER_CENT = "beside a bar: what the effects left out change"
+
+
+@styled
+def effects_figure(*results: xr.Dataset, title: str = "") -> Figure:
+    """Draw A_r/A_0 and friction as bars: with all effects, without each in turn, without any.
+
+    A dotted line goes on from the answer with all effects. Beside each other bar stands what the
+    effects left out change, in per cent of it. Where an area term was asked for, friction with it
+    has a panel of its own.
+
+    Parameters
+    ----------
+    *results : xarray.Dataset
+        As `gripscale.effects.effects` returns them, one for each model; all of the same conditions.
+    title : str
+        Above the panels.
+    """
+    names = [str(name) for name in results[0].effect.values]
+    shown = [name for name in PANELS if any(name in result for result in results)]
+    height = HEIGHT + ROW * len(names) * max(len(results), 1.5)
+    figure, panels = sheet(WIDE, height, 1, len(shown), gap=0.04, sharey=True)
+    for axes, name in zip(panels[0], shown, strict=True):
+        for k, (result, colour) in enumerate(zip(results, COLOURS, strict=False)):
+            place = np.arange(len(names)) + BESIDE * ((k + 0.5) / len(results) - 0.5)
+            if name in result:
+                look: dict[str, Any] = {"height": 0.9 * BESIDE / len(results), "color": colour}
+                axes.barh(place, np.nan_to_num(result[name].values), **look, label=_name(result))
+                _say(axes, result, name, place, colour)
+        axes.set_xlabel(PANELS[name])
+        axes.grid(visible=False, axis="y")
+        axes.margins(x=0.3)
+        axes.set_xlim(left=0.0)
+        axes.xaxis.set_major_locator(MaxNLocator(4))
+    first = panels[0, 0]
+    first.set_yticks(np.arange(len(names)), [EFFECTS.get(name, name) for name in names])
+    first.invert_yaxis()
+    handles, labels = first.get_legend_handles_labels()
+    above = "\n".join(filter(None, [title, PER_CENT]))
+    figure.legend(handles, labels, loc="outside upper center", ncols=len(handles), title=above)
+    return figure
+
+
+def _name(result: xr.Dataset) -> str:
+    model = str(result.attrs["model"])
+    return NAMES.get(model, model)
+
+
+def _say(axes: Axes, result: xr.Dataset, name: str, place: Any, colour: str) -> None:
+    """Write the changes beside the bars, and draw the answer with all effects past them."""
+    values, changes = result[name].values, result[CHANGES[name]].values
+    if np.isfinite(values[0]):
+        axes.axvline(values[0], color=colour, lw=0.8, ls=(0, (1, 1.5)))
+    for at, value, change in zip(place, values, changes, strict=True):
+        if np.isfinite(value) and not np.isfinite(change):
+            continue
+        axes.annotate(
+            f"{100.0 * change:+.0f} %" if np.isfinite(value) else "not converged",
+            (float(np.nan_to_num(value)), at),
+            (3.0, 0.0),
+            textcoords="offset points",
+            va="center",
+            fontsize=7.0,
+            color=INK,
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5},
+        )

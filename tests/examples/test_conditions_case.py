@@ -1,0 +1,69 @@
+"""The shipped case in made-up conditions runs, coarse, through every command that takes them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from gripscale import netcdf
+from gripscale.case import prepare_case
+from gripscale.cli import app
+from gripscale.effects import effects
+from gripscale.rough.model import DirectContact
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "conditions" / "case.toml"
+COARSE = """
+[solver]
+model = "half_plane"
+points = 128
+"""
+
+
+@pytest.fixture(scope="module")
+def case(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The example with three waves, the last 5 mm long, on small strain."""
+    text = EXAMPLE.read_text(encoding="utf-8")
+    for old, new in (
+        ("scales = 8", "scales = 3"),
+        ('"0.1 mm"', '"5 mm"'),
+        ('"../data', f'"{EXAMPLE.parents[1] / "data"}'),
+    ):
+        assert old in text
+        text = text.replace(old, new)
+    path = tmp_path_factory.mktemp("conditions") / "case.toml"
+    path.write_text(text + COARSE, encoding="utf-8")
+    return path
+
+
+def test_what_is_made_up_says_so() -> None:
+    text = EXAMPLE.read_text(encoding="utf-8")
+    assert "MADE UP" in text
+    for key in ("shift = ", "[conditions.softening]", "[conditions.shear_stress]"):
+        line = next(line for line in text.splitlines() if line.startswith(key))
+        assert line.endswith("made up") or "# made up" in line
+
+
+def test_study_over_speed_and_temperature(case: Path) -> None:
+    asked = ["--vary", "speed=0.1:1:log2", "--vary", "temperature=20 C:60 C:lin2"]
+    done = CliRunner().invoke(app, ["study", str(case), *asked])
+    assert done.exit_code == 0, done.output
+    data = netcdf.load(case.parent / "results" / "study" / "study.nc")
+    assert (data.prediction_status == "converged").all()
+    assert (data.total_friction > 0.0).all()
+    # a rubber at 60 C, softer than at 20 C, touches more
+    assert (np.diff(data.total_contact_fraction.transpose("speed", "temperature")) > 0.0).all()
+
+
+def test_effects_in_chain_and_direct_contact(case: Path) -> None:
+    results = prepare_case(case)
+    models = results.chain, DirectContact(tolerance=None, conditions=results.conditions)
+    for model in models:
+        found = effects(model, results.rubber.rubber, results.surface, results.load)
+        assert found.effect.values.tolist()[1:-1] == ["no temperature", "no softening", "no heat"]
+        assert (found.prediction_status == "converged").all()
+        # each of the three softens this rubber: it touches more than without it
+        assert (found.contact_fraction_change[1:] > 0.0).all()
+        assert (found.total_adhesive_friction > 0.0).all()
