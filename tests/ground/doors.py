@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 import gripscale as gs
-from gripscale import interface, rough, rubber, surface, theory, wave
+from gripscale import interface, measured, rough, rubber, surface, theory, wave
+from gripscale.calibration import calibrate
 from gripscale.conditions import Conditions
 from gripscale.model import NominalLoad
 from gripscale.rubber import softening
@@ -64,6 +65,7 @@ def doors() -> Iterator[Door]:
     yield from _wave()
     yield from _rough()
     yield from _conditions()
+    yield from _calibration()
     chain = {"solver": "half_plane", "footprint": 0.1, "points": 64, "pressure_classes": 1}
     more = {"smallest_wavelength": None, "max_scales": None, "load_time": "passage"}
     yield Door(gs.predict, {"rubber": SOLID, "sines": SINES, **PRESSED, **chain, **more})
@@ -166,6 +168,24 @@ def _conditions() -> Iterator[Door]:
     law = softening.Kraus(**kraus, deformation="shear")
     asked = {"temperature": 293.0, "softening": law, "strain_norm": "slope"}
     yield Door(Conditions, {**asked, "heat": heat, "shear_stress": shear})
+
+
+def _calibration() -> Iterator[Door]:
+    speed, kelvin = [0.01, 0.1, 1.0, 10.0, 100.0], [280.0, 290.0, 300.0, 310.0, 320.0]
+    columns = {"speed": speed, "friction": [0.5, 0.6, 0.7, 0.6, 0.5], "spread": [0.1] * 5}
+    yield Door(measured.MeasuredFriction, {**columns, "temperature": kelvin, "pressure": [3e5] * 5})
+    answer = {"friction": [0.2] * 5, "contact_fraction": [0.03] * 5, "pressure": [3e5] * 5}
+    band = {"outside_band": [0.0] * 5, "status": ["converged"] * 5}
+    yield Door(measured.Predicted, {**answer, "temperature": kelvin, **band})
+    pair = {
+        "measured": measured.MeasuredFriction(**columns),
+        "predicted": measured.Predicted(**answer, temperature=kelvin),
+    }
+    choice = {"law": "gaussian", "fixed": {"width": 0.1}, "hold_out": "speed"}
+    yield Door(calibrate, {**pair, **choice})
+    beside = {"measured": pair["measured"], "predicted": {"chain": pair["predicted"]}}
+    yield Door(measured.residuals, {**beside, "shear_stress": interface.ConstantStress(1e6)})
+    yield Door(measured.averaged, {"parts": [pair["predicted"]]})
 
 
 def _shifts() -> Iterator[Door]:

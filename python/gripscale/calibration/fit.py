@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from gripscale import checks
 from gripscale.calibration.held_out import groups_of, held_out
 from gripscale.calibration.least_squares import Optimum, Problem, best
 from gripscale.calibration.parameters import family_of
@@ -50,7 +51,10 @@ def calibrate(
         If a value cannot be used, points are too few for the law, or the hysteresis alone exceeds
         what was measured at more than half of the points.
     """
-    points, known = points_of(measured, predicted), dict(fixed or {})
+    checks.instance("measured", measured, MeasuredFriction)
+    checks.instance("predicted", predicted, Predicted)
+    known = {} if fixed is None else dict(checks.instance("fixed", fixed, Mapping))  # type: ignore[type-abstract]
+    points = points_of(measured, predicted)
     problem = Problem(points, family_of(law, points, known))
     groups = None
     if hold_out is not None:

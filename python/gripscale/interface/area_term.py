@@ -58,7 +58,7 @@ class ConstantStress:
 
     def stress(self, speed: ArrayLike, temperature: ArrayLike | None = None) -> Array:
         """Return tau_f [Pa] at speeds [m/s], same shape."""
-        return np.full(np.shape(speed), self.stress_0)
+        return np.full(_speeds(speed).shape, self.stress_0)
 
 
 @dataclass(frozen=True)
@@ -107,7 +107,7 @@ class GaussianStress:
     def stress(self, speed: ArrayLike, temperature: ArrayLike | None = None) -> Array:
         """Return tau_f [Pa] at speeds [m/s] and temperatures [K], broadcast together."""
         with np.errstate(divide="ignore"):
-            decades = np.log10(np.asarray(speed, dtype=float) / self.speed_0)
+            decades = np.log10(_speeds(speed) / self.speed_0)
         away = decades + self._log_shift(temperature)
         return np.asarray(self.stress_0 * np.exp(-self.width * away**2))
 
@@ -118,7 +118,7 @@ class GaussianStress:
         if temperature is None:
             raise InputError("temperature must be given for an area term that depends on it [K]")
         kelvin = checks.real("temperature", temperature, unit="K")
-        if (kelvin <= 0.0).any():
+        if (kelvin < checks.LEAST).any():
             raise InputError(f"temperature must be greater than zero [K]; got {kelvin.min():g}")
         apart = 1.0 / kelvin - 1.0 / self.reference_temperature
         return np.asarray(self.activation_energy / BOLTZMANN * apart / math.log(10.0))
@@ -159,8 +159,9 @@ class LeGalKlueppelStress:
 
     def stress(self, speed: ArrayLike, temperature: ArrayLike | None = None) -> Array:
         """Return tau_f [Pa] at speeds [m/s], same shape."""
-        power = (np.asarray(speed, dtype=float) / self.critical_speed) ** self.exponent
-        return np.asarray(self.stress_0 * (1.0 + self.ratio * power / (1.0 + power)))
+        with np.errstate(divide="ignore", over="ignore"):
+            slower = (self.critical_speed / _speeds(speed)) ** self.exponent
+        return np.asarray(self.stress_0 * (1.0 + self.ratio / (1.0 + slower)))
 
 
 @dataclass(frozen=True)
@@ -196,7 +197,7 @@ class TableStress:
     def stress(self, speed: ArrayLike, temperature: ArrayLike | None = None) -> Array:
         """Return tau_f [Pa] at speeds [m/s], same shape."""
         with np.errstate(divide="ignore"):
-            at = np.log(np.asarray(speed, dtype=float))
+            at = np.log(_speeds(speed))
         return np.asarray(np.interp(at, np.log(self.speed), self.stress_at))
 
 
@@ -225,6 +226,14 @@ def shear_stress_to_dict(law: InterfacialShearStress) -> dict[str, Any]:
 def adhesive_friction(shear_stress: float, contact_fraction: float, pressure: float) -> float:
     """Return mu_adh [-] of a shear stress [Pa], A_r/A_0 [-] and the nominal pressure [Pa]."""
     return shear_stress * contact_fraction / pressure
+
+
+def _speeds(speed: ArrayLike) -> Array:
+    """Return speeds [m/s]; raise `InputError` if one is no number from zero."""
+    found = checks.real("speed", speed, unit="m/s")
+    if (found < 0.0).any():
+        raise InputError(f"speed must not be negative [m/s]; got {found.min():g}")
+    return found
 
 
 def _checked(law: Any, **units: str) -> None:

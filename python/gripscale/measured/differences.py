@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from gripscale import checks
 from gripscale.errors import InputError
 from gripscale.interface.area_term import InterfacialShearStress
 from gripscale.measured.friction import MeasuredFriction
@@ -63,9 +64,16 @@ def residuals(
     """
     import xarray as xr
 
-    if not predicted:
-        raise InputError("predicted must hold at least one model; got none")
+    checks.instance("measured", measured, MeasuredFriction)
+    if not isinstance(predicted, Mapping) or not predicted:
+        found = checks.shown(predicted)
+        raise InputError(f"predicted must hold the prediction of at least one model; got {found}")
+    if shear_stress is not None and not isinstance(shear_stress, InterfacialShearStress):
+        raise InputError(
+            f"shear_stress must be a law of gripscale.interface; got {checks.shown(shear_stress)}"
+        )
     for name, one in predicted.items():
+        checks.instance("each of predicted", one, Predicted)
         if one.friction.size != measured.speed.size:
             raise InputError(
                 f"{name} must be predicted at the {measured.speed.size} points measured; "

@@ -86,7 +86,7 @@ class Predicted:
         }
         for name, given in numbers.items():
             found[name] = checks.vector(name, given, missing=True)
-        found["status"] = [CONVERGED] * size if status is None else list(status)
+        found["status"] = [CONVERGED] * size if status is None else _words("status", status)
         sizes = {name: len(values) for name, values in found.items()}
         if len(set(sizes.values())) > 1:
             told = ", ".join(f"{count} of {name}" for name, count in sizes.items())
@@ -115,6 +115,10 @@ class Predicted:
         at = None if np.isnan(kelvin).all() else kelvin
         out[known] = self.leverage[known] * law.stress(speed[known], at)
         return out
+
+
+def _words(name: str, given: Sequence[str]) -> list[str]:
+    return checks.instances(name, given, str)
 
 
 def averaged(parts: Sequence[Predicted]) -> Predicted:
