@@ -83,6 +83,13 @@ impl Mesh {
         }
     }
 
+    /// Whether the unknowns of the other mesh stand at the same places.
+    pub fn same(&self, other: &Self) -> bool {
+        self.order == other.order
+            && self.columns == other.columns
+            && self.row_height == other.row_height
+    }
+
     /// Nodes along x in one layer (the last column's right edge is the first column's left edge).
     pub fn layer_nodes(&self) -> usize {
         self.order * self.columns

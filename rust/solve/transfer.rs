@@ -5,6 +5,9 @@ use crate::fem::mesh::Mesh;
 
 /// `state` of `from` interpolated on `to`; `stress` converts stresses between their units.
 pub fn transfer(from: &Mesh, state: &State, to: &Mesh, stress: f64) -> State {
+    if from.same(to) {
+        return restressed(state, stress);
+    }
     let mut out = State::at_rest(to);
     let nodes = to.layer_nodes();
     for (layer, z) in to
@@ -27,6 +30,14 @@ pub fn transfer(from: &Mesh, state: &State, to: &Mesh, stress: f64) -> State {
         let source = (node as f64 * ratio).round() as usize % from.layer_nodes();
         out.active[node] = state.active[source];
         out.force[node] = state.force[source] * ratio * stress;
+    }
+    out
+}
+
+fn restressed(state: &State, stress: f64) -> State {
+    let mut out = state.clone();
+    for value in out.field.pressure.iter_mut().chain(&mut out.force) {
+        *value *= stress;
     }
     out
 }
