@@ -232,27 +232,27 @@ impl Work<'_> {
         load.load_time * load.speed / self.problem.profile.wavelength
     }
 
-    /// The coarser mesh's solution or the start: where the start has this very mesh, the better.
+    /// The coarser mesh's solution, or what the start has on this very mesh where that is nearer;
+    /// on the first mesh the start.
     fn guess(&self, pressed: &PressedBlock<'_>, coarse: Option<&MeshSolution>) -> Option<State> {
         let mesh = pressed.mesh();
         let finer = coarse.map(|coarse| transfer(&coarse.mesh, &coarse.state, mesh, 1.0));
         let Some(start) = self.start else {
             return finer;
         };
-        if finer.is_some() && !start.finest.mesh.same(mesh) {
-            return finer;
-        }
         let stress = start.stress_unit / self.model.stress_unit;
-        let again = transfer(&start.finest.mesh, &start.finest.state, mesh, stress);
-        let Some(finer) = finer else {
-            return Some(again);
-        };
+        let own = start.finest.found_on(mesh);
+        let own = own.map(|state| state.restressed(stress));
         let missed = |state: &State| newton::missed(pressed, state, self.load());
-        Some(if missed(&again) < missed(&finer) {
-            again
-        } else {
-            finer
-        })
+        match (finer, own) {
+            (Some(finer), Some(own)) if missed(&own) < missed(&finer) => Some(own),
+            (Some(finer), _) => Some(finer),
+            (None, Some(own)) => Some(own),
+            (None, None) => {
+                let (from, state) = (&start.finest.mesh, &start.finest.state);
+                Some(transfer(from, state, mesh, stress))
+            }
+        }
     }
 
     fn memory(&self, mesh: &Mesh) -> Memory {

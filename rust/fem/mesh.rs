@@ -129,6 +129,16 @@ impl Mesh {
         self.elements[0].mode_mass.len()
     }
 
+    /// Heights z of the middles of the element rows.
+    pub fn row_middles(&self) -> Vec<f64> {
+        let mut base = 0.0;
+        let middle = |height: &f64| {
+            base += height;
+            base - 0.5 * height
+        };
+        self.row_height.iter().map(middle).collect()
+    }
+
     /// Node layers' heights z.
     pub fn layer_heights(&self) -> Vec<f64> {
         let mut heights = vec![0.0];

@@ -5,9 +5,6 @@ use crate::fem::mesh::Mesh;
 
 /// `state` of `from` interpolated on `to`; `stress` converts stresses between their units.
 pub fn transfer(from: &Mesh, state: &State, to: &Mesh, stress: f64) -> State {
-    if from.same(to) {
-        return restressed(state, stress);
-    }
     let mut out = State::at_rest(to);
     let nodes = to.layer_nodes();
     for (layer, z) in to
@@ -34,18 +31,10 @@ pub fn transfer(from: &Mesh, state: &State, to: &Mesh, stress: f64) -> State {
     out
 }
 
-fn restressed(state: &State, stress: f64) -> State {
-    let mut out = state.clone();
-    for value in out.field.pressure.iter_mut().chain(&mut out.force) {
-        *value *= stress;
-    }
-    out
-}
-
 /// Each element takes the mean pressure of the element it lies nearest to.
 fn transfer_pressure(from: &Mesh, state: &State, to: &Mesh, stress: f64, out: &mut State) {
-    let source_rows = middles(from);
-    for (row, z) in middles(to).into_iter().enumerate() {
+    let source_rows = from.row_middles();
+    for (row, z) in to.row_middles().into_iter().enumerate() {
         let distance = |r: usize| (source_rows[r] - z).abs();
         let nearer = |best, r| {
             if distance(r) < distance(best) {
@@ -61,13 +50,4 @@ fn transfer_pressure(from: &Mesh, state: &State, to: &Mesh, stress: f64, out: &m
             out.field.pressure[(row * to.columns + column) * to.modes()] = stress * value;
         }
     }
-}
-
-fn middles(mesh: &Mesh) -> Vec<f64> {
-    let mut base = 0.0;
-    let middle = |height: &f64| {
-        base += height;
-        base - 0.5 * height
-    };
-    mesh.row_height.iter().map(middle).collect()
 }
