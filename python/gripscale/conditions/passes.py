@@ -75,13 +75,9 @@ def settle(fine: Solve[S], coarse: Solve[S] | None) -> Passes[S]:
         Solve on the mesh asked for, and in a fraction of the time; a coarse mesh that fails, or
         does not settle, is given up.
     """
-    try:
-        start = (coarse or fine)(None, None)
-    except ConvergenceError:
-        if coarse is None:
-            raise
-        return settle(fine, None)
-    if coarse is None:
+    start = None if coarse is None else _tried(coarse, None, None)
+    if coarse is None or start is None:
+        start = fine(None, None)
         return _alone(fine, FixedPoint(start.found), start, (1, 0))
     stand_in = _StandIn(coarse, start)
     last: Pass[S] | None = None
@@ -104,6 +100,8 @@ def _alone(
 ) -> Passes[S]:
     """Return the passes without a coarse mesh, after so many fine and coarse ones."""
     number, coarse = before
+    if not last.usable:
+        return Passes(last, number, coarse, settled=False)
     while True:
         now = fine(point.assumed, last.solved)
         number += 1
@@ -127,14 +125,11 @@ class _StandIn(Generic[S]):
         for _ in range(MOST_PASSES):
             if self.point.tried and self.point.missed < enough:
                 return True
-            try:
-                self.last = self.solve(self.point.assumed, self.last.solved)
-            except ConvergenceError:
+            now = _tried(self.solve, self.point.assumed, self.last.solved)
+            if now is None:
                 return False
-            self.passes += 1
-            if not self.last.usable:
-                return False
-            self.point.found(self.last.found + self.offset)
+            self.last, self.passes = now, self.passes + 1
+            self.point.found(now.found + self.offset)
         return self.point.missed < enough
 
     def corrected_by(self, fine: Pass[S]) -> _StandIn[S]:
@@ -143,6 +138,15 @@ class _StandIn(Generic[S]):
         self.point.shift(offset - self.offset)
         self.offset = offset
         return self
+
+
+def _tried(solve: Solve[S], assumed: Array | None, last: S | None) -> Pass[S] | None:
+    """Return the pass, None if there is no solution."""
+    try:
+        now = solve(assumed, last)
+    except ConvergenceError:
+        return None
+    return now if now.usable else None
 
 
 def _change(now: Pass[S], last: Pass[S]) -> float:

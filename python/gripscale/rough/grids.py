@@ -12,7 +12,8 @@ its stiffest wave.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import scipy.fft
@@ -38,6 +39,14 @@ class Level:
 
     grid: Grid
     cut_off: float
+
+    @property
+    def key(self) -> LevelKey:
+        """What makes it another level of the same surface: points and shortest wave."""
+        return (self.grid.shape, self.cut_off)
+
+
+LevelKey = tuple[tuple[int, ...], float]
 
 
 @dataclass(frozen=True)
@@ -96,6 +105,9 @@ def finer(level: Level) -> Level:
     return replace(level, grid=Grid(tuple(2 * n for n in level.grid.shape), level.grid.lengths))
 
 
+KnownLevels = Mapping[LevelKey, LevelContact]
+
+
 @dataclass
 class Climb:
     """Solves level after level; keeps what the next one starts from."""
@@ -105,16 +117,21 @@ class Climb:
     pressure: float
     workers: int
     most_iterations: int
+    known: KnownLevels = field(default_factory=dict)
+    """Contacts of another rubber, to start from."""
+    solved: dict[LevelKey, LevelContact] = field(default_factory=dict)
     last: LevelContact | None = None
 
     def solve(self, level: Level) -> LevelContact:
-        """Return the contact on `level`, started from the level before it."""
+        """Return the contact on `level`, started from what is known of it or the level before."""
+        self.last = self.known.get(level.key, self.last)
         height = self.heights.on(level.grid.shape, level.cut_off)
         response = Response.of(self.body, level.grid, self.workers)
         whole = response.full_contact(height, self.pressure)
         full = bool(whole.min() >= 0.0)
         contact = _filled(whole) if full else self._touching(response, height, whole)
         self.last = LevelContact(level, height, contact, self._record(level, height, contact, full))
+        self.solved[level.key] = self.last
         return self.last
 
     def _record(self, level: Level, height: Array, contact: GridContact, full: bool) -> GridRecord:

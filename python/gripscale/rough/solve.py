@@ -18,13 +18,13 @@ from gripscale.conditions.by_scale import RubberByScale
 from gripscale.conditions.conditions import Conditions
 from gripscale.errors import InputError
 from gripscale.parallel import worker_count
-from gripscale.rough.estimate import errors
-from gripscale.rough.grids import Climb, GridRecord, LevelContact, finer, levels
+from gripscale.rough.estimate import JUDGED_BY, errors
+from gripscale.rough.grids import Climb, GridRecord, KnownLevels, Level, LevelContact, finer, levels
 from gripscale.rough.half_space import HalfSpace
 from gripscale.rough.heights import PeriodicHeights, periodic_heights
 from gripscale.rough.magnitudes import check_magnitudes, half_space
 from gripscale.rough.result import RoughContact
-from gripscale.rough.settle import settle
+from gripscale.rough.settle import Climbed, settle
 from gripscale.rubber import Rubber
 from gripscale.rubber.carrying import require_solid
 from gripscale.surface import HeightMap, Profile
@@ -123,30 +123,22 @@ def solve_rough_contact(
     if on_grid is not None and not callable(on_grid):
         raise InputError(f"on_grid must be a function or None; got {checks.shown(on_grid)}")
 
-    def solve(by_scale: RubberByScale | None, reach: float) -> RoughContact:
-        own = replace(body, by_scale=by_scale)
-        return _solve(own, heights, load, threads, iterations, most, reach, on_grid)
+    def solve(by_scale: RubberByScale | None, known: KnownLevels, reach: float) -> Climbed:
+        climb = Climb(replace(body, by_scale=by_scale), heights, load, threads, iterations, known)
+        return _climbed(climb, most, reach, on_grid)
 
     if not under.iterated:
-        return replace(solve(None, goal), conditions=conditions)
+        return replace(solve(None, {}, goal).contact, conditions=conditions)
     time = _passage(under, speed, footprint)
     quick, whole = partial(solve, reach=math.inf), partial(solve, reach=goal)
     return replace(settle(whole, quick, rubber, under, time), conditions=conditions)
 
 
-def _solve(
-    body: HalfSpace,
-    heights: PeriodicHeights,
-    load: float,
-    threads: int,
-    iterations: int,
-    most: int,
-    goal: float,
-    on_grid: Callable[[GridRecord], None] | None,
-) -> RoughContact:
+def _climbed(
+    climb: Climb, most: int, goal: float, on_grid: Callable[[GridRecord], None] | None
+) -> Climbed:
     """Return the contact with one rubber, on finer and finer grids."""
-    climb, plan = Climb(body, heights, load, threads, iterations), levels(heights)
-    grids: list[GridRecord] = []
+    plan, grids = _planned(climb), list[GridRecord]()
     while plan:
         solved = climb.solve(plan.pop(0))
         grids.append(solved.record)
@@ -155,7 +147,15 @@ def _solve(
         following = finer(solved.level)
         if not plan and not _met(_same_surface(grids), goal):
             plan += [following] if following.grid.points <= most else []
-    return _result(body, heights, load, solved, grids, goal)
+    contact = _result(climb.body, climb.heights, climb.pressure, solved, grids, goal)
+    return Climbed(contact, climb.solved)
+
+
+def _planned(climb: Climb) -> list[Level]:
+    """Return the levels to the first that may do; of those known the last that tell the errors."""
+    known = [one.level for one in climb.known.values()]
+    whole = [level for level in known if level.cut_off == climb.heights.smallest_wavelength]
+    return whole[-JUDGED_BY:] or levels(climb.heights)
 
 
 def _passage(conditions: Conditions, speed: float, footprint: float | None) -> float:

@@ -68,6 +68,8 @@ class SolvedContact:
     """Temperature, strain and what is left of the moduli at each scale, if asked for."""
     passes: int = 1
     """Solutions until rubber, strains and heat agreed."""
+    coarse_passes: int = 0
+    """Beside them solutions on grids that only resolve the surface."""
     surface_warming: Array | None = field(default=None, repr=False)
     """Of the rubber's surface above its temperature before the contact [K]; None without heat."""
 
