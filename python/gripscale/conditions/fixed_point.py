@@ -9,6 +9,7 @@ Anal. 49 (2011) 1715, doi:10.1137/10078356X.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -44,9 +45,9 @@ class FixedPoint:
         self._tried = [*self._tried[-REMEMBERED:], (self.assumed, value)]
         self._improve()
 
-    def shift(self, offset: Array) -> None:
-        """Add `offset` to f, here and wherever it was found, and assume better."""
-        self._tried = [(x, f + offset) for x, f in self._tried]
+    def shift(self, offset: Callable[[Array], Array]) -> None:
+        """Add `offset` of x to f, wherever it was found, and assume better."""
+        self._tried = [(x, f + offset(x)) for x, f in self._tried]
         self._improve()
 
     def _improve(self) -> None:

@@ -12,7 +12,7 @@ coarse mesh's results change on the way there is how far those of F(x_k) still a
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Generic, TypeVar
 
 import numpy as np
@@ -117,7 +117,7 @@ class _StandIn(Generic[S]):
 
     def __init__(self, solve: Solve[S], start: Pass[S]) -> None:
         self.solve, self.point, self.last = solve, FixedPoint(start.found), start
-        self.offset = np.zeros_like(start.found)
+        self.offset = _Offset.nothing(start.found)
         self.passes = 1
 
     def agrees(self, enough: float) -> bool:
@@ -129,15 +129,45 @@ class _StandIn(Generic[S]):
             if now is None:
                 return False
             self.last, self.passes = now, self.passes + 1
-            self.point.found(now.found + self.offset)
+            self.point.found(now.found + self.offset(now.assumed))
         return self.point.missed < enough
 
     def corrected_by(self, fine: Pass[S]) -> _StandIn[S]:
         """Move to where the fine mesh finds what it does for the same assumption."""
-        offset = fine.found - self.last.found
-        self.point.shift(offset - self.offset)
-        self.offset = offset
+        last, here = self.offset, self.last
+        self.offset = last.moved(here.assumed, fine.found - here.found)
+        self.point.shift(lambda x: self.offset(x) - last(x))
         return self
+
+
+@dataclass(frozen=True)
+class _Offset:
+    """F(x) - f(x): known at one x, and how it changes along the way to it from the last."""
+
+    at: Array | None
+    value: Array
+    way: Array
+    gained: Array
+    """On that way."""
+
+    @classmethod
+    def nothing(cls, like: Array) -> _Offset:
+        """Return no offset, anywhere."""
+        none = np.zeros_like(like)
+        return cls(None, none, none, none)
+
+    def __call__(self, x: Array) -> Array:
+        """Return the offset at `x`."""
+        length = self.way @ self.way
+        if self.at is None or length == 0.0:
+            return self.value
+        return np.asarray(self.value + self.gained * ((x - self.at) @ self.way) / length)
+
+    def moved(self, at: Array, value: Array) -> _Offset:
+        """Return the offset with its value at another x."""
+        if self.at is None:
+            return replace(self, at=at, value=value)
+        return _Offset(at, value, at - self.at, value - self.value)
 
 
 def _tried(solve: Solve[S], assumed: Array | None, last: S | None) -> Pass[S] | None:
@@ -151,7 +181,5 @@ def _tried(solve: Solve[S], assumed: Array | None, last: S | None) -> Pass[S] | 
 
 def _change(now: Pass[S], last: Pass[S]) -> float:
     """Return the largest relative change of the results."""
-    import os
-    if os.environ.get("DBG"): print("change", now.results, last.results)
     pairs = zip(now.results, last.results, strict=True)
     return max(abs(a - b) / max(abs(b), 1e-300) for a, b in pairs)

@@ -130,18 +130,22 @@ class Climb:
         whole = response.full_contact(height, self.pressure)
         full = bool(whole.min() >= 0.0)
         contact = _filled(whole) if full else self._touching(response, height, whole)
-        self.last = LevelContact(level, height, contact, self._record(level, height, contact, full))
+        lost = float(lost_by_harmonic(response.compliance, level.grid, contact.pressure).sum())
+        record = self._record(level, height, contact, lost, full)
+        self.last = LevelContact(level, height, contact, record)
         self.solved[level.key] = self.last
         return self.last
 
-    def _record(self, level: Level, height: Array, contact: GridContact, full: bool) -> GridRecord:
+    def _record(
+        self, level: Level, height: Array, contact: GridContact, lost: float, full: bool
+    ) -> GridRecord:
         return GridRecord(
             level.grid.shape[0],
             level.cut_off,
             contact_fraction(contact.active, contact.gap),
             border_error(contact.active),
             friction_from_traction(level.grid, contact.pressure, height),
-            float(lost_by_harmonic(self.body, level.grid, contact.pressure).sum()),
+            lost,
             contact.iterations,
             contact.products,
             contact.settled,

@@ -79,7 +79,8 @@ class _Contacts:
     def __call__(self, assumed: Array | None, last: Climbed | None) -> Pass[Climbed]:
         """Return the pass for what is assumed, from the last contact."""
         state = None if assumed is None or last is None else self.state(assumed, last.contact)
-        now = self.solve(None if state is None else state.rubber, {} if last is None else last.levels)
+        known = {} if last is None or last.contact.by_scale is None else last.levels
+        now = self.solve(None if state is None else state.rubber, known)
         self.grids.extend(now.contact.grids)
         found, surface = self._found(now.contact)
         warmed = replace(now, contact=replace(now.contact, surface_warming=surface))

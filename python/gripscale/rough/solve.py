@@ -138,7 +138,7 @@ def _climbed(
     climb: Climb, most: int, goal: float, on_grid: Callable[[GridRecord], None] | None
 ) -> Climbed:
     """Return the contact with one rubber, on finer and finer grids."""
-    plan, grids = _planned(climb), list[GridRecord]()
+    plan, grids = _planned(climb, goal), list[GridRecord]()
     while plan:
         solved = climb.solve(plan.pop(0))
         grids.append(solved.record)
@@ -148,14 +148,18 @@ def _climbed(
         if not plan and not _met(_same_surface(grids), goal):
             plan += [following] if following.grid.points <= most else []
     contact = _result(climb.body, climb.heights, climb.pressure, solved, grids, goal)
-    return Climbed(contact, climb.solved)
+    return Climbed(contact, {**climb.known, **climb.solved})
 
 
-def _planned(climb: Climb) -> list[Level]:
-    """Return the levels to the first that may do; of those known the last that tell the errors."""
+def _planned(climb: Climb, goal: float) -> list[Level]:
+    """Return the levels to the first that may do.
+
+    Of those known the last, with those before it that tell its errors if they are asked for.
+    """
     known = [one.level for one in climb.known.values()]
     whole = [level for level in known if level.cut_off == climb.heights.smallest_wavelength]
-    return whole[-JUDGED_BY:] or levels(climb.heights)
+    needed = 1 if math.isinf(goal) else JUDGED_BY
+    return whole[-needed:] or levels(climb.heights)
 
 
 def _passage(conditions: Conditions, speed: float, footprint: float | None) -> float:

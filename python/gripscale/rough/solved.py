@@ -165,9 +165,8 @@ class SolvedContact:
 
     def lost_by_harmonic(self) -> Array:
         """Return the friction each harmonic adds [-], over the half spectrum of the grid."""
-        return lost_by_harmonic(
-            HalfSpace(self.rubber, self.speed, by_scale=self.by_scale), self.grid, self.pressure
-        )
+        body = HalfSpace(self.rubber, self.speed, by_scale=self.by_scale)
+        return lost_by_harmonic(body.compliance(self.grid), self.grid, self.pressure)
 
     def _positions(self, axis: int) -> Array:
         place = self.grid.spacing[axis] * np.arange(self.grid.shape[axis], dtype=float)
