@@ -63,7 +63,7 @@ getters! {
     friction: f64 = |s, _| Ok(s.finest.outcome.friction);
     friction_from_dissipation: f64 = |s, _| Ok(s.finest.outcome.friction_from_dissipation);
     lost_by_row: Vector<'py> = |s, py| Ok(PyArray1::from_slice(py, &s.finest.outcome.lost_by_row));
-    row_depths: Vector<'py> = |s, py| Ok(PyArray1::from_vec(py, s.finest.mesh.row_middles()));
+    row_heights: Vector<'py> = |s, py| Ok(PyArray1::from_slice(py, &s.finest.mesh.row_height));
     contact_fraction_error: f64 = |s, _| Ok(s.finest.contact_fraction_error);
     friction_error: f64 = |s, _| Ok(s.finest.friction_error);
     friction_bound: Option<f64> = |s, _| Ok(s.finest.friction_bound);
