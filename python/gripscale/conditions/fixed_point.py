@@ -45,6 +45,11 @@ class FixedPoint:
         self._tried = [*self._tried[-REMEMBERED:], (self.assumed, value)]
         self._improve()
 
+    @property
+    def step(self) -> float:
+        """Largest difference of what is assumed next from what was assumed last."""
+        return float(np.abs(self.assumed - self._tried[-1][0]).max())
+
     def shift(self, offset: Callable[[Array], Array]) -> None:
         """Add `offset` of x to f, wherever it was found, and assume better."""
         self._tried = [(x, f + offset(x)) for x, f in self._tried]

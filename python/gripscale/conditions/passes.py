@@ -106,7 +106,7 @@ def _alone(
         now = fine(point.assumed, last.solved)
         number += 1
         point.found(now.found)
-        agreed = point.missed < AGREED and _change(now, last) < SETTLED
+        agreed = max(point.missed, point.step) < AGREED
         if agreed or not now.usable or number >= MOST_PASSES:
             return Passes(now, number, coarse, settled=agreed)
         last = now

@@ -6,18 +6,20 @@ mean e_i = (1 - exp(-m h_i)) / (m h_i) of exp(-m (z - a_i)) over it,
     E exp(-m Z)        = sum_i s_i exp(-m a_i) e_i
     E exp(-m |Z - Z'|) = sum_i s_i^2 2 (1 - e_i) / (m h_i)
                        + 2 sum_(i < j) s_i s_j exp(-m (a_j - b_i)) e_i e_j
+
+Means of ierfc are differences of its integrals i2erfc and i3erfc between the edges (H. S. Carslaw &
+J. C. Jaeger, Conduction of Heat in Solids, 2nd ed. (1959), appendix II); over |Z - Z'|, where ierfc
+has an edge, of l^2 i3erfc(|d|/l) + l |d|/4, whose second derivative is ierfc(|d|/l) everywhere.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.special import erfc
 
 from gripscale.interface.loss_depth import Array, ComplexArray, ierfc
-
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(4)
 
 
 @dataclass(frozen=True)
@@ -66,31 +68,40 @@ class LossLayers:
 
     def spread(self, length: float) -> float:
         """Return E ierfc(Z / length), ierfc the integral of the complementary error function."""
-        depth, share = self._points
-        return float(share @ ierfc(depth / length))
+        at_edges = length * _i2erfc(self.edges / length)
+        return float(self._density @ -np.diff(at_edges))
 
     def spread_between(self, length: float) -> float:
         """Return E ierfc(|Z - Z'| / length)."""
-        return self._of_two(np.subtract, length)
+        distance = np.abs(self.edges[:, None] - self.edges[None, :])
+        return -self._of_two(length**2 * _i3erfc(distance / length) + 0.25 * length * distance)
 
     def spread_sum(self, length: float) -> float:
         """Return E ierfc((Z + Z') / length)."""
-        return self._of_two(np.add, length)
+        together = self.edges[:, None] + self.edges[None, :]
+        return self._of_two(length**2 * _i3erfc(together / length))
+
+    @property
+    def _density(self) -> Array:
+        """Share over height [1/m]."""
+        return np.asarray(self.share / np.diff(self.edges))
 
     def _within(self, m: ComplexArray) -> ComplexArray:
         """Return e_i, shape (..., layers)."""
         height = np.multiply.outer(m, np.diff(self.edges))
         return np.asarray(-np.expm1(-height) / height)
 
-    def _of_two(self, together: Callable[[Array, Array], Array], length: float) -> float:
-        depth, share = self._points
-        distance = np.abs(together(depth[:, None], depth[None, :]))
-        return float(share @ ierfc(distance / length) @ share)
+    def _of_two(self, at_edges: Array) -> float:
+        """Return the mean over pairs of layers of what has these second integrals at the edges."""
+        integral = np.diff(np.diff(at_edges, axis=0), axis=1)
+        return float(self._density @ integral @ self._density)
 
-    @property
-    def _points(self) -> tuple[Array, Array]:
-        """Return Gauss points of every layer and their shares."""
-        middle, half = 0.5 * (self.edges[1:] + self.edges[:-1]), 0.5 * np.diff(self.edges)
-        depth = middle[:, None] + half[:, None] * _NODES
-        share = self.share[:, None] * (0.5 * _WEIGHTS)
-        return depth.reshape(-1), share.reshape(-1)
+
+def _i2erfc(x: Array) -> Array:
+    """Return the integral of ierfc from `x` to infinity."""
+    return np.asarray(0.25 * erfc(x) - 0.5 * x * ierfc(x))
+
+
+def _i3erfc(x: Array) -> Array:
+    """Return the integral of i2erfc from `x` to infinity."""
+    return np.asarray(ierfc(x) / 6.0 - x * _i2erfc(x) / 3.0)

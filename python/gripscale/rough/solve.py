@@ -27,6 +27,7 @@ from gripscale.rough.result import RoughContact
 from gripscale.rough.settle import Climbed, settle
 from gripscale.rubber import Rubber
 from gripscale.rubber.carrying import require_solid
+from gripscale.rubber.extrapolation import CHOICES, require_measured
 from gripscale.surface import HeightMap, Profile
 from gripscale.wave.status import Status
 
@@ -50,6 +51,7 @@ def solve_rough_contact(
     on_grid: Callable[[GridRecord], None] | None = None,
     conditions: Conditions | None = None,
     footprint: float | None = None,
+    extrapolate: str = "say",
 ) -> RoughContact:
     """Return contact and friction of a whole surface: small strain, frictionless contact.
 
@@ -89,6 +91,10 @@ def solve_rough_contact(
         Temperature, softening, heat and area term; the contact is solved until they agree with it.
     footprint : float, optional
         Length of the nominal contact [m]; needed with heat.
+    extrapolate : "say" or "refuse"
+        "refuse": nothing is solved if the smallest wave excites the rubber, at the temperature
+        before the contact, beyond its `valid_band`. What of the friction comes from beyond it is in
+        `extrapolation` of the result.
 
     Returns
     -------
@@ -97,6 +103,8 @@ def solve_rough_contact(
 
     Raises
     ------
+    ExtrapolationError
+        An `InputError`: extrapolation is to be refused.
     InputError
         If an argument is out of its range, the first full grid has more than `most_points`, a size
         is beyond what single precision can hold, or the rubber at rest is a melt: the pressure is
@@ -114,6 +122,8 @@ def solve_rough_contact(
         smallest_wavelength=smallest_wavelength,
         periodic=checks.flag("periodic", periodic),
     )
+    if checks.one_of("extrapolate", extrapolate, CHOICES) == "refuse":
+        require_measured(own, heights.smallest_wavelength, body.speed)
     check_magnitudes(body, heights, load)
     plan = levels(heights)
     most = checks.whole("most_points", most_points, least=1, most=2**40)

@@ -124,10 +124,15 @@ class SolvedContact:
 
     @property
     def extrapolation(self) -> Extrapolation:
-        """What of the friction is lost in harmonics beyond the rubber's measured frequencies."""
+        """What of the friction is lost in harmonics beyond the rubber's measured frequencies.
+
+        Heat moves them: each harmonic counts at a_T of its scale times its frequency.
+        """
         if self.speed == 0.0:
             return NONE
         omega = np.broadcast_to(self.grid.along * self.speed, self.grid.spectrum_shape)
+        if self.by_scale is not None:
+            omega = omega * self.by_scale.shift(self.grid.wavenumber)
         return of_spectrum(self.rubber, omega, self.lost_by_harmonic())
 
     @property
