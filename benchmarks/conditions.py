@@ -13,11 +13,11 @@ from rich.console import Console
 import gripscale as gs
 from benchmarks.rough_contact import road
 from benchmarks.table import show
+from gripscale.case import prepare_case
 from gripscale.conditions import Conditions, passes
 from gripscale.interface import GaussianStress, ThermalProperties
 from gripscale.rubber import WLF
 from gripscale.rubber.softening import Kraus
-from gripscale.case import prepare_case
 from tests.verification.families import ROOT
 
 CASE = ROOT / "examples" / "road_and_tread" / "case.toml"

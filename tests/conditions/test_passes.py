@@ -32,7 +32,7 @@ def results(at):
 def test_the_fixed_point_is_that_of_the_fine_mesh():
     """Another fixed point and another slope on the coarse mesh: four fine solutions, 1e-3."""
     fine = Mesh()
-    coarse = Mesh(X + [0.05, -0.1, 0.2], 0.9 * SLOPE)
+    coarse = Mesh(X + np.array([0.05, -0.1, 0.2]), 0.9 * SLOPE)
     passes = settle(fine, coarse)
     assert passes.settled
     assert passes.last.results == pytest.approx(results(X), rel=1e-3)

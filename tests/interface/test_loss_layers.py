@@ -1,4 +1,4 @@
-"""Loss in layers against the closed forms of the distribution it samples, and as the block tells it."""
+"""Loss in layers against the closed forms of what it samples, and as the block tells it."""
 
 import numpy as np
 import pytest

@@ -1,7 +1,7 @@
 """The chain under conditions that depend on what is solved: passes until nothing changes.
 
-Every pass solves all waves with the rubber that assumed strains and temperatures make of it, most of
-them on coarse meshes (`gripscale.conditions.passes`), each from the solutions of the last.
+Every pass solves all waves with the rubber that assumed strains and temperatures make of it, most
+of them on coarse meshes (`gripscale.conditions.passes`), each from the solutions of the last.
 """
 
 from __future__ import annotations
@@ -188,6 +188,7 @@ def _results(now: Prediction) -> list[float]:
 def _told(passes: Passes[Prediction], waves: _Waves) -> Prediction:
     """Return the last pass with what became of the rubber in the details of its waves."""
     solved, conditions, spent = passes.last.solved, waves.conditions, waves.spent
+    assert passes.last.assumed is not None
     given = waves.given(passes.last.assumed)
     warm = chain_warming(conditions, solved) if conditions.heat is not None else None
     scales = []

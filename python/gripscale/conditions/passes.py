@@ -1,12 +1,13 @@
 """Passes until a solution finds what it was solved with, most of them on a coarse mesh.
 
-With F(x) what the solution for x finds on the mesh asked for, and f(x) what it finds on a coarse one,
+With F(x) what the solution for x finds on the mesh asked for, f(x) what it finds on a coarse one,
 the next x after F(x_k) solves
 
     x = f(x) + F(x_k) - f(x_k)
 
-(defect correction: H. J. Stetter, Numer. Math. 29 (1978) 425, doi:10.1007/BF01432879), and what the
-coarse mesh's results change on the way there is how far those of F(x_k) still are from the end.
+(defect correction: H. J. Stetter, Numer. Math. 29 (1978) 425, doi:10.1007/BF01432879), the last
+term changing as it did between the last two x_k (C. G. Broyden, Math. Comp. 19 (1965) 577,
+doi:10.1090/S0025-5718-1965-0198670-6). What the coarse mesh's results change on the way there is how far those of F(x_k) still are from the end.
 """
 
 from __future__ import annotations
@@ -95,9 +96,7 @@ def settle(fine: Solve[S], coarse: Solve[S] | None) -> Passes[S]:
     return _alone(fine, FixedPoint(so_far.found), so_far, (number, stand_in.passes))
 
 
-def _alone(
-    fine: Solve[S], point: FixedPoint, last: Pass[S], before: tuple[int, int]
-) -> Passes[S]:
+def _alone(fine: Solve[S], point: FixedPoint, last: Pass[S], before: tuple[int, int]) -> Passes[S]:
     """Return the passes without a coarse mesh, after so many fine and coarse ones."""
     number, coarse = before
     if not last.usable:
@@ -125,16 +124,18 @@ class _StandIn(Generic[S]):
         for _ in range(MOST_PASSES):
             if self.point.tried and self.point.missed < enough:
                 return True
-            now = _tried(self.solve, self.point.assumed, self.last.solved)
+            assumed = self.point.assumed
+            now = _tried(self.solve, assumed, self.last.solved)
             if now is None:
                 return False
             self.last, self.passes = now, self.passes + 1
-            self.point.found(now.found + self.offset(now.assumed))
+            self.point.found(now.found + self.offset(assumed))
         return self.point.missed < enough
 
     def corrected_by(self, fine: Pass[S]) -> _StandIn[S]:
         """Move to where the fine mesh finds what it does for the same assumption."""
         last, here = self.offset, self.last
+        assert here.assumed is not None
         self.offset = last.moved(here.assumed, fine.found - here.found)
         self.point.shift(lambda x: self.offset(x) - last(x))
         return self

@@ -29,9 +29,12 @@ Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 
-
 class DepthsOfLoss(Protocol):
     """A distribution of the depth Z at which energy is lost, as temperatures ask for it."""
+
+    @property
+    def mean(self) -> float:
+        """Mean depth [m]."""
 
     def decay(self, m: ComplexArray) -> ComplexArray:
         """Return E exp(-m Z) for `m` [1/m], same shape."""

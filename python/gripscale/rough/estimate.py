@@ -41,4 +41,7 @@ def errors(same_surface: Sequence[GridRecord]) -> tuple[float, float]:
 
 def _from_changes(values: Sequence[float]) -> float:
     changes = [abs(b - a) for a, b in pairwise(values)]
-    return max(_SHARE ** (1 + age) * change for age, change in enumerate(reversed(changes[1 - JUDGED_BY :])))
+    return max(
+        _SHARE ** (1 + age) * change
+        for age, change in enumerate(reversed(changes[1 - JUDGED_BY :]))
+    )
