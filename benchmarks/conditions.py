@@ -40,6 +40,7 @@ EFFECTS = {
 }
 """Shift, softening and area term are made up: no data of this tread are known."""
 BOUNDS = ("SETTLED", "AGREED", "ROUGH")
+REPEATS = 3
 TIGHT = 1e-6
 """Bounds of the passes that stand for the fixed point itself."""
 
@@ -68,7 +69,7 @@ def run(console: Console) -> None:
             f"Rubber in its conditions: {title}, 3 bar, 0.3 m/s",
             ["effect", "CPU s", "ratio", "passes", "coarse", "A_r/A_0", "off", "mu", "off"],
             _rows(solve),
-            f"Off: from where passes settle when held to {TIGHT:g}. Asked: everything in at most 4 "
+            f"CPU s: the least of {REPEATS}. Off: from where passes settle when held to {TIGHT:g}. Asked: everything in at most 4 "
             "times the time of none, 8 passes, and 0.1 % off.",
         )
 
@@ -77,9 +78,7 @@ def _rows(solve: Solve) -> Iterator[list[str]]:
     solve(None)  # imports
     plain = 0.0
     for name, conditions in EFFECTS.items():
-        start = time.process_time()
-        found = solve(conditions)
-        seconds = time.process_time() - start
+        found, seconds = _timed(solve, conditions)
         plain = plain or seconds
         settled = _settled(solve, conditions)
         fine, coarse = _passes(found)
@@ -96,6 +95,16 @@ def _rows(solve: Solve) -> Iterator[list[str]]:
         ]
 
 
+def _timed(solve: Solve, conditions: Conditions | None) -> tuple[Any, float]:
+    """Return the answer and the least processor seconds of some solutions."""
+    seconds = []
+    for _ in range(REPEATS):
+        start = time.process_time()
+        found = solve(conditions)
+        seconds.append(time.process_time() - start)
+    return found, min(seconds)
+
+
 def _passes(found: Any) -> tuple[int, int]:
     """Return the passes on the mesh or grid asked for, and on the coarse one."""
     if isinstance(found, gs.Prediction):
@@ -107,7 +116,10 @@ def _passes(found: Any) -> tuple[int, int]:
 def _settled(solve: Solve, conditions: Conditions | None) -> Any:
     """Solve with the passes held to the tight bounds."""
     with _bounds(TIGHT):
-        return solve(conditions)
+        found = solve(conditions)
+    if not found.converged:
+        raise RuntimeError(f"the fixed point was not found: {found}")
+    return found
 
 
 @contextmanager

@@ -7,7 +7,8 @@ the next x after F(x_k) solves
 
 (defect correction: H. J. Stetter, Numer. Math. 29 (1978) 425, doi:10.1007/BF01432879), the last
 term changing as it did between the last two x_k (C. G. Broyden, Math. Comp. 19 (1965) 577,
-doi:10.1090/S0025-5718-1965-0198670-6). What the coarse mesh's results change on the way there is how far those of F(x_k) still are from the end.
+doi:10.1090/S0025-5718-1965-0198670-6). What the coarse mesh's results change on the way there is
+how far those of F(x_k) still are from the end.
 """
 
 from __future__ import annotations
