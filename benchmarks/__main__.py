@@ -14,6 +14,7 @@ from rich.console import Console
 
 from benchmarks import (
     case,
+    conditions,
     machine,
     random_loads,
     rival,
@@ -32,6 +33,7 @@ SUBJECTS: dict[str, Callable[[Console, Path], None]] = {
     "transient": lambda console, _: transient.run(console),
     "sweep": lambda console, _: sweep.run(console),
     "rough_contact": lambda console, _: rough_contact.run(console),
+    "conditions": lambda console, _: conditions.run(console),
     "rival": lambda console, _: rival.run(console),
     "scaling": lambda console, figures: scaling.run(console, figures / "cost.png"),
     "large_maps": lambda console, _: rough_contact.run(console, large=True),

@@ -13,6 +13,8 @@ pub struct Outcome {
     pub contacts: Vec<(f64, f64)>,
     pub friction: f64,
     pub friction_from_dissipation: f64,
+    /// Of it what each row of elements loses.
+    pub lost_by_row: Vec<f64>,
     pub min_stretch: f64,
     pub max_stretch: f64,
     /// Deformed abscissa and pressure of the surface nodes.
@@ -31,7 +33,8 @@ impl Outcome {
         let drag: f64 = (0..nodes)
             .map(|a| state.force[a] * pressed.heights.slope(x[a]))
             .sum();
-        let lost = pressed.block.dissipation(&rows, pressed.watch)?;
+        let mut lost = pressed.block.dissipation(&rows, pressed.watch)?;
+        lost.iter_mut().for_each(|lost| *lost /= load);
         let (mut low, mut high) = (f64::INFINITY, 0.0_f64);
         for f in rows.iter().flat_map(|row| row.gradient.iter().flatten()) {
             let (least, most) = principal_stretches(f);
@@ -47,7 +50,8 @@ impl Outcome {
             contact_fraction: length.clamp(0.0, 1.0),
             contacts,
             friction: drag / load,
-            friction_from_dissipation: lost / load,
+            friction_from_dissipation: lost.iter().sum(),
+            lost_by_row: lost,
             min_stretch: low,
             max_stretch: high,
             x,

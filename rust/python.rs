@@ -62,10 +62,12 @@ getters! {
     contacts: Vec<(f64, f64)> = |s, _| Ok(s.finest.outcome.contacts.clone());
     friction: f64 = |s, _| Ok(s.finest.outcome.friction);
     friction_from_dissipation: f64 = |s, _| Ok(s.finest.outcome.friction_from_dissipation);
+    lost_by_row: Vector<'py> = |s, py| Ok(PyArray1::from_slice(py, &s.finest.outcome.lost_by_row));
+    row_heights: Vector<'py> = |s, py| Ok(PyArray1::from_slice(py, &s.finest.mesh.row_height));
     contact_fraction_error: f64 = |s, _| Ok(s.finest.contact_fraction_error);
     friction_error: f64 = |s, _| Ok(s.finest.friction_error);
     friction_bound: Option<f64> = |s, _| Ok(s.finest.friction_bound);
-    judged_by: Option<usize> = |s, _| Ok(s.finest.judged_by);
+    judged_by: Option<usize> = |s, _| Ok(s.finest.judged_by.as_ref().map(|(mesh, _)| mesh.columns));
     columns: usize = |s, _| Ok(s.finest.mesh.columns);
     rows: usize = |s, _| Ok(s.finest.mesh.rows);
     too_narrow: Option<(f64, f64)> = |s, _| Ok(s.too_narrow);

@@ -5,7 +5,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::contact::State;
+use crate::contact::{PressedBlock, State};
 use crate::error::{positive, KernelError};
 use crate::fem::block::Memory;
 use crate::fem::mesh::Mesh;
@@ -157,7 +157,7 @@ impl Work<'_> {
         let pressed = self.model.pressed(&mesh, &memory, self.watch);
         let load = self.load();
         let (mut solved, mut time_left) = (None, true);
-        if let Some(mut state) = self.guess(&mesh, coarse) {
+        if let Some(mut state) = self.guess(&pressed, coarse) {
             let report = newton::solve(&pressed, &mut None, &mut state, load, self.settings);
             self.counts.iterations += report.iterations;
             self.counts.load_steps += 1;
@@ -232,13 +232,27 @@ impl Work<'_> {
         load.load_time * load.speed / self.problem.profile.wavelength
     }
 
-    fn guess(&self, mesh: &Mesh, coarse: Option<&MeshSolution>) -> Option<State> {
-        let (from, stress) = match (coarse, self.start) {
-            (Some(coarse), _) => (coarse, 1.0),
-            (None, Some(start)) => (&start.finest, start.stress_unit / self.model.stress_unit),
-            (None, None) => return None,
+    /// The coarser mesh's solution, or what the start has on this very mesh where that is nearer;
+    /// on the first mesh the start.
+    fn guess(&self, pressed: &PressedBlock<'_>, coarse: Option<&MeshSolution>) -> Option<State> {
+        let mesh = pressed.mesh();
+        let finer = coarse.map(|coarse| transfer(&coarse.mesh, &coarse.state, mesh, 1.0));
+        let Some(start) = self.start else {
+            return finer;
         };
-        Some(transfer(&from.mesh, &from.state, mesh, stress))
+        let stress = start.stress_unit / self.model.stress_unit;
+        let own = start.finest.found_on(mesh);
+        let own = own.map(|state| state.restressed(stress));
+        let missed = |state: &State| newton::missed(pressed, state, self.load());
+        match (finer, own) {
+            (Some(finer), Some(own)) if missed(&own) < missed(&finer) => Some(own),
+            (Some(finer), _) => Some(finer),
+            (None, Some(own)) => Some(own),
+            (None, None) => {
+                let (from, state) = (&start.finest.mesh, &start.finest.state);
+                Some(transfer(from, state, mesh, stress))
+            }
+        }
     }
 
     fn memory(&self, mesh: &Mesh) -> Memory {

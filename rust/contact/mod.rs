@@ -35,6 +35,15 @@ impl State {
             approach: 0.0,
         }
     }
+
+    /// The same with its stresses in another unit, `stress` of which are one of this.
+    pub fn restressed(&self, stress: f64) -> Self {
+        let mut out = self.clone();
+        for value in out.field.pressure.iter_mut().chain(&mut out.force) {
+            *value *= stress;
+        }
+        out
+    }
 }
 
 /// The block on its profile.

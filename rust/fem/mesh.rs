@@ -83,6 +83,13 @@ impl Mesh {
         }
     }
 
+    /// Whether the unknowns of the other mesh stand at the same places.
+    pub fn same(&self, other: &Self) -> bool {
+        self.order == other.order
+            && self.columns == other.columns
+            && self.row_height == other.row_height
+    }
+
     /// Nodes along x in one layer (the last column's right edge is the first column's left edge).
     pub fn layer_nodes(&self) -> usize {
         self.order * self.columns
@@ -120,6 +127,16 @@ impl Mesh {
     /// Pressure modes per element.
     pub fn modes(&self) -> usize {
         self.elements[0].mode_mass.len()
+    }
+
+    /// Heights z of the middles of the element rows.
+    pub fn row_middles(&self) -> Vec<f64> {
+        let mut base = 0.0;
+        let middle = |height: &f64| {
+            base += height;
+            base - 0.5 * height
+        };
+        self.row_height.iter().map(middle).collect()
     }
 
     /// Node layers' heights z.

@@ -3,7 +3,7 @@
 pub mod assembly;
 pub mod block;
 mod circular;
-mod dissipation;
+pub mod dissipation;
 pub mod element;
 mod memory_tangent;
 pub mod mesh;

@@ -45,7 +45,18 @@ impl Dissipation {
 
     /// The loss for f, integrated over the block, m columns ago in `strain_since[m]`.
     pub fn lost(&self, strain_since: &[f64]) -> f64 {
-        let polynomials = (0..strain_since.len()).map(|m| polynomial(strain_since, m));
+        self.lost_on(&self.curve(strain_since), strain_since)
+    }
+
+    /// How f runs between columns. On one curve the loss is linear: parts that add up to f lose what
+    /// f loses.
+    pub fn curve(&self, strain_since: &[f64]) -> Curve {
+        Curve::through(strain_since)
+    }
+
+    /// What a `part` of the f that the curve was made for loses.
+    pub fn lost_on(&self, curve: &Curve, part: &[f64]) -> f64 {
+        let polynomials = (0..part.len()).map(|m| curve.polynomial(part, m));
         let lost = |(polynomial, weight): (Polynomial, &Polynomial)| -> f64 {
             polynomial.iter().zip(weight).map(|(c, w)| c * w).sum()
         };
@@ -53,42 +64,91 @@ impl Dissipation {
     }
 }
 
-/// f in column m, nowhere below zero if it is not at the columns' ends: beside s = 0, where f and its
-/// slope vanish, even in the distance from it; elsewhere the cubic of values and slopes.
-fn polynomial(f: &[f64], m: usize) -> Polynomial {
-    let last = f.len() - 1;
-    let bend = bend_at_zero(f);
-    if m == 0 {
-        return [0.0, 0.0, bend, 0.0, f[1] - bend];
+/// Which of the slopes a curve has at a column.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Slope {
+    Flat,
+    Central,
+    ThriceTheRise,
+    ThriceTheFall,
+}
+
+/// The curve through f, nowhere below zero if f is not: beside s = 0, where f and its slope vanish,
+/// even in the distance from it; elsewhere the cubic of values and slopes.
+#[derive(Debug, Clone)]
+pub struct Curve {
+    slopes: Vec<Slope>,
+    /// Whether f / m^2 at m = 0 is not held at zero.
+    bends: bool,
+}
+
+impl Curve {
+    /// Slopes of fourth order, limited so that the cubics stay between their ends (Hyman, SIAM J.
+    /// Sci. Stat. Comput. 4 (1983) 645).
+    fn through(f: &[f64]) -> Self {
+        let slopes = (0..f.len()).map(|m| limited(f, m)).collect();
+        let bends = bend_at_zero(f) > 0.0;
+        Self { slopes, bends }
     }
-    if m == last {
-        // bend (1 - u)^2 + rest (1 - u)^4
-        let rest = f[last] - bend;
-        let (linear, square) = (-2.0 * bend - 4.0 * rest, bend + 6.0 * rest);
-        return [f[last], linear, square, -4.0 * rest, rest];
+
+    fn polynomial(&self, f: &[f64], m: usize) -> Polynomial {
+        let last = f.len() - 1;
+        let bend = if self.bends { bend_at_zero(f) } else { 0.0 };
+        if m == 0 {
+            return [0.0, 0.0, bend, 0.0, f[1] - bend];
+        }
+        if m == last {
+            // bend (1 - u)^2 + rest (1 - u)^4
+            let rest = f[last] - bend;
+            let (linear, square) = (-2.0 * bend - 4.0 * rest, bend + 6.0 * rest);
+            return [f[last], linear, square, -4.0 * rest, rest];
+        }
+        let rise = f[m + 1] - f[m];
+        let (from, to) = (self.slope(f, m), self.slope(f, m + 1));
+        let (square, cube) = (3.0 * rise - 2.0 * from - to, from + to - 2.0 * rise);
+        [f[m], from, square, cube, 0.0]
     }
-    let (rise, from, to) = (f[m + 1] - f[m], slope(f, m), slope(f, m + 1));
-    let (square, cube) = (3.0 * rise - 2.0 * from - to, from + to - 2.0 * rise);
-    [f[m], from, square, cube, 0.0]
+
+    fn slope(&self, f: &[f64], m: usize) -> f64 {
+        let (rise, fall) = steps(f, m);
+        match self.slopes[m] {
+            Slope::Flat => 0.0,
+            Slope::Central => central(f, m),
+            Slope::ThriceTheRise => 3.0 * rise,
+            Slope::ThriceTheFall => 3.0 * fall,
+        }
+    }
 }
 
 /// f / m^2 at m = 0, where f and its slope vanish: an even function to fourth order, from both sides.
 fn bend_at_zero(f: &[f64]) -> f64 {
     let n = f.len();
     let (near, far) = (0.5 * (f[1] + f[n - 1]), 0.125 * (f[2] + f[n - 2]));
-    ((4.0 * near - far) / 3.0).max(0.0)
+    (4.0 * near - far) / 3.0
 }
 
-/// Slope of fourth order, limited so that the cubics stay between their ends (Hyman, SIAM J. Sci.
-/// Stat. Comput. 4 (1983) 645).
-fn slope(f: &[f64], m: usize) -> f64 {
+fn limited(f: &[f64], m: usize) -> Slope {
+    let ((rise, fall), up) = (steps(f, m), central(f, m));
+    if rise * fall <= 0.0 || rise * up <= 0.0 {
+        return Slope::Flat;
+    }
+    if up.abs() <= 3.0 * rise.abs().min(fall.abs()) {
+        Slope::Central
+    } else if rise.abs() < fall.abs() {
+        Slope::ThriceTheRise
+    } else {
+        Slope::ThriceTheFall
+    }
+}
+
+/// f from the column to the next, and from the one before to it.
+fn steps(f: &[f64], m: usize) -> (f64, f64) {
+    let n = f.len();
+    (f[(m + 1) % n] - f[m], f[m] - f[(m + n - 1) % n])
+}
+
+fn central(f: &[f64], m: usize) -> f64 {
     let n = f.len();
     let at = |ahead: usize| f[(m + ahead) % n];
-    let (rise, fall) = (at(1) - at(0), at(0) - at(n - 1));
-    if rise * fall <= 0.0 {
-        return 0.0;
-    }
-    let central = (8.0 * (at(1) - at(n - 1)) - (at(2) - at(n - 2))) / 12.0;
-    let most = 3.0 * rise.abs().min(fall.abs());
-    rise.signum() * (rise.signum() * central).max(0.0).min(most)
+    (8.0 * (at(1) - at(n - 1)) - (at(2) - at(n - 2))) / 12.0
 }

@@ -124,7 +124,7 @@ impl Judge {
     pub fn judged(&self, mut fine: MeshSolution, coarse: Option<&MeshSolution>) -> MeshSolution {
         fine.friction_bound = self.friction_bound(&fine);
         if let (true, Some(coarse)) = (fine.converged(), coarse) {
-            fine.judged_by = Some(coarse.mesh.columns);
+            fine.judged_by = Some((coarse.mesh.clone(), coarse.state.clone()));
             (fine.contact_fraction_error, fine.friction_error) = self.errors(&fine, coarse);
         }
         fine

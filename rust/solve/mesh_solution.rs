@@ -14,8 +14,8 @@ pub struct MeshSolution {
     /// Pressure that was reached over the pressure asked for.
     pub load_reached: f64,
     pub outcome: Outcome,
-    /// Columns of the coarser mesh that tells the errors, if there is one.
-    pub judged_by: Option<usize>,
+    /// The coarser mesh that tells the errors, if there is one, with what was found on it.
+    pub judged_by: Option<(Mesh, State)>,
     /// Estimated discretisation errors, NaN where there is no mesh to judge from.
     pub contact_fraction_error: f64,
     pub friction_error: f64,
@@ -29,6 +29,13 @@ impl MeshSolution {
         let mut left = self.clone();
         left.report.status = Status::TimeLimit;
         left
+    }
+
+    /// What was found on this very mesh, if anything was.
+    pub fn found_on(&self, mesh: &Mesh) -> Option<&State> {
+        let coarser = self.judged_by.iter().map(|(mesh, state)| (mesh, state));
+        let mut all = std::iter::once((&self.mesh, &self.state)).chain(coarser);
+        all.find(|(own, _)| own.same(mesh)).map(|(_, state)| state)
     }
 
     pub fn converged(&self) -> bool {

@@ -156,6 +156,16 @@ fn factor(
     })
 }
 
+/// The residual of a state that nothing was done to; infinite where it has none.
+pub fn missed(pressed: &PressedBlock<'_>, state: &State, load: f64) -> f64 {
+    let found = pressed.row_states(&state.field);
+    let residual = found.map(|rows| residual(pressed, state, &rows, load));
+    residual.map_or(
+        f64::INFINITY,
+        |r| if r.is_nan() { f64::INFINITY } else { r },
+    )
+}
+
 /// Forces out of balance relative to the load, gaps relative to half the range: the largest.
 fn residual(pressed: &PressedBlock<'_>, state: &State, rows: &[RowState], load: f64) -> f64 {
     let mesh = pressed.mesh();

@@ -33,8 +33,8 @@ pub fn transfer(from: &Mesh, state: &State, to: &Mesh, stress: f64) -> State {
 
 /// Each element takes the mean pressure of the element it lies nearest to.
 fn transfer_pressure(from: &Mesh, state: &State, to: &Mesh, stress: f64, out: &mut State) {
-    let source_rows = middles(from);
-    for (row, z) in middles(to).into_iter().enumerate() {
+    let source_rows = from.row_middles();
+    for (row, z) in to.row_middles().into_iter().enumerate() {
         let distance = |r: usize| (source_rows[r] - z).abs();
         let nearer = |best, r| {
             if distance(r) < distance(best) {
@@ -50,13 +50,4 @@ fn transfer_pressure(from: &Mesh, state: &State, to: &Mesh, stress: f64, out: &m
             out.field.pressure[(row * to.columns + column) * to.modes()] = stress * value;
         }
     }
-}
-
-fn middles(mesh: &Mesh) -> Vec<f64> {
-    let mut base = 0.0;
-    let middle = |height: &f64| {
-        base += height;
-        base - 0.5 * height
-    };
-    mesh.row_height.iter().map(middle).collect()
 }

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use gripscale_kernel::fem::block::{Block, Memory};
+use gripscale_kernel::fem::dissipation::total;
 use gripscale_kernel::material::dissipation::Dissipation;
 use gripscale_kernel::material::kinematics::{
     contract, isochoric, remembered, Gradient, Symmetric,
@@ -124,7 +125,7 @@ fn a_field_without_structure_loses_energy() {
             let size = mesh.layers() * mesh.layer_size();
             let u: Vec<f64> = (0..size).map(|i| 0.004 * noise(seed * size + i)).collect();
             let rows: Vec<_> = (0..mesh.rows).map(|row| block.row_state(row, &u)).collect();
-            let since = block.strain_since(&rows, &Watch::endless()).unwrap();
+            let since = total(&block.strain_since(&rows, &Watch::endless()).unwrap());
             assert_eq!(since[0], 0.0);
             assert!(since[1..].iter().all(|&f| f > 0.0), "{since:?}");
             for time in [1e-9, 1e-3, 0.1, 10.0, 1e9] {
@@ -165,7 +166,7 @@ fn small_strains_keep_their_digits() {
     let rows: Vec<_> = (0..mesh.rows).map(|row| block.row_state(row, &u)).collect();
     let half = 0.5 * angle(1);
     let slope = strain * half.sin() / half;
-    let since = block.strain_since(&rows, &Watch::endless()).unwrap();
+    let since = total(&block.strain_since(&rows, &Watch::endless()).unwrap());
     for (m, since) in since.into_iter().enumerate().skip(1) {
         // y12 = -c12: the mean of (c12(x) - c12(x - m))^2 = slope^2 (1 - cos).
         let expected = slope * slope * (1.0 - angle(m).cos());
@@ -193,4 +194,58 @@ fn friction_from_dissipation_stays_of_the_size_of_friction() {
         outcome.max_stretch > 2.0 && ratio > 1.0 && ratio < 1.5,
         "{ratio}"
     );
+}
+
+/// On one curve the loss is linear: whatever f is cut into, smooth or noise with limited slopes, the
+/// parts lose what f loses.
+#[test]
+fn parts_of_the_strain_lose_the_whole() {
+    let n = 24;
+    let part = |seed: usize| -> Vec<f64> {
+        let bumps = |m: usize| (TAU * m as f64 / n as f64).sin().powi(2) + noise(seed * n + m);
+        (0..n)
+            .map(|m| if m == 0 { 0.0 } else { bumps(m) })
+            .collect()
+    };
+    let parts: Vec<Vec<f64>> = (1..6).map(part).collect();
+    let whole = total(&parts);
+    let dissipation = Dissipation::new(n, &rubber());
+    let curve = dissipation.curve(&whole);
+    let sum: f64 = parts
+        .iter()
+        .map(|part| dissipation.lost_on(&curve, part))
+        .sum();
+    let alone: f64 = parts.iter().map(|part| dissipation.lost(part)).sum();
+    let lost = dissipation.lost(&whole);
+    assert!((sum / lost - 1.0).abs() < 1e-12, "{sum} {lost}");
+    assert!((alone / lost - 1.0).abs() > 1e-3, "{alone} {lost}");
+}
+
+/// Full contact at small slope: the half-plane loses (k z)^2 exp(-2 k z) of depth, 3/(2 k) on the mean
+/// (K. L. Johnson, "Contact Mechanics" (1985), section 13.2); rows of a finite height put it deeper.
+#[test]
+fn energy_is_lost_as_deep_as_under_a_half_plane() {
+    let mut case = Case::elastic(1e-3, 0.2);
+    case.speed = 2.0;
+    case.moduli = vec![2.0, 4.0];
+    case.relaxation_times = vec![0.02, 0.3];
+    case.bulk_modulus = 1e5;
+    let mean_depth = |columns: usize, rows: usize| {
+        let mut case = case.clone();
+        (case.columns, case.rows) = (columns, rows);
+        let finest = case.solve(None).unwrap().finest;
+        let (outcome, middles) = (finest.outcome, finest.mesh.row_middles());
+        let rows = outcome.lost_by_row;
+        assert!(rows.iter().all(|&lost| lost >= 0.0), "{rows:?}");
+        let sum: f64 = rows.iter().sum();
+        assert!((sum / outcome.friction_from_dissipation - 1.0).abs() < 1e-12);
+        rows.iter()
+            .zip(middles)
+            .map(|(lost, z)| lost * z)
+            .sum::<f64>()
+            / sum
+    };
+    let errors = [(32, 9), (64, 14), (128, 21)].map(|(c, r)| mean_depth(c, r) * TAU / 1.5 - 1.0);
+    let halved = errors[1] < 0.6 * errors[0] && errors[2] < 0.6 * errors[1];
+    assert!(halved && errors[2].abs() < 0.01, "{errors:?}");
 }

@@ -10,6 +10,8 @@ from gripscale.conditions.conditions import rubber_under
 from gripscale.conditions.wave_heat import WaveHeat
 from gripscale.conditions.wave_strain import strains
 from gripscale.interface import ThermalProperties
+from gripscale.rough.settle import temperature
+from gripscale.rough.strain import strain_by_scale
 from gripscale.rubber.softening import Kraus
 
 from .shifted import LOAD, RUBBER, SINES
@@ -122,29 +124,33 @@ def test_stretches_give_another_strain():
 
 
 def test_a_settled_direct_contact_is_its_own_rubber():
-    """Solved from the start of another pass, rubber, strains and heat are the same to 1e-3."""
-    from gripscale.conditions.mixing import mixed
-    from gripscale.rough.settle import _found
-
+    """Rubber, strains and heat of the contact are those it was solved with."""
     found = gs.solve_rough_contact(RUBBER, LINE, conditions=BOTH, **DIRECT)
     assert found.converged
     assert found.passes <= 8
     state = found.scales
-    again = _found(BOTH, found, state.wavenumber, 0.05)
-    assert again == pytest.approx(mixed(state.warming, state.strain), abs=5e-3)
+    at, rise = temperature(found, BOTH, 0.05)
+    warm = np.interp(np.log(state.wavenumber), np.log(at), rise.octave)
+    assert warm == pytest.approx(state.warming, rel=5e-3, abs=0.1)
+    strain = strain_by_scale(found.grid, found.height, found.active, state.wavenumber)
+    assert strain == pytest.approx(state.strain, rel=5e-3)
+    assert found.surface_warming == pytest.approx(rise.surface)
     assert state.strain[-1] > 10.0 * KRAUS.measured_at
     assert state.storage_factor[-1] < 0.6
 
 
 def test_by_scale_the_unchanged_rubber_is_the_rubber():
-    """A law that softens nothing: the same answer through the rubber by scale."""
+    """A law that softens nothing: the same answer through the rubber by scale.
+
+    Every system is solved to 1e-6 of its pressures, from another start.
+    """
     nothing = Conditions(softening=Kraus(1.0, 1.0, 0.02, 1e-3, "shear"))
     plain, same = (
         gs.solve_rough_contact(RUBBER, LINE, conditions=conditions, **DIRECT)
         for conditions in (None, nothing)
     )
-    assert same.friction == pytest.approx(plain.friction, rel=1e-9)
-    assert same.contact_fraction == pytest.approx(plain.contact_fraction, rel=1e-12)
+    assert same.friction == pytest.approx(plain.friction, rel=1e-6)
+    assert same.contact_fraction == pytest.approx(plain.contact_fraction, rel=1e-6)
 
 
 def test_heat_needs_the_length_of_the_footprint_in_the_direct_contact():

@@ -1,13 +1,13 @@
 """The chain under conditions that depend on what is solved: passes until nothing changes.
 
-Every pass solves all waves with the rubber that strains and heat of the passes before make of it
-(`gripscale.conditions.fixed_point`), first on coarse meshes, where a pass costs little, then on the
-meshes asked for, each from the solutions of the last.
+Every pass solves all waves with the rubber that assumed strains and temperatures make of it, most
+of them on coarse meshes (`gripscale.conditions.passes`), each from the solutions of the last.
 """
 
 from __future__ import annotations
 
 import math
+from collections import Counter
 from dataclasses import dataclass, replace
 from typing import Protocol
 
@@ -18,8 +18,9 @@ from gripscale.chain.prediction import Prediction
 from gripscale.chain.rubber_at import RubberAt
 from gripscale.conditions.chain_heat import Warming, warming
 from gripscale.conditions.conditions import Conditions, RubberState, rubber_under
-from gripscale.conditions.fixed_point import MOST_PASSES, FixedPoint
 from gripscale.conditions.mixing import mixed, separate
+from gripscale.conditions.passes import Pass, Passes
+from gripscale.conditions.passes import settle as settle_passes
 from gripscale.conditions.wave_heat import WaveHeat
 from gripscale.conditions.wave_strain import strains
 from gripscale.rubber import Rubber
@@ -44,8 +45,8 @@ class Walk(Protocol):
 
 
 @dataclass(frozen=True)
-class _OfLastPass:
-    """The rubber of each wave, from what the last pass found there."""
+class _Assumed:
+    """The rubber of each wave, from the temperature and strain assumed there."""
 
     conditions: Conditions
     rubber: Rubber
@@ -67,6 +68,32 @@ class _OfLastPass:
         omega = 2.0 * math.pi * so_far.load.speed / wave.wavelength
         return self.state(len(so_far.scales), omega).rubber
 
+    def told(self, number: int, omega: float) -> dict[str, float]:
+        """Return strain and what it leaves of the moduli of wave `number`."""
+        if self.conditions.softening is None:
+            return {}
+        state = self.state(number, omega)
+        return {
+            "strain": self.strain[number],
+            "storage_factor": state.storage_factor,
+            "loss_factor_left": state.loss_factor,
+            "series_misfit": state.series_misfit,
+            "beyond_sweep": float(state.beyond_sweep),
+        }
+
+    def heat_told(self, number: int, omega: float, own: Warming) -> dict[str, float]:
+        """Return the temperature of wave `number` and where it comes from."""
+        kelvin = self.conditions.temperature_of(self.rubber)
+        assert kelvin is not None
+        return {
+            "temperature": kelvin + self.warming[number],
+            "warming_uniform": own.uniform,
+            "warming_larger_waves": own.larger_waves,
+            "warming_own": own.own,
+            "contact_temperature": kelvin + own.contact,
+            "beyond_shift": float(self.state(number, omega).beyond_shift),
+        }
+
 
 def settle(walk: Walk, rubber: Rubber, conditions: Conditions) -> Prediction:
     """Return the prediction in which rubber, strains and heat agree.
@@ -83,35 +110,55 @@ def settle(walk: Walk, rubber: Rubber, conditions: Conditions) -> Prediction:
     Returns
     -------
     Prediction
-        With strain, temperature and what is left of the moduli in the details of each wave. The
-        status of the last is `conditions not settled` if passes still changed the result.
+        With strain, temperature and what is left of the moduli in the details of each wave, and the
+        Newton iterations of all passes. The status of the last wave is `conditions not settled` if
+        passes still changed the result.
     """
-    before, coarse = conditions.before(rubber), walk.coarser()
-    first = (coarse or walk)(lambda wave, so_far: before, None)
-    point = FixedPoint(_found(conditions, first))
-    if coarse is None:
-        return _passes(walk, rubber, conditions, point, first)
-    _passes(coarse, rubber, conditions, point, first)
-    return _passes(walk, rubber, conditions, point.anew(), None)
+    spent, coarse = _Spent(), walk.coarser()
+    fine = _Waves(walk, rubber, conditions, spent)
+    quick = None if coarse is None else _Waves(coarse, rubber, conditions, spent)
+    return _told(settle_passes(fine, quick), fine)
 
 
-def _passes(
-    walk: Walk,
-    rubber: Rubber,
-    conditions: Conditions,
-    point: FixedPoint,
-    last: Prediction | None,
-) -> Prediction:
-    """Return the prediction after passes from `point`, which is moved."""
-    for number in range(1, MOST_PASSES + 1):
-        given = _OfLastPass(conditions, rubber, *separate(point.assumed))
-        now = walk(given, last if walk.warm else None)
-        point.found(_found(conditions, now))
-        settled = point.settled(_results(now), None if last is None else _results(last))
-        if settled or number == MOST_PASSES:
-            return _told(now, given, number, settled=settled)
-        last = now
-    raise AssertionError("unreachable")
+class _Spent:
+    """Newton iterations and load steps of each wave in all passes."""
+
+    def __init__(self) -> None:
+        self.iterations: Counter[int] = Counter()
+        self.load_steps: Counter[int] = Counter()
+
+    def add(self, solved: Prediction) -> None:
+        """Count a pass."""
+        for number, wave in enumerate(solved.scales):
+            self.iterations[number] += wave.newton_iterations
+            self.load_steps[number] += int(wave.details.get("load_steps", 0))
+
+
+@dataclass(frozen=True)
+class _Waves:
+    """Solves all waves with the rubber that assumed temperatures and strains make."""
+
+    walk: Walk
+    rubber: Rubber
+    conditions: Conditions
+    spent: _Spent
+
+    def __call__(self, assumed: Array | None, last: Prediction | None) -> Pass[Prediction]:
+        """Return the pass for what is assumed, each wave from its last solution."""
+        now = self.walk(self.rubber_at(assumed), last if self.walk.warm else None)
+        self.spent.add(now)
+        return Pass(now, assumed, _found(self.conditions, now), _results(now))
+
+    def rubber_at(self, assumed: Array | None) -> RubberAt:
+        """Return the rubber of each wave; with nothing assumed as it is before the contact."""
+        if assumed is None:
+            before = self.conditions.before(self.rubber)
+            return lambda wave, so_far: before
+        return self.given(assumed)
+
+    def given(self, assumed: Array) -> _Assumed:
+        """Return the rubber of each wave."""
+        return _Assumed(self.conditions, self.rubber, *separate(assumed))
 
 
 def _found(conditions: Conditions, solved: Prediction) -> Array:
@@ -138,34 +185,27 @@ def _results(now: Prediction) -> list[float]:
     return [now.contact_fraction, *([now.friction] if now.load.speed > 0.0 else [])]
 
 
-def _told(solved: Prediction, given: _OfLastPass, passes: int, *, settled: bool) -> Prediction:
-    """Return `solved` with what became of the rubber in the details of its waves."""
-    conditions = given.conditions
+def _told(passes: Passes[Prediction], waves: _Waves) -> Prediction:
+    """Return the last pass with what became of the rubber in the details of its waves."""
+    solved, conditions, spent = passes.last.solved, waves.conditions, waves.spent
+    assert passes.last.assumed is not None
+    given = waves.given(passes.last.assumed)
     warm = chain_warming(conditions, solved) if conditions.heat is not None else None
-    kelvin = conditions.temperature_of(given.rubber)
     scales = []
     for number, wave in enumerate(solved.scales):
-        state = given.state(number, wave.angular_frequency)
-        told: dict[str, float] = {"passes": passes}
-        if conditions.softening is not None:
-            told |= {
-                "strain": given.strain[number],
-                "storage_factor": state.storage_factor,
-                "loss_factor_left": state.loss_factor,
-                "series_misfit": state.series_misfit,
-                "beyond_sweep": float(state.beyond_sweep),
-            }
-        if warm is not None and kelvin is not None:
-            own = warm[number]
-            told |= {
-                "temperature": kelvin + given.warming[number],
-                "warming_uniform": own.uniform,
-                "warming_larger_waves": own.larger_waves,
-                "warming_own": own.own,
-                "contact_temperature": kelvin + own.contact,
-                "beyond_shift": float(state.beyond_shift),
-            }
-        scales.append(replace(wave, details={**wave.details, **told}))
-    if not settled:
+        told: dict[str, float] = {"passes": passes.fine, "coarse_passes": passes.coarse}
+        if "load_steps" in wave.details:
+            told["load_steps"] = spent.load_steps[number]
+        told |= given.told(number, wave.angular_frequency)
+        if warm is not None:
+            told |= given.heat_told(number, wave.angular_frequency, warm[number])
+        scales.append(
+            replace(
+                wave,
+                newton_iterations=spent.iterations[number],
+                details={**wave.details, **told},
+            )
+        )
+    if not passes.settled:
         scales[-1] = replace(scales[-1], status=Status.CONDITIONS_NOT_SETTLED)
     return replace(solved, scales=scales)

@@ -69,8 +69,15 @@ class RubberByScale:
         bulk = 3.0 * self.rubber.bulk_modulus
         return np.asarray(4.0 * shear * (bulk + shear) / (bulk + 4.0 * shear))
 
+    def shift(self, wavenumber: Array) -> Array:
+        """Return a_T [-] at |q| [rad/m], that of the longest scale for the mean."""
+        return self.factors.at("shift", self._own(wavenumber))
+
+    def _own(self, wavenumber: Array) -> Array:
+        return np.where(wavenumber > 0.0, wavenumber, self.factors.wavenumber[0])
+
     def _part(self, omega: Array, wavenumber: Array) -> ComplexArray:
-        own = np.where(wavenumber > 0.0, wavenumber, self.factors.wavenumber[0])
+        own = self._own(wavenumber)
         at = {
             name: self.factors.at(name, own) for name in ("shift", "stiffening", "storage", "loss")
         }

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gripscale.interface.heat_pattern import loss_pattern
-from gripscale.interface.loss_depth import LossDepth
+from gripscale.interface.loss_depth import DepthsOfLoss, LossDepth
+from gripscale.interface.loss_layers import LossLayers
 from gripscale.rubber import Rubber
 from gripscale.wave.result import WaveResult
 
@@ -31,7 +32,7 @@ class WaveHeat:
     """Of the pressure: where the smaller waves lose energy."""
     lost: ComplexArray
     """Of its own loss."""
-    depth: LossDepth
+    depth: DepthsOfLoss
     """Of its own loss."""
 
     @property
@@ -43,8 +44,9 @@ class WaveHeat:
     def of(cls, wave: WaveResult, rubber: Rubber) -> WaveHeat:
         """Return the heat of a solved wave of `rubber`.
 
-        The pressure along the wave decides: harmonic n of it loses |p_n|^2 Im M / |M|^2 at
-        n times the frequency of the wave, at a mean depth of 3/2 over its wavenumber.
+        The pressure along the wave decides where along it: harmonic n of it loses
+        |p_n|^2 Im M / |M|^2 at n times the frequency of the wave. How deep it tells its solver, or
+        each harmonic has a mean depth of 3/2 over its wavenumber.
         """
         spectrum = np.fft.rfft(_pressure(wave)) / POINTS
         number = np.arange(1, POINTS // 2)
@@ -53,12 +55,15 @@ class WaveHeat:
         lost[1:-1] = np.abs(spectrum[1:-1]) ** 2 * modulus.imag / np.abs(modulus) ** 2
         total = lost.sum()
         wavenumber = 2.0 * math.pi / wave.wavelength
+        depth: DepthsOfLoss = LossDepth.under(wavenumber)
         if total <= 0.0:
-            pattern, depth = np.zeros(number.size, dtype=complex), LossDepth.under(wavenumber)
+            pattern = np.zeros(number.size, dtype=complex)
         else:
             along = np.fft.rfft(loss_pattern(spectrum, lost))
             pattern = along[1:-1] / along[0]
             depth = LossDepth(float(lost[1:-1] @ (1.5 / number) / total / wavenumber))
+        if wave.loss_by_depth is not None and wave.friction_from_dissipation > 0.0:
+            depth = LossLayers.of(*wave.loss_by_depth)
         return cls(
             wave.wavelength,
             wave.pressure_received,

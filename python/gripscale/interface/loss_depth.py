@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +27,30 @@ from gripscale.errors import InputError
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
+
+
+class DepthsOfLoss(Protocol):
+    """A distribution of the depth Z at which energy is lost, as temperatures ask for it."""
+
+    @property
+    def mean(self) -> float:
+        """Mean depth [m]."""
+
+    def decay(self, m: ComplexArray) -> ComplexArray:
+        """Return E exp(-m Z) for `m` [1/m], same shape."""
+
+    def decay_between(self, m: ComplexArray) -> ComplexArray:
+        """Return E exp(-m |Z - Z'|) for `m` [1/m], same shape."""
+
+    def spread(self, length: float) -> float:
+        """Return E ierfc(Z / length), ierfc the integral of the complementary error function."""
+
+    def spread_between(self, length: float) -> float:
+        """Return E ierfc(|Z - Z'| / length)."""
+
+    def spread_sum(self, length: float) -> float:
+        """Return E ierfc((Z + Z') / length)."""
+
 
 SHAPES = (1, 3)
 DEEPEST = 60.0

@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gripscale import checks
-from gripscale.interface.loss_depth import LossDepth
+from gripscale.interface.loss_depth import DepthsOfLoss
 from gripscale.interface.thermal import ThermalProperties
 
 ComplexArray = NDArray[np.complex128]
@@ -50,14 +50,14 @@ def harmonic_decay(
 
 
 def harmonic_at_surface(
-    m: ComplexArray, depth: LossDepth, thermal: ThermalProperties
+    m: ComplexArray, depth: DepthsOfLoss, thermal: ThermalProperties
 ) -> ComplexArray:
     """Return the surface temperature of harmonics per heat per area [K m^2/W], shape of `m`."""
     return np.asarray(depth.decay(m) / (thermal.conductivity * m))
 
 
 def harmonic_where_lost(
-    m: ComplexArray, depth: LossDepth, thermal: ThermalProperties
+    m: ComplexArray, depth: DepthsOfLoss, thermal: ThermalProperties
 ) -> ComplexArray:
     """Return the temperature of harmonics on the mean where they are lost, per heat per area.
 
@@ -67,7 +67,7 @@ def harmonic_where_lost(
     return np.asarray(met / (2.0 * thermal.conductivity * m))
 
 
-def uniform_at_surface(time: float, depth: LossDepth, thermal: ThermalProperties) -> float:
+def uniform_at_surface(time: float, depth: DepthsOfLoss, thermal: ThermalProperties) -> float:
     """Return the surface temperature after a `time` [s] of uniform heat per heat per area.
 
     In [K m^2/W].
@@ -76,7 +76,7 @@ def uniform_at_surface(time: float, depth: LossDepth, thermal: ThermalProperties
     return length * depth.spread(length) / thermal.conductivity if length > 0.0 else 0.0
 
 
-def uniform_where_lost(time: float, depth: LossDepth, thermal: ThermalProperties) -> float:
+def uniform_where_lost(time: float, depth: DepthsOfLoss, thermal: ThermalProperties) -> float:
     """Return the temperature where the energy is lost after a `time` [s] per heat per area.
 
     In [K m^2/W].

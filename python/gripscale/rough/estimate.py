@@ -18,6 +18,8 @@ from itertools import pairwise
 from gripscale.rough.grids import GridRecord
 
 _SHARE = 0.4
+JUDGED_BY = 3
+"""Grids that the errors of the last are told from, itself among them."""
 
 
 def errors(same_surface: Sequence[GridRecord]) -> tuple[float, float]:
@@ -39,4 +41,7 @@ def errors(same_surface: Sequence[GridRecord]) -> tuple[float, float]:
 
 def _from_changes(values: Sequence[float]) -> float:
     changes = [abs(b - a) for a, b in pairwise(values)]
-    return max(_SHARE ** (1 + age) * change for age, change in enumerate(reversed(changes[-2:])))
+    return max(
+        _SHARE ** (1 + age) * change
+        for age, change in enumerate(reversed(changes[1 - JUDGED_BY :]))
+    )

@@ -12,7 +12,8 @@ its stiffest wave.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import scipy.fft
@@ -38,6 +39,14 @@ class Level:
 
     grid: Grid
     cut_off: float
+
+    @property
+    def key(self) -> LevelKey:
+        """What makes it another level of the same surface: points and shortest wave."""
+        return (self.grid.shape, self.cut_off)
+
+
+LevelKey = tuple[tuple[int, ...], float]
 
 
 @dataclass(frozen=True)
@@ -96,6 +105,9 @@ def finer(level: Level) -> Level:
     return replace(level, grid=Grid(tuple(2 * n for n in level.grid.shape), level.grid.lengths))
 
 
+KnownLevels = Mapping[LevelKey, LevelContact]
+
+
 @dataclass
 class Climb:
     """Solves level after level; keeps what the next one starts from."""
@@ -105,26 +117,35 @@ class Climb:
     pressure: float
     workers: int
     most_iterations: int
+    known: KnownLevels = field(default_factory=dict)
+    """Contacts of another rubber, to start from."""
+    solved: dict[LevelKey, LevelContact] = field(default_factory=dict)
     last: LevelContact | None = None
 
     def solve(self, level: Level) -> LevelContact:
-        """Return the contact on `level`, started from the level before it."""
+        """Return the contact on `level`, started from what is known of it or the level before."""
+        self.last = self.known.get(level.key, self.last)
         height = self.heights.on(level.grid.shape, level.cut_off)
         response = Response.of(self.body, level.grid, self.workers)
         whole = response.full_contact(height, self.pressure)
         full = bool(whole.min() >= 0.0)
         contact = _filled(whole) if full else self._touching(response, height, whole)
-        self.last = LevelContact(level, height, contact, self._record(level, height, contact, full))
+        lost = float(lost_by_harmonic(response.compliance, level.grid, contact.pressure).sum())
+        record = self._record(level, height, contact, lost, full)
+        self.last = LevelContact(level, height, contact, record)
+        self.solved[level.key] = self.last
         return self.last
 
-    def _record(self, level: Level, height: Array, contact: GridContact, full: bool) -> GridRecord:
+    def _record(
+        self, level: Level, height: Array, contact: GridContact, lost: float, full: bool
+    ) -> GridRecord:
         return GridRecord(
             level.grid.shape[0],
             level.cut_off,
             contact_fraction(contact.active, contact.gap),
             border_error(contact.active),
             friction_from_traction(level.grid, contact.pressure, height),
-            float(lost_by_harmonic(self.body, level.grid, contact.pressure).sum()),
+            lost,
             contact.iterations,
             contact.products,
             contact.settled,

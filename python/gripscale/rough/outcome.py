@@ -13,7 +13,7 @@ import numpy as np
 import scipy.fft
 
 from gripscale.rough.grid import Array, Grid
-from gripscale.rough.half_space import HalfSpace
+from gripscale.rough.half_space import ComplexArray
 
 
 def friction_from_traction(grid: Grid, pressure: Array, height: Array) -> float:
@@ -21,8 +21,8 @@ def friction_from_traction(grid: Grid, pressure: Array, height: Array) -> float:
     return float(np.mean(pressure * grid.slope(height)) / pressure.mean())
 
 
-def lost_by_harmonic(body: HalfSpace, grid: Grid, pressure: Array) -> Array:
+def lost_by_harmonic(compliance: ComplexArray, grid: Grid, pressure: Array) -> Array:
     """Return the friction coefficient each harmonic adds [-], over the spectrum of `grid`."""
     share = np.abs(scipy.fft.rfftn(pressure) / grid.points) ** 2
-    lost = -grid.along * body.compliance(grid).imag * share * grid.weight
+    lost = -grid.along * compliance.imag * share * grid.weight
     return np.asarray(lost / pressure.mean())

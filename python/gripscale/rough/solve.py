@@ -18,15 +18,16 @@ from gripscale.conditions.by_scale import RubberByScale
 from gripscale.conditions.conditions import Conditions
 from gripscale.errors import InputError
 from gripscale.parallel import worker_count
-from gripscale.rough.estimate import errors
-from gripscale.rough.grids import Climb, GridRecord, LevelContact, finer, levels
+from gripscale.rough.estimate import JUDGED_BY, errors
+from gripscale.rough.grids import Climb, GridRecord, KnownLevels, Level, LevelContact, finer, levels
 from gripscale.rough.half_space import HalfSpace
 from gripscale.rough.heights import PeriodicHeights, periodic_heights
 from gripscale.rough.magnitudes import check_magnitudes, half_space
 from gripscale.rough.result import RoughContact
-from gripscale.rough.settle import settle
+from gripscale.rough.settle import Climbed, settle
 from gripscale.rubber import Rubber
 from gripscale.rubber.carrying import require_solid
+from gripscale.rubber.extrapolation import CHOICES, require_measured
 from gripscale.surface import HeightMap, Profile
 from gripscale.wave.status import Status
 
@@ -50,6 +51,7 @@ def solve_rough_contact(
     on_grid: Callable[[GridRecord], None] | None = None,
     conditions: Conditions | None = None,
     footprint: float | None = None,
+    extrapolate: str = "say",
 ) -> RoughContact:
     """Return contact and friction of a whole surface: small strain, frictionless contact.
 
@@ -89,6 +91,10 @@ def solve_rough_contact(
         Temperature, softening, heat and area term; the contact is solved until they agree with it.
     footprint : float, optional
         Length of the nominal contact [m]; needed with heat.
+    extrapolate : "say" or "refuse"
+        "refuse": nothing is solved if the smallest wave excites the rubber, at the temperature
+        before the contact, beyond its `valid_band`. What of the friction comes from beyond it is in
+        `extrapolation` of the result.
 
     Returns
     -------
@@ -97,6 +103,8 @@ def solve_rough_contact(
 
     Raises
     ------
+    ExtrapolationError
+        An `InputError`: extrapolation is to be refused.
     InputError
         If an argument is out of its range, the first full grid has more than `most_points`, a size
         is beyond what single precision can hold, or the rubber at rest is a melt: the pressure is
@@ -114,6 +122,8 @@ def solve_rough_contact(
         smallest_wavelength=smallest_wavelength,
         periodic=checks.flag("periodic", periodic),
     )
+    if checks.one_of("extrapolate", extrapolate, CHOICES) == "refuse":
+        require_measured(own, heights.smallest_wavelength, body.speed)
     check_magnitudes(body, heights, load)
     plan = levels(heights)
     most = checks.whole("most_points", most_points, least=1, most=2**40)
@@ -123,30 +133,22 @@ def solve_rough_contact(
     if on_grid is not None and not callable(on_grid):
         raise InputError(f"on_grid must be a function or None; got {checks.shown(on_grid)}")
 
-    def solve(by_scale: RubberByScale | None, reach: float) -> RoughContact:
-        own = replace(body, by_scale=by_scale)
-        return _solve(own, heights, load, threads, iterations, most, reach, on_grid)
+    def solve(by_scale: RubberByScale | None, known: KnownLevels, reach: float) -> Climbed:
+        climb = Climb(replace(body, by_scale=by_scale), heights, load, threads, iterations, known)
+        return _climbed(climb, most, reach, on_grid)
 
     if not under.iterated:
-        return replace(solve(None, goal), conditions=conditions)
+        return replace(solve(None, {}, goal).contact, conditions=conditions)
     time = _passage(under, speed, footprint)
     quick, whole = partial(solve, reach=math.inf), partial(solve, reach=goal)
     return replace(settle(whole, quick, rubber, under, time), conditions=conditions)
 
 
-def _solve(
-    body: HalfSpace,
-    heights: PeriodicHeights,
-    load: float,
-    threads: int,
-    iterations: int,
-    most: int,
-    goal: float,
-    on_grid: Callable[[GridRecord], None] | None,
-) -> RoughContact:
+def _climbed(
+    climb: Climb, most: int, goal: float, on_grid: Callable[[GridRecord], None] | None
+) -> Climbed:
     """Return the contact with one rubber, on finer and finer grids."""
-    climb, plan = Climb(body, heights, load, threads, iterations), levels(heights)
-    grids: list[GridRecord] = []
+    plan, grids = _planned(climb, goal), list[GridRecord]()
     while plan:
         solved = climb.solve(plan.pop(0))
         grids.append(solved.record)
@@ -155,7 +157,19 @@ def _solve(
         following = finer(solved.level)
         if not plan and not _met(_same_surface(grids), goal):
             plan += [following] if following.grid.points <= most else []
-    return _result(body, heights, load, solved, grids, goal)
+    contact = _result(climb.body, climb.heights, climb.pressure, solved, grids, goal)
+    return Climbed(contact, {**climb.known, **climb.solved})
+
+
+def _planned(climb: Climb, goal: float) -> list[Level]:
+    """Return the levels to the first that may do.
+
+    Of those known the last, with those before it that tell its errors if they are asked for.
+    """
+    known = [one.level for one in climb.known.values()]
+    whole = [level for level in known if level.cut_off == climb.heights.smallest_wavelength]
+    needed = 1 if math.isinf(goal) else JUDGED_BY
+    return whole[-needed:] or levels(climb.heights)
 
 
 def _passage(conditions: Conditions, speed: float, footprint: float | None) -> float:

@@ -70,6 +70,8 @@ class SolvedContact:
     """Temperature, strain and what is left of the moduli at each scale, if asked for."""
     passes: int = 1
     """Solutions until rubber, strains and heat agreed."""
+    coarse_passes: int = 0
+    """Beside them solutions on grids that only resolve the surface."""
     surface_warming: Array | None = field(default=None, repr=False)
     """Of the rubber's surface above its temperature before the contact [K]; None without heat."""
 
@@ -124,10 +126,15 @@ class SolvedContact:
 
     @property
     def extrapolation(self) -> Extrapolation:
-        """What of the friction is lost in harmonics beyond the rubber's measured frequencies."""
+        """What of the friction is lost in harmonics beyond the rubber's measured frequencies.
+
+        Heat moves them: each harmonic counts at a_T of its scale times its frequency.
+        """
         if self.speed == 0.0:
             return NONE
         omega = np.broadcast_to(self.grid.along * self.speed, self.grid.spectrum_shape)
+        if self.by_scale is not None:
+            omega = omega * self.by_scale.shift(self.grid.wavenumber)
         return of_spectrum(self.rubber, omega, self.lost_by_harmonic())
 
     @property
@@ -170,9 +177,8 @@ class SolvedContact:
 
     def lost_by_harmonic(self) -> Array:
         """Return the friction each harmonic adds [-], over the half spectrum of the grid."""
-        return lost_by_harmonic(
-            HalfSpace(self.rubber, self.speed, by_scale=self.by_scale), self.grid, self.pressure
-        )
+        body = HalfSpace(self.rubber, self.speed, by_scale=self.by_scale)
+        return lost_by_harmonic(body.compliance(self.grid), self.grid, self.pressure)
 
     def _positions(self, axis: int) -> Array:
         place = self.grid.spacing[axis] * np.arange(self.grid.shape[axis], dtype=float)

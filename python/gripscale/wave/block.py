@@ -7,6 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
 
+import numpy as np
+
 from gripscale import checks
 from gripscale.rubber import Rubber
 from gripscale.rubber.carrying import require_solid
@@ -237,6 +239,10 @@ def _result(problem: WaveProblem, mesh: Mesh, solution: kernel.Solution) -> Wave
         contact_fraction_error=solution.contact_fraction_error,
         friction_error=solution.friction_error,
         friction_bound=math.nan if solution.friction_bound is None else solution.friction_bound,
+        loss_by_depth=(
+            profile.wavelength * np.append(0.0, np.cumsum(solution.row_heights)),
+            solution.lost_by_row,
+        ),
         solution=solution,
     )
 

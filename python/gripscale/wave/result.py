@@ -74,6 +74,10 @@ class WaveResult:
     A twentieth of the larger, or of 0.04 of the slope 2 pi amplitude/wavelength (root of two times
     the rms slope of a profile) where friction is less: so small a friction is known to no more.
     """
+    loss_by_depth: tuple[Array, Array] | None = field(default=None, repr=False, compare=False)
+    """Depths between the rows of elements at rest [m], shape (rows + 1,), and the part of
+    `friction_from_dissipation` that each row loses [-], shape (rows,); None where it is not known.
+    Not written to files."""
     solution: Any = field(default=None, repr=False, compare=False)
     """What the solver keeps to start another wave from; not written to files."""
 

@@ -1,0 +1,131 @@
+"""How near settled models are to their fixed point, and what all their passes took."""
+
+import numpy as np
+import pytest
+
+import gripscale as gs
+from gripscale.conditions import Conditions, passes
+from gripscale.interface import ThermalProperties
+from gripscale.rubber.softening import Kraus
+from gripscale.theory.half_plane import HalfPlane
+from gripscale.wave import FiniteStrainBlock
+
+from .shifted import LOAD, RUBBER, SINES
+from .test_settle import DIRECT, LINE
+
+SOFTENING = Kraus(0.3, 0.15, 0.02, 1e-3, "shear")
+HEAT = ThermalProperties(conductivity=0.25, density=1150.0, specific_heat=1500.0)
+EFFECTS = [
+    Conditions(softening=SOFTENING),
+    Conditions(heat=HEAT),
+    Conditions(softening=SOFTENING, heat=HEAT),
+]
+MESH = {"columns": 64, "rows": 12}
+
+
+def chain(conditions, **options):
+    return gs.predict(RUBBER, SINES, conditions=conditions, **MESH, **options, **LOAD)
+
+
+def half_plane(conditions):
+    options = {"solver": "half_plane", "points": 256}
+    return gs.predict(RUBBER, SINES, conditions=conditions, **options, **LOAD)
+
+
+def direct(conditions):
+    return gs.solve_rough_contact(RUBBER, LINE, conditions=conditions, **DIRECT)
+
+
+@pytest.fixture
+def tight(monkeypatch):
+    """Return what solves with passes held to 1e-6, a thousandth of what is promised."""
+
+    def held(model, conditions):
+        with monkeypatch.context() as patch:
+            for name in ("SETTLED", "AGREED", "ROUGH"):
+                patch.setattr(passes, name, 1e-6)
+            patch.setattr(passes, "MOST_PASSES", 40)
+            found = model(conditions)
+        assert found.converged
+        return found
+
+    return held
+
+
+@pytest.mark.parametrize("conditions", EFFECTS, ids=["softening", "heat", "both"])
+@pytest.mark.parametrize("model", [chain, half_plane, direct])
+def test_what_settled_is_within_a_thousandth(model, conditions, tight):
+    found, exact = model(conditions), tight(model, conditions)
+    assert found.converged
+    assert found.friction == pytest.approx(exact.friction, rel=1e-3)
+    assert found.contact_fraction == pytest.approx(exact.contact_fraction, rel=1e-3)
+    taken = found.passes if model is direct else found.scales[0].details["passes"]
+    assert taken <= 8
+
+
+@pytest.mark.parametrize(
+    ("solver", "asked"),
+    [(FiniteStrainBlock, FiniteStrainBlock.of(**MESH)), (HalfPlane, HalfPlane(points=256))],
+)
+def test_the_work_of_all_passes_is_told(solver, asked, monkeypatch):
+    """Solutions, Newton iterations and load steps of a wave, counted where they are made."""
+    solved, own = [], solver.solve
+
+    def counting(self, problem, start=None):
+        solved.append((self, problem.profile.wavelength, own(self, problem, start)))
+        return solved[-1][2]
+
+    monkeypatch.setattr(solver, "solve", counting)
+    found = (chain if solver is FiniteStrainBlock else half_plane)(EFFECTS[2])
+    for wave in found.scales:
+        mine = [(by, one) for by, wavelength, one in solved if wavelength == wave.wavelength]
+        assert wave.newton_iterations == sum(one.newton_iterations for _, one in mine)
+        assert wave.details["passes"] == sum(by == asked for by, _ in mine)
+        assert wave.details["coarse_passes"] == sum(by != asked for by, _ in mine)
+        if solver is FiniteStrainBlock:
+            steps = sum(one.details["load_steps"] for _, one in mine)
+            assert wave.details["load_steps"] == steps
+
+
+def test_the_grids_of_all_passes_are_told():
+    told = []
+    found = gs.solve_rough_contact(
+        RUBBER, LINE, conditions=EFFECTS[2], on_grid=told.append, **DIRECT
+    )
+    assert found.grids == told
+    assert found.coarse_passes > 0
+    finest = sum(record.points == found.grid.shape[0] for record in told)
+    assert finest >= found.passes
+
+
+def test_errors_are_told_from_as_many_grids_as_without_conditions():
+    """A law that softens nothing: grid and errors are those of the rubber."""
+    nothing = Conditions(softening=Kraus(1.0, 1.0, 0.02, 1e-3, "shear"))
+    load = DIRECT | {"tolerance": 0.02}
+    plain, same = (
+        gs.solve_rough_contact(RUBBER, LINE, conditions=conditions, **load)
+        for conditions in (None, nothing)
+    )
+    assert same.grid.shape == plain.grid.shape
+    assert same.friction_error == pytest.approx(plain.friction_error, rel=1e-3)
+    assert same.contact_fraction_error == pytest.approx(plain.contact_fraction_error, rel=1e-3)
+
+
+def test_a_slow_chain_is_warmed_by_what_lasts():
+    """0.1 mm/s: no pattern of the heat matters, and what is even is that of a surface source.
+
+    T = 2 q sqrt(t / (pi kappa rho c)), Carslaw and Jaeger; less by half the depth of the loss over
+    the way the heat spreads, of the order of a per cent.
+    """
+    speed, footprint = 1e-4, 0.05
+    found = half_plane_at(speed)
+    last = found.scales[-1].details
+    flux = found.friction * LOAD["pressure"] * speed
+    spread = np.sqrt(footprint / speed / (np.pi * 0.25 * 1150.0 * 1500.0))
+    assert last["warming_uniform"] == pytest.approx(2.0 * flux * spread, rel=0.05)
+    assert last["warming_larger_waves"] + last["warming_own"] < 0.02
+
+
+def half_plane_at(speed):
+    load = LOAD | {"speed": speed}
+    return gs.predict(RUBBER, SINES, conditions=EFFECTS[1], solver="half_plane", points=256, **load)
