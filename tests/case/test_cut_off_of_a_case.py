@@ -143,16 +143,8 @@ def test_fit_surface_takes_the_same_words(case: Path) -> None:
 def test_a_study_varies_lengths_and_rules_side_by_side(case: Path, tmp_path: Path) -> None:
     study = Study(case, vary={"cut_off": "1 mm,instrument,rms_slope 0.4"})
     found = study.run(tmp_path / "study", workers=1)
-<<<<<<< HEAD
-    assert found.cut_off.values.tolist() == [
-        "0.001 m",
-        "instrument",
-        "rms slope 0.4 of the surface",
-    ]
-=======
     names = ["0.001 m", "instrument", "rms slope 0.4 of the surface"]
     assert found.cut_off.values.tolist() == names
->>>>>>> cutoff
     alone = [
         run_case(write(case, end)).dynamic
         for end in ('"1 mm"', '"instrument"', "{ rms_slope = 0.4 }")

@@ -86,7 +86,8 @@ def _adhesive(
     if ADHESIVE_FRICTION in answer or conditions is None:
         return float(answer.get(ADHESIVE_FRICTION, math.nan))
     names = ("total_contact_fraction", "nominal_pressure", "nominal_speed")
-    return conditions.adhesive_friction(*(float(answer[name]) for name in names), temperature)
+    area, pressure, speed = (float(answer[name]) for name in names)
+    return conditions.adhesive_friction(area, pressure, speed, temperature)
 
 
 def _error(answer: xr.Dataset, name: str) -> float:
