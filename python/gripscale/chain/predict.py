@@ -19,7 +19,7 @@ from gripscale import checks
 from gripscale.chain.prediction import Prediction
 from gripscale.chain.pressure import MOST_CLASSES, PressureClasses, usable
 from gripscale.chain.rubber_at import RubberAt
-from gripscale.chain.settle import settle
+from gripscale.chain.settle import settle, unsettled
 from gripscale.chain.solvers import WaveSolverLike, wave_solver
 from gripscale.conditions.conditions import Conditions
 from gripscale.errors import ConvergenceError, InputError
@@ -92,7 +92,8 @@ def predict(
         t_1 = footprint/speed, t_i = A_(i-1)/speed. A number fixes it for every wave [s],
         infinity lets the mean state relax fully. Always infinite at zero speed.
     on_scale
-        Called with the prediction so far after every wave.
+        Called with the prediction so far after every wave; where the rubber depends on what is
+        solved, of every pass, with the status `conditions not settled`, and once at the end.
     start
         A prediction at a neighbouring speed, pressure or rubber: each wave starts from its wave of
         the same number, as far as there is one. The results are the same to the solver's residual,
@@ -140,7 +141,12 @@ def predict(
         return walk(rubber_at, start)
     if not conditions.iterated:
         return walk(lambda wave, so_far: before, start)
-    return settle(walk, rubber, conditions)
+    if on_scale is None:
+        return settle(walk, rubber, conditions)
+    passing = replace(walk, on_scale=lambda so_far: on_scale(unsettled(so_far)))
+    settled = settle(passing, rubber, conditions)
+    on_scale(settled)
+    return settled
 
 
 def select_waves(

@@ -120,6 +120,14 @@ def settle(walk: Walk, rubber: Rubber, conditions: Conditions) -> Prediction:
     return _told(settle_passes(fine, quick), fine)
 
 
+def unsettled(so_far: Prediction) -> Prediction:
+    """Return waves of a pass on the way as what they are: not to be used."""
+    *others, last = so_far.scales
+    if not last.converged:
+        return so_far
+    return replace(so_far, scales=[*others, replace(last, status=Status.CONDITIONS_NOT_SETTLED)])
+
+
 class _Spent:
     """Newton iterations and load steps of each wave in all passes."""
 
