@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
@@ -101,15 +102,23 @@ def _teller(console: Console, waves: int) -> Callable[[WaveSolved], None]:
     """Return what prints a line for each wave, and a title before the first of a prediction."""
     from gripscale.case.results import title
 
-    clock = time.perf_counter()
+    clock, passes = time.perf_counter(), Counter[str]()
 
     def tell(solved: WaveSolved) -> None:
         nonlocal clock
         so_far = solved.so_far
-        if len(so_far.scales) == 1:
-            console.print()
-            say(console, title(so_far.load.speed))
         scale = so_far.scales[-1]
+        if "passes" in scale.details:
+            count = int(scale.details["passes"])
+            say(console, f"  rubber and contact {scale.why} after {count} passes on these meshes")
+            return
+        if len(so_far.scales) == 1:
+            passes[solved.name] += 1
+            if passes[solved.name] == 1:
+                console.print()
+                say(console, title(so_far.load.speed))
+            else:
+                say(console, f"  pass {passes[solved.name]}")
         text = (
             f"wave {len(so_far.scales)} of {waves}: {scale.wavelength * 1e3:.3g} mm, "
             f"contact {scale.contact_fraction:.3f}"
@@ -117,7 +126,8 @@ def _teller(console: Console, waves: int) -> Callable[[WaveSolved], None]:
         if scale.speed > 0.0:
             text += f", friction {scale.friction:.3f}"
         seconds, clock = time.perf_counter() - clock, time.perf_counter()
-        say(console, f"  {text}, {scale.why}, {seconds:.1f} s")
+        why = "" if scale.status == "conditions not settled" else f"{scale.why}, "
+        say(console, f"  {text}, {why}{seconds:.1f} s")
 
     return tell
 
