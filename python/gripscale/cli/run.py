@@ -110,7 +110,8 @@ def _teller(console: Console, waves: int) -> Callable[[WaveSolved], None]:
         scale = so_far.scales[-1]
         if "passes" in scale.details:
             count = int(scale.details["passes"])
-            say(console, f"  rubber and contact {scale.why} after {count} passes on these meshes")
+            agree = "agree" if scale.converged else f"do not agree ({scale.why})"
+            say(console, f"  rubber and contact {agree} after {count} passes on these meshes")
             return
         if len(so_far.scales) == 1:
             passes[solved.name] += 1
