@@ -224,8 +224,16 @@ def shear_stress_to_dict(law: InterfacialShearStress) -> dict[str, Any]:
 
 
 def adhesive_friction(shear_stress: float, contact_fraction: float, pressure: float) -> float:
-    """Return mu_adh [-] of a shear stress [Pa], A_r/A_0 [-] and the nominal pressure [Pa]."""
-    return shear_stress * contact_fraction / pressure
+    """Return mu_adh [-] of a shear stress [Pa], A_r/A_0 [-] and the nominal pressure [Pa].
+
+    NaN where the contact is NaN, that of a wave that did not converge.
+    Raises `InputError` if a value cannot be used.
+    """
+    if isinstance(contact_fraction, float) and math.isnan(contact_fraction):
+        return math.nan
+    stress = checks.not_negative("shear_stress", shear_stress, unit="Pa")
+    fraction = checks.number("contact_fraction", contact_fraction)
+    return stress * fraction / checks.positive("pressure", pressure, unit="Pa")
 
 
 def _speeds(speed: ArrayLike) -> Array:
