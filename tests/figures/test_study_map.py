@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import matplotlib as mpl
@@ -12,6 +13,7 @@ import xarray as xr
 from gripscale import netcdf
 from gripscale.figures import friction_master_figure, map_figure
 from gripscale.figures.study_all import draw
+from gripscale.model import TOTALS
 from gripscale.report import write_report
 from gripscale.rubber import WLF, Rubber
 from gripscale.study.temperature import BEYOND_SHIFT, with_master_curve
@@ -51,6 +53,15 @@ def study() -> xr.Dataset:
 def test_the_collapse_of_one_curve_is_below_a_thousandth(study: xr.Dataset) -> None:
     assert float(study.friction_collapse) < 1e-3
     assert study.friction_collapse.attrs["points"] > 40
+
+
+def test_the_variables_are_listed_with_their_units(study: xr.Dataset) -> None:
+    text = (Path(__file__).parents[2] / "docs" / "conditions.md").read_text(encoding="utf-8")
+    listed = dict(re.findall(r"^\| `(\w+)` \| (\S+) \|", text, re.MULTILINE))
+    known = {"speed", "temperature", "prediction_status", *TOTALS}
+    assert listed == {
+        str(name): study[name].attrs["units"] for name in study.variables if name not in known
+    }
 
 
 def test_map_marks_what_was_solved_by_what_it_rests_on(study: xr.Dataset) -> None:
@@ -93,6 +104,6 @@ def test_page_shows_celsius_and_the_command_with_units(study: xr.Dataset, tmp_pa
     assert "--model direct" in page
     assert "40 °C lies beyond the temperatures that the shift" in page
     assert "friction over a_T v" in page
-    assert "one curve: temperatures up to" in page
+    assert "one curve, temperatures up to" in page
     assert 'id="figure-total_friction-over-reduced_speed"' in page
     assert "temperature [°C]" in page.replace("\\u00b0", "°")
