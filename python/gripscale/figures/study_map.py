@@ -103,7 +103,8 @@ def _points(axes: Axes, result: xr.Dataset, x: Any, y: Any) -> None:
         )
     ).astype(bool)
     shifted = result[BEYOND_SHIFT].transpose("temperature", "speed").values.astype(bool)
-    shape = np.shape(shifted)
+    solved = np.isfinite(result.total_friction.transpose("temperature", "speed").values)
+    shape = np.shape(solved)
     kinds = (
         (~beyond & ~shifted, "solved", {"marker": ".", "color": INK, "ms": 2.5}),
         (
@@ -118,7 +119,8 @@ def _points(axes: Axes, result: xr.Dataset, x: Any, y: Any) -> None:
         ),
     )
     speeds, temperatures = np.broadcast_to(x, shape), np.broadcast_to(np.reshape(y, (-1, 1)), shape)
-    for which, label, look in kinds:
+    for kind, label, look in kinds:
+        which = kind & solved
         if which.any():
             places = speeds[which], temperatures[which]
             axes.plot(*places, ls="", clip_on=False, label=label, **look)  # type: ignore[arg-type]
