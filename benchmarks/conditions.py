@@ -69,8 +69,8 @@ def run(console: Console) -> None:
             f"Rubber in its conditions: {title}, 3 bar, 0.3 m/s",
             ["effect", "CPU s", "ratio", "passes", "coarse", "A_r/A_0", "off", "mu", "off"],
             _rows(solve),
-            f"CPU s: the least of {REPEATS}. Off: from where passes settle when held to {TIGHT:g}. Asked: everything in at most 4 "
-            "times the time of none, 8 passes, and 0.1 % off.",
+            f"CPU s: the least of {REPEATS}. Off: from where passes settle when held to {TIGHT:g}. "
+            "Asked: everything in at most 4 times the time of none, 8 passes, and 0.1 % off.",
         )
 
 
