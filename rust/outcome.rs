@@ -33,8 +33,7 @@ impl Outcome {
         let drag: f64 = (0..nodes)
             .map(|a| state.force[a] * pressed.heights.slope(x[a]))
             .sum();
-        let mut lost = pressed.block.dissipation(&rows, pressed.watch)?;
-        lost.iter_mut().for_each(|lost| *lost /= load);
+        let lost = pressed.block.dissipation(&rows, pressed.watch)?;
         let (mut low, mut high) = (f64::INFINITY, 0.0_f64);
         for f in rows.iter().flat_map(|row| row.gradient.iter().flatten()) {
             let (least, most) = principal_stretches(f);
@@ -50,8 +49,8 @@ impl Outcome {
             contact_fraction: length.clamp(0.0, 1.0),
             contacts,
             friction: drag / load,
-            friction_from_dissipation: lost.iter().sum(),
-            lost_by_row: lost,
+            friction_from_dissipation: lost.whole / load,
+            lost_by_row: lost.rows.iter().map(|lost| lost / load).collect(),
             min_stretch: low,
             max_stretch: high,
             x,

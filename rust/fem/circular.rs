@@ -29,17 +29,19 @@ fn convolve_vectorised(weights: &[f64], y: &[Symmetric]) -> Vec<Symmetric> {
     out
 }
 
-/// Add `weight` sum over columns e of y(e - m) c(e) to `out[m]`.
-pub fn correlate(weight: f64, y: &[f64], c: &[f64], out: &mut [f64]) {
-    pulp::Arch::new().dispatch(|| correlate_vectorised(weight, y, c, out));
+/// Add `weight` sum over columns e of y(e - m) c(e) to both of `sums[m]`.
+pub fn correlate(weight: f64, y: &[f64], c: &[f64], sums: [&mut [f64]; 2]) {
+    pulp::Arch::new().dispatch(|| correlate_vectorised(weight, y, c, sums));
 }
 
 #[inline(always)]
-fn correlate_vectorised(weight: f64, y: &[f64], c: &[f64], out: &mut [f64]) {
+fn correlate_vectorised(weight: f64, y: &[f64], c: &[f64], [one, other]: [&mut [f64]; 2]) {
     let columns = c.len();
     let twice = [y, y].concat();
-    for (m, out) in out.iter_mut().enumerate() {
-        *out += weight * dot_by_eights(&twice[columns - m..2 * columns - m], c);
+    for (m, (one, other)) in one.iter_mut().zip(other).enumerate() {
+        let sum = weight * dot_by_eights(&twice[columns - m..2 * columns - m], c);
+        *one += sum;
+        *other += sum;
     }
 }
 

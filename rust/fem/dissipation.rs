@@ -6,51 +6,78 @@ use crate::material::kinematics::{isochoric, remembered, Gradient, Symmetric, UN
 use crate::status::Status;
 use crate::watch::Watch;
 
+/// Integral of Y(x - m columns) : Cbar(x) - 3, for every number m of columns.
+pub struct StrainSince {
+    /// Over the block, nowhere below zero.
+    pub whole: Vec<f64>,
+    /// Over each element row.
+    pub rows: Vec<Vec<f64>>,
+}
+
+/// Energy lost per sliding distance.
+pub struct Loss {
+    pub whole: f64,
+    /// In each element row. Rows exchange energy: one alone may be below zero, all together cannot.
+    pub rows: Vec<f64>,
+}
+
 impl Block<'_> {
-    /// Energy lost in each element row per sliding distance in steady sliding; what is at rest loses
-    /// none. Rows exchange energy: one alone may be below zero, all together cannot.
-    pub fn dissipation(&self, rows: &[RowState], watch: &Watch<'_>) -> Result<Vec<f64>, Status> {
+    /// Energy lost in steady sliding; what is at rest loses none.
+    pub fn dissipation(&self, rows: &[RowState], watch: &Watch<'_>) -> Result<Loss, Status> {
         let Memory::Sliding(history) = self.memory else {
-            return Ok(vec![0.0; rows.len()]);
+            let rows = vec![0.0; rows.len()];
+            return Ok(Loss { whole: 0.0, rows });
         };
-        let parts = self.strain_since(rows, watch)?;
-        let curve = history.dissipation.curve(&total(&parts));
-        let lost = parts
-            .iter()
-            .map(|part| history.dissipation.lost_on(&curve, part));
-        Ok(lost.collect())
+        let since = self.strain_since(rows, watch)?;
+        let curve = history.dissipation.curve(&since.whole);
+        let lost = |part: &Vec<f64>| history.dissipation.lost_on(&curve, part);
+        Ok(Loss {
+            whole: lost(&since.whole),
+            rows: since.rows.iter().map(lost).collect(),
+        })
     }
 
-    /// Integral of Y(x - m columns) : Cbar(x) - 3 over each element row, for every number m of
-    /// columns; nowhere below zero in the sum over the rows.
-    ///
     /// As sum y(x - m) : c(x) - y(x) : c(x) with y = Y - I and c = Cbar - I, which leaves the
     /// squares of small strains their digits.
     pub fn strain_since(
         &self,
         rows: &[RowState],
         watch: &Watch<'_>,
-    ) -> Result<Vec<Vec<f64>>, Status> {
-        let mut parts = vec![vec![0.0; self.mesh.columns]; rows.len()];
-        for (row, (state, product)) in rows.iter().zip(&mut parts).enumerate() {
+    ) -> Result<StrainSince, Status> {
+        let nothing = vec![0.0; self.mesh.columns];
+        let mut parts = vec![nothing.clone(); rows.len()];
+        let mut whole = nothing;
+        for (row, (state, part)) in rows.iter().zip(&mut parts).enumerate() {
             watch.look()?;
             for (line, gradient) in state.gradient.iter().enumerate() {
-                self.add_products(row, line, gradient, product);
+                self.add_products(row, line, gradient, [part, &mut whole]);
             }
-            let own = product[0];
-            product.iter_mut().for_each(|product| *product -= own);
+            let own = part[0];
+            part.iter_mut().for_each(|product| *product -= own);
         }
-        for (m, whole) in total(&parts).into_iter().enumerate() {
+        let own = whole[0];
+        for (m, product) in whole.iter_mut().enumerate() {
             // Below zero is round-off; NaN must stay.
-            if whole < 0.0 {
+            if *product < own {
                 parts.iter_mut().for_each(|part| part[m] = 0.0);
+                *product = 0.0;
+            } else {
+                *product -= own;
             }
         }
-        Ok(parts)
+        let rows = parts;
+        Ok(StrainSince { whole, rows })
     }
 
-    /// Add the integral of y(x - m columns) : c(x) along one line.
-    fn add_products(&self, row: usize, line: usize, gradient: &[Gradient], product: &mut [f64]) {
+    /// Add the integral of y(x - m columns) : c(x) along one line to both sums.
+    fn add_products(
+        &self,
+        row: usize,
+        line: usize,
+        gradient: &[Gradient],
+        sums: [&mut Vec<f64>; 2],
+    ) {
+        let [part, whole] = sums;
         let points = self.points();
         let less_unit = |tensor: Symmetric, k: usize| tensor[k] - UNIT[k];
         for point in 0..points {
@@ -61,15 +88,8 @@ impl Block<'_> {
                 let (y, c): (Vec<f64>, Vec<f64>) = column
                     .map(|f| (less_unit(remembered(f), k), less_unit(isochoric(f), k)))
                     .unzip();
-                correlate(times * weight, &y, &c, product);
+                correlate(times * weight, &y, &c, [&mut *part, &mut *whole]);
             }
         }
     }
-}
-
-/// The sum over the rows, for every number of columns.
-pub fn total(parts: &[Vec<f64>]) -> Vec<f64> {
-    let columns = parts.first().map_or(0, Vec::len);
-    let whole = |m: usize| parts.iter().map(|part| part[m]).sum();
-    (0..columns).map(whole).collect()
 }
