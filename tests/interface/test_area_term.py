@@ -93,3 +93,9 @@ def test_a_wrong_law_is_one_sentence(values, word):
     with pytest.raises(gs.InputError, match=word) as caught:
         shear_stress_from_dict(values)
     assert "\n" not in str(caught.value)
+
+
+def test_a_contact_that_is_not_known_has_no_area_term():
+    assert math.isnan(adhesive_friction(5e6, math.nan, 3e5))
+    with pytest.raises(gs.InputError, match="pressure must be greater than zero"):
+        adhesive_friction(5e6, 0.03, 0.0)
