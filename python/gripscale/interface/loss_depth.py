@@ -15,8 +15,9 @@ With b = shape/mean, Z and Z' two depths, and m of positive real part:
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Literal, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,6 +52,8 @@ class DepthsOfLoss(Protocol):
     def spread_sum(self, length: float) -> float:
         """Return E ierfc((Z + Z') / length)."""
 
+
+Distances = Literal["one", "between", "sum"]
 
 SHAPES = (1, 3)
 DEEPEST = 60.0
@@ -109,25 +112,43 @@ class LossDepth:
 
     def spread(self, length: float) -> float:
         """Return E ierfc(Z / length), ierfc the integral of the complementary error function."""
-        return self._average(lambda s: _gamma_density(s, self.shape), length)
+        return self._spread("one", length)
 
     def spread_between(self, length: float) -> float:
         """Return E ierfc(|Z - Z'| / length)."""
-        if self.shape == 1:
-            return self._average(lambda s: np.exp(-s), length)
-        return self._average(lambda s: (3.0 + 3.0 * s + s**2) / 8.0 * np.exp(-s), length)
+        return self._spread("between", length)
 
     def spread_sum(self, length: float) -> float:
         """Return E ierfc((Z + Z') / length)."""
-        return self._average(lambda s: _gamma_density(s, 2 * self.shape), length)
+        return self._spread("sum", length)
 
-    def _average(self, density: object, length: float) -> float:
+    def average(self, of: Distances, function: Callable[[Array], Any], length: float) -> Any:
+        """Return the mean of a function of a distance [m] that vanishes beyond some lengths.
+
+        Parameters
+        ----------
+        of : "one", "between" or "sum"
+            The distance: Z, |Z - Z'| or Z + Z'.
+        function : callable
+            Of distances of shape (n,); n is the first axis of what it returns.
+        length : float
+            Over which it changes [m]: at `WIDEST` of it nothing is left.
+        """
         if self.mean == 0.0:
-            return 1.0 / math.sqrt(math.pi)
-        ratio = 1.0 / (self.rate * length)
-        end = min(DEEPEST, WIDEST / ratio)
+            return function(np.zeros(1))[0]
+        end = min(DEEPEST, WIDEST * self.rate * length)
         s = 0.5 * end * (_NODES + 1.0)
-        return float(0.5 * end * _WEIGHTS @ (density(s) * ierfc(s * ratio)))  # type: ignore[operator]
+        weights = 0.5 * end * _WEIGHTS * self._density(of, s)
+        return np.tensordot(weights, function(s / self.rate), axes=(0, 0))
+
+    def _spread(self, of: Distances, length: float) -> float:
+        return float(self.average(of, lambda z: ierfc(z / length), length))
+
+    def _density(self, of: Distances, s: Array) -> Array:
+        """Return the density of a distance times the rate."""
+        if of == "between":
+            return np.exp(-s) if self.shape == 1 else (3.0 + 3.0 * s + s**2) / 8.0 * np.exp(-s)
+        return _gamma_density(s, self.shape if of == "one" else 2 * self.shape)
 
 
 def ierfc(x: Array) -> Array:

@@ -3,8 +3,7 @@
 The harmonics of an octave lose mu_b p_0 v per nominal area, which the pattern of
 `gripscale.interface.heat_pattern` puts in its place; summed over octaves the heat is the friction
 work, exactly. It is lost at a mean depth of 3/2 over the wavenumber, averaged over the octave by
-the loss, and moves over the rubber; the road takes up none. Uniformly it lasts while the footprint
-passes.
+the loss, and moves over the rubber while the footprint passes; the road takes up none.
 """
 
 from __future__ import annotations
@@ -17,6 +16,7 @@ from numpy.typing import NDArray
 
 from gripscale.interface import temperature_rise as rise
 from gripscale.interface.loss_depth import LossDepth
+from gripscale.interface.passing_harmonic import passing_at_surface, passing_where_lost
 from gripscale.interface.thermal import ThermalProperties
 from gripscale.rough.grid import Array, Grid
 
@@ -110,7 +110,7 @@ def grid_temperature(
         flux * heat.friction * rise.uniform_at_surface(time, heat.depth, thermal) for heat in heats
     ]
     surfaces = [
-        source * rise.harmonic_at_surface(m, heat.depth, thermal)
+        source * passing_at_surface(m, time, heat.depth, thermal)
         for source, heat in zip(sources, heats, strict=True)
     ]
     surface = sum(surfaces, np.zeros(grid.spectrum_shape, dtype=complex))
@@ -118,7 +118,7 @@ def grid_temperature(
     for which, heat in enumerate(heats):
         pattern = _without_mean(heat.density)
         seen = heat.depth.decay(m) * (surface - surfaces[which])
-        seen += sources[which] * rise.harmonic_where_lost(m, heat.depth, thermal)
+        seen += sources[which] * passing_where_lost(m, time, heat.depth, thermal)
         lasting = rise.uniform_where_lost(time, heat.depth, thermal)
         level = sum(uniform) - uniform[which] + flux * heat.friction * lasting
         octave.append(level + _mean_product(grid, seen, pattern))
