@@ -21,6 +21,7 @@ name = "styrene_butadiene"
 pressure = "3 bar"
 speed = "0.3 m/s"
 footprint = "100 mm"
+static = true
 
 [solver]
 columns = 32

@@ -27,6 +27,7 @@ from gripscale.chain.model import Chain
 from gripscale.errors import FileError, InputError
 from gripscale.model import Model, NominalLoad
 from gripscale.rubber import Rubber
+from gripscale.software import software
 from gripscale.study import assemble
 from gripscale.study.assemble import Index
 from gripscale.study.axes import Axis, axes_of
@@ -38,7 +39,6 @@ from gripscale.study.inputs import (
     stated_by,
     surface_of,
 )
-from gripscale.study.software import software
 from gripscale.study.store import Store
 from gripscale.study.task import Task, exact
 from gripscale.study.threads import OnTask, Progress, solve_all
