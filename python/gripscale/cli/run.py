@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 import time
 from collections.abc import Callable
 from contextlib import AbstractContextManager, nullcontext
@@ -32,8 +33,14 @@ def run(
             help="Results folder, instead of the one in the case.", metavar="DIR", readable=False
         ),
     ] = None,
+    fresh: Annotated[
+        bool,
+        typer.Option(
+            "--fresh", help="Solve all anew, also what an earlier run of the same case finished."
+        ),
+    ] = False,
 ) -> None:
-    """Predict contact area and friction of a case: tables, figures and result files."""
+    """Predict contact area and friction of a case; goes on where it was stopped."""
     from gripscale.case import folder, prepare_case, read_case, run_case
     from gripscale.comparison import judged
     from gripscale.figures.beside import drawn_beside
@@ -54,11 +61,18 @@ def run(
             solving(solved.name)
 
         with _spinner(console):
-            run_case(results, output=target, on_wave=look)
+            run_case(
+                results,
+                output=target,
+                on_wave=look,
+                on_folder=lambda words: say(console, words),
+                fresh=fresh,
+            )
             direct = judged(results)
         _conclude(console, target, opening, results, direct)
     console.print()
     say(console, f"Results, report and figures are in {target}")
+    _tell_old_page(console, target, results)
     _fail_if_any(results)
 
 
@@ -114,7 +128,8 @@ def _teller(console: Console, waves: int) -> Callable[[WaveSolved], None]:
         if scale.speed > 0.0:
             text += f", friction {scale.friction:.3f}"
         seconds, clock = time.perf_counter() - clock, time.perf_counter()
-        say(console, f"  {text}, {scale.why}, {seconds:.1f} s")
+        how = "already solved" if solved.taken_up else f"{seconds:.1f} s"
+        say(console, f"  {text}, {scale.why}, {how}")
 
     return tell
 
@@ -150,6 +165,16 @@ def _conclude(
         target / "report.txt",
         tables.as_text(*opening, "", *written, tables.LEGEND, "", *last, width=REPORT_WIDTH),
     )
+
+
+def _tell_old_page(console: Console, target: Path, results: CaseResults) -> None:
+    """Say so if the page in the folder does not show this result."""
+    page, first = target / "report.html", next(iter(results.predictions), None)
+    if first is None or not page.is_file():
+        return
+    if results.key(first) not in page.read_text(encoding="utf-8", errors="replace"):
+        words = shlex.join(["gripscale", "report", str(target)])
+        say(console, f"{page.name} in it is older and shows another result; `{words}` renews it")
 
 
 def _fail_if_any(results: CaseResults) -> None:
