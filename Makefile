@@ -1,5 +1,6 @@
 # Everything from nothing: `make run` does the main job, `make test` checks all,
-# `make verify` compares with references for minutes, `make bench` measures time and memory.
+# `make verify` compares with references for minutes, `make bench` measures time and memory,
+# `make wheel` builds the package and tries it in an empty environment.
 
 PYTHON ?= python3
 VENV := .venv
@@ -8,7 +9,7 @@ READY := $(VENV)/.ready
 BUILT := $(VENV)/.built
 SOURCES := Cargo.toml Cargo.lock pyproject.toml $(shell find rust -name '*.rs')
 
-.PHONY: run build test verify docs bench clean
+.PHONY: run build test verify docs bench wheel clean
 .DEFAULT_GOAL := run
 
 run: build
@@ -35,6 +36,11 @@ docs: build
 
 bench: build
 	$(BIN)/python -m benchmarks
+
+wheel: $(READY)
+	rm -rf results/wheel
+	$(BIN)/maturin build --release --locked --quiet --out results/wheel
+	$(BIN)/python -m benchmarks.wheel results/wheel
 
 $(READY): requirements.lock
 	@$(PYTHON) -c 'import sys; assert sys.version_info >= (3, 11), "gripscale needs Python 3.11 or newer; set PYTHON=..."'

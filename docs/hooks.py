@@ -1,20 +1,26 @@
-"""Hook of the site: a link to a file of the source tree becomes its name, as the site has no such.
+"""Hooks of the site: links out of the docs become names, and the keys of a case become tables.
 
-The pages are read in the source tree, too, where such links lead somewhere.
+The pages are read in the source tree, too, where links to its files lead somewhere.
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from gripscale.case.keys import Section
 
 DOCS = Path(__file__).parent.resolve()
+KEYS = "<!-- every key of a case -->"
+"""What the tables of keys are put in place of."""
 LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(((?:\.\./)+[^)#\s]+)(?:#[^)]*)?\)")
 
 
 def on_page_markdown(markdown: str, *, page: Any, **_: Any) -> str:
-    """Return the page with links that leave the folder of the docs turned into text."""
+    """Return the page with links that leave the docs turned into text, and with its tables."""
     folder = Path(page.file.abs_src_path).parent
 
     def replaced(link: re.Match[str]) -> str:
@@ -22,4 +28,27 @@ def on_page_markdown(markdown: str, *, page: Any, **_: Any) -> str:
         outside = target.exists() and not target.is_relative_to(DOCS)
         return f"{link[1]} (`{target.relative_to(DOCS.parent)}`)" if outside else link[0]
 
-    return LINK.sub(replaced, markdown)
+    told = LINK.sub(replaced, markdown)
+    return told.replace(KEYS, key_tables()) if KEYS in told else told
+
+
+def key_tables() -> str:
+    """Return a heading and a table for each table of a case, as Markdown."""
+    from gripscale.case.keys import sections
+
+    return "\n".join(line for section in sections() for line in _section(section))
+
+
+def _section(section: Section) -> Iterator[str]:
+    yield f"## {_plain(section.title)}\n\n{_plain(section.about)}\n"
+    yield "| key | takes | default | meaning | chapter |\n|---|---|---|---|---|"
+    for key in section.keys:
+        chapter = f"[{key.chapter.removesuffix('.md')}](../{key.chapter})"
+        cells = (f"`{key.name}`", _plain(key.takes), f"`{key.default}`", _plain(key.meaning))
+        yield f"| {' | '.join(cells)} | {chapter} |"
+    yield ""
+
+
+def _plain(text: str) -> str:
+    """Return `text` without what Markdown would take for markup."""
+    return re.sub(r"([\\*_|<>\[\]])", r"\\\1", text)

@@ -11,7 +11,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from gripscale.errors import InputError
-from gripscale.study.software import software
+from gripscale.software import software
 from gripscale.surface import SelfAffineFit, SineStack, fit_self_affine
 from gripscale.wave.dataset import LW
 from reproduction import judge_area, judge_friction, judge_inputs

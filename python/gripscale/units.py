@@ -153,11 +153,11 @@ def parse_quantity(value: Any, kind: str) -> float:
     """
     if isinstance(value, int | float) and not isinstance(value, bool):
         if kind in _UNIT_NEEDED:
-            raise ValueError(f"the unit is missing; expected a {kind} {_example(kind)}")
+            raise ValueError(f"the unit is missing; expected a {kind} {such_as(kind)}")
         return _finite(value, kind)
     match = _QUANTITY.fullmatch(value) if isinstance(value, str) else None
     if match is None:
-        raise ValueError(f"expected a {kind} {_example(kind)}")
+        raise ValueError(f"expected a {kind} {such_as(kind)}")
     number, unit = match.groups()
     if unit == "":
         raise ValueError(f"the unit is missing; expected one of {listed(kind)}")
@@ -168,11 +168,12 @@ def parse_quantity(value: Any, kind: str) -> float:
 
 def _finite(value: float, kind: str) -> float:
     if not abs(value) <= MOST:
-        raise ValueError(f"expected a finite {kind} {_example(kind)}")
+        raise ValueError(f"expected a finite {kind} {such_as(kind)}")
     return float(value)
 
 
-def _example(kind: str) -> str:
+def such_as(kind: str) -> str:
+    """Return an example of a quantity of `kind`, as what was expected goes on after its name."""
     if kind in _UNIT_NEEDED:
         return f'such as "{_EXAMPLES[kind]}"'
     own = next(iter(UNITS[kind]))

@@ -1,10 +1,12 @@
-"""A case of two waves by hand on a coarse mesh, which solves in a fraction of a second."""
+"""A case of two waves by hand on a coarse mesh, solved in a fraction of a second; one of files."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 import pytest
+
+from tests.cli.conftest import inputs as inputs
 
 CASE = """\
 [[surface.sines]]
@@ -21,6 +23,7 @@ name = "styrene_butadiene"
 pressure = "3 bar"
 speed = "0.3 m/s"
 footprint = "100 mm"
+static = true
 
 [solver]
 columns = 32

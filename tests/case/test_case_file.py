@@ -53,7 +53,7 @@ def test_quantities_become_si_and_defaults_are_filled_in(tmp_path: Path) -> None
     file = read_case(written(tmp_path, GOOD))
     load = file.case.load
     assert (load.pressure, load.speed, load.footprint) == (3e5, 0.3, 0.1)
-    assert (load.static, load.load_time) == (True, "passage")
+    assert (load.static, load.load_time) == (False, "passage")
     assert file.case.solver.options() == {}
     assert file.text == GOOD
 

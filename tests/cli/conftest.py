@@ -28,6 +28,7 @@ terms = 6
 pressure = "3 bar"
 speed = "0.3 m/s"
 footprint = "100 mm"
+static = true
 
 [solver]
 model = "half_plane"

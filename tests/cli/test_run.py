@@ -34,7 +34,7 @@ def test_run_ends_well_and_writes_everything(done: tuple[Result, Path]) -> None:
     assert result.exit_code == 0, result.output
     assert result.stderr == ""
     written = {str(p.relative_to(target)) for p in target.rglob("*") if p.is_file()}
-    assert written == set(RESULTS)
+    assert written == {*RESULTS, "inputs/road.txt", "inputs/dma.txt"}
 
 
 def test_output_fits_its_width_without_colour_codes(done: tuple[Result, Path]) -> None:
@@ -78,8 +78,14 @@ def test_results_file_holds_the_chain_and_its_inputs(
     assert rest.total_contact_fraction > data.total_contact_fraction
 
 
-def test_case_is_copied_word_for_word(done: tuple[Result, Path], inputs: Path) -> None:
-    assert (done[1] / "case.toml").read_bytes() == (inputs / "case.toml").read_bytes()
+def test_case_is_copied_but_for_the_names_of_its_files(
+    done: tuple[Result, Path], inputs: Path
+) -> None:
+    text = (inputs / "case.toml").read_text()
+    for name in ("road.txt", "dma.txt"):
+        text = text.replace(name, f"inputs/{name}")
+        assert (done[1] / "inputs" / name).read_bytes() == (inputs / name).read_bytes()
+    assert (done[1] / "case.toml").read_text() == text
 
 
 def test_report_holds_the_tables(done: tuple[Result, Path]) -> None:
@@ -125,7 +131,7 @@ def test_wave_that_fails_keeps_what_was_solved(
 def test_waves_are_on_disk_before_the_next_one_starts(
     shell: Shell, changed: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    case = changed("[load]", "[load]\nstatic = false")
+    case = changed("static = true", "static = false")
     seen: list[int] = []
 
     solve = HalfPlane.solve
@@ -151,14 +157,15 @@ def test_an_earlier_run_leaves_nothing_behind_and_other_files_stay(
     shell: Shell, changed: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(case_all, "save_figure", lambda *_: [])
-    case = changed("[load]", "[load]\nstatic = false")
+    case = changed("static = true", "static = false")
     figures = case.parent / "results" / "figures"
     figures.mkdir(parents=True)
     for name in ("static.nc", "notes.txt", "figures/blocks_static.png", "figures/mine.png"):
         (case.parent / "results" / name).write_text("old")
     assert shell("run", case).exit_code == 0
     left = {p.name for p in (case.parent / "results").rglob("*") if p.is_file()}
-    assert left == {"case.toml", "dynamic.nc", "report.txt", "notes.txt", "mine.png"}
+    written = {"case.toml", "dynamic.nc", "report.txt", "road.txt", "dma.txt"}
+    assert left == written | {"notes.txt", "mine.png"}
 
 
 def test_waves_by_hand_and_a_named_rubber_need_no_files(

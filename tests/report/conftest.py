@@ -45,6 +45,7 @@ terms = 6
 pressure = "3 bar"
 speed = "0.3 m/s"
 footprint = "100 mm"
+static = true
 
 [solver]
 columns = 32

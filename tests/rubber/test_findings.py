@@ -152,6 +152,7 @@ def test_a_case_with_a_melt_ends_before_it_writes(tmp_path: Path):
         '[surface]\nsines = [{ wavelength = "10 mm", amplitude = "1 mm" }]\n'
         '[rubber]\nfile = "melt.txt"\n'
         '[load]\npressure = "3 bar"\nspeed = "0.3 m/s"\nfootprint = "100 mm"\n'
+        "static = true\n"
     )
     with pytest.raises(InputError, match="leave out the static contact of a melt"):
         run_case(tmp_path / "case.toml", output=tmp_path / "results")

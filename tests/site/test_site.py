@@ -14,6 +14,7 @@ import yaml
 
 import gripscale
 from gripscale import chain
+from gripscale.case.keys import sections
 
 ROOT = Path(__file__).parents[2]
 LOADING = {"script": "src", "img": "src", "iframe": "src", "source": "src", "video": "src"}
@@ -88,6 +89,16 @@ def test_no_style_sheet_loads_anything_from_elsewhere(site):
     for sheet in site.rglob("*.css"):
         text = sheet.read_text(encoding="utf-8")
         assert not re.search(r"(@import|url\()\s*[\"']?(https?:)?//", text), sheet.name
+
+
+def test_every_key_of_a_case_is_on_its_page(site):
+    page = (site / "reference" / "case-keys.html").read_text(encoding="utf-8")
+    for section in sections():
+        _, found, rest = page.partition(f">{section.title}</h2>")
+        assert found, section.title
+        table = rest.partition("</table>")[0]
+        for key in section.keys:
+            assert f"<code>{key.name}</code>" in table, f"{section.title} {key.name}"
 
 
 def test_every_public_name_has_its_entry(site):

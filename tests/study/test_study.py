@@ -19,9 +19,9 @@ from gripscale.chain import Chain
 from gripscale.errors import FileError, InputError
 from gripscale.model import NominalLoad
 from gripscale.rough.model import DirectContact
+from gripscale.software import fingerprint
 from gripscale.study import Progress, Study, Task, task
 from gripscale.study import study as study_module
-from gripscale.study.software import fingerprint
 from gripscale.surface import PreparedSurface
 from gripscale.theory import HalfPlane
 from gripscale.wave import FiniteStrainBlock, Mesh, Sine, Status, WaveProblem, WaveResult

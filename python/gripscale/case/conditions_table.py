@@ -38,12 +38,19 @@ class KrausTable(SofteningSource):
     """Kraus' law with its parameters."""
 
     kind: Literal["kraus"]
+    """Kraus' law of the Payne effect."""
     storage_ratio: Share
+    """Storage modulus at large strain over that at small."""
     loss_ratio: Share
+    """Loss modulus at large strain over its maximum."""
     critical_strain: Strain
+    """Strain at which half of the storage modulus that breaks is broken."""
     measured_at: Strain
+    """Strain of the DMA measurement, where nothing is softened."""
     deformation: Literal["tension", "shear"]
+    """Kind of both strains."""
     exponent: Positive = 0.5
+    """Exponent m of the law."""
 
     def law(self) -> Kraus:
         """Return the law of softening."""
@@ -54,15 +61,21 @@ class StrainSweeps(SofteningSource):
     """Measured strain sweeps, with what their files do not state."""
 
     kind: Literal["table"]
-    files: list[str] = Field(min_length=1, description="files of strain sweeps")
-    measured_at: Strain = Field(
-        description='the strain of the DMA measurement, such as "0.1 %", where nothing is softened'
-    )
+    """Measured strain sweeps."""
+    files: list[str] = Field(min_length=1)
+    """Files of strain sweeps."""
+    measured_at: Strain
+    """Strain of the DMA measurement, where nothing is softened."""
     amplitude: Literal["single", "peak-to-peak"] | None = None
+    """What the strain column holds, where its title does not say."""
     strain_unit: Literal["1", "%"] | None = None
+    """Unit of strains where the file does not name it."""
     modulus_unit: str | None = None
+    """Unit of moduli where the file does not name it."""
     modulus: Literal["E", "G"] | None = None
+    """Young's or shear moduli, where the file does not say."""
     temperature_unit: Literal["K", "C", "F"] | None = None
+    """Unit of temperatures where the file does not name it."""
 
 
 SOFTENING: dict[str, type[Table]] = {"kraus": KrausTable, "table": StrainSweeps}
@@ -71,9 +84,12 @@ SOFTENING: dict[str, type[Table]] = {"kraus": KrausTable, "table": StrainSweeps}
 class Heat(Table):
     """What the rubber does with the heat of its own friction."""
 
-    conductivity: Conductivity = Field(description='such as "0.25 W/(m K)"')
-    density: Density = Field(description='such as "1150 kg/m^3"')
-    specific_heat: SpecificHeat = Field(description='such as "1500 J/(kg K)"')
+    conductivity: Conductivity
+    """Thermal conductivity of the rubber."""
+    density: Density
+    """Its density."""
+    specific_heat: SpecificHeat
+    """Its specific heat."""
 
 
 class ShearStress(Table):
@@ -90,18 +106,26 @@ class Constant(ShearStress):
     """The same at every speed and temperature."""
 
     kind: Literal["constant"]
+    """The same at every speed and temperature."""
     stress_0: Stress
+    """Interfacial shear stress."""
 
 
 class Gaussian(ShearStress):
     """A bell in the logarithm of the speed."""
 
     kind: Literal["gaussian"]
+    """A bell in the logarithm of the speed."""
     stress_0: Stress
+    """Largest interfacial shear stress."""
     width: Positive
+    """Factor c of the squared decades of speed: the larger, the narrower the bell."""
     speed_0: MovingSpeed
+    """Speed of the largest stress, at the reference temperature."""
     activation_energy: BondEnergy = 0.0
+    """How that speed shifts with the temperature; 0: not at all."""
     reference_temperature: Temperature | None = None
+    """Temperature speed_0 holds for; needed with an activation energy."""
 
     @model_validator(mode="after")
     def _both_or_none(self) -> Gaussian:
@@ -114,18 +138,26 @@ class LeGalKlueppel(ShearStress):
     """Le Gal and Klueppel's."""
 
     kind: Literal["le_gal_klueppel"]
+    """Le Gal and Klueppel's rise from one plateau to another."""
     stress_0: Stress
+    """Interfacial shear stress at slow sliding."""
     ratio: NotNegative
+    """What the stress gains at high speed, over stress_0."""
     critical_speed: MovingSpeed
+    """Speed at which half of that is gained."""
     exponent: Positive
+    """How steeply it is gained."""
 
 
 class StressTable(ShearStress):
     """Measured at some speeds."""
 
     kind: Literal["table"]
+    """Measured at some speeds."""
     speed: list[MovingSpeed] = Field(min_length=2)
+    """The speeds, rising."""
     stress_at: list[Stress] = Field(min_length=2)
+    """Interfacial shear stress at each."""
 
 
 SHEAR_STRESS: dict[str, type[Table]] = {
@@ -140,10 +172,15 @@ class ConditionsTable(Table):
     """Effects beside the rubber as measured, each off unless asked for."""
 
     temperature: Temperature | None = None
+    """Temperature of the rubber before the contact; that of the master curve by default."""
     softening: Annotated[InstanceOf[SofteningSource], by_kind(SOFTENING)] | None = None
+    """Softening by strain."""
     strain_norm: Literal["slope", "stretch"] | None = None
+    """Half the rms slope in the contact (the default), or the largest stretch less one."""
     heat: Heat | None = None
+    """The rubber warms by its own friction."""
     shear_stress: Annotated[InstanceOf[ShearStress], by_kind(SHEAR_STRESS)] | None = None
+    """The area term: the real contact area sheared at this stress."""
 
     @model_validator(mode="after")
     def _norm_of_softening(self) -> ConditionsTable:

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Annotated, Any
 
-from pydantic import BeforeValidator
+from pydantic import GetCoreSchemaHandler
+from pydantic_core import core_schema
 
-from gripscale.units import parse_quantity
+from gripscale.case.expected import Words
+from gripscale.units import parse_quantity, such_as
 
 
 def _positive(value: float) -> float:
@@ -21,22 +25,39 @@ def _not_negative(value: float) -> float:
     return value
 
 
-def _reader(kind: str, check: Any = float) -> BeforeValidator:
-    return BeforeValidator(lambda value: check(parse_quantity(value, kind)))
+@dataclass(frozen=True)
+class Quantity(Words):
+    """Read with its unit, then checked."""
+
+    kind: str
+    check: Callable[[float], float]
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> core_schema.CoreSchema:
+        """Read the quantity before pydantic looks at the number."""
+        return core_schema.no_info_before_validator_function(self._read, handler(source))
+
+    def _read(self, value: Any) -> float:
+        return self.check(parse_quantity(value, self.kind))
 
 
-Pressure = Annotated[float, _reader("pressure", _positive)]
-Stress = Annotated[float, _reader("pressure", _not_negative)]
-Length = Annotated[float, _reader("length", _positive)]
-Position = Annotated[float, _reader("length")]
-Duration = Annotated[float, _reader("time", _positive)]
-Speed = Annotated[float, _reader("speed", _not_negative)]
-MovingSpeed = Annotated[float, _reader("speed", _positive)]
-Temperature = Annotated[float, _reader("temperature", _positive)]
-TemperatureDifference = Annotated[float, _reader("temperature difference", _positive)]
-Strain = Annotated[float, _reader("strain", _positive)]
-Conductivity = Annotated[float, _reader("conductivity", _positive)]
-Density = Annotated[float, _reader("density", _positive)]
-SpecificHeat = Annotated[float, _reader("specific heat", _positive)]
-MolarEnergy = Annotated[float, _reader("molar energy", _positive)]
-BondEnergy = Annotated[float, _reader("bond energy", _not_negative)]
+def _quantity(kind: str, check: Callable[[float], float] = float) -> Quantity:
+    return Quantity(f"a {kind} {such_as(kind)}", kind, check)
+
+
+Pressure = Annotated[float, _quantity("pressure", _positive)]
+Stress = Annotated[float, _quantity("pressure", _not_negative)]
+Length = Annotated[float, _quantity("length", _positive)]
+Position = Annotated[float, _quantity("length")]
+Duration = Annotated[float, _quantity("time", _positive)]
+Speed = Annotated[float, _quantity("speed", _not_negative)]
+MovingSpeed = Annotated[float, _quantity("speed", _positive)]
+Temperature = Annotated[float, _quantity("temperature", _positive)]
+TemperatureDifference = Annotated[float, _quantity("temperature difference", _positive)]
+Strain = Annotated[float, _quantity("strain", _positive)]
+Conductivity = Annotated[float, _quantity("conductivity", _positive)]
+Density = Annotated[float, _quantity("density", _positive)]
+SpecificHeat = Annotated[float, _quantity("specific heat", _positive)]
+MolarEnergy = Annotated[float, _quantity("molar energy", _positive)]
+BondEnergy = Annotated[float, _quantity("bond energy", _not_negative)]

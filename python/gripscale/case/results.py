@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from gripscale.case.key import prediction_key
 from gripscale.case.prepare_rubber import PreparedRubber
 from gripscale.case.read import CaseFile
 from gripscale.chain.model import Chain
@@ -42,12 +43,22 @@ class CaseResults:
     predictions: dict[str, Prediction] = field(default_factory=dict)
     failures: dict[str, ChainError] = field(default_factory=dict)
     folder: Path | None = None
+    _keys: dict[str, str] = field(default_factory=dict, init=False, repr=False)
 
     @property
     def load(self) -> NominalLoad:
         """The load of the case, at its speed."""
         load = self.file.case.load
         return NominalLoad(load.pressure, load.speed, load.footprint, load.load_time)
+
+    def key(self, name: str) -> str:
+        """Return what the prediction `name` depends on, as one word.
+
+        Raises `FileError` if a file of the case cannot be read any more.
+        """
+        if name not in self._keys:
+            self._keys[name] = prediction_key(self.file, name)
+        return self._keys[name]
 
     @property
     def conditions(self) -> Conditions | None:

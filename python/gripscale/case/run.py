@@ -7,7 +7,7 @@ results.dynamic.friction
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from gripscale import netcdf
@@ -17,6 +17,7 @@ from gripscale.case.prepare import prepare_surface
 from gripscale.case.prepare_rubber import prepare_rubber
 from gripscale.case.read import CaseFile, read_case
 from gripscale.case.results import CaseResults
+from gripscale.case.resume import FINISHED, KEY, Earlier, earlier
 from gripscale.chain.predict import ChainError, predict
 from gripscale.chain.prediction import Prediction
 from gripscale.errors import InputError
@@ -27,10 +28,12 @@ from gripscale.rubber.extrapolation import require_measured
 
 @dataclass(frozen=True)
 class WaveSolved:
-    """One more wave of a prediction is solved, as `on_wave` is told."""
+    """One more wave of a prediction is there, as `on_wave` is told."""
 
     name: str
     so_far: Prediction
+    taken_up: bool = False
+    """It was solved by an earlier run of the same case."""
 
 
 def prepare_case(case: CaseFile | str | Path) -> CaseResults:
@@ -51,6 +54,8 @@ def run_case(
     *,
     output: str | Path | None = None,
     on_wave: Callable[[WaveSolved], None] | None = None,
+    on_folder: Callable[[str], None] | None = None,
+    fresh: bool = False,
 ) -> CaseResults:
     """Predict contact area and friction of a case.
 
@@ -59,10 +64,16 @@ def run_case(
     case : path, CaseFile or CaseResults
         The case file, read, or with its inputs prepared.
     output : path, optional
-        Folder for the result files, written wave by wave and cleared of an earlier run before;
-        without it nothing is written.
+        Folder for the result files, written wave by wave, with the case and its files, so that it
+        runs from there. Results of an earlier run are replaced, unless they are of exactly this
+        case: then what was finished is taken up and not solved again. Without it nothing is
+        written.
     on_wave : callable, optional
         Called after each wave.
+    on_folder : callable, optional
+        Called with a sentence if results of an earlier run are replaced, before they are.
+    fresh : bool, optional
+        Take nothing up.
 
     Returns
     -------
@@ -81,11 +92,27 @@ def run_case(
     if output is not None:
         results.folder = Path(output)
         folder.require_writable(results.folder)
-        folder.prepare(results.folder)
-        folder.write_text(results.folder / "case.toml", results.file.text)
+    known = {} if fresh else _known(results)
+    if results.folder is not None:
+        keep = [f"{name}.nc" for name in known]
+        replaced = folder.earlier_run(results.folder, keep)
+        if replaced and on_folder is not None:
+            on_folder(replaced)
+        folder.prepare(results.folder, results.file, keep)
     for name, speed in results.planned():
-        _solve(results, name, speed, on_wave)
+        _solve(results, name, speed, on_wave, known.get(name))
     return results
+
+
+def _known(results: CaseResults) -> dict[str, Earlier]:
+    """Return what an earlier run left of the predictions of exactly this case, by name."""
+    if results.folder is None:
+        return {}
+    found = {
+        name: earlier(results.folder / f"{name}.nc", results.key(name), results.chain)
+        for name, _ in results.planned()
+    }
+    return {name: one for name, one in found.items() if one is not None}
 
 
 def _require_shift(results: CaseResults) -> None:
@@ -113,17 +140,30 @@ def _require_measured(results: CaseResults) -> None:
 
 
 def _solve(
-    results: CaseResults, name: str, speed: float, on_wave: Callable[[WaveSolved], None] | None
+    results: CaseResults,
+    name: str,
+    speed: float,
+    on_wave: Callable[[WaveSolved], None] | None,
+    known: Earlier | None,
 ) -> None:
     """Add one prediction to `results`, on disk after each wave; the inputs follow at the end."""
     load, chain = results.file.case.load, results.chain
+    before = 0 if known is None else len(known.prediction.scales)
 
     def keep(so_far: Prediction) -> None:
         results.predictions[name] = so_far
-        _save(results, name)
+        taken_up = len(so_far.scales) <= before
+        if not taken_up:
+            _save(results, name)
         if on_wave is not None:
-            on_wave(WaveSolved(name, so_far))
+            on_wave(WaveSolved(name, so_far, taken_up))
 
+    if known is not None and known.finished:
+        for count in range(1, before + 1):
+            keep(replace(known.prediction, scales=known.prediction.scales[:count]))
+        _save(results, name, with_inputs=True, finished=True)
+        return
+    finished = False
     try:
         results.predictions[name] = predict(
             results.rubber.rubber,
@@ -133,19 +173,22 @@ def _solve(
             footprint=load.footprint,
             pressure_classes=chain.pressure_classes,
             load_time=load.load_time,
-            solver=chain.solver,
+            solver=chain.solver if known is None else known.solver(chain.solver),
             extrapolate=chain.extrapolate,
             conditions=chain.conditions,
             on_scale=keep,
         )
+        finished = True
     except ChainError as failure:
         results.failures[name] = failure
     finally:
-        _save(results, name, complete=True)
+        _save(results, name, with_inputs=True, finished=finished)
 
 
-def _save(results: CaseResults, name: str, *, complete: bool = False) -> None:
-    """Write what is known of a prediction; a complete one has the inputs beside it."""
+def _save(
+    results: CaseResults, name: str, *, with_inputs: bool = False, finished: bool = False
+) -> None:
+    """Write what is known of a prediction, at the end with the inputs beside it."""
     if results.folder is None or name not in results.predictions:
         return
     data = (
@@ -156,7 +199,8 @@ def _save(results: CaseResults, name: str, *, complete: bool = False) -> None:
             case_file=str(results.file.path),
             surface_source=results.surface.source,
             rubber_source=results.rubber.source,
+            **{KEY: results.key(name), FINISHED: int(finished)},
         )
     )
-    groups = {"inputs": record.inputs(results)} if complete else {}
+    groups = {"inputs": record.inputs(results)} if with_inputs else {}
     netcdf.save(data, results.folder / f"{name}.nc", groups)

@@ -7,6 +7,8 @@ from typing import Any, get_args
 
 from pydantic import BaseModel, ValidationError
 
+from gripscale.case.expected import expected
+
 _EXPECTED = {
     "bool_type": "true or false",
     "finite_number": "a finite number",
@@ -71,12 +73,9 @@ def _model_at(model: type[BaseModel], loc: tuple[int | str, ...]) -> type[BaseMo
 
 
 def _wanted(owner: type[BaseModel], loc: tuple[int | str, ...]) -> str:
-    """Return what a missing key should have held: a table with its keys, or its description."""
+    """Return what a missing key should have held."""
     field = owner.model_fields[str(loc[-1])]
-    inner = _model_in(field.annotation)
-    if inner is not None:
-        return f"a table with {', '.join(inner.model_fields)}"
-    return field.description or "a value"
+    return expected(field)
 
 
 def _suggestion(owner: type[BaseModel], loc: tuple[int | str, ...]) -> str:

@@ -3,37 +3,63 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, ValidationError
+from pydantic_core import core_schema
 
+from gripscale.case.expected import Words
 from gripscale.case.sentence import sentence
 from gripscale.checks import shown
 
 
 class Table(BaseModel):
-    """One table of the case file: unknown keys are refused, values are not bent into shape."""
+    """One table of the case file: unknown keys are refused, values are not bent into shape.
 
-    model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
+    The text below a key is its description, in the list of keys and in the documentation.
+    """
+
+    model_config = ConfigDict(
+        extra="forbid", strict=True, frozen=True, use_attribute_docstrings=True
+    )
 
 
-def by_kind(tables: Mapping[str, type[Table]], key: str = "kind") -> BeforeValidator:
-    """Return a validator of tables such as { kind = "wlf", c1 = 8.0, c2 = "120 K" }."""
-    kinds = ", ".join(tables)
+@dataclass(frozen=True)
+class ByKind(Words):
+    """Reads tables such as { kind = "wlf", c1 = 8.0, c2 = "120 K" }."""
 
-    def read(value: Any) -> Any:
+    tables: Mapping[str, type[Table]] = field(hash=False)
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> core_schema.CoreSchema:
+        """Read the table before pydantic asks what it is an instance of."""
+        return core_schema.no_info_before_validator_function(self.read, handler(source))
+
+    def read(self, value: Any) -> Any:
+        """Return the table of the kind that `value` names."""
+        kinds = ", ".join(self.tables)
         if isinstance(value, Table):
             return value
         if not isinstance(value, Mapping):
-            raise ValueError(f"expected a table with {key} (one of {kinds}) and its keys")
-        if key not in value:
-            raise ValueError(f"{key} is missing; expected one of {kinds}")
-        kind = value[key]
-        if not isinstance(kind, str) or kind not in tables:
-            raise ValueError(f"{key} = {shown(kind)}: expected one of {kinds}")
-        return checked(tables[kind], value)
+            raise ValueError(f"expected {self.words}")
+        if "kind" not in value:
+            raise ValueError(f"kind is missing; expected one of {kinds}")
+        kind = value["kind"]
+        if not isinstance(kind, str) or kind not in self.tables:
+            raise ValueError(f"kind = {shown(kind)}: expected one of {kinds}")
+        return checked(self.tables[kind], value)
 
-    return BeforeValidator(read)
+
+def by_kind(tables: Mapping[str, type[Table]]) -> ByKind:
+    """Return what reads one of `tables` by its kind."""
+    return ByKind(a_table(tables), tables)
+
+
+def a_table(tables: Mapping[str, type[Table]]) -> str:
+    """Return what is expected where one of `tables` is to be stated."""
+    return f"a table with kind (one of {', '.join(tables)}) and its keys"
 
 
 def checked(table: type[Table], value: Any) -> Table:

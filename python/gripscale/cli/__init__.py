@@ -14,19 +14,28 @@ from gripscale.cli.calibrate import calibrate
 from gripscale.cli.compare import compare
 from gripscale.cli.fit_rubber import fit_rubber
 from gripscale.cli.fit_surface import fit_surface
+from gripscale.cli.init import init
+from gripscale.cli.keys import keys
 from gripscale.cli.report import report
 from gripscale.cli.reproduce import PASS_ON, reproduce
 from gripscale.cli.run import run
 from gripscale.cli.study import study
 from gripscale.versions import version_of
 
+EPILOGUE = (
+    "To start: `gripscale init FOLDER` writes an example, `gripscale keys` lists what a case may "
+    "say. The documentation is in docs of the source, `make docs` builds its pages."
+)
+
 app = typer.Typer(
     name="gripscale",
+    epilog=EPILOGUE,
     add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
     no_args_is_help=True,
 )
+app.command("init")(init)
 app.command("run")(run)
 app.command("compare")(compare)
 app.command("calibrate")(calibrate)
@@ -35,6 +44,7 @@ app.command("study")(study)
 app.command("reproduce", context_settings=PASS_ON)(reproduce)
 app.command("fit-surface")(fit_surface)
 app.command("fit-rubber")(fit_rubber)
+app.command("keys")(keys)
 
 
 def _version(wanted: bool) -> None:

@@ -22,8 +22,8 @@ def reproduce(context: typer.Context) -> None:
     root = Path(gripscale.__file__).resolve().parents[2]
     if not (root / "reproduction" / "__main__.py").is_file():
         raise FileError(
-            "the reproduction is not part of the package: get the source of gripscale and run "
-            "`python -m reproduction` in its folder"
+            "the reproduction is in the source of gripscale, not in the package: "
+            "run `python -m reproduction` in a clone of it"
         )
     sys.path.insert(0, str(root))
     raise typer.Exit(importlib.import_module("reproduction.__main__").main(context.args))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator
@@ -34,8 +35,14 @@ def run(
             help="Results folder, instead of the one in the case.", metavar="DIR", readable=False
         ),
     ] = None,
+    fresh: Annotated[
+        bool,
+        typer.Option(
+            "--fresh", help="Solve all anew, also what an earlier run of the same case finished."
+        ),
+    ] = False,
 ) -> None:
-    """Predict contact area and friction of a case: tables, figures and result files."""
+    """Predict contact area and friction of a case; goes on where it was stopped."""
     from gripscale.case import folder, prepare_case, read_case, run_case
     from gripscale.comparison import judged
     from gripscale.effects import case_effects
@@ -57,12 +64,19 @@ def run(
             solving(solved.name)
 
         with _spinner(console):
-            run_case(results, output=target, on_wave=look)
+            run_case(
+                results,
+                output=target,
+                on_wave=look,
+                on_folder=lambda words: say(console, words),
+                fresh=fresh,
+            )
             direct = judged(results)
             worth = case_effects(results, results.chain, target, target / "effects")
         _conclude(console, target, opening, results, direct, worth)
     console.print()
     say(console, f"Results, report and figures are in {target}")
+    _tell_old_page(console, target, results)
     _fail_if_any(results)
 
 
@@ -128,7 +142,8 @@ def _teller(console: Console, waves: int) -> Callable[[WaveSolved], None]:
             text += f", friction {scale.friction:.3f}"
         seconds, clock = time.perf_counter() - clock, time.perf_counter()
         why = "" if scale.status == "conditions not settled" else f"{scale.why}, "
-        say(console, f"  {text}, {why}{seconds:.1f} s")
+        how = "already solved" if solved.taken_up else f"{seconds:.1f} s"
+        say(console, f"  {text}, {why}{how}")
 
     return tell
 
@@ -186,6 +201,16 @@ def _conditions_tables(results: CaseResults, worth: xr.Dataset | None) -> Iterat
         if figures is not None:
             draw_effects([worth], figures)
         yield effects_table(worth)
+
+
+def _tell_old_page(console: Console, target: Path, results: CaseResults) -> None:
+    """Say so if the page in the folder does not show this result."""
+    page, first = target / "report.html", next(iter(results.predictions), None)
+    if first is None or not page.is_file():
+        return
+    if results.key(first) not in page.read_text(encoding="utf-8", errors="replace"):
+        words = shlex.join(["gripscale", "report", str(target)])
+        say(console, f"{page.name} in it is older and shows another result; `{words}` renews it")
 
 
 def _fail_if_any(results: CaseResults) -> None:

@@ -76,7 +76,7 @@ def study(
     for line in opening:
         say(console, line)
     folder.make(target / "figures")
-    folder.write_text(target / "case.toml", made.file.text)
+    folder.save_case(made.file, target)
     result = made.run(target, workers=workers, client=cluster, on_task=teller(console))
     _conclude(console, opening, result, target, drawn=known is not None)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import shlex
 from pathlib import PurePath
 
+from gripscale.case.resume import KEY
 from gripscale.report import input_tables as inputs
 from gripscale.report.blocks import blocks_image
 from gripscale.report.charts.contact import contact_charts
@@ -142,6 +143,7 @@ def rerun_elements(attrs: dict[object, object], case: str, command: str) -> list
     """Return versions, and the case file with the command that runs it."""
     names = [str(name) for name in attrs if str(name).startswith("version_")]
     solved = [(name.removeprefix("version_"), str(attrs[name])) for name in sorted(names)]
+    solved += [("Key of the result", str(attrs[KEY]))] if KEY in attrs else []
     here = ", ".join(f"{name} {version}" for name, version in versions().items())
     elements: list[Element] = [Facts("Solved with", [*solved, ("This page written by", here)])]
     if "case" in attrs:

@@ -13,7 +13,7 @@ from contextlib import ExitStack, contextmanager
 from typing import Any
 
 from gripscale.errors import ConvergenceError, InputError
-from gripscale.study.software import software
+from gripscale.software import software
 from gripscale.study.task import Solved, Task
 
 Solve = Callable[[list[Task]], Generator[Solved, None, None]]

@@ -26,6 +26,7 @@ from gripscale.chain.model import Chain
 from gripscale.errors import FileError, InputError
 from gripscale.model import Model, NominalLoad
 from gripscale.rubber import Rubber
+from gripscale.software import software
 from gripscale.study import assemble
 from gripscale.study.assemble import Index
 from gripscale.study.axes import Axis, axes_of
@@ -39,7 +40,6 @@ from gripscale.study.inputs import (
     surface_of,
 )
 from gripscale.study.models import model_of
-from gripscale.study.software import software
 from gripscale.study.store import Store
 from gripscale.study.task import Task, exact
 from gripscale.study.temperature import beyond_shift, with_master_curve

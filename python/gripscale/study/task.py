@@ -24,7 +24,7 @@ from gripscale.errors import InputError
 from gripscale.model import Model, NominalLoad
 from gripscale.parallel import Stopped
 from gripscale.rubber import Rubber
-from gripscale.study.software import software
+from gripscale.software import software
 from gripscale.surface import PreparedSurface
 
 KEY_LENGTH = 32

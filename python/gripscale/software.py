@@ -10,8 +10,8 @@ import gripscale
 from gripscale import _kernel
 from gripscale.versions import version_of
 
-FACES = ("cli", "figures", "report")
-"""Rooms that only show results; all others are taken to make them."""
+FACES = ("cli", "figures", "init", "report")
+"""Rooms that start cases or show results; all others are taken to make them."""
 
 
 @lru_cache(maxsize=1)

@@ -1,0 +1,163 @@
+"""A run that was stopped goes on where it was, with the same results to the last bit."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+import xarray as xr
+
+from gripscale import netcdf
+from gripscale.case import WaveSolved, run_case
+from gripscale.theory import HalfPlane
+from gripscale.wave import FiniteStrainBlock, WaveProblem, WaveResult
+
+Count = Callable[[int | None], list[int]]
+WAVES = '[[surface.sines]]\nwavelength = "1 mm"\namplitude = "0.08 mm"\n'
+
+
+@pytest.fixture
+def three(case: Path) -> Path:
+    """The case with a third wave, sliding and at rest: six waves to solve."""
+    text = case.read_text().replace("\n[rubber]", f"{WAVES}\n[rubber]")
+    case.write_text(text)
+    return case
+
+
+@pytest.fixture
+def solved(monkeypatch: pytest.MonkeyPatch) -> Count:
+    """Count the waves that are solved from now on, and stop before wave `last`, from 0."""
+    solvers = {one: one.solve for one in (FiniteStrainBlock, HalfPlane)}
+
+    def counting(last: int | None = None) -> list[int]:
+        seen: list[int] = []
+        for kind, solve in solvers.items():
+
+            def look(
+                self: FiniteStrainBlock,
+                problem: WaveProblem,
+                start: WaveResult | None = None,
+                solve: Callable[..., WaveResult] = solve,
+            ) -> WaveResult:
+                if len(seen) == last:
+                    raise KeyboardInterrupt
+                seen.append(len(seen))
+                return solve(self, problem, start)
+
+            monkeypatch.setattr(kind, "solve", look)
+        return seen
+
+    return counting
+
+
+def same(first: Path, second: Path) -> None:
+    """Assert that two folders hold the same predictions, to the last bit."""
+    for name in sorted(path.name for path in first.glob("*.nc")):
+        one, other = (netcdf.load_tree(folder / name) for folder in (first, second))
+        for group in ("/", "inputs"):
+            xr.testing.assert_identical(
+                one[group].to_dataset(inherit=False), other[group].to_dataset(inherit=False)
+            )
+
+
+@pytest.mark.parametrize("last", [1, 2, 3, 5])
+def test_a_stopped_run_solves_only_what_is_missing(
+    three: Path, tmp_path: Path, solved: Count, last: int
+) -> None:
+    run_case(three, output=tmp_path / "whole")
+    solved(last)
+    with pytest.raises(KeyboardInterrupt):
+        run_case(three, output=tmp_path / "stopped")
+    seen, told = solved(None), list[WaveSolved]()
+    results = run_case(three, output=tmp_path / "stopped", on_wave=told.append)
+    assert len(seen) == 6 - last
+    assert [one.taken_up for one in told] == [number < last for number in range(6)]
+    assert results.converged
+    same(tmp_path / "whole", tmp_path / "stopped")
+
+
+def test_a_finished_run_solves_nothing_again_unless_told_to(
+    three: Path, tmp_path: Path, solved: Count
+) -> None:
+    run_case(three, output=tmp_path / "out")
+    first = netcdf.load(tmp_path / "out" / "dynamic.nc")
+    seen, told = solved(None), list[str]()
+    results = run_case(three, output=tmp_path / "out", on_folder=told.append)
+    assert not seen
+    assert told[0].startswith("Replaces 1 file of an earlier run")  # the case itself
+    assert results.dynamic is not None
+    xr.testing.assert_identical(first, netcdf.load(tmp_path / "out" / "dynamic.nc"))
+    run_case(three, output=tmp_path / "out", fresh=True)
+    assert len(seen) == 6
+
+
+@pytest.mark.parametrize(
+    ("old", "new"), [('"3 bar"', '"2 bar"'), ("rows = 8", "rows = 9"), ("[load]", "[load] # other")]
+)
+def test_another_case_takes_nothing_up(
+    three: Path, tmp_path: Path, solved: Count, old: str, new: str
+) -> None:
+    run_case(three, output=tmp_path / "out")
+    three.write_text(three.read_text().replace(old, new))
+    seen = solved(None)
+    run_case(three, output=tmp_path / "out")
+    assert len(seen) == 6
+
+
+def test_a_changed_file_of_the_same_name_takes_nothing_up(
+    inputs: Path, tmp_path: Path, solved: Count
+) -> None:
+    for path in inputs.iterdir():
+        (tmp_path / path.name).write_bytes(path.read_bytes())
+    run_case(tmp_path / "case.toml", output=tmp_path / "out")
+    road = tmp_path / "road.txt"
+    road.write_text(road.read_text().replace("0.1\t", "0.1 \t"))
+    seen = solved(None)
+    run_case(tmp_path / "case.toml", output=tmp_path / "out")
+    assert len(seen) == 6
+
+
+def test_other_software_takes_nothing_up(
+    three: Path, tmp_path: Path, solved: Count, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run_case(three, output=tmp_path / "out")
+    monkeypatch.setattr("gripscale.case.key.software", lambda: "another")
+    seen = solved(None)
+    run_case(three, output=tmp_path / "out")
+    assert len(seen) == 6
+
+
+SOFTENING = """\
+[conditions.softening]
+kind = "kraus"
+storage_ratio = 0.8
+loss_ratio = 0.8
+critical_strain = 0.05
+measured_at = 0.001
+deformation = "tension"
+"""
+
+
+@pytest.mark.parametrize("more", ["[chain]\npressure_classes = 2\n", SOFTENING])
+def test_where_waves_depend_on_more_only_finished_predictions_are_taken_up(
+    three: Path, tmp_path: Path, solved: Count, more: str
+) -> None:
+    coarse = three.read_text().replace(
+        "columns = 32\nrows = 8", 'model = "half_plane"\npoints = 64'
+    )
+    three.write_text(coarse.replace("static = true", "static = false") + more)
+    count = solved(None)
+    assert run_case(three, output=tmp_path / "whole").converged
+    whole = len(count)
+    assert whole > 3
+    solved(whole - 1)
+    with pytest.raises(KeyboardInterrupt):
+        run_case(three, output=tmp_path / "stopped")
+    seen = solved(None)
+    run_case(three, output=tmp_path / "stopped")
+    assert len(seen) == whole
+    same(tmp_path / "whole", tmp_path / "stopped")
+    seen.clear()
+    run_case(three, output=tmp_path / "stopped")
+    assert not seen

@@ -1,0 +1,126 @@
+"""`gripscale init` writes examples that run; nothing is overwritten."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from typer.testing import Result
+
+import gripscale
+from gripscale.case import prepare_case, read_case
+from gripscale.cli.init import Choice
+from gripscale.errors import FileError, InputError
+from gripscale.init import EXAMPLES, write_example
+
+Shell = Callable[..., Result]
+ROOT = Path(__file__).parents[2]
+COARSE = "\n[solver]\ncolumns = 32\nrows = 8\n"
+"""Added to a case to have it solved in a second."""
+
+
+def tree(folder: Path) -> dict[str, bytes]:
+    files = (path for path in folder.rglob("*") if path.is_file())
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in files}
+
+
+def test_the_command_offers_every_example() -> None:
+    assert [choice.value for choice in Choice] == list(EXAMPLES)
+
+
+def test_the_road_is_the_shipped_case_with_its_data(tmp_path: Path) -> None:
+    written = write_example(tmp_path / "new" / "road")
+    assert written[0].name == "case.toml"
+    assert {path.relative_to(tmp_path / "new" / "road").as_posix() for path in written} == set(
+        tree(tmp_path / "new" / "road")
+    )
+    shipped = read_case(ROOT / "examples" / "road_and_tread" / "case.toml")
+    own = read_case(written[0])
+    assert own.text == shipped.text.replace("../data", "data")
+    for (_, name), (_, other) in zip(
+        own.case.named_files(), shipped.case.named_files(), strict=True
+    ):
+        assert own.resolve(name).read_bytes() == shipped.resolve(other).read_bytes()
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_every_example_is_commented_has_its_sources_and_can_be_prepared(
+    name: str, tmp_path: Path
+) -> None:
+    if EXAMPLES[name].needs:
+        pytest.importorskip("SurfaceTopography", reason="needs gripscale[formats]")
+    written = write_example(tmp_path, name)
+    for folder in {path.parent for path in written if "data" in path.parts}:
+        there = {path.name.partition(".")[0] for path in folder.iterdir()}
+        assert "SOURCE" in there, folder
+    text = written[0].read_text()
+    assert text.startswith("# ")
+    results = prepare_case(written[0])
+    assert len(results.surface.sines) == results.file.case.surface.scales
+    assert {"static", "keys`"} <= set(text.split())
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_nothing_is_overwritten(name: str, tmp_path: Path) -> None:
+    last = write_example(tmp_path / "first", name)[-1]
+    target = tmp_path / "second"
+    mine = target / last.relative_to(tmp_path / "first")
+    mine.parent.mkdir(parents=True)
+    mine.write_text("mine")
+    with pytest.raises(FileError, match=f"{mine.name} is there already"):
+        write_example(target, name)
+    assert list(tree(target).values()) == [b"mine"]
+
+
+def test_other_words_are_refused_in_one_sentence(shell: Shell, tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="example must be one of road, synthetic, map"):
+        write_example(tmp_path, "tyre")
+    (tmp_path / "file").write_text("")
+    result = shell("init", tmp_path / "file" / "new")
+    assert result.exit_code == 2
+    assert result.stderr.endswith("file is not a folder\n")
+
+
+def test_what_it_says_comes_next_works(shell: Shell, tmp_path: Path) -> None:
+    """The two quick ones of the three commands; `compare` takes a minute."""
+    folder = tmp_path / "start here"
+    said = shell("init", folder, "--example", "synthetic", columns=400)
+    assert said.exit_code == 0, said.output
+    lines = [line.strip() for line in said.output.splitlines()]
+    named = f"'{folder}/"
+    commands = [line for line in lines if line.startswith("gripscale")]
+    assert commands == [
+        f"gripscale run {named}case.toml'",
+        f"gripscale report {named}results'",
+        f"gripscale compare {named}case.toml'",
+    ]
+    case = folder / "case.toml"
+    case.write_text(case.read_text() + COARSE)
+    run = shell("run", case)
+    assert run.exit_code == 0, run.output
+    assert "4 waves: real contact area" in run.output
+    pytest.importorskip("bokeh", reason="needs gripscale[report]")
+    report = shell("report", folder / "results")
+    assert report.exit_code == 0, report.output
+    assert (folder / "results" / "report.html").stat().st_size > 1e6
+    again = shell("run", case)
+    assert again.output.count("already solved") == 8
+    assert "report.html" not in again.output
+    case.write_text(case.read_text().replace("static = true ", "static = false"))
+    other = shell("run", case)
+    assert "Replaces" in other.output
+    assert "report.html in it is older" in other.output
+
+
+def test_the_package_runs_as_a_module() -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "gripscale", "--version"], capture_output=True, text=True, check=True
+    )
+    assert done.stdout == f"gripscale {gripscale.__version__}\n"
+    told = subprocess.run(
+        [sys.executable, "-m", "gripscale"], capture_output=True, text=True, check=False
+    )
+    assert "gripscale init FOLDER" in " ".join((told.stdout + told.stderr).split())
