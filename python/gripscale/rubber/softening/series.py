@@ -17,7 +17,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import nnls
 
 from gripscale import checks
 from gripscale.rubber.material import Rubber
@@ -74,6 +73,8 @@ def softened(rubber: Rubber, storage: float, loss: float, omega: ArrayLike) -> S
 
 def _multipliers(rows: Array, omega: Array, f: float) -> Array:
     """Return x, of E_inf and then of the slowest term first."""
+    from scipy.optimize import nnls  # half a second, which reading a case does not pay
+
     count = rows.shape[1]
     weight = np.tile(np.sqrt(omega[0] / omega), 2)
     steps = SMOOTHING * np.diff(np.eye(count), axis=0)
