@@ -11,6 +11,7 @@ from typing import Annotated
 import typer
 
 from gripscale.cli.compare import compare
+from gripscale.cli.export import export
 from gripscale.cli.fit_rubber import fit_rubber
 from gripscale.cli.fit_surface import fit_surface
 from gripscale.cli.report import report
@@ -33,6 +34,7 @@ app.command("study")(study)
 app.command("reproduce", context_settings=PASS_ON)(reproduce)
 app.command("fit-surface")(fit_surface)
 app.command("fit-rubber")(fit_rubber)
+app.add_typer(export, name="export")
 
 
 def _version(wanted: bool) -> None:

@@ -1,6 +1,7 @@
 from .abaqus import abaqus_rubber as abaqus_rubber
 from .ansys import ansys_rubber as ansys_rubber
 from .febio import febio_rubber as febio_rubber
+from .mesh import wave_of as wave_of
 from .mesh import write_mesh as write_mesh
 from .program_file import ProgramFile as ProgramFile
 from .stress import BlockStress as BlockStress

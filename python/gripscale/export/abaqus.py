@@ -64,11 +64,14 @@ def abaqus_rubber(
     law, said = wlf(rubber)
     remarks = [
         *heading(rubber, units, "Abaqus"),
-        "MODULI=LONG TERM: the constants of *HYPERELASTIC are those of the relaxed rubber.",
-        "Only shear relaxes (k_i = 0). Use hybrid elements: the rubber is nearly incompressible.",
-        whole_network(rubber, "Abaqus"),
-        said,
+        "Use hybrid elements: the rubber is nearly incompressible.",
     ]
+    if len(rubber.moduli):
+        remarks += [
+            "MODULI=LONG TERM: the constants of *HYPERELASTIC are those of the relaxed rubber.",
+            whole_network(rubber, "Abaqus"),
+            said,
+        ]
     lines = [
         *comment(remarks, "**"),
         f"*MATERIAL, NAME={label(rubber, name)}",

@@ -58,11 +58,14 @@ def ansys_rubber(
     law, said = wlf(rubber)
     remarks = [
         *heading(rubber, units, "Ansys MAPDL"),
-        "The constants of TB,HYPER are those of the fast limit, as TB,PRONY wants them.",
-        "Only shear relaxes. Use elements with mixed u-P: the rubber is nearly incompressible.",
-        whole_network(rubber, "Ansys"),
-        said,
+        "Use elements with mixed u-P: the rubber is nearly incompressible.",
     ]
+    if len(rubber.moduli):
+        remarks += [
+            "The constants of TB,HYPER are those of the fast limit, as TB,PRONY wants them.",
+            whole_network(rubber, "Ansys"),
+            said,
+        ]
     lines = [*comment(remarks, "!"), *_hyperelastic(rubber, number, units)]
     if len(rubber.moduli):
         pairs = [

@@ -43,12 +43,12 @@ def coefficients(rubber: Rubber) -> Coefficients:
         case Yeoh(second=second, third=third):
             return {(1, 0): half, (2, 0): half * second, (3, 0): half * third}
         case Isihara(share=share, second=second):
-            parts = {(1, 0): half * (1.0 - share), (0, 1): half * share, (2, 0): half * second}
-            return parts
-    raise InputError(
-        "strain_energy must be neo_hookean, mooney_rivlin, yeoh or isihara to be exported; "
-        f"got {energy.kind}"
-    )
+            return {(1, 0): half * (1.0 - share), (0, 1): half * share, (2, 0): half * second}
+        case _:
+            raise InputError(
+                "strain_energy must be neo_hookean, mooney_rivlin, yeoh or isihara to be "
+                f"exported; got {energy.kind}"
+            )
 
 
 def shares(rubber: Rubber) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
@@ -120,7 +120,7 @@ def whole_network(rubber: Rubber, program: str) -> str:
         "by temporary networks that are born free of stress (Lubliner 1985): equal at small "
         "strain and relaxed, different in between."
     )
-    if isinstance(rubber.strain_energy, NeoHookean) or not len(rubber.moduli):
+    if isinstance(rubber.strain_energy, NeoHookean):
         return form
     return (
         f"{form} Here the relaxing part has the {rubber.strain_energy.kind} energy as well; in "

@@ -84,27 +84,26 @@ def febio_rubber(
 
 
 def _remarks(rubber: Rubber, units: Units, solids: int) -> list[str]:
-    law, said = wlf(rubber)
-    remarks = heading(rubber, units, "FEBio")
-    if solids > 1:
-        remarks.append(
-            f"{solids - 1} solids of at most {TERMS} Maxwell elements and the permanent network: "
-            "the whole series, not a fit of it."
-        )
-    remarks += [
+    remarks = [
+        *heading(rubber, units, "FEBio"),
         "FEBio's volume energy is K/2 (ln J)^2, gripscale's K/2 (J-1)^2: equal at small changes of "
         "volume.",
+    ]
+    if solids == 1:
+        return remarks
+    law, said = wlf(rubber)
+    return [
+        *remarks,
+        f"{solids - 1} solids of at most {TERMS} Maxwell elements and the permanent network: the "
+        "whole series, not a fit of it.",
         "At finite strain FEBio relaxes the second Piola-Kirchhoff stress of each solid by a "
         "hereditary integral, gripscale has temporary networks that are born free of stress "
         "(Lubliner 1985): equal at small strain and relaxed, different in between.",
+        said
+        if law is None
+        else "FEBio has no time-temperature shift: for another temperature, export the rubber "
+        "there.",
     ]
-    if law is None:
-        remarks.append(said)
-    else:
-        remarks.append(
-            "FEBio has no time-temperature shift: for another temperature, export the rubber there."
-        )
-    return remarks
 
 
 def _permanent(into: ET.Element, rubber: Rubber, bulk: float, units: Units) -> None:
@@ -123,9 +122,7 @@ def _permanent(into: ET.Element, rubber: Rubber, bulk: float, units: Units) -> N
         _value(into, f"c{place}", units.stress(found.get(at, 0.0)))
 
 
-def _temporary(
-    into: ET.Element, rubber: Rubber, terms: slice, bulk: float, units: Units
-) -> None:
+def _temporary(into: ET.Element, rubber: Rubber, terms: slice, bulk: float, units: Units) -> None:
     """Add a solid of at most six Maxwell elements and no permanent part."""
     moduli, times = rubber.shear_moduli[terms], rubber.relaxation_times[terms]
     total = float(moduli.sum())

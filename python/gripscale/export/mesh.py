@@ -5,14 +5,17 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+import xarray as xr
 from numpy.typing import NDArray
 
 from gripscale import checks
+from gripscale.errors import InputError
 from gripscale.export.reference_block import ReferenceBlock
 from gripscale.export.stress import EQUILIBRIUM, block_stress
 from gripscale.export.vtu import BIQUADRATIC_QUAD, QUAD, Grid, write_vtu
 from gripscale.textfile import file_path
 from gripscale.wave import WaveResult
+from gripscale.wave.dataset import waves_from_dataset
 
 Array = NDArray[np.float64]
 
@@ -77,6 +80,24 @@ def write_mesh(result: WaveResult, path: str | Path) -> Path:
     return write_vtu(grid, file_path(path))
 
 
+def wave_of(data: xr.Dataset, number: int) -> WaveResult:
+    """Return wave `number`, from 1, of a prediction; of blocks on profiles that profile.
+
+    Raises `InputError` if the prediction has no meshes, or not so many.
+    """
+    checks.instance("data", data, xr.Dataset)
+    mesh = data.get("mesh_x")
+    if mesh is None or mesh.ndim != 3:
+        raise InputError(
+            "data must be a prediction with meshes, as waves solved by the finite-strain block "
+            f"give it; got one of {data.attrs.get('model', 'no model')} without"
+        )
+    along = str(mesh.dims[0])
+    place = checks.whole("wave", number, least=1, most=data.sizes[along]) - 1
+    (wave,) = waves_from_dataset(data.isel({along: [place]}).rename({along: "scale"}))
+    return wave
+
+
 def cells_of(block: ReferenceBlock) -> NDArray[np.int64]:
     """Return the points of each element in VTK's order, row by row from the contact surface.
 
@@ -99,8 +120,7 @@ def _vectors(x: Array, z: Array) -> Array:
 
 def _displacement(block: ReferenceBlock, deformed: tuple[Array, Array]) -> Array:
     x, z = block.nodes()
-    along, up = deformed[0] - x, deformed[1] - z
-    return _vectors(along - along[0, :-1].mean(), up)
+    return _vectors(deformed[0] - x, deformed[1] - z)
 
 
 def _contact_pressure(block: ReferenceBlock, pressure: Array) -> Array:

@@ -69,8 +69,8 @@ def heading(rubber: Rubber, units: Units, program: str) -> list[str]:
         f"Units: stresses and moduli in {units.modulus}, times in s, temperatures in "
         f"{units.temperature}.",
         f"Young's modulus {units.stress(rubber.equilibrium_modulus):.6g} relaxed, "
-        f"{units.stress(rubber.glassy_modulus):.6g} at once; {len(rubber.moduli)} Maxwell elements; "
-        f"bulk modulus {units.stress(rubber.bulk_modulus):.6g}, which does not relax.",
+        f"{units.stress(rubber.glassy_modulus):.6g} at once; {len(rubber.moduli)} Maxwell "
+        f"elements; bulk modulus {units.stress(rubber.bulk_modulus):.6g}, which does not relax.",
     ]
     if rubber.valid_band is not None:
         low, high = rubber.valid_band

@@ -100,9 +100,7 @@ def block_stress(result: WaveResult) -> BlockStress:
     pushed = factor * (full @ history @ np.swapaxes(full, -1, -2))
     trace = np.trace(pushed, axis1=-2, axis2=-1)[..., None, None]
     deviator = (pushed - trace / 3.0 * np.eye(3)) / volume[..., None, None]
-    return BlockStress(
-        block, gradient, pressure, deviator + pressure[..., None, None] * np.eye(3)
-    )
+    return BlockStress(block, gradient, pressure, deviator + pressure[..., None, None] * np.eye(3))
 
 
 def _pressure(block: ReferenceBlock, volume: Array, bulk: float) -> Array:

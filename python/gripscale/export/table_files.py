@@ -7,6 +7,7 @@ import math
 import re
 from collections.abc import Iterator, Sequence
 from importlib import import_module
+from io import BytesIO
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -71,20 +72,29 @@ def write_workbook(tables: Sequence[Rows], path: Path) -> Path:
         cell_of = import_module("openpyxl.cell").WriteOnlyCell
     except ImportError as error:
         raise FileError(f"{path}: xlsx needs openpyxl: pip install gripscale[export]") from error
+    titles = _titles([table.name for table in tables])
+    filled = {
+        title: [table.titles, *table.rows()] for title, table in zip(titles, tables, strict=True)
+    }
+    for title, rows in filled.items():
+        if len(rows) > MOST_ROWS:
+            raise InputError(
+                f"tables must have at most {MOST_ROWS - 1} rows for xlsx; got {len(rows) - 1} in "
+                f"{title}: csv has no limit"
+            )
     book = openpyxl.Workbook(write_only=True)
-    taken: set[str] = set()
-    for table in tables:
-        sheet = book.create_sheet(_title(table.name, taken))
+    for title, rows in filled.items():
+        sheet = book.create_sheet(title)
         sheet.freeze_panes = "A2"
-        for count, row in enumerate((table.titles, *table.rows()), start=1):
-            if count > MOST_ROWS:
-                raise InputError(
-                    f"tables must have at most {MOST_ROWS - 1} rows for xlsx; got more in "
-                    f"{table.name}: csv has no limit"
-                )
+        for row in rows:
             sheet.append([_cell(cell_of, sheet, value) for value in row])
+    content = BytesIO()
+    book.save(content)
 
-    return write_whole(path, book.save)
+    def write(part: Path) -> None:
+        part.write_bytes(content.getvalue())
+
+    return write_whole(path, write)
 
 
 def _cell(cell_of: Any, sheet: Any, value: Any) -> Any:
@@ -101,11 +111,13 @@ def _cell(cell_of: Any, sheet: Any, value: Any) -> Any:
     return cell
 
 
-def _title(name: str, taken: set[str]) -> str:
-    """Return a title no other sheet has, also where large and small letters are alike."""
-    title, number = name[:MOST_TITLE], 2
-    while title.lower() in taken:
-        end = f"_{number}"
-        title, number = name[: MOST_TITLE - len(end)] + end, number + 1
-    taken.add(title.lower())
-    return title
+def _titles(names: Sequence[str]) -> list[str]:
+    """Return titles of sheets, no two alike, also where large and small letters are."""
+    titles: list[str] = []
+    for name in names:
+        title, number = name[:MOST_TITLE], 2
+        while title.lower() in map(str.lower, titles):
+            end = f"_{number}"
+            title, number = name[: MOST_TITLE - len(end)] + end, number + 1
+        titles.append(title)
+    return titles

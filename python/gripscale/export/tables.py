@@ -45,7 +45,7 @@ class Column:
     def missing(self) -> NDArray[np.bool_]:
         """Whether each value is missing: NaN."""
         if self.values.dtype.kind == "f":
-            return np.isnan(self.values)
+            return np.asarray(np.isnan(self.values))
         return np.zeros(len(self.values), dtype=bool)
 
 

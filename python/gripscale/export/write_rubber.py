@@ -14,7 +14,11 @@ from gripscale.export.febio import febio_rubber
 from gripscale.export.program_file import ProgramFile
 from gripscale.rubber import Rubber
 
-PROGRAMS: dict[str, Callable[..., ProgramFile]] = {"abaqus": abaqus_rubber, "ansys": ansys_rubber, "febio": febio_rubber}
+PROGRAMS: dict[str, Callable[..., ProgramFile]] = {
+    "abaqus": abaqus_rubber,
+    "ansys": ansys_rubber,
+    "febio": febio_rubber,
+}
 """Functions that turn a rubber into the input of a program."""
 
 
@@ -40,7 +44,8 @@ def write_rubber(rubber: Rubber, path: str | Path, *, to: str, **options: Any) -
         If the file cannot be written.
     """
     made = PROGRAMS[checks.one_of("to", to, PROGRAMS)]
-    checks.known(f"option of {to}", options, signature(made).parameters)
+    taken = [name for name in signature(made).parameters if name != "rubber"]
+    checks.known(f"option of {to}", options, taken)
     found = made(rubber, **options)
     found.write(path)
     return found
