@@ -142,6 +142,19 @@ def test_the_fields_of_the_file_mean_what_they_say(waves, tmp_path):
     assert np.ptp(displaced[-33:, 2]) < 1e-14
 
 
+@pytest.mark.parametrize("order", [1, 2])
+def test_means_are_over_the_deformed_element(waves, order):
+    """The mean of 1/J over it is its undeformed area over its deformed one, whatever J is."""
+    found = block_stress(waves[order])
+    block, jacobian = found.block, found.jacobian
+    undeformed = block.width * block.heights[:, None]
+    deformed = (block.weights * jacobian).sum(axis=(2, 3))
+    assert np.ptp(jacobian) > 1e-3
+    np.testing.assert_allclose(
+        found.element_mean(1.0 / jacobian), undeformed / deformed, rtol=1e-13
+    )
+
+
 def test_a_wave_of_a_file_is_the_wave(waves, tmp_path):
     data = waves_to_dataset([waves[1], waves[2]])
     back = wave_of(data, 2)

@@ -46,7 +46,7 @@ def read_csv(path: Path) -> list[list[str]]:
 
 @lru_cache(maxsize=1)
 def read_workbook(path: Path) -> dict[str, list[list[object]]]:
-    book = openpyxl.load_workbook(path)
+    book = openpyxl.load_workbook(path, data_only=True)  # a formula would come back empty
     return {s.title: [list(row) for row in s.iter_rows(values_only=True)] for s in book.worksheets}
 
 
@@ -134,6 +134,17 @@ def test_other_results_become_tables(tmp_path):
     assert (speeds.titles, rubbers.titles) == (["speed [m/s]"], ["rubber"])
     assert table.titles == ["speed [m/s]", "rubber", "total_friction [-]"]
     assert list(table.rows()) == [(0.1, "soft", 0.1), (1.0, "soft", 0.3), (1.0, "hard", 0.4)]
+
+
+def test_a_row_with_something_in_it_is_kept():
+    values = {"a": [[1.0, np.nan], [np.nan, np.nan]], "b": [[np.nan, 2.0], [np.nan, np.inf]]}
+    data = xr.Dataset({name: (("i", "j"), value) for name, value in values.items()})
+    table, _ = tables_of(data)
+    assert list(table.rows()) == [
+        (0, 0, 1.0, None),
+        (0, 1, None, 2.0),
+        (1, 1, None, np.inf),
+    ]
 
 
 def test_a_file_is_read_with_its_groups(prediction, tmp_path):
