@@ -14,8 +14,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from gripscale import checks
-from gripscale.export.carried import Coefficients, coefficients, shares, whole_network, wlf
-from gripscale.export.program_file import ProgramFile, Units, comment, heading, label
+from gripscale.export.carried import Coefficients, coefficients, shares, with_one_series
+from gripscale.export.program_file import ProgramFile, Units, comment, label
 from gripscale.rubber import Rubber
 
 FORMS: dict[str, tuple[str, tuple[tuple[int, int], ...], int]] = {
@@ -61,17 +61,13 @@ def abaqus_rubber(
     """
     checks.instance("rubber", rubber, Rubber)
     units = Units(modulus_unit, temperature_unit)
-    law, said = wlf(rubber)
-    remarks = [
-        *heading(rubber, units, "Abaqus"),
-        "Use hybrid elements: the rubber is nearly incompressible.",
-    ]
-    if len(rubber.moduli):
-        remarks += [
-            "MODULI=LONG TERM: the constants of *HYPERELASTIC are those of the relaxed rubber.",
-            whole_network(rubber, "Abaqus"),
-            said,
-        ]
+    remarks, law = with_one_series(
+        rubber,
+        units,
+        "Abaqus",
+        "hybrid elements",
+        "MODULI=LONG TERM: the constants of *HYPERELASTIC are those of the relaxed rubber.",
+    )
     lines = [
         *comment(remarks, "**"),
         f"*MATERIAL, NAME={label(rubber, name)}",

@@ -13,8 +13,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from gripscale import checks
-from gripscale.export.carried import coefficients, material_number, shares, whole_network, wlf
-from gripscale.export.program_file import ProgramFile, Units, comment, heading
+from gripscale.export.carried import coefficients, material_number, shares, with_one_series
+from gripscale.export.program_file import ProgramFile, Units, comment
 from gripscale.rubber import Rubber
 
 _ON_A_LINE = 6
@@ -55,17 +55,13 @@ def ansys_rubber(
     checks.instance("rubber", rubber, Rubber)
     number = material_number(material)
     units = Units(modulus_unit, temperature_unit)
-    law, said = wlf(rubber)
-    remarks = [
-        *heading(rubber, units, "Ansys MAPDL"),
-        "Use elements with mixed u-P: the rubber is nearly incompressible.",
-    ]
-    if len(rubber.moduli):
-        remarks += [
-            "The constants of TB,HYPER are those of the fast limit, as TB,PRONY wants them.",
-            whole_network(rubber, "Ansys"),
-            said,
-        ]
+    remarks, law = with_one_series(
+        rubber,
+        units,
+        "Ansys MAPDL",
+        "elements with mixed u-P",
+        "The constants of TB,HYPER are those of the fast limit, as TB,PRONY wants them.",
+    )
     lines = [*comment(remarks, "!"), *_hyperelastic(rubber, number, units)]
     if len(rubber.moduli):
         pairs = [

@@ -11,6 +11,7 @@ import numpy as np
 
 from gripscale import checks
 from gripscale.errors import InputError
+from gripscale.export.program_file import Units, heading
 from gripscale.rubber import (
     WLF,
     Isihara,
@@ -113,19 +114,39 @@ def _of_table(table: ShiftTable, reference: float) -> tuple[WLF | None, str]:
     )
 
 
-def whole_network(rubber: Rubber, program: str) -> str:
-    """Return what is said where a program scales the whole strain energy by one Prony series."""
+def with_one_series(
+    rubber: Rubber, units: Units, program: str, elements: str, constants: str
+) -> tuple[list[str], WLF | None]:
+    """Return what is said where a program relaxes the whole strain energy by one Prony series.
+
+    Parameters
+    ----------
+    elements, constants
+        What the program calls elements for rubber, and which moduli its constants are.
+
+    Returns
+    -------
+    list of str, WLF or None
+        The remarks, and the shift that is carried; none of an elastic rubber.
+    """
+    remarks = [
+        *heading(rubber, units, program),
+        f"Use {elements}: the rubber is nearly incompressible.",
+    ]
+    if not len(rubber.moduli):
+        return remarks, None
+    law, said = wlf(rubber)
     form = (
         f"At finite strain {program} relaxes the whole stress by a hereditary integral, gripscale "
         "by temporary networks that are born free of stress (Lubliner 1985): equal at small "
         "strain and relaxed, different in between."
     )
-    if isinstance(rubber.strain_energy, NeoHookean):
-        return form
-    return (
-        f"{form} Here the relaxing part has the {rubber.strain_energy.kind} energy as well; in "
-        "gripscale it is neo-Hookean."
-    )
+    if not isinstance(rubber.strain_energy, NeoHookean):
+        form += (
+            f" Here the relaxing part has the {rubber.strain_energy.kind} energy as well; in "
+            "gripscale it is neo-Hookean."
+        )
+    return [*remarks, constants, form, said], law
 
 
 def material_number(material: int) -> int:
