@@ -130,10 +130,17 @@ def test_other_results_become_tables(tmp_path):
             rows = list(table.rows())
             assert all(len(row) == len(table.titles) for row in rows)
             assert len(set(table.titles)) == len(table.titles)
-    (speeds, rubbers, table, _) = tables_of(study)
-    assert (speeds.titles, rubbers.titles) == (["speed [m/s]"], ["rubber"])
+    (table, _) = tables_of(study)
     assert table.titles == ["speed [m/s]", "rubber", "total_friction [-]"]
     assert list(table.rows()) == [(0.1, "soft", 0.1), (1.0, "soft", 0.3), (1.0, "hard", 0.4)]
+
+
+def test_places_that_nothing_stands_at_are_a_table():
+    data = xr.Dataset({"a": 1.0}, coords={"speed": ("speed", [0.1, 1.0], {"units": "m/s"})})
+    single, speeds, _ = tables_of(data)
+    assert list(single.rows()) == [(1.0,)]
+    assert speeds.titles == ["speed [m/s]"]
+    assert list(speeds.rows()) == [(0.1,), (1.0,)]
 
 
 def test_a_row_with_something_in_it_is_kept():

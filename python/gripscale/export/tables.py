@@ -138,8 +138,8 @@ def _tables(group: str, data: xr.Dataset) -> Iterator[Table]:
         dims = tuple(map(str, variable.dims))
         if dims != (name,):
             by_dimensions.setdefault(dims, []).append(str(name))
-    for index in data.indexes:
-        by_dimensions.setdefault((str(index),), [])
+    used = {dim for dims in by_dimensions for dim in dims}
+    by_dimensions |= {(str(index),): [] for index in data.indexes if str(index) not in used}
     for dims in sorted(by_dimensions, key=len):
         places = [_place(data, dims, dim) for dim in dims]
         columns = [_column(name, data.variables[name]) for name in by_dimensions[dims]]
