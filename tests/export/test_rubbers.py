@@ -146,6 +146,14 @@ def test_all_remarks_stand_in_the_file():
     ET.fromstring(febio_rubber(rubber).text.encode())
 
 
+def test_odd_names_do_not_break_the_file():
+    rubber = Rubber(6e6, [3e6], [1e-2], name="80 µm --- <&> \x00 *MATERIAL")
+    for program, made in PROGRAMS.items():
+        text = made(rubber).text
+        assert text.isascii()
+        assert READERS[program](text).bulk == pytest.approx(2e9)
+
+
 def test_a_melt_is_refused_where_its_relaxed_modulus_would_be_lost():
     melt = Rubber(10.0, [1e9], [1e-6])
     for made in (abaqus_rubber, ansys_rubber):

@@ -8,6 +8,7 @@ with the invariants of the isochoric C, as in `gripscale.rubber.strain_energy`.
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gripscale import checks
 from gripscale.errors import InputError
@@ -52,7 +53,7 @@ def coefficients(rubber: Rubber) -> Coefficients:
             )
 
 
-def shares(rubber: Rubber) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
+def shares(rubber: Rubber) -> NDArray[np.float64]:
     """Return g_i = E_i / (E_inf + sum E_j) [-], shape (terms,).
 
     Raises `InputError` if E_inf is lost in 1 - sum g_i: less than `LEAST_SHARE` of the sum.

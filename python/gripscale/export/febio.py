@@ -12,6 +12,7 @@ Source: FEBio User Manual 4, "Uncoupled Viscoelastic Materials" and "Uncoupled S
 
 from __future__ import annotations
 
+import re
 from xml.etree import ElementTree as ET
 
 from gripscale import checks
@@ -78,7 +79,7 @@ def febio_rubber(
     ET.indent(root)
     body = ET.tostring(root, encoding="unicode")
     # XML allows no two hyphens in a comment.
-    said = [line.replace("--", "- -") for line in comment(remarks, " ")]
+    said = [re.sub("-(?=-)", "- ", line) for line in comment(remarks, " ")]
     head = ['<?xml version="1.0" encoding="UTF-8"?>', "<!--", *said, "-->"]
     return ProgramFile("\n".join([*head, body]) + "\n", tuple(remarks))
 

@@ -87,11 +87,16 @@ def heading(rubber: Rubber, units: Units, program: str) -> list[str]:
 
 
 def comment(remarks: list[str], mark: str) -> list[str]:
-    """Return remarks as lines of comment, each begun with `mark`."""
+    """Return remarks as lines of comment, each begun with `mark`; letters beyond ASCII are "?"."""
     return [
         f"{mark} {line}"
         for remark in remarks
-        for line in textwrap.wrap(remark, WIDTH, subsequent_indent="  ", break_on_hyphens=False)
+        for line in textwrap.wrap(
+            "".join(letter if " " <= letter <= "~" else "?" for letter in remark),
+            WIDTH,
+            subsequent_indent="  ",
+            break_on_hyphens=False,
+        )
     ]
 
 
