@@ -1,0 +1,137 @@
+"""`gripscale export`: rubbers, tables and meshes for other programs."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from gripscale.cli.terminal import command, say, screen
+from gripscale.errors import FileError, InputError
+
+if TYPE_CHECKING:
+    from gripscale.rubber import Rubber
+
+export = typer.Typer(
+    help="Write rubbers, tables and meshes for other programs.",
+    no_args_is_help=True,
+    rich_markup_mode=None,
+)
+
+Result = Annotated[
+    Path,
+    typer.Argument(help="The .nc file of a result.", metavar="RESULT.nc", readable=False),
+]
+
+
+def _option(text: str) -> Any:
+    return typer.Option(help=text, show_default=False)
+
+
+@export.command("rubber")
+@command
+def rubber(
+    source: Annotated[
+        Path,
+        typer.Argument(
+            help="A case file (TOML), a measured master curve, or a rubber.json of fit-rubber.",
+            metavar="FILE",
+            readable=False,
+        ),
+    ],
+    to: Annotated[str, typer.Option(help="abaqus, ansys or febio.")],
+    output: Annotated[
+        Path, typer.Option(help="The file to write.", metavar="FILE", readable=False)
+    ],
+    temperature: Annotated[
+        str | None, _option('Such as "40 C": of moduli and times, where the rubber has a shift.')
+    ] = None,
+    name: Annotated[str | None, _option("Of the material; not for ansys.")] = None,
+    material: Annotated[int | None, _option("Number of the material; not for abaqus.")] = None,
+    modulus_unit: Annotated[str | None, _option("Pa (as by default), kPa, MPa or GPa.")] = None,
+    temperature_unit: Annotated[
+        str | None, _option("K (as by default) or C, of the shift; not for febio.")
+    ] = None,
+) -> None:
+    """Write a rubber as a material of a finite element program."""
+    from gripscale.export import write_rubber
+    from gripscale.units import parse_quantity
+
+    found = _rubber_of(source)
+    if temperature is not None:
+        try:
+            kelvin = parse_quantity(temperature, "temperature")
+        except ValueError as error:
+            raise InputError(f"temperature: {error}") from error
+        found = found.at(kelvin)
+    stated = {
+        "name": name,
+        "material": material,
+        "modulus_unit": modulus_unit,
+        "temperature_unit": temperature_unit,
+    }
+    options = {key: value for key, value in stated.items() if value is not None}
+    written = write_rubber(found, output, to=to, **options)
+    console = screen()
+    for remark in written.remarks:
+        say(console, remark)
+    say(console, f"The material is {output}")
+
+
+@export.command("tables")
+@command
+def tables(
+    result: Result,
+    output: Annotated[
+        Path, typer.Option(help="Folder for the tables.", metavar="DIR", readable=False)
+    ],
+    format: Annotated[str, typer.Option(help="csv, or xlsx for one workbook.")] = "csv",
+) -> None:
+    """Write a result as tables, one for each set of dimensions, with units in the headings."""
+    from gripscale.export import write_tables
+
+    written = write_tables(result, output, format=format)
+    say(screen(), f"{', '.join(path.name for path in written)}: in {output}")
+
+
+@export.command("mesh")
+@command
+def mesh(
+    result: Result,
+    wave: Annotated[int, typer.Option(help="Number of the wave, from 1.")],
+    output: Annotated[
+        Path, typer.Option(help="The file to write.", metavar="FILE.vtu", readable=False)
+    ],
+) -> None:
+    """Write the deformed block of a wave, with pressure and stress, for ParaView and the like."""
+    from gripscale import netcdf
+    from gripscale.export import wave_of, write_mesh
+
+    found = wave_of(netcdf.load(result), wave)
+    write_mesh(found, output)
+    say(screen(), f"Wave {wave}, {found.wavelength:.4g} m long, {found.why}, is {output}")
+
+
+def _rubber_of(source: Path) -> Rubber:
+    """Return the rubber of a case file, of a file of `Rubber.to_dict`, or of a measurement."""
+    from gripscale.case import RubberSource, prepare_rubber, read_case, validate
+    from gripscale.rubber import Rubber
+
+    if source.suffix == ".toml":
+        file = read_case(source)
+        return prepare_rubber(file.case.rubber, file.resolve).rubber
+    if source.suffix == ".json":
+        return Rubber.from_dict(_json(source))
+    return prepare_rubber(validate(RubberSource, {"file": str(source)}, str(source))).rubber
+
+
+def _json(path: Path) -> dict[str, Any]:
+    try:
+        values = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise FileError(f"{path} cannot be read as a rubber: {error}") from error
+    if not isinstance(values, dict):
+        raise FileError(f"{path} cannot be read as a rubber: it is no JSON object")
+    return values

@@ -1,0 +1,14 @@
+from .abaqus import abaqus_rubber as abaqus_rubber
+from .ansys import ansys_rubber as ansys_rubber
+from .febio import febio_rubber as febio_rubber
+from .mesh import wave_of as wave_of
+from .mesh import write_mesh as write_mesh
+from .program_file import ProgramFile as ProgramFile
+from .stress import BlockStress as BlockStress
+from .stress import block_stress as block_stress
+from .tables import Column as Column
+from .tables import Table as Table
+from .tables import tables_of as tables_of
+from .tables import write_tables as write_tables
+from .write_rubber import PROGRAMS as PROGRAMS
+from .write_rubber import write_rubber as write_rubber

@@ -1,0 +1,142 @@
+"""`gripscale export rubber`, `tables` and `mesh`."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import gripscale as gs
+from gripscale import netcdf
+from gripscale.cli import app
+from gripscale.rubber import WLF, Rubber, fit_prony, read_master_curve
+from gripscale.surface import SineStack
+from tests.export.readers import READERS, read_abaqus
+
+CASE = """\
+[surface]
+files = ["road.txt"]
+scales = 3
+[rubber]
+file = "dma.txt"
+terms = 6
+reference_temperature = "20 C"
+shift = { kind = "wlf", c1 = 8.0, c2 = "120 K" }
+[load]
+pressure = "3 bar"
+speed = "0.3 m/s"
+footprint = "100 mm"
+"""
+
+
+def run(*arguments: object):
+    return CliRunner().invoke(app, ["export", *map(str, arguments)])
+
+
+@pytest.fixture(scope="module")
+def inputs(tmp_path_factory) -> Path:
+    """A folder with a measured rubber, a case of it, and the file of a rubber."""
+    folder = tmp_path_factory.mktemp("inputs")
+    rubber = Rubber(6e6, [2e6, 3e6, 5e6], [1e-1, 1e-3, 1e-5])
+    frequency = np.geomspace(1e-2, 1e6, 60)
+    modulus = rubber.complex_modulus(2 * np.pi * frequency)
+    rows = [f"{f:.5e} {e.real:.6e} {e.imag:.6e}" for f, e in zip(frequency, modulus, strict=True)]
+    (folder / "dma.txt").write_text("\n".join(["# Frequency (Hz) E' (Pa) E'' (Pa)", *rows]))
+    (folder / "case.toml").write_text(CASE)
+    (folder / "rubber.json").write_text(json.dumps(rubber.to_dict()))
+    return folder
+
+
+@pytest.mark.parametrize("program", READERS)
+@pytest.mark.parametrize("source", ["case.toml", "dma.txt", "rubber.json"])
+def test_a_rubber_of_any_file(inputs, tmp_path, program, source):
+    target = tmp_path / "rubber"
+    done = run("rubber", inputs / source, "--to", program, "--output", target)
+    assert done.exit_code == 0, done.output
+    assert "The material is" in done.stdout
+    found = READERS[program](target.read_text())
+    if source == "rubber.json":
+        own = Rubber(6e6, [2e6, 3e6, 5e6], [1e-1, 1e-3, 1e-5])
+    else:
+        terms = 6 if source == "case.toml" else None
+        own = fit_prony(read_master_curve(inputs / "dma.txt"), terms=terms)
+    omega = np.geomspace(1e-1, 1e6, 20)
+    np.testing.assert_allclose(found.complex_modulus(omega), own.complex_modulus(omega), rtol=1e-10)
+
+
+def test_a_rubber_at_another_temperature_and_in_other_units(inputs, tmp_path):
+    names = ("cold.inp", "warm.inp")
+    options = ["--to", "abaqus", "--modulus-unit", "MPa", "--temperature-unit", "C"]
+    for name, more in zip(names, ([], ["--temperature", "60 C", "--name", "warm"]), strict=True):
+        target = tmp_path / name
+        done = run("rubber", inputs / "case.toml", *options, "--output", target, *more)
+        assert done.exit_code == 0, done.output
+    cold, warm = (read_abaqus((tmp_path / name).read_text()) for name in names)
+    law = WLF(8.0, 120.0, 293.15)
+    np.testing.assert_allclose(warm.times / cold.times, law.a(333.15, 293.15), rtol=1e-12)
+    assert (cold.wlf[0], warm.wlf[0]) == pytest.approx((20.0, 60.0))
+    assert cold.bulk == pytest.approx(2000.0)
+    assert "NAME=warm" in (tmp_path / "warm.inp").read_text()
+
+
+@pytest.mark.parametrize(
+    ("source", "options", "said"),
+    [
+        ("dma.txt", ["--to", "nastran"], "to must be one of abaqus, ansys, febio"),
+        ("dma.txt", ["--to", "febio", "--temperature", "40 C"], "shift and reference_temperature"),
+        ("case.toml", ["--to", "febio", "--temperature", "warm"], "expected a temperature such as"),
+        ("dma.txt", ["--to", "ansys", "--name", "a"], "unknown option of ansys name"),
+        ("none.json", ["--to", "ansys"], "cannot be read as a rubber"),
+        ("none.toml", ["--to", "ansys"], "does not exist"),
+        ("none.txt", ["--to", "ansys"], "none.txt"),
+    ],
+)
+def test_what_cannot_be_a_rubber_is_one_sentence(inputs, tmp_path, source, options, said):
+    done = run("rubber", inputs / source, *options, "--output", tmp_path / "a")
+    assert done.exit_code == 2
+    assert said in " ".join(done.stderr.split())
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.fixture(scope="module")
+def result(tmp_path_factory) -> Path:
+    """The file of a prediction of two waves by the block."""
+    prediction = gs.predict(
+        Rubber(6e6, [3e6, 5e6], [1e-2, 1e-4]),
+        SineStack([1e-2, 2e-3], [1e-3, 1e-4]),
+        pressure=3e5,
+        speed=0.3,
+        footprint=0.1,
+        columns=32,
+        rows=6,
+    )
+    return netcdf.save(prediction.to_dataset(), tmp_path_factory.mktemp("run") / "dynamic.nc")
+
+
+def test_tables_of_a_result(result, tmp_path):
+    done = run("tables", result, "--output", tmp_path / "out")
+    assert done.exit_code == 0, done.output
+    assert "scale.csv" in done.stdout
+    with (tmp_path / "out" / "scale.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    data = netcdf.load(result)
+    assert [float(row["friction [-]"]) for row in rows] == data.friction.values.tolist()
+    assert run("tables", result, "--output", tmp_path / "out", "--format", "xlsx").exit_code == 0
+    assert (tmp_path / "out" / "tables.xlsx").is_file()
+    done = run("tables", tmp_path / "none.nc", "--output", tmp_path / "other")
+    assert done.exit_code == 2
+    assert "does not exist" in done.stderr
+
+
+def test_the_mesh_of_a_wave(result, tmp_path):
+    done = run("mesh", result, "--wave", 2, "--output", tmp_path / "wave2.vtu")
+    assert done.exit_code == 0, done.output
+    assert "Wave 2, 0.002 m long, converged" in done.stdout
+    assert (tmp_path / "wave2.vtu").read_text().startswith("<?xml")
+    done = run("mesh", result, "--wave", 3, "--output", tmp_path / "wave3.vtu")
+    assert done.exit_code == 2
+    assert "wave must be a whole number from 1 to 2; got 3" in done.stderr

@@ -1,0 +1,206 @@
+"""Tables hold every number of a result, with its unit and its place."""
+
+from __future__ import annotations
+
+import csv
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+import openpyxl
+import pytest
+import xarray as xr
+
+import gripscale as gs
+from gripscale import netcdf
+from gripscale.errors import FileError, InputError
+from gripscale.export import table_files, tables_of, write_tables
+from gripscale.rough import RoughContact
+from gripscale.surface import SineStack, self_affine_profile
+from gripscale.wave.dataset import waves_to_dataset
+
+
+@pytest.fixture(scope="module")
+def prediction() -> xr.Dataset:
+    """Two waves of the block on meshes of different size, so that something is padded."""
+    rubber = gs.Rubber(6e6, [3e6, 5e6], [1e-2, 1e-4], name="=tread")
+    waves = [
+        gs.solve_scale(
+            rubber,
+            wavelength=1e-2,
+            amplitude=1e-3,
+            pressure=1e6,
+            speed=0.3,
+            columns=columns,
+            rows=4,
+        )
+        for columns in (16, 32)
+    ]
+    return waves_to_dataset(waves).assign_attrs(title="=SUM(A1:A2)", numbers=np.array([1.0, 2.5]))
+
+
+def read_csv(path: Path) -> list[list[str]]:
+    with path.open(encoding="utf-8", newline="") as file:
+        return list(csv.reader(file))
+
+
+@lru_cache(maxsize=1)
+def read_workbook(path: Path) -> dict[str, list[list[object]]]:
+    book = openpyxl.load_workbook(path, data_only=True)  # a formula would come back empty
+    return {s.title: [list(row) for row in s.iter_rows(values_only=True)] for s in book.worksheets}
+
+
+def read_sheet(path: Path, title: str) -> list[list[object]]:
+    return read_workbook(path)[title]
+
+
+def numbers(rows, title: str) -> np.ndarray:
+    place = rows[0].index(title)
+    cells = [row[place] for row in rows[1:]]
+    return np.array([np.nan if cell in ("", None) else float(cell) for cell in cells])
+
+
+@pytest.mark.parametrize("format", ["csv", "xlsx"])
+def test_every_number_comes_back(prediction, tmp_path, format):
+    write_tables(prediction, tmp_path, format=format)
+
+    def rows(name):
+        if format == "csv":
+            return read_csv(tmp_path / f"{name}.csv")
+        return read_sheet(tmp_path / "tables.xlsx", name)
+
+    seen = set()
+    for name, variable in prediction.data_vars.items():
+        if variable.dtype.kind not in "fiu":
+            continue
+        unit = variable.attrs["units"].replace("1", "-")
+        table = rows("_".join(variable.dims))
+        found = numbers(table, f"{name} [{unit}]")
+        values = variable.values.astype(float).ravel()
+        kept = values if variable.ndim == 1 else values[np.isfinite(values)]
+        np.testing.assert_allclose(found, kept, rtol=1e-15, atol=0.0)
+        seen.add(variable.dims)
+    assert seen == {("scale",), ("scale", "surface_node"), ("scale", "layer", "column")}
+
+
+def test_a_row_stands_where_its_numbers_are(prediction, tmp_path):
+    write_tables(prediction, tmp_path)
+    rows = read_csv(tmp_path / "scale_layer_column.csv")
+    assert rows[0] == ["scale [-]", "layer [-]", "column [-]", "mesh_x [m]", "mesh_z [m]"]
+    assert len(rows) == 1 + 5 * (17 + 33)
+    for scale, layer, column, x, z in rows[1::37]:
+        place = {"scale": int(scale) - 1, "layer": int(layer), "column": int(column)}
+        assert float(x) == float(prediction.mesh_x.isel(place))
+        assert float(z) == float(prediction.mesh_z.isel(place))
+
+
+@pytest.mark.parametrize("format", ["csv", "xlsx"])
+def test_texts_and_attributes_come_back(prediction, tmp_path, format):
+    write_tables(prediction, tmp_path, format=format)
+    if format == "csv":
+        table, attributes = (read_csv(tmp_path / f"{n}.csv") for n in ("scale", "attributes"))
+    else:
+        table, attributes = (
+            read_sheet(tmp_path / "tables.xlsx", n) for n in ("scale", "attributes")
+        )
+    place = table[0].index("rubber_parameters")
+    assert [row[place] for row in table[1:]] == prediction.rubber_parameters.values.tolist()
+    found = {(of or "", name): value for of, name, value in attributes[1:]}
+    assert found["", "title"] == "=SUM(A1:A2)"
+    assert found["", "numbers"] == "[1.0, 2.5]"
+    assert found["friction", "long_name"] == prediction.friction.attrs["long_name"]
+    assert found["friction", "units"] == "1"
+    count = len(prediction.attrs) + sum(len(v.attrs) for v in prediction.variables.values())
+    assert len(attributes) == 1 + count
+
+
+def test_other_results_become_tables(tmp_path):
+    rubber = gs.Rubber(6e6, [3e6, 5e6], [1e-2, 1e-4])
+    surface = SineStack([1e-2, 2e-3], [1e-3, 1e-4])
+    chain = gs.predict(rubber, surface, pressure=3e5, speed=0.3, footprint=0.1, solver="half_plane")
+    profile = self_affine_profile(0.8, 3e-3, 8e-4, length=0.02, step=1e-4, seed=1)
+    direct = gs.solve_rough_contact(rubber, profile, pressure=3e5, speed=0.3)
+    assert isinstance(direct, RoughContact)
+    study = xr.Dataset(
+        {"total_friction": (("speed", "rubber"), [[0.1, np.nan], [0.3, 0.4]], {"units": "1"})},
+        coords={"speed": ("speed", [0.1, 1.0], {"units": "m/s"}), "rubber": ["soft", "hard"]},
+    )
+    for result in (chain.to_dataset(), direct.to_dataset(), study):
+        for table in tables_of(result):
+            rows = list(table.rows())
+            assert all(len(row) == len(table.titles) for row in rows)
+            assert len(set(table.titles)) == len(table.titles)
+    (table, _) = tables_of(study)
+    assert table.titles == ["speed [m/s]", "rubber", "total_friction [-]"]
+    assert list(table.rows()) == [(0.1, "soft", 0.1), (1.0, "soft", 0.3), (1.0, "hard", 0.4)]
+
+
+def test_places_that_nothing_stands_at_are_a_table():
+    data = xr.Dataset({"a": 1.0}, coords={"speed": ("speed", [0.1, 1.0], {"units": "m/s"})})
+    single, speeds, _ = tables_of(data)
+    assert list(single.rows()) == [(1.0,)]
+    assert speeds.titles == ["speed [m/s]"]
+    assert list(speeds.rows()) == [(0.1,), (1.0,)]
+
+
+def test_a_row_with_something_in_it_is_kept():
+    values = {"a": [[1.0, np.nan], [np.nan, np.nan]], "b": [[np.nan, 2.0], [np.nan, np.inf]]}
+    data = xr.Dataset({name: (("i", "j"), value) for name, value in values.items()})
+    table, _ = tables_of(data)
+    assert list(table.rows()) == [
+        (0, 0, 1.0, None),
+        (0, 1, None, 2.0),
+        (1, 1, None, np.inf),
+    ]
+
+
+def test_a_file_is_read_with_its_groups(prediction, tmp_path):
+    inputs = xr.Dataset({"lag_count": ("lag", [3, 4], {"units": "1"})})
+    netcdf.save(prediction, tmp_path / "a.nc", {"inputs": inputs})
+    files = write_tables(tmp_path / "a.nc", tmp_path / "out")
+    assert tmp_path / "out" / "inputs_lag.csv" in files
+    assert read_csv(tmp_path / "out" / "inputs_lag.csv")[1:] == [["0", "3"], ["1", "4"]]
+    assert sorted(files) == sorted((tmp_path / "out").iterdir())
+    found = read_csv(tmp_path / "out" / "attributes.csv")
+    assert ["inputs/lag_count", "units", "1"] in found
+
+
+def test_what_a_workbook_cannot_hold(tmp_path, monkeypatch):
+    data = xr.Dataset(
+        {
+            "value": ("place", [np.inf, -np.inf, np.nan], {"units": "1"}),
+            "text": ("place", ["x" * 40_000, "a\x00b", "=1+1"]),
+            "a_long_name_of_more_than_thirty_one_a": ("a_dimension_of_more_than_thirty_one_a", [1]),
+            "a_long_name_of_more_than_thirty_one_b": ("a_dimension_of_more_than_thirty_one_b", [2]),
+        }
+    )
+    write_tables(data, tmp_path, format="xlsx")
+    rows = read_sheet(tmp_path / "tables.xlsx", "place")
+    assert [row[1] for row in rows[1:]] == ["inf", "-inf", None]
+    texts = [row[2] for row in rows[1:]]
+    assert len(texts[0]) == 32_767
+    assert texts[0].endswith("csv has all of it]")
+    assert texts[1:] == ["a?b", "=1+1"]
+    titles = openpyxl.load_workbook(tmp_path / "tables.xlsx").sheetnames
+    assert titles[1:3] == ["a_dimension_of_more_than_thirty", "a_dimension_of_more_than_thir_2"]
+    write_tables(data, tmp_path)
+    cells = [row[1] for row in read_csv(tmp_path / "place.csv")[1:]]
+    assert cells == ["inf", "-inf", ""]
+    monkeypatch.setattr(table_files, "MOST_ROWS", 3)
+    with pytest.raises(InputError, match="at most 2 rows for xlsx; got 3 in place"):
+        write_tables(data, tmp_path / "other", format="xlsx")
+
+
+def test_what_cannot_be_written_is_refused(prediction, tmp_path):
+    with pytest.raises(InputError, match="format must be one of csv, xlsx; got 'xls'"):
+        write_tables(prediction, tmp_path / "a", format="xls")
+    with pytest.raises(InputError, match="result must be a Dataset; got int"):
+        tables_of(3)
+    with pytest.raises(FileError, match="does not exist"):
+        write_tables(tmp_path / "none.nc", tmp_path / "a")
+    times = xr.Dataset({"when": ("time", np.array(["2020-01-01"], dtype="datetime64[ns]"))})
+    with pytest.raises(InputError, match="when must hold numbers or texts"):
+        write_tables(times, tmp_path / "a")
+    (tmp_path / "file").write_text("")
+    with pytest.raises(FileError, match="cannot be written"):
+        write_tables(prediction, tmp_path / "file")
