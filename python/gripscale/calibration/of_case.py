@@ -18,7 +18,8 @@ from gripscale.case.read import CaseFile
 from gripscale.case.results import CaseResults
 from gripscale.case.run import prepare_case
 from gripscale.errors import InputError
-from gripscale.measured.friction import MeasuredFriction, read_measured_friction
+from gripscale.measured.friction import MeasuredFriction
+from gripscale.measured.of_case import friction_of_case
 from gripscale.measured.predicted import predictions_at
 from gripscale.model import Model
 from gripscale.rough.model import DirectContact
@@ -106,12 +107,12 @@ def calibrate_case(
 
 def measured_of(file: CaseFile) -> MeasuredFriction:
     """Return the friction a case names; raise `InputError` if it names none."""
-    name = file.case.measured.friction
-    if name is None:
+    found = friction_of_case(file)
+    if found is None:
         raise InputError(
             f"{file.path}: [measured] friction must name a table of measured friction; got none"
         )
-    return read_measured_friction(file.resolve(name))
+    return found
 
 
 def parse_fixed(texts: Iterable[str]) -> dict[str, float]:

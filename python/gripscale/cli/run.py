@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
@@ -20,8 +20,17 @@ if TYPE_CHECKING:
 
     from gripscale.case import CaseResults, WaveSolved
     from gripscale.comparison import SolvedRung
+    from gripscale.measured import MeasuredFriction
 
 REPORT_WIDTH = 110
+
+
+class Known(NamedTuple):
+    """What stands beside the chain: direct contact, worth of the effects, measured friction."""
+
+    direct: SolvedRung | None
+    effects: xr.Dataset | None
+    friction: MeasuredFriction | None
 
 
 @command
@@ -47,11 +56,13 @@ def run(
     from gripscale.comparison import judged
     from gripscale.effects import case_effects
     from gripscale.figures.beside import drawn_beside
+    from gripscale.measured.of_case import friction_of_case
 
     console = screen()
     file = read_case(case)
     target = output if output is not None else file.resolve(file.case.output.folder)
     folder.require_writable(target)
+    friction = friction_of_case(file)
     results = prepare_case(file)
     opening = _opening(results)
     for line in opening:
@@ -73,7 +84,7 @@ def run(
             )
             direct = judged(results)
             worth = case_effects(results, results.chain, target, target / "effects")
-        _conclude(console, target, opening, results, direct, worth)
+        _conclude(console, target, opening, results, Known(direct, worth, friction))
     console.print()
     say(console, f"Results, report and figures are in {target}")
     _tell_old_page(console, target, results)
@@ -153,20 +164,20 @@ def _conclude(
     target: Path,
     opening: list[str],
     results: CaseResults,
-    direct: SolvedRung | None,
-    worth: xr.Dataset | None,
+    known: Known,
 ) -> None:
     """Print the tables and what chain and effects are worth, and write them down."""
     from gripscale.case import folder
     from gripscale.case.results import title
     from gripscale.report import tables
     from gripscale.report.comparison_table import judgement
+    from gripscale.report.measured_lines import measured_lines
 
     solved = {title(p.load.speed): p.to_dataset() for p in results.predictions.values()}
     for name, data in solved.items():
         console.print()
         console.print(tables.prediction_table(data, name, console.width))
-    beside = list(_conditions_tables(results, worth))
+    beside = list(_conditions_tables(results, known.effects))
     for table in beside:
         console.print()
         console.print(table)
@@ -174,7 +185,9 @@ def _conclude(
         console.print()
         say(console, tables.LEGEND)
     judged = next(iter(results.predictions.values()), None)
-    last = [] if judged is None or direct is None else list(judgement(judged, direct))
+    last = [] if judged is None or known.direct is None else list(judgement(judged, known.direct))
+    if known.friction is not None and results.load.speed > 0.0:
+        last += measured_lines(known.friction, results.load.speed)
     if last:
         console.print()
     for line in last:

@@ -18,7 +18,7 @@ from gripscale.comparison.sample import QUANTITIES
 from gripscale.comparison.solved import SolvedRung
 from gripscale.comparison.solved_ladder import SolvedLadder
 from gripscale.comparison.uncertain import UNKNOWN
-from gripscale.measured.friction import MeasuredFriction
+from gripscale.measured.differences import measured_variables
 from gripscale.model import (
     ADHESIVE_FRICTION,
     CUT_OFF_EXPONENTS,
@@ -50,7 +50,7 @@ def to_dataset(comparisons: Sequence[SolvedLadder], axis: Axis | None = None) ->
     )
     conditions = first.subject.conditions
     if first.measured is not None:
-        data = data.assign(_measured(first.measured))
+        data = data.assign(measured_variables(first.measured))
     return data.assign_attrs(
         title="Contact and friction by model",
         case=first.file.text,
@@ -163,21 +163,6 @@ def _words(one: SolvedLadder) -> dict[str, Any]:
             [factor.label for factor in (best.factors if best else [])],
             "factors of the best estimate",
         ),
-    }
-
-
-def _measured(measured: MeasuredFriction) -> dict[str, Any]:
-    columns = (
-        ("speed", "m/s", "speeds of the measurement"),
-        ("friction", "1", "measured friction coefficient"),
-        ("spread", "1", "its standard deviation"),
-        ("temperature", "K", "temperature of the measurement"),
-    )
-    return {
-        f"measured_{name}": labelled(
-            "measurement", getattr(measured, name), unit, text, measured.source
-        )
-        for name, unit, text in columns
     }
 
 

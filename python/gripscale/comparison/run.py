@@ -20,7 +20,8 @@ from gripscale.comparison.rung import Draw, Rung, Subject
 from gripscale.comparison.sample import sample_of
 from gripscale.comparison.solved import SolvedRung
 from gripscale.errors import InputError
-from gripscale.measured.friction import MeasuredFriction, read_measured_friction
+from gripscale.measured.friction import MeasuredFriction
+from gripscale.measured.of_case import friction_of_case
 from gripscale.rubber.extrapolation import require_measured
 from gripscale.study import Study
 from gripscale.study.store import Store
@@ -183,7 +184,7 @@ def _compared(
         samples = [sample_of(solved[task.key], draw.of, *known) for draw, task in pairs]
         return SolvedRung(rung, samples)
 
-    measured = choice.measured or _measured_of(file)
+    measured = choice.measured or friction_of_case(file)
     out = []
     for place, subject in subjects.items():
         met = [rung_at(place, rung) for rung in ladder if drawn[place, rung.name]]
@@ -219,11 +220,6 @@ def _label(place: str, label: str, draws: Sequence[Draw], at: int) -> str:
     """Return what one sample is called while it is solved."""
     number = f" {at + 1} of {len(draws)}" if len(draws) > 1 else ""
     return ": ".join(filter(None, [place, f"{label}{number}"]))
-
-
-def _measured_of(file: CaseFile) -> MeasuredFriction | None:
-    name = file.case.measured.friction
-    return None if name is None else read_measured_friction(file.resolve(name))
 
 
 @contextmanager
