@@ -72,7 +72,10 @@ def command(body: Callable[P, None]) -> Callable[P, None]:
             complain(str(error))
             raise typer.Exit(BAD_INPUT) from None
         except KeyboardInterrupt:
-            complain("stopped; finished waves are kept in the output folder")
+            complain(
+                "stopped; what is finished is kept in the output folder, "
+                "and the same command goes on from it"
+            )
             raise typer.Exit(STOPPED) from None
 
     return inside
