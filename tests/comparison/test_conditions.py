@@ -9,7 +9,7 @@ import pytest
 
 import gripscale as gs
 from gripscale.case import prepare_case
-from gripscale.comparison import Comparison, compare_case
+from gripscale.comparison import Comparison, compare_case, compare_over
 from gripscale.report.comparison_table import best_sentence, further_table, remarks
 from gripscale.report.tables import as_text
 from gripscale.surface import self_affine_profile
@@ -104,3 +104,16 @@ def test_table_and_best_estimate_have_the_area_term(made: Comparison) -> None:
     total = direct.mean("friction") + direct.mean("adhesive_friction")
     assert f"{total:.2f}" in text
     assert f"With the area term, of its contact area, μ = {total:.2f}" in best_sentence(data)
+
+
+def test_a_comparison_over_the_temperature_asks_every_model_at_it(made: Comparison) -> None:
+    over = compare_over(
+        made.file, {"temperature": "20 C,35 C"}, seeds=1, rungs=["chain_half_plane", "persson"]
+    )
+    data = over.to_dataset()
+    warm = data.sel(temperature=308.15)
+    for rung in ("chain_half_plane", "persson"):
+        own = made.by_name[rung].mean("friction")
+        assert float(warm.total_friction.sel(rung=rung)) == pytest.approx(own, rel=1e-12)
+        cold = float(data.total_friction.sel(temperature=293.15, rung=rung))
+        assert abs(cold / own - 1.0) > 0.01

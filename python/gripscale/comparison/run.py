@@ -32,7 +32,15 @@ from gripscale.theory.models import KlueppelHeinrich
 PREDICTIONS = "predictions"
 """Folder of the finished answers, in the folder of the comparison."""
 
-VARIED = ("speed", "pressure", "smallest_wavelength", "waves", "cut_off", "upper_share")
+VARIED = (
+    "speed",
+    "pressure",
+    "temperature",
+    "smallest_wavelength",
+    "waves",
+    "cut_off",
+    "upper_share",
+)
 """Inputs a comparison can be made over: numbers of the load and of the surface."""
 
 MOST_SEEDS = 1000
