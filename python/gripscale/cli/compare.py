@@ -31,7 +31,8 @@ def compare(
         str | None,
         typer.Option(
             help="Compare over one input, as `gripscale study` varies it: speed=0.003:30:log9, "
-            "pressure='1 bar,3 bar', temperature='20 C,40 C', smallest_wavelength, cut_off, upper_share, waves.",
+            "pressure='1 bar,3 bar', temperature='20 C,40 C', smallest_wavelength, cut_off, "
+            "upper_share, waves.",
             metavar="NAME=VALUES",
             show_default=False,
         ),
