@@ -41,9 +41,15 @@ def test_command_puts_the_models_side_by_side(shell: Shell, inputs: Path, tmp_pa
         "--measured", tmp_path / "mu.csv", "--rungs", "waves,measured,theory",
     )  # fmt: skip
     assert result.exit_code == 0, result.output
-    figures = {f"{name}.{kind}" for name in ("comparison", "by_wavelength") for kind in FORMATS}
+    names = ("comparison", "by_wavelength", "at_measured")
+    figures = {f"{name}.{kind}" for name in names for kind in FORMATS}
     written = {path.name for path in target.iterdir()}
-    assert written == {"comparison.nc", "comparison.txt", "predictions"} | figures
+    files = {"comparison.nc", "comparison.txt", "at_measured.nc", "predictions"}
+    assert written == files | figures
+    beside = netcdf.load(target / "at_measured.nc")
+    asked = ["chain_half_plane", "chain_upper", "direct", "persson"]
+    assert beside.model.values.tolist() == asked
+    assert np.isfinite(beside.difference).all()
     data = netcdf.load(target / "comparison.nc")
     assert data.rung.values.tolist() == RUNGS
     assert data.samples.values.tolist() == [1, 1, 2, 2, 1, 1]

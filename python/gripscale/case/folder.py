@@ -22,19 +22,16 @@ FIGURES = (
     "contact_and_friction",
     "blocks_dynamic",
     "blocks_static",
-    "heat",
-    "effects",
-    "superposition",
-    "superposition_tests",
-    "shift",
 )
+AT_TIMES = ("heat", "effects", "superposition", "superposition_tests", "shift")
+"""Figures of cases with conditions, or with sweeps at several temperatures."""
 RESULTS = (
     "dynamic.nc",
     "static.nc",
     "effects_chain.nc",
     "report.txt",
     CASE,
-    *(f"figures/{name}.{kind}" for name in FIGURES for kind in ("png", "pdf")),
+    *(f"figures/{name}.{kind}" for name in (*FIGURES, *AT_TIMES) for kind in ("png", "pdf")),
 )
 """Everything a run may write into its folder, beside copies of the files the case names."""
 
