@@ -172,8 +172,10 @@ def _shares(
             apart, ("source", "other_source"), "1", "standard error of the difference of two shares"
         ),
         f"{name}_end": named(
-            ends, ("source", "end"), "1", f"{QUANTITIES[name][1]}, a source at its 5 and 95 %"
+            ends,
+            ("source", "end"),
+            "1",
+            f"{QUANTITIES[name][1]}, at 5 and 95 % of what a source alone does",
         ),
         f"{name}_unexplained": named(unexplained, (), "1", f"share of no source {of}"),
     }
-

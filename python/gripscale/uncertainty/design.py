@@ -28,9 +28,7 @@ class Drawn(NamedTuple):
     why_not: str = ""
 
 
-def draws(
-    case: Inputs, sources: Sequence[Source], samples: int, seed: int
-) -> Iterator[Drawn]:
+def draws(case: Inputs, sources: Sequence[Source], samples: int, seed: int) -> Iterator[Drawn]:
     """Yield the samples of a case."""
     columns = {source.name: _column(source.name, samples, seed) for source in sources}
     for sample in range(samples):

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from gripscale.chain.model import Chain
 from gripscale.case.results import CaseResults
+from gripscale.chain.model import Chain
 from gripscale.model import LoadTime, Model
 from gripscale.rough.model import DirectContact
 from gripscale.rubber import PronyFit, Rubber
@@ -131,4 +131,3 @@ class Inputs:
         if self.redrawn is not None:
             measured = Measured.of(self.redrawn())
         return PreparedSurface(SineStack(wave, wave), self.surface.source, measured=measured)
-

@@ -2,8 +2,8 @@
 
 A block bootstrap (H. R. Kunsch, Ann. Stat. 17 (1989) 1217, doi:10.1214/aos/1176347265): profiles
 are cut into n contiguous blocks, several times the largest wave long and so nearly independent, and
-blocks are drawn with replacement. n - 1 of them are drawn: the spread of a mean over n drawn ones is
-too small by the factor (n - 1)/n (J. N. K. Rao & C. F. J. Wu, J. Am. Stat. Assoc. 83 (1988) 231,
+blocks are drawn with replacement. n - 1 of them are drawn: the variance of a mean over n drawn ones
+is too small by the factor (n - 1)/n (J. N. K. Rao & C. F. J. Wu, J. Am. Stat. Assoc. 83 (1988) 231,
 doi:10.1080/01621459.1988.10478591).
 
 - Of the correlation C_z, a sum over pairs, the sums of the drawn blocks are added up.

@@ -49,8 +49,6 @@ VARIED = ("speed", "pressure")
 """Inputs that may be varied beside the samples: those of the load, the same samples at each."""
 
 FEWEST_SAMPLES, MOST_SAMPLES = 10, 100_000
-DIRECT_TOLERANCE = 0.1
-"""Relative error of a direct contact: less than the scatter it is to tell."""
 
 
 @dataclass(frozen=True)
@@ -63,6 +61,8 @@ class Plan:
     seed: int
     models: tuple[str, ...]
     axis: Axis | None
+    tolerance: float
+    """Estimated relative error of a direct contact."""
 
     @property
     def key(self) -> str:
@@ -73,6 +73,7 @@ class Plan:
             "uncertainty": exact(self.uncertainty),
             "samples": [self.samples, self.seed],
             "models": list(self.models),
+            "tolerance": exact(self.tolerance),
             "axis": None if self.axis is None else [self.axis.name, exact(self.axis.values)],
         }
         return hashlib.sha256(json.dumps(stated, sort_keys=True).encode()).hexdigest()
@@ -97,6 +98,7 @@ def propagate(
     seed: int = 0,
     models: Sequence[str] = ("chain",),
     vary: Mapping[str, Any] | None = None,
+    tolerance: float = 0.15,
     folder: str | Path | None = None,
     workers: int | None = None,
     client: Any = None,
@@ -115,9 +117,12 @@ def propagate(
     seed : int
         Seed of the random numbers.
     models : sequence of str
-        "chain" (as the case asks for it), "direct" (to a tenth), or both.
+        "chain" (as the case asks for it), "direct", or both.
     vary : mapping, optional
         Speeds or pressures, as for `gripscale.study.Study`; the same samples at each.
+    tolerance : float
+        Estimated relative error of a direct contact. The first full grid has about a tenth; asking
+        for less than it has doubles the grid.
     folder : path, optional
         Gets `uncertainty.nc`, and the predictions in `predictions`: what it has is not solved
         again.
@@ -144,6 +149,7 @@ def propagate(
         checks.whole("seed", seed, least=0, most=2**32 - 1),
         _models(models),
         _axis(vary),
+        checks.positive("tolerance", tolerance),
     )
     known = None if folder is None else stored(plan, folder)
     if known is not None:
@@ -210,7 +216,7 @@ def _solved(
     tasks: dict[Place, Task] = {}
     status: dict[Place, str] = {}
     for name in plan.models:
-        model = results.chain if name == "chain" else _direct(results)
+        model = results.chain if name == "chain" else _direct(results, plan.tolerance)
         for sample, one in enumerate([Drawn(case, {}), *drawn], start=-1):
             places = [Place(name, value, sample) for value in range(len(loads))]
             try:
@@ -230,10 +236,10 @@ def _loads(load: NominalLoad, axis: Axis | None) -> list[NominalLoad]:
     return [load] if axis is None else [replace(load, **{axis.name: v}) for v in axis.values]
 
 
-def _direct(results: CaseResults) -> DirectContact:
+def _direct(results: CaseResults, tolerance: float) -> DirectContact:
     if results.surface.measured is None:
         raise InputError("the direct contact needs a measured profile; got waves stated by hand")
-    return DirectContact(tolerance=DIRECT_TOLERANCE, conditions=results.conditions)
+    return DirectContact(tolerance=tolerance, conditions=results.conditions)
 
 
 def _tasks(one: Drawn, model: Model, loads: Sequence[NominalLoad]) -> list[Task]:
@@ -249,5 +255,3 @@ def _label(place: Place, axis: Axis | None) -> str:
     where = "" if axis is None else f", {axis.name} {axis.labels[place.value]}"
     what = "the case itself" if place.sample < 0 else f"sample {place.sample + 1}"
     return f"{place.model}{where}, {what}"
-
-

@@ -56,5 +56,5 @@ def _of_model(one: xr.Dataset) -> str:
 
 
 def _interval(letters: str, values: NDArray[np.float64]) -> str:
-    low, middle, high = (f"{value:.2g}" for value in values[[0, 2, 4]])
+    low, middle, high = (f"{value:#.2g}" for value in values[[0, 2, 4]])
     return f"{letters} = {middle} ({low} to {high})"

@@ -12,7 +12,7 @@ from gripscale.units import parse_quantity
 
 def modulus(given: Any) -> float:
     """Return a modulus [Pa]; raise `InputError` for what is none."""
-    return _quantity(given, "modulus", "Pa")
+    return _quantity(given, "pressure", "Pa")
 
 
 def length(given: Any) -> float:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -40,7 +41,7 @@ class Range:
 
     def __post_init__(self) -> None:
         found = tuple(checks.positive("each value of a range", value) for value in self.values)
-        if not found or any(b <= a for a, b in zip(found, found[1:], strict=False)):
+        if not found or any(b <= a for a, b in pairwise(found)):
             raise InputError(f"a range must be rising values; got {checks.shown(self.values)}")
         if self.between and len(found) != 2:
             raise InputError(f"a range must have two ends; got {checks.shown(self.values)}")

@@ -23,6 +23,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,7 +35,7 @@ SURE = 1.645
 SAMPLES_PER_TERM = 3
 """Samples there must be for each term of the fit."""
 SWING = (0.05, 0.95)
-"""Quantiles of a source between which it moves the answer."""
+"""Quantiles of what a source does to the answer that are told."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,7 +51,7 @@ class Shares:
     covariance : array, shape (sources, sources)
         Of their errors.
     low, high : array, shape (sources,)
-        The answer where a source is at its 5 % and 95 % and all others in their middle.
+        The answer at 5 % and 95 % of what a source alone does to it, all others in their middle.
     unexplained : float
         Share of none.
     """
@@ -91,6 +92,8 @@ def shares(answer: Array, coordinates: Mapping[str, Array]) -> Shares | None:
         all are equal.
     """
     valid = np.isfinite(answer)
+    if not valid.any():
+        return None
     blocks = [_terms(values[valid]) for values in coordinates.values()]
     widths = [block.shape[1] for block in blocks]
     y = answer[valid]
@@ -131,7 +134,7 @@ def _fit(matrix: Array, y: Array, ends: NDArray[np.intp]) -> tuple[Array, Array]
     free = len(y) - 1 - matrix.shape[1]
     noise = float(np.sum((about - centred @ factors) ** 2)) / free
     parts, by_chance = np.zeros((len(y), len(ends) - 1)), np.zeros(len(ends) - 1)
-    for k, (first, end) in enumerate(zip(ends[:-1], ends[1:], strict=True)):
+    for k, (first, end) in enumerate(pairwise(ends)):
         own = centred[:, first:end]
         parts[:, k] = own @ factors[first:end]
         by_chance[k] = np.sum(inverse[first:end, first:end] * (own.T @ own)) / len(y)

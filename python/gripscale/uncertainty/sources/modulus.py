@@ -48,7 +48,7 @@ class ModulusSource:
     def draw(
         self, place: float, random: np.random.Generator, inputs: Inputs
     ) -> tuple[Inputs, Mapping[str, float]]:
-        """Return the inputs with a series; series have no natural order: `place` says nothing."""
+        """Return the inputs with a series; series have no order that `place` could follow."""
         drawn = with_series(inputs.rubber, self.series.draw(random))
         ratios = (_told(drawn, self.omega) - _told(inputs.rubber, self.omega)).ravel()
         return replace(inputs, rubber=drawn), dict(

@@ -22,7 +22,9 @@ class ProfileSource:
     label: ClassVar[str] = "stretch of road measured"
     models: ClassVar[tuple[str, ...]] = ("chain", "direct")
     coordinates: ClassVar[Mapping[str, Coordinate]] = {
-        f"correlation_{lags}": Coordinate("1", f"ln of C_z over the measured one, {lags} lags", True)
+        f"correlation_{lags}": Coordinate(
+            "1", f"ln of C_z over the measured one, {lags} lags", True
+        )
         for lags in ("short", "middle", "long")
     }
 
@@ -48,10 +50,12 @@ class ProfileSource:
     def draw(
         self, place: float, random: np.random.Generator, inputs: Inputs
     ) -> tuple[Inputs, Mapping[str, float]]:
-        """Return the inputs on drawn blocks; they have no natural order, so `place` says nothing."""
+        """Return the inputs on drawn blocks; blocks have no order that `place` could follow."""
         drawn = self.blocks.draw(random)
         changed = replace(
-            inputs, correlation=self.blocks.correlation(drawn), redrawn=partial(self.blocks.lines, drawn)
+            inputs,
+            correlation=self.blocks.correlation(drawn),
+            redrawn=partial(self.blocks.lines, drawn),
         )
         ratios = self.blocks.log_ratios(drawn)
         return changed, dict(zip(self.coordinates, map(float, ratios), strict=True))
