@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -21,8 +21,6 @@ from gripscale.uncertainty.shares import shares
 from gripscale.uncertainty.sources.source import Source
 
 Array = NDArray[np.float64]
-Place = tuple[str, int, int]
-"""Model, place on the axis, and number of the sample; -1 is the case itself."""
 
 CONVERGED = "converged"
 NUMBERS = {
@@ -35,6 +33,17 @@ NUMBERS = {
     ),
 }
 """What is kept of each answer: its name there, unit and meaning."""
+
+
+class Place(NamedTuple):
+    """One prediction: of which model, at which value of the axis, of which sample.
+
+    The case itself is sample -1.
+    """
+
+    model: str
+    value: int
+    sample: int
 
 
 def dataset(
@@ -61,7 +70,7 @@ def dataset(
     kept = {name: np.full(shape, np.nan) for name in (*NUMBERS, "seconds")}
     status = np.full(shape, "", dtype=object)
     for at in np.ndindex(shape):
-        place = (models[at[0]], at[1], at[2] - 1)
+        place = Place(models[at[0]], at[1], at[2] - 1)
         status[at] = refused.get(place, "")
         if place in solved:
             answer = solved[place]

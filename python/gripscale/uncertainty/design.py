@@ -32,7 +32,8 @@ def draws(case: Inputs, sources: Sequence[Source], samples: int, seed: int) -> I
     """Yield the samples of a case."""
     columns = {source.name: _column(source.name, samples, seed) for source in sources}
     for sample in range(samples):
-        inputs, coordinates, why_not = case, {}, ""
+        inputs, why_not = case, ""
+        coordinates: dict[str, float] = {}
         for source in sources:
             random = np.random.default_rng([seed, _number(source.name), sample])
             try:

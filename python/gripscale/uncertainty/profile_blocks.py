@@ -149,7 +149,7 @@ class ProfileBlocks:
         for before, after in pairwise(pieces):
             met = np.cos(angle) * before[-joint:] + np.sin(angle) * after[:joint]
             line += [met, after[joint:-joint]]
-        z = np.concatenate([*line, pieces[-1][-joint:]])
+        z = np.asarray(np.concatenate([*line, pieces[-1][-joint:]]), dtype=np.float64)
         return Profile(np.arange(z.size) * step, z, f"{len(places)} blocks")
 
     def _piece(self, number: int, first: int, end: int, joint: int) -> Array:

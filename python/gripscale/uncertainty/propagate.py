@@ -18,7 +18,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any, NamedTuple
+from typing import Any
 
 import xarray as xr
 
@@ -36,6 +36,7 @@ from gripscale.study.store import Store
 from gripscale.study.task import Task, exact
 from gripscale.study.threads import OnTask, solve_all
 from gripscale.uncertainty import assemble
+from gripscale.uncertainty.assemble import Place
 from gripscale.uncertainty.attempt import Attempt
 from gripscale.uncertainty.choice import Chosen, Uncertainty
 from gripscale.uncertainty.design import Drawn, draws
@@ -77,17 +78,6 @@ class Plan:
             "axis": None if self.axis is None else [self.axis.name, exact(self.axis.values)],
         }
         return hashlib.sha256(json.dumps(stated, sort_keys=True).encode()).hexdigest()
-
-
-class Place(NamedTuple):
-    """One prediction: of which model, at which value of the axis, of which sample.
-
-    The case itself is sample -1.
-    """
-
-    model: str
-    value: int
-    sample: int
 
 
 def propagate(

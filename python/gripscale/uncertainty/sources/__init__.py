@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from gripscale.uncertainty.sources.bulk_modulus import BulkModulusSource
 from gripscale.uncertainty.sources.cut_off import CutOffSource
 from gripscale.uncertainty.sources.equilibrium_modulus import EquilibriumModulusSource
 from gripscale.uncertainty.sources.load_time import LoadTimeSource
 from gripscale.uncertainty.sources.modulus import ModulusSource
 from gripscale.uncertainty.sources.profile import ProfileSource
-from gripscale.uncertainty.sources.source import Maker
 from gripscale.uncertainty.sources.waves import WavesSource
 
-SOURCES: dict[str, Maker] = {
+SOURCES: dict[str, Any] = {
     source.name: source
     for source in (
         ProfileSource,

@@ -59,4 +59,5 @@ class ModulusSource:
 def _told(rubber: Rubber, omega: Array) -> Array:
     """Return ln |E*| and ln E''/E' at each frequency, shape (frequencies, 2)."""
     modulus = rubber.complex_modulus(omega)
-    return np.log(np.stack([np.abs(modulus), modulus.imag / modulus.real], axis=-1))
+    parts = np.stack([np.abs(modulus), modulus.imag / modulus.real], axis=-1)
+    return np.asarray(np.log(parts))

@@ -9,7 +9,7 @@ from typing import Any, ClassVar, NamedTuple, Protocol
 import numpy as np
 
 from gripscale.errors import InputError
-from gripscale.uncertainty.inputs import Inputs, Measurement
+from gripscale.uncertainty.inputs import Inputs
 
 
 class Coordinate(NamedTuple):
@@ -58,14 +58,3 @@ class Stated:
 
 class NotHere(InputError):
     """A source has nothing to draw in a case; the message says why."""
-
-
-class Maker(Protocol):
-    """A class of sources."""
-
-    name: ClassVar[str]
-    label: ClassVar[str]
-    models: ClassVar[tuple[str, ...]]
-
-    def of(self, known: Measurement, stated: Stated) -> Source:
-        """Return the source of a case; raise `NotHere` where it has none."""
