@@ -83,7 +83,7 @@ def tornado_figure(one: xr.Dataset) -> Figure:
     shares, errors = one.friction_share.values, one.friction_share_error.values
     figure, panels = sheet(WIDE, 1.0 + 0.34 * len(ranked), 1, 2, gap=0.03, sharey=True)
     bars, dots = panels[0]
-    middle = float(one.friction_quantile.values[2])
+    middle = float(np.exp(np.nanmean(np.log(one.friction.values))))
     for place, k in enumerate(ranked):
         low, high = one.friction_end.values[k]
         seen = shares[k] > SURE * errors[k]

@@ -7,16 +7,17 @@ doi:10.1016/S0378-4754(00)00270-6) of y, the logarithm of friction or contact fr
 that vary all sources at once. A source is described by the coordinates of its draws: x and x^2 of
 one number, linear terms of several. With all of them in one least-squares fit
 
-    y = c + sum_k f_k(x_k) + rest,    S_k = (Var f_k - s^2 tr_k) / Var y,
+    y = c + sum_k f_k(x_k) + rest,    V_k = Var f_k - s^2 tr_k,    S_k = V_k / (sum_k V_k + s^2),
 
 where s^2 is the variance of the rest and s^2 tr_k what f_k has of it by chance: without it a source
-without effect would get its number of terms over the number of samples. One fit of all sources, and
+without effect would get its number of terms over the number of samples. The variance of y is taken
+as the sum, which it is of independent sources: of few samples they go together by chance. One fit of all sources, and
 not a mean over x_k alone, leaves only the rest as noise. What it cannot see (steps, interactions,
 anything the coordinates of a draw do not tell) is the `unexplained` share.
 
 Errors are those of the jackknife (B. Efron & C. Stein, Ann. Stat. 9 (1981) 586,
-doi:10.1214/aos/1176345462), with their covariance: it tells whether the order of two sources is
-known.
+doi:10.1214/aos/1176345462) for independent samples, too large for evenly spread ones; with their
+covariance it tells whether the order of two sources is known.
 """
 
 from __future__ import annotations
@@ -101,13 +102,15 @@ def shares(answer: Array, coordinates: Mapping[str, Array]) -> Shares | None:
         return None
     y = np.log(y)
     matrix, ends = np.hstack(blocks), np.cumsum([0, *widths])
-    found, parts = _fit(matrix, y, ends)
+    variances, parts = _fit(matrix, y, ends)
+    found = variances[:-1] / variances.sum()
     rest = np.arange(len(y))
     others = np.array([_fit(matrix[rest != i], y[rest != i], ends)[0] for i in rest])
+    others = (others / others.sum(axis=1, keepdims=True))[:, :-1]
     away = others - others.mean(axis=0)
     covariance = (len(y) - 1) / len(y) * away.T @ away
     moved = np.quantile(parts, SWING, axis=0) * np.sqrt(
-        np.maximum(found, 0.0) * y.var() / np.maximum(parts.var(axis=0), np.finfo(float).tiny)
+        np.maximum(variances[:-1], 0.0) / np.maximum(parts.var(axis=0), np.finfo(float).tiny)
     )
     low, high = np.exp(y.mean() + moved)
     return Shares(tuple(coordinates), found, covariance, low, high, float(1.0 - found.sum()))
@@ -127,7 +130,7 @@ def _standard(values: Array) -> Array:
 
 
 def _fit(matrix: Array, y: Array, ends: NDArray[np.intp]) -> tuple[Array, Array]:
-    """Return the shares and the part f_k of each source in each sample, of mean zero."""
+    """Return the variances V_k, last that of the rest, and f_k in each sample, of mean zero."""
     centred, about = matrix - matrix.mean(axis=0), y - y.mean()
     inverse = np.linalg.pinv(centred.T @ centred)
     factors = inverse @ (centred.T @ about)
@@ -138,4 +141,4 @@ def _fit(matrix: Array, y: Array, ends: NDArray[np.intp]) -> tuple[Array, Array]
         own = centred[:, first:end]
         parts[:, k] = own @ factors[first:end]
         by_chance[k] = np.sum(inverse[first:end, first:end] * (own.T @ own)) / len(y)
-    return (parts.var(axis=0) - noise * by_chance) / y.var(), parts
+    return np.append(parts.var(axis=0) - noise * by_chance, noise), parts
