@@ -150,7 +150,7 @@ class ProfileBlocks:
             met = np.cos(angle) * before[-joint:] + np.sin(angle) * after[:joint]
             line += [met, after[joint:-joint]]
         z = np.asarray(np.concatenate([*line, pieces[-1][-joint:]]), dtype=np.float64)
-        return Profile(np.arange(z.size) * step, z, f"{len(places)} blocks")
+        return Profile(step * np.arange(z.size, dtype=np.float64), z, f"{len(places)} blocks")
 
     def _piece(self, number: int, first: int, end: int, joint: int) -> Array:
         """Return the heights of a block and of the joint behind it, or before it at an end [m]."""
