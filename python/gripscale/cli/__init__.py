@@ -21,6 +21,7 @@ from gripscale.cli.report import report
 from gripscale.cli.reproduce import PASS_ON, reproduce
 from gripscale.cli.run import run
 from gripscale.cli.study import study
+from gripscale.cli.uncertainty import uncertainty
 from gripscale.versions import version_of
 
 EPILOGUE = (
@@ -42,6 +43,7 @@ app.command("compare")(compare)
 app.command("calibrate")(calibrate)
 app.command("report")(report)
 app.command("study")(study)
+app.command("uncertainty")(uncertainty)
 app.command("reproduce", context_settings=PASS_ON)(reproduce)
 app.command("fit-surface")(fit_surface)
 app.command("fit-rubber")(fit_rubber)

@@ -79,11 +79,8 @@ def extremes(
     `beyond` is how far relaxation times reach past both ends [decades], `largest_modulus` the limit
     of E_inf + sum E_i [Pa].
     """
+    problem = open_equations(curve, scatter, beyond, largest_modulus)
     decades = math.log10(curve.omega[-1] / curve.omega[0])
-    terms = min(max(2, round(_PER_DECADE * decades) + 1), _MOST_TERMS)
-    times = relaxation_times(curve.omega, terms, beyond)
-    weights = 1.0 / scatter[0], 1.0 / scatter[1]
-    problem = equations(curve, times, Prior(_SMOOTHING, _SMOOTHING, largest_modulus, *weights))
     orthogonal, triangle = np.linalg.qr(problem.matrix)
     right = orthogonal.T @ problem.right
     reduced = _Reduced(triangle, right, non_negative(triangle, right))
@@ -92,6 +89,20 @@ def extremes(
         for row, offset in _functionals(problem, omega):
             found += [_furthest(reduced, row, offset, sign, least) for sign in (1.0, -1.0)]
     return _series(problem, found)
+
+
+def open_equations(
+    curve: Curve, scatter: tuple[float, float], beyond: float, largest_modulus: float
+) -> Equations:
+    """Return the equations in units of the scatter, smoothed so little that the data decide.
+
+    Arguments as for `extremes`.
+    """
+    decades = math.log10(curve.omega[-1] / curve.omega[0])
+    terms = min(max(2, round(_PER_DECADE * decades) + 1), _MOST_TERMS)
+    times = relaxation_times(curve.omega, terms, beyond)
+    weights = 1.0 / scatter[0], 1.0 / scatter[1]
+    return equations(curve, times, Prior(_SMOOTHING, _SMOOTHING, largest_modulus, *weights))
 
 
 def _frequencies(omega: Array, decades: float, beyond: float) -> Array:

@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 
 _NEIGHBOURS = 8
 _PASSES = 10
-_LEAST_SCATTER = 0.02
+LEAST_SCATTER = 0.02
 """Scatter below this (2 %, a good laboratory) is not believed."""
 _FEWEST_ROWS = _NEIGHBOURS + 3
 
@@ -48,7 +48,7 @@ class Screening:
     @property
     def believed_scatter(self) -> tuple[float, float]:
         """Scatter of E' and E'' [-], at least what a good laboratory has."""
-        return max(self.storage_scatter, _LEAST_SCATTER), max(self.loss_scatter, _LEAST_SCATTER)
+        return max(self.storage_scatter, LEAST_SCATTER), max(self.loss_scatter, LEAST_SCATTER)
 
 
 def screen(
@@ -120,4 +120,4 @@ def _spread(deviation: Array) -> float:
 
 
 def _scatter(deviation: Array) -> float:
-    return max(_spread(deviation), _LEAST_SCATTER)
+    return max(_spread(deviation), LEAST_SCATTER)

@@ -30,7 +30,7 @@ _FEWEST_ROWS = 4
 _SMOOTHING = 0.1
 _SHRINKAGE = 10.0
 """Weight of slow relaxations beyond the data over that of the smoothing."""
-_BEYOND, _MOST_DECADES = 2.0, 20.0
+BEYOND, _MOST_DECADES = 2.0, 20.0
 _MOST_WEIGHT = 1e6
 _GLASS = 1.38
 """Largest modulus of the series over the bulk modulus: Poisson's ratio 0.3, as glasses have it."""
@@ -46,7 +46,7 @@ def fit_prony(
     terms: int | None = None,
     bulk_modulus: float = 2e9,
     outlier_threshold: float = 8.0,
-    extrapolate_decades: float = _BEYOND,
+    extrapolate_decades: float = BEYOND,
     smoothing: float = _SMOOTHING,
     loss_weight: float = 1.0,
 ) -> Rubber:
@@ -102,7 +102,7 @@ def fit_prony_report(
     terms: int | None = None,
     bulk_modulus: float = 2e9,
     outlier_threshold: float = 8.0,
-    extrapolate_decades: float = _BEYOND,
+    extrapolate_decades: float = BEYOND,
     smoothing: float = _SMOOTHING,
     loss_weight: float = 1.0,
 ) -> tuple[Rubber, PronyFit]:
@@ -127,7 +127,7 @@ def fit_prony_report(
     screening = _screen(master, curve, outlier_threshold)
     kept = screening.kept
     rows = curve.rows(kept)
-    limit = _largest_modulus(float(rows.storage.max()), bulk)
+    limit = largest_modulus(float(rows.storage.max()), bulk)
     prior = Prior(smoothing, _SHRINKAGE * smoothing, limit, loss_weight=loss_weight)
     fit = partial(_fit, curve, beyond, prior)
     candidates: tuple[Candidate, ...] = ()
@@ -148,7 +148,7 @@ def _option(name: str, value: float, most: float) -> float:
     return number
 
 
-def _largest_modulus(measured: float, bulk: float) -> float:
+def largest_modulus(measured: float, bulk: float) -> float:
     """Return the limit of E_inf + sum E_i [Pa], from the largest measured E' and the bulk modulus.
 
     Raises `InputError` if the bulk modulus is too small for what was measured.

@@ -30,6 +30,9 @@ from gripscale.surface import PreparedSurface
 KEY_LENGTH = 32
 """Hexadecimal digits of a key (128 bits)."""
 
+MOST_WRITTEN = 10_000
+"""Numbers of an array that are written out; of a larger one its bytes are hashed at once."""
+
 Solved = tuple[str, xr.Dataset, float]
 """Key, result and seconds of a task."""
 
@@ -80,6 +83,9 @@ def exact(value: Any) -> Any:
     if isinstance(value, float):
         return float(value).hex()
     if isinstance(value, np.ndarray):
+        if value.size > MOST_WRITTEN:
+            content = hashlib.sha256(np.ascontiguousarray(value).tobytes()).hexdigest()
+            return {"array": str(value.dtype), "shape": list(value.shape), "sha256": content}
         return [exact(entry) for entry in value.tolist()]
     if isinstance(value, Mapping):
         return {str(name): exact(entry) for name, entry in value.items()}

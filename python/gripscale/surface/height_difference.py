@@ -147,17 +147,66 @@ def height_difference(
         If the steps differ, `upper_share` is not above 0 and at most 1, `max_lag` is below one step
         or beyond a profile, or no lag has pairs.
     """
+    blocks = checks.whole("band_blocks", band_blocks, least=4, most=1000)
+    sums = block_sums(
+        profile,
+        blocks,
+        upper_share=upper_share,
+        max_lag=max_lag,
+        lags_per_decade=lags_per_decade,
+    )
+    return replace(_curve(sums.lag, sums.squares, sums.pairs), carried=sums.carried)
+
+
+@dataclass(frozen=True, eq=False)
+class BlockSums:
+    """What each block of the profiles adds to C_z: whoever draws blocks needs no pairs again.
+
+    Parameters
+    ----------
+    lag : array, shape (lags,)
+        Lag [m].
+    squares, pairs : array, shape (blocks, lags)
+        Sum of squared height differences [m^2] and number of pairs whose first point is in a block.
+    carried : float
+        Shortest wavelength [m] that the measurement carries.
+    """
+
+    lag: FloatArray
+    squares: FloatArray
+    pairs: FloatArray
+    carried: float
+
+    def drawn(self, blocks: NDArray[np.intp]) -> HeightDifference:
+        """Return C_z of these blocks only, some perhaps several times, without a band."""
+        squares, pairs = self.squares[blocks].sum(axis=0), self.pairs[blocks].sum(axis=0)
+        kept = (pairs >= FEWEST_PAIRS) & (squares > 0.0)
+        return HeightDifference(
+            self.lag[kept],
+            squares[kept] / pairs[kept],
+            pairs[kept].astype(np.int64),
+            carried=self.carried,
+        )
+
+
+def block_sums(
+    profile: Profile | Sequence[Profile],
+    blocks: int,
+    *,
+    upper_share: float = 1.0,
+    max_lag: float | None = None,
+    lags_per_decade: int = 20,
+) -> BlockSums:
+    """Return the sums behind C_z, block by block; arguments and errors as `height_difference`."""
     profiles = _profiles(profile)
     per_decade = checks.whole("lags_per_decade", lags_per_decade, least=1, most=1000)
-    blocks = checks.whole("band_blocks", band_blocks, least=4, most=1000)
     step = float(np.mean([p.step for p in profiles]))
     shifts = _lag_steps(profiles, step, max_lag, per_decade)
     share = checks.positive("upper_share", upper_share)
     if share > 1.0:
         raise InputError(f"upper_share must be at most 1; got {share:g}")
     centred = [_upper(p.z - np.nanmean(p.z), share) for p in profiles]
-    starts = _block_starts([z.size for z in centred], blocks)
-    sums, counts = _block_sums(centred, starts, shifts)
+    sums, counts = _block_sums(centred, block_starts([z.size for z in centred], blocks), shifts)
     if len(profiles) > blocks:
         first = np.linspace(0, len(sums), blocks, endpoint=False).astype(int)
         sums, counts = (np.add.reduceat(values, first, axis=0) for values in (sums, counts))
@@ -167,8 +216,8 @@ def height_difference(
             f"profile must have a lag with at least {FEWEST_PAIRS} pairs of heights; got at most "
             f"{int(counts.sum(axis=0).max())}"
         )
-    curve = _curve(step * shifts[keep], sums[:, keep], counts[:, keep])
-    return replace(curve, carried=max(p.carried for p in profiles))
+    carried = max(p.carried for p in profiles)
+    return BlockSums(step * shifts[keep], sums[:, keep], counts[:, keep], carried)
 
 
 def _profiles(profile: Profile | Sequence[Profile]) -> list[Profile]:
@@ -209,7 +258,7 @@ def _lag_steps(
     return np.unique(np.rint(np.geomspace(1, most, count)).astype(np.int64))
 
 
-def _block_starts(sizes: list[int], blocks: int) -> list[NDArray[np.int64]]:
+def block_starts(sizes: list[int], blocks: int) -> list[NDArray[np.int64]]:
     """Cut each profile into its share of the blocks; return their first indices."""
     total = sum(sizes)
     shares = [max(1, round(blocks * size / total)) for size in sizes]

@@ -1,0 +1,80 @@
+"""What of a case is taken to be uncertain, and what the user knows of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+from gripscale import checks
+from gripscale.errors import InputError
+from gripscale.uncertainty.inputs import Measurement
+from gripscale.uncertainty.sources import SOURCES
+from gripscale.uncertainty.sources.source import NotHere, Source, Stated
+
+
+class Chosen(NamedTuple):
+    """The sources that are drawn, and a sentence on each of the others."""
+
+    sources: list[Source]
+    left_out: list[str]
+
+
+@dataclass(frozen=True)
+class Uncertainty:
+    """What is taken to be uncertain: all sources that a case has, unless said otherwise.
+
+    Parameters
+    ----------
+    without : sequence of str
+        Sources to be left out: profile, modulus, bulk_modulus, equilibrium_modulus, load_time,
+        cut_off, waves.
+    given : mapping
+        Values of a source by its name, in place of its default: two ends as `"1 GPa:3 GPa"` or a
+        pair of numbers [SI], or several equally likely values as `"1 GPa,2 GPa"` or three numbers
+        and more. Of bulk_modulus, equilibrium_modulus (moduli), cut_off (lengths), load_time
+        (factors on that of the case) and waves (numbers of them).
+    block_length : float, optional
+        Length of the blocks of profiles [m]; by default four of the largest waves.
+
+    Raises
+    ------
+    InputError
+        If a source is unknown, both left out and given, or has no values to be given.
+    """
+
+    without: Sequence[str] = ()
+    given: Mapping[str, Any] = field(default_factory=dict)
+    block_length: float | None = None
+
+    def __post_init__(self) -> None:
+        checks.known("source", [*self.without, *self.given], SOURCES)
+        for name in self.given:
+            if name in self.without:
+                raise InputError(f"{name} must be left out or given; got both")
+            if name in ("profile", "modulus"):
+                raise InputError(f"{name} is drawn from what was measured; got values given for it")
+        if self.block_length is not None:
+            checks.positive("block_length", self.block_length, unit="m")
+
+    def of(self, known: Measurement, models: Sequence[str]) -> Chosen:
+        """Return the sources of a case that have an effect on one of `models`.
+
+        Raises `InputError` if a source that is given has nothing to draw, or none is left.
+        """
+        chosen = Chosen([], [])
+        for name, maker in SOURCES.items():
+            try:
+                if name in self.without:
+                    raise NotHere("left out as asked")
+                if not set(maker.models) & set(models):
+                    raise NotHere(f"no effect on the model {' or '.join(models)}")
+                stated = Stated(self.given.get(name), self.block_length)
+                chosen.sources.append(maker.of(known, stated))
+            except NotHere as why:
+                if name in self.given:
+                    raise InputError(f"{name} is given and has nothing to draw: {why}") from None
+                chosen.left_out.append(f"{maker.label}: {why}")
+        if not chosen.sources:
+            raise InputError(f"no source of uncertainty is left; {'; '.join(chosen.left_out)}")
+        return chosen

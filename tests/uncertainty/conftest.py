@@ -1,0 +1,64 @@
+"""A small case that is solved in milliseconds: a self-affine road, a noisy rubber, half-planes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from gripscale import Rubber
+from gripscale.case import prepare_case
+from gripscale.surface import self_affine_profile
+from gripscale.uncertainty.inputs import Inputs, Measurement
+
+CASE = """\
+[surface]
+files = ["road.txt"]
+scales = 4
+smallest_wavelength = "1 mm"
+[rubber]
+file = "dma.txt"
+terms = 8
+[load]
+pressure = "3 bar"
+speed = "0.3 m/s"
+footprint = "100 mm"
+static = false
+[solver]
+model = "half_plane"
+points = 64
+"""
+
+
+@pytest.fixture(scope="session")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with a road, a master curve with 3 % of noise, and a case."""
+    folder = tmp_path_factory.mktemp("uncertain")
+    road = self_affine_profile(0.8, 3e-3, 8e-4, length=0.4, step=2e-4, seed=1)
+    rows = [f"{x * 1e3:.1f}\t{z * 1e3:.5f}" for x, z in zip(road.x, road.z, strict=True)]
+    (folder / "road.txt").write_text("\n".join(["x [mm]\tz [mm]", *rows]))
+    frequency = np.geomspace(1e-1, 1e6, 40)
+    modulus = Rubber(6e6, [3e6, 4e6, 8e6, 2e7], [1e-2, 1e-3, 1e-4, 1e-5]).complex_modulus(
+        2 * np.pi * frequency
+    )
+    noise = np.exp(0.03 * np.random.default_rng(1).standard_normal((2, frequency.size)))
+    lines = [
+        f"{f:.5e} {e.real * a:.6e} {e.imag * b:.6e}"
+        for f, e, a, b in zip(frequency, modulus, *noise, strict=True)
+    ]
+    (folder / "dma.txt").write_text("\n".join(["# frequency (Hz) E' (Pa) E'' (Pa)", *lines]))
+    (folder / "case.toml").write_text(CASE)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def known(folder: Path) -> Measurement:
+    """What the case is known from."""
+    return Measurement.of(prepare_case(folder / "case.toml"))
+
+
+@pytest.fixture
+def inputs(known: Measurement) -> Inputs:
+    """The inputs of the case itself."""
+    return Inputs.of(known)

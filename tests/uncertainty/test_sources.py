@@ -1,0 +1,173 @@
+"""Each source alone: what it draws, from where to where, and what it changes."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from scipy.stats import spearmanr
+
+from gripscale import Rubber
+from gripscale.chain.model import Chain
+from gripscale.errors import InputError
+from gripscale.model import NominalLoad
+from gripscale.rough.model import DirectContact
+from gripscale.surface import PreparedSurface, SineStack
+from gripscale.theory.half_plane import HalfPlane
+from gripscale.uncertainty import Range, Uncertainty
+from gripscale.uncertainty.design import draws
+from gripscale.uncertainty.inputs import Inputs, Measurement
+from gripscale.uncertainty.load_time import LongerLoaded, RefinableLongerLoaded, loaded_longer
+from gripscale.uncertainty.sources import SOURCES
+from gripscale.wave.block import FiniteStrainBlock
+from gripscale.wave.problem import Load, Sine, WaveProblem
+
+SAMPLES = 40
+HALF_PLANES = Chain(HalfPlane(points=64))
+
+
+def alone(name, known, **given):
+    """Return the draws of one source, the others left out."""
+    others = [one for one in SOURCES if one != name]
+    chosen = Uncertainty(without=others, given=given).of(known, ["chain", "direct"])
+    return list(draws(Inputs.of(known), chosen.sources, SAMPLES, 0))
+
+
+def told(drawn, name):
+    return np.array([one.coordinates[name] for one in drawn])
+
+
+@pytest.mark.parametrize(
+    ("name", "coordinate", "low", "high"),
+    [
+        ("bulk_modulus", "bulk_modulus", 2e9 / 1.5, 2e9 * 1.5),
+        ("load_time", "load_time_factor", 0.5, 2.0),
+        ("cut_off", "cut_off", 1e-3 / math.sqrt(2), 1e-3 * math.sqrt(2)),
+    ],
+)
+def test_a_range_is_spread_evenly_in_its_logarithm(known, name, coordinate, low, high):
+    """One sample lies in each fortieth."""
+    values = np.log(told(alone(name, known), coordinate))
+    places = (values - math.log(low)) / math.log(high / low) * SAMPLES
+    assert sorted(np.floor(places)) == list(range(SAMPLES))
+
+
+def test_the_cut_off_ends_the_waves_and_the_roughness(known):
+    for one in alone("cut_off", known)[:4]:
+        surface, _ = one.inputs.for_model(HALF_PLANES)
+        assert surface.sines.wavelength[-1] == pytest.approx(one.coordinates["cut_off"])
+        measured, _ = one.inputs.for_model(DirectContact())
+        assert measured.sines.roughness_end == pytest.approx(one.coordinates["cut_off"])
+
+
+def test_a_finer_cut_off_is_more_friction(known):
+    drawn = alone("cut_off", known)
+    friction = [predicted(known, one) for one in drawn[:12]]
+    assert spearmanr(friction, told(drawn[:12], "cut_off")).statistic < -0.95
+
+
+def test_the_bulk_modulus_is_that_of_the_rubber(known):
+    for one in alone("bulk_modulus", known)[:4]:
+        assert one.inputs.rubber.bulk_modulus == one.coordinates["bulk_modulus"]
+        assert one.inputs.rubber.equilibrium_modulus == known.rubber.equilibrium_modulus
+
+
+def test_the_equilibrium_modulus_has_no_default_and_is_taken_as_given(known):
+    with pytest.raises(InputError, match="no source of uncertainty is left"):
+        alone("equilibrium_modulus", known)
+    drawn = alone("equilibrium_modulus", known, equilibrium_modulus="4 MPa:8 MPa")
+    moduli = [one.inputs.rubber.equilibrium_modulus for one in drawn]
+    assert min(moduli) > 4e6
+    assert max(moduli) < 8e6
+    assert np.median(moduli) == pytest.approx(math.sqrt(32.0) * 1e6, rel=0.02)
+
+
+def test_moduli_vary_the_rubber_about_the_fitted_one(known):
+    drawn = alone("modulus", known)
+    logs = told(drawn, "modulus_largest_wave")
+    assert 0.001 < logs.std() < 0.05
+    assert abs(logs.mean()) < 0.03
+    assert len({one.inputs.rubber.equilibrium_modulus for one in drawn}) == SAMPLES
+
+
+def test_profiles_vary_the_correlation_and_the_lines(known):
+    one = alone("profile", known)[0]
+    assert one.inputs.correlation is not known.surface.correlation
+    measured, _ = one.inputs.for_model(DirectContact())
+    assert not np.array_equal(measured.measured.cleaned[0].z, known.profiles[0].z)
+
+
+def test_waves_are_stacks_as_good(known):
+    drawn = alone("waves", known)
+    assert len(set(told(drawn, "waves"))) > 2
+    for one in drawn[:4]:
+        surface, _ = one.inputs.for_model(HALF_PLANES)
+        assert len(surface.sines) == one.coordinates["waves"]
+        assert surface.sines.wavelength[0] == pytest.approx(one.coordinates["first_wavelength"])
+        assert surface.sines.wavelength[-1] == pytest.approx(1e-3)
+    assert set(told(alone("waves", known, waves="5,6"), "waves")) == {5.0, 6.0}
+    with pytest.raises(InputError, match="must be among the numbers that follow C_z"):
+        alone("waves", known, waves=24)
+
+
+def test_longer_loads_reach_the_solver():
+    class Told(HalfPlane):
+        def solve(self, problem, start=None):
+            return problem.load.load_time
+
+    problem = WaveProblem(Rubber(6e6), Sine(1e-2, 1e-3), Load(3e5, 0.3, 2.0))
+    assert loaded_longer(Told(), 1.5).solve(problem) == 3.0
+
+
+def test_a_solver_stays_refinable_or_not():
+    assert type(loaded_longer(HalfPlane(), 2.0)) is LongerLoaded
+    longer = loaded_longer(FiniteStrainBlock(), 2.0)
+    assert isinstance(longer, RefinableLongerLoaded)
+    assert longer.coarser() == loaded_longer(FiniteStrainBlock().coarser(), 2.0)
+
+
+def test_leaving_out_a_source_changes_no_draw_of_the_others(known):
+    without = alone("cut_off", known)
+    chosen = Uncertainty(without=["waves"]).of(known, ["chain"])
+    both = list(draws(Inputs.of(known), chosen.sources, SAMPLES, 0))
+    np.testing.assert_array_equal(told(without, "cut_off"), told(both, "cut_off"))
+
+
+def test_waves_by_hand_and_a_named_rubber_leave_what_they_leave():
+    stack = SineStack(np.array([0.01, 0.002]), np.array([5e-4, 1e-4]))
+    known = Measurement(PreparedSurface(stack, "by hand"), Rubber(6e6), speed=0.3)
+    chosen = Uncertainty().of(known, ["chain"])
+    assert [source.name for source in chosen.sources] == ["bulk_modulus", "load_time"]
+    assert len(chosen.left_out) == len(SOURCES) - 2
+
+
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        ({"without": ["cutoff"]}, "did you mean cut_off"),
+        ({"given": {"profile": 3}}, "drawn from what was measured"),
+        ({"given": {"waves": 3}, "without": ["waves"]}, "got both"),
+        ({"block_length": 0.0}, "block_length"),
+    ],
+)
+def test_choices_that_cannot_be(wrong, said):
+    with pytest.raises(InputError, match=said):
+        Uncertainty(**wrong)
+
+
+@pytest.mark.parametrize("given", ["1 GPa:2 GPa:3 GPa", "3 GPa:1 GPa", "much", [1e9, -1.0], ""])
+def test_ranges_that_cannot_be(known, given):
+    with pytest.raises(InputError, match="bulk_modulus"):
+        alone("bulk_modulus", known, bulk_modulus=given)
+
+
+def test_values_of_a_list_are_equally_likely():
+    found = [Range((1.0, 2.0, 4.0), between=False).at(place) for place in (0.1, 0.5, 0.9)]
+    assert found == [1.0, 2.0, 4.0]
+
+
+def predicted(known, one):
+    surface, model = one.inputs.for_model(HALF_PLANES)
+    load = NominalLoad(3e5, known.speed, 0.1)
+    return float(model.predict(one.inputs.rubber, surface, load).total_friction)
