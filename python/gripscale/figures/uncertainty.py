@@ -48,7 +48,7 @@ def distribution_figure(data: xr.Dataset) -> Figure:
         one = data.sel(model=model)
         for axes, (name, label) in zip(panels[row], NAMES.items(), strict=True):
             _distribution(axes, one, name, colour)
-            axes.set_xlabel(label)
+            axes.set_xlabel(shown.label)
         number = one.sizes["sample"] - int(one.failed)
         panels[row][0].set_ylabel(f"samples (of {number})")
         panels[row][0].set_title(str(model), loc="left")
@@ -104,9 +104,9 @@ def tornado_figure(one: xr.Dataset) -> Figure:
 @styled
 def band_figure(data: xr.Dataset, axis: str) -> Figure:
     """Draw medians over what is varied, with bands of 50 and 90 % of the samples."""
-    divisor, label, _ = LABELS[axis]
+    shown = LABELS[axis]
     figure, panels = sheet(WIDE, 3.1, 1, 2, gap=0.06)
-    x = data[axis].values / divisor
+    x = shown.of(data[axis].values)
     for model, colour in zip(data.model.values, COLOURS, strict=False):
         one = data.sel(model=model).transpose(axis, ...)
         for axes, (name, text) in zip(panels[0], NAMES.items(), strict=True):
@@ -116,7 +116,7 @@ def band_figure(data: xr.Dataset, axis: str) -> Figure:
             axes.plot(x, q[:, 2], color=colour, label=f"{model}: median, 50 and 90 %")
             axes.plot(x, one[f"{name}_case"], "o", color=colour, mfc="white", ms=3.5)
             axes.set_ylabel(text)
-            axes.set_xlabel(label)
+            axes.set_xlabel(shown.label)
             if (x > 0.0).all() and len(x) > 1:
                 log_axis(axes, "x")
     panels[0][0].set_ylim(bottom=0.0)
