@@ -48,7 +48,7 @@ def distribution_figure(data: xr.Dataset) -> Figure:
         one = data.sel(model=model)
         for axes, (name, label) in zip(panels[row], NAMES.items(), strict=True):
             _distribution(axes, one, name, colour)
-            axes.set_xlabel(shown.label)
+            axes.set_xlabel(label)
         number = one.sizes["sample"] - int(one.failed)
         panels[row][0].set_ylabel(f"samples (of {number})")
         panels[row][0].set_title(str(model), loc="left")

@@ -29,9 +29,9 @@ from gripscale.case.run import prepare_case
 from gripscale.errors import FileError, InputError, RubberWarning
 from gripscale.model import Model, NominalLoad
 from gripscale.rough.model import DirectContact
+from gripscale.software import software
 from gripscale.study.axes import Axis, axes_of
 from gripscale.study.inputs import contents
-from gripscale.study.software import software
 from gripscale.study.store import Store
 from gripscale.study.task import Task, exact
 from gripscale.study.threads import OnTask, solve_all
