@@ -11,9 +11,9 @@ one number, linear terms of several. With all of them in one least-squares fit
 
 where s^2 is the variance of the rest and s^2 tr_k what f_k has of it by chance: without it a source
 without effect would get its number of terms over the number of samples. The variance of y is taken
-as the sum, which it is of independent sources: of few samples they go together by chance. One fit of all sources, and
-not a mean over x_k alone, leaves only the rest as noise. What it cannot see (steps, interactions,
-anything the coordinates of a draw do not tell) is the `unexplained` share.
+as the sum, which it is of independent sources: of few samples they go together by chance. One fit
+of all sources, and not a mean over x_k alone, leaves only the rest as noise. What it cannot see
+(steps, interactions, anything the coordinates of a draw do not tell) is the `unexplained` share.
 
 Errors are those of the jackknife (B. Efron & C. Stein, Ann. Stat. 9 (1981) 586,
 doi:10.1214/aos/1176345462) for independent samples, too large for evenly spread ones; with their
