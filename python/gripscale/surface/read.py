@@ -10,13 +10,14 @@ import numpy as np
 
 from gripscale import checks
 from gripscale.errors import FileError, InputError
+from gripscale.excel import EXCEL
 from gripscale.surface.instrument_file import HeightField, read_instrument_file
 from gripscale.surface.profile import Profile
 from gripscale.surface.text_profile import read_text_profile
 from gripscale.textfile import file_path
 from gripscale.units import in_si
 
-TEXT_SUFFIXES = ("", ".dat", ".txt", ".csv", ".tsv", ".prn")
+TEXT_SUFFIXES = ("", ".dat", ".txt", ".csv", ".tsv", ".prn", *EXCEL)
 
 
 def read_profile(
@@ -27,6 +28,7 @@ def read_profile(
     direction: str = "x",
     line: int | None = None,
     channel: str | int | None = None,
+    sheet: str | int | None = None,
     reader: str = "auto",
 ) -> Profile:
     """Read one profile from a file.
@@ -34,8 +36,8 @@ def read_profile(
     Parameters
     ----------
     path : path-like
-        A text file with a distance and a height column (CAPTIF .dat, .txt, .csv, .tsv, .prn), or
-        any line scan or map SurfaceTopography reads (needs `gripscale[formats]`).
+        A text or Excel file with a distance and a height column (CAPTIF .dat, .txt, .csv, .tsv,
+        .prn, .xlsx), or any line scan or map SurfaceTopography reads (needs `gripscale[formats]`).
     x_unit, z_unit : str, optional
         Units of distance and height ("m", "cm", "mm", "um", "nm", "pm", "in") where the file does
         not name them. Units are never guessed, and must not contradict the file.
@@ -44,7 +46,10 @@ def read_profile(
     line : int, optional
         Which line of a map, counted from 0 across `direction`; the middle one by default.
     channel : str or int, optional
-        Name or number, from 0, of the channel of an instrument file that has several of heights.
+        Name of the channel, or its number from 1, of an instrument file that has several of
+        heights.
+    sheet : str or int, optional
+        Name of the Excel sheet or its number from 1, where several hold numbers.
     reader : {"auto", "text", "instrument"}, optional
         How to read the file; "auto" goes by the suffix.
 
@@ -64,7 +69,7 @@ def read_profile(
     place = file_place(path, x_unit, z_unit, reader)
     if is_text(place, reader):
         _check_line(place, line, 1)
-        return read_text_profile(place, x_unit=x_unit, z_unit=z_unit)
+        return read_text_profile(place, x_unit=x_unit, z_unit=z_unit, sheet=sheet)
     field = read_instrument_file(place, x_unit=x_unit, z_unit=z_unit, channel=channel)
     _check_direction(place, field, direction)
     lines = field.lines(direction)
@@ -79,6 +84,7 @@ def read_profiles(
     z_unit: str | None = None,
     direction: str = "x",
     channel: str | int | None = None,
+    sheet: str | int | None = None,
     reader: str = "auto",
 ) -> list[Profile]:
     """Read every profile of a file: all lines of a map along a direction, or the only one.
@@ -89,7 +95,7 @@ def read_profiles(
     checks.one_of("direction", direction, ("x", "y"))
     place = file_place(path, x_unit, z_unit, reader)
     if is_text(place, reader):
-        return [read_text_profile(place, x_unit=x_unit, z_unit=z_unit)]
+        return [read_text_profile(place, x_unit=x_unit, z_unit=z_unit, sheet=sheet)]
     field = read_instrument_file(place, x_unit=x_unit, z_unit=z_unit, channel=channel)
     _check_direction(place, field, direction)
     measured = np.isfinite(field.heights).any(axis=0 if direction == "x" else 1)
