@@ -30,6 +30,8 @@ def read_sheets(path: Path) -> dict[str, Rows]:
         raise FileError(f"{path}: expected a file; got a directory")
     if not path.is_file():
         raise FileError(f"{path}: cannot be read (no such file)")
+    if not path.stat().st_size:
+        raise FileError(f"{path}: expected an xlsx file; got an empty file")
     try:
         openpyxl = import_module("openpyxl")
     except ImportError as error:

@@ -134,7 +134,7 @@ class Wave(Table):
 
 
 MAP_KEYS = ("step", "crop_across", "trim", "form")
-PROFILE_KEYS = ("across_gaps", "detrend")
+PROFILE_KEYS = ("across_gaps", "detrend", "sheet")
 """Keys of [surface] that only a map, or only profiles have."""
 
 

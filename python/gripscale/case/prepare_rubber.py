@@ -114,8 +114,9 @@ def _superposed(
 ) -> tuple[Sweeps, MasterCurve, Superposition]:
     """Return sweeps, the master curve they make, and how they meet."""
     sweeps = read_sweeps(path, temperature_step=source.temperature_step, **told)
-    reference = source.reference_temperature
-    if reference is None and len(sweeps) > 1:
+    alone = len(sweeps) == 1
+    reference = None if alone and told["titles_first"] else source.reference_temperature
+    if reference is None and not alone:
         raise InputError(
             f'{path}: reference_temperature must be given, such as "20 C", for sweeps at '
             f"{len(sweeps)} temperatures to be shifted to"

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from gripscale.cli.terminal import command, say, screen
+from gripscale.errors import InputError
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -85,12 +87,24 @@ def fit_rubber(
     if output is not None:
         folder.require_writable(output)
     console = screen()
-    prepared = prepare_rubber(source)
+    try:
+        prepared = prepare_rubber(source)
+    except InputError as error:
+        raise InputError(_with_options(str(error))) from error
     rubber = prepared.rubber
     for line in (*rubber_lines(prepared), *band_table(rubber), *prony_table(rubber)):
         say(console, line)
     if output is not None:
         _write(console, prepared, output)
+
+
+def _with_options(message: str) -> str:
+    """Return a complaint that names a key of a case with the option of that name."""
+    return re.sub(
+        r"\b([a-z_]+)(?= must (be given|name|give|say)\b)",
+        lambda key: f"--{key[1].replace('_', '-')}",
+        message,
+    )
 
 
 def _column(text: str) -> str | int:

@@ -16,18 +16,14 @@ from numpy.typing import NDArray
 
 from gripscale import checks
 from gripscale.errors import FileError, InputError
-from gripscale.rubber.stated import MODULI, Stated, missing
+from gripscale.rubber.stated import MODULI, PAIRS, Stated, missing
 from gripscale.textfile import TextTable
 from gripscale.units import in_si
 
 Array = NDArray[np.float64]
 
-_PAIRS = (
-    ("storage", "loss"),
-    ("storage", "loss_factor"),
-    ("loss", "loss_factor"),
-    ("magnitude", "loss_factor"),
-)
+_ROUNDING = 0.05
+"""Relative error of a loss factor by the digits it is printed with."""
 
 
 def young_moduli(
@@ -43,7 +39,7 @@ def young_moduli(
     read = above_zero if numbers is None else numbers
     places = {one: stated.column(table, one) for one in MODULI}
     there = {one: at for one, at in places.items() if at is not None}
-    pair = next((pair for pair in _PAIRS if set(pair) <= set(there)), None)
+    pair = next((pair for pair in PAIRS if set(pair) <= set(there)), None)
     if pair is None:
         raise missing(table, "modulus as two of storage, loss, loss_factor, magnitude", "columns")
     in_pascal = [there[one] for one in pair if one != "loss_factor"]
@@ -79,10 +75,6 @@ def _check_factor(table: TextTable, there: dict[str, int], storage: Array, loss:
             f"{table.path}: storage and loss modulus look exchanged, because the loss factor of "
             "the file is their quotient the other way round; columns must name them as they are"
         )
-
-
-_ROUNDING = 0.05
-"""Relative error of a loss factor by the digits it is printed with."""
 
 
 def above_zero(table: TextTable, column: int, wanted: str) -> Array:

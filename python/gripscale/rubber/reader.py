@@ -99,6 +99,7 @@ def read_master_curve(
     table = _one(blocks)
     if not table.names and len(table.columns) == len(THREE) and not stated.columns:
         stated = stated.in_order()
+    stated = stated.of(table)
     frequency = stated.column(table, "frequency")
     if frequency is None:
         raise missing(table, "frequency", "columns")

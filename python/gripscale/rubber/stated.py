@@ -12,6 +12,13 @@ from gripscale.textfile import TextTable
 from gripscale.units import in_si, listed, spelled
 
 MODULI = ("storage", "loss", "loss_factor", "magnitude")
+PAIRS = (
+    ("storage", "loss"),
+    ("storage", "loss_factor"),
+    ("loss", "loss_factor"),
+    ("magnitude", "loss_factor"),
+)
+"""Two that tell the modulus, the first choice first."""
 QUANTITIES = ("temperature", "frequency", *MODULI)
 """What a column of a file of moduli may hold."""
 THREE = ("frequency", "storage", "loss")
@@ -43,25 +50,25 @@ class Stated:
         """Return the same with frequency, storage and loss in the first three columns."""
         return replace(self, columns={name: at for at, name in enumerate(THREE, start=1)})
 
+    def of(self, table: TextTable) -> Stated:
+        """Return what counts for a table: no columns where its titles come first and name them."""
+        if not (self.titles_first and self.columns):
+            return self
+        titles = replace(self, columns={})
+        told = {one for one in QUANTITIES if titles.column(table, one) is not None}
+        enough = "frequency" in told and any(told.issuperset(pair) for pair in PAIRS)
+        return titles if enough else self
+
     def column(self, table: TextTable, wanted: str) -> int | None:
         """Return the column of a quantity; None if no title means it and none is stated.
 
         Raises `InputError` if several titles mean it, or there is no such column.
         """
-        titled = self._titled(table, wanted)
-        if wanted in self.columns and not (self.titles_first and titled is not None):
+        if wanted in self.columns:
             return position_of(table, self.columns[wanted])
-        return titled
-
-    def _titled(self, table: TextTable, wanted: str) -> int | None:
+        taken = {position_of(table, column) for column in self.columns.values()}
         named = [at for at, one in enumerate(table.columns) if quantity(one.name) == wanted]
-        if self.titles_first:
-            hits = named
-        else:
-            if wanted in self.columns:
-                return None
-            taken = {position_of(table, column) for column in self.columns.values()}
-            hits = [at for at in named if at not in taken]
+        hits = [at for at in named if at not in taken]
         first = [row[hits[0]] for row in table.rows] if hits else []
         if any([row[at] for row in table.rows] != first for at in hits[1:]):
             raise InputError(

@@ -123,7 +123,7 @@ def read_sweeps(
 
 def _rows(block: Block, stated: Stated, temperature: float | None) -> Array:
     """Return temperature, frequency, E' and E'' of the complete rows of a table, in SI units."""
-    table = block.table
+    table, stated = block.table, stated.of(block.table)
     frequency = stated.column(table, "frequency")
     if frequency is None:
         raise missing(table, "frequency", "columns")

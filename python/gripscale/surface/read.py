@@ -10,14 +10,16 @@ import numpy as np
 
 from gripscale import checks
 from gripscale.errors import FileError, InputError
-from gripscale.excel import EXCEL
+from gripscale.excel import EXCEL, read_sheets
 from gripscale.surface.instrument_file import HeightField, read_instrument_file
 from gripscale.surface.profile import Profile
 from gripscale.surface.text_profile import read_text_profile
 from gripscale.textfile import file_path
 from gripscale.units import in_si
 
-TEXT_SUFFIXES = ("", ".dat", ".txt", ".csv", ".tsv", ".prn", *EXCEL)
+TEXT_SUFFIXES = ("", ".dat", ".txt", ".csv", ".tsv", ".prn")
+_SHEETS_OF_AN_INSTRUMENT = {"Certificate", "DATA"}
+"""Sheets of a Mitutoyo roughness tester's Excel file."""
 
 
 def read_profile(
@@ -67,7 +69,7 @@ def read_profile(
     """
     checks.one_of("direction", direction, ("x", "y"))
     place = file_place(path, x_unit, z_unit, reader)
-    if is_text(place, reader):
+    if _is_text_or_sheet(place, reader):
         _check_line(place, line, 1)
         return read_text_profile(place, x_unit=x_unit, z_unit=z_unit, sheet=sheet)
     field = read_instrument_file(place, x_unit=x_unit, z_unit=z_unit, channel=channel)
@@ -94,7 +96,7 @@ def read_profiles(
     """
     checks.one_of("direction", direction, ("x", "y"))
     place = file_place(path, x_unit, z_unit, reader)
-    if is_text(place, reader):
+    if _is_text_or_sheet(place, reader):
         return [read_text_profile(place, x_unit=x_unit, z_unit=z_unit, sheet=sheet)]
     field = read_instrument_file(place, x_unit=x_unit, z_unit=z_unit, channel=channel)
     _check_direction(place, field, direction)
@@ -118,6 +120,13 @@ def file_place(
 def is_text(path: Path, reader: str, suffixes: Collection[str] = TEXT_SUFFIXES) -> bool:
     """Return whether gripscale reads the file itself."""
     return reader == "text" or (reader == "auto" and path.suffix.lower() in suffixes)
+
+
+def _is_text_or_sheet(path: Path, reader: str) -> bool:
+    """Return the same of a profile, which may stand in an Excel file of no instrument, too."""
+    if reader == "auto" and path.suffix.lower() in EXCEL:
+        return not set(read_sheets(path)) >= _SHEETS_OF_AN_INSTRUMENT
+    return is_text(path, reader)
 
 
 def _check_direction(path: Path, field: HeightField, direction: str) -> None:
