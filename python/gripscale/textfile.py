@@ -65,6 +65,10 @@ class Column:
     name: str = ""
     unit: str | None = None
 
+    def __bool__(self) -> bool:
+        """Return whether the file says anything of the column."""
+        return bool(self.name or self.unit)
+
 
 @dataclass(frozen=True)
 class TextTable:
@@ -202,8 +206,12 @@ def table_in(
     _check_faults(path, lines[:first], separator, range(count, count + 1))
     _check_lengths(path, rows, numbers)
     decimal = _decimal_sign(path, rows, numbers)
-    rows = _without_empty_columns(rows)
-    columns = _columns([line for _, line in lines[:first]], len(rows[0]), kinds, named)
+    above = [line for _, line in lines[:first]]
+    full = _full_columns(rows)
+    columns = _columns(above, count, kinds, named)[full]
+    rows = [row[full] for row in rows]
+    if not any(columns) and len(columns) < count:  # titles that have not those empty cells
+        columns = _columns(above, len(columns), kinds, named)
     return TextTable(path, columns, rows, numbers, decimal)
 
 
@@ -310,11 +318,11 @@ def _first_cell(rows: list[list[str]], fits: Callable[[str], bool]) -> tuple[int
     return next(((at, cell) for at, row in enumerate(rows) for cell in row if fits(cell)), None)
 
 
-def _without_empty_columns(rows: list[list[str]]) -> list[list[str]]:
-    """Drop the empty cells that separators at the ends of all lines make."""
+def _full_columns(rows: list[list[str]]) -> slice:
+    """Return all columns without the empty ones that separators at the ends of all lines make."""
     first = 0 if any(row[0] for row in rows) else 1
     last = len(rows[0]) - (0 if any(row[-1] for row in rows) else 1)
-    return rows if last - first == len(rows[0]) else [row[first:last] for row in rows]
+    return slice(first, last)
 
 
 def _columns(

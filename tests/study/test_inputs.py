@@ -144,14 +144,17 @@ def test_varied_rubber_keeps_what_the_case_says_beside_its_curve(measured: Path)
 
 
 def test_varied_file_is_read_like_that_of_the_case_where_it_does_not_say(measured: Path) -> None:
-    """One curve three times: bare numbers, titles that contradict the case, three of the columns."""
+    """One curve three times: bare numbers, titles that contradict the case, a loss factor."""
     omega = np.geomspace(1e-2, 1e6, 40)
     modulus = gs.rubber.springpot_modulus(omega)
     hertz, storage, loss = omega / 2 / np.pi, modulus.real, modulus.imag
     files = {
         "own.txt": ("", (omega, loss / 1e6 / 3, storage / 1e6 / 3)),
         "bare.txt": ("", (omega, loss / 1e6 / 3, storage / 1e6 / 3)),
-        "told.txt": ("T = 40 °C\nf (Hz)\tE' (kPa)\tE'' (kPa)\n", (hertz, storage / 1e3, loss / 1e3)),
+        "told.txt": (
+            "T = 40 °C\nf (Hz)\tE' (kPa)\tE'' (kPa)\n",
+            (hertz, storage / 1e3, loss / 1e3),
+        ),
         "tan.txt": ("f (Hz)\tE' (kPa)\ttan d\n", (hertz, storage / 1e3, loss / storage)),
     }
     for name, (titles, columns) in files.items():

@@ -134,7 +134,7 @@ def test_one_of_several_channels_must_be_named(tmp_path):
         gs.read_map(path, **given)
     for channel in ("second", 2):
         np.testing.assert_allclose(gs.read_map(path, channel=channel, **given).z, 2e-6 * HEIGHTS)
-    with pytest.raises(InputError, match="must be one of 1 'first', 2 'second', .* got 'third'"):
+    with pytest.raises(InputError, match=r"must be one of 1 'first', 2 'second', .* got 'third'"):
         gs.read_map(path, channel="third", **given)
 
 

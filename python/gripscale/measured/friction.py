@@ -131,9 +131,7 @@ def _check_most(name: str, values: Array) -> None:
         )
 
 
-def read_measured_friction(
-    path: str | Path, *, sheet: str | int | None = None
-) -> MeasuredFriction:
+def read_measured_friction(path: str | Path, *, sheet: str | int | None = None) -> MeasuredFriction:
     """Read measured friction from a text, CSV or Excel file.
 
     Parameters

@@ -2,9 +2,9 @@
 
 A linear solid that relaxes has E' = E_inf + sum E_i x^2/(1 + x^2), E'' = sum E_i x/(1 + x^2), with
 x = w tau_i and no negative modulus (Ferry, Viscoelastic Properties of Polymers, 3rd ed. (1980),
-ch. 3). The best such series is fitted to the two curves as they are and the other way round. Rubbers
-miss the first by their scatter; exchanged, E' would fall beyond the transition while E'' rises, or
-E'' exceed E' many times on a plateau, which no such series does.
+ch. 3). The best such series is fitted to the two curves as they are and the other way round.
+Rubbers miss the first by their scatter; exchanged, E' would fall beyond the transition while E''
+rises, or E'' exceed E' many times on a plateau, which no such series does.
 """
 
 from __future__ import annotations
@@ -52,8 +52,8 @@ class Exchange:
         """Return both misfits in a sentence that says what to do."""
         return (
             "storage and loss modulus look exchanged: the nearest linear solid misses them by a "
-            f"factor of {math.exp(self.as_given):.2f} as they are, by {math.exp(self.exchanged):.2f}"
-            " the other way round; look at the titles of the file, or name its columns (columns)"
+            f"factor of {math.exp(self.as_given):.2f} as they are, by "
+            f"{math.exp(self.exchanged):.2f} the other way round; look at the titles of the file, or name its columns (columns)"
         )
 
 

@@ -31,9 +31,17 @@ def holds_sweeps(
         blocks = read_blocks(
             path, sheet=sheet, header=header, expected=stated.expected, temperature_unit="C"
         )
-        return blocks[0].temperature is not None or any(_repeats(one, stated) for one in blocks)
+        return (
+            blocks[0].temperature is not None
+            or any(_repeats(one, stated) for one in blocks)
+            or (len(blocks) > 1 and all(_tells(one, stated) for one in blocks))
+        )
     except GripscaleError:
         return False
+
+
+def _tells(block: Block, stated: Stated) -> bool:
+    return stated.column(block.table, "temperature") is not None
 
 
 def _repeats(block: Block, stated: Stated) -> bool:

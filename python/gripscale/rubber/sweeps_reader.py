@@ -17,6 +17,7 @@ from gripscale.rubber.sweeps import TOLERANCE, Array, Sweeps
 from gripscale.textfile import file_paths
 from gripscale.units import in_si
 
+
 def read_sweeps(
     path: str | Path | Sequence[str | Path],
     *,
