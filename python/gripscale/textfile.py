@@ -46,6 +46,12 @@ from gripscale.errors import FileError, InputError
 from gripscale.excel import is_excel, sheet_lines
 from gripscale.units import spelled
 
+_BINARY = {
+    b"\xd0\xcf\x11\xe0": "an old Office file (.xls), to be saved as .xlsx",
+    b"PK\x03\x04": "a zip file; an Excel file must end in .xlsx",
+    b"%PDF": "a PDF",
+}
+"""First bytes of files that are mistaken for text."""
 _LINE_END = re.compile(r"\r*\n|\r")
 MOST_LINES = 10**6
 """Lines above the rows, at most."""
@@ -248,12 +254,19 @@ def read_text(path: Path) -> str:
     raw = read_bytes(path)
     if raw.startswith((b"\xff\xfe", b"\xfe\xff")):
         return raw.decode("utf-16", errors="replace")
-    if any(raw[:4096].count(code) for code in (*range(9), *range(14, 32))):
-        raise FileError(f"{path}: expected a text file; got binary data")
+    if raw.startswith(tuple(_BINARY)) or any(
+        raw[:4096].count(code) for code in (*range(9), *range(14, 32))
+    ):
+        raise FileError(f"{path}: expected a text file; got {_binary(raw)}")
     try:
         return raw.decode("utf-8-sig")
     except UnicodeDecodeError:
         return _western(raw)
+
+
+def _binary(raw: bytes) -> str:
+    """Return what a file that is no text is, from its first bytes."""
+    return next((what for first, what in _BINARY.items() if raw.startswith(first)), "binary data")
 
 
 def _western(raw: bytes) -> str:

@@ -188,7 +188,7 @@ def test_missing_and_binary_files(tmp_path):
         read_master_curve(tmp_path / "none.txt")
     binary = tmp_path / "sheet.xls"
     binary.write_bytes(b"\xd0\xcf\x11\xe0\x00\x00")
-    with pytest.raises(FileError, match="expected a text file; got binary data"):
+    with pytest.raises(FileError, match="expected a text file; got an old Office file"):
         read_master_curve(binary)
 
 

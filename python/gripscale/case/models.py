@@ -91,7 +91,7 @@ def _column(value: Any) -> str | int:
     if isinstance(value, bool) or not isinstance(value, str | int):
         raise ValueError(f"expected {COLUMN}")
     if isinstance(value, int) and value < 1:
-        raise ValueError(f"columns, channels and sheets are counted from 1; expected {COLUMN}")
+        raise ValueError("columns, channels and sheets are counted from 1")
     return value
 
 

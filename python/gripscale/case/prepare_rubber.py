@@ -93,7 +93,10 @@ def prepare_rubber(
     choice = (
         {} if source.outlier_threshold is None else {"outlier_threshold": source.outlier_threshold}
     )
-    rubber, fit = fit_prony_report(master, terms=source.terms, **bulk, **choice)
+    try:
+        rubber, fit = fit_prony_report(master, terms=source.terms, **bulk, **choice)
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from error
     rubber = replace(rubber, strain_energy=source.strain_energy)
     if sweeps is None:
         rubber = _shifted(rubber, source, resolve)

@@ -53,7 +53,8 @@ class Exchange:
         return (
             "storage and loss modulus look exchanged: the nearest linear solid misses them by a "
             f"factor of {math.exp(self.as_given):.2f} as they are, by "
-            f"{math.exp(self.exchanged):.2f} the other way round; look at the titles of the file, or name its columns (columns)"
+            f"{math.exp(self.exchanged):.2f} the other way round; look at the titles of the "
+            "file, or name its columns (columns)"
         )
 
 

@@ -128,7 +128,7 @@ def fit_prony_report(
     bulk = material_checks.modulus("bulk_modulus", bulk_modulus)
     exchanged = exchange(master)
     if exchanged.certain:
-        raise InputError(f"{master.name or 'master'}: {exchanged}")
+        raise InputError(str(exchanged))
     curve = Curve(master.angular_frequency, master.storage, master.loss)
     screening = _screen(master, curve, outlier_threshold)
     kept = screening.kept
@@ -165,7 +165,8 @@ def _largest_modulus(measured: float, bulk: float) -> float:
     if _STIFFEST * bulk <= measured:
         raise InputError(
             f"bulk_modulus [Pa] must exceed 2/9 of the largest measured E', {measured:g}, "
-            f"to keep Poisson's ratio positive; got {bulk:g}"
+            f"to keep Poisson's ratio positive; got {bulk:g} "
+            "(or is the unit of the moduli another?)"
         )
     return min(_STIFFEST * bulk, max(_GLASS * bulk, _OVER_MEASURED * measured))
 
