@@ -74,6 +74,13 @@ def whole(name: str, value: Any, *, least: int, most: int) -> int:
     return int(result)
 
 
+def counted(name: str, value: Any, most: int) -> int:
+    """Return the position, from 0, of what people count from 1 to `most`; else `InputError`."""
+    if _is_whole_number(value) and value == 0:
+        raise InputError(f"{name} is counted from 1, up to {most}; got 0")
+    return whole(name, value, least=1, most=most) - 1
+
+
 def vector(name: str, value: ArrayLike, *, unit: str = "", missing: bool = False) -> NDArray[Any]:
     """Return `value` as a 1-D float array of entries of at most `MOST`.
 

@@ -1,5 +1,6 @@
-"""Tables of numbers in text files: one set of rules for every instrument's export.
+"""Tables of numbers in text and Excel files: one set of rules for every instrument's export.
 
+- A sheet of an Excel file (.xlsx) is read as a text whose cells are parted by tabs.
 - UTF-8, UTF-16 (with a byte order mark), Windows-1252 or latin-1; any line ends. Control codes mean
   binary data.
 - Lines that begin with #, % or ! are comments. Titles may stand in one.
@@ -26,16 +27,34 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from gripscale.checks import MOST, shortened, shown
+from gripscale.cells import (
+    COMMA_NUMBER,
+    COMMENT,
+    NUMBER,
+    SEPARATORS,
+    Line,
+    cells_of,
+    fits,
+    is_comment,
+    is_number,
+    is_row,
+    is_row_of,
+    parse_number,
+)
+from gripscale.checks import MOST, shortened, shown, whole
 from gripscale.errors import FileError, InputError
+from gripscale.excel import is_excel, sheet_lines
 from gripscale.units import spelled
 
+_BINARY = {
+    b"\xd0\xcf\x11\xe0": "an old Office file (.xls), to be saved as .xlsx",
+    b"PK\x03\x04": "a zip file; an Excel file must end in .xlsx",
+    b"%PDF": "a PDF",
+}
+"""First bytes of files that are mistaken for text."""
 _LINE_END = re.compile(r"\r*\n|\r")
-_COMMENT = ("#", "%", "!")
-_MISSING = {"", "nan", "na", "n/a", "null", "none", "-", "--", "---", "bad"}
-_NUMBER = re.compile(r"[+-]?(\d++(\.\d*)?|\.\d+)([eE][+-]?\d+)?", re.ASCII)
-_COMMA_NUMBER = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?", re.ASCII)
-_SEPARATORS = ("\t", ";", ",", None)
+MOST_LINES = 10**6
+"""Lines above the rows, at most."""
 _TITLE_SEPARATORS = (r"\t", r";", r",", r"\s{2,}", r"\s+")
 _CUT = re.compile(r"\s*[\[(]\s*([^\[\]()]+?)\s*[\])]|[\s/_,]+(?=(.+))")
 _STATED = re.compile(r"(.*?)(?:\s*[\[(]\s*([^\[\]()]+?)\s*[\])]|\s+/\s*(\S+))\s*")
@@ -45,16 +64,16 @@ _PLAIN = _DIGITS | {"e", "E"}
 """Letters of numbers that can be read all at once."""
 
 
-Line = tuple[int, str]
-"""A line with its number in the file, from 1."""
-
-
 @dataclass(frozen=True)
 class Column:
     """A column as its title names it; the unit is the file's own word for it."""
 
     name: str = ""
     unit: str | None = None
+
+    def __bool__(self) -> bool:
+        """Return whether the file says anything of the column."""
+        return bool(self.name or self.unit)
 
 
 @dataclass(frozen=True)
@@ -115,9 +134,14 @@ class TextTable:
 
 
 def read_table(
-    path: Path, expected: str, *, kinds: Collection[str], named: Callable[[str], bool]
+    path: Path,
+    expected: str,
+    *,
+    kinds: Collection[str],
+    named: Callable[[str], bool],
+    sheet: str | int | None = None,
 ) -> TextTable:
-    """Read the rows of a text file and the titles above them.
+    """Read the rows of a text or Excel file and the titles above them.
 
     Parameters
     ----------
@@ -130,20 +154,44 @@ def read_table(
     named : callable
         Whether a text is the name of a column. A line with such a name, or with a known unit,
         holds the titles.
+    sheet : str or int, optional
+        Name of the Excel sheet or its number from 1, where several hold numbers.
 
     Raises
     ------
     FileError
         If the file cannot be read, is not text or has no rows; if a row has another number of
         cells than the first; if the decimal sign changes. The message names path and line.
+    InputError
+        If `sheet` is missing or none of the file.
     """
-    return table_in(path, numbered_lines(read_text(path)), expected, kinds=kinds, named=named)
+    return table_in(path, read_lines(path, sheet=sheet), expected, kinds=kinds, named=named)
 
 
-def numbered_lines(text: str) -> list[Line]:
-    """Return the lines of a text that are not empty."""
-    split = enumerate(_LINE_END.split(text), start=1)
-    return [(number, line) for number, line in split if line.strip()]
+def read_lines(
+    path: Path, *, sheet: str | int | None = None, header: int | None = None
+) -> list[Line]:
+    """Return the lines of a text file or of a sheet of an Excel file that are not empty.
+
+    Among the first `header` lines numbers are no rows: they are made comments.
+
+    Raises `FileError` and `InputError` as `read_table` does, also if `header` is no number of
+    lines.
+    """
+    above = 0 if header is None else whole("header", header, least=0, most=MOST_LINES)
+    if is_excel(path):
+        lines = sheet_lines(path, sheet)
+    elif sheet is None:
+        split = enumerate(_LINE_END.split(read_text(path)), start=1)
+        lines = [(number, line) for number, line in split if line.strip()]
+    else:
+        raise InputError(
+            f"{path}: sheet must be left out, a text file has none; got {shown(sheet)}"
+        )
+    return [
+        (number, f"# {line}" if number <= above and is_row(line) else line)
+        for number, line in lines
+    ]
 
 
 def table_in(
@@ -158,14 +206,18 @@ def table_in(
     if not lines:
         raise FileError(f"{path}: expected {expected}; got 0 in an empty file")
     first, separator = _first_row(path, lines, expected)
-    numbers = [number for number, line in lines[first:] if not _is_comment(line)]
-    rows = [_cells(line, separator) for _, line in lines[first:] if not _is_comment(line)]
+    numbers = [number for number, line in lines[first:] if not is_comment(line)]
+    rows = [cells_of(line, separator) for _, line in lines[first:] if not is_comment(line)]
     count = len(rows[0])
     _check_faults(path, lines[:first], separator, range(count, count + 1))
     _check_lengths(path, rows, numbers)
     decimal = _decimal_sign(path, rows, numbers)
-    rows = _without_empty_columns(rows)
-    columns = _columns([line for _, line in lines[:first]], len(rows[0]), kinds, named)
+    above = [line for _, line in lines[:first]]
+    full = _full_columns(rows)
+    columns = _columns(above, count, kinds, named)[full]
+    rows = [row[full] for row in rows]
+    if not any(columns) and len(columns) < count:  # titles that have not those empty cells
+        columns = _columns(above, len(columns), kinds, named)
     return TextTable(path, columns, rows, numbers, decimal)
 
 
@@ -202,12 +254,19 @@ def read_text(path: Path) -> str:
     raw = read_bytes(path)
     if raw.startswith((b"\xff\xfe", b"\xfe\xff")):
         return raw.decode("utf-16", errors="replace")
-    if any(raw[:4096].count(code) for code in (*range(9), *range(14, 32))):
-        raise FileError(f"{path}: expected a text file; got binary data")
+    if raw.startswith(tuple(_BINARY)) or any(
+        raw[:4096].count(code) for code in (*range(9), *range(14, 32))
+    ):
+        raise FileError(f"{path}: expected a text file; got {_binary(raw)}")
     try:
         return raw.decode("utf-8-sig")
     except UnicodeDecodeError:
         return _western(raw)
+
+
+def _binary(raw: bytes) -> str:
+    """Return what a file that is no text is, from its first bytes."""
+    return next((what for first, what in _BINARY.items() if raw.startswith(first)), "binary data")
 
 
 def _western(raw: bytes) -> str:
@@ -218,29 +277,13 @@ def _western(raw: bytes) -> str:
         return raw.decode("latin-1")
 
 
-def parse_number(cell: str) -> float | None:
-    """Return the number a cell holds, or None if it holds none; missing values are NaN."""
-    if cell.lower() in _MISSING:
-        return float("nan")
-    return float(cell) if _NUMBER.fullmatch(cell) else None
-
-
-def is_row(line: str) -> bool:
-    """Return whether a line is a row: at least two cells, numbers or missing, not all missing."""
-    return not _is_comment(line) and any(_is_row(_cells(line, one)) for one in _SEPARATORS)
-
-
-def _is_row(cells: list[str]) -> bool:
-    return len(cells) >= 2 and any(map(_is_number, cells)) and all(map(_fits, cells))
-
-
 def _first_row(path: Path, lines: list[Line], expected: str) -> tuple[int, str | None]:
     """Return the index of the first line of numbers, and what parts its cells."""
     for at, (_, line) in enumerate(lines):
-        for separator in () if _is_comment(line) else _SEPARATORS:
-            if _is_row(_cells(line, separator)):
+        for separator in () if is_comment(line) else SEPARATORS:
+            if is_row_of(cells_of(line, separator)):
                 return at, separator
-    for separator in _SEPARATORS:
+    for separator in SEPARATORS:
         _check_faults(path, lines, separator, range(2, sys.maxsize))
     number, line = lines[0]
     raise FileError(
@@ -248,29 +291,12 @@ def _first_row(path: Path, lines: list[Line], expected: str) -> tuple[int, str |
     )
 
 
-def _is_comment(line: str) -> bool:
-    return line.lstrip().startswith(_COMMENT)
-
-
-def _is_number(cell: str) -> bool:
-    return bool(_NUMBER.fullmatch(cell) or _COMMA_NUMBER.fullmatch(cell))
-
-
-def _fits(cell: str) -> bool:
-    """Return whether a cell may stand in a row of numbers."""
-    return cell.lower() in _MISSING or _is_number(cell)
-
-
-def _cells(line: str, separator: str | None) -> list[str]:
-    return [cell.strip().strip('"').strip() for cell in line.strip(" \r\n").split(separator)]
-
-
 def _check_faults(path: Path, lines: list[Line], separator: str | None, counts: range) -> None:
     """Refuse a line that begins as a row of so many cells, but has a word in another cell."""
     for number, line in lines:
-        cells = _cells(line, separator)
-        if not _is_comment(line) and len(cells) in counts and _is_number(cells[0]):
-            fault = next(at for at, cell in enumerate(cells) if not _fits(cell))
+        cells = cells_of(line, separator)
+        if not is_comment(line) and len(cells) in counts and is_number(cells[0]):
+            fault = next(at for at, cell in enumerate(cells) if not fits(cell))
             raise FileError(
                 f"{path}, line {number}: expected a number in column {fault + 1}; "
                 f"got {shown(cells[fault])}"
@@ -288,10 +314,10 @@ def _check_lengths(path: Path, rows: list[list[str]], numbers: list[int]) -> Non
 
 def _decimal_sign(path: Path, rows: list[list[str]], numbers: list[int]) -> str:
     """Return the sign all numbers of the file use."""
-    comma = _first_cell(rows, lambda cell: "," in cell and bool(_COMMA_NUMBER.fullmatch(cell)))
+    comma = _first_cell(rows, lambda cell: "," in cell and bool(COMMA_NUMBER.fullmatch(cell)))
     if comma is None:
         return "."
-    point = _first_cell(rows, lambda cell: "." in cell and bool(_NUMBER.fullmatch(cell)))
+    point = _first_cell(rows, lambda cell: "." in cell and bool(NUMBER.fullmatch(cell)))
     if point is None:
         return ","
     (first, one), (second, other) = sorted((comma, point))
@@ -305,11 +331,11 @@ def _first_cell(rows: list[list[str]], fits: Callable[[str], bool]) -> tuple[int
     return next(((at, cell) for at, row in enumerate(rows) for cell in row if fits(cell)), None)
 
 
-def _without_empty_columns(rows: list[list[str]]) -> list[list[str]]:
-    """Drop the empty cells that separators at the ends of all lines make."""
+def _full_columns(rows: list[list[str]]) -> slice:
+    """Return all columns without the empty ones that separators at the ends of all lines make."""
     first = 0 if any(row[0] for row in rows) else 1
     last = len(rows[0]) - (0 if any(row[-1] for row in rows) else 1)
-    return rows if last - first == len(rows[0]) else [row[first:last] for row in rows]
+    return slice(first, last)
 
 
 def _columns(
@@ -333,7 +359,7 @@ def _columns(
 
 def _titles(line: str, count: int) -> list[str] | None:
     """Return the line cut into `count` titles, or None if it cannot be."""
-    line = line.strip(" ").lstrip("".join(_COMMENT)).strip(" ")
+    line = line.strip(" ").lstrip("".join(COMMENT)).strip(" ")
     for text in (line, line.strip(" \t;,")):
         for separator in _TITLE_SEPARATORS:
             cells = [cell.strip().strip('"').strip() for cell in re.split(separator, text)]

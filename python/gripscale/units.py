@@ -14,7 +14,18 @@ from gripscale.errors import InputError
 
 Value = TypeVar("Value", float, NDArray[np.float64])
 
-_PASCALS = {"Pa": 1.0, "kPa": 1e3, "bar": 1e5, "MPa": 1e6, "N/mm^2": 1e6, "GPa": 1e9}
+_PSI = 0.45359237 * 9.80665 / 0.0254**2
+"""A pound-force per square inch [Pa]: pound, standard gravity and inch are exact."""
+
+_PASCALS = {
+    "Pa": 1.0,
+    "kPa": 1e3,
+    "psi": _PSI,
+    "bar": 1e5,
+    "MPa": 1e6,
+    "N/mm^2": 1e6,
+    "GPa": 1e9,
+}
 
 _JOULES_PER_MOLE_IN_EV = 1.602176634e-19 * 6.02214076e23
 """Elementary charge times Avogadro's number: both exact in the SI."""
@@ -30,7 +41,7 @@ UNITS: dict[str, dict[str, float]] = {
         "in": 0.0254,
     },
     "pressure": _PASCALS,
-    "modulus": {unit: size for unit, size in _PASCALS.items() if unit != "bar"},
+    "modulus": {unit: size for unit, size in _PASCALS.items() if unit != "bar"} | {"dyn/cm^2": 0.1},
     "speed": {"m/s": 1.0, "mm/s": 1e-3, "km/h": 1.0 / 3.6},
     "time": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0, "h": 3600.0},
     "frequency": {"Hz": 1.0, "kHz": 1e3, "MHz": 1e6, "GHz": 1e9, "rad/s": 0.5 / math.pi},
@@ -84,6 +95,12 @@ _SPELLINGS = {
     "n/mm²": "N/mm^2",
     "n/m2": "Pa",
     "n/m^2": "Pa",
+    "dyn/cm2": "dyn/cm^2",
+    "dyn/cm²": "dyn/cm^2",
+    "dyne/cm2": "dyn/cm^2",
+    "dyne/cm^2": "dyn/cm^2",
+    "lbf/in2": "psi",
+    "lbf/in^2": "psi",
     "hz": "Hz",
     "°c": "C",
     "degc": "C",

@@ -128,7 +128,7 @@ WRONG = [
     ("[load]", "[lod]", "unknown key [lod]; did you mean load?"),
     ("scales = 8", "xyzzy = 8", "unknown key [surface] xyzzy; expected one of files,"),
     ('"3 bar"', '"3 furlong"', "[load] pressure = '3 furlong': unknown unit 'furlong'; expected"),
-    ('"3 bar"', '"3 mm"', "unknown unit 'mm'; expected one of Pa, kPa, bar"),
+    ('"3 bar"', '"3 mm"', "unknown unit 'mm'; expected one of Pa, kPa, psi, bar"),
     ('"3 bar"', '"3"', "[load] pressure = '3': the unit is missing"),
     ('"3 bar"', '"bar"', "[load] pressure = 'bar': expected a pressure such as \"3 bar\""),
     ('"3 bar"', "true", "[load] pressure = True: expected a pressure"),
@@ -198,7 +198,7 @@ WRONG = [
         'name = "styrene_butadiene"\nterms = 3',
         "terms belongs to a measured file, not to a named rubber",
     ),
-    ('"dma.txt"', '"dma.txt"\nmodulus_unit = "psi"', "modulus_unit = 'psi': expected one of Pa"),
+    ('"dma.txt"', '"dma.txt"\nmodulus_unit = "ell"', "modulus_unit = 'ell': expected one of Pa"),
     ('"dma.txt"', '"dma.txt"\nbulk_modulus = 0', "bulk_modulus = 0: expected a value greater than"),
     ('"dma.txt"', '"dma.txt"\nterms = -1', "[rubber] terms = -1: expected at least 1"),
     ("[load]", "[solver]\ncolumns = 2\n[load]", "[solver] columns = 2: expected at least 4"),
@@ -251,7 +251,12 @@ WRONG = [
         '[solver]\nmodel = "half_plane"',
         ": strain_energy of [rubber] has no effect at small strain; expected model =",
     ),
-    ('"dma.txt"', '"dma.txt"\ncolumns = [0, 1.5, 2]', "columns[1] = 1.5: expected the name of a"),
+    ('"dma.txt"', '"dma.txt"\ncolumns = [1, 1.5, 2]', "columns must be three different names or"),
+    ('"dma.txt"', '"dma.txt"\ncolumns = [0, 1, 2]', "columns, channels and sheets are counted"),
+    ('"dma.txt"', '"dma.txt"\ncolumns = { loss = 0 }', "columns, channels and sheets are counted"),
+    ('"dma.txt"', '"dma.txt"\ncolumns = { los = 3 }', "in columns los; did you mean loss?"),
+    ('"dma.txt"', '"dma.txt"\ncolumns = 3', "columns = 3: expected three names or numbers from 1"),
+    ('"dma.txt"', '"dma.txt"\nheader = -1', "header = -1: expected at least 0"),
 ]
 
 

@@ -16,6 +16,9 @@ from gripscale.units import UNITS, in_si, listed, parse_quantity, spelled
     [
         ("in", "length", 25.4e-3),
         ("bar", "pressure", 1e5),
+        ("psi", "pressure", 6894.757293168361),
+        ("psi", "modulus", 6894.757293168361),
+        ("dyn/cm^2", "modulus", 0.1),
         ("N/mm^2", "modulus", 1e6),
         ("km/h", "speed", 1000 / 3600),
         ("h", "time", 3600),

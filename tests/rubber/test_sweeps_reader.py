@@ -175,7 +175,7 @@ def test_what_is_not_stated_is_asked_for(tmp_path, title, names):
 
 def test_what_is_given_goes_before_the_file(tmp_path):
     path = write(tmp_path, "\n".join(["a,b,c,d", *rows()]))
-    named = {"temperature": "a", "frequency": 1, "storage": "c", "loss": "d"}
+    named = {"temperature": "a", "frequency": 2, "storage": "c", "loss": "d"}
     units = {"temperature_unit": "C", "frequency_unit": "rad/s", "modulus_unit": "kPa"}
     expect(gs.read_sweeps(path, columns=named, modulus="G", **units), 3e-3, 0.5 / np.pi)
     with pytest.raises(InputError, match="unknown quantity in columns storag; did you mean"):
@@ -187,7 +187,7 @@ def test_two_columns_that_mean_the_same_are_asked_about(tmp_path):
     path = write(tmp_path, "\n".join([f"{PLAIN}, E' corrected (MPa)", *lines]))
     with pytest.raises(InputError, match="columns must say which is the storage, because 2 titles"):
         gs.read_sweeps(path)
-    assert gs.read_sweeps(path, columns={"storage": 2}).storage[0] == 8e6
+    assert gs.read_sweeps(path, columns={"storage": 3}).storage[0] == 8e6
 
 
 def test_missing_values_are_left_out_and_bad_ones_named(tmp_path):

@@ -141,3 +141,34 @@ def test_varied_rubber_keeps_what_the_case_says_beside_its_curve(measured: Path)
         rubber = rubber_of(value, file)
         assert rubber.strain_energy == gs.rubber.Yeoh(-0.1, 0.02)
         assert rubber.bulk_modulus == 1.5e9
+
+
+def test_varied_file_is_read_like_that_of_the_case_where_it_does_not_say(measured: Path) -> None:
+    """One curve three times: bare numbers, titles that contradict the case, a loss factor."""
+    omega = np.geomspace(1e-2, 1e6, 40)
+    modulus = gs.rubber.springpot_modulus(omega)
+    hertz, storage, loss = omega / 2 / np.pi, modulus.real, modulus.imag
+    files = {
+        "own.txt": ("", (omega, loss / 1e6 / 3, storage / 1e6 / 3)),
+        "bare.txt": ("", (omega, loss / 1e6 / 3, storage / 1e6 / 3)),
+        "told.txt": (
+            "T = 40 °C\nf (Hz)\tE' (kPa)\tE'' (kPa)\n",
+            (hertz, storage / 1e3, loss / 1e3),
+        ),
+        "tan.txt": ("f (Hz)\tE' (kPa)\ttan d\n", (hertz, storage / 1e3, loss / storage)),
+    }
+    for name, (titles, columns) in files.items():
+        rows = ["\t".join(f"{v:.9e}" for v in row) for row in zip(*columns, strict=True)]
+        measured.with_name(name).write_text(titles + "\n".join(rows) + "\n", encoding="utf-8")
+    stated = (
+        'file = "own.txt"\nfrequency_unit = "rad/s"\nmodulus_unit = "MPa"\nmodulus = "G"\n'
+        'columns = [1, 3, 2]\nreference_temperature = "20 C"\n'
+    )
+    measured.write_text(measured.read_text().replace('name = "styrene_butadiene"\n', stated))
+    file = read_case(measured)
+    own, *others = (rubber_of(name, file) for name in ("case", "bare.txt", "told.txt", "tan.txt"))
+    for other in others:
+        at = [other.complex_modulus(w) / own.complex_modulus(w) for w in (1.0, 1e4)]
+        np.testing.assert_allclose(at, 1.0, rtol=1e-6)
+    assert [one.reference_temperature for one in others] == [293.15, 313.15, 293.15]
+    assert "read like the rubber of the case where it does not say: freq" in others[0].source

@@ -33,11 +33,18 @@ from gripscale.case.quantity import (
 from gripscale.case.shift_table import ShiftSource
 from gripscale.case.table import Table
 from gripscale.chain.pressure import MOST_CLASSES
+from gripscale.rubber.stated import columns_of
 from gripscale.rubber.strain_energy import NeoHookean, StrainEnergy, strain_energy_from_dict
+from gripscale.textfile import MOST_LINES
 from gripscale.units import listed, parse_quantity, spelled
 
 NAMED_RUBBERS = ("styrene_butadiene",)
 
+COLUMN = "its name or its number from 1"
+COLUMNS = (
+    "three names or numbers from 1, of frequency, storage and loss modulus, or a table such as "
+    "{ frequency = 1, storage = 2, loss_factor = 4 }"
+)
 LOAD_TIME = '"passage", "infinite" or a time such as "1 s"'
 STRAIN_ENERGY = 'a table such as { kind = "mooney_rivlin", share = 0.2 }'
 
@@ -80,10 +87,19 @@ def _unit(kind: str) -> Unit:
 
 
 def _column(value: Any) -> str | int:
-    """Accept the name or the position of a column."""
+    """Accept the name or the number of a column, a channel or a sheet."""
     if isinstance(value, bool) or not isinstance(value, str | int):
-        raise ValueError("expected the name of a column or its number from 0")
+        raise ValueError(f"expected {COLUMN}")
+    if isinstance(value, int) and value < 1:
+        raise ValueError("columns, channels and sheets are counted from 1")
     return value
+
+
+def _columns(value: Any) -> dict[str, str | int]:
+    """Accept three columns, or a table of them by quantity."""
+    if not isinstance(value, dict | list):
+        raise ValueError(f"expected {COLUMNS}")
+    return {name: _column(column) for name, column in columns_of(value).items()}
 
 
 def _strain_energy(value: Any) -> StrainEnergy:
@@ -104,9 +120,8 @@ def _cut_off(value: Any) -> Any:
 
 CUT_OFF_WORDS = Words('a length, "instrument" or a table such as { rms_slope = 1.3 }')
 
-Column = Annotated[
-    str | int, BeforeValidator(_column), Words("the name of a column or its number from 0")
-]
+Column = Annotated[str | int, BeforeValidator(_column), Words(COLUMN)]
+Columns = Annotated[dict[str, str | int], BeforeValidator(_columns), Words(COLUMNS)]
 
 
 class Wave(Table):
@@ -119,7 +134,7 @@ class Wave(Table):
 
 
 MAP_KEYS = ("step", "crop_across", "trim", "form")
-PROFILE_KEYS = ("across_gaps", "detrend")
+PROFILE_KEYS = ("across_gaps", "detrend", "sheet")
 """Keys of [surface] that only a map, or only profiles have."""
 
 
@@ -142,6 +157,8 @@ class Surface(Table):
     """How to read the files; auto goes by the suffix."""
     channel: Column | None = None
     """Channel of an instrument's file that has several of heights."""
+    sheet: Column | None = None
+    """Sheet of an Excel file, where several hold numbers."""
     step: Annotated[list[Length], Field(min_length=2, max_length=2)] | None = None
     """Distances between the points of a map along x and y, where its file has none."""
     crop: Annotated[list[Position], Field(min_length=2, max_length=2)] | None = None
@@ -246,10 +263,14 @@ class RubberSource(Table):
     """Unit of moduli where the file does not name it."""
     modulus: Literal["E", "G"] | None = None
     """Young's or shear moduli, where the file does not say."""
-    columns: Annotated[list[Column], Field(min_length=3, max_length=3)] | None = None
+    columns: Columns | None = None
     """Columns of frequency, storage and loss modulus, where their titles do not tell."""
+    sheet: Column | None = None
+    """Sheet of an Excel file, where several hold numbers."""
+    header: int | None = Field(default=None, ge=0, le=MOST_LINES)
+    """Number of lines above the rows, where there are numbers among them."""
     temperature_unit: Annotated[str, _unit("temperature")] | None = None
-    """Unit of the temperatures of sweeps where the file does not name it."""
+    """Unit of temperatures where the file does not name it."""
     temperature_step: TemperatureDifference | None = None
     """Of temperature ramps: moduli are interpolated at multiples of this."""
     reference_temperature: Temperature | None = None

@@ -104,6 +104,7 @@ def _profiles(surface: Surface, paths: list[Path]) -> Measured:
             z_unit=surface.z_unit,
             direction=surface.direction,
             channel=surface.channel,
+            sheet=surface.sheet,
             reader=surface.reader,
         )
         cleaned, report = _clean(raw, surface, path)

@@ -30,7 +30,11 @@ from gripscale.rubber.sweeps_found import holds_sweeps
 
 Resolve = Callable[[str], Path]
 
-OF_SWEEPS = ("temperature_unit", "temperature_step", "vertical")
+_LAYOUT = ("columns", "sheet", "header")
+_UNITS = ("temperature_unit", "frequency_unit", "modulus_unit", "modulus")
+"""Keys of the case's [rubber] that say where in a file the numbers are, and what they are."""
+
+OF_SWEEPS = ("temperature_step", "vertical")
 """Keys of the case's [rubber] that only sweeps at several temperatures have."""
 
 
@@ -62,10 +66,13 @@ class PreparedRubber:
         return [found]
 
 
-def prepare_rubber(source: RubberSource, resolve: Resolve = Path) -> PreparedRubber:
+def prepare_rubber(
+    source: RubberSource, resolve: Resolve = Path, *, titles_first: bool = False
+) -> PreparedRubber:
     """Read and fit the file of `source`, or take the rubber it names.
 
-    `resolve` turns the name of a file into its path.
+    `resolve` turns the name of a file into its path. What the source states of the file goes before
+    what the file says itself, unless its `titles_first` are to be believed.
 
     Raises `FileError` and `InputError` as reading, superposition and fitting do.
     """
@@ -76,54 +83,43 @@ def prepare_rubber(source: RubberSource, resolve: Resolve = Path) -> PreparedRub
         rubber = replace(styrene_butadiene(**bulk), strain_energy=source.strain_energy)
         return PreparedRubber(_shifted(rubber, source, resolve), rubber.source)
     path = resolve(source.file)
-    if holds_sweeps(path):
-        sweeps, master, report = _superposed(path, source, resolve)
+    layout = {name: getattr(source, name) for name in _LAYOUT}
+    stated = {name: getattr(source, name) for name in _UNITS}
+    told = layout | stated | {"titles_first": titles_first, "source": source.source or str(path)}
+    if holds_sweeps(path, **layout):
+        sweeps, master, report = _superposed(path, source, resolve, told)
     else:
-        sweeps, master, report = None, _master_curve(path, source), None
+        sweeps, master, report = None, _master_curve(path, source, told), None
     choice = (
         {} if source.outlier_threshold is None else {"outlier_threshold": source.outlier_threshold}
     )
-    rubber, fit = fit_prony_report(master, terms=source.terms, **bulk, **choice)
+    try:
+        rubber, fit = fit_prony_report(master, terms=source.terms, **bulk, **choice)
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from error
     rubber = replace(rubber, strain_energy=source.strain_energy)
     if sweeps is None:
         rubber = _shifted(rubber, source, resolve)
     return PreparedRubber(rubber, master.source, master, fit, sweeps, report)
 
 
-def _master_curve(path: Path, source: RubberSource) -> MasterCurve:
+def _master_curve(path: Path, source: RubberSource, told: dict[str, Any]) -> MasterCurve:
     foreign = [name for name in OF_SWEEPS if name in source.model_fields_set]
     if foreign:
         raise InputError(
             f"{path}: {foreign[0]} is for sweeps at several temperatures; got a master curve"
         )
-    return read_master_curve(
-        path,
-        frequency_unit=source.frequency_unit,
-        modulus_unit=source.modulus_unit,
-        modulus=source.modulus,
-        reference_temperature=source.reference_temperature,
-        columns=source.columns,
-        source=source.source or str(path),
-    )
+    return read_master_curve(path, reference_temperature=source.reference_temperature, **told)
 
 
 def _superposed(
-    path: Path, source: RubberSource, resolve: Resolve
+    path: Path, source: RubberSource, resolve: Resolve, told: dict[str, Any]
 ) -> tuple[Sweeps, MasterCurve, Superposition]:
     """Return sweeps, the master curve they make, and how they meet."""
-    if source.columns is not None:
-        raise InputError(f"{path}: columns are for a master curve; got sweeps, found by titles")
-    sweeps = read_sweeps(
-        path,
-        temperature_unit=source.temperature_unit,
-        temperature_step=source.temperature_step,
-        frequency_unit=source.frequency_unit,
-        modulus_unit=source.modulus_unit,
-        modulus=source.modulus,
-        source=source.source or str(path),
-    )
-    reference = source.reference_temperature
-    if reference is None and len(sweeps) > 1:
+    sweeps = read_sweeps(path, temperature_step=source.temperature_step, **told)
+    alone = len(sweeps) == 1
+    reference = None if alone and told["titles_first"] else source.reference_temperature
+    if reference is None and not alone:
         raise InputError(
             f'{path}: reference_temperature must be given, such as "20 C", for sweeps at '
             f"{len(sweeps)} temperatures to be shifted to"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -46,9 +47,16 @@ def read_case(path: str | Path) -> CaseFile:
     try:
         tables = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise FileError(f"case file {path} is not valid TOML: {error}") from error
+        raise FileError(
+            f"case file {path} is not valid TOML: {error}{_hint(text, error)}"
+        ) from error
     except (ValueError, RecursionError) as error:  # numbers of 4300 digits, a thousand brackets
         raise FileError(f"case file {path} is beyond reading: {error}") from error
+    if not tables:
+        raise InputError(
+            f"{path}: an empty case; expected at least [surface], [rubber] and [load], as "
+            "`gripscale init FOLDER` writes them"
+        )
     return CaseFile(validate(Case, tables, str(path)), path, text)
 
 
@@ -58,6 +66,19 @@ def validate(model: type[M], values: Mapping[str, Any], where: str) -> M:
         return model.model_validate(dict(values))
     except ValidationError as error:
         raise InputError(f"{where}: {sentence(error, model, in_table=model is Case)}") from error
+
+
+def _hint(text: str, error: tomllib.TOMLDecodeError) -> str:
+    """Return what is usually meant by a line that is no TOML, with a semicolon before it."""
+    place = re.search(r"at line (\d+)", str(error))
+    line = text.splitlines()[int(place[1]) - 1] if place else ""
+    if "\\" in line:
+        return "; a path is written with / or in 'single quotation marks'"
+    if re.search(r"=\s*[-+]?[\d.]+,\d", line):
+        return "; the decimal sign is the point"
+    if re.search(r"=\s*[-+]?[\d.]+\s*[^\s\d#]", line):
+        return '; a number with its unit stands in "quotation marks"'
+    return ""
 
 
 def _reason(error: OSError | UnicodeDecodeError) -> str:

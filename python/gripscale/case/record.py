@@ -36,7 +36,8 @@ def inputs(results: CaseResults) -> xr.Dataset:
     surface = results.surface
     excitation = excited(results.file.case.load.speed, surface.sines)
     parts = [_waves(surface), _files(results.file), _rubber(results.rubber, excitation)]
-    parts.append(({}, {"conditions_notes": "\n".join(results.conditions_notes()) or None}))
+    notes = [*results.conditions_notes(), *results.load_notes()]
+    parts.append(({}, {"conditions_notes": "\n".join(notes) or None}))
     if surface.measured is not None and surface.correlation is not None:
         parts.append(_profiles(surface.measured))
         parts.append(_cut_off(surface, surface.measured))

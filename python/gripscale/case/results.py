@@ -81,6 +81,16 @@ class CaseResults:
             for text in temperature_doubts({name: self.rubber_before})
         ]
 
+    def load_notes(self) -> list[str]:
+        """Return what is doubtful about the load on this surface."""
+        footprint, largest = self.load.footprint, float(self.surface.sines.wavelength[0])
+        if footprint >= largest:
+            return []
+        return [
+            f"The footprint, {footprint:.3g} m, is shorter than the largest wave, {largest:.3g} m, "
+            "which it cannot hold once: is its unit right? If so, leave such waves out."
+        ]
+
     @property
     def dynamic(self) -> Prediction | None:
         """The rubber sliding, or None if it was not asked for or did not get so far."""

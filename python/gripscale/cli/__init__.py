@@ -12,6 +12,7 @@ import typer
 
 from gripscale.cli.calibrate import calibrate
 from gripscale.cli.compare import compare
+from gripscale.cli.compare_rubbers import compare_rubbers
 from gripscale.cli.export import export
 from gripscale.cli.fit_rubber import fit_rubber
 from gripscale.cli.fit_surface import fit_surface
@@ -47,6 +48,7 @@ app.command("uncertainty")(uncertainty)
 app.command("reproduce", context_settings=PASS_ON)(reproduce)
 app.command("fit-surface")(fit_surface)
 app.command("fit-rubber")(fit_rubber)
+app.command("compare-rubbers")(compare_rubbers)
 app.command("keys")(keys)
 app.add_typer(export, name="export")
 

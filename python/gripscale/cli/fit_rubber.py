@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from gripscale.cli.terminal import command, say, screen
+from gripscale.errors import InputError
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -33,7 +35,24 @@ def fit_rubber(
     reference_temperature: Annotated[
         str | None, _option('Such as "20 C": where sweeps are shifted to.')
     ] = None,
-    temperature_unit: Annotated[str | None, _option("K, C or F, if not stated; sweeps.")] = None,
+    temperature_unit: Annotated[str | None, _option("K, C or F, if not stated.")] = None,
+    columns: Annotated[
+        str | None,
+        _option(
+            "Columns of frequency, storage and loss by name or number from 1, such as 1,3,4, or "
+            "frequency=1,storage=3,loss_factor=5."
+        ),
+    ] = None,
+    sheet: Annotated[
+        str | None, _option("Excel sheet, by name or number from 1, if several hold numbers.")
+    ] = None,
+    header: Annotated[
+        int | None, _option("Lines above the rows, if there are numbers among them.")
+    ] = None,
+    outlier_threshold: Annotated[
+        float | None,
+        _option("Times the typical scatter beyond which a row is left out; inf keeps all."),
+    ] = None,
     shift: Annotated[str | None, _option("Table of shift factors to be taken; sweeps.")] = None,
     vertical: Annotated[
         bool, typer.Option("--vertical", help="Find vertical shifts as well; sweeps.")
@@ -56,6 +75,10 @@ def fit_rubber(
         "bulk_modulus": bulk_modulus,
         "reference_temperature": reference_temperature,
         "temperature_unit": temperature_unit,
+        "columns": None if columns is None else _columns(columns),
+        "sheet": None if sheet is None else _column(sheet),
+        "header": header,
+        "outlier_threshold": outlier_threshold,
         "shift": shift,
         "vertical": vertical or None,
     }
@@ -64,12 +87,39 @@ def fit_rubber(
     if output is not None:
         folder.require_writable(output)
     console = screen()
-    prepared = prepare_rubber(source)
+    try:
+        prepared = prepare_rubber(source)
+    except InputError as error:
+        raise InputError(_with_options(str(error))) from error
     rubber = prepared.rubber
     for line in (*rubber_lines(prepared), *band_table(rubber), *prony_table(rubber)):
         say(console, line)
     if output is not None:
         _write(console, prepared, output)
+
+
+def _with_options(message: str) -> str:
+    """Return a complaint that names a key of a case with the option of that name."""
+    return re.sub(
+        r"\b([a-z_]+)(?= must (be given|name|give|say)\b)",
+        lambda key: f"--{key[1].replace('_', '-')}",
+        message,
+    )
+
+
+def _column(text: str) -> str | int:
+    """Return the number or the name of a column as it was typed."""
+    text = text.strip()
+    return int(text) if text.isdecimal() else text
+
+
+def _columns(text: str) -> dict[str, str | int] | list[str | int]:
+    """Return columns typed as 1,3,4 or as frequency=1,storage=3,loss_factor=4."""
+    parts = text.split(",")
+    if not all("=" in part for part in parts):
+        return [_column(part) for part in parts]
+    pairs = [part.split("=", 1) for part in parts]
+    return {quantity.strip(): _column(column) for quantity, column in pairs}
 
 
 def _write(console: Console, prepared: PreparedRubber, output: Path) -> None:

@@ -105,6 +105,7 @@ def _opening(results: CaseResults) -> list[str]:
         "Rubber",
         *(f"  {line}" for line in rubber_lines(results.rubber)),
         *_conditions(results),
+        *(text for note in results.load_notes() for text in ("", f"note: {note}")),
     ]
 
 

@@ -1,9 +1,9 @@
 """Friction measured elsewhere, to be drawn over what the models say: a table of speed and friction.
 
-A text or CSV file with columns named speed and friction, and if known spread (of the friction),
+A text or Excel file with columns named speed and friction, and if known spread (of the friction),
 temperature and pressure. Units stand in the titles, as in `speed [mm/s]` or `temperature (C)`;
-without one speeds are in m/s, temperatures in K and pressures in Pa. Otherwise the rules of
-`gripscale.textfile` hold.
+without one speeds are in m/s and pressures in Pa, while temperatures must have theirs. Otherwise
+the rules of `gripscale.textfile` hold.
 """
 
 from __future__ import annotations
@@ -30,12 +30,12 @@ _WORDS = {
 }
 """What the titles of the columns may be called, in lower case; the first word is ours."""
 
-_UNITS = {
+_UNITS: dict[str, tuple[str, str | None]] = {
     "speed": ("speed", "m/s"),
-    "temperature": ("temperature", "K"),
+    "temperature": ("temperature", None),
     "pressure": ("pressure", "Pa"),
 }
-"""Kind of unit of a column, and the unit it is in where the title names none."""
+"""Kind of unit of a column, and the unit it is in where the title names none, if that is clear."""
 
 _OPTIONAL = {"spread": "", "temperature": "K", "pressure": "Pa"}
 """Columns that may be absent, and where values may be missing, with their units."""
@@ -131,14 +131,23 @@ def _check_most(name: str, values: Array) -> None:
         )
 
 
-def read_measured_friction(path: str | Path) -> MeasuredFriction:
-    """Read measured friction from a text or CSV file.
+def read_measured_friction(path: str | Path, *, sheet: str | int | None = None) -> MeasuredFriction:
+    """Read measured friction from a text, CSV or Excel file.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file; Excel: .xlsx.
+    sheet : str or int, optional
+        Name of the Excel sheet or its number from 1, where several hold numbers.
 
     Raises
     ------
     FileError
         If the file is missing or unreadable, a column is missing or named twice, or a unit or a
         value cannot be used.
+    InputError
+        If `sheet` is missing or none of the file.
     """
     path = file_path(path)
     table = read_table(
@@ -146,6 +155,7 @@ def read_measured_friction(path: str | Path) -> MeasuredFriction:
         "rows of speed and friction, with titles above them",
         kinds=tuple(kind for kind, _ in _UNITS.values()),
         named=lambda title: _word(title) is not None,
+        sheet=sheet,
     )
     places = _places(table)
     columns = {}
@@ -189,6 +199,11 @@ def _in_si(path: Path, word: str, column: Column, values: Array) -> Array:
         return values
     kind, own = _UNITS[word]
     unit = column.unit or own
+    if unit is None:
+        raise FileError(
+            f"{path}: {word} must have its unit in its title ({listed(kind)}), such as "
+            f"'{word} [C]'; got '{column.name}'"
+        )
     if spelled(unit, kind) is None:
         raise FileError(
             f"{path}: {word} must be in one of {listed(kind)}; got {checks.shown(unit)}"

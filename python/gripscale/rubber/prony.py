@@ -7,6 +7,7 @@ not belong to the curve are found by `outliers`, the other series that fit by `e
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -16,6 +17,7 @@ from gripscale import checks
 from gripscale.errors import InputError
 from gripscale.rubber import material_checks
 from gripscale.rubber.admissible import AdmissibleSeries
+from gripscale.rubber.exchanged import exchange
 from gripscale.rubber.extremes import extremes
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.material import Rubber
@@ -82,7 +84,8 @@ def fit_prony(
     Raises
     ------
     InputError
-        If an argument is out of range or `bulk_modulus` is too small for the moduli measured.
+        If an argument is out of range, `bulk_modulus` is too small for the moduli measured, or
+        storage and loss modulus are exchanged (see `gripscale.rubber.exchanged`).
     """
     rubber, _ = fit_prony_report(
         master,
@@ -123,6 +126,9 @@ def fit_prony_report(
     smoothing = _option("smoothing", smoothing, _MOST_WEIGHT)
     loss_weight = checks.positive("loss_weight", _option("loss_weight", loss_weight, _MOST_WEIGHT))
     bulk = material_checks.modulus("bulk_modulus", bulk_modulus)
+    exchanged = exchange(master)
+    if exchanged.certain:
+        raise InputError(str(exchanged))
     curve = Curve(master.angular_frequency, master.storage, master.loss)
     screening = _screen(master, curve, outlier_threshold)
     kept = screening.kept
@@ -137,7 +143,10 @@ def fit_prony_report(
     scatter = _scatter(rows, spectrum, screening)
     others = extremes(rows, scatter, beyond, _STIFFEST * bulk)
     rubber = _rubber(master, rows, spectrum, bulk, others)
-    return rubber, report(master, rows, screening, candidates, rubber)
+    found = report(master, rows, screening, candidates, rubber)
+    if exchanged.likely:
+        found = replace(found, findings=(str(exchanged), *found.findings))
+    return rubber, found
 
 
 def _option(name: str, value: float, most: float) -> float:
@@ -156,7 +165,8 @@ def largest_modulus(measured: float, bulk: float) -> float:
     if _STIFFEST * bulk <= measured:
         raise InputError(
             f"bulk_modulus [Pa] must exceed 2/9 of the largest measured E', {measured:g}, "
-            f"to keep Poisson's ratio positive; got {bulk:g}"
+            f"to keep Poisson's ratio positive; got {bulk:g} "
+            "(or is the unit of the moduli another?)"
         )
     return min(_STIFFEST * bulk, max(_GLASS * bulk, _OVER_MEASURED * measured))
 

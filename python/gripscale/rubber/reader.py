@@ -1,24 +1,25 @@
-"""Reading a master curve from a text or CSV file, guessing nothing.
+"""Reading a master curve from a text or Excel file, guessing nothing.
 
-Units and the kind of modulus come from the header or from the caller; a shear modulus is turned
-into the Young's modulus of the incompressible solid by E = 3 G.
+Units and the kind of modulus come from the header or from the caller.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
 from gripscale import checks
-from gripscale.errors import FileError, InputError
-from gripscale.rubber.header import is_temperature, modulus_kind, quantity
+from gripscale.errors import FileError
 from gripscale.rubber.master_curve import Array, MasterCurve
-from gripscale.textfile import TextTable, file_path, read_table
-from gripscale.units import in_si, listed, spelled
+from gripscale.rubber.moduli import young_moduli
+from gripscale.rubber.stated import THREE, Columns, Stated, columns_of, missing
+from gripscale.rubber.sweep_blocks import Block, read_blocks
+from gripscale.rubber.titles import quantity
+from gripscale.textfile import TextTable, file_path
+from gripscale.units import in_si
 
-_QUANTITIES = ("frequency", "storage", "loss")
+_WHAT = "frequency, storage and loss"
 _FEWEST_ROWS = 2
 _ONE_TEMPERATURE = 2.0
 """Temperatures this close [K] are one: no oven is quieter."""
@@ -31,30 +32,45 @@ def read_master_curve(
     modulus_unit: str | None = None,
     modulus: str | None = None,
     reference_temperature: float | None = None,
-    columns: Sequence[str | int] | None = None,
+    temperature_unit: str | None = None,
+    columns: Columns | None = None,
+    sheet: str | int | None = None,
+    header: int | None = None,
+    titles_first: bool = False,
     name: str | None = None,
     source: str = "",
 ) -> MasterCurve:
-    """Read storage and loss modulus against frequency from a text or CSV file.
+    """Read storage and loss modulus against frequency from a text, CSV or Excel file.
 
-    The rules of `gripscale.textfile` hold. What the header states need not be given; what is given
-    goes before the header.
+    Titles are read in English and German; two of storage modulus, loss modulus, loss factor and
+    |E*| tell both moduli. The rules of `gripscale.textfile` hold. What the file states need not be
+    given; what is given goes before it.
 
     Parameters
     ----------
     path : str or Path
-        The file.
+        The file; Excel: .xlsx.
     frequency_unit : {"Hz", "kHz", "MHz", "GHz", "rad/s"}, optional
         Unit of the frequency column.
-    modulus_unit : {"Pa", "kPa", "MPa", "GPa", "N/mm2"}, optional
-        Unit of both modulus columns.
+    modulus_unit : {"Pa", "kPa", "psi", "MPa", "N/mm2", "GPa", "dyn/cm2"}, optional
+        Unit of the moduli.
     modulus : {"E", "G"}, optional
         Whether the file holds Young's or shear moduli (G is multiplied by 3).
     reference_temperature : float, optional
-        Temperature the curve holds for [K].
-    columns : sequence of three str or int, optional
-        Header names or zero-based positions of frequency, storage and loss. Without it, recognised
-        header names, or else the order of a file with exactly three columns.
+        Temperature the curve holds for [K]; by default what a line above the rows states, such as
+        T = 20 °C.
+    temperature_unit : {"K", "C", "F"}, optional
+        Unit of that temperature, if the line has none.
+    columns : sequence of three str or int, or mapping, optional
+        Titles, or numbers from 1, of frequency, storage and loss; or a mapping to them from
+        `frequency` and two of `storage`, `loss`, `loss_factor` and `magnitude`. Without it,
+        recognised titles, or else the order of a file with exactly three columns.
+    sheet : str or int, optional
+        Name of the Excel sheet or its number from 1, where several hold numbers.
+    header : int, optional
+        Number of lines above the rows, where there are numbers among them.
+    titles_first : bool
+        Whether what the file states goes before what is given.
     name, source : str, optional
         Carried along; the file's stem by default, and nothing.
 
@@ -68,47 +84,63 @@ def read_master_curve(
         If the file cannot be read or holds something else, such as sweeps at several temperatures;
         the message names path and line.
     InputError
-        If a unit, the kind of modulus or the columns are neither stated nor given.
+        If a unit, the kind of modulus or the columns are neither stated nor given, or storage and
+        loss are exchanged.
     """
     place = file_path(path)
-    names = () if columns is None else _three(columns)
-    table = _table(place, [column for column in names if isinstance(column, str)])
-    chosen = _choose(table, columns)
-    _refuse_sweeps(table, chosen[0], named=columns is not None)
-    hertz = unit_of(table, chosen[:1], "frequency", frequency_unit)
-    pascal = unit_of(table, chosen[1:], "modulus", modulus_unit)
-    to_young = 3.0 if modulus_of(table, chosen[1:], modulus) == "G" else 1.0
-    frequency, storage, loss = (
-        _positive(table, column, wanted) for column, wanted in zip(chosen, _QUANTITIES, strict=True)
+    units = {"frequency": frequency_unit, "modulus": modulus_unit}
+    stated = Stated(columns_of(columns), units, modulus, titles_first)
+    unit = temperature_unit
+    if reference_temperature is not None and unit is None:
+        unit = "K"  # a temperature is given: that of the file decides nothing
+    blocks = read_blocks(
+        place, sheet=sheet, header=header, expected=stated.expected, temperature_unit=unit
     )
+    table = _one(blocks)
+    if not table.names and len(table.columns) == len(THREE) and not stated.columns:
+        stated = stated.in_order()
+    stated = stated.of(table)
+    frequency = stated.column(table, "frequency")
+    if frequency is None:
+        raise missing(table, "frequency", "columns")
+    _refuse_sweeps(table, frequency, named=bool(stated.columns))
+    hertz = stated.unit(table, [frequency], "frequency")
+    storage, loss = young_moduli(table, stated, _positive)
     return MasterCurve(
-        in_si(frequency, hertz, "frequency"),
-        in_si(storage, pascal, "modulus") * to_young,
-        in_si(loss, pascal, "modulus") * to_young,
-        reference_temperature=reference_temperature,
+        in_si(_positive(table, frequency, "frequency"), hertz, "frequency"),
+        storage,
+        loss,
+        reference_temperature=_reference(blocks[0], reference_temperature, stated),
         name=place.stem if name is None else name,
         source=source,
     )
 
 
-def _table(place: Path, expected: list[str]) -> TextTable:
-    what = "frequency, storage and loss"
-    table = read_table(
-        place,
-        f"at least {_FEWEST_ROWS} rows of {what}",
-        kinds=("frequency", "modulus"),
-        named=lambda name: quantity(name) is not None or name in expected,
-    )
-    if len(table.columns) < len(_QUANTITIES):
+def _one(blocks: list[Block]) -> TextTable:
+    """Return the one table of a file."""
+    table = blocks[0].table
+    if len(blocks) > 1:
         raise FileError(
-            f"{place}, line {table.line_numbers[0]}: expected at least 3 columns "
+            f"{table.path}: expected one master curve; got {len(blocks)} tables, the second from "
+            f"line {blocks[1].table.line_numbers[0]} on"
+        )
+    if len(table.columns) < len(THREE):
+        raise FileError(
+            f"{table.path}, line {table.line_numbers[0]}: expected at least 3 columns "
             f"(frequency, storage, loss); got {len(table.columns)}"
         )
     if len(table.rows) < _FEWEST_ROWS:
         raise FileError(
-            f"{place}: expected at least {_FEWEST_ROWS} rows of {what}; got {len(table.rows)}"
+            f"{table.path}: expected at least {_FEWEST_ROWS} rows of {_WHAT}; got {len(table.rows)}"
         )
     return table
+
+
+def _reference(block: Block, given: float | None, stated: Stated) -> float | None:
+    """Return the temperature the curve holds for [K], if it is known."""
+    if given is None or (stated.titles_first and block.temperature is not None):
+        return block.temperature
+    return given
 
 
 def _refuse_sweeps(table: TextTable, frequency: int, *, named: bool) -> None:
@@ -118,7 +150,7 @@ def _refuse_sweeps(table: TextTable, frequency: int, *, named: bool) -> None:
     repeat from one to the next, and the caller has `named` the columns.
     """
     for column, title in enumerate(table.columns):
-        if not is_temperature(title.name):
+        if quantity(title.name) != "temperature":
             continue
         kelvin = table.numbers(column, "a temperature", missing=True)
         kelvin = kelvin[np.isfinite(kelvin)]
@@ -130,100 +162,17 @@ def _refuse_sweeps(table: TextTable, frequency: int, *, named: bool) -> None:
                 f"{table.path}: expected one master curve; got rows at temperatures from "
                 f"{kelvin.min():g} to {kelvin.max():g} in column {checks.shortened(title.name)}; "
                 "shift the sweeps to one master curve first (read_sweeps, superpose), or name the "
-                "columns if they are "
-                "shifted"
+                "columns if they are shifted"
             )
-
-
-def _choose(table: TextTable, columns: Sequence[str | int] | None) -> list[int]:
-    """Return the columns of frequency, storage and loss."""
-    if columns is not None:
-        return [position_of(table, column) for column in _three(columns)]
-    count = len(table.columns)
-    if not table.names:
-        if count == len(_QUANTITIES):
-            return [0, 1, 2]
-        raise InputError(
-            f"{table.path}: columns must name frequency, storage and loss, because the file has "
-            f"{count} columns and no header that does; got nothing"
-        )
-    found = []
-    for wanted in _QUANTITIES:
-        hits = [i for i, name in enumerate(table.names) if quantity(name) == wanted]
-        if len(hits) != 1:
-            raise InputError(
-                f"{table.path}: columns must name frequency, storage and loss, because {len(hits)} "
-                f"header names mean {wanted}; the header has {table.titles}"
-            )
-        found.append(hits[0])
-    return found
-
-
-def _three(columns: Sequence[str | int]) -> Sequence[str | int]:
-    if (
-        not isinstance(columns, Sequence)
-        or isinstance(columns, str)
-        or not all(isinstance(column, str | int) for column in columns)
-        or len(columns) != 3
-        or len(set(columns)) != 3
-    ):
-        raise InputError(
-            f"columns must be three different names or positions for frequency, storage and loss; "
-            f"got {checks.shown(columns)}"
-        )
-    return columns
-
-
-def position_of(table: TextTable, column: str | int) -> int:
-    """Return the position of a column given by it or by its name in the header."""
-    if isinstance(column, int):
-        return checks.whole("columns", column, least=0, most=len(table.columns) - 1)
-    if table.names.count(column) != 1:
-        known = table.titles or "no names"
-        raise InputError(
-            f"{table.path}: columns must be among the header's names ({known}); "
-            f"got {checks.shown(column)}"
-        )
-    return table.names.index(column)
-
-
-def unit_of(table: TextTable, chosen: list[int], kind: str, given: str | None) -> str:
-    """Return the unit of the `chosen` columns: the caller's, or else the one the header states."""
-    if given is not None:
-        in_si(1.0, given, kind, f"{kind}_unit")
-        return given
-    written = (table.columns[i].unit for i in chosen)
-    stated = {spelled(unit, kind) or unit for unit in written}
-    unit = stated.pop()
-    if unit is None or stated or spelled(unit, kind) is None:
-        what = "no unit" if unit is None else checks.shown(unit)
-        raise InputError(
-            f"{table.path}: {kind}_unit must be given ({listed(kind)}), because the header states "
-            f"{'different units' if stated else what}"
-        )
-    return unit
-
-
-def modulus_of(table: TextTable, chosen: list[int], given: str | None) -> str:
-    """Return E or G, whichever modulus the `chosen` columns hold."""
-    if given is not None:
-        return checks.one_of("modulus", given, ("E", "G"))
-    stated = {modulus_kind(table.columns[i].name) for i in chosen}
-    kind = stated.pop()
-    if stated or kind is None:
-        raise InputError(
-            f"{table.path}: modulus must be given (E for Young's or G for shear), because the "
-            "header does not tell"
-        )
-    return kind
 
 
 def _positive(table: TextTable, column: int, wanted: str) -> Array:
-    """Return a column whose numbers are all above zero and within reason."""
-    within = f"a {wanted} between {checks.LEAST:g} and {checks.MOST:g}"
+    """Return a column whose numbers are all there, above zero and within reason."""
+    what = wanted.replace("_", " ")
+    within = f"a {what} between {checks.LEAST:g} and {checks.MOST:g}"
     values = table.numbers(column, within)
     for number, value in zip(table.line_numbers, values, strict=True):
         if value < checks.LEAST:
-            expected = within if value > 0.0 else f"a {wanted} above zero"
+            expected = within if value > 0.0 else f"a {what} above zero"
             raise FileError(f"{table.path}, line {number}: expected {expected}; got {value:g}")
     return values

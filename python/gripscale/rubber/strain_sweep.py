@@ -15,24 +15,17 @@ from numpy.typing import ArrayLike
 
 from gripscale import checks
 from gripscale.errors import FileError, InputError
-from gripscale.rubber.reader import modulus_of, unit_of
+from gripscale.rubber.moduli import above_zero, young_moduli
+from gripscale.rubber.stated import MODULI, QUANTITIES, Columns, Stated, columns_of, missing
 from gripscale.rubber.sweep_blocks import Block, read_blocks
 from gripscale.rubber.sweeps import TOLERANCE, Array
-from gripscale.rubber.sweeps_reader import (
-    MODULI,
-    Columns,
-    above_zero,
-    find_column,
-    missing,
-    row_temperatures,
-    young_moduli,
-)
+from gripscale.rubber.sweeps_reader import row_temperatures
 from gripscale.textfile import TextTable, file_path
 from gripscale.units import in_si
 
 AMPLITUDES = {"single": 1.0, "peak-to-peak": 0.5}
 """What an amplitude may be, and what makes it a single one."""
-_NAMES = ("strain", "temperature", "frequency", *MODULI)
+_QUANTITIES = ("strain", *QUANTITIES)
 _DOUBLE = re.compile(
     r"peak[\s-]*(to[\s-]*)?peak|p\s?-\s?p\b|pk-pk|double|dsa\b|doppel|spitze", re.I
 )
@@ -131,6 +124,7 @@ def read_strain_sweep(
     frequency: float | None = None,
     frequency_unit: str | None = None,
     sheet: str | int | None = None,
+    header: int | None = None,
     columns: Columns | None = None,
     name: str | None = None,
     source: str = "",
@@ -148,7 +142,7 @@ def read_strain_sweep(
         SSA). The peak-to-peak amplitude is halved.
     strain_unit : {"1", "%"}, optional
         Unit of the strain.
-    modulus_unit, modulus, temperature_unit, frequency_unit, sheet
+    modulus_unit, modulus, temperature_unit, frequency_unit, sheet, header
         As for `read_sweeps`. Shear moduli (G) come with shear strain, Young's with that of length.
     temperature : float, optional
         Temperature [K], if no column states it.
@@ -171,42 +165,50 @@ def read_strain_sweep(
     InputError
         If a unit, the kind of modulus or of amplitude, or a column is neither stated nor given.
     """
-    place, chosen = file_path(path), dict(columns or {})
-    checks.known("quantity in columns", chosen, _NAMES)
-    expected = [one for one in chosen.values() if isinstance(one, str)]
-    blocks = read_blocks(place, sheet=sheet, expected=expected, temperature_unit=temperature_unit)
+    place = file_path(path)
+    units = {
+        "strain": strain_unit,
+        "modulus": modulus_unit,
+        "temperature": temperature_unit,
+        "frequency": frequency_unit,
+    }
+    stated = Stated(columns_of(columns, _QUANTITIES), units, modulus)
+    blocks = read_blocks(
+        place,
+        sheet=sheet,
+        header=header,
+        expected=stated.expected,
+        temperature_unit=temperature_unit,
+    )
     if len(blocks) > 1:
         raise FileError(f"{place}: expected one strain sweep; got {len(blocks)} tables")
     table = blocks[0].table
-    strain = _strain(table, chosen, amplitude, strain_unit)
-    storage, loss = young_moduli(table, chosen, modulus_unit, modulus)
+    strain = _strain(table, stated, amplitude)
+    storage, loss = young_moduli(table, stated)
     complete = np.isfinite([strain, storage, loss]).all(axis=0)
-    moduli = [find_column(table, one, chosen) for one in MODULI if one != "loss_factor"]
+    moduli = [stated.column(table, one) for one in MODULI if one != "loss_factor"]
     known = [one for one in moduli if one is not None]
     return StrainSweep(
         strain[complete],
         storage[complete],
         loss[complete],
-        "shear" if modulus_of(table, known, modulus) == "G" else "uniaxial",
-        _temperature(blocks[0], chosen, temperature, temperature_unit),
-        _frequency(table, chosen, frequency, frequency_unit),
+        "shear" if stated.modulus_of(table, known) == "G" else "uniaxial",
+        _temperature(blocks[0], stated, temperature),
+        _frequency(table, stated, frequency),
         name=place.stem if name is None else name,
         source=source,
     )
 
 
-def _strain(table: TextTable, chosen: Columns, amplitude: str | None, unit: str | None) -> Array:
+def _strain(table: TextTable, stated: Stated, amplitude: str | None) -> Array:
     """Return the single amplitude of strain [-]."""
-    column = find_column(table, "strain", chosen)
+    column = stated.column(table, "strain")
     if column is None:
         raise missing(table, "strain", "columns")
     title = table.columns[column].name
     if amplitude is None:
-        stated = {
-            "peak-to-peak": bool(_DOUBLE.search(title)),
-            "single": bool(_SINGLE.search(title)),
-        }
-        found = [word for word, said in stated.items() if said]
+        said = {"peak-to-peak": _DOUBLE.search(title), "single": _SINGLE.search(title)}
+        found = [word for word, match in said.items() if match]
         if len(found) != 1:
             raise InputError(
                 f"{table.path}: amplitude must be given (single or peak-to-peak), because the "
@@ -214,17 +216,15 @@ def _strain(table: TextTable, chosen: Columns, amplitude: str | None, unit: str 
             )
         amplitude = found[0]
     size = AMPLITUDES[checks.one_of("amplitude", amplitude, AMPLITUDES)]
-    written = unit_of(table, [column], "strain", unit)
+    written = stated.unit(table, [column], "strain")
     return np.asarray(size * in_si(above_zero(table, column, "strain"), written, "strain"))
 
 
-def _temperature(
-    block: Block, chosen: Columns, given: float | None, unit: str | None
-) -> float | None:
-    stated = block.temperature is not None or find_column(block.table, "temperature", chosen)
-    if given is not None or stated is None or stated is False:
+def _temperature(block: Block, stated: Stated, given: float | None) -> float | None:
+    known = block.temperature is not None or stated.column(block.table, "temperature") is not None
+    if given is not None or not known:
         return given
-    kelvin = row_temperatures(block, chosen, None, unit)
+    kelvin = row_temperatures(block, stated, None)
     kelvin = kelvin[np.isfinite(kelvin)]
     if kelvin.size and np.ptp(kelvin) > 2.0 * TOLERANCE:
         raise FileError(
@@ -234,13 +234,11 @@ def _temperature(
     return float(kelvin.mean()) if kelvin.size else None
 
 
-def _frequency(
-    table: TextTable, chosen: Columns, given: float | None, unit: str | None
-) -> float | None:
-    column = find_column(table, "frequency", chosen)
+def _frequency(table: TextTable, stated: Stated, given: float | None) -> float | None:
+    column = stated.column(table, "frequency")
     if given is not None or column is None:
         return given
-    written = unit_of(table, [column], "frequency", unit)
+    written = stated.unit(table, [column], "frequency")
     hertz = in_si(above_zero(table, column, "frequency"), written, "frequency")
     hertz = hertz[np.isfinite(hertz)]
     if hertz.size and hertz.max() > (1.0 + _ONE_FREQUENCY) * hertz.min():

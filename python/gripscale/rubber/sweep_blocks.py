@@ -1,4 +1,4 @@
-"""Tables of one file of sweeps: a text or Excel file may hold several, each with its temperature.
+"""Tables of one file of moduli: a text or Excel file may hold several, each with its temperature.
 
 Lines that are no rows of numbers part the tables where they hold titles or state a temperature; a
 table without titles has those of the table before. RepTate's files begin with a line of parameters
@@ -13,24 +13,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from gripscale import checks
+from gripscale.cells import Line, is_row, parse_number
 from gripscale.errors import FileError, InputError
-from gripscale.rubber.excel import Rows, read_sheets
 from gripscale.rubber.titles import quantity, stated_temperature, with_primes
-from gripscale.textfile import (
-    Column,
-    Line,
-    TextTable,
-    is_row,
-    numbered_lines,
-    parse_number,
-    read_text,
-    table_in,
-)
+from gripscale.textfile import Column, TextTable, read_lines, table_in
 from gripscale.units import ZERO_CELSIUS, in_si, listed, spelled
 
 KINDS = ("temperature", "frequency", "modulus", "strain")
-EXCEL = (".xlsx", ".xlsm")
 _PARAMETERS = re.compile(r"(?:\s*\w+=[^;=]*;)+\s*")
 _REPTATE = (Column("frequency", "rad/s"), Column("G'", "Pa"), Column("G''", "Pa"))
 
@@ -44,13 +33,19 @@ class Block:
 
 
 def read_blocks(
-    path: Path, *, sheet: str | int | None, expected: list[str], temperature_unit: str | None
+    path: Path,
+    *,
+    expected: list[str],
+    temperature_unit: str | None,
+    sheet: str | int | None = None,
+    header: int | None = None,
 ) -> list[Block]:
     """Return the tables of a file, in its order; `expected` are names of columns to look for.
 
     Raises `FileError` and `InputError` as `read_sweeps` does.
     """
-    lines = _excel_lines(path, sheet) if path.suffix.lower() in EXCEL else _text_lines(path, sheet)
+    read = read_lines(path, sheet=sheet, header=header)
+    lines = [(number, with_primes(line)) for number, line in read]
     if lines and _PARAMETERS.fullmatch(lines[0][1]):
         return [_reptate(path, lines, expected)]
     blocks: list[Block] = []
@@ -64,41 +59,6 @@ def read_blocks(
         whole = [*titles, *rows] if own or titles else part
         blocks.append(Block(_table(path, whole, expected), stated))
     return blocks or [Block(_table(path, lines, expected))]
-
-
-def _text_lines(path: Path, sheet: str | int | None) -> list[Line]:
-    if sheet is not None:
-        raise InputError(
-            f"{path}: sheet must be left out, a text file has none; got {checks.shown(sheet)}"
-        )
-    return [(number, with_primes(line)) for number, line in numbered_lines(read_text(path))]
-
-
-def _excel_lines(path: Path, sheet: str | int | None) -> list[Line]:
-    """Return a sheet as lines whose cells are parted by tabs."""
-    sheets = {name: _lines(rows) for name, rows in read_sheets(path).items()}
-    if sheet is None:
-        full = [name for name, lines in sheets.items() if any(is_row(line) for _, line in lines)]
-        if len(full) > 1:
-            raise InputError(
-                f"{path}: sheet must be given, because {len(full)} sheets hold rows of numbers "
-                f"({', '.join(full)})"
-            )
-        return sheets[full[0]] if full else next(iter(sheets.values()))
-    if isinstance(sheet, int):
-        return list(sheets.values())[checks.whole("sheet", sheet, least=0, most=len(sheets) - 1)]
-    return sheets[checks.one_of(f"{path}: sheet", sheet, sheets)]
-
-
-def _lines(rows: Rows) -> list[Line]:
-    cells = ((number, [_cell(one) for one in row]) for number, row in enumerate(rows, start=1))
-    return [(number, "\t".join(row)) for number, row in cells if any(row)]
-
-
-def _cell(value: object) -> str:
-    if isinstance(value, float):
-        return repr(value)
-    return "" if value is None else " ".join(with_primes(str(value)).split())
 
 
 def _parts(lines: list[Line], expected: list[str]) -> Iterator[list[Line]]:

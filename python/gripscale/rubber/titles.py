@@ -1,4 +1,4 @@
-"""What the titles of sweeps say, in the English and German of instruments.
+"""What the titles of master curves and sweeps say, in the English and German of instruments.
 
 | quantity | titles |
 |---|---|
@@ -17,15 +17,13 @@ from __future__ import annotations
 
 import re
 
-from gripscale.rubber.header import plain
-
 _PATTERNS = {
     "loss_factor": r"tan\b|tan[\s_(]*(d|δ)|(loss|damping|dissipation) factor|verlustfaktor",
     "temperature": r"temp|(sample|proben)\s*-?temp",
     "frequency": r"omega|.*freq",
     "magnitude": r"\|?[eg]\*|.*complex .*modulus|.*komplexer .*modul",
-    "storage": r"[eg]'(?!')|[eg][_ ]?stor|.*stor.* mod|storage\b|.*speichermodul",
-    "loss": r"[eg]''|[eg][_ ]?loss|.*loss.* mod|loss\b|.*verlustmodul",
+    "storage": r"[eg]'(?!')|[eg][_ ]?stor|.*\bstor|.*speichermodul",
+    "loss": r"[eg]''|[eg][_ ]?loss|.*\bloss|.*verlustmodul",
     "strain": r".*strain\b|.*dehnung|.*verformung|.*deformation|gamma\b|.*scherung",
 }
 _KNOWN = {name: re.compile(pattern) for name, pattern in _PATTERNS.items()}
@@ -61,6 +59,29 @@ def quantity(name: str) -> str | None:
     if _OTHER.search(low):
         return None
     return next((one for one, pattern in _KNOWN.items() if pattern.match(low)), None)
+
+
+def modulus_kind(name: str) -> str | None:
+    """Return `E` or `G` if the column `name` says which modulus it is, else None."""
+    text = plain(name)
+    found = set()
+    if re.search(r"(?<![A-Za-z])E(?![A-Za-z])", text.replace("_", " ")):
+        found.add("E")
+    if re.search(r"(?<![A-Za-z])G(?![A-Za-z])", text.replace("_", " ")):
+        found.add("G")
+    if re.search(r"young|tensile", text, re.IGNORECASE):
+        found.add("E")
+    if re.search(r"shear|schub", text, re.IGNORECASE):
+        found.add("G")
+    return found.pop() if len(found) == 1 else None
+
+
+def plain(name: str) -> str:
+    """Return the name with one kind of prime, so that E'' can be told from E'."""
+    text = name.strip()
+    for prime in ("’", "′", "`", "´"):
+        text = text.replace(prime, "'")
+    return text.replace("″", "''").replace("”", "''").replace('"', "''")
 
 
 def with_primes(line: str) -> str:

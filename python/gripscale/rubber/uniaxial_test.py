@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gripscale import checks
 from gripscale.errors import FileError, InputError
-from gripscale.rubber.excel import read_sheets
+from gripscale.excel import read_sheets
 from gripscale.textfile import file_path
 from gripscale.units import in_si
 

@@ -11,11 +11,22 @@ from gripscale.case.prepare import prepare_surface
 from gripscale.case.prepare_rubber import prepare_rubber
 from gripscale.case.read import CaseFile, read_case, validate
 from gripscale.errors import FileError
+from gripscale.excel import is_excel
 from gripscale.rubber import Rubber
 from gripscale.study.task import exact
 from gripscale.surface import PreparedSurface, SineStack
 from gripscale.surface.named import SYNTHETIC_SURFACES, synthetic_surface
 from gripscale.textfile import read_bytes
+
+OF_A_FILE = (
+    "frequency_unit",
+    "modulus_unit",
+    "temperature_unit",
+    "modulus",
+    "columns",
+    "reference_temperature",
+)
+"""Keys of the case's [rubber] that a varied file is read with where it does not state them."""
 
 
 def case_surface(file: CaseFile) -> PreparedSurface:
@@ -56,8 +67,10 @@ def surface_of(value: Any, file: CaseFile) -> PreparedSurface:
 def rubber_of(value: Any, file: CaseFile) -> Rubber:
     """Return the rubber an axis names.
 
-    `value` is "case", a rubber known by name, another case (its [rubber] is taken), a master
-    curve (with the bulk modulus and the strain energy of the case), or a `Rubber`.
+    `value` is "case", a rubber known by name, another case (its [rubber] is taken), a file of
+    moduli, or a `Rubber`. A file is read with what the case's [rubber] says of its own file (units,
+    kind of modulus, columns, reference temperature) where it does not say so itself; its rubber has
+    the bulk modulus, the strain energy and the limit of outliers of the case.
     """
     if isinstance(value, Rubber):
         return value
@@ -72,7 +85,22 @@ def rubber_of(value: Any, file: CaseFile) -> Rubber:
     path = _found("rubber", value, file, ("case", *NAMED_RUBBERS))
     if path.suffix == ".toml":
         return case_rubber(read_case(path))
-    return _rubber({"file": str(path), **own})
+    taken = _taken(case, path)
+    source = f"{path}, read like the rubber of the case where it does not say: {', '.join(taken)}"
+    said = {"source": source} if taken else {}
+    if case.outlier_threshold is not None:
+        own["outlier_threshold"] = case.outlier_threshold
+    return _rubber({"file": str(path), **own, **taken, **said}, titles_first=True)
+
+
+def _taken(case: RubberSource, path: Path) -> dict[str, Any]:
+    """Return what the case says of its own file that may hold for the file `path`, too."""
+    names = (*OF_A_FILE, "sheet") if is_excel(path) else OF_A_FILE
+    stated = {name: getattr(case, name) for name in names}
+    kelvin = stated["reference_temperature"]
+    if kelvin is not None:
+        stated["reference_temperature"] = f"{kelvin!r} K"
+    return {name: value for name, value in stated.items() if value is not None}
 
 
 def stated_by(value: Any, file: CaseFile) -> Any:
@@ -109,5 +137,6 @@ def _found(name: str, value: Any, file: CaseFile, known: tuple[str, ...]) -> Pat
     )
 
 
-def _rubber(stated: dict[str, Any]) -> Rubber:
-    return prepare_rubber(validate(RubberSource, stated, "vary rubber")).rubber
+def _rubber(stated: dict[str, Any], *, titles_first: bool = False) -> Rubber:
+    source = validate(RubberSource, stated, "vary rubber")
+    return prepare_rubber(source, titles_first=titles_first).rubber

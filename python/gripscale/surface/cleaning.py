@@ -186,7 +186,10 @@ def mark_spikes(
         spikes = _spikes(z, limit, across_gaps)
         passes += 1
     if np.isnan(z).all():
-        raise InputError(f"spike_slope must leave some heights; {slope:g} makes all of them spikes")
+        raise InputError(
+            f"spike_slope must leave some heights; {slope:g} makes all of them spikes (or are the "
+            "units of distance and height others?)"
+        )
     note = f"height change per step >= {slope:g}"
     return _changed(
         profile,

@@ -71,7 +71,7 @@ def read_instrument_file(
     x_unit, z_unit : str or None
         Units of distance and height, needed only where the file names none.
     channel : str, int or None
-        Name or number, from 0, of the channel where several hold heights.
+        Name of the channel, or its number from 1, where several hold heights.
     step : (float, float) or None
         Steps along x and y [m], needed only where the file has none.
 
@@ -143,15 +143,16 @@ def _check_count(path: Path, points: tuple[int, ...], length: int) -> None:
 def _channel(path: Path, channels: list[Any], wanted: str | int | None) -> Any:
     """Return the one channel of heights, or the one of them that is `wanted`."""
     known = [channel for channel in channels if channel.is_height_channel]
-    named = ", ".join(f"{channel.index} {channel.name!r}" for channel in known)
+    named = ", ".join(f"{channel.index + 1} {channel.name!r}" for channel in known)
     if not known:
         others = ", ".join(repr(channel.name) for channel in channels)
         raise FileError(f"{path}: expected a channel of heights; got {others or 'none'}")
     if wanted is not None:
-        known = [channel for channel in known if wanted in (channel.name, channel.index)]
+        known = [channel for channel in known if wanted in (channel.name, channel.index + 1)]
         if not known:
             raise InputError(
-                f"channel of {path} must be one of {named}; got {checks.shown(wanted)}"
+                f"channel of {path} must be one of {named}, counted from 1; got "
+                f"{checks.shown(wanted)}"
             )
     if len(known) > 1:
         raise FileError(f"{path}: expected one channel of heights; got {named}; give channel")

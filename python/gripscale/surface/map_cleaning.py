@@ -162,7 +162,10 @@ def mark_map_spikes(surface: HeightMap, *, slope: float = 3.0) -> tuple[HeightMa
     spikes = np.abs(surface.z - _median_around(surface.z)) >= limit  # NaN, alone: no spike
     z = np.where(spikes, np.nan, surface.z)
     if np.isnan(z).all():
-        raise InputError(f"spike_slope must leave some heights; {slope:g} makes all of them spikes")
+        raise InputError(
+            f"spike_slope must leave some heights; {slope:g} makes all of them spikes (or are the "
+            "units of distance and height others?)"
+        )
     return _changed(surface, "spikes", z=z, note=f"{slope:g} steps off the median around")
 
 

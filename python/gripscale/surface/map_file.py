@@ -40,7 +40,8 @@ def read_map(
         Distance between points [m], along x and y if they differ, of a table or an array, whose
         file has none.
     channel : str or int, optional
-        Name or number, from 0, of the channel of an instrument file that has several of heights.
+        Name of the channel, or its number from 1, of an instrument file that has several of
+        heights.
     reader : {"auto", "text", "instrument"}, optional
         How to read the file; "auto" goes by the suffix.
 

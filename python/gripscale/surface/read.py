@@ -10,6 +10,7 @@ import numpy as np
 
 from gripscale import checks
 from gripscale.errors import FileError, InputError
+from gripscale.excel import EXCEL, read_sheets
 from gripscale.surface.instrument_file import HeightField, read_instrument_file
 from gripscale.surface.profile import Profile
 from gripscale.surface.text_profile import read_text_profile
@@ -17,6 +18,8 @@ from gripscale.textfile import file_path
 from gripscale.units import in_si
 
 TEXT_SUFFIXES = ("", ".dat", ".txt", ".csv", ".tsv", ".prn")
+_SHEETS_OF_AN_INSTRUMENT = {"Certificate", "DATA"}
+"""Sheets of a Mitutoyo roughness tester's Excel file."""
 
 
 def read_profile(
@@ -27,6 +30,7 @@ def read_profile(
     direction: str = "x",
     line: int | None = None,
     channel: str | int | None = None,
+    sheet: str | int | None = None,
     reader: str = "auto",
 ) -> Profile:
     """Read one profile from a file.
@@ -34,8 +38,8 @@ def read_profile(
     Parameters
     ----------
     path : path-like
-        A text file with a distance and a height column (CAPTIF .dat, .txt, .csv, .tsv, .prn), or
-        any line scan or map SurfaceTopography reads (needs `gripscale[formats]`).
+        A text or Excel file with a distance and a height column (CAPTIF .dat, .txt, .csv, .tsv,
+        .prn, .xlsx), or any line scan or map SurfaceTopography reads (needs `gripscale[formats]`).
     x_unit, z_unit : str, optional
         Units of distance and height ("m", "cm", "mm", "um", "nm", "pm", "in") where the file does
         not name them. Units are never guessed, and must not contradict the file.
@@ -44,7 +48,10 @@ def read_profile(
     line : int, optional
         Which line of a map, counted from 0 across `direction`; the middle one by default.
     channel : str or int, optional
-        Name or number, from 0, of the channel of an instrument file that has several of heights.
+        Name of the channel, or its number from 1, of an instrument file that has several of
+        heights.
+    sheet : str or int, optional
+        Name of the Excel sheet or its number from 1, where several hold numbers.
     reader : {"auto", "text", "instrument"}, optional
         How to read the file; "auto" goes by the suffix.
 
@@ -62,9 +69,9 @@ def read_profile(
     """
     checks.one_of("direction", direction, ("x", "y"))
     place = file_place(path, x_unit, z_unit, reader)
-    if is_text(place, reader):
+    if _is_text_or_sheet(place, reader):
         _check_line(place, line, 1)
-        return read_text_profile(place, x_unit=x_unit, z_unit=z_unit)
+        return read_text_profile(place, x_unit=x_unit, z_unit=z_unit, sheet=sheet)
     field = read_instrument_file(place, x_unit=x_unit, z_unit=z_unit, channel=channel)
     _check_direction(place, field, direction)
     lines = field.lines(direction)
@@ -79,6 +86,7 @@ def read_profiles(
     z_unit: str | None = None,
     direction: str = "x",
     channel: str | int | None = None,
+    sheet: str | int | None = None,
     reader: str = "auto",
 ) -> list[Profile]:
     """Read every profile of a file: all lines of a map along a direction, or the only one.
@@ -88,8 +96,8 @@ def read_profiles(
     """
     checks.one_of("direction", direction, ("x", "y"))
     place = file_place(path, x_unit, z_unit, reader)
-    if is_text(place, reader):
-        return [read_text_profile(place, x_unit=x_unit, z_unit=z_unit)]
+    if _is_text_or_sheet(place, reader):
+        return [read_text_profile(place, x_unit=x_unit, z_unit=z_unit, sheet=sheet)]
     field = read_instrument_file(place, x_unit=x_unit, z_unit=z_unit, channel=channel)
     _check_direction(place, field, direction)
     measured = np.isfinite(field.heights).any(axis=0 if direction == "x" else 1)
@@ -112,6 +120,13 @@ def file_place(
 def is_text(path: Path, reader: str, suffixes: Collection[str] = TEXT_SUFFIXES) -> bool:
     """Return whether gripscale reads the file itself."""
     return reader == "text" or (reader == "auto" and path.suffix.lower() in suffixes)
+
+
+def _is_text_or_sheet(path: Path, reader: str) -> bool:
+    """Return the same of a profile, which may stand in an Excel file of no instrument, too."""
+    if reader == "auto" and path.suffix.lower() in EXCEL:
+        return not set(read_sheets(path)) >= _SHEETS_OF_AN_INSTRUMENT
+    return is_text(path, reader)
 
 
 def _check_direction(path: Path, field: HeightField, direction: str) -> None:

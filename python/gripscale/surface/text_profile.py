@@ -28,8 +28,10 @@ DISTANCE_TITLE = re.compile(r"^\W*(x\b|x_|dist|pos|length|lateral)", re.IGNORECA
 HEIGHT_TITLE = re.compile(r"^\W*(z\b|z_|height|depth|elev|relative.height|profile)", re.IGNORECASE)
 
 
-def read_text_profile(path: Path, *, x_unit: str | None, z_unit: str | None) -> Profile:
-    """Read a profile from a text file with a distance and a height column.
+def read_text_profile(
+    path: Path, *, x_unit: str | None, z_unit: str | None, sheet: str | int | None = None
+) -> Profile:
+    """Read a profile from a text or Excel file with a distance and a height column.
 
     Parameters
     ----------
@@ -37,6 +39,8 @@ def read_text_profile(path: Path, *, x_unit: str | None, z_unit: str | None) -> 
         The file, by the rules of `gripscale.textfile`.
     x_unit, z_unit : str or None
         Units of distance and height where the column titles do not name them.
+    sheet : str or int, optional
+        Name of the Excel sheet or its number from 1, where several hold numbers.
 
     Returns
     -------
@@ -56,6 +60,7 @@ def read_text_profile(path: Path, *, x_unit: str | None, z_unit: str | None) -> 
         "rows with two columns of numbers",
         kinds=("length",),
         named=lambda name: bool(DISTANCE_TITLE.match(name) or HEIGHT_TITLE.match(name)),
+        sheet=sheet,
     )
     x_column, z_column = _columns(table)
     x_unit = column_unit(table, x_column, "x_unit", x_unit)

@@ -1,0 +1,93 @@
+"""Compounds side by side: their moduli, and which waves and relaxation times tell them apart."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from gripscale.case.drawn import band
+from gripscale.figures.palette import COLOURS, GREY, MEGA, MILLI, NARROW, WIDE
+from gripscale.figures.style import (
+    dashed_entry,
+    falling_wavelength,
+    line,
+    log_axis,
+    power_of_ten,
+    sheet,
+    styled,
+)
+from gripscale.rubber import Rubber
+
+
+@styled
+def compound_moduli_figure(rubbers: Mapping[str, Rubber]) -> Figure:
+    """Draw E' [MPa] and the loss factor of compounds, dashed beyond what was measured.
+
+    The shade is what the measured moduli leave open of E'.
+    """
+    figure, panels = sheet(NARROW, 4.9, 2, 1, sharex=True)
+    storage, loss = panels[:, 0]
+    for (name, rubber), colour in zip(rubbers.items(), COLOURS, strict=False):
+        omega = band(rubber, None, (), 300)
+        modulus, beyond = rubber.complex_modulus(omega), rubber.outside_band(omega)
+        if rubber.admissible is not None:
+            low, high = rubber.complex_modulus_band(omega)
+            shade = {"color": colour, "alpha": 0.15, "lw": 0.0}
+            storage.fill_between(omega, low.real / MEGA, high.real / MEGA, **shade)
+        line(storage, omega, modulus.real / MEGA, beyond, name, color=colour)
+        line(loss, omega, modulus.imag / modulus.real, beyond, color=colour)
+    log_axis(loss, "x")
+    log_axis(storage, "y")
+    storage.set_ylabel("storage modulus $E'$ [MPa]")
+    loss.set_ylabel("loss factor [-]")
+    loss.set_xlabel("angular frequency $\\omega$ [rad/s]")
+    loss.set_ylim(bottom=0.0)
+    dashed_entry(storage)
+    figure.legend(*storage.get_legend_handles_labels(), loc="outside upper center", ncols=3)
+    return figure
+
+
+@styled
+def compound_friction_figure(data: xr.Dataset) -> Figure:
+    """Draw the friction of all waves down to each, and the differences by relaxation time.
+
+    `data` is that of `gripscale.compounds.Compounds`.
+    """
+    by_decade = "friction_by_decade_difference" in data
+    figure, panels = sheet(WIDE, 3.1, 1, 1 + by_decade, gap=0.06)
+    running = panels[0, 0]
+    for one, colour in zip(data.rubber.values.tolist(), COLOURS, strict=False):
+        piece = data.sel(rubber=one)
+        wavelength = piece.wavelength.values / MILLI
+        running.plot(wavelength, piece.friction_running, "o-", ms=3.0, color=colour, label=one)
+        if "total_friction_low" in piece:
+            ends = [float(piece.total_friction_low), float(piece.total_friction_high)]
+            running.plot([wavelength[-1]] * 2, ends, color=colour, lw=3.0, alpha=0.35)
+    falling_wavelength(running, (data.wavelength.values / MILLI).ravel())
+    running.set_ylabel("$\\mu$ of this and larger waves [-]")
+    running.set_ylim(bottom=0.0)
+    if by_decade:
+        _decades(panels[0, 1], data)
+    figure.legend(*running.get_legend_handles_labels(), loc="outside upper center", ncols=3)
+    return figure
+
+
+def _decades(axes: Axes, data: xr.Dataset) -> None:
+    """Draw the difference of each compound to the first by decade of relaxation time."""
+    names = data.rubber.values.tolist()
+    place = np.arange(data.sizes["decade"])
+    width = 0.8 / (len(names) - 1)
+    for i, (name, colour) in enumerate(zip(names[1:], COLOURS[1:], strict=False)):
+        parts = np.nan_to_num(data.friction_by_decade_difference.sel(rubber=name).values)
+        axes.bar(place + (i - 0.5 * (len(names) - 2)) * width, parts, width, color=colour)
+    axes.axhline(0.0, color=GREY, lw=0.7)
+    step = max(1, math.ceil(len(place) / 8))
+    ticks = [power_of_ten(round(math.log10(time))) for time in data.decade.values[::step]]
+    axes.set_xticks(place[::step], ticks)
+    axes.set_xlabel("relaxation time from [s]")
+    axes.set_ylabel(f"$\\mu$ less that of {names[0]} [-]")

@@ -1,0 +1,94 @@
+"""Storage and loss modulus exchanged: noticed in every rubber we have, never where they are not."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import gripscale as gs
+from gripscale.errors import InputError
+from gripscale.rubber import MasterCurve, fit_prony_report, read_master_curve, springpot_modulus
+from gripscale.rubber.exchanged import exchange
+from tests.rubber.test_sweeps_reader import POLYMER
+from tests.rubber.truths import TREAD, TRUTHS, fractional_zener
+
+
+def turned(curve: MasterCurve) -> MasterCurve:
+    return MasterCurve(curve.frequency, curve.loss, curve.storage)
+
+
+def polymer() -> MasterCurve:
+    return gs.rubber.superpose(gs.read_sweeps(POLYMER), reference_temperature=293.15)
+
+
+def springpots() -> MasterCurve:
+    omega = np.geomspace(1e-2, 1e10, 97)
+    modulus = springpot_modulus(omega)
+    return MasterCurve(omega / 2 / np.pi, modulus.real, modulus.imag)
+
+
+def part(curve: MasterCurve, rows: slice) -> MasterCurve:
+    return MasterCurve(curve.frequency[rows], curve.storage[rows], curve.loss[rows])
+
+
+MEASURED = {"tread": lambda: read_master_curve(TREAD), "polymer": polymer, "SBR": springpots}
+
+
+@pytest.mark.parametrize("name", MEASURED)
+def test_exchanged_moduli_are_refused_and_others_are_not(name: str) -> None:
+    curve = MEASURED[name]()
+    assert not exchange(curve).likely
+    with pytest.raises(InputError, match=r"storage and loss modulus look exchanged.*\(columns\)"):
+        fit_prony_report(turned(curve), bulk_modulus=1e10)
+
+
+@pytest.mark.parametrize("where", ["whole", "no glass", "no rubber", "flank"])
+@pytest.mark.parametrize("name", TRUTHS)
+def test_no_rubber_of_ours_is_taken_for_an_exchanged_one(name: str, where: str) -> None:
+    """With errors of ten per cent; what a wrong alarm begins with is more than twice away."""
+    truth = TRUTHS[name]
+    for seed in range(3):
+        found = exchange(truth.measured(*truth.cut(where), 0.1, seed))
+        assert found.as_given < 0.25
+        assert not found.likely
+
+
+@pytest.mark.parametrize("exponent", [0.3, 0.6, 0.8])
+def test_transitions_with_a_large_loss_factor(exponent: float) -> None:
+    omega = np.geomspace(1e0, 1e8, 65)
+    modulus = fractional_zener(omega, 1e6, 2e9, 1e-6, exponent)
+    curve = MasterCurve(omega, modulus.real, modulus.imag)
+    assert max(curve.loss_factor) > {0.3: 0.4, 0.6: 1.0, 0.8: 2.5}[exponent]
+    for rows in (slice(None), slice(0, 25), slice(20, 45), slice(40, 65)):
+        assert not exchange(part(curve, rows)).likely
+    assert exchange(turned(curve)).certain
+
+
+def test_parts_of_the_tread_curve_and_single_sweeps() -> None:
+    tread = read_master_curve(TREAD)
+    for rows in (slice(0, 30), slice(30, 60), slice(60, 105), slice(10, 20)):
+        assert not exchange(part(tread, rows)).likely
+        assert exchange(turned(part(tread, rows))).certain
+    for sweep in gs.read_sweeps(POLYMER):
+        one = MasterCurve(sweep.frequency, sweep.storage, sweep.loss)
+        assert not exchange(one).likely
+        assert exchange(turned(one)).likely
+
+
+def test_a_melt_is_no_exchanged_rubber() -> None:
+    """One Maxwell element that flows: E' rises with the square of the frequency, E'' with it."""
+    omega = np.geomspace(1e-3, 1e1, 33)
+    modulus = 1e6 * 1j * omega / (1.0 + 1j * omega)
+    assert not exchange(MasterCurve(omega / 2 / np.pi, modulus.real, modulus.imag)).likely
+
+
+def test_what_looks_exchanged_is_said() -> None:
+    """Where the loss factor passes one, each curve is nearly the other: said, not refused."""
+    omega = np.geomspace(1e2, 1e6, 41)
+    modulus = fractional_zener(omega, 1e6, 2e9, 1e-5, 0.6)
+    curve = turned(MasterCurve(omega / 2 / np.pi, modulus.real, modulus.imag))
+    found = exchange(curve)
+    assert found.likely
+    assert not found.certain
+    report = fit_prony_report(curve, bulk_modulus=1e10)[1]
+    assert report.findings[0].startswith("storage and loss modulus look exchanged")
