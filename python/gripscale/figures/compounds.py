@@ -48,7 +48,7 @@ def compound_moduli_figure(rubbers: Mapping[str, Rubber]) -> Figure:
     loss.set_xlabel("angular frequency $\\omega$ [rad/s]")
     loss.set_ylim(bottom=0.0)
     dashed_entry(storage)
-    figure.legend(*storage.get_legend_handles_labels(), loc="outside upper center", ncols=3)
+    figure.legend(*storage.get_legend_handles_labels(), loc="outside upper center", ncols=2)
     return figure
 
 

@@ -21,13 +21,13 @@ def compounds_table(data: xr.Dataset) -> Table:
     table.add_column("compound", no_wrap=True)
     for head in (
         "A_r/A_0",
-        "its range",
+        "range",
         "μ",
-        "its range",
+        "range",
         "μ less that\nof the first",
-        "its range",
+        "range",
     ):
-        table.add_column(head, justify="right", no_wrap=True)
+        table.add_column(head, justify="right")
     failed = (data.prediction_status != "converged").any()
     if failed:
         table.add_column("status", overflow="fold")
