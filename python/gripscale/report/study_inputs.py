@@ -84,10 +84,8 @@ _WAVES = ("wavelength", "amplitude")
 
 def _rubbers(data: xr.Dataset) -> Iterator[Element]:
     """Yield what each rubber is, from its exact parameters."""
-    names = [text.partition(":")[0] for text in str(data.attrs.get("rubbers", "")).split("; ")]
     given = json.loads(str(data.attrs.get("rubber_parameters", "[]")))
     for i, one in enumerate(given):
-        name = names[i] if len(names) == len(given) else f"Rubber {i + 1}"
         moduli = [float.fromhex(value) for value in one["moduli"]]
         relaxed = float.fromhex(one["equilibrium_modulus"])
         pairs = [
@@ -102,4 +100,4 @@ def _rubbers(data: xr.Dataset) -> Iterator[Element]:
         if one.get("reference_temperature"):
             kelvin = float.fromhex(one["reference_temperature"])
             pairs.append(("Temperature", f"{number(kelvin - ZERO_CELSIUS)} °C"))
-        yield Facts(name or "Rubber", pairs)
+        yield Facts(one.get("name") or f"Rubber {i + 1}", pairs)

@@ -11,9 +11,11 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from gripscale.report.chapters import pointer
 from gripscale.report.charts.study import study_charts
 from gripscale.report.elements import Card, Element, Facts, Heading, Notice, Page, Section
 from gripscale.report.elements import Table as PageTable
+from gripscale.report.input_tables import BAR
 from gripscale.report.numbers import NONE, number
 from gripscale.report.outside_band import study_sentence
 from gripscale.report.run_page import method_elements, rerun_elements
@@ -103,6 +105,9 @@ def _axes(study: Study) -> PageTable:
     rows = []
     for name in study.axes:
         values = [_place(study, name, i) for i in range(len(_values(study, name)))]
+        if name == "pressure":
+            bars = [number(value, BAR) for value in _values(study, name)]
+            values = [f"{one} ({bar} bar)" for one, bar in zip(values, bars, strict=True)]
         variable = study.data.get(name, xr.DataArray())
         meaning = str(variable.attrs.get("long_name", name))
         unit = LABELS[name].unit if of_numbers(study.data, name) else NONE
@@ -194,7 +199,8 @@ def _failures(study: Study) -> Iterator[str]:
         where = ", ".join(_where(study, n, v) for n, v in zip(study.axes, place, strict=True))
         for name in states:
             if not _good(one, name):
-                yield f"{where}: NOT converged: {cell(one[name].values[()])}"
+                why = cell(one[name].values[()])
+                yield f"{where}: NOT converged: {why}{pointer(why)}"
         if not states and any(math.isnan(float(one[name])) for name in totals):
             yield f"{where}: no total"
 

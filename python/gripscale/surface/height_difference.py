@@ -171,6 +171,16 @@ def height_difference(
     return replace(curve, carried=max(p.carried for p in profiles))
 
 
+def require_positive(hdc: HeightDifference) -> None:
+    """Raise `InputError` where the curve is not above zero: its logarithm is fitted."""
+    if (hdc.value <= 0.0).any():
+        at = int(np.argmin(hdc.value))
+        raise InputError(
+            "the height difference correlation must be positive at every lag; "
+            f"got {hdc.value[at]:g} m^2 at {hdc.lag[at]:g} m"
+        )
+
+
 def _profiles(profile: Profile | Sequence[Profile]) -> list[Profile]:
     given: object = [profile] if isinstance(profile, Profile) else profile
     profiles = list(given) if isinstance(given, Sequence) else []
