@@ -119,7 +119,8 @@ def _up_to_time(study: Study) -> Chart:
 
 
 def _sentence(text: str) -> str:
-    return text[:1].upper() + text[1:]
+    """Return a text with a capital, unless it begins with a letter of an equation."""
+    return text if text[1:2] == " " else text[:1].upper() + text[1:]
 
 
 def _master(study: Study, name: str) -> Chart:
