@@ -1,4 +1,4 @@
-"""Hooks of the site: links out of the docs become names, and the keys of a case become tables.
+"""Hooks of the site: links out of the docs become names, keys of a case tables, LaTeX MathML.
 
 The pages are read in the source tree, too, where links to its files lead somewhere.
 """
@@ -16,11 +16,13 @@ if TYPE_CHECKING:
 DOCS = Path(__file__).parent.resolve()
 KEYS = "<!-- every key of a case -->"
 """What the tables of keys are put in place of."""
+EQUATION = re.compile(r"^\$\$\n(.+?)\n\$\$$", re.MULTILINE | re.DOTALL)
+"""LaTeX between two lines of two dollars, as other readers of Markdown know it."""
 LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(((?:\.\./)+[^)#\s]+)(?:#[^)]*)?\)")
 
 
 def on_page_markdown(markdown: str, *, page: Any, **_: Any) -> str:
-    """Return the page with links that leave the docs turned into text, and with its tables."""
+    """Return the page with links that leave the docs as text, its tables and its equations."""
     folder = Path(page.file.abs_src_path).parent
 
     def replaced(link: re.Match[str]) -> str:
@@ -28,8 +30,20 @@ def on_page_markdown(markdown: str, *, page: Any, **_: Any) -> str:
         outside = target.exists() and not target.is_relative_to(DOCS)
         return f"{link[1]} (`{target.relative_to(DOCS.parent)}`)" if outside else link[0]
 
-    told = LINK.sub(replaced, markdown)
+    told = EQUATION.sub(lambda found: equation(found[1]), LINK.sub(replaced, markdown))
     return told.replace(KEYS, key_tables()) if KEYS in told else told
+
+
+def equation(latex: str) -> str:
+    """Return `latex` as MathML, which browsers draw without a script, on one line of HTML."""
+    from latex2mathml.converter import convert
+
+    # What LaTeX has within an equation, the converter knows outside of one.
+    given = " ".join(latex.split()).replace("{aligned}", "{align*}")
+    math = convert(given, display="block")
+    if "\\" in math or "<mi>&</mi>" in math:
+        raise ValueError(f"an equation has what cannot be made MathML: {latex}")
+    return f'\n<div class="equation" tabindex="0">{math}</div>\n'
 
 
 def key_tables() -> str:

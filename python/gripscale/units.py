@@ -157,6 +157,11 @@ def in_si(value: Value, unit: str, kind: str, name: str = "unit") -> Value:
     return value * UNITS[kind][known] + zero
 
 
+def in_mm(length: float) -> str:
+    """Return a length [m] as a note says it."""
+    return f"{1e3 * length:.6g} mm"
+
+
 def listed(kind: str) -> str:
     """Return the units of `kind` as a sentence lists them."""
     return ", ".join(UNITS[kind])

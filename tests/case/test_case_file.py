@@ -160,7 +160,11 @@ WRONG = [
     ("[load]", "[chain]\npressure_classes = 65\n[load]", "pressure_classes = 65: expected at most"),
     ("scales = 8", "scales = 8\ns_wavelength = 1", "s_wavelength = 1: expected greater than 1"),
     ("scales = 8", 'scales = 8\ncrop = ["1 mm"]', "[surface] crop = ['1 mm']: expected at least 2"),
-    ("scales = 8", "scales = 8\ncrop = [2, 1]", "crop runs from 2 m to 1 m; expected its start"),
+    (
+        "scales = 8",
+        "scales = 8\ncrop = [2, 1]",
+        "crop runs from 2000 mm to 1000 mm; expected its start",
+    ),
     ("scales = 8", 'scales = 8\ncrop = [0, "1 ell"]', "[surface] crop[1] = '1 ell': unknown unit"),
     ("scales = 8", 'scales = 8\ndetrend = "cubic"', "detrend = 'cubic': expected 'linear', 'mean'"),
     ("scales = 8", 'scales = 8\nz_unit = "furlong"', "z_unit = 'furlong': expected one of m, cm,"),

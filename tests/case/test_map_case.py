@@ -149,7 +149,7 @@ def test_one_line_of_the_map_is_shown(case, tmp_path):
         ('detrend = "mean"', "detrend belongs to a surface from files"),
         ("form = 9", "form = 9: expected at most 8"),
         ("trim = 2.0", "trim = 2.0: expected at most 1"),
-        ('crop_across = ["2 mm", "1 mm"]', "crop_across runs from 0.002 m to 0.001 m"),
+        ('crop_across = ["2 mm", "1 mm"]', "crop_across runs from 2 mm to 1 mm"),
     ],
 )
 def test_keys_that_do_not_go_with_a_map(case, also, words):

@@ -149,6 +149,18 @@ def test_table_and_figure_show_both_models(both: list[xr.Dataset]) -> None:
     assert labels == ["all effects", *NAMES[1:-1], "no effects"]
 
 
+def test_no_number_lies_under_the_dotted_line(both: list[xr.Dataset]) -> None:
+    figure = effects_figure(*both)
+    figure.draw_without_rendering()
+    for axes in figure.axes:
+        assert len(axes.lines) == 2
+        assert max(line.get_zorder() for line in axes.lines) < axes.patches[0].get_zorder()
+        for note in axes.texts:
+            own = note.get_window_extent(), [bar.get_window_extent() for bar in axes.patches]
+            on_a_bar = any(bar.x0 <= own[0].x0 and own[0].x1 <= bar.x1 for bar in own[1])
+            assert on_a_bar or note.get_bbox_patch() is not None, note.get_text()
+
+
 def test_what_did_not_converge_is_said_and_has_no_changes(both: list[xr.Dataset]) -> None:
     failed = both[0].copy(deep=True)
     for name in ("total_friction", "total_contact_fraction", "friction_change"):

@@ -329,3 +329,65 @@ def test_logarithmic_axes_are_marked_between_the_powers_of_ten_once(
 )
 def test_numbers_of_axes_stay_short(value: float, text: str) -> None:
     assert short_number(value) == text
+
+
+def inside(figure: Figure) -> None:
+    """Nothing that is drawn reaches beyond the figure, where it would be cut."""
+    figure.draw_without_rendering()
+    box = figure.get_tightbbox()
+    width, height = figure.get_size_inches()
+    assert box.x0 > -0.01
+    assert box.y0 > -0.01
+    assert box.x1 < width + 0.01
+    assert box.y1 < height + 0.01
+
+
+@pytest.mark.parametrize("band", [(1e-2, 1e6), (1e-9, 1e15), None])
+def test_ends_of_the_band_are_marked_and_named_and_nothing_is_cut(
+    band: tuple[float, float] | None,
+) -> None:
+    rubber = Rubber(5e6, [4e6, 8e6], [1e-2, 1e-4], valid_band=band)
+    figure = master_curve_figure(rubber, excitation=[10.0])
+    named = labels(figure).count("ends of the measured band")
+    assert named == (band is not None)
+    for axes in figure.axes:
+        upright = [line.get_xdata()[0] for line in axes.lines if len(set(line.get_xdata())) == 1]
+        assert [x for x in upright if x != 10.0] == pytest.approx(list(band or ()))
+    assert all(axes.get_legend() is None for axes in figure.axes)  # none lies over data
+    inside(figure)
+
+
+def test_pure_sines_are_named_in_the_legend() -> None:
+    profile = clean(spiky())[0]
+    axes = correlation_figure(height_difference([profile]), {"2 sine waves": STACK}).axes[0]
+    legend = axes.get_legend()
+    assert legend is not None
+    named = [text.get_text() for text in legend.get_texts()]
+    dotted = [line.get_label() for line in axes.lines if line.get_linestyle() == ":" or dots(line)]
+    assert dotted
+    assert set(dotted) <= set(named)
+
+
+def dots(line: Line2D) -> bool:
+    return line.get_label() != "" and line.is_dashed()
+
+
+def test_run_without_a_solution_says_so_and_shows_no_numbers(
+    make_prediction: Callable[..., xr.Dataset],
+) -> None:
+    """One wave, failed: an ordinary panel without contact, and a legend that says why."""
+    failed = make_prediction(0.0, "element inverted", count=1)
+    figure = blocks_figure(failed)
+    above, below = figure.axes
+    title = above.get_title(loc="left")
+    assert "contact" not in title
+    assert "element inverted" in title.replace("\n", " ")
+    assert [text.get_text() for text in above.texts] == ["no solution"]
+    assert not [line for line in below.lines if line.get_label() in ("mesh", "surface")]
+    full = blocks_figure(make_prediction(count=4)).axes[0].get_position().width * 7.0
+    own = above.get_position().width * figure.get_size_inches()[0]
+    assert own == pytest.approx(full)
+    inside(figure)
+    good = make_prediction()
+    named = labels(contact_figure({"dynamic": good, "static": failed}))
+    assert [one for one in named if one.startswith("static")] == ["static: element inverted"]

@@ -51,6 +51,15 @@ def line() -> gs.Profile:
     return gs.Profile(x, waves(x))
 
 
+def test_bars_stay_clear_of_the_frame(chain: xr.Dataset) -> None:
+    axes = heat_figure(chain).axes[0]
+    bars = [bar for bar in axes.patches if isinstance(bar, Rectangle)]
+    low, high = axes.get_ylim()
+    ends = [end for bar in bars for end in (bar.get_y(), bar.get_y() + bar.get_height())]
+    assert max(ends) < high - 0.03 * (high - low)
+    assert min(ends) > low + 0.03 * (high - low)
+
+
 def test_bars_stack_to_the_temperature_of_each_wave(chain: xr.Dataset) -> None:
     axes = heat_figure(chain, "heat").axes[0]
     bars = [bar for bar in axes.patches if isinstance(bar, Rectangle)]

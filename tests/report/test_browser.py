@@ -230,6 +230,16 @@ def test_narrow_window_does_not_overflow(browser: Any, run_page: Path, width: in
         assert seen.said == []
 
 
+def test_tables_that_go_on_beside_the_window_tell_by_a_shadow(browser: Any, run_page: Path) -> None:
+    with visit(browser, run_page, 390) as seen:
+        told = seen.page.evaluate(
+            "[...document.querySelectorAll('.scroll')].map(box => [box.scrollWidth > "
+            "box.clientWidth, getComputedStyle(box).backgroundImage.split('gradient').length - 1])"
+        )
+    assert any(wider for wider, _ in told)
+    assert all(layers == 4 for _, layers in told)
+
+
 def test_print_keeps_figures_whole(browser: Any, run_page: Path) -> None:
     with visit(browser, run_page) as seen:
         drawn(seen)

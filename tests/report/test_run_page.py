@@ -214,6 +214,15 @@ def test_a_modulus_is_relaxed_only_where_that_was_measured(
     assert (("Relaxed modulus", "Slow end of the data, E′")[plateau]) not in pairs
 
 
+def test_ends_of_the_band_are_marked_in_both_units(page: Page) -> None:
+    band = re.search(r"Measured band (\S+) to (\S+) rad/s \((\S+) to (\S+) Hz\)", page.text)
+    assert band is not None
+    slow, fast, slow_hertz, fast_hertz = map(float, band.groups())
+    assert (slow / slow_hertz, fast / fast_hertz) == pytest.approx((2 * np.pi,) * 2, rel=6e-3)
+    assert page.source.count('"ends of the measured band"') == 2  # moduli and loss factor
+    assert page.source.count('"name":"Span"') == 4
+
+
 def test_notes_on_the_surface_are_warnings(run_folder: Path, tmp_path: Path) -> None:
     data, groups = read(run_folder / "dynamic.nc")
     assert "no smallest wavelength is stated" in groups["inputs"].attrs["surface_notes"]

@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
+import numpy as np
 import pytest
+from bokeh.models import ColumnDataSource
 
-from gripscale.report import write_report
+from gripscale import netcdf
+from gripscale.report import source, write_report
+from gripscale.report.charts.study import study_charts
+from gripscale.study import Study
 
 from .reading import Page
 
@@ -33,7 +39,8 @@ def test_totals_have_every_prediction_and_no_empty_cell(page: Page) -> None:
 def test_failed_prediction_is_loud(page: Page) -> None:
     alerts = [a for _, a in page.tags if a.get("role") == "alert"]
     assert len(alerts) == 1
-    assert "speed 3, rubber <b>SBR</b>: NOT converged: wave 3 of 3" in page.text
+    assert "speed 3 m/s, rubber <b>SBR</b>: NOT converged: wave 3 of 3" in page.text
+    assert "iteration limit; see docs/reading-results.md#statuses" in page.text
     marked = [tag for tag, a in page.tags if "bad" in (a.get("class") or "").split()]
     assert marked.count("th") == 1
     assert marked.count("td") == len(page.body("totals")[0]) - 1
@@ -53,6 +60,52 @@ def test_curves_over_the_numeric_axis_and_the_waves(page: Page) -> None:
         "figure-running_friction-per-wave",
         "figure-contact_fraction-per-wave",
     }
+
+
+def test_page_speaks_in_words_and_has_its_inputs(page: Page) -> None:
+    shown = page.text.partition("Case file")[0].partition("Command")[0]
+    assert not re.findall(r"\b[a-z]+_[a-z]\w+", shown.replace("A_r", "").replace("λ_min", ""))
+    assert "{" not in shown
+    titles = [a["id"] for tag, a in page.tags if tag == "section"]
+    assert titles[:2] == ["axes", "inputs"]
+    for words in ("Nominal pressure 3 bar", "Sliding speed varied", "Footprint 100 mm"):
+        assert words in page.text
+
+
+@pytest.fixture(scope="module")
+def solved(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A study over seven speeds at two pressures, of a case with the half-plane."""
+    folder = tmp_path_factory.mktemp("solved")
+    case = Path(__file__).parents[2] / "examples" / "measured_friction" / "case.toml"
+    vary = {"speed": "0.01:10:log7", "pressure": "1 bar,3 bar"}
+    return netcdf.save(Study(case, vary).run(folder), folder / "study.nc")
+
+
+def test_axes_are_rounded_and_the_command_gives_them_exactly(solved: Path, tmp_path: Path) -> None:
+    page = Page(write_report(solved, tmp_path / "page.html"))
+    speed, pressure = page.body("axes")
+    assert speed[2:] == ["m/s", "7", "0.01, 0.03162, 0.1, 0.3162, 1, 3.162, 10"]
+    assert pressure[2:] == ["MPa", "2", "0.1 (1.00 bar), 0.3 (3.00 bar)"]
+    assert "--vary speed=0.01:10:log7 --vary pressure=100000,300000" in page.text
+    assert [row[1] for row in page.body("waves")] == ["10.00", "3.000", "1.000"]
+    assert "Maxwell elements 33" in page.text
+    heads = page.tables["table-totals"][0]
+    assert heads[2] == "real contact area A_r/A_0"
+    assert "decades below the measured band" not in heads  # all zero: nothing to tell
+
+
+def test_friction_by_relaxation_time_is_summed_up_and_never_falls(solved: Path) -> None:
+    data = netcdf.load(solved)
+    parts = data.friction_by_decade
+    alternating = parts.copy(data=parts.values * (np.arange(parts.sizes["decade"]) % 2))
+    data["friction_by_decade"] = alternating  # a series with no element in every other decade
+    charts = study_charts(source.Study("study", data))
+    chart = next(one for one in charts if one.name == "friction_by_decade-over-decade")
+    curves = [np.asarray(one.data["y"]) for one in chart.model.select({"type": ColumnDataSource})]
+    full = [y for y in curves if y.size == parts.sizes["decade"]]
+    assert full
+    assert all((np.diff(y) >= 0.0).all() for y in full)
+    assert max(y[-1] for y in full) == pytest.approx(float(alternating.sum("decade").max()))
 
 
 def test_folder_of_a_study_is_found(study_file: Path) -> None:

@@ -28,6 +28,7 @@ from gripscale.study.axes import axes_of, parse_vary
         ("pressure_classes", "1:64:log4", (1, 4, 16, 64)),
         ("factors", "3.5/2.4, 6/3", ((3.5, 2.4), (6.0, 3.0))),
         ("factors", [(3, 2.2)], ((3.0, 2.2),)),
+        ("speed", "1 m/s:100 m/s:log3", (1.0, 10.0, 100.0)),
         ("rubber", "case,here/dma.txt", ("case", "here/dma.txt")),
     ],
 )
@@ -54,8 +55,13 @@ def test_labels_are_short_unless_they_would_be_equal() -> None:
         ({"speed": [1], "waves": [2], "pressure": [3]}, "one or two of .*; got 3"),
         ({"sped": [1]}, "vary must be one of speed, .*; got 'sped'"),
         ({"speed": []}, "speed must have 1 to 1000 values; got 0"),
-        ({"speed": "1:10"}, "speed must be a range such as \"1:10:log5\"; got '1:10'"),
-        ({"speed": "1:10:sqrt3"}, "speed must be a range such as"),
+        ({"speed": "1:10"}, "third part is missing in '1:10'"),
+        (
+            {"speed": "1:10:sqrt3"},
+            "such as \"0.01 m/s:10 m/s:log7\"; 'sqrt3' is neither lin nor log",
+        ),
+        ({"speed": "1 m/s:10 m/s"}, "the third part is missing in '1 m/s:10 m/s'"),
+        ({"speed": "1:2:3:log4"}, "it has 4 parts"),
         ({"speed": "1:10:log1"}, "number of values must be a whole number from 2"),
         ({"speed": "10:1:log3"}, "speed must go from low to high"),
         ({"speed": "0:1:log3"}, "log range must be greater than zero"),

@@ -36,7 +36,7 @@ from gripscale.chain.pressure import MOST_CLASSES
 from gripscale.rubber.stated import columns_of
 from gripscale.rubber.strain_energy import NeoHookean, StrainEnergy, strain_energy_from_dict
 from gripscale.textfile import MOST_LINES
-from gripscale.units import listed, parse_quantity, spelled
+from gripscale.units import in_mm, listed, parse_quantity, spelled
 
 NAMED_RUBBERS = ("styrene_butadiene",)
 
@@ -232,7 +232,7 @@ class Surface(Table):
             limits = getattr(self, name)
             if limits is not None and limits[0] >= limits[1]:
                 raise ValueError(
-                    f"{name} runs from {limits[0]:g} m to {limits[1]:g} m; "
+                    f"{name} runs from {in_mm(limits[0])} to {in_mm(limits[1])}; "
                     "expected its start before its end"
                 )
         if self.sines is not None:

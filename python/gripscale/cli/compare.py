@@ -10,7 +10,7 @@ import typer
 
 from gripscale.cli.options import Cluster, Workers
 from gripscale.cli.progress import teller
-from gripscale.cli.terminal import NOT_CONVERGED, command, complain, say, screen
+from gripscale.cli.terminal import NOT_CONVERGED, command, complain, pointed, say, screen
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -106,7 +106,7 @@ def compare(
         made = compare_over(file, axes, **options)
     failed = _conclude(console, made.to_dataset(), target, worth, beside)
     if failed:
-        complain(f"{failed[0]}; {len(failed)} of the rungs have failed samples")
+        complain(f"{len(failed)} of the rungs have failed samples; the first: {pointed(failed[0])}")
         raise typer.Exit(NOT_CONVERGED)
 
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
-from gripscale.cli.terminal import command, complain, say, screen
+from gripscale.cli.terminal import command, complain, pointed, say, screen
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -231,6 +231,6 @@ def _fail_if_any(results: CaseResults) -> None:
     """Raise the last failure, which sets the exit code, after a sentence for the others."""
     failures = list(results.failures.values())
     for failure in failures[:-1]:
-        complain(str(failure))
+        complain(pointed(failure))
     if failures:
         raise failures[-1]

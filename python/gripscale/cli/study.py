@@ -10,7 +10,7 @@ import typer
 
 from gripscale.cli.options import Cluster, Workers
 from gripscale.cli.progress import teller
-from gripscale.cli.terminal import NOT_CONVERGED, command, complain, say, screen
+from gripscale.cli.terminal import NOT_CONVERGED, command, complain, pointed, say, screen
 from gripscale.errors import InputError
 
 if TYPE_CHECKING:
@@ -109,7 +109,8 @@ def _conclude(
     failed = [status for status in statuses if status != "converged"]
     if failed:
         complain(
-            f"{len(failed)} of {len(statuses)} predictions have no totals; the first: {failed[0]}"
+            f"{len(failed)} of {len(statuses)} predictions have no totals; the first: "
+            f"{pointed(failed[0])}"
         )
         raise typer.Exit(NOT_CONVERGED)
 

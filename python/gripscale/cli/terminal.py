@@ -42,6 +42,13 @@ def complain(message: str) -> None:
     screen(stderr=True).print(text, soft_wrap=True)
 
 
+def pointed(failure: object) -> str:
+    """Return a failure in words, with the chapter of the documentation that says more."""
+    from gripscale.report.chapters import pointer
+
+    return f"{failure}{pointer(failure)}"
+
+
 def say(console: Console, message: str) -> None:
     """Print a line, continued with its own indent where too long; words and paths stay whole."""
     from rich.text import Text
@@ -66,10 +73,10 @@ def command(body: Callable[P, None]) -> Callable[P, None]:
         try:
             body(*args, **kwargs)
         except ConvergenceError as error:
-            complain(str(error))
+            complain(pointed(error))
             raise typer.Exit(NOT_CONVERGED) from None
         except GripscaleError as error:
-            complain(str(error))
+            complain(pointed(error))
             raise typer.Exit(BAD_INPUT) from None
         except KeyboardInterrupt:
             complain(

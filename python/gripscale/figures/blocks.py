@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import textwrap
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,13 +14,15 @@ from numpy.typing import NDArray
 
 from gripscale import checks
 from gripscale.figures.palette import BLUE, FAINT, GREY, INK, MEGA, MILLI, ORANGE, WIDE
-from gripscale.figures.style import DPI, styled
+from gripscale.figures.style import DASHED, DPI, styled
 from gripscale.figures.view import PredictionView
 
 if TYPE_CHECKING:
     import xarray as xr
 
 Array = NDArray[np.float64]
+LINE = 0.12
+"""Of a title beyond its third line [inch]."""
 MESH_DEPTH = 0.55
 """Depth of the block that is shown [wavelengths]."""
 PRESSURE = 0.42
@@ -60,11 +63,14 @@ def blocks_figure(prediction: xr.Dataset) -> Figure:
 
 def _draw(view: PredictionView, waves: Any, columns: int, width: float) -> Figure:
     """Place the panels by hand: they are alike, and a layout engine takes as long as drawing."""
+    inside = (width - LEFT - RIGHT - (columns - 1) * BETWEEN) / columns
     columns = min(columns, max(len(waves), 1))
+    width = LEFT + RIGHT + columns * inside + (columns - 1) * BETWEEN
     rows = max(math.ceil(len(waves) / columns), 1)
     low, high = _window(view, waves)
-    inside = (width - LEFT - RIGHT - (columns - 1) * BETWEEN) / columns
-    row_height = HEAD + inside * (PRESSURE + high - low) + MIDDLE + FOOT
+    captions = [_caption(view, i) for i in waves]
+    head = HEAD + LINE * max((text.count("\n") - 2 for text in captions), default=0)
+    row_height = head + inside * (PRESSURE + high - low) + MIDDLE + FOOT
     height = rows * row_height + LAST
     figure = Figure(figsize=(width, height), dpi=DPI)
 
@@ -75,13 +81,16 @@ def _draw(view: PredictionView, waves: Any, columns: int, width: float) -> Figur
 
     for place, i in enumerate(waves):
         row, column = divmod(place, columns)
-        left, top = LEFT + column * (inside + BETWEEN), row * row_height + HEAD
+        left, top = LEFT + column * (inside + BETWEEN), row * row_height + head
         above = panel(left, top, inside * PRESSURE)
         below = panel(left, top + inside * PRESSURE + MIDDLE, inside * (high - low))
-        _pressure(above, view, i)
+        if view.converged[i]:
+            _pressure(above, view, i)
+        else:
+            _no_solution(above, view, i)
         _block(below, view, i, (low, high))
-        above.set_title(_caption(view, i), loc="left", y=1.0, fontsize=7.0, parse_math=False)
-        if place == 0:
+        above.set_title(captions[place], loc="left", y=1.0, fontsize=7.0, parse_math=False)
+        if place == 0 and view.converged[i]:
             _annotate(above, below, view, i)
         if column == 0:
             above.set_ylabel("$p_c$ [MPa]")
@@ -98,7 +107,7 @@ def _window(view: PredictionView, waves: Any) -> tuple[float, float]:
     if not len(waves):
         return -0.16, 0.16
     steepest = max(_ratio(view, i) for i in waves)
-    meshed = any(view.mesh_along(i) is not None for i in waves)
+    meshed = any(view.converged[i] and view.mesh_along(i) is not None for i in waves)
     return -steepest - 0.06, steepest + (MESH_DEPTH if meshed else 0.06)
 
 
@@ -110,13 +119,27 @@ def _caption(view: PredictionView, i: int) -> str:
     def value(name: str, unit: float) -> str:
         return f"{view.column(name)[i] / unit:.3g}"
 
-    state = "" if view.converged[i] else f"\n{view.why(i)}"
+    contact = f", contact {view.column('contact_fraction')[i]:.2f}"
     return (
         f"λ = {value('wavelength', MILLI)} mm\n"
         f"A = {value('amplitude', MILLI)} mm\n"
-        f"p = {value('pressure_received', MEGA)} MPa, "
-        f"contact {view.column('contact_fraction')[i]:.2f}{state}"
+        f"p = {value('pressure_received', MEGA)} MPa"
+        + (contact if view.converged[i] else f"\n{_folded(view.why(i))}")
     )
+
+
+def _folded(state: str) -> str:
+    """Return the status of a failed wave on lines that fit over its panel."""
+    return textwrap.fill(state, 30)
+
+
+def _no_solution(axes: Axes, view: PredictionView, i: int) -> None:
+    """Draw the mean pressure alone: what a failed wave ended with is no result."""
+    mean = view.column("pressure_received")[i] / MEGA
+    axes.axhline(mean, color=GREY, lw=0.8, ls=DASHED)
+    axes.text(0.5, 0.75, "no solution", transform=axes.transAxes, ha="center", va="center")
+    axes.set(xticks=[], xlim=(-0.5, 0.5), ylim=(0.0, 2.0 * mean))
+    axes.yaxis.set_major_locator(MaxNLocator(2, steps=[1, 2, 5, 10], min_n_ticks=2))
 
 
 def _pressure(axes: Axes, view: PredictionView, i: int) -> None:
@@ -124,7 +147,7 @@ def _pressure(axes: Axes, view: PredictionView, i: int) -> None:
     x, pressure = view.pressure_along(i)
     axes.fill_between(x, pressure / MEGA, color=ORANGE, alpha=0.35, lw=0)
     axes.plot(x, pressure / MEGA, color=ORANGE, lw=1.0)
-    axes.axhline(view.column("pressure_received")[i] / MEGA, color=GREY, lw=0.8, ls=(0, (4, 2)))
+    axes.axhline(view.column("pressure_received")[i] / MEGA, color=GREY, lw=0.8, ls=DASHED)
     axes.set_ylim(bottom=0.0)
     axes.set_xlim(-0.5, 0.5)
     axes.set_xticks([])  # those of the block below hold here, too
@@ -132,11 +155,11 @@ def _pressure(axes: Axes, view: PredictionView, i: int) -> None:
 
 
 def _block(axes: Axes, view: PredictionView, i: int, window: tuple[float, float]) -> None:
-    """Draw the rigid wave and, if the solver returned it, the deformed mesh."""
+    """Draw the rigid wave and, of a solution that has one, the deformed mesh."""
     x = np.linspace(-0.5, 0.5, 200)
     wave = _ratio(view, i) * np.cos(2.0 * math.pi * x)
     axes.fill_between(x, wave, window[0], color=FAINT, lw=0)
-    mesh = view.mesh_along(i)
+    mesh = view.mesh_along(i) if view.converged[i] else None
     if mesh is not None:
         _mesh(axes, *mesh, top=window[1])
     axes.plot(x, wave, color=INK, lw=0.9, label="wave")

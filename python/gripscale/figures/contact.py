@@ -31,7 +31,8 @@ def contact_figure(predictions: Mapping[str, xr.Dataset]) -> Figure:
     """Draw relative contact area and friction of each named prediction, such as dynamic and static.
 
     Filled symbols are the running values, open symbols and thin lines those of each wave; a model
-    without waves is a level line at its total. Friction leaves out what is at rest, which has none.
+    without waves is a level line at its total. Friction leaves out what is at rest, which has none;
+    of a prediction without a single converged wave the legend says that there is nothing to draw.
     Lines are dashed beyond the measured band of the rubber.
     """
     figure, axes = sheet(WIDE, 3.1, 1, 2, gap=0.06)
@@ -62,6 +63,9 @@ def _pair(axes: Axes, view: PredictionView, quantity: str, colour: str) -> None:
         total = view.total(quantity)
         if np.isfinite(total):
             axes.axhline(total, color=colour, ls=DOTTED, label=f"{view.name}, total")
+        return
+    if not view.converged.any():
+        axes.plot([], [], ls="", label=f"{view.name}: {view.why(view.waves - 1)}")
         return
     wavelength = view.column("wavelength") / MILLI
     running = view.usable(f"running_{quantity}")

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from gripscale.case.drawn import sine_curves
 from gripscale.figures.palette import BLUE, COLOURS, GREY, INK, MILLI, NARROW, ORANGE, SQUARE_MM
-from gripscale.figures.style import log_axis, sheet, styled
+from gripscale.figures.style import DASHED, DOTTED, log_axis, sheet, styled
 from gripscale.surface import HeightDifference, SelfAffineFit, SineStack
 
 
@@ -33,7 +33,7 @@ def correlation_figure(
     if self_affine is not None:
         curve = self_affine.evaluate(measured.lag) / SQUARE_MM
         text = f"self-affine, $H$ = {self_affine.hurst:.2f}"
-        axes.plot(measured.lag / MILLI, curve, color=ORANGE, ls=(0, (4, 2)), label=text)
+        axes.plot(measured.lag / MILLI, curve, color=ORANGE, ls=DASHED, label=text)
     lag = np.geomspace(measured.lag[0], measured.lag[-1], 1000)
     for (name, stack), colour in zip(sines.items(), [BLUE, *COLOURS[2:]], strict=False):
         _waves(axes, stack, lag, name, colour)
@@ -61,7 +61,8 @@ def _waves(axes: Axes, stack: SineStack, lag: NDArray[np.float64], name: str, co
     fitted, pure = (curve / SQUARE_MM for curve in sine_curves(stack, lag))
     pure[lag <= 0.25 * stack.wavelength[0]] = np.nan  # the same as fitted
     axes.plot(lag / MILLI, fitted, color=colour, label=name)
-    axes.plot(lag / MILLI, pure, color=colour, lw=0.8, ls=(0, (1, 1.5)))
+    text = "as pure sines, which repeat"
+    axes.plot(lag / MILLI, pure, color=colour, lw=0.8, ls=DOTTED, label=text)
     axes.plot(
         stack.wavelength / MILLI,
         np.full(len(stack), 0.0),

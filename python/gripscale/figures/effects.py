@@ -12,11 +12,13 @@ from matplotlib.ticker import MaxNLocator
 
 from gripscale.effects.effects import CHANGES, WITH_AREA_TERM
 from gripscale.figures.palette import COLOURS, INK, WIDE
-from gripscale.figures.style import sheet, styled
+from gripscale.figures.style import DOTTED, sheet, styled
 from gripscale.study.display import EFFECTS
 
 HEIGHT, ROW = 1.5, 0.32
 """Of the figure without rows, and of each [inch]."""
+INSIDE = 0.45
+"""Of the longest bar; in one longer than that its number stands inside."""
 BESIDE = 0.6
 """Of the height of a row that the bars of all models take."""
 NAMES = {"chain": "chain", "direct": "direct contact"}
@@ -27,14 +29,14 @@ PANELS = {
     "total_friction": "friction, hysteresis $\\mu$ [-]",
     WITH_AREA_TERM: "friction with area term [-]",
 }
-PER_CENT = "beside a bar: what the effects left out change"
+PER_CENT = "at a bar: what the effects left out change"
 
 
 @styled
 def effects_figure(*results: xr.Dataset, title: str = "") -> Figure:
     """Draw A_r/A_0 and friction as bars: with all effects, without each in turn, without any.
 
-    A dotted line goes on from the answer with all effects. Beside each other bar stands what the
+    A dotted line goes on from the answer with all effects. At each other bar stands what the
     effects left out change, in per cent of it. Where an area term was asked for, friction with it
     has a panel of its own.
 
@@ -50,12 +52,14 @@ def effects_figure(*results: xr.Dataset, title: str = "") -> Figure:
     height = HEIGHT + ROW * len(names) * max(len(results), 1.5)
     figure, panels = sheet(WIDE, height, 1, len(shown), gap=0.04, sharey=True)
     for axes, name in zip(panels[0], shown, strict=True):
+        drawn = [result[name].values for result in results if name in result]
+        longest = float(np.nanmax(np.concatenate(drawn), initial=0.0))
         for k, (result, colour) in enumerate(zip(results, COLOURS, strict=False)):
             place = np.arange(len(names)) + BESIDE * ((k + 0.5) / len(results) - 0.5)
             if name in result:
                 look: dict[str, Any] = {"height": 0.9 * BESIDE / len(results), "color": colour}
                 axes.barh(place, np.nan_to_num(result[name].values), **look, label=_name(result))
-                _say(axes, result, name, place, colour)
+                _say(axes, result, name, place, colour, longest)
         axes.set_xlabel(PANELS[name])
         axes.grid(visible=False, axis="y")
         axes.margins(x=0.3)
@@ -75,21 +79,27 @@ def _name(result: xr.Dataset) -> str:
     return NAMES.get(model, model)
 
 
-def _say(axes: Axes, result: xr.Dataset, name: str, place: Any, colour: str) -> None:
-    """Write the changes beside the bars, and draw the answer with all effects past them."""
+def _say(
+    axes: Axes, result: xr.Dataset, name: str, place: Any, colour: str, longest: float
+) -> None:
+    """Write the changes beside the bars, and draw the answer with all effects behind them."""
     values, changes = result[name].values, result[CHANGES[name]].values
     if np.isfinite(values[0]):
-        axes.axvline(values[0], color=colour, lw=0.8, ls=(0, (1, 1.5)))
+        axes.axvline(values[0], color=colour, lw=0.8, ls=DOTTED, zorder=0.9)
     for at, value, change in zip(place, values, changes, strict=True):
         if np.isfinite(value) and not np.isfinite(change):
             continue
+        text = f"{100.0 * change:+.0f} %" if np.isfinite(value) else "not converged"
+        within = value > INSIDE * longest
+        look: dict[str, Any] = {"color": "white", "ha": "right"} if within else {"color": INK}
+        if not within:  # a short bar may end just before the line, which then passes behind
+            look["bbox"] = {"facecolor": "white", "edgecolor": "none", "pad": 1.0}
         axes.annotate(
-            f"{100.0 * change:+.0f} %" if np.isfinite(value) else "not converged",
+            text,
             (float(np.nan_to_num(value)), at),
-            (3.0, 0.0),
+            (-3.0 if within else 3.0, 0.0),
             textcoords="offset points",
             va="center",
             fontsize=7.0,
-            color=INK,
-            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5},
+            **look,
         )

@@ -75,6 +75,8 @@ def heat_figure(data: xr.Dataset, title: str = "") -> Figure:
     axes.plot(length, data.contact_temperature - before, label="at the surface, in contact", **look)
     falling_wavelength(axes, length)
     axes.axhline(0.0, color=INK, lw=0.7)
+    axes.use_sticky_edges = False  # of bars upon bars, which would leave none above the topmost
+    axes.margins(y=0.08)
     axes.set_ylabel(f"above the {before - ZERO_CELSIUS:.3g} °C before the contact [K]")
     figure.legend(loc="outside upper center", ncols=2, title=title)
     return figure

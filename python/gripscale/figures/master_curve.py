@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from gripscale.case.drawn import band
 from gripscale.figures.palette import BLUE, GREEN, GREY, INK, MEGA, NARROW, ORANGE
 from gripscale.figures.stretches import BEYOND
-from gripscale.figures.style import DASHED, dashed_entry, log_axis, sheet, styled
+from gripscale.figures.style import DASHED, DOTTED, dashed_entry, log_axis, sheet, styled
 from gripscale.rubber import MasterCurve, PronyFit, Rubber
 
 Array = NDArray[np.float64]
@@ -31,7 +31,7 @@ def master_curve_figure(
     Parameters
     ----------
     rubber
-        Its Prony series is drawn as lines, dashed beyond the measured band.
+        Its Prony series is drawn as lines, dashed beyond the measured band, whose ends are marked.
     master
         The measured points, if any.
     fit
@@ -52,6 +52,7 @@ def master_curve_figure(
     loss.set_xlabel("angular frequency $\\omega$ [rad/s]")
     loss.set_ylim(bottom=0.0)
     dashed_entry(moduli)
+    _ends(moduli, loss, rubber)
     if omega.size:
         _marks(moduli, loss, rubber, omega)
     figure.legend(*moduli.get_legend_handles_labels(), loc="outside upper center", ncols=2)
@@ -92,6 +93,15 @@ def _stretches(
     low, high = rubber.valid_band or (0.0, math.inf)
     inside = (omega >= low) & (omega <= high)
     return [(inside, "-", label), (omega <= low, DASHED, None), (omega >= high, DASHED, None)]
+
+
+def _ends(moduli: Axes, loss: Axes, rubber: Rubber) -> None:
+    """Mark the lowest and the highest measured frequency."""
+    ends = [end for end in rubber.valid_band or () if 0.0 < end < math.inf]
+    look: dict[str, Any] = {"color": GREY, "ls": DOTTED, "lw": 0.9, "zorder": 1.5}
+    for k, end in enumerate(ends):
+        moduli.axvline(end, label=None if k else "ends of the measured band", **look)
+        loss.axvline(end, **look)
 
 
 def _marks(moduli: Axes, loss: Axes, rubber: Rubber, omega: Array) -> None:

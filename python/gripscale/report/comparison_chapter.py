@@ -9,6 +9,7 @@ import xarray as xr
 
 from gripscale.figures.rungs import flawed, varied
 from gripscale.model import CUT_OFF_EXPONENTS, FRICTION_OUTSIDE_BAND
+from gripscale.report.chapters import pointer
 from gripscale.report.charts.comparison import axis_charts, ladder_charts
 from gripscale.report.comparison_table import best_sentence, samples_of, temperature_only
 from gripscale.report.elements import Element, Heading, Notice, Table, Text
@@ -54,7 +55,7 @@ def _failures(compared: Compared) -> Iterator[Notice]:
             where = "" if at is None else f"{axis} {float(one[axis]):.3g}, "
             for label, status in zip(one.label.values, one.status.values, strict=True):
                 if str(status) != "converged":
-                    yield Notice("error", f"{where}{label}: {status}.")
+                    yield Notice("error", f"{where}{label}: {status}{pointer(status)}.")
 
 
 def _beyond(compared: Compared) -> Iterator[Notice]:

@@ -104,7 +104,7 @@ def cleaning_tables(inputs: xr.Dataset) -> list[Table]:
         step, length = float(one["profile_step"]), float(one["profile_length"])
         caption = (
             f"Cleaning of {name}: {whole(one['profile_points'])} points read, step "
-            f"{number(step, MILLI, 4)} mm, length {number(length)} m"
+            f"{number(step, MILLI, 4)} mm, length {number(length, MILLI, 4)} mm"
         )
         tables.append(Table(f"cleaning-{i + 1}", caption, headings, rows))
     return tables
@@ -181,13 +181,14 @@ def rubber_facts(inputs: xr.Dataset) -> Facts:
     get = inputs.attrs.get
     moduli = inputs["term_modulus"].values if "term_modulus" in inputs else np.zeros(0)
     kelvin = float(get("reference_temperature_K", math.nan))
-    low, high = (number(get(f"band_{end}_rad_per_s", math.nan)) for end in ("low", "high"))
+    ends = [float(get(f"band_{end}_rad_per_s", math.nan)) for end in ("low", "high")]
+    (low, high), hertz = map(number, ends), [number(end, 2.0 * math.pi) for end in ends]
     pairs = [
         _end(inputs, "slow_end", "Relaxed modulus", "Slow end of the data, E′"),
         _end(inputs, "fast_end", "Glassy modulus", "Fast end of the data, E′"),
         ("Bulk modulus", f"{number(get('bulk_modulus_Pa', math.nan), GIGA)} GPa"),
         ("Maxwell elements", str(moduli.size)),
-        ("Measured band", f"{low} to {high} rad/s"),
+        ("Measured band", f"{low} to {high} rad/s ({hertz[0]} to {hertz[1]} Hz)"),
         ("Temperature", f"{number(kelvin)} K ({number(kelvin - ZERO_CELSIUS)} °C)"),
     ]
     if "prony_rms_storage" in inputs.attrs:

@@ -8,6 +8,7 @@ import numpy as np
 
 from gripscale.figures.view import CONVERGED, PredictionView
 from gripscale.model import with_adhesive
+from gripscale.report.chapters import pointer
 from gripscale.report.conditions_notes import conditions_sentences
 from gripscale.report.elements import Card, Notice
 from gripscale.report.numbers import NONE, number, percent
@@ -28,12 +29,13 @@ def _failures(one: PredictionView) -> Iterator[str]:
     for i in np.flatnonzero(~one.converged):
         yield (
             f"{one.title}: wave {i + 1} did NOT converge ({one.why(int(i))}). Its numbers are not "
-            "to be used, the waves after it were not solved, and there are no totals."
+            "to be used, the waves after it were not solved, and there are no totals"
+            f"{pointer(one.why(int(i)))}."
         )
     if one.complete or not one.converged.all():
         return
     if one.status != CONVERGED:
-        yield f"{one.title}: {one.status}. There are no totals."
+        yield f"{one.title}: {one.status}. There are no totals{pointer(one.status)}."
     else:
         yield (
             f"{one.title}: the run ended after wave {one.waves} of {one.planned}. The totals "

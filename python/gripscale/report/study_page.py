@@ -11,15 +11,20 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from gripscale.report.chapters import pointer
 from gripscale.report.charts.study import study_charts
 from gripscale.report.elements import Card, Element, Facts, Heading, Notice, Page, Section
 from gripscale.report.elements import Table as PageTable
-from gripscale.report.input_tables import without_folder
+from gripscale.report.input_tables import BAR
 from gripscale.report.numbers import NONE, number
 from gripscale.report.outside_band import study_sentence
 from gripscale.report.run_page import method_elements, rerun_elements
 from gripscale.report.source import Study
+from gripscale.report.study_inputs import input_sections
+from gripscale.report.study_words import telling, words_of
 from gripscale.report.temperature_text import collapse_sentences, shift_sentence
+from gripscale.study.axes import COUNTS
+from gripscale.study.display import LABELS, name_of, of_numbers
 
 NAMED_FAILURES = 12
 """Failed predictions named one by one at the head of the page."""
@@ -30,15 +35,20 @@ def study_page(study: Study) -> Page:
     data = study.data
     failed = list(_failures(study))
     sections = [
-        Section("axes", "What was varied", [_axes(study), *_facts(data)]),
+        Section("axes", "What was varied", [_axes(study), *_over_reduced_speed(data)]),
+        *input_sections(study),
         Section("totals", "Totals of every prediction", _totals(study)),
         Section("curves", "Curves", study_charts(study)),
         Section("method", "Method", method_elements()),
-        Section("again", "Software", rerun_elements(data.attrs, "", _command(study))),
+        Section(
+            "again",
+            "Software, and how to run it again",
+            rerun_elements(data.attrs, "", _command(study)),
+        ),
     ]
     return Page(
         str(data.attrs.get("title", f"Study {study.name}")),
-        f"varied: {', '.join(study.axes)}",
+        f"varied: {', '.join(words_of(data, axis) for axis in study.axes)}",
         [*_notices(failed), *_beyond(data)],
         _cards(study, len(failed)),
         [section for section in sections if section.elements],
@@ -48,10 +58,26 @@ def study_page(study: Study) -> Page:
 def _command(study: Study) -> str:
     """Return the command that makes a study of these axes."""
     varied = " ".join(
-        shlex.join(["--vary", f"{name}={','.join(_given(study, name))}"]) for name in study.axes
+        shlex.join(["--vary", f"{name}={_spacing(study, name) or ','.join(_given(study, name))}"])
+        for name in study.axes
     )
     chosen = " --model direct" if study.data.attrs.get("model") == "direct" else ""
     return f"gripscale study case.toml {varied}{chosen}"
+
+
+def _spacing(study: Study, name: str) -> str:
+    """Return evenly spaced values as `--vary` takes them, such as 0.01:10:log9; else nothing."""
+    values = _values(study, name)
+    if len(values) < 3 or not of_numbers(study.data, name) or name in COUNTS:
+        return ""
+    first, last = float(values[0]), float(values[-1])
+    unit = " K" if name == "temperature" else ""
+    for word, spaced in (("log", np.geomspace), ("lin", np.linspace)):
+        if word == "log" and not first > 0.0:
+            continue
+        if np.allclose(values, spaced(first, last, len(values)), rtol=1e-11, atol=0.0):
+            return f"{_plain(first)}{unit}:{_plain(last)}{unit}:{word}{len(values)}"
+    return ""
 
 
 def _given(study: Study, name: str) -> Iterator[str]:
@@ -78,35 +104,42 @@ def totals_of(study: Study) -> list[str]:
 def _axes(study: Study) -> PageTable:
     rows = []
     for name in study.axes:
-        values = [_plain(value) for value in _values(study, name)]
+        values = [_place(study, name, i) for i in range(len(_values(study, name)))]
+        if name == "pressure":
+            bars = [number(value, BAR) for value in _values(study, name)]
+            values = [f"{one} ({bar} bar)" for one, bar in zip(values, bars, strict=True)]
         variable = study.data.get(name, xr.DataArray())
         meaning = str(variable.attrs.get("long_name", name))
-        unit = str(variable.attrs.get("units", "1")).replace("1", NONE)
-        rows.append([name, meaning, unit, str(len(values)), ", ".join(values)])
+        unit = LABELS[name].unit if of_numbers(study.data, name) else NONE
+        rows.append([name.replace("_", " "), meaning, unit, str(len(values)), ", ".join(values)])
     headings = [
         Heading(text, words=True) for text in ("axis", "meaning", "unit", "values", "which")
     ]
     return PageTable("axes", "The axes of the study", headings, rows)
 
 
-def _facts(data: xr.Dataset) -> list[Element]:
-    """Return the attributes that are short texts or numbers: the provenance."""
-    pairs = [
-        (str(name).replace("_", " "), without_folder(cell(value)))
-        for name, value in data.attrs.items()
-        if not str(name).startswith("version_") and name != "case" and len(str(value)) <= 600
-    ]
+def _place(study: Study, name: str, i: int) -> str:
+    """Return a value of an axis as tables show it, without its unit."""
+    if name not in study.data.coords:
+        return str(i + 1)
+    if not of_numbers(study.data, name):
+        return name_of(study.data, name, i)
+    shown = number(LABELS[name].of(study.data[name].values[i]), digits=4)
+    return shown.rstrip("0").rstrip(".") if "." in shown else shown
+
+
+def _over_reduced_speed(data: xr.Dataset) -> list[Element]:
+    """Return how far temperatures lie apart over the reduced speed, where there are several."""
     over = [(f"{words} over a_T v", text) for words, text in collapse_sentences(data)]
-    facts = (("Speed and temperature", over), ("Provenance", pairs))
-    return [Facts(title, told) for title, told in facts if told]
+    return [Facts("Speed and temperature", over)] if over else []
 
 
 def _totals(study: Study) -> list[Element]:
-    names = totals_of(study)
+    names = [name for name in totals_of(study) if telling(study.data[name])]
     if not names:
         return []
     headings = [
-        Heading(name.replace("_", " "), _unit(study, name), words=_words(study, name))
+        Heading(words_of(study.data, name), _unit(study, name), words=_words(study, name))
         for name in [*study.axes, *names]
     ]
     rows: list[list[str]] = []
@@ -125,7 +158,7 @@ def _predictions(study: Study) -> Iterator[tuple[list[str], xr.Dataset]]:
     sizes = [study.data.sizes[name] for name in study.axes]
     for index in product(*(range(size) for size in sizes)):
         at = dict(zip(study.axes, index, strict=True))
-        yield [_plain(_values(study, name)[i]) for name, i in at.items()], study.data.isel(at)
+        yield [_place(study, name, i) for name, i in at.items()], study.data.isel(at)
 
 
 def _values(study: Study, name: str) -> Sequence[Any]:
@@ -143,6 +176,8 @@ def cell(value: Any) -> str:
 
 
 def _unit(study: Study, name: str) -> str:
+    if of_numbers(study.data, name):
+        return LABELS[name].unit
     unit = str(study.data[name].attrs.get("units", "")) if name in study.data.variables else ""
     return "" if unit == "1" else unit
 
@@ -161,12 +196,18 @@ def _failures(study: Study) -> Iterator[str]:
     states = [name for name in names if name.endswith("status")]
     totals = [n for n in names if n == "total_contact_fraction" or n == "contact_fraction"]
     for place, one in _predictions(study):
-        where = ", ".join(f"{n} {v}" for n, v in zip(study.axes, place, strict=True))
+        where = ", ".join(_where(study, n, v) for n, v in zip(study.axes, place, strict=True))
         for name in states:
             if not _good(one, name):
-                yield f"{where}: NOT converged: {cell(one[name].values[()])}"
+                why = cell(one[name].values[()])
+                yield f"{where}: NOT converged: {why}{pointer(why)}"
         if not states and any(math.isnan(float(one[name])) for name in totals):
             yield f"{where}: no total"
+
+
+def _where(study: Study, axis: str, value: str) -> str:
+    unit = _unit(study, axis)
+    return f"{words_of(study.data, axis)} {value}{f' {unit}' if unit else ''}"
 
 
 def _notices(failed: Sequence[str]) -> list[Notice]:
@@ -185,11 +226,14 @@ def _beyond(data: xr.Dataset) -> Iterator[Notice]:
     shifted = shift_sentence(data)
     if shifted:
         yield Notice("warning", shifted)
+    yield from (Notice("warning", text) for text in str(data.attrs.get("notes", "")).splitlines())
 
 
 def _cards(study: Study, failed: int) -> list[Card]:
     count = math.prod(study.data.sizes[name] for name in study.axes)
     return [
-        Card("Predictions", str(count), " × ".join(study.axes)),
+        Card(
+            "Predictions", str(count), " × ".join(words_of(study.data, axis) for axis in study.axes)
+        ),
         Card("Not converged", str(failed), "see the table of totals", bad=failed > 0),
     ]

@@ -77,7 +77,7 @@ LONG_NAMES = {
     "surface": "surface",
 }
 
-_RANGE = re.compile(r"\s*(.+?)\s*:\s*(.+?)\s*:\s*(lin|log)(\d+)\s*")
+_RANGE = re.compile(r"\s*([^:]+?)\s*:\s*([^:]+?)\s*:\s*(lin|log)(\d+)\s*")
 
 
 @dataclass(frozen=True)
@@ -143,9 +143,28 @@ def _entries(name: str, given: Any) -> Iterable[Any]:
         if found is not None:
             return _spaced(name, *found.groups())
         if ":" in given:
-            raise InputError(f'{name} must be a range such as "1:10:log5"; got {given!r}')
+            raise InputError(_no_range(name, given))
         return [part.strip() for part in given.split(",")]
     return given if isinstance(given, Iterable) else [given]
+
+
+def _no_range(name: str, given: str) -> str:
+    """Return a sentence on a text with colons that is no range: which of its parts is wrong."""
+    example = {"speed": "0.01 m/s:10 m/s:log7", "pressure": "1 bar:5 bar:lin5"}
+    example |= {"temperature": "0 C:60 C:lin7"}
+    example |= dict.fromkeys(("smallest_wavelength", "cut_off"), "0.1 mm:1 mm:log4")
+    parts = given.split(":")
+    wrong = (
+        "the third part is missing"
+        if len(parts) == 2
+        else f"{parts[2].strip()!r} is neither lin nor log with a number"
+        if len(parts) == 3 and parts[0].strip() and parts[1].strip()
+        else f"it has {len(parts)} parts, or an empty one"
+    )
+    return (
+        f"{name} must be a range of first value, last value and spacing with the number of values, "
+        f'such as "{example.get(name, "1:10:log5")}"; {wrong} in {given!r}'
+    )
 
 
 def _spaced(name: str, first: str, last: str, spacing: str, count: str) -> list[float]:

@@ -309,6 +309,7 @@ class Study:
             "surfaces": "; ".join(surface.source for surface in self.surfaces),
             "rubbers": "; ".join(f"{rubber.name}: {rubber.source}" for rubber in self.rubbers),
             "rubber_parameters": json.dumps(exact(self.rubbers)),
+            "notes": "\n".join(dict.fromkeys(n for one in self.surfaces for n in one.notes)),
             "software": software(),
             "study_key": self.key,
             "description": json.dumps(self.description()),

@@ -13,6 +13,7 @@ import numpy as np
 from gripscale import checks
 from gripscale.errors import InputError
 from gripscale.surface.profile import FEWEST_POINTS, FloatArray, Profile
+from gripscale.units import in_mm
 
 TRENDS = ("linear", "mean", "none")
 
@@ -119,10 +120,10 @@ def crop_profile(profile: Profile, limits: tuple[float, float]) -> tuple[Profile
     keep = (profile.x >= first) & (profile.x <= last)
     if keep.sum() < FEWEST_POINTS:
         raise InputError(
-            f"crop must leave at least {FEWEST_POINTS} points; {first:g} m to {last:g} m leaves "
-            f"{keep.sum()} of a profile from {profile.x[0]:g} m to {profile.x[-1]:g} m"
+            f"crop must leave at least {FEWEST_POINTS} points; {in_mm(first)} to {in_mm(last)} "
+            f"leaves {keep.sum()} of a profile from {in_mm(profile.x[0])} to {in_mm(profile.x[-1])}"
         )
-    note = f"kept {first:g} m to {last:g} m"
+    note = f"kept {in_mm(first)} to {in_mm(last)}"
     return _changed(profile, "crop", x=profile.x[keep], z=profile.z[keep], note=note)
 
 
@@ -141,7 +142,7 @@ def believed(z: FloatArray, valid_range: tuple[float, float] | None) -> tuple[Fl
         return z, note
     low, high = interval("valid_range", valid_range)
     inside = (z >= low) & (z <= high)  # comparisons with NaN are false: missing stays missing
-    return np.where(inside, z, np.nan), f"{note}; kept {low:g} m to {high:g} m"
+    return np.where(inside, z, np.nan), f"{note}; kept {in_mm(low)} to {in_mm(high)}"
 
 
 def mark_spikes(
@@ -219,11 +220,11 @@ def subtract_trend(profile: Profile, kind: str = "linear") -> tuple[Profile, Ste
         return _changed(profile, "trend", z=profile.z, note="kept")
     mean = float(profile.z[valid].mean())
     if kind == "mean" or valid.sum() < 2:
-        return _changed(profile, "trend", z=profile.z - mean, note=f"mean {mean:.4g} m")
+        return _changed(profile, "trend", z=profile.z - mean, note=f"mean {1e3 * mean:.4g} mm")
     centred = profile.x - profile.x[valid].mean()
     slope = float((centred[valid] @ (profile.z[valid] - mean)) / (centred[valid] @ centred[valid]))
     z = profile.z - mean - slope * centred
-    return _changed(profile, "trend", z=z, note=f"mean {mean:.4g} m, slope {slope:.4g}")
+    return _changed(profile, "trend", z=z, note=f"mean {1e3 * mean:.4g} mm, slope {slope:.4g}")
 
 
 def _changed(

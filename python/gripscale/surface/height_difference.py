@@ -220,6 +220,16 @@ def block_sums(
     return BlockSums(step * shifts[keep], sums[:, keep], counts[:, keep], carried)
 
 
+def require_positive(hdc: HeightDifference) -> None:
+    """Raise `InputError` where the curve is not above zero: its logarithm is fitted."""
+    if (hdc.value <= 0.0).any():
+        at = int(np.argmin(hdc.value))
+        raise InputError(
+            "the height difference correlation must be positive at every lag; "
+            f"got {hdc.value[at]:g} m^2 at {hdc.lag[at]:g} m"
+        )
+
+
 def _profiles(profile: Profile | Sequence[Profile]) -> list[Profile]:
     given: object = [profile] if isinstance(profile, Profile) else profile
     profiles = list(given) if isinstance(given, Sequence) else []

@@ -15,6 +15,7 @@ from gripscale.errors import InputError
 from gripscale.surface.cleaning import CleaningReport, StepReport, believed, interval
 from gripscale.surface.height_map import HeightMap
 from gripscale.surface.profile import FEWEST_POINTS, FloatArray
+from gripscale.units import in_mm
 
 HIGHEST_ORDER = 8
 """Highest order of a form: beyond it a polynomial follows the roughness."""
@@ -100,8 +101,9 @@ def crop_map(
         inside = np.flatnonzero((axis >= first) & (axis <= last))
         if inside.size < FEWEST_POINTS:
             raise InputError(
-                f"crop must leave at least {FEWEST_POINTS} points along {name}; {first:g} m to "
-                f"{last:g} m leaves {inside.size} of a map from {axis[0]:g} m to {axis[-1]:g} m"
+                f"crop must leave at least {FEWEST_POINTS} points along {name}; {in_mm(first)} to "
+                f"{in_mm(last)} leaves {inside.size} of a map from {in_mm(axis[0])} to "
+                f"{in_mm(axis[-1])}"
             )
         kept.append(slice(int(inside[0]), int(inside[-1]) + 1))
     return _part(surface, "crop", kept[0], kept[1])
@@ -219,7 +221,7 @@ def subtract_form(surface: HeightMap, order: int = 1) -> tuple[HeightMap, StepRe
         along_x, along_y = (c / s for c, s in zip(coefficient[[1, 0], [0, 1]], sizes, strict=True))
         slopes = f", slopes {along_x:.4g} along x and {along_y:.4g} along y"
     z = surface.z - level - along @ coefficient @ across.T
-    return _changed(surface, "form", z=z, note=f"order {highest}: mean {mean:.4g} m{slopes}")
+    return _changed(surface, "form", z=z, note=f"order {highest}: mean {1e3 * mean:.4g} mm{slopes}")
 
 
 def _least_squares(
@@ -244,7 +246,7 @@ def _part(
     surface: HeightMap, step: str, along: slice, across: slice
 ) -> tuple[HeightMap, StepReport]:
     x, y = surface.x[along], surface.y[across]
-    note = f"kept {x[0]:g} m to {x[-1]:g} m by {y[0]:g} m to {y[-1]:g} m"
+    note = f"kept {in_mm(x[0])} to {in_mm(x[-1])} by {in_mm(y[0])} to {in_mm(y[-1])}"
     z = surface.z[along, across]
     if np.isnan(z).all():
         raise InputError(f"{step} must leave some heights; {note[5:]} has none")

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 
 from gripscale import checks
 from gripscale.errors import InputError
-from gripscale.surface.height_difference import HeightDifference
+from gripscale.surface.height_difference import HeightDifference, require_positive
 from gripscale.surface.plateau import find_plateau, log_weights
 from gripscale.surface.profile import FloatArray
 
@@ -106,22 +106,21 @@ def fit_self_affine(
     checks.instance("hdc", hdc, HeightDifference)
     checks.positive("tolerance", tolerance)
     checks.positive("shortest_range", shortest_range)
-    if (hdc.value <= 0.0).any():
-        at = int(np.argmin(hdc.value))
-        raise InputError(
-            f"hdc must be positive at every lag; got {hdc.value[at]:g} m^2 at {hdc.lag[at]:g} m"
-        )
+    require_positive(hdc)
     plateau = find_plateau(hdc)
     if plateau is None:
         raise InputError(
-            "hdc must reach a plateau over a factor of two in lag; it still rises at "
-            f"{hdc.lag[-1]:.4g} m, so use a longer profile or a larger max_lag"
+            "the height difference correlation must reach a plateau over a factor of two in lag; "
+            f"it still rises at {hdc.lag[-1]:.4g} m, so use a longer profile or a larger max_lag"
         )
     rising = hdc.lag < plateau.lag * (1.0 + 1e-9)
     first, last = _power_law_range(hdc.lag[rising], hdc.value[rising], tolerance, shortest_range)
     slope, at_one_metre, residual = _line(hdc.lag[first:last], hdc.value[first:last])
     if slope <= 0.0:
-        raise InputError(f"hdc must rise before its plateau; got a slope of {slope:.3g}")
+        raise InputError(
+            "the height difference correlation must rise before its plateau; "
+            f"got a slope of {slope:.3g}"
+        )
     # The power law meets the plateau where at_one_metre + slope log10(l) = log10(level).
     cut_off = 10.0 ** ((np.log10(plateau.level) - at_one_metre) / slope)
     return SelfAffineFit(
@@ -141,7 +140,8 @@ def _power_law_range(
     candidates = _ranges(lag, shortest)
     if not candidates:
         raise InputError(
-            f"hdc must have {FEWEST_LAGS} lags over {shortest:g} decades below its plateau; "
+            f"the height difference correlation must have {FEWEST_LAGS} lags over {shortest:g} "
+            "decades below its plateau; "
             f"got {lag.size} lags up to {lag[-1]:.4g} m"
         )
     residuals = [_line(lag[i:j], value[i:j])[2] for i, j in candidates]

@@ -46,7 +46,7 @@ import numpy as np
 
 from gripscale import checks
 from gripscale.errors import InputError
-from gripscale.surface.height_difference import HeightDifference
+from gripscale.surface.height_difference import HeightDifference, require_positive
 from gripscale.surface.plateau import find_plateau
 from gripscale.surface.profile import FloatArray
 from gripscale.surface.sine_search import (
@@ -250,11 +250,7 @@ def _given_logs(values: dict[str, float | None], single_factor: bool) -> FloatAr
 
 def _target(hdc: HeightDifference, smallest: float, largest: float | None, unknowns: int) -> Target:
     """Return the part of the curve that counts."""
-    if (hdc.value <= 0.0).any():
-        at = int(np.argmin(hdc.value))
-        raise InputError(
-            f"hdc must be positive at every lag; got {hdc.value[at]:g} m^2 at {hdc.lag[at]:g} m"
-        )
+    require_positive(hdc)
     plateau = find_plateau(hdc)
     if largest is None:
         largest = float(hdc.lag[-1]) if plateau is None else PLATEAU_COUNTED * plateau.lag
@@ -263,7 +259,8 @@ def _target(hdc: HeightDifference, smallest: float, largest: float | None, unkno
     used = (hdc.lag >= low) & (hdc.lag <= high)
     if used.sum() < max(unknowns, 1):
         raise InputError(
-            f"hdc must have at least {max(unknowns, 1)} lags to fit {unknowns} unknowns; got "
+            "the height difference correlation must have at least "
+            f"{max(unknowns, 1)} lags to fit {unknowns} unknowns; got "
             f"{used.sum()} from {low:g} m to {high:g} m"
         )
     level = plateau.level if plateau is not None else float(hdc.value[used].max())

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from bokeh.models.annotations.geometry import Span
 from bokeh.plotting import figure as Figure
 from numpy.typing import NDArray
 
@@ -15,6 +16,7 @@ from gripscale.figures.view import PredictionView
 from gripscale.report.charts.look import (
     BLUE,
     GREEN,
+    GREY,
     INK,
     ORANGE,
     dashed_entry,
@@ -102,7 +104,16 @@ def _line(figure: Figure, inputs: xr.Dataset, values: Array, colour: str, label:
 
 
 def _say_dashed(figure: Figure, inputs: xr.Dataset) -> None:
-    dashed_entry(figure, ["band_low_rad_per_s" in inputs.attrs])
+    """Say what is dashed, and mark where it begins."""
+    ends = [inputs.attrs.get(f"band_{end}_rad_per_s") for end in ("low", "high")]
+    dashed_entry(figure, [ends[0] is not None])
+    look: dict[str, Any] = {"line_color": GREY, "line_dash": "dotted", "line_width": 1.2}
+    marked = [float(end) for end in ends if end is not None and 0.0 < end < math.inf]
+    for end in marked:
+        figure.add_layout(Span(location=end, dimension="height", **look))
+    if marked:
+        nowhere = [math.nan, math.nan]
+        figure.line(nowhere, nowhere, legend_label="ends of the measured band", **look)
 
 
 def _points(figure: Figure, inputs: xr.Dataset, values: Array, colour: str, name: str) -> None:

@@ -24,6 +24,7 @@ from gripscale.report.charts.look import (
 )
 from gripscale.report.elements import Chart
 from gripscale.report.source import Study
+from gripscale.report.study_words import telling, words_of
 from gripscale.study.temperature import COLLAPSED, REDUCED_SPEED
 from gripscale.units import ZERO_CELSIUS
 
@@ -39,19 +40,17 @@ def study_charts(study: Study) -> list[Chart]:
         str(name)
         for name, variable in study.data.data_vars.items()
         if variable.dims and set(variable.dims) <= set(study.axes) and variable.dtype.kind in "fi"
+        if telling(variable)
     ]
     axes = [axis for axis in study.axes if _numeric(study.data, axis)]
     charts = [
         _total(study, name, axis)
         for axis in axes
         for name in totals
-        if axis in study.data[name].dims and np.isfinite(study.data[name].values).any()
+        if axis in study.data[name].dims
     ]
-    charts += [
-        _total(study, str(name), "decade")
-        for name, variable in study.data.data_vars.items()
-        if "decade" in variable.dims and _numeric(study.data, "decade")
-    ]
+    if "friction_by_decade" in study.data and _numeric(study.data, "decade"):
+        charts.append(_up_to_time(study))
     if REDUCED_SPEED in study.data.coords:
         charts += [_master(study, name) for name in COLLAPSED]
     if "wavelength" in study.data:
@@ -71,7 +70,7 @@ def _drawable(study: Study, name: str) -> bool:
 
 
 def _total(study: Study, name: str, axis: str) -> Chart:
-    variable = study.data[name]
+    variable, words = study.data[name], words_of(study.data, name)
     x = _shown(study.data, axis)
     spread = bool((x > 0.0).all() and x.max() / x.min() > 8.0)
     figure = plot(_label(study.data, axis), _label(study.data, name), log="x" if spread else "")
@@ -81,15 +80,47 @@ def _total(study: Study, name: str, axis: str) -> Chart:
     pairs = zip(_slices(variable, others), _slices(flags, others), strict=True)
     for i, ((label, one), (_, beyond)) in enumerate(pairs):
         y = one.values.astype(float)
-        dots = curve(figure, x, y, colours[i], label or name, beyond=beyond.transpose(axis))
-        hover(figure, [dots], [(axis, "@x"), (name, "@y")])
+        dots = curve(figure, x, y, colours[i], label or words, beyond=beyond.transpose(axis))
+        hover(figure, [dots], [(axis.replace("_", " "), "@x"), (words, "@y")])
     dashed_entry(figure, flags)
+    over = words_of(study.data, axis)
+    meaning = _sentence(str(variable.attrs.get("long_name", words)))
     return Chart(
         f"{name}-over-{axis}",
-        f"{variable.attrs.get('long_name', name)}, over {axis}.",
-        f"{name} against {axis}.",
+        f"{meaning}, over {over}.",
+        f"{words} against {over}.",
         legend(figure),
     )
+
+
+def _up_to_time(study: Study) -> Chart:
+    """Draw friction summed up over relaxation times.
+
+    The sum at the end of a decade is exact whatever the spacing of the Maxwell elements; the parts
+    of the decades would rise and fall with how many of them one holds.
+    """
+    name = "friction_by_decade"
+    parts = study.data[name]
+    summed = parts.cumsum("decade", skipna=True).where(parts.notnull())
+    times = 10.0 * study.data["decade"].values.astype(float)
+    figure = plot("relaxation times up to [s]", f"{words_of(study.data, name)} [-]", log="x")
+    others = [str(dim) for dim in parts.dims if dim != "decade"]
+    colours = _colours(summed, others)
+    for i, (label, one) in enumerate(_slices(summed, others)):
+        dots = curve(figure, times, one.values.astype(float), colours[i], label)
+        hover(figure, [dots], [("up to", "@x s"), ("μ", "@y")])
+    return Chart(
+        f"{name}-over-decade",
+        "Friction coefficient of all Maxwell elements up to a relaxation time, split as at small "
+        "strain.",
+        "Friction summed up over relaxation times.",
+        legend(figure),
+    )
+
+
+def _sentence(text: str) -> str:
+    """Return a text with a capital, unless it begins with a letter of an equation."""
+    return text if text[1:2] == " " else text[:1].upper() + text[1:]
 
 
 def _master(study: Study, name: str) -> Chart:
@@ -103,13 +134,13 @@ def _master(study: Study, name: str) -> Chart:
         x, y, beyond = (one.isel(temperature=i) for one in (reduced, variable, flags))
         words = _value(variable, "temperature", i)
         dots = curve(figure, x.values, y.values, colours[i], words, beyond=beyond)
-        hover(figure, [dots], [("a_T v", "@x"), (name, "@y")])
+        hover(figure, [dots], [("a_T v", "@x"), (words_of(study.data, name), "@y")])
     dashed_entry(figure, flags)
     return Chart(
         f"{name}-over-{REDUCED_SPEED}",
-        f"{variable.attrs.get('long_name', name)}, over the reduced speed a_T v: one curve where "
+        f"{words_of(study.data, name)}, over the reduced speed a_T v: one curve where "
         "temperature does nothing but shift the relaxation times of the rubber.",
-        f"{name} against a_T v at every temperature.",
+        f"{words_of(study.data, name)} against a_T v at every temperature.",
         legend(figure),
     )
 
@@ -137,13 +168,13 @@ def _per_wave(study: Study, name: str) -> Chart:
     for i, ((text, values), (_, wavelength), (_, flag)) in enumerate(pairs):
         beyond = down_to(flag) if name.startswith("running") else flag
         x, y = wavelength.values.astype(float) * 1e3, values.values.astype(float)
-        dots = curve(figure, x, y, colours[i], text or name, beyond=beyond)
-        hover(figure, [dots], [("λ", "@x mm"), (name, "@y")])
+        dots = curve(figure, x, y, colours[i], text or words_of(data, name), beyond=beyond)
+        hover(figure, [dots], [("λ", "@x mm"), (words_of(data, name), "@y")])
     dashed_entry(figure, flags)
     return Chart(
         f"{name}-per-wave",
-        f"{data[name].attrs.get('long_name', name)}, against wavelength.",
-        f"{name} against wavelength, which falls to the right.",
+        f"{_sentence(str(data[name].attrs.get('long_name', name)))}, against wavelength.",
+        f"{words_of(data, name)} against wavelength, which falls to the right.",
         legend(figure),
     )
 
@@ -169,17 +200,17 @@ def _slices(variable: xr.DataArray, over: list[str]) -> Iterator[tuple[str, xr.D
 def _value(variable: xr.DataArray, name: str, i: int) -> str:
     """Return what a point of an axis is called: with its unit, or else with the axis."""
     if name not in variable.coords:
-        return f"{name} {i + 1}"
+        return f"{name.replace('_', ' ')} {i + 1}"
     value: Any = variable[name].values[i]
     if not isinstance(value, np.number):
         return str(value)
     unit = _unit(variable, name)
     shown = float(_shown(variable, name)[i])
-    return f"{name} {shown:.3g}" if unit == "-" else f"{shown:.3g} {unit}"
+    return f"{name.replace('_', ' ')} {shown:.3g}" if unit == "-" else f"{shown:.3g} {unit}"
 
 
 def _label(data: xr.Dataset, name: str) -> str:
-    return f"{name.replace('_', ' ')} [{_unit(data, name)}]"
+    return f"{words_of(data, name)} [{_unit(data, name)}]"
 
 
 def _unit(data: xr.Dataset | xr.DataArray, name: str) -> str:

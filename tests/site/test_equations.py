@@ -1,0 +1,54 @@
+"""LaTeX of the pages becomes MathML when the site is built; what cannot be is refused."""
+
+from __future__ import annotations
+
+import importlib.util
+import re
+from pathlib import Path
+from types import ModuleType
+from xml.etree import ElementTree
+
+import pytest
+
+pytest.importorskip("latex2mathml", reason="needs gripscale[docs]")
+
+DOCS = Path(__file__).parents[2] / "docs"
+
+
+@pytest.fixture(scope="module")
+def hooks() -> ModuleType:
+    found = importlib.util.spec_from_file_location("hooks", DOCS / "hooks.py")
+    assert found is not None
+    assert found.loader is not None
+    module = importlib.util.module_from_spec(found)
+    found.loader.exec_module(module)
+    return module
+
+
+def test_fraction_and_root_are_elements_of_their_own(hooks: ModuleType) -> None:
+    math = ElementTree.fromstring(
+        re.sub(' xmlns="[^"]*"', "", hooks.equation(r"\sqrt{\frac{a}{b}}"))
+    )
+    assert [one.text for one in math.findall(".//msqrt//mfrac//mi")] == ["a", "b"]
+
+
+def test_lines_are_aligned_in_a_table(hooks: ModuleType) -> None:
+    given = "\\begin{aligned}\na &= b \\\\\nc &= d\n\\end{aligned}"
+    math = hooks.equation(given)
+    assert math.count("<mtr>") == 2
+    assert "\n" not in math.strip()  # Markdown would take lines for its own
+
+
+@pytest.mark.parametrize("given", [r"\nothing{a}", r"\begin{alignedat} a &= b \end{alignedat}"])
+def test_what_is_not_known_is_refused(hooks: ModuleType, given: str) -> None:
+    with pytest.raises(ValueError, match="cannot be made MathML"):
+        hooks.equation(given)
+
+
+@pytest.mark.parametrize("page", sorted(DOCS.glob("*.md")), ids=lambda page: page.name)
+def test_every_equation_of_the_pages_is_one(hooks: ModuleType, page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    found = hooks.EQUATION.findall(text)
+    assert text.count("\n$$\n") == 2 * len(found)
+    for latex in found:
+        ElementTree.fromstring(hooks.equation(latex))
