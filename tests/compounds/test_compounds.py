@@ -1,4 +1,4 @@
-"""Compounds side by side: one temperature for all, differences that add up, ranges from the data."""
+"""Compounds side by side: one temperature, differences that add up, ranges from the data."""
 
 from __future__ import annotations
 
