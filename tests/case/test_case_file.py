@@ -212,7 +212,7 @@ WRONG = [
     ),
     ("[load]", "[[load]]", "expected a table"),
     (GOOD, "", "an empty case; expected at least [surface], [rubber] and [load], as"),
-    ("[surface]", "[output]", "[surface] is missing; expected a table with files,"),
+    (GOOD, "[output]", "[surface] is missing; expected a table with files,"),
     ("scales = 8", "scales = 8\ncrop = [1, 2, 3]", "crop = [1, 2, 3]: expected at most 2 items"),
     ("scales = 8", "scales = 8\nspike_slope = inf", "spike_slope = inf: expected a finite number"),
     ("scales = 8", 'scales = 8\nspike_slope = "2"', "spike_slope = '2': expected a number"),
