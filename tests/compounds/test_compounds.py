@@ -1,8 +1,4 @@
-<<<<<<< HEAD
-"""Compounds side by side: one temperature for all, differences that add up, ranges of the data."""
-=======
 """Compounds side by side: one temperature, differences that add up, ranges from the data."""
->>>>>>> files
 
 from __future__ import annotations
 
