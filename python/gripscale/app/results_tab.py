@@ -1,0 +1,137 @@
+"""Results: area and friction, the scale that makes the grip, what the chain is worth, downloads."""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from collections.abc import Iterator
+from html import escape
+from pathlib import Path
+from typing import Any
+
+import panel as pn
+
+from gripscale.app.elements import Cards, code, error, panes, raw
+from gripscale.app.run import Run
+from gripscale.app.runs import Runs
+from gripscale.app.state import CaseState
+from gripscale.errors import GripscaleError
+from gripscale.report import source, write_report
+from gripscale.report.charts.contact import contact_charts
+from gripscale.report.cut_off import exponent_sentence
+from gripscale.report.effects_chapter import effects_elements
+from gripscale.report.elements import Element, Text
+from gripscale.report.notices import cards, notices
+from gripscale.report.wave_tables import wave_tables
+
+JUDGED = ("Direct contact of the measured", "The direct contact of the measured")
+"""How what a run says of its chain begins, in report.txt."""
+
+
+def results_tab(state: CaseState, runs: Runs) -> pn.Column:
+    """Return the part of the page that shows one run."""
+    choice = pn.widgets.Select(name="Run", options=[], margin=(4, 8), width=200)
+    body = pn.Column(raw("<p>Nothing was run yet.</p>"), sizing_mode="stretch_width")
+
+    def follow(_: Any) -> None:
+        names = [run.name for run in runs.all]
+        choice.options = names
+        if choice.value != names[-1]:
+            choice.value = names[-1]  # which shows it
+        else:
+            show(None)
+
+    def show(_: Any) -> None:
+        run = next((one for one in runs.all if one.name == choice.value), None)
+        if run is not None:
+            body.objects = _shown(state, run)
+
+    choice.param.watch(show, "value")
+    runs.param.watch(follow, "changes")
+    return pn.Column(choice, body, sizing_mode="stretch_width")
+
+
+def _shown(state: CaseState, run: Run) -> list[Any]:
+    """Return results and downloads of a run, or the sentence why there are none."""
+    if run.going:
+        return [raw(f"<p>{run.name} is running; its results come here when it ends.</p>")]
+    try:
+        elements = list(_elements(run.folder))
+    except GripscaleError as refused:
+        return [error(run.complaint() or state.place.short(refused))]
+    log = [code("Everything the run says", run.said())] if run.said() else []
+    return [*panes(elements), *log, _downloads(run), _report(state, run)]
+
+
+def _elements(folder: Path) -> Iterator[Element | Cards]:
+    run = source.read_result(folder)
+    if not isinstance(run, source.Run):
+        return
+    yield Cards(cards(run))
+    yield from notices(run)
+    yield from (Text(line) for line in _judgement(folder))
+    for one in run.predictions:
+        sentence = exponent_sentence(one.data)
+        if sentence:
+            yield Text(f"{one.title}. {sentence}")
+    yield from contact_charts(run.by_wave)
+    tables = {table.name: table for table in wave_tables(run.by_wave)}
+    yield from (tables[name] for name in ("contact", "load", "conditions") if name in tables)
+    yield from effects_elements(run.effects)
+
+
+def _judgement(folder: Path) -> Iterator[str]:
+    """Yield what the run says of its chain beside the direct contact."""
+    report = folder / "report.txt"
+    lines = report.read_text(encoding="utf-8").split("\n") if report.exists() else []
+    starts = [at for at, line in enumerate(lines) if line.startswith(JUDGED)]
+    if starts:
+        yield " ".join(line.strip() for line in lines[starts[-1] :] if line.strip())
+
+
+def _downloads(run: Run) -> pn.FlexBox:
+    """Return buttons that save report, data and everything."""
+    report = pn.widgets.FileDownload(
+        callback=lambda: io.BytesIO(write_report(run.folder).read_bytes()),
+        filename=f"{run.name}.html",
+        label="Save the report",
+    )
+    data = [
+        pn.widgets.FileDownload(file=str(path), filename=f"{run.name}-{path.name}",
+                                label=f"Save {path.name}")  # fmt: skip
+        for path in sorted(run.folder.glob("*.nc"))
+    ]
+    everything = pn.widgets.FileDownload(
+        callback=lambda: _zipped(run.folder),
+        filename=f"{run.name}.zip",
+        label="Save everything",
+    )
+    return pn.FlexBox(report, *data, everything)
+
+
+def _zipped(folder: Path) -> io.BytesIO:
+    """Return a folder as a zip file."""
+    held = io.BytesIO()
+    with zipfile.ZipFile(held, "w", zipfile.ZIP_DEFLATED) as archive:
+        for path in sorted(path for path in folder.rglob("*") if path.is_file()):
+            archive.write(path, path.relative_to(folder.parent))
+    held.seek(0)
+    return held
+
+
+def _report(state: CaseState, run: Run) -> pn.Column:
+    """Return the report inside the page, once it is asked for."""
+    button = pn.widgets.Button(name="Show the report here", margin=(8, 8))
+    place = pn.Column(button, sizing_mode="stretch_width")
+
+    def show(_: Any) -> None:
+        try:
+            text = write_report(run.folder).read_text(encoding="utf-8")
+        except GripscaleError as refused:
+            place.objects = [button, error(state.place.short(refused))]
+            return
+        frame = f'<iframe title="Report of {run.name}" sandbox="allow-scripts" srcdoc="{{}}"></iframe>'
+        place.objects = [raw(frame.format(escape(text)))]
+
+    button.on_click(show)
+    return place
