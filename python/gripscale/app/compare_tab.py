@@ -9,15 +9,17 @@ from typing import Any
 import panel as pn
 
 from gripscale.app.case_text import tables, words_of
-from gripscale.app.elements import panes, raw
+from gripscale.app.elements import raw
+from gripscale.app.looked_at import Shown, fill
 from gripscale.app.run import Run
 from gripscale.app.runs import Runs
+from gripscale.app.state import CaseState
 from gripscale.errors import GripscaleError
 from gripscale.figures.view import PredictionView
 from gripscale.model import with_adhesive
 from gripscale.report import source
 from gripscale.report.charts.contact import contact_charts
-from gripscale.report.elements import Heading, Table
+from gripscale.report.elements import Heading, Table, Text
 from gripscale.report.numbers import NONE, number
 
 CHARTS = ("contact-area", "friction")
@@ -33,17 +35,25 @@ HEADINGS = (
 )
 
 
-def compare_tab(runs: Runs) -> pn.Column:
+def compare_tab(state: CaseState, runs: Runs) -> pn.Column:
     """Return the part of the page with all runs."""
     body = pn.Column(raw("<p>Nothing was run yet.</p>"), sizing_mode="stretch_width")
 
-    def follow(_: Any) -> None:
-        found = [(run, view) for run in runs.all if not run.going for view in _views(run)]
-        if found:
-            body.objects = panes([_table(found), *_charts([view for _, view in found])])
+    async def follow(_: Any) -> None:
+        if any(not run.going for run in runs.all):
+            await fill(body, lambda: _elements(runs), state)
 
     runs.param.watch(follow, "changes")
     return body
+
+
+def _elements(runs: Runs) -> Shown:
+    """Return table and figures of all runs that have results."""
+    found = [(run, view) for run in runs.all if not run.going for view in _views(run)]
+    if not found:
+        return [Text("No run of this visit has results.")]
+    charts = contact_charts([view for _, view in found])
+    return [_table(found), *(chart for chart in charts if chart.name in CHARTS)]
 
 
 def _views(run: Run) -> list[PredictionView]:
@@ -67,7 +77,9 @@ def _table(found: list[tuple[Run, PredictionView]]) -> Table:
         shown = [number(value) if view.complete else NONE for value in totals]
         status = "complete" if view.complete else f"{view.waves} of {view.planned} waves"
         speed = f"{number(view.speed)} m/s"
-        rows.append([view.name, speed, *shown, status, ", ".join(_changes(first, run.text)) or NONE])
+        rows.append(
+            [view.name, speed, *shown, status, ", ".join(_changes(first, run.text)) or NONE]
+        )
     return Table("runs", "The runs of this visit", HEADINGS, rows)
 
 
@@ -85,7 +97,3 @@ def _flat(table: dict[str, Any], above: str = "") -> Iterator[tuple[str, Any]]:
             yield from _flat(value, f"{above}{name}.")
         else:
             yield f"{above}{name}", value
-
-
-def _charts(views: list[PredictionView]) -> list[Any]:
-    return [chart for chart in contact_charts(views) if chart.name in CHARTS]

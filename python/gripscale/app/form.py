@@ -51,26 +51,28 @@ def law_form(state: CaseState, name: str) -> pn.Column:
     kinds = {one.kind: one for one in sections() if one.name == name}
     path = tuple(name.split("."))
     only = list(kinds) == [""]
+    labels = {BY_DEFAULT: None, **{kind or "as stated below": kind for kind in kinds}}
     title = path[-1].replace("_", " ")
-    options = {BY_DEFAULT: None} | ({"as stated below": ""} if only else {k: k for k in kinds})
-    choice = pn.widgets.Select(name=title, options=options, **LOOK)
+    about = next(iter(kinds.values())).about if only else ""
+    choice = pn.widgets.Select(name=title, options=list(labels), description=about, **LOOK)
     body = pn.Column(sizing_mode="stretch_width")
     shown: list[str | None] = [None]
 
     def chosen() -> None:
-        if choice.value != _kind(state, path, kinds):
-            empty: dict[str, Any] = {} if only else {"kind": choice.value}
-            state.set(path, None if choice.value is None else empty)
+        kind = labels[choice.value]
+        if kind != _kind(state, path, kinds):
+            empty = {} if only else {"kind": kind}
+            state.set(path, None if kind is None else empty)
 
     def follow() -> None:
         kind = _kind(state, path, kinds)
-        choice.value = kind
+        choice.value = next(label for label, one in labels.items() if one == kind)
         if kind != shown[0]:
             shown[0] = kind
             body.objects = [] if kind is None else [_law(state, kinds[kind])]
 
     _bind(state, choice, chosen, follow)
-    return pn.Column(choice, body, sizing_mode="stretch_width")
+    return pn.Column(_rows([choice]), body, sizing_mode="stretch_width")
 
 
 def _law(state: CaseState, section: Section) -> pn.FlexBox:
@@ -94,23 +96,25 @@ def field(state: CaseState, section: Section, key: Key) -> pn.viewable.Viewable:
     label = key.name.replace("_", " ") + (" *" if key.default == NEEDED else "")
     about = f"{key.meaning} Takes {key.takes}."
     look = {"name": label, "description": about, **LOOK}
+    known = key.default not in (NEEDED, NOTHING)
+    by_default = f"{BY_DEFAULT}: {key.default}" if known else BY_DEFAULT
+    labels = {by_default: None, **{str(one).lower(): one for one in choices}}
     if choices:
-        by_default = BY_DEFAULT if key.default == NOTHING else f"{BY_DEFAULT}: {key.default}"
-        options = {by_default: None} | {str(one).lower(): one for one in choices}
-        widget: Any = pn.widgets.Select(options=options, **look)
+        widget: Any = pn.widgets.Select(options=list(labels), **look)
     else:
-        hint = key.takes if key.default in (NEEDED, NOTHING) else f"{BY_DEFAULT}: {key.default}"
+        hint = by_default if known else key.takes
         widget = pn.widgets.TextInput(placeholder=hint, **look)
 
     def typed() -> None:
-        value = widget.value if choices else _typed_value(widget.value, words)
+        value = labels[widget.value] if choices else _typed_value(widget.value, words)
         if value != state.get(path):
             state.set(path, value)
 
     def follow() -> None:
         value = state.get(path)
         if choices:
-            widget.value = value if value in choices else None
+            found = (label for label, one in labels.items() if one == value)
+            widget.value = next(found, by_default)
         else:
             widget.value = value if words and isinstance(value, str) else words_of(value)
 

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
-
-import xarray as xr
 
 from gripscale.case import (
     CaseFile,
@@ -20,16 +17,11 @@ from gripscale.case import (
     validate,
 )
 from gripscale.case.models import NAMED_RUBBERS
-from gripscale.report.input_tables import (
-    cleaning_tables,
-    prony_table,
-    rubber_facts,
-    surface_facts,
-)
 from gripscale.report.charts.rubber import rubber_charts
 from gripscale.report.charts.surface import correlation_charts, profile_charts
 from gripscale.report.elements import Element, Notice, Text
-from gripscale.report.inputs_text import shift_lines, sines_line, waves_table
+from gripscale.report.input_tables import cleaning_tables, rubber_facts, surface_facts
+from gripscale.report.inputs_text import shift_lines, sines_line
 
 WAVE = {"sines": [{"wavelength": "10 mm", "amplitude": "1 mm"}]}
 """A surface that needs no file."""
@@ -62,8 +54,7 @@ def rubber_elements(file: CaseFile) -> list[Element]:
     findings = str(inputs.attrs.get("prony_findings", "")).splitlines()
     elements: list[Element] = [Notice("warning", f"{text}.") for text in findings]
     elements += [Text(line) for line in shift_lines(results.rubber)]
-    elements += [*rubber_charts(inputs, None), rubber_facts(inputs)]
-    return [*elements, prony_table(inputs)] if "term_modulus" in inputs else elements
+    return [*elements, *rubber_charts(inputs, None), rubber_facts(inputs)]
 
 
 def _alone(file: CaseFile, **tables: Any) -> CaseResults:

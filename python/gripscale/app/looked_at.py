@@ -1,26 +1,39 @@
-"""A part of the page that computes at a click and shows what came, or the sentence why not."""
+"""Parts of the page that take a while: computed in a thread, shown, or the sentence why not."""
 
 from __future__ import annotations
 
-import asyncio
 from collections.abc import Callable, Sequence
 from typing import Any
 
 import panel as pn
 
-from gripscale.app.elements import error, panes
+from gripscale.app.elements import Cards, error, panes
 from gripscale.app.state import CaseState
+from gripscale.app.worker import beside
 from gripscale.case import CaseFile
 from gripscale.errors import GripscaleError
 from gripscale.report.elements import Element
 
-Make = Callable[[CaseFile], Sequence[Element]]
+Shown = Sequence[Element | Cards]
+
+
+async def fill(body: pn.Column, make: Callable[[], Shown], state: CaseState) -> None:
+    """Fill `body` with what `make` returns; meanwhile the page stays alive."""
+    body.loading = True
+    try:
+        body.objects = panes(await beside(make))
+    except GripscaleError as refused:
+        body.objects = [error(state.place.short(refused))]
+    finally:
+        body.loading = False
 
 
 class LookedAt:
-    """A button and what `make` finds in the case; it computes in a thread, the page stays alive."""
+    """A button and what `make` finds in the case as it is at the click."""
 
-    def __init__(self, state: CaseState, label: str, make: Make) -> None:
+    def __init__(
+        self, state: CaseState, label: str, make: Callable[[CaseFile], Sequence[Element]]
+    ) -> None:
         self._state, self._make = state, make
         self.button = pn.widgets.Button(name=label, button_type="primary", margin=(8, 8))
         self.body = pn.Column(sizing_mode="stretch_width")
@@ -28,11 +41,6 @@ class LookedAt:
 
     async def look(self, _: Any = None) -> None:
         """Make it from the case as it is now."""
-        self.button.update(disabled=True, loading=True)
-        try:
-            found = await asyncio.to_thread(lambda: self._make(self._state.file()))
-            self.body.objects = panes(found)
-        except GripscaleError as refused:
-            self.body.objects = [error(self._state.place.short(refused))]
-        finally:
-            self.button.update(disabled=False, loading=False)
+        self.button.disabled = True
+        await fill(self.body, lambda: self._make(self._state.file()), self._state)
+        self.button.disabled = False

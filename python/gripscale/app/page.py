@@ -50,7 +50,7 @@ def visit(root: Path, case: Path | None) -> pn.Column:
         ("3 Load and conditions", load_tab(state)),
         ("4 Run", run_tab(state, runs)),
         ("5 Results", results_tab(state, runs)),
-        ("6 Compare", compare_tab(runs)),
+        ("6 Compare", compare_tab(state, runs)),
         dynamic=True,
         sizing_mode="stretch_width",
         stylesheets=[TABS],

@@ -11,10 +11,12 @@ from typing import Any
 
 import panel as pn
 
-from gripscale.app.elements import Cards, code, error, panes, raw
+from gripscale.app.elements import Cards, code, error, raw
+from gripscale.app.looked_at import fill
 from gripscale.app.run import Run
 from gripscale.app.runs import Runs
 from gripscale.app.state import CaseState
+from gripscale.app.worker import beside, in_turn
 from gripscale.errors import GripscaleError
 from gripscale.report import source, write_report
 from gripscale.report.charts.contact import contact_charts
@@ -32,35 +34,35 @@ def results_tab(state: CaseState, runs: Runs) -> pn.Column:
     """Return the part of the page that shows one run."""
     choice = pn.widgets.Select(name="Run", options=[], margin=(4, 8), width=200)
     body = pn.Column(raw("<p>Nothing was run yet.</p>"), sizing_mode="stretch_width")
+    below = pn.Column(sizing_mode="stretch_width")
 
-    def follow(_: Any) -> None:
-        names = [run.name for run in runs.all]
-        choice.options = names
-        if choice.value != names[-1]:
-            choice.value = names[-1]  # which shows it
-        else:
-            show(None)
-
-    def show(_: Any) -> None:
+    async def show(*_: Any) -> None:
         run = next((one for one in runs.all if one.name == choice.value), None)
-        if run is not None:
-            body.objects = _shown(state, run)
+        if run is None:
+            return
+        if run.going:
+            body.objects = [raw(f"<p>{run.name} is running; its results come when it ends.</p>")]
+            below.objects = []
+            return
+        await fill(body, lambda: list(_elements(run.folder)), state)
+        below.objects = _below(state, run) if any(run.folder.glob("*.nc")) else []
+
+    async def follow(_: Any) -> None:
+        names = [run.name for run in runs.all]
+        if choice.options != names:
+            choice.param.update(options=names, value=names[-1])  # which shows it
+        else:
+            await show()
 
     choice.param.watch(show, "value")
     runs.param.watch(follow, "changes")
-    return pn.Column(choice, body, sizing_mode="stretch_width")
+    return pn.Column(choice, body, below, sizing_mode="stretch_width")
 
 
-def _shown(state: CaseState, run: Run) -> list[Any]:
-    """Return results and downloads of a run, or the sentence why there are none."""
-    if run.going:
-        return [raw(f"<p>{run.name} is running; its results come here when it ends.</p>")]
-    try:
-        elements = list(_elements(run.folder))
-    except GripscaleError as refused:
-        return [error(run.complaint() or state.place.short(refused))]
-    log = [code("Everything the run says", run.said())] if run.said() else []
-    return [*panes(elements), *log, _downloads(run), _report(state, run)]
+def _below(state: CaseState, run: Run) -> list[Any]:
+    """Return what a run with results says and lets be saved."""
+    said = state.place.short(run.said())
+    return [code("Everything the run says", said), _downloads(run), _report(state, run)]
 
 
 def _elements(folder: Path) -> Iterator[Element | Cards]:
@@ -92,13 +94,14 @@ def _judgement(folder: Path) -> Iterator[str]:
 def _downloads(run: Run) -> pn.FlexBox:
     """Return buttons that save report, data and everything."""
     report = pn.widgets.FileDownload(
-        callback=lambda: io.BytesIO(write_report(run.folder).read_bytes()),
+        callback=lambda: io.BytesIO(in_turn(lambda: _page(run))),
         filename=f"{run.name}.html",
         label="Save the report",
     )
     data = [
-        pn.widgets.FileDownload(file=str(path), filename=f"{run.name}-{path.name}",
-                                label=f"Save {path.name}")  # fmt: skip
+        pn.widgets.FileDownload(
+            file=str(path), filename=f"{run.name}-{path.name}", label=f"Save {path.name}"
+        )
         for path in sorted(run.folder.glob("*.nc"))
     ]
     everything = pn.widgets.FileDownload(
@@ -107,6 +110,11 @@ def _downloads(run: Run) -> pn.FlexBox:
         label="Save everything",
     )
     return pn.FlexBox(report, *data, everything)
+
+
+def _page(run: Run) -> bytes:
+    """Return the report of a run, written anew."""
+    return write_report(run.folder).read_bytes()
 
 
 def _zipped(folder: Path) -> io.BytesIO:
@@ -124,13 +132,15 @@ def _report(state: CaseState, run: Run) -> pn.Column:
     button = pn.widgets.Button(name="Show the report here", margin=(8, 8))
     place = pn.Column(button, sizing_mode="stretch_width")
 
-    def show(_: Any) -> None:
+    async def show(_: Any) -> None:
         try:
-            text = write_report(run.folder).read_text(encoding="utf-8")
+            text = (await beside(lambda: _page(run))).decode("utf-8")
         except GripscaleError as refused:
             place.objects = [button, error(state.place.short(refused))]
             return
-        frame = f'<iframe title="Report of {run.name}" sandbox="allow-scripts" srcdoc="{{}}"></iframe>'
+        frame = (
+            f'<iframe title="Report of {run.name}" sandbox="allow-scripts" srcdoc="{{}}"></iframe>'
+        )
         place.objects = [raw(frame.format(escape(text)))]
 
     button.on_click(show)

@@ -32,8 +32,9 @@ def road_tab(state: CaseState) -> pn.Column:
 
     return pn.Column(
         kind,
-        dropper("Drop profiles or a map; they replace the surface of the case.", taken,
-                several=True),  # fmt: skip
+        dropper(
+            "Drop profiles or a map; they replace the surface of the case.", taken, several=True
+        ),
         table_form(state, "surface", FIRST),
         shown.button,
         shown.body,

@@ -65,7 +65,9 @@ class Run:
             return "running"
         if self.stopped:
             return "stopped"
-        return "finished" if self._process is not None and self._process.returncode == 0 else "failed"
+        return (
+            "finished" if self._process is not None and self._process.returncode == 0 else "failed"
+        )
 
     def stop(self) -> None:
         """End the process and what it started."""

@@ -38,11 +38,11 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
         ended = bool(seen) and seen[0][0] == "running" and not run.going
         seen[:] = [(run.state, run.said())]
         done, of = run.progress()
-        bar.update(visible=run.going, value=round(100 * done / of) if of else 0)
-        complaint = state.place.short(GripscaleError(run.complaint()))
-        told.objects = [html(_words(run.name, run.state, complaint, done, of))]
-        if run.said():
-            told.append(code("What the run says", state.place.short(GripscaleError(run.said()))))
+        bar.param.update(visible=run.going, value=round(100 * done / of) if of else 0)
+        complaint = state.place.short(run.complaint())
+        log = state.place.short(run.said())
+        words = html(_words(run.name, run.state, complaint, done, of))
+        told.objects = [words, code("What the run says", log)] if log else [words]
         if ended:
             runs.changes += 1
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import socket
-from functools import partial
 from pathlib import Path
 
 import panel as pn
@@ -29,10 +29,16 @@ def serve(root: Path, case: Path | None, port: int, browser: bool) -> None:
     pn.extension("filedropper")
     for ending in (signal.SIGTERM, signal.SIGINT):
         signal.signal(ending, _end)
-    print(f"The page is at http://{HOST}:{port}/ for this machine only; Ctrl+C ends it.", flush=True)
+    print(
+        f"The page is at http://{HOST}:{port}/ for this machine only; Ctrl+C ends it.", flush=True
+    )
     print(f"Files and results are kept in {root.resolve()}", flush=True)
+
+    def page() -> pn.Column:
+        return visit(root.resolve(), case)
+
     server = pn.serve(
-        {"/": partial(visit, root.resolve(), case)},
+        {"/": page},
         title={"/": TITLE},
         address=HOST,
         port=port,
@@ -58,6 +64,8 @@ def _free_port(port: int) -> int:
     if not 0 <= port <= 65535:
         raise InputError(f"port must be a whole number from 0 to 65535; got {port}")
     with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as probe:
+        if os.name == "posix":  # a port that was just left is free, as the server sees it, too
+            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
             probe.bind((HOST, port))
         except OSError as error:

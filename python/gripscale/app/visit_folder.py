@@ -71,9 +71,9 @@ class VisitFolder:
         except (OSError, RuntimeError, ValueError):  # a loop of links, an unknown home, a zero byte
             return False
 
-    def short(self, error: Exception) -> str:
-        """Return the sentence of an error with paths from this folder on."""
-        return str(error).replace(f"{self.path}/", "").replace(f"{self.path}\\", "")
+    def short(self, words: object) -> str:
+        """Return an error or a text with paths from this folder on."""
+        return str(words).replace(f"{self.path}/", "").replace(f"{self.path}\\", "")
 
     def remove_if_unused(self) -> None:
         """Remove the folder unless something was run in it."""
