@@ -51,7 +51,7 @@ def law_form(state: CaseState, name: str) -> pn.Column:
     kinds = {one.kind: one for one in sections() if one.name == name}
     path = tuple(name.split("."))
     only = list(kinds) == [""]
-    labels = {BY_DEFAULT: None, **{kind or "as stated below": kind for kind in kinds}}
+    labels = {_unstated(name): None, **{kind or "as stated below": kind for kind in kinds}}
     title = path[-1].replace("_", " ")
     about = next(iter(kinds.values())).about if only else ""
     choice = pn.widgets.Select(name=title, options=list(labels), description=about, **LOOK)
@@ -59,20 +59,31 @@ def law_form(state: CaseState, name: str) -> pn.Column:
     shown: list[str | None] = [None]
 
     def chosen() -> None:
-        kind = labels[choice.value]
+        kind = labels.get(choice.value)
         if kind != _kind(state, path, kinds):
             empty = {} if only else {"kind": kind}
             state.set(path, None if kind is None else empty)
 
     def follow() -> None:
         kind = _kind(state, path, kinds)
-        choice.value = next(label for label, one in labels.items() if one == kind)
+        label = next(label for label, one in labels.items() if one == kind)
+        stated = state.get(path)
+        named = [f"file {stated}"] if isinstance(stated, str) else []
+        choice.param.update(options=[*labels, *named], value=[label, *named][-1])
         if kind != shown[0]:
             shown[0] = kind
             body.objects = [] if kind is None else [_law(state, kinds[kind])]
 
     _bind(state, choice, chosen, follow)
     return pn.Column(_rows([choice]), body, sizing_mode="stretch_width")
+
+
+def _unstated(name: str) -> str:
+    """Return what it means that the case states no table `name`."""
+    above, _, last = name.rpartition(".")
+    outer = next(one for one in sections() if one.name == above)
+    default = next(key.default for key in outer.keys if key.name == last)
+    return "none" if default == NOTHING else f"{BY_DEFAULT}: {default}"
 
 
 def _law(state: CaseState, section: Section) -> pn.FlexBox:
@@ -88,7 +99,7 @@ def _kind(state: CaseState, path: tuple[str, ...], kinds: Collection[str]) -> st
     return kind if kind in kinds else None
 
 
-def field(state: CaseState, section: Section, key: Key) -> pn.viewable.Viewable:
+def field(state: CaseState, section: Section, key: Key) -> pn.widgets.Select | pn.widgets.TextInput:
     """Return what shows and changes one key of a table."""
     path = (*section.name.split("."), key.name)
     annotation = _annotation(section, key.name)
@@ -96,11 +107,12 @@ def field(state: CaseState, section: Section, key: Key) -> pn.viewable.Viewable:
     label = key.name.replace("_", " ") + (" *" if key.default == NEEDED else "")
     about = f"{key.meaning} Takes {key.takes}."
     look = {"name": label, "description": about, **LOOK}
+    widget: pn.widgets.Select | pn.widgets.TextInput
     known = key.default not in (NEEDED, NOTHING)
     by_default = f"{BY_DEFAULT}: {key.default}" if known else BY_DEFAULT
     labels = {by_default: None, **{str(one).lower(): one for one in choices}}
     if choices:
-        widget: Any = pn.widgets.Select(options=list(labels), **look)
+        widget = pn.widgets.Select(options=list(labels), **look)
     else:
         hint = by_default if known else key.takes
         widget = pn.widgets.TextInput(placeholder=hint, **look)

@@ -7,6 +7,7 @@ from typing import Any
 
 import panel as pn
 
+from gripscale.app.complaint import complaint_of
 from gripscale.app.dropped import dropper
 from gripscale.app.form import table_form
 from gripscale.app.state import CaseState
@@ -40,6 +41,7 @@ def load_tab(state: CaseState) -> pn.Column:
             words = "Strain sweeps of the softening; they replace that of the case."
             parts.append(dropper(words, softening_taken, several=True))
     return pn.Column(
+        complaint_of(state, *TABLES, "measured"),
         *parts,
         pn.pane.Markdown("### Measured friction", margin=(4, 8)),
         dropper("A table of speed and friction, drawn over what is predicted.", friction_taken),

@@ -26,7 +26,7 @@ INTRO = (
     "Everything set here is in the case file at the side; <code>gripscale run</code> gives the "
     "same.</p>"
 )
-TABS = ".bk-header { flex-wrap: wrap; } :host { min-width: 0; }"
+TABS = ":host .bk-header { flex-wrap: wrap !important; overflow: visible !important; }"
 
 
 def visit(root: Path, case: Path | None) -> pn.Column:

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 import panel as pn
 
+from gripscale.app.complaint import complaint_of
 from gripscale.app.dropped import dropper
 from gripscale.app.form import table_form
 from gripscale.app.inputs import surface_elements
@@ -31,6 +32,7 @@ def road_tab(state: CaseState) -> pn.Column:
         pn.state.execute(shown.look)
 
     return pn.Column(
+        complaint_of(state, "surface"),
         kind,
         dropper(
             "Drop profiles or a map; they replace the surface of the case.", taken, several=True

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 import panel as pn
 
+from gripscale.app.complaint import complaint_of
 from gripscale.app.dropped import dropper
 from gripscale.app.form import table_form
 from gripscale.app.inputs import rubber_elements
@@ -27,6 +28,7 @@ def rubber_tab(state: CaseState) -> pn.Column:
         state.set(("rubber", "shift"), _stored(state, dropped))
 
     return pn.Column(
+        complaint_of(state, "rubber"),
         dropper(
             "Drop a master curve, or sweeps at several temperatures; it replaces the rubber "
             "of the case.",

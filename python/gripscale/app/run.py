@@ -6,6 +6,7 @@ same case goes on from them.
 
 from __future__ import annotations
 
+import atexit
 import contextlib
 import os
 import re
@@ -34,6 +35,7 @@ class Run:
 
     def start(self) -> None:
         """Start the process; what it says goes into files beside the results."""
+        atexit.register(self.stop)
         self.folder.mkdir(parents=True, exist_ok=True)
         command = [sys.executable, "-m", "gripscale", "run", self.case.name]
         own_group: dict[str, Any] = {"start_new_session": True} if os.name == "posix" else {}

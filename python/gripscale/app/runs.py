@@ -16,7 +16,7 @@ class Runs(param.Parameterized):
     changes: int = param.Integer(0)  # type: ignore[assignment]
 
     def __init__(self, state: CaseState) -> None:
-        super().__init__()
+        super().__init__()  # type: ignore[no-untyped-call]
         self._state = state
         self.all: list[Run] = []
 

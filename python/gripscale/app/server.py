@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import signal
 import socket
 from pathlib import Path
 
@@ -27,8 +26,6 @@ def serve(root: Path, case: Path | None, port: int, browser: bool) -> None:
     folder.make(root)
     port = _free_port(port)
     pn.extension("filedropper")
-    for ending in (signal.SIGTERM, signal.SIGINT):
-        signal.signal(ending, _end)
     print(
         f"The page is at http://{HOST}:{port}/ for this machine only; Ctrl+C ends it.", flush=True
     )
@@ -46,17 +43,11 @@ def serve(root: Path, case: Path | None, port: int, browser: bool) -> None:
         websocket_max_message_size=2 * MOST,
         show=browser,
         start=False,
+        verbose=False,
         check_unused_sessions_milliseconds=GONE_AFTER // 3,
         unused_session_lifetime_milliseconds=GONE_AFTER,
     )
-    try:
-        server.run_until_shutdown()
-    finally:
-        pn.state.kill_all_servers()
-
-
-def _end(*_: object) -> None:
-    raise KeyboardInterrupt
+    server.run_until_shutdown()
 
 
 def _free_port(port: int) -> int:

@@ -23,7 +23,7 @@ class CaseState(param.Parameterized):
     complaint: str = param.String("")  # type: ignore[assignment]
 
     def __init__(self, place: VisitFolder) -> None:
-        super().__init__()
+        super().__init__()  # type: ignore[no-untyped-call]
         self.place = place
 
     def show(self, text: str) -> None:
