@@ -42,7 +42,7 @@ def state(tmp_path: Path) -> CaseState:
 
 def fields(form: pn.Column) -> dict[str, Any]:
     """Return the fields of a form by their names."""
-    return {one.name.removesuffix(" *"): one for one in form.select(pn.widgets.Widget)}
+    return {one.label.removesuffix(" *"): one for one in form.select(pn.widgets.Widget)}
 
 
 @given(VALUES.filter(lambda value: not isinstance(value, str) or value.strip() == value != ""))

@@ -19,7 +19,7 @@ from gripscale.report.elements import Notice
 def case_side(state: CaseState) -> pn.Column:
     """Return the case as text, with what opens and saves it."""
     text = pn.widgets.TextAreaInput(
-        name="case.toml",
+        label="case.toml",
         value=state.text,
         rows=26,
         max_length=1_000_000,
@@ -62,13 +62,13 @@ def _examples(state: CaseState, verdict: pn.Column) -> pn.FlexBox:
     """Return the choice of a shipped example."""
     names = {f"{name}: {one.about}": name for name, one in EXAMPLES.items()}
     choice = pn.widgets.Select(
-        name="Shipped example",
+        label="Shipped example",
         options=names,
         margin=(4, 8),
         sizing_mode="stretch_width",
         styles={"flex": "1 1 180px", "min-width": "0"},
     )
-    load = pn.widgets.Button(name="Load the example", margin=(4, 8))
+    load = pn.widgets.Button(label="Load the example", margin=(4, 8))
 
     def loads(_: Any) -> None:
         try:

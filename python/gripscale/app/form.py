@@ -54,7 +54,7 @@ def law_form(state: CaseState, name: str) -> pn.Column:
     labels = {_unstated(name): None, **{kind or "as stated below": kind for kind in kinds}}
     title = path[-1].replace("_", " ")
     about = next(iter(kinds.values())).about if only else ""
-    choice = pn.widgets.Select(name=title, options=list(labels), description=about, **LOOK)
+    choice = pn.widgets.Select(label=title, options=list(labels), description=about, **LOOK)
     body = pn.Column(sizing_mode="stretch_width")
     shown: list[str | None] = [None]
 
@@ -106,7 +106,7 @@ def field(state: CaseState, section: Section, key: Key) -> pn.widgets.Select | p
     choices, words = list(_literals(annotation)), annotation in (str, str | None)
     label = key.name.replace("_", " ") + (" *" if key.default == NEEDED else "")
     about = f"{key.meaning} Takes {key.takes}."
-    look = {"name": label, "description": about, **LOOK}
+    look = {"label": label, "description": about, **LOOK}
     widget: pn.widgets.Select | pn.widgets.TextInput
     known = key.default not in (NEEDED, NOTHING)
     by_default = f"{BY_DEFAULT}: {key.default}" if known else BY_DEFAULT

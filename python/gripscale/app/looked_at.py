@@ -35,7 +35,7 @@ class LookedAt:
         self, state: CaseState, label: str, make: Callable[[CaseFile], Sequence[Element]]
     ) -> None:
         self._state, self._make = state, make
-        self.button = pn.widgets.Button(name=label, button_type="primary", margin=(8, 8))
+        self.button = pn.widgets.Button(label=label, color="primary", margin=(8, 8))
         self.body = pn.Column(sizing_mode="stretch_width")
         self.button.on_click(self.look)
 

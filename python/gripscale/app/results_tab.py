@@ -32,7 +32,7 @@ JUDGED = ("Direct contact of the measured", "The direct contact of the measured"
 
 def results_tab(state: CaseState, runs: Runs) -> pn.Column:
     """Return the part of the page that shows one run."""
-    choice = pn.widgets.Select(name="Run", options=[], margin=(4, 8), width=200)
+    choice = pn.widgets.Select(label="Run", options=[], margin=(4, 8), width=200)
     body = pn.Column(raw("<p>Nothing was run yet.</p>"), sizing_mode="stretch_width")
     below = pn.Column(sizing_mode="stretch_width")
 
@@ -129,7 +129,7 @@ def _zipped(folder: Path) -> io.BytesIO:
 
 def _report(state: CaseState, run: Run) -> pn.Column:
     """Return the report inside the page, once it is asked for."""
-    button = pn.widgets.Button(name="Show the report here", margin=(8, 8))
+    button = pn.widgets.Button(label="Show the report here", margin=(8, 8))
     place = pn.Column(button, sizing_mode="stretch_width")
 
     async def show(_: Any) -> None:

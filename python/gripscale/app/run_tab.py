@@ -18,8 +18,8 @@ EVERY = 500
 
 def run_tab(state: CaseState, runs: Runs) -> pn.Column:
     """Return the part of the page that runs the case."""
-    start = pn.widgets.Button(name="Run the case", button_type="primary", margin=(8, 8))
-    stop = pn.widgets.Button(name="Stop", button_type="danger", disabled=True, margin=(8, 8))
+    start = pn.widgets.Button(label="Run the case", color="primary", margin=(8, 8))
+    stop = pn.widgets.Button(label="Stop", color="danger", disabled=True, margin=(8, 8))
     bar = pn.indicators.Progress(value=0, max=100, sizing_mode="stretch_width", visible=False)
     told = pn.Column(sizing_mode="stretch_width")
     seen: list[tuple[str, str]] = []
