@@ -71,10 +71,12 @@ def test_a_table_that_is_not_there_is_made() -> None:
 
 def test_every_key_of_a_case_has_a_field_or_a_place_to_drop_its_file(state: CaseState) -> None:
     state.set(("conditions", "heat"), {})
-    for tab, names in ((road_tab, ["surface"]), (rubber_tab, ["rubber"]),
-                       (load_tab, ["load", "solver", "chain", "conditions", "conditions.heat"])):  # fmt: skip
+    load = ["load", "solver", "chain", "conditions", "conditions.heat"]
+    for tab, names in ((road_tab, ["surface"]), (rubber_tab, ["rubber"]), (load_tab, load)):
         shown = fields(tab(state))
-        wanted = {key.name.replace("_", " ") for s in sections() if s.name in names for key in s.keys}
+        wanted = {
+            key.name.replace("_", " ") for s in sections() if s.name in names for key in s.keys
+        }
         dropped = {"files", "map", "sines"} if tab is road_tab else {"file"}
         assert wanted - dropped <= set(shown), names
 
@@ -136,9 +138,9 @@ def test_a_case_is_opened_with_the_files_it_names(
 
 
 def test_two_cases_dropped_at_once_are_refused(state: CaseState) -> None:
-    with pytest.raises(InputError, match="2 of the dropped files end in .toml"):
+    with pytest.raises(InputError, match=r"2 of the dropped files end in \.toml"):
         state.open({"a.toml": b"", "b.TOML": b""})
-    with pytest.raises(InputError, match="a.toml cannot be read: it is not UTF-8 text"):
+    with pytest.raises(InputError, match=r"a\.toml cannot be read: it is not UTF-8 text"):
         state.open({"a.toml": b"\xff"})
     assert state.text == CASE
 

@@ -26,7 +26,7 @@ INTRO = (
     "Everything set here is in the case file at the side; <code>gripscale run</code> gives the "
     "same.</p>"
 )
-TABS = ":host .bk-header { flex-wrap: wrap !important; overflow: visible !important; }"
+TABS = ":host .bk-header { min-width: 0; } :host .bk-headers-wrapper { flex-wrap: wrap; }"
 
 
 def visit(root: Path, case: Path | None) -> pn.Column:

@@ -26,10 +26,6 @@ def serve(root: Path, case: Path | None, port: int, browser: bool) -> None:
     folder.make(root)
     port = _free_port(port)
     pn.extension("filedropper")
-    print(
-        f"The page is at http://{HOST}:{port}/ for this machine only; Ctrl+C ends it.", flush=True
-    )
-    print(f"Files and results are kept in {root.resolve()}", flush=True)
 
     def page() -> pn.Column:
         return visit(root.resolve(), case)
@@ -47,6 +43,10 @@ def serve(root: Path, case: Path | None, port: int, browser: bool) -> None:
         check_unused_sessions_milliseconds=GONE_AFTER // 3,
         unused_session_lifetime_milliseconds=GONE_AFTER,
     )
+    print(
+        f"The page is at http://{HOST}:{port}/ for this machine only; Ctrl+C ends it.", flush=True
+    )
+    print(f"Files and results are kept in {root.resolve()}", flush=True)
     server.run_until_shutdown()
 
 
