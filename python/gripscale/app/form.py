@@ -55,7 +55,7 @@ def law_form(state: CaseState, name: str) -> pn.Column:
     title = path[-1].replace("_", " ")
     about = next(iter(kinds.values())).about if only else ""
     choice = pn.widgets.Select(label=title, options=list(labels), description=about, **LOOK)
-    body = pn.Column(sizing_mode="stretch_width")
+    body = pn.Column(sizing_mode="stretch_width", margin=(0, 0, 6, 16))
     shown: list[str | None] = [None]
 
     def chosen() -> None:
@@ -110,6 +110,8 @@ def field(state: CaseState, section: Section, key: Key) -> pn.widgets.Select | p
     widget: pn.widgets.Select | pn.widgets.TextInput
     known = key.default not in (NEEDED, NOTHING)
     by_default = f"{BY_DEFAULT}: {key.default}" if known else BY_DEFAULT
+    if key.default == NEEDED:
+        by_default = "to be chosen"
     labels = {by_default: None, **{str(one).lower(): one for one in choices}}
     if choices:
         widget = pn.widgets.Select(options=list(labels), **look)
@@ -118,7 +120,8 @@ def field(state: CaseState, section: Section, key: Key) -> pn.widgets.Select | p
         widget = pn.widgets.TextInput(placeholder=hint, **look)
 
     def typed() -> None:
-        value = labels[widget.value] if choices else _typed_value(widget.value, words)
+        shown = str(widget.value or "")
+        value = labels.get(shown) if choices else _typed_value(shown, words)
         if value != state.get(path):
             state.set(path, value)
 
