@@ -94,6 +94,15 @@ def test_a_kind_that_is_chosen_brings_its_keys(state: CaseState, kind: str) -> N
     assert state.complaint.startswith("surface file")
 
 
+def test_a_file_in_place_of_a_law_is_shown_and_can_be_taken_out(state: CaseState) -> None:
+    choice = fields(table_form(state, "rubber", ()))["shift"]
+    state.set(("rubber", "shift"), "inputs/shift.csv")
+    assert choice.value == "file inputs/shift.csv"
+    choice.value = "none"
+    assert state.get(("rubber", "shift")) is None
+    assert choice.options[-1] != "file inputs/shift.csv"
+
+
 def test_what_is_typed_is_in_the_text_and_what_is_in_the_text_is_shown(state: CaseState) -> None:
     shown = fields(table_form(state, "load", ()))
     shown["speed"].value = "2 m/s"

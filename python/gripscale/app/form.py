@@ -59,8 +59,10 @@ def law_form(state: CaseState, name: str) -> pn.Column:
     shown: list[str | None] = [None]
 
     def chosen() -> None:
-        kind = labels.get(choice.value)
-        if kind != _kind(state, path, kinds):
+        if choice.value not in labels:
+            return  # the file that is stated
+        kind, stated = labels[choice.value], state.get(path)
+        if kind != _kind(state, path, kinds) or isinstance(stated, str):
             empty = {} if only else {"kind": kind}
             state.set(path, None if kind is None else empty)
 
