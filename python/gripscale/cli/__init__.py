@@ -10,6 +10,7 @@ from typing import Annotated
 
 import typer
 
+from gripscale.cli.app import app as app_command
 from gripscale.cli.calibrate import calibrate
 from gripscale.cli.compare import compare
 from gripscale.cli.compare_rubbers import compare_rubbers
@@ -50,6 +51,7 @@ app.command("fit-surface")(fit_surface)
 app.command("fit-rubber")(fit_rubber)
 app.command("compare-rubbers")(compare_rubbers)
 app.command("keys")(keys)
+app.command("app")(app_command)
 app.add_typer(export, name="export")
 
 

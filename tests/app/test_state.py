@@ -1,0 +1,162 @@
+"""The text of the case is the state of the page: forms and text say the same, both ways."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import panel as pn
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from gripscale.app.case_text import stated, tables, value_of, with_value, words_of
+from gripscale.app.form import table_form
+from gripscale.app.load_tab import load_tab
+from gripscale.app.road_tab import road_tab
+from gripscale.app.rubber_tab import rubber_tab
+from gripscale.app.state import CaseState
+from gripscale.app.visit_folder import VisitFolder
+from gripscale.case.keys import sections
+from gripscale.errors import InputError
+from gripscale.init import EXAMPLES
+
+from .conftest import CASE
+
+TEXTS = st.text(st.characters(exclude_categories=["Cs", "Cc"]), max_size=20)
+NUMBERS = st.integers(-(2**63), 2**63 - 1) | st.floats(allow_nan=False)
+VALUES: st.SearchStrategy[Any] = st.recursive(
+    st.booleans() | NUMBERS | TEXTS,
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(TEXTS, inner, max_size=3),
+    max_leaves=6,
+)
+
+
+@pytest.fixture
+def state(tmp_path: Path) -> CaseState:
+    state = CaseState(VisitFolder.new(tmp_path))
+    state.show(CASE)
+    return state
+
+
+def fields(form: pn.Column) -> dict[str, Any]:
+    """Return the fields of a form by their names."""
+    return {one.label.removesuffix(" *"): one for one in form.select(pn.widgets.Widget)}
+
+
+@given(VALUES.filter(lambda value: not isinstance(value, str) or value.strip() == value != ""))
+def test_a_field_shows_every_value_so_that_it_is_read_back(value: Any) -> None:
+    assert value_of(words_of(value)) == value
+
+
+@given(VALUES)
+def test_a_value_put_into_the_text_is_stated_there_and_nothing_else_changes(value: Any) -> None:
+    text = with_value(CASE, ("load", "speed"), value)
+    assert stated(text, ("load", "speed")) == value
+    assert tables(with_value(text, ("load", "speed"), "0.3 m/s")) == tables(CASE)
+
+
+def test_comments_stay_and_a_key_can_be_taken_out() -> None:
+    text = with_value(CASE, ("load", "speed"), "1 m/s")
+    assert text == CASE.replace('"0.3 m/s"', '"1 m/s"')
+    assert with_value(with_value(CASE, ("load", "static"), True), ("load", "static"), None) == CASE
+    assert with_value(CASE, ("conditions", "heat", "density"), None) == CASE
+
+
+def test_a_table_that_is_not_there_is_made() -> None:
+    text = with_value(CASE, ("conditions", "heat", "density"), "1150 kg/m3")
+    assert tomllib.loads(text)["conditions"] == {"heat": {"density": "1150 kg/m3"}}
+
+
+def test_every_key_of_a_case_has_a_field_or_a_place_to_drop_its_file(state: CaseState) -> None:
+    state.set(("conditions", "heat"), {})
+    load = ["load", "solver", "chain", "conditions", "conditions.heat"]
+    for tab, names in ((road_tab, ["surface"]), (rubber_tab, ["rubber"]), (load_tab, load)):
+        shown = fields(tab(state))
+        wanted = {
+            key.name.replace("_", " ") for s in sections() if s.name in names for key in s.keys
+        }
+        dropped = {"files", "map", "sines"} if tab is road_tab else {"file"}
+        assert wanted - dropped <= set(shown), names
+
+
+@pytest.mark.parametrize("kind", ["kraus", "table"])
+def test_a_kind_that_is_chosen_brings_its_keys(state: CaseState, kind: str) -> None:
+    form = table_form(state, "conditions", ())
+    fields(form)["softening"].value = kind
+    assert state.get(("conditions", "softening")) == {"kind": kind}
+    keys = next(s for s in sections() if s.name == "conditions.softening" and s.kind == kind).keys
+    assert {key.name.replace("_", " ") for key in keys} - {"kind"} <= set(fields(form))
+    assert "[conditions] softening" in state.complaint
+    fields(form)["softening"].value = "none"
+    assert state.get(("conditions", "softening")) is None
+    assert state.complaint.startswith("surface file")
+
+
+def test_a_file_in_place_of_a_law_is_shown_and_can_be_taken_out(state: CaseState) -> None:
+    choice = fields(table_form(state, "rubber", ()))["shift"]
+    state.set(("rubber", "shift"), "inputs/shift.csv")
+    assert choice.value == "file inputs/shift.csv"
+    choice.value = "none"
+    assert state.get(("rubber", "shift")) is None
+    assert choice.options[-1] != "file inputs/shift.csv"
+
+
+def test_what_is_typed_is_in_the_text_and_what_is_in_the_text_is_shown(state: CaseState) -> None:
+    shown = fields(table_form(state, "load", ()))
+    shown["speed"].value = "2 m/s"
+    shown["static"].value = "true"
+    shown["pressure"].value = "4e5"
+    assert tables(state.text)["load"] == {
+        "pressure": 4e5, "speed": "2 m/s", "footprint": "100 mm", "static": True}  # fmt: skip
+    state.show(CASE)
+    assert state.text == CASE
+    assert [shown[name].value for name in ("speed", "pressure")] == ["0.3 m/s", "3 bar"]
+    assert shown["static"].value == "by default: false"
+
+
+def test_a_value_that_cannot_be_shown_stays_in_the_text(state: CaseState) -> None:
+    shown = fields(table_form(state, "surface", ()))
+    text = CASE.replace("scales = 3", 'scales = 3\ndirection = "z"')
+    state.show(text)
+    assert state.text == text
+    assert shown["direction"].value == 'by default: "x"'
+    assert "direction = 'z'" in state.complaint
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_an_example_fills_every_form_and_no_form_changes_it(state: CaseState, name: str) -> None:
+    tabs = [tab(state) for tab in (road_tab, rubber_tab, load_tab)]
+    state.load_example(name)
+    assert state.complaint == ""
+    assert state.place.case.read_text(encoding="utf-8") == state.text
+    assert fields(tabs[2])["pressure"].value == state.get(("load", "pressure"))
+
+
+def test_a_case_is_opened_with_the_files_it_names(
+    state: CaseState, dropped: dict[str, bytes]
+) -> None:
+    state.open(dropped)
+    assert state.complaint == ""
+    assert state.get(("surface", "files")) == ["inputs/road.txt"]
+    assert state.text == CASE.replace("../elsewhere/road", "inputs/road").replace(
+        '"dma', '"inputs/dma'
+    )
+    assert state.file().resolve("inputs/dma.txt").read_bytes() == dropped["dma.txt"]
+
+
+def test_two_cases_dropped_at_once_are_refused(state: CaseState) -> None:
+    with pytest.raises(InputError, match=r"2 of the dropped files end in \.toml"):
+        state.open({"a.toml": b"", "b.TOML": b""})
+    with pytest.raises(InputError, match=r"a\.toml cannot be read: it is not UTF-8 text"):
+        state.open({"a.toml": b"\xff"})
+    assert state.text == CASE
+
+
+def test_a_text_that_is_no_toml_is_kept_and_said(state: CaseState) -> None:
+    state.show("[load\n")
+    assert state.complaint.startswith("case file case.toml is not valid TOML")
+    state.set(("load", "speed"), 1.0)
+    assert state.text == "[load\n"
+    assert "not valid TOML" in state.complaint
