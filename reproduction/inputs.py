@@ -11,7 +11,13 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from gripscale.case import RubberSource, Surface, prepare_rubber, prepare_surface
+from gripscale.case import (
+    RubberSource,
+    Surface,
+    prepare_rubber,
+    prepare_surface,
+    validate,
+)
 from gripscale.errors import FileError
 from gripscale.model import NominalLoad
 from gripscale.rubber import MasterCurve, PronyFit, Rubber, styrene_butadiene
@@ -125,12 +131,13 @@ def read_inputs(data: Path = DATA) -> Inputs:
         scales=8,
         smallest_wavelength=SMALLEST_WAVELENGTH,
     )
-    source = RubberSource(
-        file=str(data / TREAD_FILE),
-        reference_temperature=293.15,
-        source=TREAD_SOURCE,
-        bulk_modulus=2e9,
-    )
+    stated = {
+        "file": str(data / TREAD_FILE),
+        "reference_temperature": "20 C",
+        "source": TREAD_SOURCE,
+        "bulk_modulus": 2e9,
+    }
+    source = validate(RubberSource, stated, "tread")
     tread = prepare_rubber(source)
     assert tread.master is not None
     assert tread.fit is not None

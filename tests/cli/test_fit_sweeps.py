@@ -92,7 +92,7 @@ def test_what_sweeps_need_and_a_master_curve_does_not(
 ) -> None:
     result = shell("fit-rubber", sweeps)
     assert result.exit_code == 2
-    assert "reference_temperature must be given" in " ".join(result.stderr.split())
+    assert "--reference-temperature must be given" in " ".join(result.stderr.split())
     result = shell("fit-rubber", inputs / "dma.txt", "--vertical")
     assert result.exit_code == 2
     assert "for sweeps at several temperatures; got a master curve" in " ".join(
