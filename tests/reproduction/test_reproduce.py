@@ -124,4 +124,4 @@ def test_the_wheel_alone_says_where_the_reproduction_is(
     monkeypatch.setattr(gripscale, "__file__", str(tmp_path / "lib" / "gripscale" / "__init__.py"))
     done = shell("fig2")
     assert done.exit_code == 2
-    assert re.fullmatch(r"error: .* in the source of gripscale .*\n", done.stderr)
+    assert re.fullmatch(r"error: .* in the source of gripscale, .*\n", done.stderr)
