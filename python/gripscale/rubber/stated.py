@@ -6,6 +6,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from gripscale import checks
+from gripscale.checks import shortened
 from gripscale.errors import InputError
 from gripscale.rubber.titles import modulus_kind, quantity
 from gripscale.textfile import TextTable
@@ -156,5 +157,6 @@ def position_of(table: TextTable, column: str | int) -> int:
 
 def missing(table: TextTable, what: str, argument: str) -> InputError:
     """Return the refusal of a table in which a quantity cannot be found."""
-    known = f"the header has {', '.join(filter(None, table.names))}" if table.names else "no header"
+    names = shortened(", ".join(filter(None, table.names)))
+    known = f"the header has {names}" if names else "no header"
     return InputError(f"{table.path}: {argument} must give the {what}; {known}")
