@@ -165,7 +165,7 @@ def _solve(
         return
     finished = False
     try:
-        results.predictions[name] = predict(
+        predict(
             results.rubber.rubber,
             results.surface.sines,
             pressure=load.pressure,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from gripscale.cli.options import Cluster, Workers
+from gripscale.cli.options import CasePath, Cluster, Workers
 from gripscale.cli.progress import teller
 from gripscale.cli.terminal import NOT_CONVERGED, command, complain, say, screen
 
@@ -17,9 +17,7 @@ if TYPE_CHECKING:
 
 @command
 def calibrate(
-    case: Annotated[
-        Path, typer.Argument(help="The case file (TOML).", metavar="CASE.toml", readable=False)
-    ],
+    case: CasePath,
     model: Annotated[
         str, typer.Option(help="What predicts hysteresis and contact area: direct or chain.")
     ] = "direct",

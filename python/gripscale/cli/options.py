@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
+
+CasePath = Annotated[
+    Path, typer.Argument(help="The case file (TOML).", metavar="CASE.toml", readable=False)
+]
 
 Workers = Annotated[
     int | None, typer.Option(help="Cores to use; all by default.", show_default=False)

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
+from gripscale.cli.options import CasePath
 from gripscale.cli.terminal import command, complain, pointed, say, screen
 
 if TYPE_CHECKING:
@@ -35,9 +36,7 @@ class Known(NamedTuple):
 
 @command
 def run(
-    case: Annotated[
-        Path, typer.Argument(help="The case file (TOML).", metavar="CASE.toml", readable=False)
-    ],
+    case: CasePath,
     output: Annotated[
         Path | None,
         typer.Option(

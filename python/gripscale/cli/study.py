@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from gripscale.cli.options import Cluster, Workers
+from gripscale.cli.options import CasePath, Cluster, Workers
 from gripscale.cli.progress import teller
 from gripscale.cli.terminal import NOT_CONVERGED, command, complain, pointed, say, screen
 from gripscale.errors import InputError
@@ -20,9 +20,7 @@ if TYPE_CHECKING:
 
 @command
 def study(
-    case: Annotated[
-        Path, typer.Argument(help="The case file (TOML).", metavar="CASE.toml", readable=False)
-    ],
+    case: CasePath,
     vary: Annotated[
         list[str],
         typer.Option(

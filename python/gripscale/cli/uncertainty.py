@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from gripscale.cli.options import Cluster, Workers
+from gripscale.cli.options import CasePath, Cluster, Workers
 from gripscale.cli.progress import teller
 from gripscale.cli.terminal import NOT_CONVERGED, command, complain, say, screen
 from gripscale.errors import InputError
@@ -22,9 +22,7 @@ MODELS = {"chain": ("chain",), "direct": ("direct",), "both": ("chain", "direct"
 
 @command
 def uncertainty(
-    case: Annotated[
-        Path, typer.Argument(help="The case file (TOML).", metavar="CASE.toml", readable=False)
-    ],
+    case: CasePath,
     samples: Annotated[int, typer.Option(help="Samples, of all inputs at once.")] = 200,
     model: Annotated[
         str, typer.Option(help="chain, direct (contact of the whole profile) or both.")

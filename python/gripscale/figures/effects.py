@@ -13,7 +13,7 @@ from matplotlib.ticker import MaxNLocator
 from gripscale.effects.effects import CHANGES, WITH_AREA_TERM
 from gripscale.figures.palette import COLOURS, INK, WIDE
 from gripscale.figures.style import DOTTED, sheet, styled
-from gripscale.study.display import EFFECTS
+from gripscale.study.display import EFFECTS, MODELS
 
 HEIGHT, ROW = 1.5, 0.32
 """Of the figure without rows, and of each [inch]."""
@@ -21,7 +21,6 @@ INSIDE = 0.45
 """Of the longest bar; in one longer than that its number stands inside."""
 BESIDE = 0.6
 """Of the height of a row that the bars of all models take."""
-NAMES = {"chain": "chain", "direct": "direct contact"}
 
 
 PANELS = {
@@ -76,7 +75,7 @@ def effects_figure(*results: xr.Dataset, title: str = "") -> Figure:
 
 def _name(result: xr.Dataset) -> str:
     model = str(result.attrs["model"])
-    return NAMES.get(model, model)
+    return MODELS.get(model, model)
 
 
 def _say(

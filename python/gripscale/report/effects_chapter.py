@@ -10,13 +10,12 @@ import xarray as xr
 from gripscale.effects.effects import CHANGES, WITH_AREA_TERM
 from gripscale.report.elements import Element, Heading, Table, Text
 from gripscale.report.numbers import NONE, number, percent
-from gripscale.study.display import EFFECTS
+from gripscale.study.display import EFFECTS, MODELS
 
 WHAT = (
     "The same case with all effects of its conditions, without each in turn, and with none: "
     "a change is what the effects left out do to the number beside it."
 )
-NAMES = {"chain": "chain", "direct": "direct contact"}
 
 
 def effects_elements(results: Sequence[xr.Dataset]) -> list[Element]:
@@ -31,7 +30,7 @@ def effects_elements(results: Sequence[xr.Dataset]) -> list[Element]:
         headings += [Heading(words.get(name, "μ with area term")), Heading("change")]
     rows = [
         [
-            NAMES.get(str(one.attrs["model"]), str(one.attrs["model"])),
+            MODELS.get(str(one.attrs["model"]), str(one.attrs["model"])),
             EFFECTS.get(str(effect), str(effect)),
             *(cell for name in shown for cell in _changed(one.sel(effect=effect), name)),
             str(one.prediction_status.sel(effect=effect).item()),

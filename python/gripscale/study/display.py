@@ -48,6 +48,9 @@ WORDS = {
 }
 """Axes that may have names for values."""
 
+MODELS = {"chain": "chain", "direct": "direct contact"}
+"""What models that know effects are called."""
+
 EFFECTS = {"all": "all effects", "none": "no effects"}
 """What selections of effects are called where nothing else says what they are of."""
 
