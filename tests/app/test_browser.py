@@ -80,6 +80,17 @@ class Visit:
         self.page.wait_for_function(DRAWN, arg=least, timeout=PATIENCE, polling=300)
         return int(self.page.locator(".chart").count())
 
+    def laid_out(self, selector: str) -> list[list[float]]:
+        """Wait until elements keep their places, with a width; return their left and right ends."""
+        before: list[list[float]] = []
+        for _ in range(100):
+            self.page.wait_for_timeout(150)
+            ends: list[list[float]] = self.page.locator(selector).evaluate_all(ENDS)
+            if ends == before and all(left < right for left, right in ends):
+                break
+            before = ends
+        return ends
+
     def width(self) -> int:
         return int(self.page.evaluate("() => document.documentElement.scrollWidth"))
 
@@ -247,9 +258,8 @@ def test_nothing_overflows(whole_way: Visit, width: int) -> None:
     whole_way.page.set_viewport_size({"width": width, "height": 900})
     for name in TABS:
         whole_way.tab(name)
-        whole_way.page.wait_for_timeout(300)
+        ends = whole_way.laid_out(".bk-tab")
         assert whole_way.width() <= width, name
-        ends = whole_way.page.locator(".bk-tab").evaluate_all(ENDS)
         assert len(ends) == len(TABS), name
         assert all(0 <= left < right <= width for left, right in ends), (name, ends)
     whole_way.tab("5 Results")
