@@ -191,16 +191,7 @@ def _save(
     """Write what is known of a prediction, at the end with the inputs beside it."""
     if results.folder is None or name not in results.predictions:
         return
-    data = (
-        results.predictions[name]
-        .to_dataset()
-        .assign_attrs(
-            case=results.file.text,
-            case_file=str(results.file.path),
-            surface_source=results.surface.source,
-            rubber_source=results.rubber.source,
-            **{KEY: results.key(name), FINISHED: int(finished)},
-        )
-    )
+    stamp = {KEY: results.key(name), FINISHED: int(finished)}
+    data = results.dataset(name).assign_attrs(stamp)
     groups = {"inputs": record.inputs(results)} if with_inputs else {}
     netcdf.save(data, results.folder / f"{name}.nc", groups)
