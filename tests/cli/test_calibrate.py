@@ -50,6 +50,11 @@ def test_command_leaves_everything_behind(shell: Shell, case: Path) -> None:
     line = next(line for line in panels[1].lines if line.get_label() == "hysteresis alone")
     chosen = abs(data.measured_temperature - 293.15) < 0.5
     assert line.get_ydata() == pytest.approx(data.hysteresis.values[chosen.values])
+    assert shell("report", target).exit_code == 0
+    page = (target / "report.html").read_text()
+    assert page.count("<img ") == len(FIGURES)
+    for word in ("90 % by profile likelihood", "gripscale calibrate case.toml", "[rubber]"):
+        assert word in page
 
 
 def test_the_table_can_be_pasted_into_the_case(shell: Shell, case: Path, tmp_path: Path) -> None:

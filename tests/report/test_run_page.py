@@ -295,7 +295,7 @@ def test_what_is_no_result_is_refused(tmp_path: Path, content: Any, words: str) 
 
 def test_foreign_netcdf_is_refused(tmp_path: Path) -> None:
     path = netcdf.save(xr.Dataset({"a": ("scale", [1.0])}), tmp_path / "other.nc")
-    with pytest.raises(FileError, match="is not a result of gripscale"):
+    with pytest.raises(FileError, match="has no report: it holds no totals"):
         write_report(path)
 
 
