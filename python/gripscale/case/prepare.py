@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from gripscale.case.models import Surface
+from gripscale.case.surface_table import Surface
 from gripscale.errors import GripscaleError, InputError, about_keys
 from gripscale.surface import (
     CleaningReport,

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from gripscale.case.models import RubberSource
+from gripscale.case.rubber_table import RubberSource
 from gripscale.errors import InputError, about_keys
 from gripscale.rubber import (
     MasterCurve,
