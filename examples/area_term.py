@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import numpy as np
 
@@ -33,17 +32,18 @@ SPREAD, SEED = 0.02, 20
 FRICTION = "speed [m/s],temperature [C],friction,spread"
 
 
-def measure() -> list[str]:
-    """Return the lines of a table of friction at three temperatures and eight speeds."""
+def measure(folder: str | Path) -> list[str]:
+    """Return the lines of a table of friction at three temperatures and eight speeds.
+
+    What was predicted is kept in `folder`.
+    """
     speed, celsius = (
         grid.ravel() for grid in np.meshgrid(np.geomspace(1e-4, 1.0, 8), [5.0, 20.0, 40.0])
     )
     points = MeasuredFriction(speed, np.zeros(speed.size), temperature=celsius + 273.15)
     case = prepare_case(CASE)
-    with TemporaryDirectory() as folder:
-        found = predictions_at(
-            points, case.chain, case.rubber.rubber, case.surface, case.load, Store(folder)
-        )
+    store = Store(Path(folder) / "predictions")
+    found = predictions_at(points, case.chain, case.rubber.rubber, case.surface, case.load, store)
     exact = found.friction + found.area_term(TRUE, points.speed)
     friction = np.random.default_rng(SEED).normal(exact, SPREAD)
     columns = points.speed, points.temperature - 273.15, friction

@@ -5,8 +5,8 @@ a fixed amount for each unit of friction already made, and shifts all relaxation
 a factor 10 each `per_decade` kelvin: a toy, no thermal model.
 
 A condition of the package is one such class in a file of its own; a case file that shall switch it
-on needs a key in `python/gripscale/case/models.py`. Chain, study, figures and report stay as they
-are. Run as `python examples/toy_condition.py [FOLDER]`.
+on needs a key in `python/gripscale/case/conditions_table.py`. All else stays as it is. Run as
+`python examples/toy_condition.py [FOLDER]`.
 """
 
 from __future__ import annotations

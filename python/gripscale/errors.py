@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 
 class GripscaleError(Exception):
     """Base of every error gripscale raises on purpose."""
+
+    see = ""
+    """What explains it: a chapter of the documentation or a command; empty where nothing does."""
 
 
 class InputError(GripscaleError, ValueError):
@@ -13,6 +19,8 @@ class InputError(GripscaleError, ValueError):
 
 class ExtrapolationError(InputError):
     """A wave excites the rubber beyond what was measured, and extrapolation was to be refused."""
+
+    see = "docs/reading-results.md#beyond-the-measured-band"
 
 
 class FileError(GripscaleError, OSError):
@@ -25,3 +33,13 @@ class ConvergenceError(GripscaleError):
 
 class RubberWarning(UserWarning):
     """A rubber made by hand that no rubber is like."""
+
+
+@contextmanager
+def about_keys(table: str) -> Iterator[None]:
+    """Let errors say that the keys of a table of the case explain them, unless they say more."""
+    try:
+        yield
+    except GripscaleError as error:
+        error.see = error.see or f"`{f'gripscale keys {table}'.strip()}`"
+        raise

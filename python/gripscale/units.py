@@ -188,6 +188,12 @@ def parse_quantity(value: Any, kind: str) -> float:
     return _finite(in_si(float(number), unit, kind), kind)
 
 
+def unit_of(value: object, kind: str) -> str:
+    """Return the unit of a quantity such as "3 bar" by its usual spelling, empty without one."""
+    match = _QUANTITY.fullmatch(value) if isinstance(value, str) else None
+    return "" if match is None else spelled(match[2], kind) or ""
+
+
 def _finite(value: float, kind: str) -> float:
     if not abs(value) <= MOST:
         raise ValueError(f"expected a finite {kind} {such_as(kind)}")

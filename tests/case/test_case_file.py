@@ -29,6 +29,7 @@ from gripscale.errors import FileError, InputError
 from gripscale.rubber import NeoHookean, Yeoh
 from gripscale.surface import fit_sines, height_difference, self_affine_profile
 from gripscale.units import parse_quantity
+from tests.case.cases import refusal, written
 
 GOOD = """
 [surface]
@@ -41,12 +42,6 @@ pressure = "3 bar"
 speed = "300 mm/s"
 footprint = 0.1
 """
-
-
-def written(folder: Path, text: str) -> Path:
-    path = folder / "case.toml"
-    path.write_text(text, encoding="utf-8")
-    return path
 
 
 def test_quantities_become_si_and_defaults_are_filled_in(tmp_path: Path) -> None:
@@ -267,14 +262,9 @@ WRONG = [
 
 @pytest.mark.parametrize(("old", "new", "words"), WRONG)
 def test_wrong_case_is_one_sentence(tmp_path: Path, old: str, new: str, words: str) -> None:
-    assert old in GOOD
-    path = written(tmp_path, GOOD.replace(old, new))
-    with pytest.raises(InputError) as caught:
-        read_case(path)
-    message = str(caught.value)
+    message = refusal(read_case, tmp_path, GOOD, old, new)
     assert words in message
-    assert message.startswith(f"{path}: ")
-    assert "\n" not in message
+    assert message.startswith(f"{tmp_path / 'case.toml'}: ")
 
 
 ANYTHING = st.recursive(

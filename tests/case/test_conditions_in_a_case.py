@@ -11,10 +11,11 @@ from gripscale.case import CaseFile, prepare_case, prepare_conditions, prepare_r
 from gripscale.case.run import run_case
 from gripscale.chain import predict
 from gripscale.conditions import Conditions
-from gripscale.errors import GripscaleError, InputError
+from gripscale.errors import InputError
 from gripscale.interface import GaussianStress, ThermalProperties
 from gripscale.rubber import WLF
 from gripscale.rubber.softening import Kraus
+from tests.case.cases import refusal, written
 
 BASE = """
 [surface]
@@ -56,12 +57,6 @@ activation_energy = "0.97 eV"
 reference_temperature = "20 C"
 """
 ALL = BASE + TEMPERATURE + SOFTENING + HEAT + AREA
-
-
-def written(folder: Path, text: str) -> Path:
-    path = folder / "case.toml"
-    path.write_text(text, encoding="utf-8")
-    return path
 
 
 def stated(file: CaseFile) -> Conditions | None:
@@ -262,11 +257,7 @@ WRONG = [
 def test_wrong_half_or_twice_is_one_sentence(
     tmp_path: Path, old: str, new: str, words: str
 ) -> None:
-    assert old in ALL
-    with pytest.raises(GripscaleError) as caught:
-        read_case(written(tmp_path, ALL.replace(old, new, 1)))
-    assert words in str(caught.value)
-    assert "\n" not in str(caught.value)
+    assert words in refusal(read_case, tmp_path, ALL, old, new)
 
 
 UNUSABLE = [
@@ -288,11 +279,7 @@ UNUSABLE = [
 def test_conditions_the_rubber_cannot_follow_are_refused_before_solving(
     tmp_path: Path, old: str, new: str, words: str
 ) -> None:
-    assert old in ALL
-    with pytest.raises(GripscaleError) as caught:
-        prepare_case(written(tmp_path, ALL.replace(old, new, 1)))
-    assert words in str(caught.value)
-    assert "\n" not in str(caught.value)
+    assert words in refusal(prepare_case, tmp_path, ALL, old, new)
 
 
 def test_a_key_of_sweeps_is_refused_with_a_master_curve(tmp_path: Path) -> None:

@@ -11,7 +11,7 @@ import xarray as xr
 
 from gripscale import netcdf
 from gripscale.chain import Prediction, predict
-from gripscale.errors import FileError
+from gripscale.errors import FileError, InputError
 from gripscale.rubber import Rubber, Yeoh
 from gripscale.surface import SineStack
 
@@ -128,3 +128,21 @@ def test_a_whole_file_appears_at_once(tmp_path: Path) -> None:
     netcdf.write_whole(path, slowly)
     assert path.read_text() == "whole"
     assert seen == [False, path.stat().st_ino]  # renamed, not copied
+
+
+@pytest.mark.parametrize("model", ["direct", ""])
+def test_a_foreign_dataset_is_refused_in_one_sentence(prediction: Prediction, model: str) -> None:
+    """Of another model, without waves, of nothing of ours: never a KeyError."""
+    whole = prediction.to_dataset()
+    strange = [
+        whole.drop_vars("sines_wavelength").assign_attrs(model=model, title=""),
+        whole.drop_attrs().assign_attrs(model=model),
+        whole.assign_attrs(planned_waves="several", model=model, title=""),
+        xr.Dataset(attrs={"model": model}),
+    ]
+    words = f"prediction of the chain returns; got a Dataset of {model or 'another kind'}$"
+    for data in strange:
+        with pytest.raises(InputError, match=words):
+            Prediction.from_dataset(data)
+    with pytest.raises(InputError, match="data must be"):
+        Prediction.from_dataset(None)  # type: ignore[arg-type]

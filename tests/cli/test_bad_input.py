@@ -57,6 +57,26 @@ def test_bad_case_is_refused(
 
 
 @pytest.mark.parametrize(
+    ("old", "new", "table", "key"),
+    [
+        ("pressure =", "presure =", "load", "pressure"),
+        ("[load]", "[lood]", "", "pressure"),
+        ("[load]", "[conditions]\nheat = { density = 1 }\n[load]", "conditions.heat", "density"),
+        ('"road.txt"', '"rod.txt"', "surface", "files"),
+        ('"dma.txt"', '"dna.txt"', "rubber", "frequency_unit"),
+        ("[load]", '[conditions]\ntemperature = "60 C"\n[load]', "rubber.shift", "kind"),
+        ("[load]", '[measured]\nfriction = "no.csv"\n[load]', "measured", "friction"),
+    ],
+)
+def test_a_refusal_ends_with_the_command_that_lists_the_keys(
+    shell: Shell, changed: Callable[..., Path], old: str, new: str, table: str, key: str
+) -> None:
+    words = ["keys", *filter(None, [table])]
+    refused(shell("run", changed(old, new)), f"ee `{' '.join(['gripscale', *words])}`\n")
+    assert key in shell(*words).stdout.split()
+
+
+@pytest.mark.parametrize(
     ("name", "text"),
     [
         ("road.txt", ""),
@@ -141,6 +161,7 @@ def test_a_shell_sees_the_sentence_and_the_code(changed: Callable[..., Path]) ->
         env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
         check=False,
     )
+    see = " See `gripscale keys surface`\n"
     assert done.returncode == 2
     assert done.stdout == ""
-    assert done.stderr == f"error: {case}: unknown key [surface] scale; did you mean scales?\n"
+    assert done.stderr == f"error: {case}: unknown key [surface] scale; did you mean scales?" + see

@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from typer.testing import Result
+from typer.testing import CliRunner, Result
 
 from gripscale import netcdf
 from gripscale.calibration import calibrate_case
 from gripscale.calibration.of_case import parse_fixed
 from gripscale.case import prepare_conditions, read_case
+from gripscale.cli import app
 from gripscale.errors import ExtrapolationError, InputError
 from gripscale.figures.calibration import fitted_figure, profiles_figure, residual_figure
-from gripscale.interface import GaussianStress
+from gripscale.interface import GaussianStress, shear_stress_from_dict
 
 Shell = Callable[..., Result]
 FOLDER = Path(__file__).parents[2] / "examples" / "measured_friction"
@@ -31,16 +33,23 @@ def case(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder / "case.toml"
 
 
-def test_command_leaves_everything_behind(shell: Shell, case: Path) -> None:
-    result = shell("calibrate", case, "--model", "chain", "--hold-out", "temperature")
+@pytest.fixture(scope="module")
+def calibrated(case: Path) -> tuple[str, Path]:
+    """What the command says of it, and its folder."""
+    asked = ["calibrate", str(case), "--model", "chain", "--hold-out", "temperature"]
+    result = CliRunner().invoke(app, asked, env={"COLUMNS": "100"})
     assert result.exit_code == 0, result.output
-    target = case.parent / "results" / "calibration"
+    return result.stdout, case.parent / "results" / "calibration"
+
+
+def test_command_leaves_everything_behind(calibrated: tuple[str, Path]) -> None:
+    said, target = calibrated
     figures = {f"{name}.{kind}" for name in FIGURES for kind in ("png", "pdf")}
     files = {"calibration.nc", "calibration.txt", "shear_stress.toml", "predictions"}
     assert {path.name for path in target.iterdir()} == figures | files
     assert len(list((target / "predictions").iterdir())) == 24
     for word in ("stress_0", "left out", "90 % by profile likelihood", "Correlations"):
-        assert word in result.stdout
+        assert word in said
         assert word in (target / "calibration.txt").read_text()
     data = netcdf.load(target / "calibration.nc")
     for figure in (fitted_figure(data), residual_figure(data), profiles_figure(data)):
@@ -52,22 +61,31 @@ def test_command_leaves_everything_behind(shell: Shell, case: Path) -> None:
     assert line.get_ydata() == pytest.approx(data.hysteresis.values[chosen.values])
 
 
-def test_the_table_can_be_pasted_into_the_case(shell: Shell, case: Path, tmp_path: Path) -> None:
-    target = tmp_path / "out"
-    result = shell("calibrate", case, "--model", "chain", "--output", target)
-    assert result.exit_code == 0, result.output
+def test_its_report_shows_tables_figures_and_case(
+    shell: Shell, calibrated: tuple[str, Path], tmp_path: Path
+) -> None:
+    page_path = tmp_path / "page.html"
+    assert shell("report", calibrated[1], "--output", page_path).exit_code == 0
+    page = page_path.read_text()
+    assert page.count("<img ") == len(FIGURES)
+    for word in ("90 % by profile likelihood", "gripscale calibrate case.toml", "[rubber]"):
+        assert word in page
+
+
+def test_the_table_can_be_pasted_into_the_case(case: Path, calibrated: tuple[str, Path]) -> None:
+    target = calibrated[1]
     written = case.with_name("with_area_term.toml")
     table = (target / "shear_stress.toml").read_text()
     written.write_text(f"{case.read_text()}\n{table}")
     file = read_case(written)
     conditions = prepare_conditions(file.case.conditions, file.resolve)
-    fit = calibrate_case(case, model="chain", folder=target)
+    fitted = shear_stress_from_dict(json.loads(netcdf.load(target / "calibration.nc").law))
     assert conditions is not None
     assert isinstance(conditions.shear_stress, GaussianStress)
-    assert vars(conditions.shear_stress) == pytest.approx(vars(fit.law), rel=1e-5)
+    assert vars(conditions.shear_stress) == pytest.approx(vars(fitted), rel=1e-5)
     # with its own area term in the case, the fit is the same
     again = calibrate_case(written, model="chain", folder=target)
-    assert again.law == fit.law
+    assert again.law == fitted
 
 
 def test_a_case_that_refuses_extrapolation(case: Path, tmp_path: Path) -> None:

@@ -49,10 +49,10 @@ def test_surface_half_says_where_the_waves_end(shell: Shell, inputs: Path) -> No
         assert result.exit_code == 0, result.output
         return " ".join(result.stdout.split())
 
-    assert "note: no smallest wavelength is stated" in notes()
-    below = notes("--scales", 3, "--smallest-wavelength", "0.05 mm")
+    assert "note: no smallest wavelength is stated" in notes("--scales", 2)
+    below = notes("--scales", 2, "--smallest-wavelength", "0.05 mm")
     assert "note: the smallest wave, 0.05 mm, is shorter than the measurement carries" in below
-    assert "note:" not in notes("--scales", 3, "--smallest-wavelength", "1 mm")
+    assert "note:" not in notes("--scales", 2, "--smallest-wavelength", "1 mm")
 
 
 def test_rubber_half_prints_the_series(shell: Shell, inputs: Path) -> None:

@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 
 import gripscale as gs
+from gripscale import netcdf
 from gripscale.compounds import Compounds, at_one_temperature, compare_compounds
 from gripscale.errors import InputError
+from gripscale.report import write_report
 from gripscale.report.compounds_table import compounds_sentences
 from gripscale.rubber import WLF, MasterCurve, fit_prony
 
@@ -93,6 +95,13 @@ def test_differences_add_up(made: Compounds) -> None:
     for parts in (by_wave, by_decade):
         np.testing.assert_allclose(parts, total - total[0], atol=1e-12)
     assert abs(data.total_friction_difference.values[2]) > 0.02
+
+
+def test_their_report_is_that_of_a_study_over_rubbers(made: Compounds, tmp_path: Path) -> None:
+    netcdf.save(made.data, tmp_path / "compounds.nc")
+    page = write_report(tmp_path).read_text()
+    for word in ("lossy", "Totals of all 3 predictions", "varied: rubber"):
+        assert word in page
 
 
 def test_a_twin_differs_by_less_than_what_the_data_leave_open(made: Compounds) -> None:

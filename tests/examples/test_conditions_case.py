@@ -24,10 +24,10 @@ points = 128
 
 @pytest.fixture(scope="module")
 def case(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The example with three waves, the last 5 mm long, on small strain."""
+    """The example with two waves, the last 5 mm long, on small strain."""
     text = EXAMPLE.read_text(encoding="utf-8")
     for old, new in (
-        ("scales = 8", "scales = 3"),
+        ("scales = 8", "scales = 2"),
         ('"0.1 mm"', '"5 mm"'),
         ('"../data', f'"{EXAMPLE.parents[1] / "data"}'),
     ):

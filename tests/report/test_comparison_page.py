@@ -74,5 +74,5 @@ def test_one_file_is_a_page_too(compared_folder: Path) -> None:
 
 def test_other_files_are_refused(tmp_path: Path) -> None:
     netcdf.save(xr.Dataset({"total_friction": 0.1}), tmp_path / "comparison.nc")
-    with pytest.raises(FileError, match="is not a result of gripscale: it has no totals"):
+    with pytest.raises(FileError, match="has no report: it holds no totals"):
         write_report(tmp_path)

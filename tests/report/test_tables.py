@@ -11,6 +11,7 @@ import pytest
 import xarray as xr
 
 from gripscale.chain import Prediction
+from gripscale.figures.view import PredictionView
 from gripscale.model import TOTALS, NominalLoad, answer
 from gripscale.report.tables import as_text, prediction_table, significant, totals
 from gripscale.rubber import Rubber
@@ -160,3 +161,14 @@ def test_brackets_are_text_not_markup() -> None:
 )
 def test_significant_digits(value: float, text: str) -> None:
     assert significant(value) == text
+
+
+def test_loads_are_in_the_units_of_the_case() -> None:
+    """Pressures of 3, 6 and 24 bar at 0.25 m/s, that is 0.9 km/h."""
+    text = '[load]\npressure = "3 bar"\nspeed = "0.9 km/h"'
+    data = solved().assign_attrs(case=text)
+    table = as_text(prediction_table(data, "", 120), width=120)
+    assert [row(table, wave)[4] for wave in (1, 2, 3)] == ["3.00", "6.00", "24.0"]
+    units = next(line.split() for line in table.splitlines() if "2πA/λ" in line)
+    assert units[3:5] == ["bar", "MPa"]
+    assert PredictionView(data).title == "Dynamic, 0.9 km/h"

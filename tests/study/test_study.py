@@ -65,7 +65,7 @@ def test_crossed_study_is_predict_at_every_point(case: Path, tmp_path: Path) -> 
     assert (result.static_total_contact_fraction > result.total_contact_fraction).all()
     assert (result.prediction_status == "converged").all()
     assert [t.done for t in told] == [1, 2, 3, 4, 5, 6]
-    assert {t.label for t in told} >= {"speed 0.01 m/s, pressure 100000 Pa"}
+    assert {t.label for t in told} >= {"speed 0.01 m/s, pressure 1 bar"}
 
 
 def test_result_file_is_labelled_with_units_and_provenance(case: Path, tmp_path: Path) -> None:

@@ -27,7 +27,7 @@ def test_command_solves_prints_draws_and_resumes(shell: Shell, case: Path) -> No
         "totals",
         *(
             f"{name}_{end}"
-            for end in ("0.1_MPa", "0.3_MPa")
+            for end in ("1_bar", "3_bar")
             for name in ("wavelength", "stacked", "shares", "decades")
         ),
     }

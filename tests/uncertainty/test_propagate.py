@@ -9,6 +9,7 @@ from typer.testing import CliRunner
 from gripscale import netcdf
 from gripscale.cli import app
 from gripscale.errors import InputError
+from gripscale.report import write_report
 from gripscale.report.uncertainty_table import failures
 from gripscale.uncertainty import Uncertainty, propagate, summary
 
@@ -148,6 +149,9 @@ def test_the_command_writes_result_table_and_figures(folder, tmp_path):
     assert netcdf.load(tmp_path / "uncertainty.nc").sizes["sample"] == 45
     text = (tmp_path / "uncertainty.txt").read_text()
     assert "in 90 % of 45 samples" in text
+    page = write_report(tmp_path).read_text()
+    assert "in 90 % of 45 samples" in page
+    assert page.count("<img ") == 2
 
 
 def test_the_command_draws_a_band_over_speed(folder, tmp_path):

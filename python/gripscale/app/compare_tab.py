@@ -76,7 +76,7 @@ def _table(found: list[tuple[Run, PredictionView]]) -> Table:
         totals.append(float("nan") if both is None else float(both))
         shown = [number(value) if view.complete else NONE for value in totals]
         status = "complete" if view.complete else f"{view.waves} of {view.planned} waves"
-        speed = f"{number(view.speed)} m/s"
+        speed = view.shown("speed").text(view.speed, 3)
         rows.append(
             [view.name, speed, *shown, status, ", ".join(_changes(first, run.text)) or NONE]
         )

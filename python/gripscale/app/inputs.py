@@ -16,7 +16,7 @@ from gripscale.case import (
     record,
     validate,
 )
-from gripscale.case.models import NAMED_RUBBERS
+from gripscale.case.rubber_table import NAMED_RUBBERS
 from gripscale.report.charts.rubber import rubber_charts
 from gripscale.report.charts.surface import correlation_charts, profile_charts
 from gripscale.report.elements import Element, Notice, Text

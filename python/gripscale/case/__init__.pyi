@@ -1,15 +1,11 @@
 from . import folder as folder
 from .chain import case_chain as case_chain
 from .conditions_table import ConditionsTable as ConditionsTable
+from .load_table import Load as Load
 from .models import Case as Case
-from .models import ChainOptions as ChainOptions
 from .models import Compare as Compare
-from .models import Load as Load
 from .models import MeasuredTable as MeasuredTable
 from .models import Output as Output
-from .models import RubberSource as RubberSource
-from .models import Solver as Solver
-from .models import Surface as Surface
 from .prepare import prepare_surface as prepare_surface
 from .prepare_conditions import prepare_conditions as prepare_conditions
 from .prepare_rubber import PreparedRubber as PreparedRubber
@@ -18,6 +14,10 @@ from .read import CaseFile as CaseFile
 from .read import read_case as read_case
 from .read import validate as validate
 from .results import CaseResults as CaseResults
+from .rubber_table import RubberSource as RubberSource
 from .run import WaveSolved as WaveSolved
 from .run import prepare_case as prepare_case
 from .run import run_case as run_case
+from .solver_table import ChainOptions as ChainOptions
+from .solver_table import Solver as Solver
+from .surface_table import Surface as Surface

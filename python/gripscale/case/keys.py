@@ -14,18 +14,12 @@ from pydantic.fields import FieldInfo
 
 from gripscale.case.conditions_table import SHEAR_STRESS, SOFTENING, ConditionsTable, Heat
 from gripscale.case.expected import expected
-from gripscale.case.models import (
-    ChainOptions,
-    Compare,
-    Load,
-    MeasuredTable,
-    Output,
-    RubberSource,
-    Solver,
-    Surface,
-    Wave,
-)
+from gripscale.case.load_table import Load
+from gripscale.case.models import Compare, MeasuredTable, Output
+from gripscale.case.rubber_table import RubberSource
 from gripscale.case.shift_table import LAWS
+from gripscale.case.solver_table import ChainOptions, Solver
+from gripscale.case.surface_table import Surface, Wave
 from gripscale.case.table import Table
 from gripscale.rubber.strain_energy import STRAIN_ENERGIES, StrainEnergy
 

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from gripscale.case.models import Surface
-from gripscale.errors import GripscaleError, InputError
+from gripscale.case.surface_table import Surface
+from gripscale.errors import GripscaleError, InputError, about_keys
 from gripscale.surface import (
     CleaningReport,
     CutOffRule,
@@ -50,6 +50,7 @@ COUNTED_KEYS = ("upper_share", "max_lag")
 """Keys of the case's [surface] that say which heights and lags count in the correlation."""
 
 
+@about_keys("surface")
 def prepare_surface(surface: Surface, resolve: Resolve = Path) -> PreparedSurface:
     """Read, clean and describe the profiles or the map of `surface`, or take its waves as stated.
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from gripscale.case.conditions_table import ConditionsTable, StrainSweeps
 from gripscale.conditions.conditions import Conditions
+from gripscale.errors import about_keys
 from gripscale.interface.thermal import ThermalProperties
 from gripscale.rubber import read_strain_sweep
 from gripscale.rubber.softening import SofteningLaw, SofteningTable, softening_of_sweeps
@@ -14,6 +15,7 @@ from gripscale.rubber.softening import SofteningLaw, SofteningTable, softening_o
 Resolve = Callable[[str], Path]
 
 
+@about_keys("conditions")
 def prepare_conditions(table: ConditionsTable, resolve: Resolve = Path) -> Conditions | None:
     """Return the conditions of a case, or None where it asks for no effect.
 

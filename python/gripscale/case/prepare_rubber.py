@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from gripscale.case.models import RubberSource
-from gripscale.errors import InputError
+from gripscale.case.rubber_table import RubberSource
+from gripscale.errors import InputError, about_keys
 from gripscale.rubber import (
     MasterCurve,
     PronyFit,
@@ -66,6 +66,7 @@ class PreparedRubber:
         return [found]
 
 
+@about_keys("rubber")
 def prepare_rubber(
     source: RubberSource, resolve: Resolve = Path, *, titles_first: bool = False
 ) -> PreparedRubber:

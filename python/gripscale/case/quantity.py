@@ -10,7 +10,7 @@ from pydantic import GetCoreSchemaHandler
 from pydantic_core import core_schema
 
 from gripscale.case.expected import Words
-from gripscale.units import parse_quantity, such_as
+from gripscale.units import listed, parse_quantity, spelled, such_as
 
 
 def _positive(value: float) -> float:
@@ -44,6 +44,29 @@ class Quantity(Words):
 
 def _quantity(kind: str, check: Callable[[float], float] = float) -> Quantity:
     return Quantity(f"a {kind} {such_as(kind)}", kind, check)
+
+
+@dataclass(frozen=True)
+class Unit(Words):
+    """A unit of one kind of quantity."""
+
+    kind: str
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> core_schema.CoreSchema:
+        """Look at the text once pydantic knows that it is one."""
+        return core_schema.no_info_after_validator_function(self._check, handler(source))
+
+    def _check(self, value: str) -> str:
+        if spelled(value, self.kind) is None:
+            raise ValueError(f"expected {self.words}")
+        return value
+
+
+def unit_of_file(kind: str) -> Unit:
+    """Return the type of a key that names the unit of a file."""
+    return Unit(f"one of {listed(kind)}", kind)
 
 
 Pressure = Annotated[float, _quantity("pressure", _positive)]

@@ -12,8 +12,8 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, ValidationError
 
 from gripscale.case.models import Case
-from gripscale.case.sentence import sentence
-from gripscale.errors import FileError, InputError
+from gripscale.case.sentence import first_complaint, sentence
+from gripscale.errors import FileError, InputError, about_keys
 
 M = TypeVar("M", bound=BaseModel)
 
@@ -65,7 +65,22 @@ def validate(model: type[M], values: Mapping[str, Any], where: str) -> M:
     try:
         return model.model_validate(dict(values))
     except ValidationError as error:
-        raise InputError(f"{where}: {sentence(error, model, in_table=model is Case)}") from error
+        whole = model is Case
+        refused = InputError(f"{where}: {sentence(error, model, in_table=whole)}")
+        if whole:
+            with about_keys(_table_of(error)):
+                raise refused from error
+        raise refused from error
+
+
+def _table_of(error: ValidationError) -> str:
+    """Return which table of a case the first complaint is about, empty for the whole case."""
+    from gripscale.case.keys import TABLES  # all tables with it: not for reading a case
+
+    names = {name for name, _, _ in TABLES}
+    place = [part for part in first_complaint(error)["loc"] if isinstance(part, str)]
+    longer_first = (".".join(place[:count]) for count in range(len(place), 0, -1))
+    return next((name for name in longer_first if name in names), "")
 
 
 def _hint(text: str, error: tomllib.TOMLDecodeError) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from gripscale.case.key import prediction_key
 from gripscale.case.prepare_rubber import PreparedRubber
@@ -15,7 +16,11 @@ from gripscale.chain.prediction import Prediction
 from gripscale.conditions.conditions import Conditions
 from gripscale.model import NominalLoad
 from gripscale.rubber import Rubber, temperature_doubts
+from gripscale.shown import Shown, shown
 from gripscale.surface import PreparedSurface
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 DYNAMIC, STATIC = "dynamic", "static"
 
@@ -60,6 +65,23 @@ class CaseResults:
             self._keys[name] = prediction_key(self.file, name)
         return self._keys[name]
 
+    def dataset(self, name: str) -> xr.Dataset:
+        """Return the prediction `name` with what it is of: case, surface, rubber."""
+        return (
+            self.predictions[name]
+            .to_dataset()
+            .assign_attrs(
+                case=self.file.text,
+                case_file=str(self.file.path),
+                surface_source=self.surface.source,
+                rubber_source=self.rubber.source,
+            )
+        )
+
+    def shown(self, name: str) -> Shown:
+        """Return how `pressure`, `speed` or `footprint` is shown: as the case gives it."""
+        return shown(name, self.file.text)
+
     @property
     def conditions(self) -> Conditions | None:
         """What changes the rubber, or None where nothing was asked for."""
@@ -86,8 +108,10 @@ class CaseResults:
         footprint, largest = self.load.footprint, float(self.surface.sines.wavelength[0])
         if footprint >= largest:
             return []
+        how = self.shown("footprint")
         return [
-            f"The footprint, {footprint:.3g} m, is shorter than the largest wave, {largest:.3g} m, "
+            f"The footprint, {how.text(footprint, 3)}, is shorter than the largest wave, "
+            f"{how.text(largest, 3)}, "
             "which it cannot hold once: is its unit right? If so, leave such waves out."
         ]
 
@@ -115,6 +139,6 @@ class CaseResults:
             yield STATIC, 0.0
 
 
-def title(speed: float) -> str:
-    """Return what tables and figures call a prediction at `speed` [m/s]."""
-    return "Static" if speed == 0.0 else f"Dynamic, {speed:g} m/s"
+def title(speed: float, how: Shown) -> str:
+    """Return what tables and figures call a prediction at `speed` [m/s], shown as `how` says."""
+    return "Static" if speed == 0.0 else f"Dynamic, {how.text(speed)}"

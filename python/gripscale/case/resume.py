@@ -13,7 +13,7 @@ from pathlib import Path
 from gripscale import netcdf
 from gripscale.chain.model import Chain
 from gripscale.chain.prediction import Prediction
-from gripscale.errors import FileError
+from gripscale.errors import FileError, InputError
 from gripscale.wave.problem import WaveProblem
 from gripscale.wave.result import WaveResult
 from gripscale.wave.solver import WaveSolver
@@ -60,7 +60,7 @@ def earlier(path: Path, key: str, chain: Chain) -> Earlier | None:
     try:
         data = netcdf.load(path)
         found = Prediction.from_dataset(data) if data.attrs.get(KEY) == key else None
-    except (FileError, KeyError):
+    except (FileError, InputError):
         return None
     if found is None:
         return None

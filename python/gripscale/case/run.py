@@ -20,7 +20,7 @@ from gripscale.case.results import CaseResults
 from gripscale.case.resume import FINISHED, KEY, Earlier, earlier
 from gripscale.chain.predict import ChainError, predict
 from gripscale.chain.prediction import Prediction
-from gripscale.errors import InputError
+from gripscale.errors import InputError, about_keys
 from gripscale.model import NominalLoad
 from gripscale.rubber.carrying import require_solid
 from gripscale.rubber.extrapolation import require_measured
@@ -44,7 +44,8 @@ def prepare_case(case: CaseFile | str | Path) -> CaseResults:
     file = case if isinstance(case, CaseFile) else read_case(case)
     chain = case_chain(file)
     surface = prepare_surface(file.case.surface, file.resolve)
-    results = CaseResults(file, surface, prepare_rubber(file.case.rubber, file.resolve), chain)
+    rubber = prepare_rubber(file.case.rubber, file.resolve)
+    results = CaseResults(file, surface, rubber, chain)
     _require_shift(results)
     return results
 
@@ -115,6 +116,7 @@ def _known(results: CaseResults) -> dict[str, Earlier]:
     return {name: one for name, one in found.items() if one is not None}
 
 
+@about_keys("rubber.shift")
 def _require_shift(results: CaseResults) -> None:
     """Raise `InputError` if a temperature or heat is asked for and the rubber has no shift."""
     try:
@@ -191,16 +193,7 @@ def _save(
     """Write what is known of a prediction, at the end with the inputs beside it."""
     if results.folder is None or name not in results.predictions:
         return
-    data = (
-        results.predictions[name]
-        .to_dataset()
-        .assign_attrs(
-            case=results.file.text,
-            case_file=str(results.file.path),
-            surface_source=results.surface.source,
-            rubber_source=results.rubber.source,
-            **{KEY: results.key(name), FINISHED: int(finished)},
-        )
-    )
+    stamp = {KEY: results.key(name), FINISHED: int(finished)}
+    data = results.dataset(name).assign_attrs(stamp)
     groups = {"inputs": record.inputs(results)} if with_inputs else {}
     netcdf.save(data, results.folder / f"{name}.nc", groups)

@@ -6,6 +6,7 @@ import difflib
 from typing import Any, get_args
 
 from pydantic import BaseModel, ValidationError
+from pydantic_core import ErrorDetails
 
 from gripscale.case.expected import expected
 
@@ -35,9 +36,7 @@ def sentence(error: ValidationError, model: type[BaseModel], *, in_table: bool =
 
     `in_table`: the model is a whole file, whose first names are those of tables.
     """
-    complaints = error.errors(include_url=False)
-    unknown = [c for c in complaints if c["type"] == "extra_forbidden"]
-    first = (unknown or complaints)[0]
+    first = first_complaint(error)
     owner = _model_at(model, first["loc"])
     where = _place(first["loc"], in_table=in_table)
     kind, given = first["type"], first["input"]
@@ -49,6 +48,13 @@ def sentence(error: ValidationError, model: type[BaseModel], *, in_table: bool =
     if isinstance(given, dict):
         return f"{where}: {expected}" if where else expected
     return f"{where} = {_short(given)}: {expected}"
+
+
+def first_complaint(error: ValidationError) -> ErrorDetails:
+    """Return what is said of a table: an unknown key before the rest."""
+    complaints = error.errors(include_url=False)
+    unknown = [c for c in complaints if c["type"] == "extra_forbidden"]
+    return (unknown or complaints)[0]
 
 
 def _place(loc: tuple[int | str, ...], *, in_table: bool) -> str:

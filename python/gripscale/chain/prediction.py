@@ -18,10 +18,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from gripscale import model, versions
+from gripscale import checks, model, versions
 from gripscale.chain.pressure import CLASS_PRESSURES
 from gripscale.conditions.conditions import Conditions
 from gripscale.cut_off_exponents import NOT_CONVERGED, CutOffExponents, of_curve
+from gripscale.errors import InputError
 from gripscale.model import NominalLoad
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import Extrapolation, of_sum
@@ -204,8 +205,22 @@ class Prediction:
     def from_dataset(cls, data: xr.Dataset) -> Prediction:
         """Return the prediction a Dataset was made of, in memory or read from a file.
 
-        Raises `KeyError` if it was made of something else.
+        Raises `InputError` if it was made of something else.
         """
+        import xarray as xr
+
+        checks.instance("data", data, xr.Dataset)
+        try:
+            return cls._from_dataset(data)
+        except (KeyError, TypeError, ValueError) as error:
+            kind = data.attrs.get("model") or data.attrs.get("title") or "another kind"
+            raise InputError(
+                "data must be what `to_dataset` of a prediction of the chain returns; got a "
+                f"Dataset of {kind}"
+            ) from error
+
+    @classmethod
+    def _from_dataset(cls, data: xr.Dataset) -> Prediction:
         from gripscale.wave.dataset import waves_from_dataset
 
         stated = str(data.attrs["load_time"])

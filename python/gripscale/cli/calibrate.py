@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from gripscale.cli.options import CasePath, Cluster, Workers
+from gripscale.cli.options import CasePath, Cluster, Measured, OwnFolder, Workers
 from gripscale.cli.progress import teller
-from gripscale.cli.terminal import NOT_CONVERGED, command, complain, say, screen
+from gripscale.cli.terminal import NOT_CONVERGED, command, complain, say, say_all, screen
 
 if TYPE_CHECKING:
     from gripscale.calibration import Calibration
+    from gripscale.case import CaseFile
 
 
 @command
@@ -41,23 +42,8 @@ def calibrate(
             show_default=False,
         ),
     ] = None,
-    measured: Annotated[
-        Path | None,
-        typer.Option(
-            help="Measured friction, instead of what the case names: a table with columns speed "
-            "and friction, and if known spread, temperature and pressure.",
-            metavar="FILE.csv",
-            readable=False,
-        ),
-    ] = None,
-    output: Annotated[
-        Path | None,
-        typer.Option(
-            help="Results folder, instead of `calibration` in the one of the case.",
-            metavar="DIR",
-            readable=False,
-        ),
-    ] = None,
+    measured: Measured = None,
+    output: OwnFolder = None,
     workers: Workers = None,
     cluster: Cluster = None,
 ) -> None:
@@ -87,14 +73,9 @@ def calibrate(
         client=cluster,
         on_task=teller(console),
     )
-    parts = list(_parts(made, model))
-    for part in parts:
-        if isinstance(part, str):
-            say(console, part)
-        else:
-            console.print()
-            console.print(part)
-    _keep(made, parts, target)
+    parts = list(_parts(made, model, file.text))
+    say_all(console, parts)
+    _keep(made, file, parts, target)
     console.print()
     say(console, f"Table, figures, result and [conditions.shear_stress] are in {target}")
     failed = [status for status in made.predicted.status if status != "converged"]
@@ -106,21 +87,21 @@ def calibrate(
         raise typer.Exit(NOT_CONVERGED)
 
 
-def _parts(made: Calibration, model: str) -> list[Any]:
+def _parts(made: Calibration, model: str, case: str) -> list[Any]:
     """Return the tables and sentences of a calibration."""
     from gripscale.calibration.notes import notes
     from gripscale.measured import residuals
     from gripscale.report.calibration_table import correlations, held_out_table, parameter_table
     from gripscale.report.residual_table import residual_table
 
-    beside = residual_table(residuals(made.measured, {model: made.predicted}, made.law))
-    parts = [beside, parameter_table(made), *filter(None, [correlations(made)])]
+    beside = residuals(made.measured, {model: made.predicted}, made.law).assign_attrs(case=case)
+    parts = [residual_table(beside), parameter_table(made), *filter(None, [correlations(made)])]
     if made.held_out:
         parts.append(held_out_table(made))
     return [*parts, *notes(made)]
 
 
-def _keep(made: Calibration, parts: list[Any], target: Path) -> None:
+def _keep(made: Calibration, file: CaseFile, parts: list[Any], target: Path) -> None:
     """Write result, tables, figures and the table of the law into the folder."""
     from gripscale import netcdf
     from gripscale.calibration.snippet import shear_stress_table
@@ -128,7 +109,7 @@ def _keep(made: Calibration, parts: list[Any], target: Path) -> None:
     from gripscale.figures.calibration import draw
     from gripscale.report import tables
 
-    data = made.to_dataset()
+    data = made.to_dataset().assign_attrs(case=file.text, case_file=str(file.path))
     netcdf.save(data, target / "calibration.nc")
     folder.write_text(target / "calibration.txt", tables.as_text(*parts))
     folder.write_text(target / "shear_stress.toml", shear_stress_table(made))

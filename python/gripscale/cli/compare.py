@@ -8,9 +8,17 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from gripscale.cli.options import CasePath, Cluster, Workers
+from gripscale.cli.options import CasePath, Cluster, Measured, OwnFolder, Workers
 from gripscale.cli.progress import teller
-from gripscale.cli.terminal import NOT_CONVERGED, command, complain, pointed, say, screen
+from gripscale.cli.terminal import (
+    NOT_CONVERGED,
+    command,
+    complain,
+    pointed,
+    say,
+    say_all,
+    screen,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -35,15 +43,7 @@ def compare(
             show_default=False,
         ),
     ] = None,
-    measured: Annotated[
-        Path | None,
-        typer.Option(
-            help="Measured friction to be drawn over the models: a table with columns speed and "
-            "friction, and if known spread and temperature.",
-            metavar="FILE.csv",
-            readable=False,
-        ),
-    ] = None,
+    measured: Measured = None,
     rungs: Annotated[
         str | None,
         typer.Option(
@@ -52,14 +52,7 @@ def compare(
             show_default=False,
         ),
     ] = None,
-    output: Annotated[
-        Path | None,
-        typer.Option(
-            help="Results folder, instead of `comparison` in the one of the case.",
-            metavar="DIR",
-            readable=False,
-        ),
-    ] = None,
+    output: OwnFolder = None,
     seeds: Annotated[int, typer.Option(help="Random phases drawn of each surface.")] = 3,
     tolerance: Annotated[
         float, typer.Option(help="Estimated relative error of each direct contact.")
@@ -172,7 +165,7 @@ def _conclude(
         parts += residual_tables(beside)
         labels = dict(zip(data.rung.values.tolist(), data.label.values.tolist(), strict=True))
         save_figure(at_measured_figure(beside, labels), target, "at_measured")
-    _print(console, parts)
+    say_all(console, parts)
     folder.write_text(target / f"{name}.txt", tables.as_text(*parts))
     draw(data, target)
     console.print()
@@ -180,20 +173,14 @@ def _conclude(
     return list(_failures(data, axis))
 
 
-def _print(console: Console, parts: Iterable[Any]) -> None:
-    for part in parts:
-        if isinstance(part, str):
-            say(console, part)
-        else:
-            console.print()
-            console.print(part)
-
-
 def _failures(data: xr.Dataset, axis: str) -> Iterable[str]:
     """Yield a sentence on each rung with a sample that did not converge."""
+    from gripscale.study.display import axis_shown
+
     places = [(None, data)] if not axis else [(v, data.sel({axis: v})) for v in data[axis].values]
     for value, one in places:
         for label, status in zip(one.label.values, one.status.values, strict=True):
             if str(status) != "converged":
-                where = "" if value is None else f"{axis.replace('_', ' ')} {value:.4g}, "
+                at = "" if value is None else axis_shown(data, axis).text(value, 4)
+                where = f"{axis.replace('_', ' ')} {at}, " if at else ""
                 yield f"{where}{label} did not converge: {status}"

@@ -1,4 +1,4 @@
-"""`gripscale report RESULT`: one self-contained HTML page of a run or a study."""
+"""`gripscale report RESULT`: one self-contained HTML page of a result."""
 
 from __future__ import annotations
 
@@ -15,7 +15,8 @@ def report(
     result: Annotated[
         Path,
         typer.Argument(
-            help="Results folder of a run or study, or one of its .nc files.",
+            help="Results folder of a run, comparison, study, calibration or uncertainty, or one "
+            "of its .nc files.",
             metavar="RESULT",
             readable=False,
         ),

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from gripscale.case import CaseResults, WaveSolved
     from gripscale.comparison import SolvedRung
     from gripscale.measured import MeasuredFriction
+    from gripscale.shown import Shown
 
 REPORT_WIDTH = 110
 
@@ -66,7 +67,7 @@ def run(
     opening = _opening(results)
     for line in opening:
         say(console, line)
-    tell = _teller(console, len(results.surface.sines))
+    tell = _teller(console, len(results.surface.sines), results.shown("speed"))
     with drawn_beside(results, target / "figures") as solving:
 
         def look(solved: WaveSolved) -> None:
@@ -123,7 +124,7 @@ def _spinner(console: Console) -> AbstractContextManager[Any]:
     return console.status("solving") if console.is_terminal else nullcontext()
 
 
-def _teller(console: Console, waves: int) -> Callable[[WaveSolved], None]:
+def _teller(console: Console, waves: int, how: Shown) -> Callable[[WaveSolved], None]:
     """Return what prints a line for each wave, and a title before the first of a prediction."""
     from gripscale.case.results import title
 
@@ -142,7 +143,7 @@ def _teller(console: Console, waves: int) -> Callable[[WaveSolved], None]:
             passes[solved.name] += 1
             if passes[solved.name] == 1:
                 console.print()
-                say(console, title(so_far.load.speed))
+                say(console, title(so_far.load.speed, how))
             else:
                 say(console, f"  pass {passes[solved.name]}")
         text = (
@@ -153,8 +154,8 @@ def _teller(console: Console, waves: int) -> Callable[[WaveSolved], None]:
             text += f", friction {scale.friction:.3f}"
         seconds, clock = time.perf_counter() - clock, time.perf_counter()
         why = "" if scale.status == "conditions not settled" else f"{scale.why}, "
-        how = "already solved" if solved.taken_up else f"{seconds:.1f} s"
-        say(console, f"  {text}, {why}{how}")
+        took = "already solved" if solved.taken_up else f"{seconds:.1f} s"
+        say(console, f"  {text}, {why}{took}")
 
     return tell
 
@@ -168,12 +169,12 @@ def _conclude(
 ) -> None:
     """Print the tables and what chain and effects are worth, and write them down."""
     from gripscale.case import folder
-    from gripscale.case.results import title
+    from gripscale.figures.view import PredictionView
     from gripscale.report import tables
     from gripscale.report.comparison_table import judgement
     from gripscale.report.measured_lines import measured_lines
 
-    solved = {title(p.load.speed): p.to_dataset() for p in results.predictions.values()}
+    solved = {PredictionView(d).title: d for d in map(results.dataset, results.predictions)}
     for name, data in solved.items():
         console.print()
         console.print(tables.prediction_table(data, name, console.width))
@@ -187,7 +188,7 @@ def _conclude(
     judged = next(iter(results.predictions.values()), None)
     last = [] if judged is None or known.direct is None else list(judgement(judged, known.direct))
     if known.friction is not None and results.load.speed > 0.0:
-        last += measured_lines(known.friction, results.load.speed)
+        last += measured_lines(known.friction, results.load.speed, results.shown("speed"))
     if last:
         console.print()
     for line in last:
@@ -199,6 +200,7 @@ def _conclude(
 
 def _conditions_tables(results: CaseResults, worth: xr.Dataset | None) -> Iterator[Any]:
     """Yield the temperature of each wave and what each effect is worth, and draw both."""
+    from gripscale.case.results import DYNAMIC
     from gripscale.figures.case_all import draw_effects, draw_heat
     from gripscale.report.effects_table import effects_table
     from gripscale.report.heat_table import heat_table
@@ -206,7 +208,7 @@ def _conditions_tables(results: CaseResults, worth: xr.Dataset | None) -> Iterat
     moving = results.dynamic
     figures = None if results.folder is None else results.folder / "figures"
     if moving is not None and moving.conditions is not None and moving.conditions.heat is not None:
-        data = moving.to_dataset()
+        data = results.dataset(DYNAMIC)
         if figures is not None:
             draw_heat(data, figures)
         yield heat_table(data)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from gripscale.cli.options import CasePath, Cluster, Workers
+from gripscale.cli.options import CasePath, Cluster, OwnFolder, Workers
 from gripscale.cli.progress import teller
 from gripscale.cli.terminal import NOT_CONVERGED, command, complain, pointed, say, screen
 from gripscale.errors import InputError
@@ -31,14 +31,7 @@ def study(
             metavar="NAME=VALUES",
         ),
     ],
-    output: Annotated[
-        Path | None,
-        typer.Option(
-            help="Results folder, instead of `study` in the one of the case.",
-            metavar="DIR",
-            readable=False,
-        ),
-    ] = None,
+    output: OwnFolder = None,
     model: Annotated[
         str, typer.Option(help="What predicts: chain, or direct (the whole surface at once).")
     ] = "chain",

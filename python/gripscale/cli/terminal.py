@@ -5,9 +5,9 @@ from __future__ import annotations
 import os
 import sys
 import textwrap
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import wraps
-from typing import TYPE_CHECKING, ParamSpec
+from typing import TYPE_CHECKING, Any, ParamSpec
 
 import typer
 
@@ -63,6 +63,16 @@ def say(console: Console, message: str) -> None:
         replace_whitespace=False,
     )
     console.print(Text("\n".join(lines)), soft_wrap=True)
+
+
+def say_all(console: Console, parts: Iterable[Any]) -> None:
+    """Print sentences as lines, and each table after an empty one."""
+    for part in parts:
+        if isinstance(part, str):
+            say(console, part)
+        else:
+            console.print()
+            console.print(part)
 
 
 def command(body: Callable[P, None]) -> Callable[P, None]:

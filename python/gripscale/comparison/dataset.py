@@ -43,7 +43,7 @@ def to_dataset(comparisons: Sequence[SolvedLadder], axis: Axis | None = None) ->
     parts = [xr.Dataset(_numbers(one, wavelength, most)) for one in comparisons]
     data = parts[0]
     if axis is not None:
-        data = xr.concat(parts, dim=axis.name).assign_coords(coordinates([axis]))
+        data = xr.concat(parts, dim=axis.name).assign_coords(coordinates([axis], first.file.text))
     data = data.assign(_words(first)).assign_coords(
         rung=[rung.name for rung in first.rungs],
         wavelength=labelled("wavelength", wavelength, "m", "lower end of the octave", SOURCE),

@@ -13,7 +13,7 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from gripscale import checks
-from gripscale.figures.palette import BLUE, FAINT, GREY, INK, MEGA, MILLI, ORANGE, WIDE
+from gripscale.figures.palette import BLUE, FAINT, GREY, INK, MILLI, ORANGE, WIDE
 from gripscale.figures.style import DASHED, DPI, styled
 from gripscale.figures.view import PredictionView
 
@@ -93,7 +93,7 @@ def _draw(view: PredictionView, waves: Any, columns: int, width: float) -> Figur
         if place == 0 and view.converged[i]:
             _annotate(above, below, view, i)
         if column == 0:
-            above.set_ylabel("$p_c$ [MPa]")
+            above.set_ylabel(f"$p_c$ [{view.shown('pressure').unit}]")
             below.set_ylabel("$z/\\lambda$ [-]")
         else:
             below.set_yticks([])  # those of the first block hold along the row
@@ -119,11 +119,12 @@ def _caption(view: PredictionView, i: int) -> str:
     def value(name: str, unit: float) -> str:
         return f"{view.column(name)[i] / unit:.3g}"
 
+    how = view.shown("pressure")
     contact = f", contact {view.column('contact_fraction')[i]:.2f}"
     return (
         f"λ = {value('wavelength', MILLI)} mm\n"
         f"A = {value('amplitude', MILLI)} mm\n"
-        f"p = {value('pressure_received', MEGA)} MPa"
+        f"p = {value('pressure_received', how.divisor)} {how.unit}"
         + (contact if view.converged[i] else f"\n{_folded(view.why(i))}")
     )
 
@@ -133,9 +134,14 @@ def _folded(state: str) -> str:
     return textwrap.fill(state, 30)
 
 
+def _mean(view: PredictionView, i: int) -> float:
+    """Return the mean pressure of a wave as it is shown."""
+    return float(view.shown("pressure").of(view.column("pressure_received")[i]))
+
+
 def _no_solution(axes: Axes, view: PredictionView, i: int) -> None:
     """Draw the mean pressure alone: what a failed wave ended with is no result."""
-    mean = view.column("pressure_received")[i] / MEGA
+    mean = _mean(view, i)
     axes.axhline(mean, color=GREY, lw=0.8, ls=DASHED)
     axes.text(0.5, 0.75, "no solution", transform=axes.transAxes, ha="center", va="center")
     axes.set(xticks=[], xlim=(-0.5, 0.5), ylim=(0.0, 2.0 * mean))
@@ -143,11 +149,12 @@ def _no_solution(axes: Axes, view: PredictionView, i: int) -> None:
 
 
 def _pressure(axes: Axes, view: PredictionView, i: int) -> None:
-    """Draw the contact pressure [MPa] and its mean along one wavelength."""
-    x, pressure = view.pressure_along(i)
-    axes.fill_between(x, pressure / MEGA, color=ORANGE, alpha=0.35, lw=0)
-    axes.plot(x, pressure / MEGA, color=ORANGE, lw=1.0)
-    axes.axhline(view.column("pressure_received")[i] / MEGA, color=GREY, lw=0.8, ls=DASHED)
+    """Draw the contact pressure and its mean along one wavelength."""
+    x, pascal = view.pressure_along(i)
+    pressure = view.shown("pressure").of(pascal)
+    axes.fill_between(x, pressure, color=ORANGE, alpha=0.35, lw=0)
+    axes.plot(x, pressure, color=ORANGE, lw=1.0)
+    axes.axhline(_mean(view, i), color=GREY, lw=0.8, ls=DASHED)
     axes.set_ylim(bottom=0.0)
     axes.set_xlim(-0.5, 0.5)
     axes.set_xticks([])  # those of the block below hold here, too
@@ -171,7 +178,7 @@ def _block(axes: Axes, view: PredictionView, i: int, window: tuple[float, float]
 
 def _annotate(above: Axes, below: Axes, view: PredictionView, i: int) -> None:
     """Name the dashed line and, where the rubber slides, its direction (along x)."""
-    mean = (-0.48, view.column("pressure_received")[i] / MEGA)
+    mean = (-0.48, _mean(view, i))
     above.annotate("mean", mean, (0, 2), textcoords="offset points", color=GREY, fontsize=6.5)
     if view.column("sliding_speed")[i] > 0.0:
         box = {"facecolor": "white", "edgecolor": "none", "pad": 1.5}

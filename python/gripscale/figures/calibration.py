@@ -10,14 +10,12 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from gripscale.figures.measured import COLOUR, Series, measured
+from gripscale.figures.by_temperature import panels_of, speeds_of
+from gripscale.figures.measured import Series, measured
 from gripscale.figures.palette import BLUE, COLOURS, FAINT, GREY, MEGA, ORANGE, WIDE
 from gripscale.figures.style import log_axis, save_figure, sheet, styled
 
 MARKS = "osd^v"
-MOST_COLUMNS = 3
-MOST_PANELS = 9
-"""Series that are drawn; more would not be read."""
 SHOWN = {"Pa": (MEGA, "MPa"), "m/s": (1.0, "m/s"), "eV": (1.0, "eV"), "1": (1.0, "-")}
 """What a parameter is divided by to be drawn, and its unit then."""
 NAMES = {
@@ -55,28 +53,7 @@ def fitted_figure(data: xr.Dataset) -> Figure:
     One panel for each temperature and pressure; points where the model has no answer are left out
     of its lines.
     """
-    series = list(measured(data))[:MOST_PANELS]
-    columns = min(len(series), MOST_COLUMNS)
-    rows = -(-len(series) // columns)
-    figure, panels = sheet(
-        max(WIDE * columns / MOST_COLUMNS, 4.0), 0.5 + 2.2 * rows, rows, columns,
-        gap=0.05, sharey=True, sharex=True,
-    )  # fmt: skip
-    for axes, one in zip(panels.flat, series, strict=False):
-        _fitted(axes, data, one)
-    for axes in list(panels.flat)[len(series) :]:
-        axes.set_visible(False)
-    for axes in panels[:, 0]:
-        axes.set_ylabel("friction coefficient $\\mu$ [-]")
-    for column in range(columns):
-        last = max(row for row in range(rows) if row * columns + column < len(series))
-        panels[last, column].set_xlabel("speed $v$ [m/s]")
-        panels[last, column].tick_params(labelbottom=True)
-    panels[0, 0].set_ylim(bottom=0.0)
-    handles, labels = panels[0, 0].get_legend_handles_labels()
-    place: Any = "outside upper center"
-    figure.legend(handles, labels, loc=place, ncols=3 if columns > 1 else 2)
-    return figure
+    return panels_of(data, lambda axes, one: _fitted(axes, data, one), head=0.5)
 
 
 @styled
@@ -89,13 +66,14 @@ def residual_figure(data: xr.Dataset) -> Figure:
     scale = 1.0 if known else data.attrs["scatter"]
     axes.axhspan(-scale, scale, color=FAINT, alpha=0.5, lw=0)
     axes.axhline(0.0, color=GREY, lw=0.8)
+    speeds = speeds_of(data)
     for number, one in enumerate(measured(data)):
         axes.plot(
-            one.speed, data[name].values[one.chosen], MARKS[number % len(MARKS)],
+            speeds.of(one.speed), data[name].values[one.chosen], MARKS[number % len(MARKS)],
             color=COLOURS[number % len(COLOURS)], label=one.label.removeprefix("measured, "),
         )  # fmt: skip
     log_axis(axes, "x")
-    axes.set_xlabel("speed $v$ [m/s]")
+    axes.set_xlabel(f"sliding speed $v$ [{speeds.unit}]")
     unit = "spread" if known else "-"
     axes.set_ylabel(f"fitted less measured $\\mu$ [{unit}]")
     axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
@@ -128,19 +106,12 @@ def profiles_figure(data: xr.Dataset) -> Figure:
 
 def _fitted(axes: Axes, data: xr.Dataset, one: Series) -> None:
     there = one.chosen & np.isfinite(data.friction.values)
-    speed = data.measured_speed.values[there]
+    speed = speeds_of(data).of(data.measured_speed.values[there])
     total, band = data.friction.values[there], data.friction_band.values[there]
     hysteresis = data.hysteresis.values[there]
     axes.fill_between(speed, total - band, total + band, color=ORANGE, alpha=0.25, lw=0)
     axes.plot(speed, total, color=ORANGE, label="hysteresis and area term")
     axes.plot(speed, hysteresis, color=BLUE, marker=".", label="hysteresis alone")
-    axes.errorbar(
-        one.speed, one.friction, yerr=np.nan_to_num(one.spread), fmt="o", ms=4.0, mfc="white",
-        mec=COLOUR, ecolor=COLOUR, mew=1.1, capsize=2.0, zorder=5, label="measured",
-    )  # fmt: skip
-    log_axis(axes, "x")
-    title = one.label.removeprefix("measured").removeprefix(", ")
-    axes.set_title(title)
 
 
 def _profile(axes: Axes, one: xr.Dataset) -> None:

@@ -42,13 +42,12 @@ def draw_inputs(results: CaseResults, folder: Path) -> None:
 
 def draw_blocks(results: CaseResults, name: str, folder: Path) -> None:
     """Draw the blocks of a prediction, "dynamic" or "static", into `folder`."""
-    data = results.predictions[name].to_dataset()
-    save_figure(blocks_figure(data), folder, f"blocks_{name}")
+    save_figure(blocks_figure(results.dataset(name)), folder, f"blocks_{name}")
 
 
 def draw_contact(results: CaseResults, folder: Path) -> None:
     """Draw area and friction of all predictions into `folder`."""
-    found = [prediction.to_dataset() for prediction in results.predictions.values()]
+    found = map(results.dataset, results.predictions)
     titles = {PredictionView(data).title.lower(): data for data in found}
     save_figure(contact_figure(titles), folder, "contact_and_friction")
 

@@ -16,6 +16,7 @@ from gripscale.figures.stretches import predictions_beyond
 from gripscale.figures.study_axes import along
 from gripscale.figures.style import area_axis, dashed_entry, line, sheet, styled
 from gripscale.model import with_adhesive
+from gripscale.study.display import axis_shown
 
 MARKS = "osd^v"
 """Of measurements, temperature by temperature."""
@@ -106,11 +107,13 @@ def _best(axes: Axes, x: np.ndarray, comparison: xr.Dataset, name: str) -> None:
 def _measured(axes: Axes, comparison: xr.Dataset) -> None:
     """Draw measured friction, each temperature with its own mark."""
     low, high = axes.get_xlim()
+    shown = axis_shown(comparison, "speed")
     for number, series in enumerate(measured(comparison)):
+        speed = shown.of(series.speed)
         axes.errorbar(
-            series.speed, series.friction, yerr=np.nan_to_num(series.spread),
+            speed, series.friction, yerr=np.nan_to_num(series.spread),
             fmt=MARKS[number % len(MARKS)], ms=5.5, mfc="white", mec=COLOUR, ecolor=COLOUR,
             mew=1.3, capsize=2.5, zorder=5, label=series.label, clip_on=False,
         )  # fmt: skip
-        low, high = min(low, series.speed[0]), max(high, series.speed[-1])
+        low, high = min(low, float(speed[0])), max(high, float(speed[-1]))
     axes.set_xlim(low, high)

@@ -11,12 +11,11 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from gripscale.figures.palette import INK
+from gripscale.shown import shown
 from gripscale.units import ZERO_CELSIUS
 
 COLOUR = INK
 """Of everything measured."""
-
-BAR = 1e5
 
 Array = NDArray[np.float64]
 
@@ -53,11 +52,13 @@ def measured(data: xr.Dataset) -> Iterator[Series]:
     unknown = np.full(kelvin.size, np.nan)
     pascal = data.measured_pressure.values if "measured_pressure" in data else unknown
     several = np.unique(pascal).size > 1
+    how = shown("pressure", str(data.attrs.get("case", "")))
     for value in np.unique(kelvin):
         for load in np.unique(pascal):
             chosen = _same(kelvin, value) & _same(pascal, load)
             if chosen.any():
-                parts = ["measured", *_words(float(value), float(load), several=several)]
+                pressure = how.text(float(load), 3) if several and not np.isnan(load) else ""
+                parts = ["measured", *_words(float(value), pressure)]
                 speed, friction, spread = (
                     data[f"measured_{name}"].values[chosen]
                     for name in ("speed", "friction", "spread")
@@ -69,8 +70,8 @@ def _same(values: Array, value: float) -> NDArray[np.bool_]:
     return np.isnan(values) if np.isnan(value) else values == value
 
 
-def _words(kelvin: float, pascal: float, *, several: bool) -> Iterator[str]:
+def _words(kelvin: float, pressure: str) -> Iterator[str]:
     if not math.isnan(kelvin):
         yield f"{kelvin - ZERO_CELSIUS:.0f} °C"
-    if several and not math.isnan(pascal):
-        yield f"{pascal / BAR:.3g} bar"
+    if pressure:
+        yield pressure

@@ -15,16 +15,15 @@ from numpy.typing import NDArray
 
 from gripscale.figures.palette import COLOURS, MILLI
 from gripscale.figures.style import log_axis
-from gripscale.study.display import LABELS, dimensions, name_of
+from gripscale.study.display import axis_label, axis_shown, dimensions, name_of
 
 Array = NDArray[np.float64]
 
 
 def along(axes: Axes, result: xr.Dataset, name: str) -> Array:
     """Label `axes` below with a varied axis and return its values as they are drawn."""
-    shown = LABELS[name]
-    values = shown.of(result[name].values)
-    axes.set_xlabel(shown.label)
+    values = axis_shown(result, name).of(result[name].values)
+    axes.set_xlabel(axis_label(result, name))
     if values.min() > 0.0 and values.max() > 20.0 * values.min():
         log_axis(axes, "x")
     axes.set_xlim(values.min(), values.max())

@@ -25,7 +25,7 @@ from gripscale.figures.style import (
     short_number,
     styled,
 )
-from gripscale.study.display import LABELS
+from gripscale.study.display import axis_label, axis_shown
 from gripscale.study.temperature import BEYOND_SHIFT, REDUCED_SPEED
 
 PANELS = {
@@ -49,7 +49,8 @@ def map_figure(result: xr.Dataset) -> Figure:
     figure, panels = sheet(WIDE, 3.3, 1, 2, gap=0.06, sharey=True)
     for axes, (name, label) in zip(panels[0], PANELS.items(), strict=True):
         values = result[name].transpose("temperature", "speed").values
-        x, y = along(axes, result, "speed"), LABELS["temperature"].of(result.temperature)
+        x = along(axes, result, "speed")
+        y = axis_shown(result, "temperature").of(result.temperature)
         levels = MaxNLocator(LEVELS).tick_values(np.nanmin(values), np.nanmax(values))
         filled = axes.contourf(x, y, values, levels=levels, cmap="viridis")
         axes.contour(x, y, values, levels=levels, colors="white", linewidths=0.4)
@@ -58,7 +59,7 @@ def map_figure(result: xr.Dataset) -> Figure:
         bar.ax.yaxis.set_major_formatter(lambda value, _: short_number(value))
         _points(axes, result, x, y)
         axes.grid(visible=False)
-    panels[0, 0].set_ylabel(LABELS["temperature"].label)
+    panels[0, 0].set_ylabel(axis_label(result, "temperature"))
     handles, labels = panels[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper center", ncols=3)
     return figure
@@ -72,22 +73,23 @@ def friction_master_figure(result: xr.Dataset) -> Figure:
     what rests on the rubber beyond its measured band.
     """
     figure, panels = sheet(WIDE, 3.3, 1, 2, gap=0.06)
-    celsius = LABELS["temperature"].of(result.temperature)
+    speeds = axis_shown(result, "speed")
+    celsius = axis_shown(result, "temperature").of(result.temperature)
     scale = ScalarMappable(Normalize(celsius.min(), celsius.max()), TEMPERATURES)
     for axes, (name, label) in zip(panels[0], PANELS.items(), strict=True):
         for i, colour in enumerate(scale.to_rgba(celsius)):
             one = result.isel(temperature=i)
             look: dict[str, Any] = {"color": colour, "marker": "o", "ms": 2.6, "lw": 1.0}
-            line(axes, one[REDUCED_SPEED], one[name], predictions_beyond(one), **look)
+            line(axes, speeds.of(one[REDUCED_SPEED]), one[name], predictions_beyond(one), **look)
         log_axis(axes, "x")
         axes.xaxis.set_major_locator(LogLocator(numticks=MOST_DECADES))
-        axes.set_xlabel("reduced speed $a_T v$ [m/s]")
+        axes.set_xlabel(f"reduced speed $a_T v$ [{speeds.unit}]")
         axes.set_ylabel(label)
         dashed_entry(axes)
     friction, area = panels[0]
     friction.set_ylim(bottom=0.0)
     area_axis(area)
-    bar = figure.colorbar(scale, ax=panels[0], label=LABELS["temperature"].label, pad=0.02)
+    bar = figure.colorbar(scale, ax=panels[0], label=axis_label(result, "temperature"), pad=0.02)
     bar.outline.set_linewidth(0.0)
     handles, labels = friction.get_legend_handles_labels()
     if handles:

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from gripscale.figures.palette import BLUE, COLOURS, GREY, INK, ORANGE, WIDE
 from gripscale.figures.style import log_axis, save_figure, sheet, styled
-from gripscale.study.display import LABELS
+from gripscale.study.display import axis_label, axis_shown
 from gripscale.uncertainty.shares import SURE
 
 NAMES = {
@@ -104,9 +104,8 @@ def tornado_figure(one: xr.Dataset) -> Figure:
 @styled
 def band_figure(data: xr.Dataset, axis: str) -> Figure:
     """Draw medians over what is varied, with bands of 50 and 90 % of the samples."""
-    shown = LABELS[axis]
     figure, panels = sheet(WIDE, 3.1, 1, 2, gap=0.06)
-    x = shown.of(data[axis].values)
+    x = axis_shown(data, axis).of(data[axis].values)
     for model, colour in zip(data.model.values, COLOURS, strict=False):
         one = data.sel(model=model).transpose(axis, ...)
         for axes, (name, text) in zip(panels[0], NAMES.items(), strict=True):
@@ -116,7 +115,7 @@ def band_figure(data: xr.Dataset, axis: str) -> Figure:
             axes.plot(x, q[:, 2], color=colour, label=f"{model}: median, 50 and 90 %")
             axes.plot(x, one[f"{name}_case"], "o", color=colour, mfc="white", ms=3.5)
             axes.set_ylabel(text)
-            axes.set_xlabel(shown.label)
+            axes.set_xlabel(axis_label(data, axis))
             if (x > 0.0).all() and len(x) > 1:
                 log_axis(axes, "x")
     panels[0][0].set_ylim(bottom=0.0)

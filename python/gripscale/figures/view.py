@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from gripscale.shown import Shown, shown
+
 if TYPE_CHECKING:
     import xarray as xr
 
@@ -43,7 +45,11 @@ class PredictionView:
         """What tables and figures call it."""
         from gripscale.case.results import title
 
-        return title(self.speed)
+        return title(self.speed, self.shown("speed"))
+
+    def shown(self, name: str) -> Shown:
+        """Return how its `pressure`, `speed` or `footprint` is shown: as its case gives it."""
+        return shown(name, str(self.data.attrs.get("case", "")))
 
     @property
     def status(self) -> str:

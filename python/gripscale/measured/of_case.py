@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from gripscale.case.read import CaseFile
+from gripscale.errors import about_keys
 from gripscale.measured.friction import MeasuredFriction, read_measured_friction
 
 
+@about_keys("measured")
 def friction_of_case(file: CaseFile) -> MeasuredFriction | None:
     """Return what `[measured] friction` of a case names, None if it names nothing.
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from gripscale.errors import ExtrapolationError
 from gripscale.wave.status import Status
 
 _STATUSES = "reading-results.md#statuses-and-what-to-do-about-them"
@@ -26,16 +25,11 @@ STATUS_CHAPTERS = {
 }
 """Chapters in `docs` by status."""
 
-REFUSAL_CHAPTERS: dict[type[Exception], str] = {
-    ExtrapolationError: "reading-results.md#beyond-the-measured-band",
-}
-"""Chapters by the error that refuses."""
-
 
 def pointer(failure: object) -> str:
-    """Return "; see docs/..." for an error, or a text that names a status; nothing of others."""
+    """Return "; see ..." of an error that something explains, or of a text that names a status."""
     text = str(failure)
+    see = " See" if text.endswith("?") else "; see"
     named = [one for one in Status if one is not Status.CONVERGED and one in text]
-    chapters = [chapter for kind, chapter in REFUSAL_CHAPTERS.items() if isinstance(failure, kind)]
-    chapters += [STATUS_CHAPTERS[one] for one in named]
-    return f"; see docs/{chapters[0]}" if chapters else ""
+    places = [getattr(failure, "see", ""), *(f"docs/{STATUS_CHAPTERS[one]}" for one in named)]
+    return next((f"{see} {place}" for place in places if place), "")

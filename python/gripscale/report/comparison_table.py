@@ -21,7 +21,7 @@ from gripscale.model import (
 from gripscale.report.outside_band import comparison_sentences, friction_sentence
 from gripscale.report.tables import significant
 from gripscale.rubber.extrapolation import WORTH_SAYING
-from gripscale.study.display import LABELS
+from gripscale.study.display import axis_shown
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -79,7 +79,7 @@ def further_table(comparison: xr.Dataset) -> Table:
 
 def axis_table(comparison: xr.Dataset, axis: str, name: str) -> Table:
     """Return `contact_fraction` or `friction` of each rung over the axis that was varied."""
-    shown = LABELS[axis]
+    shown = axis_shown(comparison, axis)
     table = _empty()
     table.add_column(f"{SYMBOLS[name]}\n{axis.replace('_', ' ')} [{shown.unit}]", no_wrap=True)
     for rung in comparison.rung.values:

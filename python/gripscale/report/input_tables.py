@@ -16,13 +16,19 @@ from gripscale.report.numbers import NONE, number, percent, whole
 from gripscale.report.source import Run
 from gripscale.units import ZERO_CELSIUS
 
-GIGA, BAR = 1e9, 1e5
+GIGA = 1e9
 
 
 def load_facts(run: Run) -> Facts:
     """Return load, rubber, surface and model in words."""
     attrs, data = run.attrs, run.data
-    speeds = ", ".join(f"{number(one.speed)} m/s" for one in run.predictions if one.moving)
+    first = run.predictions[0]
+
+    def given(name: str, value: float) -> str:
+        how = first.shown(name)
+        return f"{number(how.of(value))} {how.unit}"
+
+    speeds = ", ".join(given("speed", one.speed) for one in run.predictions if one.moving)
     if any(not one.moving for one in run.predictions):
         speeds = f"{speeds or 'none'}; and at rest (relaxed rubber)"
     pressure, footprint = float(data["nominal_pressure"]), float(data["footprint"])
@@ -33,9 +39,9 @@ def load_facts(run: Run) -> Facts:
     return Facts(
         "Load and model",
         [
-            ("Nominal pressure", f"{number(pressure, MEGA)} MPa ({number(pressure, BAR)} bar)"),
+            ("Nominal pressure", given("pressure", pressure)),
             ("Sliding speed", speeds),
-            ("Footprint", f"{number(footprint, MILLI)} mm"),
+            ("Footprint", given("footprint", footprint)),
             ("Rubber", rubber_source(run)),
             ("Model", model.replace("_", " ")),
             ("Strain energy", str(run.inputs.attrs.get("strain_energy", NONE)).removesuffix("()")),

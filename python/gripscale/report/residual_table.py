@@ -9,8 +9,8 @@ import numpy as np
 from rich import box
 from rich.table import Table
 
-from gripscale.figures.measured import BAR
 from gripscale.report.tables import significant
+from gripscale.shown import Shown, shown
 from gripscale.units import ZERO_CELSIUS
 
 if TYPE_CHECKING:
@@ -52,22 +52,26 @@ def residual_table(data: xr.Dataset) -> Table:
 
 def _opening(data: xr.Dataset, *, spread: bool) -> Iterator[str]:
     """Yield the titles of the columns of the measurement, those that say something."""
-    yield "v\nm/s"
+    yield f"v\n{_shown(data, 'speed').unit}"
     if np.isfinite(data.measured_temperature).any():
         yield "T\n°C"
     if np.isfinite(data.measured_pressure).any():
-        yield "p\nbar"
+        yield f"p\n{_shown(data, 'pressure').unit}"
     yield "measured\nμ"
     if spread:
         yield "\nspread"
 
 
+def _shown(data: xr.Dataset, name: str) -> Shown:
+    return shown(name, str(data.attrs.get("case", "")))
+
+
 def _point(one: xr.Dataset, data: xr.Dataset) -> Iterator[str]:
-    yield significant(float(one.measured_speed))
+    yield significant(float(_shown(data, "speed").of(one.measured_speed)))
     if np.isfinite(data.measured_temperature).any():
         yield f"{float(one.measured_temperature) - ZERO_CELSIUS:.1f}"
     if np.isfinite(data.measured_pressure).any():
-        yield significant(float(one.measured_pressure) / BAR)
+        yield significant(float(_shown(data, "pressure").of(one.measured_pressure)))
     yield _fixed(float(one.measured_friction))
     if np.isfinite(data.measured_spread).any():
         yield _fixed(float(one.measured_spread))

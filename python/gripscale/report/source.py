@@ -1,4 +1,4 @@
-"""What a report is made of: a run with its inputs, models side by side, or a study."""
+"""What a report is made of: a run with its inputs, models side by side, a study, what was told."""
 
 from __future__ import annotations
 
@@ -86,7 +86,23 @@ class Study:
         return dimensions(self.data)
 
 
-def read_result(path: Path) -> Run | Study | Compared:
+@dataclass(frozen=True)
+class Told:
+    """A result whose command said in text and figures what there is to say."""
+
+    name: str
+    data: xr.Dataset
+    text: str
+    pictures: list[Path]
+
+
+TOLD = {"calibration": "profile_excess", "uncertainty": "friction_quantile"}
+"""Results of that kind, by the name of their file, with a variable only they have."""
+
+Source = Run | Study | Compared | Told
+
+
+def read_result(path: Path) -> Source:
     """Read the results folder or netCDF file at `path`.
 
     Raises `FileError` if it is missing, unreadable or no result of gripscale.
@@ -95,7 +111,11 @@ def read_result(path: Path) -> Run | Study | Compared:
         return _read_folder(path)
     if not path.exists():
         raise FileError(f"result {path} does not exist")
-    tree = _checked(path)
+    tree = netcdf.load_tree(path)
+    for name, variable in TOLD.items():
+        if variable in tree.variables:
+            return _told(name, path, tree.to_dataset())
+    _require_totals(tree, path)
     if "rung" in tree.dims:
         return Compared.holding([tree.to_dataset()])
     if tree["total_friction"].ndim:
@@ -103,7 +123,7 @@ def read_result(path: Path) -> Run | Study | Compared:
     return _run({path.stem: tree}, Compared())
 
 
-def _read_folder(folder: Path) -> Run | Study | Compared:
+def _read_folder(folder: Path) -> Source:
     paths = [folder / f"{name}.nc" for name in PREDICTIONS]
     there = {path.stem: _checked(path) for path in paths if path.is_file()}
     if there:
@@ -116,13 +136,21 @@ def _read_folder(folder: Path) -> Run | Study | Compared:
     others = sorted(path for path in folder.glob("*.nc") if not path.name.startswith("."))
     if not others:
         raise FileError(
-            f"{folder} holds no result; expected dynamic.nc, static.nc, comparison.nc or the file "
-            "of a study"
+            f"{folder} holds no result; expected the folder of a run, comparison, study, "
+            "calibration or uncertainty"
         )
     if len(others) > 1:
         names = ", ".join(path.name for path in others)
         raise FileError(f"{folder} holds several results; name one of them: {names}")
     return read_result(others[0])
+
+
+def _told(name: str, path: Path, data: xr.Dataset) -> Told:
+    """Return what its command wrote beside a result."""
+    text = path.with_name(f"{name}.txt")
+    pictures = [*path.parent.glob("*.png"), *(path.parent / "figures").glob("*.png")]
+    said = text.read_text(encoding="utf-8") if text.is_file() else ""
+    return Told(name, data, said, sorted(pictures))
 
 
 def _comparisons(folder: Path) -> Compared:
@@ -141,7 +169,14 @@ def _run(trees: dict[str, xr.DataTree], compared: Compared) -> Run:
 def _checked(path: Path) -> xr.DataTree:
     """Load `path` and refuse what no model answered."""
     tree = netcdf.load_tree(path)
+    _require_totals(tree, path)
+    return tree
+
+
+def _require_totals(tree: xr.DataTree, path: Path) -> None:
     told = {"prediction_status", "status"} & set(tree.variables)
     if not ({"total_contact_fraction", "total_friction"} <= set(tree.variables) and told):
-        raise FileError(f"{path} is not a result of gripscale: it has no totals")
-    return tree
+        raise FileError(
+            f"{path} has no report: it holds no totals of a run, comparison or study, and no "
+            "calibration or uncertainty"
+        )

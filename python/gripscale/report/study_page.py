@@ -15,7 +15,6 @@ from gripscale.report.chapters import pointer
 from gripscale.report.charts.study import study_charts
 from gripscale.report.elements import Card, Element, Facts, Heading, Notice, Page, Section
 from gripscale.report.elements import Table as PageTable
-from gripscale.report.input_tables import BAR
 from gripscale.report.numbers import NONE, number
 from gripscale.report.outside_band import study_sentence
 from gripscale.report.run_page import method_elements, rerun_elements
@@ -24,7 +23,7 @@ from gripscale.report.study_inputs import input_sections
 from gripscale.report.study_words import telling, words_of
 from gripscale.report.temperature_text import collapse_sentences, shift_sentence
 from gripscale.study.axes import COUNTS
-from gripscale.study.display import LABELS, name_of, of_numbers
+from gripscale.study.display import axis_shown, name_of, of_numbers
 
 NAMED_FAILURES = 12
 """Failed predictions named one by one at the head of the page."""
@@ -105,12 +104,9 @@ def _axes(study: Study) -> PageTable:
     rows = []
     for name in study.axes:
         values = [_place(study, name, i) for i in range(len(_values(study, name)))]
-        if name == "pressure":
-            bars = [number(value, BAR) for value in _values(study, name)]
-            values = [f"{one} ({bar} bar)" for one, bar in zip(values, bars, strict=True)]
         variable = study.data.get(name, xr.DataArray())
         meaning = str(variable.attrs.get("long_name", name))
-        unit = LABELS[name].unit if of_numbers(study.data, name) else NONE
+        unit = axis_shown(study.data, name).unit if of_numbers(study.data, name) else NONE
         rows.append([name.replace("_", " "), meaning, unit, str(len(values)), ", ".join(values)])
     headings = [
         Heading(text, words=True) for text in ("axis", "meaning", "unit", "values", "which")
@@ -124,7 +120,7 @@ def _place(study: Study, name: str, i: int) -> str:
         return str(i + 1)
     if not of_numbers(study.data, name):
         return name_of(study.data, name, i)
-    shown = number(LABELS[name].of(study.data[name].values[i]), digits=4)
+    shown = number(axis_shown(study.data, name).of(study.data[name].values[i]), digits=4)
     return shown.rstrip("0").rstrip(".") if "." in shown else shown
 
 
@@ -177,7 +173,7 @@ def cell(value: Any) -> str:
 
 def _unit(study: Study, name: str) -> str:
     if of_numbers(study.data, name):
-        return LABELS[name].unit
+        return axis_shown(study.data, name).unit
     unit = str(study.data[name].attrs.get("units", "")) if name in study.data.variables else ""
     return "" if unit == "1" else unit
 

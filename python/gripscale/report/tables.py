@@ -1,4 +1,4 @@
-"""Tables a person can read: one row per wave, lengths in mm, pressures and moduli in MPa."""
+"""Tables a person can read: one row per wave, lengths in mm, moduli in MPa, loads as given."""
 
 from __future__ import annotations
 
@@ -32,6 +32,12 @@ class Column:
     heading: str
     unit: str
     cell: Callable[[PredictionView, int], str]
+    given: str = ""
+    """The key of the load whose unit it has, in place of `unit`."""
+
+    def unit_in(self, view: PredictionView) -> str:
+        """Return its unit in a table of a prediction."""
+        return view.shown(self.given).unit if self.given else self.unit
 
 
 def significant(value: float, digits: int = 3) -> str:
@@ -65,6 +71,10 @@ def _in(unit: float) -> Callable[[float], str]:
     return lambda value: significant(value / unit)
 
 
+def _pressure(view: PredictionView, i: int) -> str:
+    return significant(float(view.shown("pressure").of(view.column("pressure_received")[i])))
+
+
 def _loss_factor(view: PredictionView, i: int) -> str:
     star = "*" if view.column("outside_band")[i] else " "
     return f"{view.column('loss_factor')[i]:.2f}{star}"
@@ -80,7 +90,7 @@ LENGTH = Column("λ", "mm", _of("wavelength", _in(MILLI)))
 LOAD = [
     Column("A", "mm", _of("amplitude", _in(MILLI))),
     Column("slope", "2πA/λ", _of("slope", "{:.2f}".format)),
-    Column("p", "MPa", _of("pressure_received", _in(MEGA))),
+    Column("p", "", _pressure, given="pressure"),
     Column("|E*|", "MPa", _of("modulus", _in(MEGA))),
     Column("tan δ", "", _moving(_loss_factor)),
 ]
@@ -186,7 +196,7 @@ def _table(view: PredictionView, columns: Sequence[Column], padding: int) -> Tab
     for column in columns:
         words = column.heading == "status"
         table.add_column(
-            f"{column.heading}\n{column.unit}",
+            f"{column.heading}\n{column.unit_in(view)}",
             justify="left" if words else "right",
             no_wrap=not words,
             overflow="fold",

@@ -23,6 +23,17 @@ class Column:
     unit: str = ""
     show: Callable[[float], str] = number
     moving_only: bool = False
+    given: str = ""
+    """The key of the load whose unit it has, in place of `unit`."""
+
+    def unit_in(self, one: PredictionView) -> str:
+        """Return its unit in a table of a prediction."""
+        return one.shown(self.given).unit if self.given else self.unit
+
+    def cell(self, one: PredictionView, i: int) -> str:
+        """Return its text for wave `i` of a prediction."""
+        value = float(one.column(self.name)[i])
+        return self.show(float(one.shown(self.given).of(value)) if self.given else value)
 
 
 def _in(unit: float, digits: int = 3) -> Callable[[float], str]:
@@ -47,8 +58,8 @@ WAVE = [
     Column("slope", "slope", "2πA/λ"),
 ]
 LOAD = [
-    Column("pressure_received", "p", "MPa", _in(MEGA)),
-    Column("sliding_speed", "v", "m/s", moving_only=True),
+    Column("pressure_received", "p", given="pressure"),
+    Column("sliding_speed", "v", moving_only=True, given="speed"),
     Column("load_time", "load time", "s"),
     Column("angular_frequency", "ω", "rad/s", moving_only=True),
     Column("modulus", "|E*|", "MPa", _in(MEGA)),
@@ -148,13 +159,13 @@ def _table(
     headings = [Heading("wave"), *(Heading(c.heading, c.unit) for c in own)]
     groups = [("", len(headings))]
     for one, each in zip(predictions, shown, strict=True):
-        headings += [Heading(c.heading, c.unit) for c in each]
+        headings += [Heading(c.heading, c.unit_in(one)) for c in each]
         headings += [Heading("status", words=True)] * status
         groups.append((one.title, len(each) + status))
     longest = max(predictions, key=lambda one: one.waves)
     rows = []
     for i in range(longest.waves):
-        row = [str(i + 1), *(c.show(float(longest.column(c.name)[i])) for c in own)]
+        row = [str(i + 1), *(c.cell(longest, i) for c in own)]
         for one, each in zip(predictions, shown, strict=True):
             row += _cells(one, each, i, status=status)
         rows.append(row)
@@ -187,7 +198,7 @@ def _cells(one: PredictionView, columns: Sequence[Column], i: int, *, status: bo
     """Return the cells of wave `i`, which this prediction may not have reached."""
     if i >= one.waves:
         return [NONE] * len(columns) + ["not reached"] * status
-    cells = [column.show(float(one.column(column.name)[i])) for column in columns]
+    cells = [column.cell(one, i) for column in columns]
     if status:
         state = one.why(i)
         cells.append(state if one.converged[i] else f"NOT CONVERGED: {state}")

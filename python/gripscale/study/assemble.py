@@ -16,6 +16,7 @@ from gripscale.model import (
     WHY_NO_EXPONENT,
 )
 from gripscale.rubber import Rubber
+from gripscale.shown import GIVEN
 from gripscale.study.axes import LONG_NAMES, UNITS, Axis
 from gripscale.study.decades import friction_by_decade
 
@@ -82,14 +83,17 @@ def by_decade(
     return {"friction_by_decade": array.assign_coords(decade=time)}
 
 
-def coordinates(axes: Iterable[Axis]) -> dict[str, xr.DataArray]:
-    """Return the coordinates of the axes."""
+def coordinates(axes: Iterable[Axis], case: str) -> dict[str, xr.DataArray]:
+    """Return the coordinates of the axes of a study of this text of a case."""
     out = {}
     for axis in axes:
         values = np.array(axis.coordinate, dtype=None if axis.numeric else object)
         out[axis.name] = _labelled(
             axis.name, values, UNITS[axis.name] if axis.numeric else "1", LONG_NAMES[axis.name]
         )
+        how = axis.shown(case)
+        if how is not None:
+            out[axis.name].attrs[GIVEN] = how.unit
         if axis.name == "factors":
             for at, name in enumerate(("s_wavelength", "s_amplitude")):
                 each = [pair[at] for pair in axis.values]

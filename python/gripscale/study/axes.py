@@ -23,10 +23,11 @@ import numpy as np
 from gripscale import checks
 from gripscale.chain.pressure import MOST_CLASSES
 from gripscale.errors import InputError
+from gripscale.shown import KEYS, Shown, shown
 from gripscale.study.conditioned import SELECTIONS
 from gripscale.surface.cut_off import CutOffRule, RmsSlope, cut_off_rule
 from gripscale.surface.sine_fit import MOST_WAVES
-from gripscale.units import ZERO_CELSIUS, parse_quantity
+from gripscale.units import ZERO_CELSIUS, parse_quantity, unit_of
 
 MOST_VALUES = 1000
 MOST_AXES = 2
@@ -87,6 +88,8 @@ class Axis:
     name: str
     values: tuple[Any, ...]
     labels: tuple[str, ...]
+    unit: str = ""
+    """The unit the values were given in; empty for plain numbers."""
 
     @property
     def numeric(self) -> bool:
@@ -99,6 +102,17 @@ class Axis:
     def coordinate(self) -> list[Any]:
         """Values along the axis of a Dataset: numbers, or labels."""
         return list(self.values) if self.numeric else list(self.labels)
+
+    def shown(self, case: str) -> Shown | None:
+        """Return how its values are shown, in a study of this text of a case; None of no length."""
+        if not self.numeric or self.name not in KEYS:
+            return None
+        return shown(self.name, case, self.unit)
+
+    def called(self, i: int, case: str) -> str:
+        """Return what value `i` is called in a study of this text of a case."""
+        how = self.shown(case)
+        return self.labels[i] if how is None else how.text(self.values[i])
 
 
 def axes_of(vary: Mapping[str, Any]) -> tuple[Axis, ...]:
@@ -133,7 +147,16 @@ def _axis(name: str, given: Any) -> Axis:
     twice = {label for label in labels if labels.count(label) > 1}
     if twice:
         raise InputError(f"{name} must have different values; got {min(twice)} more than once")
-    return Axis(name, values, labels)
+    return Axis(name, values, labels, _unit_given(name, given))
+
+
+def _unit_given(name: str, given: Any) -> str:
+    """Return the first unit among the values of an axis; empty where all are plain numbers."""
+    if name not in KEYS:
+        return ""
+    texts = re.split("[,:]", given) if isinstance(given, str) else _entries(name, given)
+    units = (unit_of(text, QUANTITIES[name]) for text in texts)
+    return next(filter(None, units), "")
 
 
 def _entries(name: str, given: Any) -> Iterable[Any]:

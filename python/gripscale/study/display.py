@@ -2,42 +2,31 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
 
+from gripscale.shown import GIVEN, KEYS, Shown, shown
 from gripscale.units import ZERO_CELSIUS
 
-
-class Shown(NamedTuple):
-    """How a numeric axis is shown."""
-
-    divisor: float
-    """Size of the unit in SI units."""
-    label: str
-    """Of the axis, with the unit."""
-    unit: str
-    zero: float = 0.0
-    """Where the unit begins to count, in SI units."""
-
-    def of(self, values: ArrayLike) -> NDArray[np.float64]:
-        """Return values in SI units as they are shown."""
-        return (np.asarray(values, dtype=float) - self.zero) / self.divisor
-
-
 LABELS = {
-    "speed": Shown(1.0, "sliding speed $v$ [m/s]", "m/s"),
-    "pressure": Shown(1e6, "nominal pressure $p$ [MPa]", "MPa"),
-    "temperature": Shown(1.0, "temperature $T$ [°C]", "°C", ZERO_CELSIUS),
-    "smallest_wavelength": Shown(1e-3, "smallest wavelength [mm]", "mm"),
-    "cut_off": Shown(1e-3, "shortest wavelength of the roughness [mm]", "mm"),
-    "upper_share": Shown(1.0, "share of the heights that counts [-]", "of the heights"),
-    "pressure_classes": Shown(1.0, "number of pressure classes [-]", "pressure classes"),
-    "waves": Shown(1.0, "number of waves [-]", "waves"),
+    "speed": "sliding speed $v$",
+    "pressure": "nominal pressure $p$",
+    "temperature": "temperature $T$",
+    "smallest_wavelength": "smallest wavelength",
+    "cut_off": "shortest wavelength of the roughness",
+    "upper_share": "share of the heights that counts",
+    "pressure_classes": "number of pressure classes",
+    "waves": "number of waves",
 }
-"""Numeric axes by name."""
+"""Numeric axes by name, and what they are called."""
+
+FIXED = {
+    "temperature": Shown("°C", zero=ZERO_CELSIUS),
+    "upper_share": Shown("of the heights"),
+    "pressure_classes": Shown("pressure classes"),
+    "waves": Shown("waves"),
+}
+"""Numeric axes that are shown in one way whatever was given, and their units in words."""
 
 WORDS = {
     "cut_off": "where the roughness ends",
@@ -53,6 +42,22 @@ MODELS = {"chain": "chain", "direct": "direct contact"}
 
 EFFECTS = {"all": "all effects", "none": "no effects"}
 """What selections of effects are called where nothing else says what they are of."""
+
+
+def axis_shown(result: xr.Dataset | xr.DataArray, axis: str) -> Shown:
+    """Return how the values of a numeric axis are shown: in the unit they were given in."""
+    return FIXED[axis] if axis in FIXED else shown(axis, unit=_given(result, axis))
+
+
+def axis_label(result: xr.Dataset, axis: str) -> str:
+    """Return what a figure calls a numeric axis, with its unit."""
+    unit = axis_shown(result, axis).unit if axis in (*KEYS, "temperature") else "-"
+    return f"{LABELS[axis]} [{unit}]"
+
+
+def _given(result: xr.Dataset | xr.DataArray, axis: str) -> str:
+    """Return the unit of an axis; of one that was not varied, that of the case."""
+    return str(result[axis].attrs.get(GIVEN, "")) if axis in result.coords else ""
 
 
 def dimensions(result: xr.Dataset) -> list[str]:
@@ -78,5 +83,4 @@ def name_of(result: xr.Dataset, axis: str, i: int) -> str:
         return EFFECTS.get(str(value), str(value))
     if not of_numbers(result, axis):
         return str(value).replace("_", " ")
-    shown = LABELS[axis]
-    return f"{float(shown.of(value)):.3g} {shown.unit}"
+    return axis_shown(result, axis).text(value, digits=3)

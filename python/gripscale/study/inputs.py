@@ -6,10 +6,11 @@ import hashlib
 from pathlib import Path
 from typing import Any
 
-from gripscale.case.models import NAMED_RUBBERS, RubberSource, Surface
 from gripscale.case.prepare import prepare_surface
 from gripscale.case.prepare_rubber import prepare_rubber
 from gripscale.case.read import CaseFile, read_case, validate
+from gripscale.case.rubber_table import NAMED_RUBBERS, RubberSource
+from gripscale.case.surface_table import Surface
 from gripscale.errors import FileError
 from gripscale.excel import is_excel
 from gripscale.rubber import Rubber

@@ -240,7 +240,7 @@ class Study:
         if rest:
             at_rest = _at_rest(assemble.combined(rest, self.static_axes))
             result = xr.merge([result, at_rest], join="outer", compat="no_conflicts")
-        result = result.assign_coords(assemble.coordinates(self.axes))
+        result = result.assign_coords(assemble.coordinates(self.axes, self.file.text))
         result = result.assign(beyond_shift([p.task for p in self.points], self.axes))
         if {"speed", "temperature"} == {axis.name for axis in self.axes}:
             result = with_master_curve(result, self.rubbers[0])
@@ -250,7 +250,7 @@ class Study:
         """Yield where each point is on the axes, and what it is called."""
         for index in product(*(range(len(axis.values)) for axis in axes)):
             words = [
-                f"{axis.name} {axis.labels[i]}{_unit(axis)}"
+                f"{axis.name} {axis.called(i, self.file.text)}"
                 for axis, i in zip(axes, index, strict=True)
             ]
             yield index, ", ".join(["static", *words] if static else words)
@@ -331,10 +331,3 @@ def _at_rest(data: xr.Dataset) -> xr.Dataset:
     )
     names = [str(name) for name in data.data_vars if not any(word in str(name) for word in moving)]
     return data[names].rename({name: f"static_{name}" for name in names})
-
-
-def _unit(axis: Axis) -> str:
-    return f" {unit}" if axis.numeric and (unit := _UNIT.get(axis.name)) else ""
-
-
-_UNIT = {"speed": "m/s", "pressure": "Pa", "smallest_wavelength": "m", "cut_off": "m"}

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from gripscale import versions
 from gripscale.model import FRICTION_OUTSIDE_BAND
+from gripscale.shown import GIVEN
 from gripscale.study.axes import LONG_NAMES, UNITS, Axis
 from gripscale.uncertainty.choice import Chosen
 from gripscale.uncertainty.design import Drawn
@@ -107,7 +108,7 @@ def dataset(
         **_drawn(drawn, chosen.sources),
     }
     if axis is not None:
-        attrs = {"units": UNITS[axis.name], "long_name": LONG_NAMES[axis.name]}
+        attrs = {"units": UNITS[axis.name], "long_name": LONG_NAMES[axis.name], GIVEN: axis.unit}
         coordinates[axis.name] = (axis.name, list(axis.values), attrs)
     return xr.Dataset(data, coordinates).assign_attrs(
         title="Uncertainty of real contact area and friction of rubber on a rough surface",

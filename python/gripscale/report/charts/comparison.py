@@ -26,7 +26,7 @@ from gripscale.report.charts.look import (
     whole_decades,
 )
 from gripscale.report.elements import Chart
-from gripscale.study.display import LABELS
+from gripscale.study.display import axis_shown
 
 QUANTITIES = {"contact_fraction": "contact area A_r/A_0", "friction": "friction coefficient μ"}
 ROW = 44
@@ -117,7 +117,7 @@ def _by_wavelength(comparison: xr.Dataset, name: str) -> Chart:
 
 
 def _over(comparison: xr.Dataset, axis: str, name: str) -> Chart:
-    shown = LABELS[axis]
+    shown = axis_shown(comparison, axis)
     x = shown.of(comparison[axis].values)
     spread_out = bool(x.min() > 0.0 and x.max() > 8.0 * x.min())
     log = ("x" if spread_out else "") + ("y" if name == "contact_fraction" else "")
@@ -178,12 +178,14 @@ def _line(
 
 
 def _measured(figure: Any, comparison: xr.Dataset) -> None:
+    shown = axis_shown(comparison, "speed")
     for series in measured(comparison):
+        speed = shown.of(series.speed)
         spread = np.nan_to_num(series.spread)
         low, high = series.friction - spread, series.friction + spread
-        figure.segment(x0=series.speed, x1=series.speed, y0=low, y1=high, color=COLOUR,
+        figure.segment(x0=speed, x1=speed, y0=low, y1=high, color=COLOUR,
                        line_width=1.6)  # fmt: skip
-        dots = figure.scatter(series.speed, series.friction, size=9, line_color=COLOUR,
+        dots = figure.scatter(speed, series.friction, size=9, line_color=COLOUR,
                               fill_color="white", line_width=2,
                               legend_label=series.label)  # fmt: skip
-        hover(figure, [dots], [(series.label, "@y"), ("speed", "@x m/s")])
+        hover(figure, [dots], [(series.label, "@y"), ("speed", f"@x {shown.unit}")])

@@ -9,7 +9,7 @@ import numpy as np
 from bokeh.plotting import figure as Figure
 from numpy.typing import NDArray
 
-from gripscale.figures.palette import MEGA, MILLI
+from gripscale.figures.palette import MILLI
 from gripscale.figures.stretches import down_to, waves_beyond
 from gripscale.figures.view import PredictionView
 from gripscale.report.charts.look import (
@@ -28,6 +28,8 @@ from gripscale.report.elements import Chart
 
 Array = NDArray[np.float64]
 WAVELENGTH = "wavelength λ [mm]"
+LOAD = ("pressure_received", "modulus")
+"""What is drawn on one axis: pressure, and the modulus that carries it."""
 TIPS = [("λ", "@x mm"), ("value", "@y")]
 
 
@@ -97,17 +99,18 @@ def failed(figure: Figure, x: Array, y: Array) -> None:
 
 
 def _load(predictions: Sequence[PredictionView]) -> Chart:
-    figure = plot(WAVELENGTH, "pressure, modulus [MPa]", log="y", wavelengths=_waves(predictions))
+    how = predictions[0].shown("pressure")
+    label = f"pressure, modulus [{how.unit}]"
+    figure = plot(WAVELENGTH, label, log="y", wavelengths=_waves(predictions))
     for one, colour in zip(predictions, COLOURS, strict=False):
         x = one.column("wavelength") / MILLI
-        pressure, modulus = one.column("pressure_received"), one.column("modulus")
+        pressure, modulus = (how.of(one.column(name)) for name in LOAD)
         label = f"{one.name}, mean pressure"
-        dots = [curve(figure, x, pressure / MEGA, colour, label)]
+        dots = [curve(figure, x, pressure, colour, label)]
         options: dict[str, Any] = {"fill": "white", "dash": "dotted"}
-        dots.append(curve(figure, x, modulus / MEGA, colour, f"{one.name}, |E*|", **options))
+        dots.append(curve(figure, x, modulus, colour, f"{one.name}, |E*|", **options))
         hover(figure, dots, TIPS)
-    names = ("pressure_received", "modulus")
-    whole_decades(figure, *(one.column(name) / MEGA for one in predictions for name in names))
+    whole_decades(figure, *(how.of(one.column(name)) for one in predictions for name in LOAD))
     return Chart(
         "load",
         "What each wave receives: mean pressure (filled) against the modulus of the rubber there "
@@ -135,14 +138,15 @@ def _stretch(predictions: Sequence[PredictionView]) -> Chart:
 
 
 def _along(one: PredictionView) -> Chart:
-    figure = plot("x/λ [-], crest at 0", "contact pressure [MPa]", height=380)
+    how = one.shown("pressure")
+    figure = plot("x/λ [-], crest at 0", f"contact pressure [{how.unit}]", height=380)
     wavelength, colours = one.column("wavelength"), shades(one.waves)
     for i in range(one.waves):
         phase, pressure = one.pressure_along(i)
         state = "" if one.converged[i] else ", not converged"
         figure.line(
             single(phase),
-            single(pressure / MEGA),
+            single(how.of(pressure)),
             color=colours[i] if one.converged[i] else RED,
             line_width=1.6,
             legend_label=f"{i + 1}: {wavelength[i] / MILLI:.3g} mm{state}",

@@ -25,8 +25,9 @@ from gripscale.report.charts.look import (
 from gripscale.report.elements import Chart
 from gripscale.report.source import Study
 from gripscale.report.study_words import telling, words_of
+from gripscale.shown import KEYS
+from gripscale.study.display import LABELS, axis_shown
 from gripscale.study.temperature import COLLAPSED, REDUCED_SPEED
-from gripscale.units import ZERO_CELSIUS
 
 MOST_CURVES = 12
 """Curves in one figure; of more, so many evenly spaced ones are drawn."""
@@ -126,14 +127,15 @@ def _sentence(text: str) -> str:
 def _master(study: Study, name: str) -> Chart:
     """Draw a total at every temperature over the reduced speed."""
     variable, reduced = study.data[name], study.data[REDUCED_SPEED]
-    figure = plot("reduced speed a_T v [m/s]", _label(study.data, name), log="x")
+    speeds = axis_shown(study.data, "speed")
+    figure = plot(f"reduced speed a_T v [{speeds.unit}]", _label(study.data, name), log="x")
     temperatures = list(range(variable.sizes["temperature"]))
     colours = shades(len(temperatures))
     flags = _beyond(study.data, variable)
     for i in temperatures:
         x, y, beyond = (one.isel(temperature=i) for one in (reduced, variable, flags))
         words = _value(variable, "temperature", i)
-        dots = curve(figure, x.values, y.values, colours[i], words, beyond=beyond)
+        dots = curve(figure, speeds.of(x), y.values, colours[i], words, beyond=beyond)
         hover(figure, [dots], [("a_T v", "@x"), (words_of(study.data, name), "@y")])
     dashed_entry(figure, flags)
     return Chart(
@@ -215,13 +217,13 @@ def _label(data: xr.Dataset, name: str) -> str:
 
 def _unit(data: xr.Dataset | xr.DataArray, name: str) -> str:
     """Return the unit in which a coordinate is drawn."""
+    if name in (*KEYS, "temperature"):
+        return axis_shown(data, name).unit
     unit = str(data[name].attrs.get("units", "1")) if name in data.coords else "1"
-    return {"Pa": "MPa", "m": "mm", "K": "°C", "1": "-"}.get(unit, unit)
+    return "-" if unit == "1" else unit
 
 
 def _shown(data: xr.Dataset | xr.DataArray, name: str) -> Array:
     """Return a coordinate in the unit in which it is drawn."""
-    size, zero = {"MPa": (1e6, 0.0), "mm": (1e-3, 0.0), "°C": (1.0, ZERO_CELSIUS)}.get(
-        _unit(data, name), (1.0, 0.0)
-    )
-    return np.asarray((data[name].values.astype(float) - zero) / size)
+    values = data[name].values.astype(float)
+    return axis_shown(data, name).of(values) if name in LABELS else values

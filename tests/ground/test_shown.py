@@ -1,0 +1,58 @@
+"""Loads and lengths are shown as the case gives them, what is a plain number in the usual unit."""
+
+from __future__ import annotations
+
+import pytest
+
+from gripscale.shown import GIVEN, given_units, shown
+from gripscale.study.assemble import coordinates
+from gripscale.study.axes import axes_of
+
+CASE = """
+[surface]
+smallest_wavelength = "50 µm"
+[load]
+pressure = "300 kPa"
+speed = "36 km/h"
+footprint = 0.1
+"""
+
+
+def test_the_units_of_a_case() -> None:
+    assert given_units(CASE) == {"pressure": "kPa", "speed": "km/h", "smallest_wavelength": "um"}
+    assert shown("pressure", CASE).text(3e5) == "300 kPa"
+    assert shown("speed", CASE).text(10.0) == "36 km/h"
+    assert shown("footprint", CASE).text(0.1) == "100 mm"
+
+
+@pytest.mark.parametrize("case", ["", "no = toml = at all", "load = 3", "[load]\npressure = 3e5"])
+def test_without_a_unit_it_is_the_usual_one(case: str) -> None:
+    assert shown("pressure", case).text(3e5) == "0.3 MPa"
+    assert shown("speed", case).text(10.0) == "10 m/s"
+
+
+@pytest.mark.parametrize(
+    ("values", "unit", "called"),
+    [
+        ("1 bar, 3 bar", "bar", "3 bar"),
+        ("1 bar:3 bar:lin2", "bar", "3 bar"),
+        (["1e5 Pa", "3e5 Pa"], "Pa", "300000 Pa"),
+        ([1e5, 3e5], "kPa", "300 kPa"),
+    ],
+)
+def test_an_axis_goes_before_the_case(values: object, unit: str, called: str) -> None:
+    """Inside it is in Pa whatever is shown."""
+    axes = axes_of({"pressure": values})
+    along = coordinates(axes, CASE)["pressure"]
+    assert (along.values.tolist(), along.attrs["units"], along.attrs[GIVEN]) == (
+        [1e5, 3e5],
+        "Pa",
+        unit,
+    )
+    assert axes[0].called(1, CASE) == called
+
+
+def test_other_axes_have_no_unit_to_choose() -> None:
+    axes = axes_of({"temperature": "20 C, 40 C", "waves": [3, 4]})
+    assert all(GIVEN not in one.attrs for one in coordinates(axes, CASE).values())
+    assert [axis.called(1, CASE) for axis in axes] == ["40 C", "4"]
