@@ -32,6 +32,7 @@ from gripscale.case.quantity import (
 )
 from gripscale.case.shift_table import ShiftSource
 from gripscale.case.table import Table
+from gripscale.case.uncertainty_table import UncertaintyTable
 from gripscale.chain.pressure import MOST_CLASSES
 from gripscale.rubber.stated import columns_of
 from gripscale.rubber.strain_energy import NeoHookean, StrainEnergy, strain_energy_from_dict
@@ -430,6 +431,8 @@ class Case(Table):
     """Where results go."""
     compare: Compare = Compare()
     """Further inputs of a comparison."""
+    uncertainty: UncertaintyTable = UncertaintyTable()
+    """What is not known of all that."""
 
     @model_validator(mode="after")
     def _energy_of_the_model(self) -> Case:
