@@ -20,7 +20,7 @@ from gripscale.rough.half_space import Response
 
 TOLERANCE = 1e-6
 """Missing pressure over pressure at which the linear system counts as solved."""
-START_TOLERANCE = 1e-4
+START_TOLERANCE = 1e-3
 """The same on a grid that another one starts from."""
 LOOSEST = 1e-2
 TIGHTENING = 1e-2
