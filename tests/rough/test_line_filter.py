@@ -9,7 +9,7 @@ import scipy.fft
 from gripscale.rough.line_filter import SHORTEST, LineFilter
 
 ROUNDING = 2e-6
-"""Of transforms in single precision: 6e-8 times the root of some log2(N) = 16 stages, and margin."""
+"""Of transforms in single precision: 6e-8 in each of some log2(N) = 16 stages, and margin."""
 
 
 def transfer_of(points: int) -> np.ndarray:

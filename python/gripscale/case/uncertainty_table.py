@@ -96,7 +96,7 @@ class UncertaintyTable(Table):
     """Seed of the random numbers."""
     model: Literal["chain", "direct", "both"] = "chain"
     """What predicts each sample."""
-    without: list[SourceName] = []
+    without: list[SourceName] = Field(default=[])
     """Sources that are taken to be known."""
     given: Given | None = None
     """What is known of a source, in place of its default."""

@@ -9,6 +9,7 @@ import typer
 
 from gripscale.cli.options import Workers
 from gripscale.cli.progress import teller
+from gripscale.cli.side_by_side import case_of, names_of
 from gripscale.cli.terminal import NOT_CONVERGED, command, complain, say, screen
 from gripscale.errors import InputError
 
@@ -63,10 +64,7 @@ def compare_rubbers(
     from gripscale.compounds import compare_compounds
     from gripscale.units import parse_quantity
 
-    own = next((Path(one) for one in rubbers if one.endswith(".toml")), None)
-    chosen = case or own
-    if chosen is None:
-        raise InputError("--case must be given: the road and the load are taken from a case")
+    chosen = case_of(rubbers, case, "the road and the load")
     try:
         kelvin = None if temperature is None else parse_quantity(temperature, "temperature")
     except ValueError as error:
@@ -80,7 +78,7 @@ def compare_rubbers(
         say(console, "The compounds; then, for what their measurements leave open, half-planes.")
     made = compare_compounds(
         file,
-        dict(zip(_names(rubbers), rubbers, strict=True)),
+        dict(zip(names_of(rubbers), rubbers, strict=True)),
         target,
         temperature=kelvin,
         uncertainty=uncertainty,
@@ -88,17 +86,6 @@ def compare_rubbers(
         on_task=teller(console),
     )
     _conclude(console, made, target)
-
-
-def _names(rubbers: list[str]) -> list[str]:
-    """Return what compounds are called: their files, cases by their folder, each name once."""
-    names: list[str] = []
-    for one in rubbers:
-        path = Path(one)
-        name = path.resolve().parent.name if path.name == "case.toml" else path.stem
-        count = sum(known == name or known.startswith(f"{name} ") for known in names)
-        names.append(f"{name} {count + 1}" if count else name)
-    return names
 
 
 def _conclude(console: Console, made: Compounds, target: Path) -> None:

@@ -20,8 +20,9 @@ from gripscale.errors import FileError
 from gripscale.netcdf import write_whole
 from gripscale.report.comparison_page import comparison_page
 from gripscale.report.elements import Page
+from gripscale.report.roads_page import roads_page
 from gripscale.report.run_page import run_page
-from gripscale.report.source import Compared, Run, Study, read_result
+from gripscale.report.source import Compared, RoadsBeside, Run, Study, read_result
 from gripscale.report.study_page import study_page
 
 REPORT = "report.html"
@@ -42,9 +43,11 @@ def build(result: Path, output: Path | None) -> Path:
     return write_whole(output, write)
 
 
-def _page(source: Run | Study | Compared) -> Page:
+def _page(source: Run | Study | Compared | RoadsBeside) -> Page:
     if isinstance(source, Run):
         return run_page(source)
+    if isinstance(source, RoadsBeside):
+        return roads_page(source.data)
     return study_page(source) if isinstance(source, Study) else comparison_page(source)
 
 

@@ -86,7 +86,14 @@ class Study:
         return dimensions(self.data)
 
 
-def read_result(path: Path) -> Run | Study | Compared:
+@dataclass(frozen=True)
+class RoadsBeside:
+    """Roads side by side."""
+
+    data: xr.Dataset
+
+
+def read_result(path: Path) -> Run | Study | Compared | RoadsBeside:
     """Read the results folder or netCDF file at `path`.
 
     Raises `FileError` if it is missing, unreadable or no result of gripscale.
@@ -98,12 +105,14 @@ def read_result(path: Path) -> Run | Study | Compared:
     tree = _checked(path)
     if "rung" in tree.dims:
         return Compared.holding([tree.to_dataset()])
+    if {"model", "surface"} <= set(tree.dims):
+        return RoadsBeside(tree.to_dataset())
     if tree["total_friction"].ndim:
         return Study(path.stem, tree.to_dataset())
     return _run({path.stem: tree}, Compared())
 
 
-def _read_folder(folder: Path) -> Run | Study | Compared:
+def _read_folder(folder: Path) -> Run | Study | Compared | RoadsBeside:
     paths = [folder / f"{name}.nc" for name in PREDICTIONS]
     there = {path.stem: _checked(path) for path in paths if path.is_file()}
     if there:

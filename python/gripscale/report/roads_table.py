@@ -1,0 +1,49 @@
+"""Roads side by side as tables, and in sentences which scale makes the difference."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import xarray as xr
+from rich.table import Table
+
+from gripscale.figures.palette import MILLI
+from gripscale.report.side_by_side_table import Row, difference_words, totals_table
+from gripscale.report.tables import significant
+
+
+def roads_rows(data: xr.Dataset) -> list[Row]:
+    """Return all roads that were asked, model by model."""
+    return [
+        Row(f"{name}, {model}", data.sel(model=model, surface=name), i == 0)
+        for model in data.model.values.tolist()
+        for i, name in enumerate(data.surface.values.tolist())
+        if str(data.prediction_status.sel(model=model, surface=name).item())
+    ]
+
+
+def roads_table(data: xr.Dataset) -> Table:
+    """Return totals of each road and model with their ranges, and differences to the first."""
+    return totals_table("road, model", roads_rows(data))
+
+
+def roads_sentences(data: xr.Dataset) -> Iterator[str]:
+    """Yield, for each road and model, whether it differs from the first and at which scale."""
+    first, *others = data.surface.values.tolist()
+    for model in data.model.values.tolist():
+        for name in others:
+            one = data.sel(model=model, surface=name)
+            text = difference_words(one, name, first, "the stretches measured")
+            if text:
+                yield f"{model}: {text}{_scale(one)}."
+
+
+def _scale(one: xr.Dataset) -> str:
+    """Return which octave of wavelength differs most."""
+    parts = one.friction_difference.values
+    if not np.isfinite(parts).any():
+        return ""
+    at = int(np.nanargmax(np.abs(parts)))
+    end = float(one.octave.values[at]) / MILLI
+    return f"; most, {parts[at]:+.3f}, by waves of {significant(end)} to {significant(2 * end)} mm"
