@@ -42,9 +42,10 @@ from gripscale.uncertainty.attempt import Attempt
 from gripscale.uncertainty.choice import Chosen, Uncertainty
 from gripscale.uncertainty.design import Drawn, draws
 from gripscale.uncertainty.inputs import Inputs, Measurement
+from gripscale.uncertainty.stored import FILES, RESULT, input_digests
 
-RESULT, PREDICTIONS = "uncertainty.nc", "predictions"
-"""The Dataset and the folder of the finished predictions, in the folder of the result."""
+PREDICTIONS = "predictions"
+"""Folder of the finished predictions, in the folder of the result."""
 
 MODELS = ("chain", "direct")
 VARIED = ("speed", "pressure")
@@ -225,7 +226,11 @@ def _solved(
     solved = {place: answers[task.key] for place, task in tasks.items()}
     data = assemble.dataset(plan.models, plan.axis, drawn, chosen, solved, status)
     return data.assign_attrs(
-        case=plan.file.text, seed=plan.seed, plan_key=plan.key, software=software()
+        {FILES: json.dumps(input_digests(plan.file))},
+        case=plan.file.text,
+        seed=plan.seed,
+        plan_key=plan.key,
+        software=software(),
     )
 
 
