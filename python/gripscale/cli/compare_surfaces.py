@@ -9,8 +9,8 @@ import typer
 
 from gripscale.cli.options import Workers
 from gripscale.cli.progress import teller
-from gripscale.cli.side_by_side import case_of, names_of
-from gripscale.cli.terminal import NOT_CONVERGED, command, complain, say, screen
+from gripscale.cli.side_by_side import case_of, fail_if_any, keep, names_of
+from gripscale.cli.terminal import command, say, screen
 from gripscale.errors import InputError
 
 if TYPE_CHECKING:
@@ -75,20 +75,15 @@ def compare_surfaces(
 
 def _conclude(console: Console, made: Roads, target: Path) -> None:
     """Print and keep the table, draw figures and page, and say which predictions failed."""
-    from gripscale.case import folder
     from gripscale.figures.roads import roads_friction_figure, roads_statistics_figure
     from gripscale.figures.style import save_figure
-    from gripscale.report import tables, write_report
+    from gripscale.report import write_report
     from gripscale.report.roads_table import roads_rows, roads_sentences, roads_table
     from gripscale.report.side_by_side_table import status
 
     table = roads_table(made.data)
     below = [*roads_sentences(made.data), *(f"note: {note}" for note in made.notes)]
-    console.print()
-    console.print(table)
-    for text in below:
-        say(console, text)
-    folder.write_text(target / "surfaces.txt", tables.as_text(table, *below))
+    keep(console, target / "surfaces.txt", table, below)
     save_figure(roads_statistics_figure(made.data), target, "roads_statistics")
     save_figure(roads_friction_figure(made.data), target, "roads_friction")
     console.print()
@@ -97,11 +92,5 @@ def _conclude(console: Console, made: Roads, target: Path) -> None:
         say(console, f"Page: {write_report(target / 'surfaces.nc')}")
     except InputError as error:  # the extra is not installed
         say(console, f"note: no page; {error}")
-    rows = roads_rows(made.data)
-    failed = [row for row in rows if status(row.one) != "converged"]
-    if failed:
-        complain(
-            f"{len(failed)} of {len(rows)} predictions have no totals; the first, "
-            f"{failed[0].name}: {status(failed[0].one)}"
-        )
-        raise typer.Exit(NOT_CONVERGED)
+    bad = [row for row in roads_rows(made.data) if status(row.one) != "converged"]
+    fail_if_any([f"{row.name}: {status(row.one)}" for row in bad], "predictions")

@@ -1,11 +1,19 @@
-"""What the commands that put things side by side share: their names, and the case of the rest."""
+"""What the commands that put things side by side share: names, the case of the rest, the end."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
+import typer
+
+from gripscale.cli.terminal import NOT_CONVERGED, complain, say
 from gripscale.errors import InputError
+
+if TYPE_CHECKING:
+    from rich.console import Console
+    from rich.table import Table
 
 
 def case_of(given: Sequence[str], case: Path | None, what: str) -> Path:
@@ -28,3 +36,22 @@ def names_of(given: Sequence[str]) -> list[str]:
         count = sum(known == name or known.startswith(f"{name} ") for known in names)
         names.append(f"{name} {count + 1}" if count else name)
     return names
+
+
+def keep(console: Console, path: Path, table: Table, below: Sequence[str]) -> None:
+    """Print a table with the sentences below it, and write both to `path`."""
+    from gripscale.case import folder
+    from gripscale.report import tables
+
+    console.print()
+    console.print(table)
+    for text in below:
+        say(console, text)
+    folder.write_text(path, tables.as_text(table, *below))
+
+
+def fail_if_any(failed: Sequence[str], what: str) -> None:
+    """Complain of what has no totals, with the reason of the first, and end the command."""
+    if failed:
+        complain(f"{len(failed)} of the {what} have no totals; the first: {failed[0]}")
+        raise typer.Exit(NOT_CONVERGED)
