@@ -96,7 +96,7 @@ def _conclude(console: Console, made: Compounds, target: Path) -> None:
 
     table = compounds_table(made.data)
     below = [*compounds_sentences(made.data), *(f"note: {note}" for note in made.notes)]
-    keep(console, target / "compounds.txt", table, below)
+    keep(console, target / "compounds.txt", [table], below)
     save_figure(compound_moduli_figure(made.rubbers), target, "compound_moduli")
     if "friction_running" in made.data:
         save_figure(compound_friction_figure(made.data), target, "compound_friction")

@@ -78,12 +78,10 @@ def _conclude(console: Console, made: Roads, target: Path) -> None:
     from gripscale.figures.roads import roads_friction_figure, roads_statistics_figure
     from gripscale.figures.style import save_figure
     from gripscale.report import write_report
-    from gripscale.report.roads_table import roads_rows, roads_sentences, roads_table
-    from gripscale.report.side_by_side_table import status
+    from gripscale.report.roads_table import roads_failures, roads_sentences, roads_tables
 
-    table = roads_table(made.data)
     below = [*roads_sentences(made.data), *(f"note: {note}" for note in made.notes)]
-    keep(console, target / "surfaces.txt", table, below)
+    keep(console, target / "surfaces.txt", roads_tables(made.data), below)
     save_figure(roads_statistics_figure(made.data), target, "roads_statistics")
     save_figure(roads_friction_figure(made.data), target, "roads_friction")
     console.print()
@@ -92,5 +90,4 @@ def _conclude(console: Console, made: Roads, target: Path) -> None:
         say(console, f"Page: {write_report(target / 'surfaces.nc')}")
     except InputError as error:  # the extra is not installed
         say(console, f"note: no page; {error}")
-    bad = [row for row in roads_rows(made.data) if status(row.one) != "converged"]
-    fail_if_any([f"{row.name}: {status(row.one)}" for row in bad], "predictions")
+    fail_if_any(roads_failures(made.data), "predictions")

@@ -38,16 +38,17 @@ def names_of(given: Sequence[str]) -> list[str]:
     return names
 
 
-def keep(console: Console, path: Path, table: Table, below: Sequence[str]) -> None:
-    """Print a table with the sentences below it, and write both to `path`."""
+def keep(console: Console, path: Path, told: Sequence[Table], below: Sequence[str]) -> None:
+    """Print tables with the sentences below them, and write both to `path`."""
     from gripscale.case import folder
     from gripscale.report import tables
 
-    console.print()
-    console.print(table)
+    for table in told:
+        console.print()
+        console.print(table)
     for text in below:
         say(console, text)
-    folder.write_text(path, tables.as_text(table, *below))
+    folder.write_text(path, tables.as_text(*told, *below))
 
 
 def fail_if_any(failed: Sequence[str], what: str) -> None:

@@ -10,6 +10,8 @@ from gripscale.figures.palette import COLOURS, MILLI, SQUARE_MM, WIDE
 from gripscale.figures.style import falling_wavelength, log_axis, sheet, styled
 
 CUBIC_MM = 1e-9
+LEAST = 0.02
+"""Share of the largest friction of an octave from which one is drawn."""
 
 
 @styled
@@ -47,6 +49,7 @@ def roads_friction_figure(data: xr.Dataset) -> Figure:
     """
     models = [m for m in data.model.values if np.isfinite(data.friction_running.sel(model=m)).any()]
     figure, panels = sheet(WIDE, 3.2, 1, max(1, len(models)), gap=0.06, sharey=True)
+    data = data.isel(octave=_telling(data))
     wavelength = data.octave.values / MILLI
     for axes, model in zip(panels[0], models, strict=False):
         for at, name in enumerate(data.surface.values.tolist()):
@@ -62,3 +65,11 @@ def roads_friction_figure(data: xr.Dataset) -> Figure:
     panels[0, 0].set_ylim(bottom=0.0)
     figure.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
     return figure
+
+
+def _telling(data: xr.Dataset) -> slice:
+    """Return the octaves from the first to the last in which something is lost."""
+    running = np.nan_to_num(data.friction_running.values.reshape(-1, data.sizes["octave"]))
+    lost = np.abs(np.diff(running, axis=1, prepend=0.0)).max(axis=0)
+    there = np.flatnonzero(lost > LEAST * lost.max())
+    return slice(max(there[0] - 1, 0), there[-1] + 1) if there.size else slice(None)

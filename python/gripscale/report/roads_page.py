@@ -9,7 +9,7 @@ import xarray as xr
 from gripscale.figures.roads import roads_friction_figure, roads_statistics_figure
 from gripscale.report.blocks import picture
 from gripscale.report.elements import Heading, Notice, Page, Section, Table, Text
-from gripscale.report.roads_table import roads_rows, roads_sentences
+from gripscale.report.roads_table import roads_failures, roads_rows, roads_sentences
 from gripscale.report.run_page import rerun_elements
 from gripscale.report.side_by_side_table import status, totals_cells
 
@@ -24,18 +24,7 @@ def roads_page(data: xr.Dataset) -> Page:
     """Return the report of roads side by side."""
     case = PurePath(str(data.attrs.get("case_file", ""))).name or "case.toml"
     names = data.surface.values.tolist()
-    rows = roads_rows(data)
-    failed = [row for row in rows if status(row.one) != "converged"]
-    totals = Table(
-        "roads",
-        "Totals, and differences to the first road",
-        [
-            Heading("road, model", words=True),
-            *map(Heading, ("A_r/A_0", "range", "μ", "range", "μ less that of the first", "range")),
-        ],
-        [[row.name, *totals_cells(row)] for row in rows],
-        bad=frozenset((rows.index(row), 0) for row in failed),
-    )
+    totals = [_totals(data, model) for model in data.model.values.tolist()]
     notes = str(data.attrs.get("notes", "")).splitlines()
     again = f"gripscale compare-surfaces {' '.join(names)} --case {case}"
     statistics = picture(
@@ -53,13 +42,28 @@ def roads_page(data: xr.Dataset) -> Page:
     return Page(
         f"Roads side by side: {', '.join(names)}",
         str(data.attrs.get("title", "")),
-        [Notice("error", f"{row.name}: {status(row.one)}") for row in failed],
+        [Notice("error", text) for text in roads_failures(data)],
         [],
         [
             Section("roads", "Contact and friction",
-                    [Text(WHAT), totals, *map(Text, [*roads_sentences(data), *notes]), friction]),
+                    [Text(WHAT), *totals, *map(Text, [*roads_sentences(data), *notes]), friction]),
             Section("statistics", "The roads", [statistics]),
             Section("again", "Software, and how to run it again",
                     rerun_elements(data.attrs, case, again)),
         ],
     )  # fmt: skip
+
+
+def _totals(data: xr.Dataset, model: str) -> Table:
+    """Return the totals of one model on each road."""
+    rows = roads_rows(data, model)
+    return Table(
+        f"roads-{model}",
+        f"Totals, {model}",
+        [
+            Heading("road", words=True),
+            *map(Heading, ("A_r/A_0", "range", "μ", "range", "μ less that of the first", "range")),
+        ],
+        [[row.name, *totals_cells(row)] for row in rows],
+        bad=frozenset((i, 0) for i, row in enumerate(rows) if status(row.one) != "converged"),
+    )

@@ -9,23 +9,33 @@ import xarray as xr
 from rich.table import Table
 
 from gripscale.figures.palette import MILLI
-from gripscale.report.side_by_side_table import Row, difference_words, totals_table
+from gripscale.report.side_by_side_table import Row, difference_words, status, totals_table
 from gripscale.report.tables import significant
 
 
-def roads_rows(data: xr.Dataset) -> list[Row]:
-    """Return all roads that were asked, model by model."""
+def roads_rows(data: xr.Dataset, model: str) -> list[Row]:
+    """Return the roads that a model was asked of."""
     return [
-        Row(f"{name}, {model}", data.sel(model=model, surface=name), i == 0)
-        for model in data.model.values.tolist()
+        Row(name, data.sel(model=model, surface=name), i == 0)
         for i, name in enumerate(data.surface.values.tolist())
         if str(data.prediction_status.sel(model=model, surface=name).item())
     ]
 
 
-def roads_table(data: xr.Dataset) -> Table:
-    """Return totals of each road and model with their ranges, and differences to the first."""
-    return totals_table("road, model", roads_rows(data))
+def roads_tables(data: xr.Dataset) -> list[Table]:
+    """Return for each model totals of the roads with their ranges, and differences to the first."""
+    told = {model: roads_rows(data, model) for model in data.model.values.tolist()}
+    return [totals_table("road", rows, model) for model, rows in told.items() if rows]
+
+
+def roads_failures(data: xr.Dataset) -> list[str]:
+    """Return model, road and reason of each prediction without totals."""
+    return [
+        f"{model}, {row.name}: {status(row.one)}"
+        for model in data.model.values.tolist()
+        for row in roads_rows(data, model)
+        if status(row.one) != "converged"
+    ]
 
 
 def roads_sentences(data: xr.Dataset) -> Iterator[str]:

@@ -23,9 +23,16 @@ class Row(NamedTuple):
     first: bool
 
 
-def totals_table(head: str, rows: Iterable[Row]) -> Table:
+def totals_table(head: str, rows: Iterable[Row], title: str | None = None) -> Table:
     """Return the totals of predictions with their ranges, and the difference to the first."""
-    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
+    table = Table(
+        title=title,
+        title_justify="left",
+        title_style="",
+        box=box.SIMPLE_HEAD,
+        padding=(0, 1, 0, 0),
+        pad_edge=False,
+    )
     table.add_column(head, no_wrap=True)
     for text in ("A_r/A_0", "range", "μ", "range", "μ less that\nof the first", "range"):
         table.add_column(text, justify="right")

@@ -42,11 +42,15 @@ def places(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
 def parts(data: xr.Dataset) -> list[Any]:
     """Return all there is to be told: tables, and sentences as texts."""
     told: list[Any] = [quantile_table(data)]
+    untold = []
     for title, one in places(data):
         if np.isfinite(one.friction_share).any():
             told += [share_table(one, f"what matters most ({title})"), *order_sentences(one)]
         elif int(one.failed) < one.sizes["sample"]:
-            told.append(f"{title}: too few samples, or no friction, to tell what matters most")
+            untold.append(title)
+    if untold:
+        where = "; ".join(untold)
+        told.append(f"too few samples, or no friction, to tell what matters most: {where}")
     told += grid_sentences(data)
     told += [f"not sampled: {why}" for why in json.loads(data.attrs["left_out"])]
     if not axis_of(data):

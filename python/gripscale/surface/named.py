@@ -50,8 +50,10 @@ def synthetic_profile(name: str) -> Profile:
 
 
 def with_profile(name: str) -> PreparedSurface:
-    """Return a synthetic surface as if its profile had been measured."""
-    return replace(synthetic_surface(name), measured=Measured.of([synthetic_profile(name)]))
+    """Return a synthetic surface as if its profile had been measured, with as many waves."""
+    surface = synthetic_surface(name)
+    fit = {**surface.fit, "scales": SYNTHETIC_SURFACES[name].waves}
+    return replace(surface, fit=fit, measured=Measured.of([synthetic_profile(name)]))
 
 
 @lru_cache(maxsize=4)
