@@ -36,7 +36,8 @@ def roads_page(data: xr.Dataset) -> Page:
     friction = picture(
         roads_friction_figure(data),
         "roads-friction",
-        "Friction of all waves down to each wavelength; bars are the ranges.",
+        "Friction of all waves down to each wavelength, of the direct contact by the energy lost; "
+        "bars are the ranges of the totals.",
         "A panel for each model with a curve for each road, rising towards short waves.",
     )
     return Page(

@@ -45,10 +45,10 @@ def complex_sum(omega: Array, times: Array, moduli: Array) -> ComplexArray:
         phase = np.outer(flat[first : first + _BLOCK], times)
         smaller = np.minimum(phase, 1.0 / np.maximum(phase, 1.0))
         square = smaller * smaller
-        weight = 1.0 / (1.0 + square)
+        below = 1.0 + square
         part = found[first : first + _BLOCK]
-        part.imag = (smaller * weight) @ moduli
+        part.imag = (moduli * (smaller / below)).sum(-1)
         np.copyto(square, 1.0, where=phase > 1.0)
-        part.real = (square * weight) @ moduli
+        part.real = (moduli * (square / below)).sum(-1)
     found.imag = np.copysign(found.imag, np.reshape(omega, -1))
     return found.reshape(np.shape(omega))
