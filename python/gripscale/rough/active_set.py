@@ -20,8 +20,8 @@ from gripscale.rough.half_space import Response
 
 TOLERANCE = 1e-6
 """Missing pressure over pressure at which the linear system counts as solved."""
-START_TOLERANCE = 1e-3
-"""The same on a grid that another one starts from."""
+START_TOLERANCE = 1e-4
+"""The same on a grid that another one starts from: its contact fraction by octave is told, too."""
 LOOSEST = 1e-2
 TIGHTENING = 1e-2
 """Missing pressure allowed, over the share of points that changed sides last."""
