@@ -173,3 +173,13 @@ def test_bad_frequency(omega):
 def test_bad_time(time):
     with pytest.raises(InputError, match="time must not be negative"):
         Rubber(1e6).relaxation_modulus(time)
+
+
+def test_many_frequencies_in_any_shape_are_what_each_is_alone() -> None:
+    """More than one block of them, of both signs: to the last bit, and conjugate below zero."""
+    rubber = Rubber(2e6, [1e6, 3e6, 9e6], [1e-1, 1e-3, 1e-5])
+    omega = np.geomspace(1e-3, 1e9, 700).reshape(7, 100)
+    together = rubber.complex_modulus(omega)
+    alone = [complex(rubber.complex_modulus(one)) for one in omega.ravel()]
+    assert together.ravel().tolist() == alone
+    assert (rubber.complex_modulus(-omega) == together.conj()).all()

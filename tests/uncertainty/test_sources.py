@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from gripscale.chain.model import Chain
 from gripscale.errors import InputError
 from gripscale.model import NominalLoad
 from gripscale.rough.model import DirectContact
-from gripscale.surface import PreparedSurface, SineStack
+from gripscale.surface import HeightMap, Measured, PreparedSurface, Profile, SineStack
 from gripscale.theory.half_plane import HalfPlane
 from gripscale.uncertainty import Range, Uncertainty
 from gripscale.uncertainty.design import draws
@@ -173,3 +174,31 @@ def predicted(known, one):
     load = NominalLoad(3e5, known.speed, 0.1)
     answer = model.predict(one.inputs.rubber, surface, load)
     return float(answer.total_friction), float(answer.total_contact_fraction)
+
+
+def test_the_direct_contact_of_a_map_is_refused_at_the_start_where_blocks_are_drawn(known):
+    """One sentence before anything is solved; the chain draws blocks of its lines."""
+    line = known.profiles[0]
+    across = np.arange(16) * line.step
+    heights = HeightMap(line.x, across, np.repeat(line.z[:, None], across.size, axis=1))
+    on_map = replace(known, surface=replace(known.surface, measured=Measured.of(heights)))
+    said = "the direct contact of a map has no blocks of profiles to draw; leave out the source"
+    for models in (["direct"], ["chain", "direct"]):
+        with pytest.raises(InputError, match=said):
+            Uncertainty().of(on_map, models)
+        kept = Uncertainty(without=["profile"]).of(on_map, models)
+        assert "profile" not in {source.name for source in kept.sources}
+    assert "profile" in {source.name for source in Uncertainty().of(on_map, ["chain"]).sources}
+
+
+def test_profiles_without_a_block_each_are_refused_at_the_start(known):
+    """Twelve profiles of a largest wave each hold fewer blocks of two waves than profiles."""
+    wave = float(known.surface.sines.wavelength[0])
+    line = known.profiles[0]
+    points = int(wave / line.step)
+    short = [Profile(line.x[:points], line.z[k : k + points]) for k in range(12)]
+    cut = replace(known, surface=replace(known.surface, measured=Measured.of(short)))
+    choice = Uncertainty(block_length=2.0 * wave)
+    with pytest.raises(InputError, match="12 profiles must hold a block each"):
+        choice.of(cut, ["direct"])
+    assert choice.of(cut, ["chain"]).sources

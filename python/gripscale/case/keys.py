@@ -21,6 +21,7 @@ from gripscale.case.shift_table import LAWS
 from gripscale.case.solver_table import ChainOptions, Solver
 from gripscale.case.surface_table import Surface, Wave
 from gripscale.case.table import Table
+from gripscale.case.uncertainty_table import Given, UncertaintyTable
 from gripscale.rubber.strain_energy import STRAIN_ENERGIES, StrainEnergy
 
 Laws = Mapping[str, type[Table]] | Mapping[str, type[StrainEnergy]]
@@ -44,6 +45,8 @@ TABLES: tuple[tuple[str, type[Table] | Laws, str], ...] = (
     ("measured", MeasuredTable, "direct-contact.md"),
     ("output", Output, "reading-results.md"),
     ("compare", Compare, "theories.md"),
+    ("uncertainty", UncertaintyTable, "uncertainty.md"),
+    ("uncertainty.given", Given, "uncertainty.md"),
 )
 """Tables of a case by name, those of one kind or another by their kinds, and their chapters."""
 

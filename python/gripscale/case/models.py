@@ -11,6 +11,7 @@ from gripscale.case.rubber_table import RubberSource
 from gripscale.case.solver_table import ChainOptions, Solver
 from gripscale.case.surface_table import Surface
 from gripscale.case.table import Table
+from gripscale.case.uncertainty_table import UncertaintyTable
 from gripscale.rubber.strain_energy import NeoHookean
 
 
@@ -67,6 +68,8 @@ class Case(Table):
     """Where results go."""
     compare: Compare = Compare()
     """Further inputs of a comparison."""
+    uncertainty: UncertaintyTable = UncertaintyTable()
+    """What is not known of all that."""
 
     @model_validator(mode="after")
     def _energy_of_the_model(self) -> Case:

@@ -14,6 +14,7 @@ from gripscale.cli.app import app as app_command
 from gripscale.cli.calibrate import calibrate
 from gripscale.cli.compare import compare
 from gripscale.cli.compare_rubbers import compare_rubbers
+from gripscale.cli.compare_surfaces import compare_surfaces
 from gripscale.cli.export import export
 from gripscale.cli.fit_rubber import fit_rubber
 from gripscale.cli.fit_surface import fit_surface
@@ -50,6 +51,7 @@ app.command("reproduce", context_settings=PASS_ON)(reproduce)
 app.command("fit-surface")(fit_surface)
 app.command("fit-rubber")(fit_rubber)
 app.command("compare-rubbers")(compare_rubbers)
+app.command("compare-surfaces")(compare_surfaces)
 app.command("keys")(keys)
 app.command("app")(app_command)
 app.add_typer(export, name="export")

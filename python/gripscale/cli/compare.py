@@ -65,7 +65,9 @@ def compare(
     from gripscale.comparison import at_measured, compare_case, compare_over
     from gripscale.comparison.run import PREDICTIONS
     from gripscale.measured import read_measured_friction
+    from gripscale.report.uncertainty_summary import uncertainty_lines
     from gripscale.study.axes import parse_vary
+    from gripscale.uncertainty.stored import input_digests, stored_uncertainty
 
     axes = None if vary is None else dict([parse_vary(vary)])
     file = read_case(case)
@@ -95,7 +97,9 @@ def compare(
         beside = at_measured(made, target / PREDICTIONS, **solving)
     else:
         made = compare_over(file, axes, **options)
-    failed = _conclude(console, made.to_dataset(), target, worth, beside)
+    results_folder = file.resolve(file.case.output.folder)
+    sampled = uncertainty_lines(stored_uncertainty(results_folder), file.text, input_digests(file))
+    failed = _conclude(console, made.to_dataset(), target, worth, beside, sampled)
     if failed:
         complain(f"{len(failed)} of the rungs have failed samples; the first: {pointed(failed[0])}")
         raise typer.Exit(NOT_CONVERGED)
@@ -127,6 +131,7 @@ def _conclude(
     target: Path,
     worth: list[xr.Dataset],
     beside: xr.Dataset | None,
+    sampled: list[str],
 ) -> list[str]:
     """Print and keep tables, figures and the result; return what did not converge."""
     from gripscale import netcdf
@@ -165,6 +170,7 @@ def _conclude(
         parts += residual_tables(beside)
         labels = dict(zip(data.rung.values.tolist(), data.label.values.tolist(), strict=True))
         save_figure(at_measured_figure(beside, labels), target, "at_measured")
+    parts += sampled
     say_all(console, parts)
     folder.write_text(target / f"{name}.txt", tables.as_text(*parts))
     draw(data, target)

@@ -9,7 +9,8 @@ import typer
 
 from gripscale.cli.options import Workers
 from gripscale.cli.progress import teller
-from gripscale.cli.terminal import NOT_CONVERGED, command, complain, say, screen
+from gripscale.cli.side_by_side import case_of, fail_if_any, keep, names_of
+from gripscale.cli.terminal import command, say, screen
 from gripscale.errors import InputError
 
 if TYPE_CHECKING:
@@ -63,10 +64,7 @@ def compare_rubbers(
     from gripscale.compounds import compare_compounds
     from gripscale.units import parse_quantity
 
-    own = next((Path(one) for one in rubbers if one.endswith(".toml")), None)
-    chosen = case or own
-    if chosen is None:
-        raise InputError("--case must be given: the road and the load are taken from a case")
+    chosen = case_of(rubbers, case, "the road and the load")
     try:
         kelvin = None if temperature is None else parse_quantity(temperature, "temperature")
     except ValueError as error:
@@ -80,7 +78,7 @@ def compare_rubbers(
         say(console, "The compounds; then, for what their measurements leave open, half-planes.")
     made = compare_compounds(
         file,
-        dict(zip(_names(rubbers), rubbers, strict=True)),
+        dict(zip(names_of(rubbers), rubbers, strict=True)),
         target,
         temperature=kelvin,
         uncertainty=uncertainty,
@@ -90,38 +88,19 @@ def compare_rubbers(
     _conclude(console, made, target)
 
 
-def _names(rubbers: list[str]) -> list[str]:
-    """Return what compounds are called: their files, cases by their folder, each name once."""
-    names: list[str] = []
-    for one in rubbers:
-        path = Path(one)
-        name = path.resolve().parent.name if path.name == "case.toml" else path.stem
-        count = sum(known == name or known.startswith(f"{name} ") for known in names)
-        names.append(f"{name} {count + 1}" if count else name)
-    return names
-
-
 def _conclude(console: Console, made: Compounds, target: Path) -> None:
     """Print and keep the table, draw the figures, and say which predictions failed."""
-    from gripscale.case import folder
     from gripscale.figures.compounds import compound_friction_figure, compound_moduli_figure
     from gripscale.figures.style import save_figure
-    from gripscale.report import tables
     from gripscale.report.compounds_table import compounds_sentences, compounds_table
 
     table = compounds_table(made.data)
     below = [*compounds_sentences(made.data), *(f"note: {note}" for note in made.notes)]
-    console.print()
-    console.print(table)
-    for text in below:
-        say(console, text)
-    folder.write_text(target / "compounds.txt", tables.as_text(table, *below))
+    keep(console, target / "compounds.txt", [table], below)
     save_figure(compound_moduli_figure(made.rubbers), target, "compound_moduli")
     if "friction_running" in made.data:
         save_figure(compound_friction_figure(made.data), target, "compound_friction")
     console.print()
     say(console, f"Result (compounds.nc), table and figures are in {target}")
-    failed = [s for s in made.data.prediction_status.values.tolist() if s != "converged"]
-    if failed:
-        complain(f"{len(failed)} of the compounds have no totals; the first: {failed[0]}")
-        raise typer.Exit(NOT_CONVERGED)
+    statuses = made.data.prediction_status.values.tolist()
+    fail_if_any([one for one in statuses if one != "converged"], "compounds")

@@ -173,6 +173,8 @@ def _conclude(
     from gripscale.report import tables
     from gripscale.report.comparison_table import judgement
     from gripscale.report.measured_lines import measured_lines
+    from gripscale.report.uncertainty_summary import uncertainty_lines
+    from gripscale.uncertainty.stored import input_digests, stored_uncertainty
 
     solved = {PredictionView(d).title: d for d in map(results.dataset, results.predictions)}
     for name, data in solved.items():
@@ -189,6 +191,8 @@ def _conclude(
     last = [] if judged is None or known.direct is None else list(judgement(judged, known.direct))
     if known.friction is not None and results.load.speed > 0.0:
         last += measured_lines(known.friction, results.load.speed, results.shown("speed"))
+    sampled = stored_uncertainty(target)
+    last += uncertainty_lines(sampled, results.file.text, input_digests(results.file))
     if last:
         console.print()
     for line in last:

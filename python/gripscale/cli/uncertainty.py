@@ -17,16 +17,21 @@ if TYPE_CHECKING:
     import xarray as xr
     from rich.console import Console
 
-MODELS = {"chain": ("chain",), "direct": ("direct",), "both": ("chain", "direct")}
-
 
 @command
 def uncertainty(
     case: CasePath,
-    samples: Annotated[int, typer.Option(help="Samples, of all inputs at once.")] = 200,
+    samples: Annotated[
+        int | None,
+        typer.Option(help="Samples, of all inputs at once; 200 by default.", show_default=False),
+    ] = None,
     model: Annotated[
-        str, typer.Option(help="chain, direct (contact of the whole profile) or both.")
-    ] = "chain",
+        str | None,
+        typer.Option(
+            help="chain (the default), direct (contact of the whole profile) or both.",
+            show_default=False,
+        ),
+    ] = None,
     without: Annotated[
         list[str] | None,
         typer.Option(
@@ -63,9 +68,17 @@ def uncertainty(
         ),
     ] = None,
     tolerance: Annotated[
-        float, typer.Option(help="Estimated relative error of each direct contact.")
-    ] = 0.15,
-    seed: Annotated[int, typer.Option(help="Seed of the random numbers.")] = 0,
+        float | None,
+        typer.Option(
+            help="Estimated relative error of each direct contact; by default that of its first "
+            "full grid, about a tenth.",
+            show_default=False,
+        ),
+    ] = None,
+    seed: Annotated[
+        int | None,
+        typer.Option(help="Seed of the random numbers; 0 by default.", show_default=False),
+    ] = None,
     output: Annotated[
         Path | None,
         typer.Option(
@@ -77,21 +90,25 @@ def uncertainty(
     workers: Workers = None,
     cluster: Cluster = None,
 ) -> None:
-    """Sample what is not known of a case: quantiles, what matters most; resumes where stopped."""
+    """Sample what is not known of a case: quantiles, what matters most; resumes where stopped.
+
+    Options go before what the case states in its table [uncertainty].
+    """
+    from gripscale import checks
     from gripscale.case import folder, read_case
     from gripscale.study.axes import parse_vary
     from gripscale.uncertainty import Uncertainty, propagate
+    from gripscale.uncertainty.propagate import BOTH
     from gripscale.uncertainty.quantities import length
 
-    if model not in MODELS:
-        raise InputError(f"model must be one of {', '.join(MODELS)}; got {model!r}")
-    choice = Uncertainty(
-        tuple(without or ()),
-        _given(given or ()),
-        None if block_length is None else length(block_length),
-    )
+    models = None if model is None else BOTH[checks.one_of("model", model, BOTH)]
     axes = None if vary is None else dict([parse_vary(vary)])
+    blocks = None if block_length is None else length(block_length)
+    known = _given(given or ())
     file = read_case(case)
+    choice = Uncertainty.of_case(
+        file.case.uncertainty, without=without or None, given=known, block_length=blocks
+    )
     target = output or file.resolve(file.case.output.folder) / "uncertainty"
     folder.require_writable(target)
     console = screen()
@@ -102,7 +119,7 @@ def uncertainty(
         choice,
         samples=samples,
         seed=seed,
-        models=MODELS[model],
+        models=models,
         vary=axes,
         tolerance=tolerance,
         folder=target,

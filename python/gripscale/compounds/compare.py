@@ -6,8 +6,8 @@ over all series that fit it as well as the best one does (`Rubber.admissible_rub
     low = X min(1, X_k/X_0),    high = X max(1, X_k/X_0)
 
 with X_k of series k and X_0 of the best one solved as half-planes, which cost less, and X of the
-best one by the model of the case. The DMAs are independent of each other: a difference is between
-low - high of the first, and high - low of the first.
+best one by the model of the case. The DMAs are independent of each other, see
+`gripscale.differences`.
 """
 
 from __future__ import annotations
@@ -24,7 +24,14 @@ from gripscale import netcdf
 from gripscale.case.read import CaseFile, read_case
 from gripscale.chain.model import Chain
 from gripscale.compounds.one_temperature import at_one_temperature
-from gripscale.errors import InputError
+from gripscale.differences import (
+    TOTALS,
+    attributes,
+    ranges,
+    require_some,
+    to_first,
+    total_differences,
+)
 from gripscale.model import NominalLoad
 from gripscale.rubber import Rubber
 from gripscale.study.inputs import rubber_of
@@ -34,11 +41,9 @@ from gripscale.study.task import Task
 from gripscale.study.threads import OnTask, solve_all
 from gripscale.theory.half_plane import HalfPlane
 
-FEWEST_COMPOUNDS, MOST_COMPOUNDS = 2, 6
 RESULT = "compounds.nc"
 POINTS = 128
 """Points of the half-planes that tell the range: only ratios of theirs count."""
-TOTALS = ("total_friction", "total_contact_fraction")
 
 
 @dataclass(frozen=True)
@@ -96,11 +101,7 @@ def compare_compounds(
         If there are fewer than two or more than six compounds, one cannot be read, or they cannot
         be brought to one temperature.
     """
-    if not FEWEST_COMPOUNDS <= len(rubbers) <= MOST_COMPOUNDS:
-        raise InputError(
-            f"rubbers must be {FEWEST_COMPOUNDS} to {MOST_COMPOUNDS} compounds to be compared; "
-            f"got {len(rubbers)}"
-        )
+    require_some("rubbers", rubbers, "compounds")
     file = case if isinstance(case, CaseFile) else read_case(case)
     given = {name: rubber_of(value, file) for name, value in rubbers.items()}
     if temperature is None:
@@ -127,46 +128,30 @@ def _ranges(study: Study, data: xr.Dataset, folder: Path, workers: int | None) -
     }
     labels = {f"{name}, series {i}": task for (name, i), task in tasks.items()}
     solved = solve_all(labels, Store(folder / PREDICTIONS), workers=workers)
-    out: dict[str, Any] = {}
+    found: dict[str, Any] = {}
     for quantity in TOTALS:
         ends = np.full((2, data.sizes["rubber"]), np.nan)
         for at, name in enumerate(data.rubber.values.tolist()):
-            found = [float(solved[t.key][quantity]) for (n, _), t in tasks.items() if n == name]
-            ratio = np.array(found[1:]) / found[0]
+            each = [float(solved[t.key][quantity]) for (n, _), t in tasks.items() if n == name]
+            ratio = np.array(each[1:]) / each[0]
             if np.isfinite(ratio).any():
                 ends[:, at] = np.nanmin([*ratio, 1.0]), np.nanmax([*ratio, 1.0])
-        value = data[quantity]
-        for end, factor in zip(("low", "high"), ends, strict=True):
-            text = f"{end}est {value.attrs['long_name']} that the measured moduli leave open"
-            out[f"{quantity}_{end}"] = ("rubber", value.values * factor, _attrs(text))
-    return out
+        found[quantity] = ends
+    return ranges(data, ["rubber"], found, "that the measured moduli leave open")
 
 
 def _differences(data: xr.Dataset) -> dict[str, Any]:
     """Return what differs from the first compound."""
-    out: dict[str, Any] = {}
-    for quantity in TOTALS:
-        value = data[quantity].values
-        text = f"difference to the first compound, {data[quantity].attrs['long_name']}"
-        out[f"{quantity}_difference"] = ("rubber", value - value[0], _attrs(text))
-        if f"{quantity}_low" in data:
-            low, high = (data[f"{quantity}_{end}"].values for end in ("low", "high"))
-            for end, ends in (("low", low - high[0]), ("high", high - low[0])):
-                ends[0] = 0.0
-                out[f"{quantity}_difference_{end}"] = ("rubber", ends, _attrs(f"{end}est {text}"))
+    out: dict[str, Any] = dict(total_differences(data, "rubber"))
     if "scale" in data.dims:
-        friction = data.friction.transpose("rubber", "scale").values
+        friction = data.friction.transpose("rubber", "scale")
         text = "friction coefficient of this and all larger waves"
-        out["friction_running"] = (("rubber", "scale"), friction.cumsum(axis=1), _attrs(text))
+        running = friction.values.cumsum(axis=1)
+        out["friction_running"] = (("rubber", "scale"), running, attributes(text))
         text = "difference to the first compound, friction coefficient of the wave"
-        out["friction_difference"] = (("rubber", "scale"), friction - friction[0], _attrs(text))
+        out["friction_difference"] = to_first(friction, "rubber", text)
     if "friction_by_decade" in data:
-        parts = data.friction_by_decade.transpose("rubber", "decade").values
+        parts = data.friction_by_decade.transpose("rubber", "decade")
         text = "difference to the first compound, friction coefficient by relaxation time"
-        name = "friction_by_decade_difference"
-        out[name] = (("rubber", "decade"), parts - parts[0], _attrs(text))
+        out["friction_by_decade_difference"] = to_first(parts, "rubber", text)
     return out
-
-
-def _attrs(long_name: str) -> dict[str, str]:
-    return {"units": "1", "long_name": long_name}

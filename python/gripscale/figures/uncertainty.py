@@ -8,6 +8,9 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.ticker import MaxNLocator
 
 from gripscale.figures.palette import BLUE, COLOURS, GREY, INK, ORANGE, WIDE
 from gripscale.figures.style import log_axis, save_figure, sheet, styled
@@ -19,6 +22,10 @@ NAMES = {
     "contact_fraction": "real contact area $A_r/A_0$ [-]",
 }
 MOST_BINS = 24
+MEDIAN, END = 1.6, 0.9
+"""Widths of the lines at median and ends."""
+ROUND = (1, 2, 5, 10)
+"""Steps between the numbers of an axis."""
 SEVERAL = 2
 """Samples there must be for a distribution."""
 
@@ -40,10 +47,10 @@ def draw(data: xr.Dataset, folder: Path) -> None:
 def distribution_figure(data: xr.Dataset) -> Figure:
     """Draw how friction and contact fraction are distributed, a row for each model.
 
-    Lines are the median and the ends of the 90 % interval, the point is the case itself.
+    Lines are the median and the ends of the 90 % interval, the triangle is the case itself.
     """
     rows = data.sizes["model"]
-    figure, panels = sheet(WIDE, 0.9 + 1.7 * rows, rows, 2, gap=0.06)
+    figure, panels = sheet(WIDE, 1.2 + 1.7 * rows, rows, 2, gap=0.06)
     for row, (model, colour) in enumerate(zip(data.model.values, COLOURS, strict=False)):
         one = data.sel(model=model)
         for axes, (name, label) in zip(panels[row], NAMES.items(), strict=True):
@@ -52,6 +59,12 @@ def distribution_figure(data: xr.Dataset) -> Figure:
         number = one.sizes["sample"] - int(one.failed)
         panels[row][0].set_ylabel(f"samples (of {number})")
         panels[row][0].set_title(str(model), loc="left")
+    entries = [
+        Line2D([], [], color=INK, lw=MEDIAN, label="median"),
+        Line2D([], [], color=INK, lw=END, label="5 and 95 %"),
+        Line2D([], [], color=INK, marker="v", ls="", label="the case itself"),
+    ]
+    figure.legend(handles=entries, loc="outside upper center", ncols=3)
     return figure
 
 
@@ -64,10 +77,12 @@ def _distribution(axes: Axes, one: xr.Dataset, name: str, colour: str) -> None:
         known, bins=min(MOST_BINS, 1 + known.size // 6), color=colour, alpha=0.45
     )
     low, middle, high = one[f"{name}_quantile"].values[[0, 2, 4]]
-    for at, width in ((low, 0.9), (middle, 1.6), (high, 0.9)):
+    for at, width in ((low, END), (middle, MEDIAN), (high, END)):
         axes.axvline(at, color=INK, lw=width)
     top = float(np.max(counts))
     axes.set_ylim(top=1.25 * top)
+    axes.yaxis.set_major_locator(MaxNLocator(5, steps=ROUND, integer=True))
+    axes.xaxis.set_major_locator(MaxNLocator(6, steps=ROUND))
     axes.plot(float(one[f"{name}_case"]), 1.12 * top, "v", color=INK, clip_on=False)
 
 
@@ -81,7 +96,7 @@ def tornado_figure(one: xr.Dataset) -> Figure:
     """
     ranked = np.argsort(one.friction_share.values, kind="stable")
     shares, errors = one.friction_share.values, one.friction_share_error.values
-    figure, panels = sheet(WIDE, 1.0 + 0.34 * len(ranked), 1, 2, gap=0.03, sharey=True)
+    figure, panels = sheet(WIDE, 1.3 + 0.34 * len(ranked), 1, 2, gap=0.03, sharey=True)
     bars, dots = panels[0]
     middle = float(np.exp(np.nanmean(np.log(one.friction.values))))
     for place, k in enumerate(ranked):
@@ -95,7 +110,14 @@ def tornado_figure(one: xr.Dataset) -> Figure:
     bars.axvline(middle, color=INK, lw=0.8)
     bars.set_yticks(np.arange(len(ranked)), [str(one.label.values[k]) for k in ranked])
     bars.set_xlabel(NAMES["friction"])
-    bars.set_title(f"{one.model.item()}: 5 to 95 % of what each does alone", loc="left")
+    bars.set_title(f"{one.model.item()}: what each does alone", loc="left")
+    words = ("to 5 %", "to 95 %", "not told from nothing")
+    entries = [
+        Patch(color=colour, label=text)
+        for colour, text in zip((BLUE, ORANGE, GREY), words, strict=True)
+    ]
+    figure.legend(handles=entries, loc="outside upper center", ncols=3)
+    dots.tick_params(axis="y", length=0.0)
     dots.axvline(0.0, color=INK, lw=0.8)
     dots.set_xlabel("share of the variance of $\\ln\\mu$ [-]")
     return figure

@@ -20,8 +20,9 @@ from gripscale.errors import FileError
 from gripscale.netcdf import write_whole
 from gripscale.report.comparison_page import comparison_page
 from gripscale.report.elements import Page
+from gripscale.report.roads_page import roads_page
 from gripscale.report.run_page import run_page
-from gripscale.report.source import Run, Source, Study, Told, read_result
+from gripscale.report.source import RoadsBeside, Run, Source, Study, Told, read_result
 from gripscale.report.study_page import study_page
 from gripscale.report.told_page import told_page
 
@@ -48,6 +49,8 @@ def _page(source: Source) -> Page:
         return run_page(source)
     if isinstance(source, Told):
         return told_page(source)
+    if isinstance(source, RoadsBeside):
+        return roads_page(source.data)
     return study_page(source) if isinstance(source, Study) else comparison_page(source)
 
 

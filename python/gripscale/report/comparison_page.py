@@ -13,6 +13,8 @@ from gripscale.report.elements import Card, Notice, Page, Section
 from gripscale.report.numbers import number, percent
 from gripscale.report.run_page import rerun_elements
 from gripscale.report.source import Compared
+from gripscale.report.uncertainty_summary import OF_ANOTHER, uncertainty_cards
+from gripscale.uncertainty import of_same_inputs
 
 
 def comparison_page(compared: Compared) -> Page:
@@ -21,11 +23,14 @@ def comparison_page(compared: Compared) -> Page:
     case = PurePath(str(first.attrs.get("case_file", ""))).name or "case.toml"
     elements = comparison_elements(compared)
     command = shlex.join(["gripscale", "compare", case])
+    data = compared.uncertainty
+    own = data if data is not None and of_same_inputs(data, compared.case) else None
+    stale = [Notice("warning", OF_ANOTHER)] if data is not own else []
     return Page(
         f"Models side by side: {case}",
         str(first.attrs.get("title", "")),
-        [one for one in elements if isinstance(one, Notice)],
-        [] if compared.ladder is None else _cards(compared.ladder),
+        [*(one for one in elements if isinstance(one, Notice)), *stale],
+        [*([] if compared.ladder is None else _cards(compared.ladder)), *uncertainty_cards(own)],
         [
             Section("comparison", "Models side by side", elements),
             Section("again", "Software, and how to run it again",

@@ -5,6 +5,8 @@ from __future__ import annotations
 import shlex
 from pathlib import PurePath
 
+import xarray as xr
+
 from gripscale.case.resume import KEY
 from gripscale.report import input_tables as inputs
 from gripscale.report.blocks import blocks_image
@@ -19,7 +21,9 @@ from gripscale.report.elements import Code, Element, Facts, Notice, Page, Sectio
 from gripscale.report.equations import equations
 from gripscale.report.notices import cards, notices
 from gripscale.report.source import Run
+from gripscale.report.uncertainty_summary import OF_ANOTHER, uncertainty_cards
 from gripscale.report.wave_tables import wave_tables
+from gripscale.uncertainty import of_same_inputs
 from gripscale.versions import versions
 
 METHOD = (
@@ -53,13 +57,26 @@ def run_page(run: Run) -> Page:
             "again", "Software, and how to run it again", rerun_elements(run.attrs, case, command)
         ),
     ]
+    sampled = own_uncertainty(run)
+    stale = run.uncertainty is not None and sampled is None
     return Page(
         f"Contact and friction: {case or 'result'}",
         "; ".join(one.title for one in run.predictions),
-        notices(run),
-        cards(run),
+        [*notices(run), *([Notice("warning", OF_ANOTHER)] if stale else [])],
+        [*cards(run), *uncertainty_cards(sampled)],
         [section for section in sections if section.elements],
     )
+
+
+def own_uncertainty(run: Run) -> xr.Dataset | None:
+    """Return what was sampled of the very inputs of `run`, or None."""
+    inputs, data = run.inputs, run.uncertainty
+    if data is None:
+        return None
+    digests = None
+    if "file_sha256" in inputs:
+        digests = inputs["file_sha256"].values[inputs["file_role"].values != "measured"].tolist()
+    return data if of_same_inputs(data, str(run.attrs.get("case", "")), digests) else None
 
 
 def _origin(run: Run) -> list[Element]:

@@ -14,6 +14,7 @@ from gripscale.errors import FileError
 from gripscale.figures.rungs import varied
 from gripscale.figures.view import PredictionView
 from gripscale.study.display import dimensions
+from gripscale.uncertainty import stored_uncertainty
 
 PREDICTIONS = ("dynamic", "static")
 COMPARISON = "comparison"
@@ -28,11 +29,18 @@ class Compared:
 
     ladder: xr.Dataset | None = None
     over: list[xr.Dataset] = field(default_factory=list)
+    uncertainty: xr.Dataset | None = None
+    """What was sampled of the case, or of another."""
 
     @property
     def parts(self) -> list[xr.Dataset]:
         """All of them."""
         return [*([] if self.ladder is None else [self.ladder]), *self.over]
+
+    @property
+    def case(self) -> str:
+        """The text of the case."""
+        return str(self.parts[0].attrs.get("case", ""))
 
     def of(self, case: object) -> Compared:
         """Return those of just this text of a case."""
@@ -56,6 +64,8 @@ class Run:
     """Models side by side over the same case, as far as they are there."""
     effects: list[xr.Dataset] = field(default_factory=list)
     """What each effect of its conditions is worth, model by model."""
+    uncertainty: xr.Dataset | None = None
+    """What was sampled of it, or of another case."""
 
     @property
     def data(self) -> xr.Dataset:
@@ -87,6 +97,13 @@ class Study:
 
 
 @dataclass(frozen=True)
+class RoadsBeside:
+    """Roads side by side."""
+
+    data: xr.Dataset
+
+
+@dataclass(frozen=True)
 class Told:
     """A result whose command said in text and figures what there is to say."""
 
@@ -99,7 +116,7 @@ class Told:
 TOLD = {"calibration": "profile_excess", "uncertainty": "friction_quantile"}
 """Results of that kind, by the name of their file, with a variable only they have."""
 
-Source = Run | Study | Compared | Told
+Source = Run | Study | Compared | RoadsBeside | Told
 
 
 def read_result(path: Path) -> Source:
@@ -118,6 +135,8 @@ def read_result(path: Path) -> Source:
     _require_totals(tree, path)
     if "rung" in tree.dims:
         return Compared.holding([tree.to_dataset()])
+    if {"model", "surface"} <= set(tree.dims):
+        return RoadsBeside(tree.to_dataset())
     if tree["total_friction"].ndim:
         return Study(path.stem, tree.to_dataset())
     return _run({path.stem: tree}, Compared())
@@ -129,8 +148,8 @@ def _read_folder(folder: Path) -> Source:
     if there:
         found = _run(there, _comparisons(folder / COMPARISON))
         effects = stored_effects((folder / COMPARISON, folder), found.attrs.get("case"))
-        return replace(found, effects=effects)
-    compared = _comparisons(folder)
+        return replace(found, effects=effects, uncertainty=stored_uncertainty(folder))
+    compared = replace(_comparisons(folder), uncertainty=stored_uncertainty(folder.parent))
     if compared.parts:
         return compared
     others = sorted(path for path in folder.glob("*.nc") if not path.name.startswith("."))

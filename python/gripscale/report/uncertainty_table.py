@@ -42,11 +42,16 @@ def places(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
 def parts(data: xr.Dataset) -> list[Any]:
     """Return all there is to be told: tables, and sentences as texts."""
     told: list[Any] = [quantile_table(data)]
+    untold = []
     for title, one in places(data):
         if np.isfinite(one.friction_share).any():
             told += [share_table(one, f"what matters most ({title})"), *order_sentences(one)]
         elif int(one.failed) < one.sizes["sample"]:
-            told.append(f"{title}: too few samples, or no friction, to tell what matters most")
+            untold.append(title)
+    if untold:
+        where = "; ".join(untold)
+        told.append(f"too few samples, or no friction, to tell what matters most: {where}")
+    told += grid_sentences(data)
     told += [f"not sampled: {why}" for why in json.loads(data.attrs["left_out"])]
     if not axis_of(data):
         told.append(summary(data))
@@ -113,6 +118,25 @@ def order_sentences(one: xr.Dataset) -> list[str]:
         told.append(f"{number} samples cannot tell the order of {'; '.join(close)}")
     if unseen:
         told.append(f"{number} samples cannot tell from nothing: {', '.join(unseen)}")
+    return told
+
+
+def grid_sentences(data: xr.Dataset) -> list[str]:
+    """Return how far the grids of the direct contact are estimated to be off, if it was asked."""
+    told = []
+    for name in data.model.values:
+        one = data.sel(model=name)
+        errors = {head: one[f"{key}_grid_error"].values for key, head in HEADS.items()}
+        shown = [
+            f"{100.0 * np.nanmedian(error):.2g} % in {head}"
+            for head, error in errors.items()
+            if np.isfinite(error).any()
+        ]
+        if shown:
+            told.append(
+                f"{name}: estimated error of the grid of a sample {' and '.join(shown)} (median), "
+                "in no quantile; a tolerance asks for less"
+            )
     return told
 
 

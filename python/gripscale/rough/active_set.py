@@ -20,6 +20,8 @@ from gripscale.rough.half_space import Response
 
 TOLERANCE = 1e-6
 """Missing pressure over pressure at which the linear system counts as solved."""
+START_TOLERANCE = 1e-4
+"""The same on a grid that another one starts from: its contact fraction by octave is told, too."""
 LOOSEST = 1e-2
 TIGHTENING = 1e-2
 """Missing pressure allowed, over the share of points that changed sides last."""
@@ -46,11 +48,16 @@ class GridContact:
 
 
 def solve_grid(
-    response: Response, height: Array, start: Array, most_iterations: int
+    response: Response,
+    height: Array,
+    start: Array,
+    most_iterations: int,
+    goal: float = TOLERANCE,
 ) -> GridContact:
     """Return the contact with `height` [m] under the load of `start`.
 
-    `start` is a pressure [Pa], positive where contact is expected, with the mean that is wanted.
+    `start` is a pressure [Pa], positive where contact is expected, with the mean that is wanted;
+    `goal` the missing pressure over the pressure at which the linear system counts as solved.
     """
     flat, shape = height.reshape(-1), height.shape
     pressure, active = start.reshape(-1), start.reshape(-1) > 0.0
@@ -70,7 +77,7 @@ def solve_grid(
             tried[where],
             displacement,
             tolerance,
-            check=tolerance <= TOLERANCE,
+            check=tolerance <= goal,
         )
         products += closed.products + 1
         pressure = tried
@@ -83,12 +90,12 @@ def solve_grid(
         wrong = excess > tolerance * np.sqrt(np.mean(closed.pressure**2))
         count = int(wrong.sum())
         waited = 0 if count < fewest else waited + 1
-        solved = count == 0 and tolerance <= TOLERANCE
+        solved = count == 0 and tolerance <= goal
         if solved or iteration == most_iterations or waited > GIVING_UP:
             break
         if waited > PATIENCE:
             wrong &= excess >= np.median(excess[wrong])
-        tolerance = _next_tolerance(tolerance, count / len(where), count < fewest)
+        tolerance = _next_tolerance(tolerance, count / len(where), count < fewest, goal)
         fewest = min(fewest, count)
         active = active ^ wrong
     return GridContact(
@@ -98,7 +105,7 @@ def solve_grid(
         iteration,
         products,
         closed.missing,
-        count == 0 and closed.missing <= TOLERANCE,
+        count == 0 and closed.missing <= goal,
     )
 
 
@@ -111,6 +118,6 @@ def _loaded(pressure: Array, load: float) -> Array:
     return np.asarray(positive * (load / total))
 
 
-def _next_tolerance(tolerance: float, changed: float, fewer: bool) -> float:
+def _next_tolerance(tolerance: float, changed: float, fewer: bool, goal: float) -> float:
     wanted = min(tolerance if fewer else 0.1 * tolerance, TIGHTENING * changed)
-    return max(wanted, TOLERANCE)
+    return max(wanted, goal if fewer else TOLERANCE)

@@ -18,7 +18,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 import scipy.fft
 
-from gripscale.rough.active_set import GridContact, solve_grid
+from gripscale.rough.active_set import TOLERANCE, GridContact, solve_grid
 from gripscale.rough.area import border_error, contact_fraction
 from gripscale.rough.grid import Array, Grid, doubled
 from gripscale.rough.half_space import HalfSpace, Response
@@ -122,14 +122,17 @@ class Climb:
     solved: dict[LevelKey, LevelContact] = field(default_factory=dict)
     last: LevelContact | None = None
 
-    def solve(self, level: Level) -> LevelContact:
-        """Return the contact on `level`, started from what is known of it or the level before."""
+    def solve(self, level: Level, tolerance: float = TOLERANCE) -> LevelContact:
+        """Return the contact on `level`, started from what is known of it or the level before.
+
+        `tolerance` is the pressure that may be missing, over the pressure.
+        """
         self.last = self.known.get(level.key, self.last)
         height = self.heights.on(level.grid.shape, level.cut_off)
         response = Response.of(self.body, level.grid, self.workers)
         whole = response.full_contact(height, self.pressure)
         full = bool(whole.min() >= 0.0)
-        contact = _filled(whole) if full else self._touching(response, height, whole)
+        contact = _filled(whole) if full else self._touching(response, height, whole, tolerance)
         lost = float(lost_by_harmonic(response.compliance, level.grid, contact.pressure).sum())
         record = self._record(level, height, contact, lost, full)
         self.last = LevelContact(level, height, contact, record)
@@ -153,9 +156,11 @@ class Climb:
             int(contact.active.sum()),
         )
 
-    def _touching(self, response: Response, height: Array, whole: Array) -> GridContact:
+    def _touching(
+        self, response: Response, height: Array, whole: Array, tolerance: float
+    ) -> GridContact:
         start = self._loaded(whole if self.last is None else self._expected(response, height))
-        contact = solve_grid(response, height, start, self.most_iterations)
+        contact = solve_grid(response, height, start, self.most_iterations, tolerance)
         if contact.settled or not np.iscomplex(response.compliance).any():
             return contact
         return self._through_losses(response, height, start)

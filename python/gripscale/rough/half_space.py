@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 
 from gripscale.conditions.by_scale import RubberByScale
 from gripscale.rough.grid import Array, Grid
+from gripscale.rough.line_filter import LineFilter
 from gripscale.rubber import Rubber
 
 AnyArray = NDArray[np.floating]
@@ -110,8 +111,11 @@ class Response:
 
     def displacement(self, pressure: AnyArray) -> AnyArray:
         """Return the displacement [m] under `pressure` [Pa], of zero mean, shape of the grid."""
-        single = pressure.dtype == np.float32
-        return self._filtered(pressure, self.compliance_single if single else self.compliance)
+        if pressure.dtype != np.float32:
+            return self._filtered(pressure, self.compliance)
+        if self._line_displacement is not None:
+            return self._line_displacement(pressure)
+        return self._filtered(pressure, self.compliance_single)
 
     def full_contact(self, height: Array, mean: float) -> Array:
         """Return the pressure [Pa] of `mean` that follows `height` [m] everywhere, tension too."""
@@ -123,7 +127,22 @@ class Response:
 
     def pressure(self, displacement: AnyArray) -> AnyArray:
         """Return the pressure [Pa] that gives `displacement` [m] everywhere, shape of the grid."""
-        return self._filtered(displacement.astype(np.float32, copy=False), self.stiffness)
+        single = displacement.astype(np.float32, copy=False)
+        if self._line_pressure is not None:
+            return self._line_pressure(single)
+        return self._filtered(single, self.stiffness)
+
+    @cached_property
+    def _line_displacement(self) -> LineFilter | None:
+        return self._line_filter(self.compliance_single)
+
+    @cached_property
+    def _line_pressure(self) -> LineFilter | None:
+        return self._line_filter(self.stiffness)
+
+    def _line_filter(self, transfer: SingleComplexArray) -> LineFilter | None:
+        shape = self.grid.shape
+        return LineFilter.of(transfer, shape[0]) if len(shape) == 1 else None
 
     def _filtered(self, values: AnyArray, transfer: AnyComplexArray) -> AnyArray:
         spectrum = scipy.fft.rfftn(values, workers=self.workers)

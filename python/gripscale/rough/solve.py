@@ -18,6 +18,7 @@ from gripscale.conditions.by_scale import RubberByScale
 from gripscale.conditions.conditions import Conditions
 from gripscale.errors import InputError
 from gripscale.parallel import worker_count
+from gripscale.rough.active_set import START_TOLERANCE, TOLERANCE
 from gripscale.rough.estimate import JUDGED_BY, errors
 from gripscale.rough.grids import Climb, GridRecord, KnownLevels, Level, LevelContact, finer, levels
 from gripscale.rough.half_space import HalfSpace
@@ -150,7 +151,8 @@ def _climbed(
     """Return the contact with one rubber, on finer and finer grids."""
     plan, grids = _planned(climb, goal), list[GridRecord]()
     while plan:
-        solved = climb.solve(plan.pop(0))
+        level = plan.pop(0)
+        solved = climb.solve(level, START_TOLERANCE if plan else TOLERANCE)
         grids.append(solved.record)
         if on_grid is not None:
             on_grid(solved.record)

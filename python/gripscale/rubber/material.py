@@ -24,7 +24,7 @@ from gripscale.errors import InputError
 from gripscale.rubber import material_checks
 from gripscale.rubber.admissible import AdmissibleSeries
 from gripscale.rubber.compressibility import too_compressible, warn_once
-from gripscale.rubber.maxwell_shapes import loss_shape, storage_shape
+from gripscale.rubber.maxwell_shapes import complex_sum
 from gripscale.rubber.shift import Shift, shift_at, shift_from_dict
 from gripscale.rubber.strain_energy import NeoHookean, StrainEnergy, strain_energy_from_dict
 
@@ -237,10 +237,8 @@ class Rubber:
         below 1e100.
         """
         frequency = material_checks.finite("omega", omega, "rad/s")
-        phase = frequency[..., None] * self.relaxation_times
-        storage = self.equilibrium_modulus + (self.moduli * storage_shape(phase)).sum(-1)
-        loss = (self.moduli * loss_shape(phase)).sum(-1)
-        return np.asarray(storage + 1j * loss, dtype=np.complex128)
+        relaxing = complex_sum(frequency, self.relaxation_times, self.moduli)
+        return np.asarray(self.equilibrium_modulus + relaxing)
 
     def complex_modulus_band(self, omega: ArrayLike) -> tuple[ComplexArray, ComplexArray]:
         """Return how low and how high E* [Pa] may be at angular frequencies `omega` [rad/s].

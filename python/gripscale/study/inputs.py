@@ -111,7 +111,7 @@ def stated_by(value: Any, file: CaseFile) -> Any:
     if value in ("case", *SYNTHETIC_SURFACES, *NAMED_RUBBERS):
         return str(value)
     path = _found("input", value, file, ())
-    return contents(read_case(path)) if path.suffix == ".toml" else [str(path), _digest(path)]
+    return contents(read_case(path)) if path.suffix == ".toml" else [str(path), digest(path)]
 
 
 def contents(file: CaseFile) -> list[str]:
@@ -120,10 +120,11 @@ def contents(file: CaseFile) -> list[str]:
     Raises `FileError` if one cannot be read.
     """
     named = file.case.named_files()
-    return [str(file.path), file.text, *(_digest(file.resolve(name)) for _, name in named)]
+    return [str(file.path), file.text, *(digest(file.resolve(name)) for _, name in named)]
 
 
-def _digest(path: Path) -> str:
+def digest(path: Path) -> str:
+    """Return the SHA-256 of a file; raise `FileError` if it cannot be read."""
     return hashlib.sha256(read_bytes(path)).hexdigest()
 
 

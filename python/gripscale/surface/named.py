@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from gripscale.surface.height_difference import height_difference
-from gripscale.surface.prepared import PreparedSurface
+from gripscale.surface.prepared import Measured, PreparedSurface
 from gripscale.surface.profile import Profile
 from gripscale.surface.sine_fit import fit_sines
 from gripscale.surface.synthetic import self_affine_profile
@@ -47,6 +47,13 @@ def synthetic_profile(name: str) -> Profile:
     return self_affine_profile(
         made.hurst, made.xi_parallel, made.xi_perpendicular, made.length, made.step, made.seed
     )
+
+
+def with_profile(name: str) -> PreparedSurface:
+    """Return a synthetic surface as if its profile had been measured, with as many waves."""
+    surface = synthetic_surface(name)
+    fit = {**surface.fit, "scales": SYNTHETIC_SURFACES[name].waves}
+    return replace(surface, fit=fit, measured=Measured.of([synthetic_profile(name)]))
 
 
 @lru_cache(maxsize=4)

@@ -6,3 +6,5 @@ from .range import Range as Range
 from .series import SeriesScatter as SeriesScatter
 from .shares import Shares as Shares
 from .shares import shares as shares
+from .stored import of_same_inputs as of_same_inputs
+from .stored import stored_uncertainty as stored_uncertainty

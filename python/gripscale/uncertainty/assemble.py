@@ -68,7 +68,8 @@ def dataset(
     """
     values = 1 if axis is None else len(axis.values)
     shape = (len(models), values, len(drawn) + 1)
-    kept = {name: np.full(shape, np.nan) for name in (*NUMBERS, "seconds")}
+    errors = [f"{name}_grid_error" for name in QUANTITIES]
+    kept = {name: np.full(shape, np.nan) for name in (*NUMBERS, *errors, "seconds")}
     status = np.full(shape, "", dtype=object)
     for at in np.ndindex(shape):
         place = Place(models[at[0]], at[1], at[2] - 1)
@@ -80,6 +81,8 @@ def dataset(
             if status[at] == CONVERGED:
                 for name, (theirs, *_) in NUMBERS.items():
                     kept[name][at] = float(answer[theirs])
+                for name in QUANTITIES:
+                    kept[f"{name}_grid_error"][at] = _grid_error(answer, name)
     named = _Named(axis)
     samples = {name: values[..., 1:] for name, values in kept.items()}
     data: dict[str, Any] = {
@@ -90,6 +93,10 @@ def dataset(
         f"{name}_case": named(kept[name][..., 0], (), "1", f"{text} of the case itself")
         for name, (_, text) in QUANTITIES.items()
     }
+    for name, (_, text) in QUANTITIES.items():
+        about = f"estimated relative error of the grid of a direct contact, {text}"
+        error = samples[f"{name}_grid_error"]
+        data[f"{name}_grid_error"] = named(error, ("sample",), "1", about)
     data["seconds"] = named(samples["seconds"], ("sample",), "s", "time it took to solve")
     data["status"] = named(status[..., 1:], ("sample",), "1", "converged, or why not")
     data["status_case"] = named(status[..., 0], (), "1", "converged, or why not, the case itself")
@@ -115,6 +122,15 @@ def dataset(
         left_out=json.dumps(chosen.left_out),
         **versions.attributes(),
     )
+
+
+def _grid_error(answer: xr.Dataset, name: str) -> float:
+    """Return the relative error a direct contact estimates of its grid, NaN of other models."""
+    if not {"weight", f"{name}_error"} <= set(answer.data_vars):
+        return math.nan
+    total = abs(float(answer[f"total_{name}"]))
+    error = float((answer["weight"] * answer[f"{name}_error"]).sum())
+    return error / total if total > 0.0 else math.nan
 
 
 class _Named:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from gripscale import checks
+from gripscale.case.uncertainty_table import UncertaintyTable
 from gripscale.errors import InputError
 from gripscale.uncertainty.inputs import Measurement
 from gripscale.uncertainty.sources import SOURCES
@@ -57,6 +58,29 @@ class Uncertainty:
         if self.block_length is not None:
             checks.positive("block_length", self.block_length, unit="m")
 
+    @classmethod
+    def of_case(
+        cls,
+        table: UncertaintyTable,
+        *,
+        without: Sequence[str] | None = None,
+        given: Mapping[str, Any] | None = None,
+        block_length: float | None = None,
+    ) -> Uncertainty:
+        """Return what a case states, or what is stated here in its place.
+
+        What is `given` of a source goes before that the case gives or leaves it out, and `without`
+        before all that the case leaves out and gives of the same.
+
+        Raises `InputError` as the constructor does.
+        """
+        stated = {} if table.given is None else table.given.model_dump(exclude_none=True)
+        now = dict(given or {})
+        kept = {name: value for name, value in stated.items() if name not in (without or ())}
+        left = [name for name in table.without if name not in now] if without is None else without
+        length = table.block_length if block_length is None else block_length
+        return cls(tuple(left), {**kept, **now}, length)
+
     def of(self, known: Measurement, models: Sequence[str]) -> Chosen:
         """Return the sources of a case that have an effect on one of `models`.
 
@@ -69,7 +93,7 @@ class Uncertainty:
                     raise NotHere("left out as asked")
                 if not set(maker.models) & set(models):
                     raise NotHere(f"no effect on the model {' or '.join(models)}")
-                stated = Stated(self.given.get(name), self.block_length)
+                stated = Stated(self.given.get(name), self.block_length, models)
                 chosen.sources.append(maker.of(known, stated))
             except NotHere as why:
                 if name in self.given:

@@ -54,6 +54,11 @@ class Measurement:
         return [] if self.surface.measured is None else self.surface.measured.cleaned
 
     @property
+    def is_map(self) -> bool:
+        """Whether a map was measured."""
+        return self.surface.measured is not None and self.surface.measured.map is not None
+
+    @property
     def fitted(self) -> bool:
         """Whether the waves were fitted to a measured correlation."""
         return self.surface.correlation is not None and bool(self.surface.fit)

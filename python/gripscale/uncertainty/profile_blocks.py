@@ -119,15 +119,20 @@ class ProfileBlocks:
     def lines(self, drawn: Indices) -> tuple[Profile, ...]:
         """Return as many profiles as were measured, of the drawn blocks.
 
-        Raises `InputError` for more profiles than blocks, such as the lines of a map.
+        Raises `InputError` as `require_lines` does.
         """
-        if len(self._places) != len(self):
-            raise InputError(
-                "the direct contact of a map has no blocks to draw; ask for the chain only, or "
-                "leave out the source profile"
-            )
+        self.require_lines()
         parts = np.array_split(drawn, min(len(self.profiles), len(drawn)))
         return tuple(self._line([self._places[block] for block in part]) for part in parts)
+
+    def require_lines(self) -> None:
+        """Raise `InputError` for more profiles than blocks, of which no lines can be made."""
+        if len(self._places) != len(self):
+            raise InputError(
+                f"{len(self.profiles)} profiles must hold a block each for the direct contact of "
+                f"drawn blocks; got {len(self)} blocks (state a smaller block_length, or leave out "
+                "the source profile)"
+            )
 
     @cached_property
     def _places(self) -> list[tuple[int, int, int]]:

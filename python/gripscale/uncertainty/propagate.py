@@ -26,6 +26,7 @@ from gripscale import checks, netcdf
 from gripscale.case.read import CaseFile, read_case
 from gripscale.case.results import CaseResults
 from gripscale.case.run import prepare_case
+from gripscale.case.uncertainty_table import FEWEST_SAMPLES, MOST_SAMPLES, MOST_SEED
 from gripscale.errors import FileError, InputError, RubberWarning
 from gripscale.model import Model, NominalLoad
 from gripscale.rough.model import DirectContact
@@ -41,15 +42,17 @@ from gripscale.uncertainty.attempt import Attempt
 from gripscale.uncertainty.choice import Chosen, Uncertainty
 from gripscale.uncertainty.design import Drawn, draws
 from gripscale.uncertainty.inputs import Inputs, Measurement
+from gripscale.uncertainty.stored import FILES, RESULT, input_digests
 
-RESULT, PREDICTIONS = "uncertainty.nc", "predictions"
-"""The Dataset and the folder of the finished predictions, in the folder of the result."""
+PREDICTIONS = "predictions"
+"""Folder of the finished predictions, in the folder of the result."""
 
 MODELS = ("chain", "direct")
 VARIED = ("speed", "pressure")
 """Inputs that may be varied beside the samples: those of the load, the same samples at each."""
 
-FEWEST_SAMPLES, MOST_SAMPLES = 10, 100_000
+BOTH = {"chain": ("chain",), "direct": ("direct",), "both": MODELS}
+"""Models by the word of a case for one or both of them."""
 
 
 @dataclass(frozen=True)
@@ -62,8 +65,8 @@ class Plan:
     seed: int
     models: tuple[str, ...]
     axis: Axis | None
-    tolerance: float
-    """Estimated relative error of a direct contact."""
+    tolerance: float | None
+    """Estimated relative error of a direct contact; None: that of its first full grid."""
 
     @property
     def key(self) -> str:
@@ -84,11 +87,11 @@ def propagate(
     case: CaseFile | str | Path,
     uncertainty: Uncertainty | None = None,
     *,
-    samples: int = 200,
-    seed: int = 0,
-    models: Sequence[str] = ("chain",),
+    samples: int | None = None,
+    seed: int | None = None,
+    models: Sequence[str] | None = None,
     vary: Mapping[str, Any] | None = None,
-    tolerance: float = 0.15,
+    tolerance: float | None = None,
     folder: str | Path | None = None,
     workers: int | None = None,
     client: Any = None,
@@ -101,18 +104,18 @@ def propagate(
     case : path or CaseFile
         The case; its speed is the one of the prediction.
     uncertainty : Uncertainty, optional
-        What is taken to be uncertain; by default every source the case has.
-    samples : int
-        Samples, 10 to 100 000.
-    seed : int
+        What is taken to be uncertain; by default what the case states, or every source it has.
+    samples : int, optional
+        Samples, 10 to 100 000. This, and all that follows, by default as the case states it.
+    seed : int, optional
         Seed of the random numbers.
-    models : sequence of str
+    models : sequence of str, optional
         "chain" (as the case asks for it), "direct", or both.
     vary : mapping, optional
         Speeds or pressures, as for `gripscale.study.Study`; the same samples at each.
-    tolerance : float
-        Estimated relative error of a direct contact. The first full grid has about a tenth; asking
-        for less than it has doubles the grid.
+    tolerance : float, optional
+        Estimated relative error of a direct contact, below 1. Without one it is that of the first
+        full grid, about a tenth; asking for less than it has doubles the grid.
     folder : path, optional
         Gets `uncertainty.nc`, and the predictions in `predictions`: what it has is not solved
         again.
@@ -124,7 +127,8 @@ def propagate(
     xarray.Dataset
         Over `model`, what is varied, and `sample`: `friction`, `contact_fraction` and `status`,
         with what was drawn as coordinates of `sample`; `_case` of the case itself; `_quantile`
-        over `quantile`; `failed` samples, which count in no quantile; `_share` of each `source` in
+        over `quantile`; `_grid_error` of each sample of the direct contact, which is in no
+        quantile; `failed` samples, which count in no quantile; `_share` of each `source` in
         the variance (see `gripscale.uncertainty.shares`).
 
     Raises
@@ -132,14 +136,18 @@ def propagate(
     InputError, FileError
         If an argument or a file cannot be used, or a result cannot be written.
     """
+    file = case if isinstance(case, CaseFile) else read_case(case)
+    stated = file.case.uncertainty
+    accuracy = stated.tolerance if tolerance is None else checks.positive("tolerance", tolerance)
+    number = stated.samples if samples is None else samples
     plan = Plan(
-        case if isinstance(case, CaseFile) else read_case(case),
-        Uncertainty() if uncertainty is None else uncertainty,
-        checks.whole("samples", samples, least=FEWEST_SAMPLES, most=MOST_SAMPLES),
-        checks.whole("seed", seed, least=0, most=2**32 - 1),
-        _models(models),
+        file,
+        Uncertainty.of_case(stated) if uncertainty is None else uncertainty,
+        checks.whole("samples", number, least=FEWEST_SAMPLES, most=MOST_SAMPLES),
+        checks.whole("seed", stated.seed if seed is None else seed, least=0, most=MOST_SEED),
+        _models(BOTH[stated.model] if models is None else models),
         _axis(vary),
-        checks.positive("tolerance", tolerance),
+        accuracy,
     )
     known = None if folder is None else stored(plan, folder)
     if known is not None:
@@ -218,7 +226,11 @@ def _solved(
     solved = {place: answers[task.key] for place, task in tasks.items()}
     data = assemble.dataset(plan.models, plan.axis, drawn, chosen, solved, status)
     return data.assign_attrs(
-        case=plan.file.text, seed=plan.seed, plan_key=plan.key, software=software()
+        {FILES: json.dumps(input_digests(plan.file))},
+        case=plan.file.text,
+        seed=plan.seed,
+        plan_key=plan.key,
+        software=software(),
     )
 
 
@@ -226,7 +238,7 @@ def _loads(load: NominalLoad, axis: Axis | None) -> list[NominalLoad]:
     return [load] if axis is None else [replace(load, **{axis.name: v}) for v in axis.values]
 
 
-def _direct(results: CaseResults, tolerance: float) -> DirectContact:
+def _direct(results: CaseResults, tolerance: float | None) -> DirectContact:
     if results.surface.measured is None:
         raise InputError("the direct contact needs a measured profile; got waves stated by hand")
     return DirectContact(tolerance=tolerance, conditions=results.conditions)

@@ -9,6 +9,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from gripscale.errors import InputError
 from gripscale.uncertainty.inputs import Inputs, Measurement
 from gripscale.uncertainty.profile_blocks import ProfileBlocks
 from gripscale.uncertainty.sources.source import Coordinate, NotHere, Stated
@@ -34,18 +35,25 @@ class ProfileSource:
     def of(cls, known: Measurement, stated: Stated) -> ProfileSource:
         """Return the source of a case.
 
-        Raises `NotHere` without a measured profile, `InputError` if its profiles are too short.
+        Raises `NotHere` without a measured profile, `InputError` if its profiles are too short, or
+        the direct contact of a map is asked for.
         """
         if not known.fitted or not known.profiles:
             raise NotHere("no profile was measured")
-        return cls(
-            ProfileBlocks(
-                known.profiles,
-                float(known.surface.sines.wavelength[0]),
-                stated.block_length,
-                known.surface.counted,
+        if "direct" in stated.models and known.is_map:
+            raise InputError(
+                "the direct contact of a map has no blocks of profiles to draw; leave out the "
+                "source profile (without), or ask for the chain only"
             )
+        blocks = ProfileBlocks(
+            known.profiles,
+            float(known.surface.sines.wavelength[0]),
+            stated.block_length,
+            known.surface.counted,
         )
+        if "direct" in stated.models:
+            blocks.require_lines()
+        return cls(blocks)
 
     def draw(
         self, place: float, random: np.random.Generator, inputs: Inputs

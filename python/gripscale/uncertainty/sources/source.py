@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, NamedTuple, Protocol
 
@@ -50,10 +50,11 @@ class Source(Protocol):
 
 @dataclass(frozen=True)
 class Stated:
-    """What the user says of the sources: the values of one, and the length of a block."""
+    """What the user says: the values of one source, the length of a block, what predicts."""
 
     values: Any = None
     block_length: float | None = None
+    models: Sequence[str] = ()
 
 
 class NotHere(InputError):
