@@ -9,6 +9,7 @@ from typing import Any
 import xarray as xr
 
 from gripscale import netcdf
+from gripscale.comparison.judged import FILE as DIRECT
 from gripscale.effects import stored_effects
 from gripscale.errors import FileError
 from gripscale.figures.rungs import varied
@@ -56,6 +57,8 @@ class Run:
     """Models side by side over the same case, as far as they are there."""
     effects: list[xr.Dataset] = field(default_factory=list)
     """What each effect of its conditions is worth, model by model."""
+    direct: xr.Dataset | None = None
+    """Totals of the direct contact of the measured profiles."""
 
     @property
     def data(self) -> xr.Dataset:
@@ -109,7 +112,7 @@ def _read_folder(folder: Path) -> Run | Study | Compared:
     if there:
         found = _run(there, _comparisons(folder / COMPARISON))
         effects = stored_effects((folder / COMPARISON, folder), found.attrs.get("case"))
-        return replace(found, effects=effects)
+        return replace(found, effects=effects, direct=_direct(folder, found))
     compared = _comparisons(folder)
     if compared.parts:
         return compared
@@ -123,6 +126,15 @@ def _read_folder(folder: Path) -> Run | Study | Compared:
         names = ", ".join(path.name for path in others)
         raise FileError(f"{folder} holds several results; name one of them: {names}")
     return read_result(others[0])
+
+
+def _direct(folder: Path, found: Run) -> xr.Dataset | None:
+    """Return the direct contact of just the case of the run; None where there is none."""
+    path = folder / DIRECT
+    if not path.is_file():
+        return None
+    data = _checked(path).to_dataset()
+    return data if data.attrs.get("case") == found.attrs.get("case") else None
 
 
 def _comparisons(folder: Path) -> Compared:

@@ -10,7 +10,6 @@ import xarray as xr
 from bokeh.models import ColumnDataSource, FixedTicker
 
 from gripscale.figures.ladder_rows import Row, rows_of
-from gripscale.figures.measured import COLOUR, measured
 from gripscale.figures.palette import BLUE, MILLI, ORANGE
 from gripscale.figures.rungs import JUDGE, Look, looks, on_the_surface, varied, worth_drawing
 from gripscale.figures.stretches import FLAG, down_to, predictions_beyond
@@ -25,6 +24,7 @@ from gripscale.report.charts.look import (
     tick_closely,
     whole_decades,
 )
+from gripscale.report.charts.measured import draw_measured
 from gripscale.report.elements import Chart
 from gripscale.study.display import LABELS
 
@@ -142,7 +142,7 @@ def _over(comparison: xr.Dataset, axis: str, name: str) -> Chart:
     if name == "friction":
         _with_area_term(figure, x, comparison)
     if axis == "speed" and name == "friction":
-        _measured(figure, comparison)
+        draw_measured(figure, comparison)
     return Chart(
         f"over-{axis}-{name}",
         f"{_title(name)} of every model over {words}; bands are the standard "
@@ -175,15 +175,3 @@ def _line(
     dots = figure.scatter(x, y, size=8, marker=look.bokeh_marker, line_color=look.colour,
                           fill_color=look.colour, legend_label=label)  # fmt: skip
     hover(figure, [dots], [(label, "@y"), ("at", "@x")])
-
-
-def _measured(figure: Any, comparison: xr.Dataset) -> None:
-    for series in measured(comparison):
-        spread = np.nan_to_num(series.spread)
-        low, high = series.friction - spread, series.friction + spread
-        figure.segment(x0=series.speed, x1=series.speed, y0=low, y1=high, color=COLOUR,
-                       line_width=1.6)  # fmt: skip
-        dots = figure.scatter(series.speed, series.friction, size=9, line_color=COLOUR,
-                              fill_color="white", line_width=2,
-                              legend_label=series.label)  # fmt: skip
-        hover(figure, [dots], [(series.label, "@y"), ("speed", "@x m/s")])
