@@ -43,7 +43,7 @@ def distribution_figure(data: xr.Dataset) -> Figure:
     Lines are the median and the ends of the 90 % interval, the point is the case itself.
     """
     rows = data.sizes["model"]
-    figure, panels = sheet(WIDE, 0.9 + 1.7 * rows, rows, 2, gap=0.06)
+    figure, panels = sheet(WIDE, 1.1 + 1.7 * rows, rows, 2, gap=0.06)
     for row, (model, colour) in enumerate(zip(data.model.values, COLOURS, strict=False)):
         one = data.sel(model=model)
         for axes, (name, label) in zip(panels[row], NAMES.items(), strict=True):
@@ -52,6 +52,9 @@ def distribution_figure(data: xr.Dataset) -> Figure:
         number = one.sizes["sample"] - int(one.failed)
         panels[row][0].set_ylabel(f"samples (of {number})")
         panels[row][0].set_title(str(model), loc="left")
+    handles, labels = panels[0][0].get_legend_handles_labels()
+    if handles:
+        figure.legend(handles, labels, loc="outside upper center", ncols=3)
     return figure
 
 
@@ -64,11 +67,13 @@ def _distribution(axes: Axes, one: xr.Dataset, name: str, colour: str) -> None:
         known, bins=min(MOST_BINS, 1 + known.size // 6), color=colour, alpha=0.45
     )
     low, middle, high = one[f"{name}_quantile"].values[[0, 2, 4]]
-    for at, width in ((low, 0.9), (middle, 1.6), (high, 0.9)):
-        axes.axvline(at, color=INK, lw=width)
+    axes.axvline(middle, color=INK, lw=1.6, label="median")
+    axes.axvline(low, color=INK, lw=0.9, ls="--", label="5 and 95 %")
+    axes.axvline(high, color=INK, lw=0.9, ls="--")
     top = float(np.max(counts))
     axes.set_ylim(top=1.25 * top)
-    axes.plot(float(one[f"{name}_case"]), 1.12 * top, "v", color=INK, clip_on=False)
+    case, above = float(one[f"{name}_case"]), 1.12 * top
+    axes.plot(case, above, "v", ls="", color=INK, clip_on=False, label="the case itself")
 
 
 @styled

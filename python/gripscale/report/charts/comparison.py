@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import textwrap
 from typing import Any
 
 import numpy as np
@@ -31,6 +32,8 @@ from gripscale.study.display import LABELS
 QUANTITIES = {"contact_fraction": "contact area A_r/A_0", "friction": "friction coefficient μ"}
 ROW = 44
 """Height of a row of the ladder [px]."""
+LABEL = 24
+"""Letters of a line of a label beside the ladder: the frame keeps its width on a telephone."""
 
 
 def ladder_charts(comparison: xr.Dataset) -> list[Chart]:
@@ -74,7 +77,8 @@ def _ladder(comparison: xr.Dataset, name: str) -> Chart:
 
 
 def _label(row: Row) -> str:
-    return row.label if math.isfinite(row.value) else f"{row.label} ({row.note})"
+    text = row.label if math.isfinite(row.value) else f"{row.label} ({row.note})"
+    return textwrap.fill(text, LABEL)
 
 
 def _mark(figure: Any, at: int, row: Row) -> None:
