@@ -29,13 +29,14 @@ CURVES = """place => {
         for (let i = 0, count = 0; i < pixels.length; i += 4) {
             const colours = pixels.subarray(i, i + 3);
             count += Math.max(...colours) - Math.min(...colours) > 60;
-            if (count > 150) return true;
+            if (count > 20) return true;
         }
         return false;
     };
     return all(place.shadowRoot ?? place).some(e => e.tagName === 'CANVAS' && coloured(e));
 }"""
-"""Whether a place holds a figure with curves drawn: axes and letters are grey."""
+"""Whether a place holds a figure with something drawn: axes and letters are grey, and a point has
+some 40 pixels."""
 
 
 @contextmanager

@@ -8,7 +8,9 @@ HEAD = ["gripscale 0.1.0, case run-1.toml", "", "Surface", "  3 sine waves from 
 
 
 def waves(last: int, of: int = 3) -> list[str]:
-    return [f"  wave {n} of {of}: 1.2 mm, contact 0.5, converged, 1.0 s" for n in range(1, last + 1)]
+    return [
+        f"  wave {n} of {of}: 1.2 mm, contact 0.5, converged, 1.0 s" for n in range(1, last + 1)
+    ]
 
 
 def after(lines: list[str], predictions: int = 1, *, passing: bool = False) -> Progress:

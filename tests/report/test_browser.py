@@ -213,6 +213,11 @@ def test_narrow_window_does_not_overflow(narrow: Visit) -> None:
     check_widths(narrow, 390, 420, 800)
 
 
+def test_legends_stay_whole_on_a_telephone(narrow: Visit) -> None:
+    narrow.page.set_viewport_size({"width": 390, "height": 900})
+    assert check_figures(drawn(narrow)) >= 18
+
+
 def test_tables_that_go_on_beside_the_window_tell_by_a_shadow(narrow: Visit) -> None:
     narrow.page.set_viewport_size({"width": 390, "height": 900})
     told = narrow.page.evaluate(

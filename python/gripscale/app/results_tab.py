@@ -48,7 +48,7 @@ def results_tab(state: CaseState, runs: Runs) -> pn.Column:
             body.objects = [raw(f"<p>{run.name} is running; its results come when it ends.</p>")]
             below.objects = []
             return
-        await fill(body, lambda: list(_elements(run.folder)), state)
+        await fill(body, lambda: list(results_elements(run.folder)), state)
         below.objects = _below(state, run) if any(run.folder.glob("*.nc")) else []
 
     async def follow(_: Any) -> None:
@@ -69,7 +69,8 @@ def _below(state: CaseState, run: Run) -> list[Any]:
     return [code("Everything the run says", said), _downloads(run), _report(state, run)]
 
 
-def _elements(folder: Path) -> Iterator[Element | Cards]:
+def results_elements(folder: Path) -> Iterator[Element | Cards]:
+    """Yield what the folder of a run tells, in the order of the page."""
     run = source.read_result(folder)
     if not isinstance(run, source.Run):
         return
