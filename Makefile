@@ -26,7 +26,7 @@ test: build
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/python -m mypy.stubtest gripscale._kernel
-	$(BIN)/python -m pytest -q
+	$(BIN)/python -m pytest -q -n logical --maxprocesses 4 --dist worksteal
 
 verify: build
 	$(BIN)/python -m pytest -q -m verification

@@ -19,7 +19,18 @@ def last_moment_errors(case, passages=5, **mesh):
     return friction, float(run.contact_fraction[-1] - steady.contact_fraction)
 
 
-@pytest.mark.parametrize("case", CASES, ids=str)
+QUICK = [0, 3, 5, 7]
+"""Of the cases: from the smallest slope to the steepest, and one with two relaxation times."""
+
+
+@pytest.mark.parametrize(
+    "case",
+    [
+        pytest.param(case, marks=() if i in QUICK else pytest.mark.verification)
+        for i, case in enumerate(CASES)
+    ],
+    ids=str,
+)
 def test_the_steady_state_is_the_limit(case):
     friction, area = last_moment_errors(case, **MESH)
     # Memory between columns is linear here and a Fourier series there: (k h)^2-sized differences.

@@ -40,10 +40,12 @@ def test_start_stop_and_reversal():
 
 def test_a_step_in_speed_goes_from_one_steady_state_to_the_other():
     case = TransientCase(0.1, 0.1, (4.0,), (0.05,))
-    run = case.run(case.stage(2), case.stage(1, 4 * SPEED), **MESH)
+    mesh = {"columns": 64, "rows": 12}
+    run = case.run(case.stage(2), case.stage(1, 4 * SPEED), **mesh)
     for speed in (SPEED, 4 * SPEED):
-        steady = case.steady(speed, **MESH)
-        assert run.friction[run.speed == speed][-1] == pytest.approx(steady.friction, rel=0.005)
+        steady = case.steady(speed, **mesh)
+        # Memory between columns is linear here and a Fourier series there: (k h)^2.
+        assert run.friction[run.speed == speed][-1] == pytest.approx(steady.friction, rel=0.01)
 
 
 def test_cycle_gives_mean_and_range_of_the_last_stretch():
