@@ -7,14 +7,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 from typer.testing import Result
 
 import gripscale as gs
 from gripscale import netcdf
 from gripscale.case import prepare_case
 from gripscale.comparison import Comparison, Sample, SolvedRung, compare_case, judged
+from gripscale.comparison.judged import FILE, judged_totals
 from gripscale.figures.comparison import comparison_figure
 from gripscale.figures.comparison_axis import comparison_axis_figure
+from gripscale.figures.view import PredictionView
 from gripscale.report.comparison_table import comparison_table, judgement, remarks
 from gripscale.report.tables import as_text
 
@@ -291,7 +294,9 @@ def test_a_run_says_what_its_chain_is_worth(shell: Shell, inputs: Path, tmp_path
         solver="half_plane",
         points=128,
     )
-    first, second = judgement(chain, direct)
+    stored = netcdf.load(tmp_path / FILE)
+    xr.testing.assert_identical(stored, judged_totals(direct, results))
+    first, second = judgement(PredictionView(chain.to_dataset()), stored)
     words = " ".join(result.stdout.split())
     assert first in words
     assert second in words

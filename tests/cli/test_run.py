@@ -167,7 +167,7 @@ def test_an_earlier_run_leaves_nothing_behind_and_other_files_stay(
         (case.parent / "results" / name).write_text("old")
     assert shell("run", case).exit_code == 0
     left = {p.name for p in (case.parent / "results").rglob("*") if p.is_file()}
-    written = {"case.toml", "dynamic.nc", "report.txt", "road.txt", "dma.txt"}
+    written = {"case.toml", "dynamic.nc", "direct.nc", "report.txt", "road.txt", "dma.txt"}
     assert left == written | {"notes.txt", "mine.png"}
 
 

@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 import io
-import os
-import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -17,34 +14,9 @@ from PIL import Image
 
 from gripscale.case import run_case
 from gripscale.report import write_report
+from tests.browsing import CURVES, Visit
 
 from .conftest import CASE
-
-playwright = pytest.importorskip("playwright.sync_api", reason="needs pip install playwright")
-
-NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
-CHROMIUM = next((path for path in map(shutil.which, NAMES) if path is not None), None)
-pytestmark = pytest.mark.skipif(
-    CHROMIUM is None, reason=f"no browser ({', '.join(NAMES)}); on Debian: apt-get install chromium"
-)
-
-
-@dataclass
-class Visit:
-    """An open page, and what it said and asked for."""
-
-    page: Any
-    said: list[str] = field(default_factory=list)
-    asked: list[str] = field(default_factory=list)
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    options = ["--no-sandbox"] if hasattr(os, "geteuid") and os.geteuid() == 0 else []
-    with playwright.sync_playwright() as started:
-        chromium = started.chromium.launch(executable_path=CHROMIUM, args=options)
-        yield chromium
-        chromium.close()
 
 
 @contextmanager
@@ -61,22 +33,20 @@ def visit(browser: Any, path: Path, width: int = 1280) -> Iterator[Visit]:
             seen.asked.append(url)
             route.abort()
 
-    def listen(message: Any) -> None:
-        if message.type in ("error", "warning"):
-            seen.said.append(message.text)
-
     context.route("**/*", route)
-    seen.page.on("console", listen)
-    seen.page.on("pageerror", lambda error: seen.said.append(str(error)))
     seen.page.goto(path.as_uri())
     yield seen
     context.close()
 
 
+DRAWN = """() => document.documentElement.dataset.drawn
+    && Bokeh.documents.every(one => one.is_idle)"""
+"""Whether the page says that its figures are made, and each of them is at rest."""
+
+
 def drawn(seen: Visit) -> Visit:
-    """Wait until the page says that all its figures are drawn."""
-    seen.page.wait_for_selector("html[data-drawn]", timeout=30_000)
-    seen.page.wait_for_timeout(300)
+    """Wait until all figures of the page are drawn."""
+    seen.until(DRAWN)
     return seen
 
 
@@ -122,7 +92,7 @@ def check_figures(seen: Visit) -> int:
             assert left + wide <= x + width + 1, name
             assert top + high <= y + height + 1, name
         assert boxes["frame"][0][3] > 0.5 * height, f"{name}: frame is squeezed"
-        assert coloured(plot.screenshot()) > 150, f"{name} is empty"
+        assert plot.evaluate(CURVES), f"{name} is empty"
     return len(plots)
 
 
@@ -136,6 +106,8 @@ def test_every_figure_is_drawn(visited: Visit) -> None:
     count = check_figures(visited)
     assert count >= 18
     assert visited.page.locator("html").get_attribute("data-drawn") == str(count)
+    for plot in visited.page.locator(".plot").all():
+        assert coloured(plot.screenshot()) > 150, f"{plot.get_attribute('id')} is not to be seen"
 
 
 def test_every_picture_is_decoded(visited: Visit) -> None:
@@ -176,20 +148,21 @@ def test_the_watch_would_notice(browser: Any, tmp_path: Path) -> None:
         "<img src='http://example.org/a.png'><script>console.warn('w'); throw Error('e')</script>"
     )
     with visit(browser, path) as seen:
-        seen.page.wait_for_timeout(200)
-        assert seen.asked == ["http://example.org/a.png"]
+        seen.page.evaluate("() => fetch('http://example.org/b.png').catch(() => null)")
+        assert seen.asked == [f"http://example.org/{name}.png" for name in "ab"]
         assert "w" in seen.said
         assert "e" in seen.said
 
 
-def test_injected_script_does_not_run(browser: Any, run_page: Path, tmp_path: Path) -> None:
+def test_injected_script_does_not_run(browser: Any, study_file: Path, tmp_path: Path) -> None:
     """Even markup that slipped through the escaping is stopped by the page's policy."""
-    path = tmp_path / "injected.html"
-    text = run_page.read_text(encoding="utf-8")
+    path = write_report(study_file, tmp_path / "injected.html")
+    text = path.read_text(encoding="utf-8")
+    assert "<main>" in text
     path.write_text(text.replace("<main>", "<main><script>document.title = 'taken'</script>"))
     with visit(browser, path) as seen:
         drawn(seen)
-        assert seen.page.title() == "Contact and friction: case.toml"
+        assert seen.page.title() == "Study of <contact>"
         assert any("Content Security Policy" in text for text in seen.said)
 
 
@@ -206,7 +179,7 @@ def test_figures_zoom_by_dragging(visited: Visit) -> None:
     mouse.down()
     mouse.move(left + 0.8 * width, top + 0.5 * height, steps=5)
     mouse.up()
-    visited.page.wait_for_timeout(200)
+    visited.until(f"before => ({limits})()[0] !== before[0]", before)
     after = visited.page.evaluate(limits)
     share = (after[1] - after[0]) / (before[1] - before[0])
     assert share == pytest.approx(0.3, abs=0.02)
@@ -218,37 +191,52 @@ def test_case_can_be_copied(visited: Visit) -> None:
     button.click()
     text = visited.page.evaluate("() => document.getElementById('code-case').textContent")
     assert text == CASE
-    visited.page.wait_for_function("b => b.innerText !== 'Copy'", arg=button.element_handle())
+    visited.until("b => b.innerText !== 'Copy'", button.element_handle())
     assert button.inner_text() in ("Copied", "Selected: press Ctrl+C")
 
 
-@pytest.mark.parametrize("width", [420, 800])
-def test_narrow_window_does_not_overflow(browser: Any, run_page: Path, width: int) -> None:
-    with visit(browser, run_page, width) as seen:
-        drawn(seen)
-        assert seen.page.evaluate("() => document.documentElement.scrollWidth") <= width
-        assert seen.said == []
-
-
-def test_tables_that_go_on_beside_the_window_tell_by_a_shadow(browser: Any, run_page: Path) -> None:
+@pytest.fixture(scope="module")
+def narrow(browser: Any, run_page: Path) -> Iterator[Visit]:
     with visit(browser, run_page, 390) as seen:
-        told = seen.page.evaluate(
-            "[...document.querySelectorAll('.scroll')].map(box => [box.scrollWidth > "
-            "box.clientWidth, getComputedStyle(box).backgroundImage.split('gradient').length - 1])"
-        )
+        yield drawn(seen)
+
+
+def check_widths(seen: Visit, *widths: int) -> None:
+    """Assert that nothing of the page goes beyond windows of `widths`."""
+    for width in widths:
+        seen.page.set_viewport_size({"width": width, "height": 900})
+        assert drawn(seen).width() <= width
+    assert seen.said == []
+
+
+def test_narrow_window_does_not_overflow(narrow: Visit) -> None:
+    check_widths(narrow, 390, 420, 800)
+
+
+def test_legends_stay_whole_on_a_telephone(narrow: Visit) -> None:
+    narrow.page.set_viewport_size({"width": 390, "height": 900})
+    assert check_figures(drawn(narrow)) >= 18
+
+
+def test_tables_that_go_on_beside_the_window_tell_by_a_shadow(narrow: Visit) -> None:
+    narrow.page.set_viewport_size({"width": 390, "height": 900})
+    told = narrow.page.evaluate(
+        "[...document.querySelectorAll('.scroll')].map(box => [box.scrollWidth > "
+        "box.clientWidth, getComputedStyle(box).backgroundImage.split('gradient').length - 1])"
+    )
     assert any(wider for wider, _ in told)
     assert all(layers == 4 for _, layers in told)
 
 
-def test_print_keeps_figures_whole(browser: Any, run_page: Path) -> None:
-    with visit(browser, run_page) as seen:
-        drawn(seen)
-        before = [plot.bounding_box()["width"] for plot in seen.page.locator(".plot").all()]
-        seen.page.emulate_media(media="print")
-        after = [plot.bounding_box()["width"] for plot in seen.page.locator(".plot").all()]
-        assert after == pytest.approx(before)
-        assert not seen.page.locator("nav").is_visible()
-        assert seen.page.pdf().startswith(b"%PDF")
+def test_print_keeps_figures_whole(visited: Visit) -> None:
+    page = visited.page
+    before = [plot.bounding_box()["width"] for plot in page.locator(".plot").all()]
+    page.emulate_media(media="print")
+    after = [plot.bounding_box()["width"] for plot in page.locator(".plot").all()]
+    assert after == pytest.approx(before)
+    assert not page.locator("nav").is_visible()
+    assert page.pdf().startswith(b"%PDF")
+    page.emulate_media(media="screen")
 
 
 def test_failed_run_is_loud(browser: Any, failed_folder: Path) -> None:
@@ -289,15 +277,9 @@ def test_study_is_drawn(browser: Any, study_file: Path, tmp_path: Path) -> None:
         assert seen.asked == []
 
 
-def test_comparison_is_drawn(browser: Any, compared_folder: Path) -> None:
+def test_comparison_is_drawn_and_fits_a_narrow_window(browser: Any, compared_folder: Path) -> None:
     with visit(browser, write_report(compared_folder)) as seen:
         drawn(seen)
         assert check_figures(seen) == 6
-        assert seen.said == []
         assert seen.asked == []
-
-
-def test_comparison_fits_a_narrow_window(browser: Any, compared_folder: Path) -> None:
-    with visit(browser, write_report(compared_folder), 420) as seen:
-        drawn(seen)
-        assert seen.page.evaluate("() => document.documentElement.scrollWidth") <= 420
+        check_widths(seen, 420)

@@ -232,7 +232,7 @@ def test_notes_on_the_surface_are_warnings(run_folder: Path, tmp_path: Path) -> 
     run = read_result(tmp_path)
     assert isinstance(run, Run)
     warned = [notice.text for notice in notices(run) if notice.level == "warning"]
-    assert {"road: heights jump", "the largest wave is long"} <= set(warned)
+    assert {"Surface: road: heights jump.", "Surface: the largest wave is long."} <= set(warned)
 
 
 def test_hostile_texts_stay_texts(run_folder: Path, tmp_path: Path) -> None:

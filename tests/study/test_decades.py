@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 
 from gripscale.rubber import Rubber
-from gripscale.study.decades import friction_by_decade
+from gripscale.study.decades import _in_decades, friction_by_decade
 
 RUBBER = Rubber(2e6, [3e6, 4e6], [2e-2, 5e-4])
 WAVELENGTH, SPEED, FRICTION = 10e-3, 0.3, 0.2
@@ -57,3 +57,15 @@ def test_no_split_without_a_solution_or_sliding() -> None:
     assert friction_by_decade(one_wave(0.8, 0.1, "iteration limit"), RUBBER) == {}
     rest = one_wave(0.8, 0.1).assign(nominal_speed=0.0)
     assert friction_by_decade(rest, RUBBER) == {}
+
+
+@pytest.mark.parametrize("shift", [0.0, 0.3, 0.5, 0.99])
+def test_elements_as_dense_as_a_spectrum_do_not_jump_between_decades(shift: float) -> None:
+    """Elements 2/3 of a decade apart with equal shares: 3/2 of one in each decade, wherever."""
+    place = np.arange(-6.0, 2.0, 2.0 / 3.0) + shift
+    parts: dict[int, float] = {}
+    for n, part in _in_decades(place, np.ones_like(place)):
+        parts[n] = parts.get(n, 0.0) + part
+    inner = [parts[n] for n in range(-5, 1)]
+    np.testing.assert_allclose(inner, 1.5, rtol=1e-12)
+    assert sum(parts.values()) == pytest.approx(place.size, rel=1e-12)

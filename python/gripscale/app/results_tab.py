@@ -17,17 +17,21 @@ from gripscale.app.run import Run
 from gripscale.app.runs import Runs
 from gripscale.app.state import CaseState
 from gripscale.app.worker import beside, in_turn
+from gripscale.case import read_case
+from gripscale.case.saved import CASE
 from gripscale.errors import GripscaleError
+from gripscale.figures.view import PredictionView
+from gripscale.measured.of_case import friction_of_case
 from gripscale.report import source, write_report
 from gripscale.report.charts.contact import contact_charts
+from gripscale.report.charts.measured import measured_chart
 from gripscale.report.cut_off import exponent_sentence
 from gripscale.report.effects_chapter import effects_elements
 from gripscale.report.elements import Element, Text
+from gripscale.report.measured_lines import measured_lines
 from gripscale.report.notices import cards, notices
+from gripscale.report.run_page import judgement_elements
 from gripscale.report.wave_tables import wave_tables
-
-JUDGED = ("Direct contact of the measured", "The direct contact of the measured")
-"""How what a run says of its chain begins, in report.txt."""
 
 
 def results_tab(state: CaseState, runs: Runs) -> pn.Column:
@@ -44,7 +48,7 @@ def results_tab(state: CaseState, runs: Runs) -> pn.Column:
             body.objects = [raw(f"<p>{run.name} is running; its results come when it ends.</p>")]
             below.objects = []
             return
-        await fill(body, lambda: list(_elements(run.folder)), state)
+        await fill(body, lambda: list(results_elements(run.folder)), state)
         below.objects = _below(state, run) if any(run.folder.glob("*.nc")) else []
 
     async def follow(_: Any) -> None:
@@ -65,30 +69,36 @@ def _below(state: CaseState, run: Run) -> list[Any]:
     return [code("Everything the run says", said), _downloads(run), _report(state, run)]
 
 
-def _elements(folder: Path) -> Iterator[Element | Cards]:
+def results_elements(folder: Path) -> Iterator[Element | Cards]:
+    """Yield what the folder of a run tells, in the order of the page."""
     run = source.read_result(folder)
     if not isinstance(run, source.Run):
         return
     yield Cards(cards(run))
     yield from notices(run)
-    yield from (Text(line) for line in _judgement(folder))
+    yield from judgement_elements(run)
     for one in run.predictions:
         sentence = exponent_sentence(one.data)
         if sentence:
             yield Text(f"{one.title}. {sentence}")
     yield from contact_charts(run.by_wave)
+    yield from _measured(folder, run)
     tables = {table.name: table for table in wave_tables(run.by_wave)}
     yield from (tables[name] for name in ("contact", "load", "conditions") if name in tables)
     yield from effects_elements(run.effects)
 
 
-def _judgement(folder: Path) -> Iterator[str]:
-    """Yield what the run says of its chain beside the direct contact."""
-    report = folder / "report.txt"
-    lines = report.read_text(encoding="utf-8").split("\n") if report.exists() else []
-    starts = [at for at, line in enumerate(lines) if line.startswith(JUDGED)]
-    if starts:
-        yield " ".join(line.strip() for line in lines[starts[-1] :] if line.strip())
+def _measured(folder: Path, run: source.Run) -> Iterator[Element]:
+    """Yield the measured friction that the case of the run names, with what was predicted."""
+    found = friction_of_case(read_case(folder / CASE))
+    moving = [one for one in run.predictions if one.moving and one.complete]
+    if found is None or not moving:
+        return
+    direct = [] if run.direct is None else [PredictionView(run.direct, "direct contact")]
+    yield measured_chart(found, [*moving, *direct])
+    yield from (
+        Text(line) for line in measured_lines(found, moving[0].speed, moving[0].shown("speed"))
+    )
 
 
 def _downloads(run: Run) -> pn.FlexBox:

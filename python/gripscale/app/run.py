@@ -9,7 +9,6 @@ from __future__ import annotations
 import atexit
 import contextlib
 import os
-import re
 import signal
 import subprocess
 import sys
@@ -17,7 +16,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-WAVE = re.compile(r"wave (\d+) of (\d+):")
+from gripscale.app.progress import Progress, progress_of
+
 GRACE = 5.0
 """Seconds a process has to end before it is killed."""
 
@@ -30,6 +30,10 @@ class Run:
     case: Path
     folder: Path
     text: str
+    predictions: int = 1
+    """How many the case asks for."""
+    passing: bool = False
+    """Whether rubber and contact are solved in passes until they agree."""
     stopped: bool = field(default=False, init=False)
     _process: Any = field(default=None, init=False, repr=False)
 
@@ -101,10 +105,9 @@ class Run:
         last = errors[-1:] or (lines[-1:] if self.state == "failed" else [])
         return last[0].removeprefix("error: ") if last else ""
 
-    def progress(self) -> tuple[int, int]:
-        """Return the wave it solved last and of how many; (0, 0) before the first."""
-        found = WAVE.findall(self.said())
-        return (int(found[-1][0]), int(found[-1][1])) if found else (0, 0)
+    def progress(self) -> Progress:
+        """Return how far it is."""
+        return progress_of(self.said(), self.predictions, passing=self.passing)
 
     def _log(self, name: str) -> Path:
         return self.folder.with_name(f"{self.folder.name}.{name}.txt")

@@ -37,11 +37,12 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
             return
         ended = bool(seen) and seen[0][0] == "running" and not run.going
         seen[:] = [(run.state, run.said())]
-        done, of = run.progress()
-        bar.param.update(visible=run.going, value=round(100 * done / of) if of else 0)
+        progress = run.progress()
+        share = progress.share
+        bar.param.update(visible=run.going, value=-1 if share is None else round(100 * share))
         complaint = state.place.short(run.complaint())
         log = state.place.short(run.said())
-        words = html(_words(run.name, run.state, complaint, done, of))
+        words = html(_words(run.name, run.state, complaint, progress.words))
         told.objects = [words, code("What the run says", log)] if log else [words]
         if ended:
             runs.changes += 1
@@ -58,13 +59,12 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
     return pn.Column(buttons, bar, told, sizing_mode="stretch_width")
 
 
-def _words(name: str, state: str, complaint: str, done: int, of: int) -> Element:
+def _words(name: str, state: str, complaint: str, far: str) -> Element:
     """Return how a run stands."""
-    wave = f"wave {done} of {of}" if of else "reading and fitting"
     if state == "running":
-        return Text(f"{name} is running: {wave}.")
+        return Text(f"{name} is running: {far}.")
     if state == "stopped":
-        return Notice("warning", f"{name} was stopped at {wave}; the same case goes on from there.")
+        return Notice("warning", f"{name} was stopped ({far}); the same case goes on from there.")
     if state == "failed":
         return Notice("error", f"{name}: {complaint}")
     return Notice("good", f"{name} has finished; its results are in the next part of the page.")

@@ -6,7 +6,8 @@ import param
 
 from gripscale.app.run import Run
 from gripscale.app.state import CaseState
-from gripscale.case import folder
+from gripscale.case import CaseFile, folder
+from gripscale.case.results import planned
 from gripscale.errors import InputError
 
 
@@ -32,10 +33,11 @@ class Runs(param.Parameterized):
         """
         if self.going is not None:
             raise InputError(f"{self.going.name} is still going; stop it or wait for its end")
-        text = self._state.file().text
+        file = self._state.file()
+        text = file.text
         run = next((one for one in self.all if one.stopped and one.text == text), None)
         if run is None:
-            run = self._new(text)
+            run = self._new(file)
             self.all.append(run)
         run.stopped = False
         run.start()
@@ -48,9 +50,16 @@ class Runs(param.Parameterized):
             run.stop()
         self.changes += 1
 
-    def _new(self, text: str) -> Run:
-        """Return a run of `text`, its case saved beside the files it names."""
+    def _new(self, file: CaseFile) -> Run:
+        """Return a run of a case, saved beside the files it names."""
         name = f"run-{len(self.all) + 1}"
         place = self._state.place.path
-        case = folder.write_text(place / f"{name}.toml", text)
-        return Run(name, case, place / "runs" / name, text)
+        case = folder.write_text(place / f"{name}.toml", file.text)
+        return Run(
+            name,
+            case,
+            place / "runs" / name,
+            file.text,
+            predictions=len(list(planned(file.case.load))),
+            passing=file.case.conditions.iterated,
+        )

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import os
 import socket
+import warnings
 from pathlib import Path
 
 import panel as pn
+from bokeh.util.warnings import BokehUserWarning
 
 from gripscale.app.page import TITLE, visit
 from gripscale.app.visit_folder import MOST
@@ -30,6 +32,9 @@ def serve(root: Path, case: Path | None, port: int, browser: bool) -> None:
     def page() -> pn.Column:
         return visit(root.resolve(), case)
 
+    # BokehJS names what the server has just added to the page by sending it back whole; the server
+    # keeps its own and says so each time.
+    warnings.filterwarnings("ignore", "reference already known", BokehUserWarning)
     server = pn.serve(
         {"/": page},
         title={"/": TITLE},

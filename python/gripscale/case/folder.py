@@ -28,6 +28,7 @@ AT_TIMES = ("heat", "effects", "superposition", "superposition_tests", "shift")
 RESULTS = (
     "dynamic.nc",
     "static.nc",
+    "direct.nc",
     "effects_chain.nc",
     "report.txt",
     CASE,

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gripscale.case.key import prediction_key
+from gripscale.case.load_table import Load
 from gripscale.case.prepare_rubber import PreparedRubber
 from gripscale.case.read import CaseFile
 from gripscale.chain.model import Chain
@@ -132,11 +133,15 @@ class CaseResults:
 
     def planned(self) -> Iterator[tuple[str, float]]:
         """Yield name and speed [m/s] of the predictions the case asks for."""
-        load = self.file.case.load
-        if load.speed > 0.0:
-            yield DYNAMIC, load.speed
-        if load.static or load.speed == 0.0:
-            yield STATIC, 0.0
+        return planned(self.file.case.load)
+
+
+def planned(load: Load) -> Iterator[tuple[str, float]]:
+    """Yield name and speed [m/s] of the predictions a load of a case asks for."""
+    if load.speed > 0.0:
+        yield DYNAMIC, load.speed
+    if load.static or load.speed == 0.0:
+        yield STATIC, 0.0
 
 
 def title(speed: float, how: Shown) -> str:

@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from gripscale.case import CaseResults, WaveSolved
-    from gripscale.comparison import SolvedRung
     from gripscale.measured import MeasuredFriction
     from gripscale.shown import Shown
 
@@ -30,7 +29,7 @@ REPORT_WIDTH = 110
 class Known(NamedTuple):
     """What stands beside the chain: direct contact, worth of the effects, measured friction."""
 
-    direct: SolvedRung | None
+    direct: xr.Dataset | None
     effects: xr.Dataset | None
     friction: MeasuredFriction | None
 
@@ -53,7 +52,7 @@ def run(
 ) -> None:
     """Predict contact area and friction of a case; goes on where it was stopped."""
     from gripscale.case import folder, prepare_case, read_case, run_case
-    from gripscale.comparison import judged
+    from gripscale.comparison.judged import judge_run
     from gripscale.effects import case_effects
     from gripscale.figures.beside import drawn_beside
     from gripscale.measured.of_case import friction_of_case
@@ -82,7 +81,7 @@ def run(
                 on_folder=lambda words: say(console, words),
                 fresh=fresh,
             )
-            direct = judged(results)
+            direct = judge_run(results, target)
             worth = case_effects(results, results.chain, target, target / "effects")
         _conclude(console, target, opening, results, Known(direct, worth, friction))
     console.print()
@@ -187,8 +186,8 @@ def _conclude(
     if solved:
         console.print()
         say(console, tables.LEGEND)
-    judged = next(iter(results.predictions.values()), None)
-    last = [] if judged is None or known.direct is None else list(judgement(judged, known.direct))
+    views = [PredictionView(data, name) for name, data in solved.items()]
+    last = list(judgement(views[0], known.direct)) if views and known.direct is not None else []
     if known.friction is not None and results.load.speed > 0.0:
         last += measured_lines(known.friction, results.load.speed, results.shown("speed"))
     sampled = stored_uncertainty(target)

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 LINE = 0.12
 """Of a title beyond its third line [inch]."""
+FOR_WORDS = 0.2
+"""Wavelengths left free above a wave without a mesh."""
 MESH_DEPTH = 0.55
 """Depth of the block that is shown [wavelengths]."""
 PRESSURE = 0.42
@@ -108,7 +110,7 @@ def _window(view: PredictionView, waves: Any) -> tuple[float, float]:
         return -0.16, 0.16
     steepest = max(_ratio(view, i) for i in waves)
     meshed = any(view.converged[i] and view.mesh_along(i) is not None for i in waves)
-    return -steepest - 0.06, steepest + (MESH_DEPTH if meshed else 0.06)
+    return -steepest - 0.06, steepest + (MESH_DEPTH if meshed else FOR_WORDS)
 
 
 def _ratio(view: PredictionView, i: int) -> float:

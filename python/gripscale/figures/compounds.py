@@ -23,6 +23,9 @@ from gripscale.figures.style import (
 )
 from gripscale.rubber import Rubber
 
+LEAST = 0.005
+"""Of the largest difference: decades at either end with less are not drawn."""
+
 
 @styled
 def compound_moduli_figure(rubbers: Mapping[str, Rubber]) -> Figure:
@@ -80,6 +83,10 @@ def compound_friction_figure(data: xr.Dataset) -> Figure:
 def _decades(axes: Axes, data: xr.Dataset) -> None:
     """Draw the difference of each compound to the first by decade of relaxation time."""
     names = data.rubber.values.tolist()
+    differences = np.abs(np.nan_to_num(data.friction_by_decade_difference.values))
+    largest = differences.max(axis=data.friction_by_decade_difference.dims.index("rubber"))
+    shown = np.flatnonzero(largest >= LEAST * largest.max(initial=0.0))
+    data = data.isel(decade=slice(shown[0], shown[-1] + 1)) if shown.size else data
     place = np.arange(data.sizes["decade"])
     width = 0.8 / (len(names) - 1)
     for i, (name, colour) in enumerate(zip(names[1:], COLOURS[1:], strict=False)):

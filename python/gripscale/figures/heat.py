@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from typing import Any
 
@@ -70,7 +71,7 @@ def heat_figure(data: xr.Dataset, title: str = "") -> Figure:
             label=label,
         )
         above, below = above + np.maximum(part, 0.0), below + np.minimum(part, 0.0)
-    before = float((data.temperature - above - below).mean()) if length.size else math.nan
+    before = _before(data)
     look: dict[str, Any] = {"marker": "o", "ms": 4.0, "mfc": "white", "mec": INK, "ls": ""}
     axes.plot(length, data.contact_temperature - before, label="at the surface, in contact", **look)
     falling_wavelength(axes, length)
@@ -80,6 +81,19 @@ def heat_figure(data: xr.Dataset, title: str = "") -> Figure:
     axes.set_ylabel(f"above the {before - ZERO_CELSIUS:.3g} °C before the contact [K]")
     figure.legend(loc="outside upper center", ncols=2, title=title)
     return figure
+
+
+def _before(data: xr.Dataset) -> float:
+    """Return the temperature before the contact [K], NaN without waves.
+
+    Stated, or else the least that is left of any wave's without what warms it: of the temperature a
+    wave was solved at and the warming it found, which agree to some tenths of a kelvin.
+    """
+    stated = (json.loads(data.attrs.get("conditions", "null")) or {}).get("temperature")
+    if stated is not None:
+        return float(stated)
+    left = data.temperature - sum(data[name] for name in PARTS)
+    return float(left.mean()) if left.size else math.nan
 
 
 @styled

@@ -12,10 +12,12 @@ from rich import box
 from rich.table import Table
 
 from gripscale.figures.rungs import JUDGE, flawed
+from gripscale.figures.view import CONVERGED, PredictionView
 from gripscale.model import (
     ADHESIVE_FRICTION,
     CUT_OFF_EXPONENTS,
     FRICTION_OUTSIDE_BAND,
+    extrapolation_of,
     with_adhesive,
 )
 from gripscale.report.outside_band import comparison_sentences, friction_sentence
@@ -26,8 +28,6 @@ from gripscale.study.display import axis_shown
 if TYPE_CHECKING:
     import xarray as xr
 
-    from gripscale.chain.prediction import Prediction
-    from gripscale.comparison import SolvedRung
 
 SYMBOLS = {"contact_fraction": "A_r/A_0", "friction": "μ"}
 LABEL = 20
@@ -168,27 +168,28 @@ def samples_of(one: xr.Dataset) -> str:
     return str(whole) if good == whole else f"{good}/{whole}"
 
 
-def judgement(prediction: Prediction, direct: SolvedRung) -> Iterator[str]:
+def judgement(chain: PredictionView, direct: xr.Dataset) -> Iterator[str]:
     """Yield what the direct contact of the measured profiles says, and the chain beside it."""
-    if len(direct.converged) < len(direct.samples):
-        yield f"The direct contact of the measured profiles gives no judgement: {direct.status}."
+    status = str(direct.prediction_status.item())
+    if status != CONVERGED:
+        yield f"The direct contact of the measured profiles gives no judgement: {status}."
         return
-    area, friction = (direct.mean(name) for name in SYMBOLS)
+    area, friction = (float(direct[f"total_{name}"]) for name in SYMBOLS)
     words = f"A_r/A_0 = {significant(area)}"
-    if prediction.load.speed > 0.0:
+    if chain.moving:
         words += f", mu = {significant(friction)}"
-        adhesive = direct.mean("adhesive_friction")
-        if math.isfinite(adhesive):
-            words += f", with the area term {significant(friction + adhesive)}"
+        both = with_adhesive(direct)
+        if both is not None:
+            words += f", with the area term {significant(float(both))}"
     yield f"Direct contact of the measured profiles, all waves at once at small strain: {words}."
-    beyond = friction_sentence(direct.extrapolation)
+    beyond = friction_sentence(extrapolation_of(direct))
     if beyond:
         yield f"Of it, {beyond}"
-    if not prediction.converged:
+    if not chain.complete:
         return
-    against = f"{prediction.contact_fraction / area:.2g} times its contact area"
-    if prediction.load.speed > 0.0:
-        against += f" and {prediction.friction / friction:.2g} times its friction"
+    against = f"{chain.total('contact_fraction') / area:.2g} times its contact area"
+    if chain.moving:
+        against += f" and {chain.total('friction') / friction:.2g} times its friction"
     yield f"The chain has {against}; `gripscale compare` shows which assumption costs what."
 
 

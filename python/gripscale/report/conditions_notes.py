@@ -33,6 +33,8 @@ def conditions_sentences(one: PredictionView) -> Iterator[str]:
 
 def _of_waves(flagged: np.ndarray, words: str) -> Iterator[str]:
     numbers = [str(at + 1) for at in np.flatnonzero(flagged)]
-    if numbers:
+    if len(numbers) > 1 and len(numbers) == flagged.size:
+        yield f"All {len(numbers)} waves: {words}."
+    elif numbers:
         many = "s" if len(numbers) > 1 else ""
         yield f"Wave{many} {', '.join(numbers)}: {words}."

@@ -44,10 +44,18 @@ def load_facts(run: Run) -> Facts:
             ("Footprint", given("footprint", footprint)),
             ("Rubber", rubber_source(run)),
             ("Model", model.replace("_", " ")),
-            ("Strain energy", str(run.inputs.attrs.get("strain_energy", NONE)).removesuffix("()")),
+            ("Strain energy", _energy(str(run.inputs.attrs.get("strain_energy", NONE)))),
             ("Method", str(attrs.get("method", NONE))),
         ],
     )
+
+
+def _energy(stated: str) -> str:
+    """Return the name of a strain energy in words, with its parameters if it has any."""
+    name, _, rest = stated.partition("(")
+    words = "-".join(re.findall(r"[A-Z][a-z]+", name)) or name
+    parameters = rest.removesuffix(")")
+    return f"{words}, {parameters}" if parameters else words
 
 
 def rubber_source(run: Run) -> str:

@@ -57,7 +57,8 @@ def _doubts(run: Run) -> Iterator[str]:
     yield from str(inputs.attrs.get("conditions_notes", "")).splitlines()
     for finding in str(inputs.attrs.get("prony_findings", "")).splitlines():
         yield f"Rubber: {finding}."
-    yield from str(inputs.attrs.get("surface_notes", "")).splitlines()
+    for note in str(inputs.attrs.get("surface_notes", "")).splitlines():
+        yield f"Surface: {note.removesuffix('.')}."
     if "no_self_affine" in inputs.attrs:
         yield f"The surface was not described as self-affine: {inputs.attrs['no_self_affine']}"
     if not inputs.data_vars:

@@ -15,6 +15,7 @@ from gripscale.report.charts.rubber import rubber_charts
 from gripscale.report.charts.surface import correlation_charts, profile_charts
 from gripscale.report.charts.verification import verification_charts
 from gripscale.report.comparison_chapter import STALE, comparison_elements
+from gripscale.report.comparison_table import judgement
 from gripscale.report.cut_off import exponent_sentence
 from gripscale.report.effects_chapter import effects_elements
 from gripscale.report.elements import Code, Element, Facts, Notice, Page, Section, Table, Text
@@ -116,6 +117,7 @@ def _rubber(run: Run) -> list[Element]:
 def _results(run: Run, tables: dict[str, Table]) -> list[Element]:
     sentences = [(one.title, exponent_sentence(one.data)) for one in run.predictions]
     by_cut_off: list[Element] = [Text(f"{title}. {text}") for title, text in sentences if text]
+    by_cut_off += judgement_elements(run)
     if not run.by_wave:
         whole = Text("The model does not go wave by wave; its totals stand above.")
         return [whole, *by_cut_off]
@@ -124,6 +126,13 @@ def _results(run: Run, tables: dict[str, Table]) -> list[Element]:
     if any(not one.moving for one in run.by_wave):
         shown.insert(0, Text("Nothing slides at rest: the columns of friction are left out there."))
     return [*shown, *by_cut_off, *contact_charts(run.by_wave)]
+
+
+def judgement_elements(run: Run) -> list[Element]:
+    """Return what the direct contact says, with the first prediction beside it."""
+    if run.direct is None:
+        return []
+    return [Text(" ".join(judgement(run.predictions[0], run.direct)))]
 
 
 def _blocks(run: Run) -> list[Element]:

@@ -9,6 +9,7 @@ from typing import Any
 import xarray as xr
 
 from gripscale import netcdf
+from gripscale.comparison.judged import FILE as DIRECT
 from gripscale.effects import stored_effects
 from gripscale.errors import FileError
 from gripscale.figures.rungs import varied
@@ -66,6 +67,8 @@ class Run:
     """What each effect of its conditions is worth, model by model."""
     uncertainty: xr.Dataset | None = None
     """What was sampled of it, or of another case."""
+    direct: xr.Dataset | None = None
+    """Totals of the direct contact of the measured profiles."""
 
     @property
     def data(self) -> xr.Dataset:
@@ -148,7 +151,12 @@ def _read_folder(folder: Path) -> Source:
     if there:
         found = _run(there, _comparisons(folder / COMPARISON))
         effects = stored_effects((folder / COMPARISON, folder), found.attrs.get("case"))
-        return replace(found, effects=effects, uncertainty=stored_uncertainty(folder))
+        return replace(
+            found,
+            effects=effects,
+            uncertainty=stored_uncertainty(folder),
+            direct=_direct(folder, found),
+        )
     compared = replace(_comparisons(folder), uncertainty=stored_uncertainty(folder.parent))
     if compared.parts:
         return compared
@@ -170,6 +178,15 @@ def _told(name: str, path: Path, data: xr.Dataset) -> Told:
     pictures = [*path.parent.glob("*.png"), *(path.parent / "figures").glob("*.png")]
     said = text.read_text(encoding="utf-8") if text.is_file() else ""
     return Told(name, data, said, sorted(pictures))
+
+
+def _direct(folder: Path, found: Run) -> xr.Dataset | None:
+    """Return the direct contact of just the case of the run; None where there is none."""
+    path = folder / DIRECT
+    if not path.is_file():
+        return None
+    data = _checked(path).to_dataset()
+    return data if data.attrs.get("case") == found.attrs.get("case") else None
 
 
 def _comparisons(folder: Path) -> Compared:

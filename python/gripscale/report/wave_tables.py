@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -48,6 +49,11 @@ def _celsius(value: float) -> str:
     return number(value - ZERO_CELSIUS)
 
 
+def _kelvin(value: float) -> str:
+    """Return a difference of temperatures to a hundredth of a kelvin."""
+    return NONE if math.isnan(value) else f"{value + 0.0:z.2f}".replace("-", "−")
+
+
 def _yes_no(value: float) -> str:
     return NONE if np.isnan(value) else "yes" if value else "no"
 
@@ -90,9 +96,9 @@ CONDITIONS = [
     Column("loss_factor_left", "E″ left", "", percent),
     Column("series_misfit", "misfit", "of the series", percent),
     Column("beyond_sweep", "beyond sweep", show=_yes_no),
-    Column("warming_uniform", "warming", "uniform, K"),
-    Column("warming_larger_waves", "warming", "larger waves, K"),
-    Column("warming_own", "warming", "own, K"),
+    Column("warming_uniform", "warming", "uniform, K", _kelvin),
+    Column("warming_larger_waves", "warming", "larger waves, K", _kelvin),
+    Column("warming_own", "warming", "own, K", _kelvin),
     Column("temperature", "temperature", "°C", _celsius),
     Column("contact_temperature", "in contact", "°C", _celsius),
     Column("beyond_shift", "beyond shift", show=_yes_no),

@@ -9,11 +9,17 @@ and E'' is a sum over the Maxwell elements (Ferry, Viscoelastic Properties of Po
 (1980), ch. 3), so each D_k splits into their parts. The parts, added by decade of relaxation time
 and scaled to the friction coefficient that was solved, are what is returned: the pressure is the
 solver's, at finite strain; the split is that of small strain.
+
+A series samples a continuous spectrum (Ferry, ch. 4), so an element stands for the times between
+it and half way to its neighbours. Where it only stood for its own, a whole share would jump from
+one decade into the next as a temperature shifts the times.
 """
 
 from __future__ import annotations
 
 import json
+import math
+from collections.abc import Iterator
 
 import numpy as np
 import xarray as xr
@@ -22,8 +28,13 @@ from numpy.typing import NDArray
 from gripscale.rubber import Rubber
 from gripscale.wave.harmonics import harmonics
 
+ON_EDGE = 1e-9
+"""Decades by which rounding may move an end over the edge of a decade."""
 HARMONICS = 32
 """Harmonics of the contact pressure that count."""
+
+NEAR = 1.0
+"""Decades up to which an element is a neighbour: further away is another process of relaxation."""
 
 Array = NDArray[np.float64]
 
@@ -54,11 +65,32 @@ def friction_by_decade(solved: xr.Dataset, rubber: Rubber) -> dict[int, float]:
     for i in range(solved.sizes["scale"]):
         wave = solved.isel(scale=i)
         own = _rubber_of(wave, rubber)
-        decade = np.floor(np.log10(own.relaxation_times) + 1e-9).astype(int)
         share = _shares(wave, own) * float(wave.friction)
-        for n in np.unique(decade).tolist():
-            parts[n] = parts.get(n, 0.0) + float(share[decade == n].sum())
+        for n, part in _in_decades(np.log10(own.relaxation_times), share):
+            parts[n] = parts.get(n, 0.0) + part
     return parts
+
+
+def _in_decades(place: Array, share: Array) -> Iterator[tuple[int, float]]:
+    """Yield decades and the part of the shares of elements, at `place` [decades], in each."""
+    order = np.argsort(place)
+    for low, high, part in zip(*_ends(place[order]), share[order], strict=True):
+        first, last = math.floor(low + ON_EDGE), math.floor(high - ON_EDGE)
+        for n in range(first, max(first, last) + 1):
+            inside = float(min(high, n + 1.0) - max(low, n))
+            yield n, float(part * (inside / (high - low) if last > first else 1.0))
+
+
+def _ends(place: Array) -> tuple[Array, Array]:
+    """Return from where to where each element reaches [decades], places in rising order.
+
+    Without a neighbour on one side it reaches as far there as on the other.
+    """
+    half = np.diff(place) / 2.0
+    half = np.where(2.0 * half <= NEAR, half, np.nan)
+    below, above = np.append(np.nan, half), np.append(half, np.nan)
+    left, right = (np.where(np.isnan(a), b, a) for a, b in ((below, above), (above, below)))
+    return place - np.nan_to_num(left), place + np.nan_to_num(right)
 
 
 def _rubber_of(wave: xr.Dataset, rubber: Rubber) -> Rubber:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import textwrap
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,6 @@ import xarray as xr
 from bokeh.models import ColumnDataSource, FixedTicker
 
 from gripscale.figures.ladder_rows import Row, rows_of
-from gripscale.figures.measured import COLOUR, measured
 from gripscale.figures.palette import BLUE, MILLI, ORANGE
 from gripscale.figures.rungs import JUDGE, Look, looks, on_the_surface, varied, worth_drawing
 from gripscale.figures.stretches import FLAG, down_to, predictions_beyond
@@ -25,12 +25,15 @@ from gripscale.report.charts.look import (
     tick_closely,
     whole_decades,
 )
+from gripscale.report.charts.measured import draw_measured
 from gripscale.report.elements import Chart
 from gripscale.study.display import axis_shown
 
 QUANTITIES = {"contact_fraction": "contact area A_r/A_0", "friction": "friction coefficient μ"}
 ROW = 44
 """Height of a row of the ladder [px]."""
+LABEL = 24
+"""Letters of a line of a label beside the ladder: the frame keeps its width on a telephone."""
 
 
 def ladder_charts(comparison: xr.Dataset) -> list[Chart]:
@@ -74,7 +77,8 @@ def _ladder(comparison: xr.Dataset, name: str) -> Chart:
 
 
 def _label(row: Row) -> str:
-    return row.label if math.isfinite(row.value) else f"{row.label} ({row.note})"
+    text = row.label if math.isfinite(row.value) else f"{row.label} ({row.note})"
+    return textwrap.fill(text, LABEL)
 
 
 def _mark(figure: Any, at: int, row: Row) -> None:
@@ -142,7 +146,7 @@ def _over(comparison: xr.Dataset, axis: str, name: str) -> Chart:
     if name == "friction":
         _with_area_term(figure, x, comparison)
     if axis == "speed" and name == "friction":
-        _measured(figure, comparison)
+        draw_measured(figure, comparison, axis_shown(comparison, "speed"))
     return Chart(
         f"over-{axis}-{name}",
         f"{_title(name)} of every model over {words}; bands are the standard "
@@ -175,17 +179,3 @@ def _line(
     dots = figure.scatter(x, y, size=8, marker=look.bokeh_marker, line_color=look.colour,
                           fill_color=look.colour, legend_label=label)  # fmt: skip
     hover(figure, [dots], [(label, "@y"), ("at", "@x")])
-
-
-def _measured(figure: Any, comparison: xr.Dataset) -> None:
-    shown = axis_shown(comparison, "speed")
-    for series in measured(comparison):
-        speed = shown.of(series.speed)
-        spread = np.nan_to_num(series.spread)
-        low, high = series.friction - spread, series.friction + spread
-        figure.segment(x0=speed, x1=speed, y0=low, y1=high, color=COLOUR,
-                       line_width=1.6)  # fmt: skip
-        dots = figure.scatter(speed, series.friction, size=9, line_color=COLOUR,
-                              fill_color="white", line_width=2,
-                              legend_label=series.label)  # fmt: skip
-        hover(figure, [dots], [(series.label, "@y"), ("speed", f"@x {shown.unit}")])

@@ -25,8 +25,8 @@ FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Liberation Sans', Arial, 
 HEIGHT = 340
 LEGEND_ROW = 28
 """Height of a row of the legend [px]; of more than two rows the figure grows."""
-LEGEND_WIDTH = 400
-"""Width the legend should keep within [px]; a letter takes about 6."""
+LEGEND_WIDTH = 300
+"""Width the legend should keep within [px], that of a telephone; a letter takes about 6."""
 
 
 def plot(

@@ -1,0 +1,66 @@
+"""What the page shows of a run is what the run left in its folder."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from gripscale.app.results_tab import results_elements
+from gripscale.case import read_case, run_case
+from gripscale.comparison.judged import judge_run
+from gripscale.report.elements import Chart, Text
+
+from .conftest import CASE
+
+MEASURED = """\
+speed [m/s],temperature [C],friction,spread
+0.1,20,0.5,0.02
+1,20,0.7,0.03
+1,40,0.6,
+"""
+
+
+@pytest.fixture(scope="module")
+def ran(small: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the folder of a run whose case names measured friction."""
+    place = tmp_path_factory.mktemp("ran")
+    for name in ("road.txt", "dma.txt"):
+        shutil.copy(small / name, place)
+    (place / "friction.csv").write_text(MEASURED)
+    text = CASE.replace("../elsewhere/", "") + '[measured]\nfriction = "friction.csv"\n'
+    (place / "case.toml").write_text(text)
+    results = run_case(read_case(place / "case.toml"), output=place / "out")
+    judge_run(results, place / "out")
+    return place / "out"
+
+
+def test_measured_friction_is_drawn_with_what_is_predicted(ran: Path) -> None:
+    charts = {one.name: one.model for one in results_elements(ran) if isinstance(one, Chart)}
+    sources = [one.data_source.data for one in charts["measured-friction"].renderers]
+    pairs = [zip(data["x"], data["y"], strict=True) for data in sources if "x" in data]
+    points = [point for pair in pairs for point in pair]
+    assert {(0.1, 0.5), (1.0, 0.7), (1.0, 0.6)} <= set(points)
+    predicted = [y for x, y in points if x == 0.3]
+    assert len(predicted) == 2, "the chain and the direct contact"
+    assert all(np.isfinite(predicted))
+    labels = [one.label.value for one in charts["measured-friction"].legend[0].items]
+    assert labels == [
+        "measured, 20 °C",
+        "measured, 40 °C",
+        "dynamic, hysteresis",
+        "direct contact, hysteresis",
+    ]
+
+
+def test_the_chain_is_judged_by_what_is_stored(ran: Path) -> None:
+    texts = [one.text for one in results_elements(ran) if isinstance(one, Text)]
+    judged = [text for text in texts if text.startswith("Direct contact of the measured profiles")]
+    assert len(judged) == 1
+    assert "The chain has" in judged[0]
+    assert not (ran / "report.txt").exists()
+    (ran / "direct.nc").rename(ran / "away")
+    assert not any("Direct contact of" in getattr(e, "text", "") for e in results_elements(ran))
+    (ran / "away").rename(ran / "direct.nc")
