@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 from typer.testing import CliRunner
 
 import gripscale as gs
@@ -118,6 +119,20 @@ def test_friction_between_waves_is_linear_in_the_logarithm() -> None:
     first, second = answer.friction.values
     expected = [first, first + 0.5 * second, first + second, first + second]
     np.testing.assert_allclose(running_friction(answer, ends), expected)
+
+
+def test_octaves_of_profiles_count_by_their_length() -> None:
+    """One of them a quarter of the length, and without the shortest octave."""
+    parts = [[0.1, 0.2, np.nan], [0.3, 0.1, 0.2]]
+    answer = xr.Dataset(
+        {
+            "octave_friction": (("profile", "wavelength"), parts),
+            "weight": ("profile", [0.25, 0.75]),
+        },
+        {"wavelength": [4e-3, 2e-3, 1e-3]},
+    )
+    running = running_friction(answer, octave_ends(8e-3, 1e-3))
+    np.testing.assert_allclose(running, [0.0, 0.25, 0.375, 0.525])
 
 
 def test_waves_by_hand_have_no_direct_contact_and_no_range(folder: Path, tmp_path: Path) -> None:
