@@ -43,7 +43,9 @@ def test_an_area_term_is_added() -> None:
 
 
 def test_the_table_shows_every_number() -> None:
-    text = as_text(residual_table(residuals(MEASURED, {"near": NEAR}, ConstantStress(1e6))))
+    """In the units of the case it is compared with: here bar."""
+    beside = residuals(MEASURED, {"near": NEAR}, ConstantStress(1e6))
+    text = as_text(residual_table(beside.assign_attrs(case='[load]\npressure = "3 bar"')))
     rows = [line.split() for line in text.splitlines()]
     assert ["0.100", "20.0", "2.00", "0.500", "0.100", "0.400", "0.600", "+0.100", "+1.0"] in rows
     assert ["1.00", "20.0", "3.00", "0.600", "-", "0.600", "0.700", "+0.100", "-"] in rows
