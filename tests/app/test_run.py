@@ -73,4 +73,7 @@ def test_a_failed_run_says_its_sentence(runs: Runs) -> None:
     while run.going and time.monotonic() < until:
         time.sleep(0.1)
     assert run.state == "failed"
-    assert state.place.short(run.complaint()) == "inputs/no.txt: cannot be read (no such file); see `gripscale keys surface`"
+    assert (
+        state.place.short(run.complaint())
+        == "inputs/no.txt: cannot be read (no such file); see `gripscale keys surface`"
+    )

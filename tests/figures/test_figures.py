@@ -28,6 +28,7 @@ from gripscale.figures import (
 from gripscale.figures.profile import kept_points
 from gripscale.figures.stretches import stretches
 from gripscale.figures.style import short_number
+from gripscale.figures.view import JUDGE
 from gripscale.rubber import MasterCurve, Rubber, fit_prony_report
 from gripscale.surface import (
     Profile,
@@ -123,6 +124,14 @@ def test_contact_is_drawn_against_falling_wavelength_in_mm(
     left, right = area.get_xlim()
     assert left > 20.0
     assert right < 1.25
+
+
+def test_the_judge_of_a_chain_is_a_level_line(make_prediction: Callable[..., xr.Dataset]) -> None:
+    whole = make_prediction().drop_dims("scale")
+    figure = contact_figure({"dynamic": make_prediction(), JUDGE: whole})
+    for axes, name in zip(figure.axes, ("contact_fraction", "friction"), strict=True):
+        level = curve(axes, f"{JUDGE}, total")[1]
+        np.testing.assert_allclose(level, float(whole[f"total_{name}"]))
 
 
 def test_failed_wave_is_not_drawn_as_a_result(make_prediction: Callable[..., xr.Dataset]) -> None:

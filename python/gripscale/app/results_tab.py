@@ -81,7 +81,7 @@ def results_elements(folder: Path) -> Iterator[Element | Cards]:
         sentence = exponent_sentence(one.data)
         if sentence:
             yield Text(f"{one.title}. {sentence}")
-    yield from contact_charts(run.by_wave)
+    yield from contact_charts(run.by_wave, run.direct)
     yield from _measured(folder, run)
     tables = {table.name: table for table in wave_tables(run.by_wave)}
     yield from (tables[name] for name in ("contact", "load", "conditions") if name in tables)

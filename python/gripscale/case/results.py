@@ -40,6 +40,8 @@ class CaseResults:
         Why a prediction has no totals, by name.
     folder
         Where the results were written, or None.
+    direct
+        Totals of the direct contact of the measured profiles, which judges the predictions.
     """
 
     file: CaseFile
@@ -49,6 +51,7 @@ class CaseResults:
     predictions: dict[str, Prediction] = field(default_factory=dict)
     failures: dict[str, ChainError] = field(default_factory=dict)
     folder: Path | None = None
+    direct: xr.Dataset | None = None
     _keys: dict[str, str] = field(default_factory=dict, init=False, repr=False)
 
     @property

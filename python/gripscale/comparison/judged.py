@@ -41,7 +41,7 @@ def judged(results: CaseResults) -> SolvedRung | None:
 
 
 def judge_run(results: CaseResults, folder: str | Path) -> xr.Dataset | None:
-    """Return what `judged` finds as totals of a model, and write it into `folder`.
+    """Return what `judged` finds as totals of a model; keep it in `results` and in `folder`.
 
     Raises `FileError` if it cannot be written.
     """
@@ -50,6 +50,7 @@ def judge_run(results: CaseResults, folder: str | Path) -> xr.Dataset | None:
         return None
     data = judged_totals(direct, results)
     netcdf.save(data, Path(folder) / FILE)
+    results.direct = data
     return data
 
 

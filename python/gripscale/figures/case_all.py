@@ -22,7 +22,7 @@ from gripscale.figures.superposition import (
     superposition_figure,
     superposition_tests_figure,
 )
-from gripscale.figures.view import PredictionView
+from gripscale.figures.view import JUDGE, PredictionView
 from gripscale.rubber import ShiftTable
 
 if TYPE_CHECKING:
@@ -46,9 +46,11 @@ def draw_blocks(results: CaseResults, name: str, folder: Path) -> None:
 
 
 def draw_contact(results: CaseResults, folder: Path) -> None:
-    """Draw area and friction of all predictions into `folder`."""
+    """Draw area and friction of all predictions into `folder`, and what judges them."""
     found = map(results.dataset, results.predictions)
     titles = {PredictionView(data).title.lower(): data for data in found}
+    if results.direct is not None:
+        titles[JUDGE] = results.direct
     save_figure(contact_figure(titles), folder, "contact_and_friction")
 
 

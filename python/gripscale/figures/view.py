@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 CONVERGED = "converged"
+JUDGE = "direct contact of the profiles"
+"""What a figure of a chain calls the model that judges it."""
 
 
 @dataclass(frozen=True)

@@ -125,7 +125,7 @@ def _results(run: Run, tables: dict[str, Table]) -> list[Element]:
     shown: list[Element] = [tables[name] for name in names]
     if any(not one.moving for one in run.by_wave):
         shown.insert(0, Text("Nothing slides at rest: the columns of friction are left out there."))
-    return [*shown, *by_cut_off, *contact_charts(run.by_wave)]
+    return [*shown, *by_cut_off, *contact_charts(run.by_wave, run.direct)]
 
 
 def judgement_elements(run: Run) -> list[Element]:

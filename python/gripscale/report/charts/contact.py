@@ -6,12 +6,13 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+import xarray as xr
 from bokeh.plotting import figure as Figure
 from numpy.typing import NDArray
 
-from gripscale.figures.palette import MILLI
+from gripscale.figures.palette import INK, MILLI
 from gripscale.figures.stretches import down_to, waves_beyond
-from gripscale.figures.view import PredictionView
+from gripscale.figures.view import JUDGE, PredictionView
 from gripscale.report.charts.look import (
     COLOURS,
     RED,
@@ -33,11 +34,16 @@ LOAD = ("pressure_received", "modulus")
 TIPS = [("λ", "@x mm"), ("value", "@y")]
 
 
-def contact_charts(predictions: Sequence[PredictionView]) -> list[Chart]:
-    """Return area, friction, pressure, modulus and the pressure along the waves."""
-    charts = [_area(predictions)]
+def contact_charts(
+    predictions: Sequence[PredictionView], direct: xr.Dataset | None = None
+) -> list[Chart]:
+    """Return area, friction, pressure, modulus and the pressure along the waves.
+
+    The totals of `direct`, what judges the predictions, are level lines.
+    """
+    charts = [_area(predictions, direct)]
     if any(one.moving for one in predictions):
-        charts.append(_friction([one for one in predictions if one.moving]))
+        charts.append(_friction([one for one in predictions if one.moving], direct))
     charts.append(_load(predictions))
     if any(one.shows("max_stretch") for one in predictions):
         charts.append(_stretch(predictions))
@@ -45,11 +51,12 @@ def contact_charts(predictions: Sequence[PredictionView]) -> list[Chart]:
     return charts
 
 
-def _area(predictions: Sequence[PredictionView]) -> Chart:
+def _area(predictions: Sequence[PredictionView], direct: xr.Dataset | None) -> Chart:
     figure = plot(WAVELENGTH, "relative contact area [-]", log="y", wavelengths=_waves(predictions))
     pairs = ("running_contact_fraction", "contact_fraction")
     _both(figure, predictions, *pairs)
-    whole_decades(figure, *(one.usable(name) for one in predictions for name in pairs))
+    judged = _judge(figure, predictions, direct, "contact_fraction")
+    whole_decades(figure, *(one.usable(name) for one in predictions for name in pairs), judged)
     return Chart(
         "contact-area",
         "Relative contact area: A_r/A_0 down to each wave (filled), and of each wave (open); "
@@ -59,9 +66,10 @@ def _area(predictions: Sequence[PredictionView]) -> Chart:
     )
 
 
-def _friction(predictions: Sequence[PredictionView]) -> Chart:
+def _friction(predictions: Sequence[PredictionView], direct: xr.Dataset | None) -> Chart:
     figure = plot(WAVELENGTH, "friction coefficient [-]", wavelengths=_waves(predictions))
     _both(figure, predictions, "running_friction", "friction")
+    _judge(figure, predictions, direct, "friction")
     figure.y_range.update(
         start=min(0.0, *(float(np.nanmin(c.column("friction"))) for c in predictions))
     )
@@ -88,6 +96,21 @@ def _both(figure: Figure, predictions: Sequence[PredictionView], running: str, e
         hover(figure, dots, TIPS)
         failed(figure, x[~one.converged], one.column(each)[~one.converged])
     dashed_entry(figure, *(waves_beyond(one.data) for one in predictions))
+
+
+def _judge(
+    figure: Figure, predictions: Sequence[PredictionView], direct: xr.Dataset | None, quantity: str
+) -> Array:
+    """Draw the total of the direct contact as a level line and return it, empty if none."""
+    total = np.nan if direct is None else PredictionView(direct).total(quantity)
+    if not np.isfinite(total):
+        return np.empty(0)
+    lengths = np.concatenate([one.column("wavelength") for one in predictions]) / MILLI
+    ends, level = [lengths.min(), lengths.max()], np.full(2, total)
+    drawn = figure.line(ends, level, color=INK, line_width=2.4, line_dash="dotdash",
+                        legend_label=JUDGE)  # fmt: skip
+    hover(figure, [drawn], [(JUDGE, "@y")])
+    return level
 
 
 def failed(figure: Figure, x: Array, y: Array) -> None:
