@@ -6,6 +6,7 @@ import builtins
 import hashlib
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,7 @@ from gripscale import netcdf
 from gripscale.errors import FileError, InputError
 from gripscale.model import OUTSIDE_BAND, TOTALS, NominalLoad, answer
 from gripscale.report import write_report
+from gripscale.report.charts.contact import contact_charts
 from gripscale.report.input_tables import rubber_facts
 from gripscale.report.notices import cards, notices
 from gripscale.report.source import Run, read_result
@@ -161,6 +163,19 @@ def test_run_that_was_stopped_has_no_totals(changed_run: Callable[..., Path]) ->
     assert len(errors) == 1
     assert errors[0].startswith("Static: the run ended after wave 2 of 3.")
     assert [card.label for card in cards(run) if card.bad] == ["No totals"]
+
+
+def test_the_judge_stands_among_the_totals(changed_run: Callable[..., Path]) -> None:
+    run = read_result(changed_run(lambda data: data))
+    assert isinstance(run, Run)
+    whole = run.predictions[0].data.drop_dims("scale").assign(total_friction=0.25)
+    assert "Direct contact, μ" not in [card.label for card in cards(run)]
+    judge = cards(replace(run, direct=whole))[-1]
+    assert (judge.label, judge.value) == ("Direct contact, μ", "0.250")
+    assert [chart.name for chart in contact_charts(run.by_wave, whole)][:2] == [
+        "contact-area",
+        "friction",
+    ]
 
 
 def test_large_mismatch_and_foreign_frequencies_are_warned_of(

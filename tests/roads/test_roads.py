@@ -158,6 +158,7 @@ def test_the_command_writes_table_figures_and_page(folder: Path, tmp_path: Path)
     page = (tmp_path / "report.html").read_text()
     assert "Roads side by side" in page
     assert "direct: rough has" in page
+    assert f"gripscale compare-surfaces {given[0]} {given[1]} --case case.toml" in page
 
 
 def test_two_to_six_roads(folder: Path, tmp_path: Path) -> None:

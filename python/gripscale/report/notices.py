@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+import xarray as xr
 
 from gripscale.figures.view import CONVERGED, PredictionView
 from gripscale.model import with_adhesive
@@ -101,8 +102,19 @@ def _mismatch(one: PredictionView) -> Iterator[str]:
 
 
 def cards(run: Run) -> list[Card]:
-    """Return the totals of each prediction."""
-    return [card for one in run.predictions for card in _cards(one)]
+    """Return the totals of each prediction, and of the direct contact that judges them."""
+    return [*(card for one in run.predictions for card in _cards(one)), *_judge(run.direct)]
+
+
+def _judge(direct: xr.Dataset | None) -> Iterator[Card]:
+    if direct is None:
+        return
+    one = PredictionView(direct)
+    area, friction = number(one.total("contact_fraction")), number(one.total("friction"))
+    if one.moving:
+        yield Card("Direct contact, μ", friction, f"of the profiles; A_r/A_0 {area}")
+    else:
+        yield Card("Direct contact, A_r/A_0", area, "of the profiles")
 
 
 def _cards(one: PredictionView) -> Iterator[Card]:

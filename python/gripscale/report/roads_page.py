@@ -26,7 +26,7 @@ def roads_page(data: xr.Dataset) -> Page:
     names = data.surface.values.tolist()
     totals = [_totals(data, model) for model in data.model.values.tolist()]
     notes = str(data.attrs.get("notes", "")).splitlines()
-    again = f"gripscale compare-surfaces {' '.join(names)} --case {case}"
+    again = f"gripscale compare-surfaces {data.attrs['surfaces']} --case {case}"
     statistics = picture(
         roads_statistics_figure(data),
         "roads-statistics",

@@ -12,6 +12,7 @@ cost less, of the direct contact by itself. The roads are independent of each ot
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import product
@@ -128,8 +129,13 @@ def compare_surfaces(
     labels = {", ".join(place): task for place, task in tasks.items()}
     answers = solve_all(labels, Store(Path(folder) / PREDICTIONS), workers=workers, on_task=on_task)
     solved = {place: answers[task.key] for place, task in tasks.items()}
+    words = [value if isinstance(value, str) else name for name, value in surfaces.items()]
     data = roads_dataset(given, solved).assign_attrs(
-        notes="\n".join(notes), case=file.text, case_file=str(file.path), **versions.attributes()
+        notes="\n".join(notes),
+        surfaces=shlex.join(words),
+        case=file.text,
+        case_file=str(file.path),
+        **versions.attributes(),
     )
     return Roads(given, tuple(notes), netcdf.load(netcdf.save(data, Path(folder) / RESULT)))
 
