@@ -35,6 +35,7 @@ mod python;
 pub mod settings;
 pub mod solution;
 pub mod solve;
+pub mod spectral;
 pub mod status;
 pub mod steady;
 pub mod transient;

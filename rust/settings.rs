@@ -72,6 +72,14 @@ settings! {
     reuse_below: f64 = 0.1 in 1e-15..=1.0, "A factored tangent is used again only while the residual is below this [-].";
     reuse_reduction: f64 = 0.3 in 1e-6..=1.0, "A factored tangent is used again while each residual is below this share of the last [-].";
 
+    dense_nodes: usize = 96 in 0..=8192, "Most nodes along the wave for which the tangent is eliminated densely; the linearised problem is solved by iteration for more.";
+    krylov_share: f64 = 0.1 in 1e-12..=0.9, "Largest share of the forces out of balance that an iterated solution of the linearised problem leaves [-].";
+    krylov_least_share: f64 = 1e-4 in 1e-12..=0.9, "Smallest share of the forces out of balance that it is iterated to [-].";
+    krylov_safety: f64 = 0.9 in 0.01..=1.0, "That share over the square of the last ratio of residuals [-].";
+    krylov_basis: usize = 60 in 2..=1000, "Directions kept in the iteration before it starts anew.";
+    krylov_iterations: usize = 300 in 1..=100_000, "Most iterations for one contact set.";
+    contact_rounds: usize = 10 in 1..=1000, "Contact sets for which one linearised problem is iterated.";
+
     active_set_rounds: usize = 60 in 0..=10_000, "Changes of the whole active set before nodes change sides one by one, along a path that finds a set where there is one.";
     single_node_rounds: usize = 2000 in 1..=100_000, "Changes of single nodes of the active set.";
     active_set_tolerance: f64 = 1e-12 in 1e-15..=1e-3, "Largest tension and overlap, in units of the mean contact force and the largest gap [-].";

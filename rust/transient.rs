@@ -16,8 +16,9 @@ use crate::outcome::Outcome;
 use crate::problem::{MeshSize, Profile, Rubber};
 use crate::settings::Settings;
 use crate::solution::Solution;
+use crate::solve::dense::Factored;
 use crate::solve::load_stepping::{raise, Counts};
-use crate::solve::newton::{self, Factored, Report};
+use crate::solve::newton::{self, Report};
 use crate::solve::transfer::transfer;
 use crate::status::Status;
 use crate::watch::Watch;
@@ -242,14 +243,14 @@ impl<'a> Integration<'a> {
         let from: f64 = self.state.force.iter().sum();
         let mut trial = self.state.clone();
         let mut report = newton::solve(pressed, &mut self.kept, &mut trial, load, settings);
-        counts.iterations += report.iterations;
+        counts.add(&report);
         counts.load_steps += 1;
         if report.status != Status::Converged {
             trial = self.state.clone();
             for part in 1..=settings.load_parts {
                 let between = from + (load - from) * part as f64 / settings.load_parts as f64;
                 report = newton::solve(pressed, &mut None, &mut trial, between, settings);
-                counts.iterations += report.iterations;
+                counts.add(&report);
                 if report.status != Status::Converged {
                     break;
                 }

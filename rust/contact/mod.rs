@@ -7,6 +7,7 @@ pub mod hertz;
 pub mod linearised;
 pub mod pivoting;
 pub mod profile;
+pub mod surface;
 pub mod touching;
 
 use crate::fem::block::{Block, Field, RowState};

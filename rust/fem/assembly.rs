@@ -35,6 +35,14 @@ impl Block<'_> {
         residual
     }
 
+    /// Residuals of the pressure equations of one row, `[column][mode]`.
+    pub fn row_volumes(&self, row: usize, field: &Field, state: &RowState) -> Vec<f64> {
+        let columns = 0..self.mesh.columns;
+        columns
+            .flat_map(|column| self.pressure_residual(field, state, row, column))
+            .collect()
+    }
+
     /// Internal forces of one row (over its layers) and the norm of its pressure residual.
     pub fn row_forces(&self, row: usize, field: &Field, state: &RowState) -> (Vec<f64>, f64) {
         let element = &self.mesh.elements[row];
@@ -159,7 +167,7 @@ impl Block<'_> {
     }
 
     /// Stiffness from the permanent network where its b changes with the strain.
-    fn add_network_slope(&self, f: &Gradient, d: &mut [Gradient; 4]) {
+    pub(super) fn add_network_slope(&self, f: &Gradient, d: &mut [Gradient; 4]) {
         let Some(slope) = self.energy.network_slope(f) else {
             return;
         };
@@ -172,19 +180,18 @@ impl Block<'_> {
         }
     }
 
-    /// Add `share` of the pressure increments K M^-1 (R_p + B^T du), with B of `factored`.
-    pub fn update_pressure(
+    /// Pressure increments K M^-1 (R_p + B^T du) of one row, with B of the state `factored`.
+    pub fn pressure_increments(
         &self,
         row: usize,
         state: &RowState,
         factored: &RowState,
         du: &[f64],
-        share: f64,
-        field: &mut Field,
-    ) {
+        field: &Field,
+    ) -> Vec<f64> {
         let element = &self.mesh.elements[row];
-        let modes = self.mesh.modes();
         let increment = self.gradients(row, du, 0.0);
+        let mut out = Vec::with_capacity(self.mesh.columns * self.mesh.modes());
         for column in 0..self.mesh.columns {
             let mut change = self.pressure_residual(field, state, row, column);
             for (at, line, q) in self.gauss_points(column) {
@@ -194,12 +201,10 @@ impl Block<'_> {
                     *c += mode * volume;
                 }
             }
-            let at = (row * self.mesh.columns + column) * modes;
-            for m in 0..modes {
-                let stiffness = self.bulk_modulus / element.mode_mass[m];
-                field.pressure[at + m] += share * stiffness * change[m];
-            }
+            let masses = change.iter().zip(&element.mode_mass);
+            out.extend(masses.map(|(change, mass)| self.bulk_modulus / mass * change));
         }
+        out
     }
 }
 

@@ -5,6 +5,8 @@ pub mod block;
 mod circular;
 pub mod dissipation;
 pub mod element;
+pub mod jacobian;
 mod memory_tangent;
 pub mod mesh;
 mod row_state;
+pub mod uniform;

@@ -11,6 +11,15 @@ use crate::status::Status;
 pub struct Counts {
     pub load_steps: usize,
     pub iterations: usize,
+    /// Products with the Jacobian where the linearised problem is iterated.
+    pub products: usize,
+}
+
+impl Counts {
+    pub fn add(&mut self, report: &Report) {
+        self.iterations += report.iterations;
+        self.products += report.products;
+    }
 }
 
 /// Raise the load on `state`, at rest before, to `load`; returns the share of it that was reached.
@@ -29,7 +38,7 @@ pub fn raise(
     loop {
         let mut trial = state.clone();
         let mut report = newton::solve(pressed, &mut None, &mut trial, next, settings);
-        counts.iterations += report.iterations;
+        counts.add(&report);
         counts.load_steps += 1;
         spent += report.iterations;
         steps += 1;

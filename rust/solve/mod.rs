@@ -1,6 +1,9 @@
 //! Solving: one load, raising it, a sequence of meshes and the way from one mesh to another.
 
+pub mod dense;
+mod increment;
 pub mod judge;
+mod krylov;
 pub mod load_stepping;
 pub mod mesh_sequence;
 pub mod mesh_solution;

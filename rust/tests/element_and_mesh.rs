@@ -6,7 +6,7 @@ use gripscale_kernel::material::energy::{Energy, NeoHookean};
 use gripscale_kernel::material::maxwell::Maxwell;
 use gripscale_kernel::material::sliding_history::SlidingHistory;
 
-use crate::mesh;
+use crate::{add_pressure, mesh};
 
 #[test]
 fn shape_functions_sum_to_one_and_their_slopes_to_zero() {
@@ -96,7 +96,7 @@ fn an_affine_deformation_is_in_equilibrium() {
         let mut total = vec![0.0; field.u.len()];
         for row in 0..mesh.rows {
             let state = block.row_state(row, &field.u);
-            block.update_pressure(row, &state, &state, &still, 1.0, &mut field);
+            add_pressure(&block, row, &state, &still, &mut field);
             let (forces, volume_error) = block.row_forces(row, &field, &state);
             assert!(volume_error < 1e-28);
             let offset = row * order * mesh.layer_size();

@@ -6,6 +6,8 @@ mod element_and_mesh;
 mod elimination;
 mod energy;
 mod hostile_input;
+mod jacobian;
+mod krylov;
 mod material_point;
 mod mesh_sequence;
 mod profile;
@@ -17,6 +19,7 @@ mod transient;
 
 use gripscale_kernel::contact::profile::Heights;
 use gripscale_kernel::error::KernelError;
+use gripscale_kernel::fem::block::{Block, Field, RowState};
 use gripscale_kernel::fem::mesh::Mesh;
 use gripscale_kernel::material::energy::Energy;
 use gripscale_kernel::problem::{Load, MeshSize, Problem, Profile, Rubber};
@@ -132,6 +135,21 @@ fn new_energy(kind: &str, parameters: &[(&str, f64)]) -> Result<Energy, KernelEr
 
 pub fn energy(kind: &str, parameters: &[(&str, f64)]) -> Energy {
     new_energy(kind, parameters).unwrap()
+}
+
+/// Let the pressures of one row follow displacement increments as its volumes ask.
+pub fn add_pressure(
+    block: &Block<'_>,
+    row: usize,
+    state: &RowState,
+    du: &[f64],
+    field: &mut Field,
+) {
+    let increments = block.pressure_increments(row, state, state, du, field);
+    let at = row * increments.len();
+    for (p, increment) in field.pressure[at..].iter_mut().zip(increments) {
+        *p += increment;
+    }
 }
 
 /// A reproducible pseudo-random number in [-1, 1) (splitmix64), for fields without structure.

@@ -1,6 +1,6 @@
 //! The whole tangent of one element row, local and along the stream, against finite differences.
 
-use crate::{energy, mesh, noise};
+use crate::{add_pressure, energy, mesh, noise};
 use gripscale_kernel::fem::block::{Block, Field, Memory};
 use gripscale_kernel::linear;
 use gripscale_kernel::material::energy::Energy;
@@ -35,7 +35,7 @@ fn worst_error(order: usize, energy: Energy, memory: bool) -> f64 {
     // Fulfil the pressure equation, so that the condensed system is the slope of the forces alone.
     let still = vec![0.0; field.u.len()];
     let state = block.row_state(row, &field.u);
-    block.update_pressure(row, &state, &state, &still, 1.0, &mut field);
+    add_pressure(&block, row, &state, &still, &mut field);
     let matrix = block
         .row_matrix(row, &field, &state, &Watch::endless())
         .unwrap();
@@ -46,7 +46,7 @@ fn worst_error(order: usize, energy: Energy, memory: bool) -> f64 {
         for (u, d) in moved.u.iter_mut().zip(&change) {
             *u += d;
         }
-        block.update_pressure(row, &state, &state, &change, 1.0, &mut moved);
+        add_pressure(&block, row, &state, &change, &mut moved);
         let moved_state = block.row_state(row, &moved.u);
         block.row_forces(row, &moved, &moved_state).0
     };
