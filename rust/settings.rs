@@ -96,7 +96,7 @@ settings! {
     easy_iterations: usize = 7 in 1..=1000, "Newton iterations of an easy load step.";
 
     coarsest_nodes: usize = 32 in 8..=2048, "Fewest nodes along the wave on the coarsest mesh of a sequence.";
-    finest_columns: usize = 512 in 4..=1024, "Most columns of the mesh that a tolerance refines to.";
+    finest_columns: usize = 512 in 4..=4096, "Most columns of the mesh that a tolerance refines to.";
     row_exponent: f64 = 0.585 in 0.01..=1.0, "Rows grow with this power of the columns [-]: by 1.5 for every doubling.";
     edge_error: f64 = 0.15 in 1e-6..=10.0, "Node spacings to which both edges of a contact of many nodes together are known [-].";
     edge_nodes: f64 = 16.0 in 0.0..=1000.0, "Nodes in a contact or gap with which that number doubles [-].";
@@ -113,8 +113,8 @@ settings! {
     dwell_steps: usize = 40 in 2..=10_000, "Time steps of a dwell, their lengths growing geometrically.";
     dwell_first: f64 = 1e-4 in 1e-12..=0.5, "First time step of a dwell over its duration [-].";
     longest_stage: f64 = 10_000.0 in 1.0..=1e6, "Longest way of one stage [wavelengths].";
-    path_columns: usize = 128 in 4..=1024, "Most columns of a mesh, finer than asked for trust alone, on which the load is raised anew.";
-    rescue_columns: usize = 256 in 4..=1024, "Most columns of a mesh finer than the one asked for, where that does not carry the load or is not to be trusted.";
+    path_columns: usize = 128 in 4..=4096, "Most columns of a mesh, finer than asked for trust alone, on which the load is raised anew.";
+    rescue_columns: usize = 256 in 4..=4096, "Most columns of a mesh finer than the one asked for, where that does not carry the load or is not to be trusted.";
     large_mean_shear: f64 = 2.0 in 0.1..=100.0, "A load path that ends at a mean shear of the block beyond this ends because of it [-].";
 
     load_parts: usize = 8 in 1..=1000, "Parts a change of load is cut into where a time step fails.";

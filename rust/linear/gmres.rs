@@ -7,12 +7,13 @@
 use crate::status::Status;
 use crate::watch::Watch;
 
-/// How far an iteration came.
-#[derive(Debug, Clone, Copy)]
+/// What an iteration found.
+#[derive(Debug, Clone)]
 pub struct Found {
+    pub y: Vec<f64>,
+    /// The residual that is left.
+    pub left: Vec<f64>,
     pub iterations: usize,
-    /// Norm of the residual that is left.
-    pub residual: f64,
 }
 
 /// An approximate y of A M^-1 y = `right`, with `apply` the product with A M^-1: until the residual
@@ -24,38 +25,38 @@ pub fn gmres(
     target: f64,
     (basis, most): (usize, usize),
     watch: &Watch<'_>,
-) -> Result<(Vec<f64>, Found), Status> {
+) -> Result<Found, Status> {
     let mut y = vec![0.0; right.len()];
     let mut left = right.to_vec();
-    let mut found = Found {
-        iterations: 0,
-        residual: norm(&left),
-    };
-    while found.residual > target && found.iterations < most {
-        let before = found;
-        let count = basis.min(most - found.iterations);
-        let mut space = Space::new(std::mem::take(&mut left), found.residual);
+    let (mut iterations, mut residual) = (0, norm(&left));
+    while residual > target && iterations < most {
+        let count = basis.min(most - iterations);
+        let mut space = Space::new(left, residual);
         while space.residual() > target && space.size() < count {
             watch.look()?;
             let mut next = vec![0.0; right.len()];
             apply(space.last(), &mut next);
-            found.iterations += 1;
+            iterations += 1;
             if !space.add(next) {
                 break;
             }
         }
-        let (change, residual) = space.solution();
+        let change;
+        (change, left) = space.solution();
         add(&mut y, 1.0, &change);
-        left = residual;
-        found.residual = norm(&left);
-        if !(found.residual < before.residual) {
+        let before = std::mem::replace(&mut residual, norm(&left));
+        if residual >= before {
             break;
         }
     }
-    if !found.residual.is_finite() {
+    if !residual.is_finite() {
         return Err(Status::NotFinite);
     }
-    Ok((y, found))
+    Ok(Found {
+        y,
+        left,
+        iterations,
+    })
 }
 
 /// An orthonormal basis of a Krylov space with its Hessenberg matrix, rotated to be triangular.

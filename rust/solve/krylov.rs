@@ -135,14 +135,15 @@ impl Step<'_> {
         let mut products = 0;
         let mut held: Option<Held> = None;
         for _ in 0..settings.contact_rounds {
-            let (contact, correction) = self.touching(&now, &mut rooms, settings)?;
+            let moved = self.uniform.reduce(&now.left, &mut rooms.uniform);
+            let contact = self.touching(&now, &moved, settings)?;
             if held
                 .as_ref()
                 .is_some_and(|held| held.active == contact.active)
             {
                 break;
             }
-            self.advance(&mut now, contact, &correction, &mut rooms);
+            self.correct(&mut now, contact, moved, &mut rooms);
             largest = largest.max(norm(&now.left));
             let target = (accuracy.share * largest).max(accuracy.least);
             let set = Held::new(&self.surface, now.contact.active.clone(), self.watch)?;
@@ -160,21 +161,20 @@ impl Step<'_> {
         })
     }
 
-    /// The linearised contact problem with the average in place of the Jacobian: its contact, and
-    /// what it adds to the solution.
+    /// Contact of the linearised problem with the average in place of the Jacobian; what is left out
+    /// of balance moves the surface by `moved`.
     fn touching(
         &self,
         now: &Iterate,
-        rooms: &mut Rooms,
+        moved: &[f64],
         settings: &Settings,
-    ) -> Result<(Contact, Vec<f64>), Status> {
-        let layer = self.mesh.layer_size();
-        let moved = self.uniform.reduce(&now.left, &mut rooms.uniform);
+    ) -> Result<Contact, Status> {
         let answered = self
             .surface
             .answer(&self.surface.forces(&now.contact.force));
-        let free: Vec<f64> = (0..layer)
-            .map(|i| now.y[i] + moved[i] - answered[i])
+        let surface = now.y.iter().zip(moved).zip(answered);
+        let free: Vec<f64> = surface
+            .map(|((y, moved), answered)| y + moved - answered)
             .collect();
         let mut free = self.surface.opening(&free);
         for (free, gap) in free.iter_mut().zip(&self.gap) {
@@ -188,17 +188,29 @@ impl Step<'_> {
             free: &free,
             load: self.load,
         };
-        let contact = complementarity::solve(&problem, &now.contact.active, settings, self.watch)?;
-        let before = now.contact.force.iter();
-        let change: Vec<f64> = contact
-            .force
-            .iter()
-            .zip(before)
-            .map(|(f, old)| f - old)
-            .collect();
-        let mut correction = vec![0.0; self.right.len()];
-        self.complete(moved, &change, &mut correction, rooms);
-        Ok((contact, correction))
+        complementarity::solve(&problem, &now.contact.active, settings, self.watch)
+    }
+
+    /// Let the average answer to what is left, of which it has been reduced to `moved`, and to new
+    /// contact forces.
+    fn correct(&self, now: &mut Iterate, contact: Contact, moved: Vec<f64>, rooms: &mut Rooms) {
+        let mut correction = std::mem::take(&mut rooms.solution);
+        self.complete(
+            moved,
+            &difference(&contact.force, &now.contact.force),
+            &mut correction,
+            rooms,
+        );
+        for (y, change) in now.y.iter_mut().zip(&correction) {
+            *y += change;
+        }
+        rooms.solution = correction;
+        now.contact = contact;
+        let change = difference(&now.contact.force, &self.state.force);
+        self.product(&now.y, &change, &mut now.left, rooms);
+        for (left, right) in now.left.iter_mut().zip(&self.right) {
+            *left = right - *left;
+        }
     }
 
     /// The averaged solution of what was reduced to `moved`, under contact forces as well.
@@ -208,25 +220,6 @@ impl Step<'_> {
             *u += answered;
         }
         self.uniform.expand(&moved, out, &mut rooms.uniform);
-    }
-
-    fn advance(&self, now: &mut Iterate, contact: Contact, correction: &[f64], rooms: &mut Rooms) {
-        for (y, change) in now.y.iter_mut().zip(correction) {
-            *y += change;
-        }
-        now.contact = contact;
-        let before = self.state.force.iter();
-        let change: Vec<f64> = now
-            .contact
-            .force
-            .iter()
-            .zip(before)
-            .map(|(f, old)| f - old)
-            .collect();
-        self.product(&now.y, &change, &mut now.left, rooms);
-        for (left, right) in now.left.iter_mut().zip(&self.right) {
-            *left = right - *left;
-        }
     }
 
     /// `out` = J y - C^T `forces`.
@@ -261,16 +254,19 @@ impl Step<'_> {
             rooms.solution = solution;
         };
         let limits = (settings.krylov_basis, settings.krylov_iterations);
-        let (v, found) = gmres(apply, &now.left, target, limits, self.watch)?;
+        let found = gmres(apply, &now.left, target, limits, self.watch)?;
         failed?;
-        let mut correction = vec![0.0; v.len()];
-        let (force, approach) = self.corrected(&v, held, &mut correction, rooms)?;
-        let mut contact = now.contact.clone();
-        contact.approach += approach;
-        for (total, force) in contact.force.iter_mut().zip(&force) {
+        let mut correction = std::mem::take(&mut rooms.solution);
+        let (force, approach) = self.corrected(&found.y, held, &mut correction, rooms)?;
+        for (y, change) in now.y.iter_mut().zip(&correction) {
+            *y += change;
+        }
+        rooms.solution = correction;
+        for (total, force) in now.contact.force.iter_mut().zip(&force) {
             *total += force;
         }
-        self.advance(now, contact, &correction, rooms);
+        now.contact.approach += approach;
+        now.left = found.left;
         Ok(found.iterations)
     }
 
@@ -298,6 +294,10 @@ impl Step<'_> {
         });
         places.collect()
     }
+}
+
+fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a - b).collect()
 }
 
 /// The nodes held in contact, and the averaged block's stiffness against opening them.
