@@ -69,11 +69,8 @@ settings! {
     smallest_volume_ratio: f64 = 0.05 in 1e-6..=0.9, "A Newton step may leave no Gauss point with a smaller ratio of volumes [-].";
     step_halvings: usize = 8 in 1..=50, "Lengths tried for one Newton step, each half of the one before.";
     patience: usize = 12 in 1..=1000, "Newton iterations without a smaller residual after which a load step is given up.";
-    reuse_below: f64 = 0.1 in 1e-15..=1.0, "A factored tangent is used again only while the residual is below this [-].";
-    reuse_reduction: f64 = 0.3 in 1e-6..=1.0, "A factored tangent is used again while each residual is below this share of the last [-].";
 
-    dense_nodes: usize = 96 in 0..=8192, "Most nodes along the wave for which the tangent is eliminated densely; the linearised problem is solved by iteration for more.";
-    krylov_share: f64 = 0.1 in 1e-12..=0.9, "Largest share of the forces out of balance that an iterated solution of the linearised problem leaves [-].";
+    krylov_share: f64 = 0.1 in 1e-12..=0.9, "Largest share of the forces out of balance that the linearised problem is solved to [-].";
     krylov_least_share: f64 = 1e-4 in 1e-12..=0.9, "Smallest share of the forces out of balance that it is iterated to [-].";
     krylov_safety: f64 = 0.9 in 0.01..=1.0, "That share over the square of the last ratio of residuals [-].";
     krylov_basis: usize = 60 in 2..=1000, "Directions kept in the iteration before it starts anew.";

@@ -160,7 +160,7 @@ impl Work<'_> {
         let load = self.load();
         let (mut solved, mut time_left) = (None, true);
         if let Some(mut state) = self.guess(&pressed, coarse) {
-            let report = newton::solve(&pressed, &mut None, &mut state, load, self.settings);
+            let report = newton::solve(&pressed, &mut state, load, self.settings);
             self.counts.add(&report);
             self.counts.load_steps += 1;
             time_left = report.status != Status::TimeLimit;

@@ -16,7 +16,6 @@ use crate::outcome::Outcome;
 use crate::problem::{MeshSize, Profile, Rubber};
 use crate::settings::Settings;
 use crate::solution::Solution;
-use crate::solve::dense::Factored;
 use crate::solve::load_stepping::{raise, Counts};
 use crate::solve::newton::{self, Report};
 use crate::solve::transfer::transfer;
@@ -134,8 +133,6 @@ struct Integration<'a> {
     watch: &'a Watch<'a>,
     state: State,
     networks: CarriedHistory,
-    /// The factored block of the last step, good enough for the next one as a rule.
-    kept: Option<Factored>,
     counts: Counts,
     moments: Vec<Moment>,
     time: f64,
@@ -167,7 +164,6 @@ impl<'a> Integration<'a> {
             wavelength,
             watch,
             state,
-            kept: None,
             counts: Counts::default(),
             moments: Vec::new(),
             time: 0.0,
@@ -242,14 +238,14 @@ impl<'a> Integration<'a> {
         let (settings, counts) = (self.settings, &mut self.counts);
         let from: f64 = self.state.force.iter().sum();
         let mut trial = self.state.clone();
-        let mut report = newton::solve(pressed, &mut self.kept, &mut trial, load, settings);
+        let mut report = newton::solve(pressed, &mut trial, load, settings);
         counts.add(&report);
         counts.load_steps += 1;
         if report.status != Status::Converged {
             trial = self.state.clone();
             for part in 1..=settings.load_parts {
                 let between = from + (load - from) * part as f64 / settings.load_parts as f64;
-                report = newton::solve(pressed, &mut None, &mut trial, between, settings);
+                report = newton::solve(pressed, &mut trial, between, settings);
                 counts.add(&report);
                 if report.status != Status::Converged {
                     break;

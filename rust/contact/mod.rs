@@ -4,7 +4,6 @@ pub mod complementarity;
 pub mod edges;
 pub mod harmonics;
 pub mod hertz;
-pub mod linearised;
 pub mod pivoting;
 pub mod profile;
 pub mod surface;

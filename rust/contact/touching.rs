@@ -4,7 +4,7 @@
 //!     gap = free + C f - d >= 0,   gap . f = 0,   sum f = load.
 //! Where it is known which nodes touch it is linear.
 
-use crate::linear::{column_ref, solve_dense, Matrix};
+use crate::linear::{solve_dense, Matrix};
 use crate::status::Status;
 use crate::watch::Watch;
 
@@ -22,22 +22,6 @@ pub trait Compliance {
 
     /// Add what `force` opens to `gap`.
     fn open(&self, force: &[f64], gap: &mut [f64]);
-}
-
-impl Compliance for Matrix<f64> {
-    fn between(&self, to: usize, from: usize) -> f64 {
-        self[(to, from)]
-    }
-
-    fn open(&self, force: &[f64], gap: &mut [f64]) {
-        for (j, &f) in force.iter().enumerate() {
-            if f != 0.0 {
-                for (g, c) in gap.iter_mut().zip(column_ref(self, j)) {
-                    *g += c * f;
-                }
-            }
-        }
-    }
 }
 
 /// The problem: gaps without forces or approach, and what unit forces add to them.

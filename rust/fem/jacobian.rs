@@ -40,7 +40,8 @@ struct Remembering {
 pub struct MeanSlopes {
     pub stiffness: [f64; 16],
     pub volume: [f64; 4],
-    pub memory: Option<([f64; 16], [f64; 16])>,
+    /// Of dP/dH times the mean of dY/dF.
+    pub memory: Option<[f64; 16]>,
 }
 
 pub struct Jacobian<'a> {
@@ -137,7 +138,7 @@ impl<'a> Jacobian<'a> {
                 let modes = element.mode[at].iter().zip(pressure);
                 let level = modes.map(|(mode, p)| mode * p).sum();
                 let mut d = tangent(f, h, level);
-                block.add_network_slope(f, &mut d);
+                add_network_slope(block, f, &mut d);
                 let place = chunk * self.points() + at;
                 put(&mut local[place].stiffness, lane, weight, &d);
                 for (to, slope) in local[place].volume.iter_mut().zip(cofactor(f)) {
@@ -155,31 +156,37 @@ impl<'a> Jacobian<'a> {
 
     /// Means along one row at every Gauss point of its elements.
     pub fn means(&self, row: usize) -> Vec<MeanSlopes> {
-        let count = self.mesh.columns as f64;
         let points = self.points();
-        let mean = |lanes: &dyn Fn(usize) -> Lane| -> f64 {
-            let sums = (0..self.chunks).map(|chunk| lanes(chunk).iter().sum::<f64>());
-            sums.sum::<f64>() / count
+        (0..points).map(|at| self.mean(row, at)).collect()
+    }
+
+    fn mean(&self, row: usize, at: usize) -> MeanSlopes {
+        let points = self.points();
+        let mut mean = MeanSlopes {
+            stiffness: [0.0; 16],
+            volume: [0.0; 4],
+            memory: None,
         };
-        (0..points)
-            .map(|at| {
-                let local = |chunk: usize| &self.local[row][chunk * points + at];
-                let past = |chunk: usize| &self.remembering[row][chunk * points + at];
-                let all = |from: &dyn Fn(usize, usize) -> Lane| {
-                    std::array::from_fn(|k| mean(&|chunk| from(chunk, k)))
-                };
-                MeanSlopes {
-                    stiffness: all(&|chunk, k| local(chunk).stiffness[k]),
-                    volume: std::array::from_fn(|k| mean(&|chunk| local(chunk).volume[k])),
-                    memory: self.memory.as_ref().map(|_| {
-                        (
-                            all(&|chunk, k| past(chunk).stress[k]),
-                            all(&|chunk, k| past(chunk).state[k]),
-                        )
-                    }),
-                }
-            })
-            .collect()
+        for local in self.local[row].iter().skip(at).step_by(points) {
+            add_sums(&mut mean.stiffness, &local.stiffness);
+            add_sums(&mut mean.volume, &local.volume);
+        }
+        let share = 1.0 / self.mesh.columns as f64;
+        mean.stiffness.iter_mut().for_each(|sum| *sum *= share);
+        mean.volume.iter_mut().for_each(|sum| *sum *= share);
+        if self.memory.is_some() {
+            let (mut stress, mut state) = ([0.0; 16], [0.0; 16]);
+            for past in self.remembering[row].iter().skip(at).step_by(points) {
+                add_sums(&mut stress, &past.stress);
+                add_sums(&mut state, &past.state);
+            }
+            mean.memory = Some(std::array::from_fn(|at| {
+                let (a, b) = (at / 4, at % 4);
+                let products = (0..4).map(|k| stress[4 * a + k] * state[4 * k + b]);
+                products.sum::<f64>() * share * share
+            }));
+        }
+        mean
     }
 
     pub fn room(&self) -> Room {
@@ -409,6 +416,12 @@ impl<'a> Jacobian<'a> {
     }
 }
 
+fn add_sums(sums: &mut [f64], lanes: &[Lane]) {
+    for (sum, lane) in sums.iter_mut().zip(lanes) {
+        *sum += lane.iter().sum::<f64>();
+    }
+}
+
 fn lane(values: &[f64], at: usize) -> Lane {
     let mut lane = [0.0; LANES];
     lane.copy_from_slice(&values[at..at + LANES]);
@@ -419,6 +432,20 @@ fn put(to: &mut [Lane; 16], lane: usize, weight: f64, slopes: &[Gradient; 4]) {
     for a in 0..4 {
         for b in 0..4 {
             to[4 * a + b][lane] = weight * slopes[a][b];
+        }
+    }
+}
+
+/// Stiffness from the permanent network where its b changes with the strain.
+fn add_network_slope(block: &Block<'_>, f: &Gradient, d: &mut [Gradient; 4]) {
+    let Some(slope) = block.energy.network_slope(f) else {
+        return;
+    };
+    let by_h = memory_slope(f);
+    for a in 0..4 {
+        for k in 0..4 {
+            let sum: f64 = (0..4).map(|c| by_h[a][c] * slope[c][k]).sum();
+            d[a][k] += block.equilibrium * sum;
         }
     }
 }

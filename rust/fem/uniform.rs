@@ -5,7 +5,8 @@
 //! node layers are eliminated from the lid down, in blocks of 2 (bilinear) or 8 (biquadratic) complex
 //! unknowns, pressures condensed before. Solving costs two transforms a layer and O(rows) a harmonic.
 
-use super::jacobian::{Jacobian, MeanSlopes};
+use super::harmonic_row::HarmonicRow;
+use super::jacobian::Jacobian;
 use super::mesh::Mesh;
 use crate::linear::invert;
 use crate::spectral::{Complex64, Lines};
@@ -58,6 +59,9 @@ impl<'a> Uniform<'a> {
         let mut above = vec![Complex64::default(); lowest * lowest * harmonics];
         for index in (0..mesh.rows).rev() {
             let means = jacobian.means(index);
+            let averaged = HarmonicRow::new(mesh, index, &means, jacobian.bulk_modulus);
+            let size = averaged.size;
+            let mut matrix = vec![Complex64::default(); size * size];
             let top = usize::from(index + 1 == mesh.rows);
             let mut row = Row::new(
                 mesh,
@@ -68,17 +72,7 @@ impl<'a> Uniform<'a> {
             );
             for k in 0..harmonics {
                 let turn = lines.turn(k);
-                let weight = jacobian.memory.as_ref().map(|spectrum| spectrum[k]);
-                let (mut matrix, pressing) = element(mesh, index, &means, weight, turn);
-                let size = pressing.len() / mesh.modes();
-                for (m, stiffness) in row.stiffness.iter().enumerate() {
-                    let column = &pressing[m * size..][..size];
-                    for j in 0..size {
-                        for i in 0..size {
-                            matrix[j * size + i] += stiffness * column[i] * column[j].conj();
-                        }
-                    }
-                }
+                averaged.matrix(turn, jacobian.memory.as_ref().map(|w| w[k]), &mut matrix);
                 if top == 0 {
                     for j in 0..lowest {
                         for i in 0..lowest {
@@ -87,7 +81,7 @@ impl<'a> Uniform<'a> {
                         }
                     }
                 }
-                row.eliminate(&matrix, &pressing, (k, harmonics), &mut above)?;
+                row.eliminate(&matrix, averaged.pressing(turn), (k, harmonics), &mut above)?;
             }
             rows.push(row);
         }
@@ -257,7 +251,7 @@ impl Row {
     fn eliminate(
         &mut self,
         matrix: &[Complex64],
-        pressing: &[Complex64],
+        pressing: impl Iterator<Item = Complex64>,
         (k, count): (usize, usize),
         schur: &mut [Complex64],
     ) -> Result<(), Status> {
@@ -275,8 +269,8 @@ impl Row {
         for (at, value) in inverse.iter().enumerate() {
             self.upper_inverse[at * count + k] = *value;
         }
-        for (at, value) in pressing.iter().enumerate() {
-            self.pressing[at * count + k] = *value;
+        for (at, value) in pressing.enumerate() {
+            self.pressing[at * count + k] = value;
         }
         for j in 0..low {
             let coupled = |i: usize| -> Complex64 {
@@ -300,63 +294,6 @@ impl Row {
         }
         Ok(())
     }
-}
-
-/// Matrix of one element row in one harmonic at fixed pressure, and forces per unit pressure modes.
-fn element(
-    mesh: &Mesh,
-    row: usize,
-    means: &[MeanSlopes],
-    weight: Option<Complex64>,
-    turn: Complex64,
-) -> (Vec<Complex64>, Vec<Complex64>) {
-    let element = &mesh.elements[row];
-    let order = mesh.order;
-    let size = 2 * order * (order + 1);
-    let mut matrix = vec![Complex64::default(); size * size];
-    let mut pressing = vec![Complex64::default(); size * mesh.modes()];
-    for (at, mean) in means.iter().enumerate() {
-        // Slope of every component of F by every unknown.
-        let mut slopes = vec![[Complex64::default(); 4]; size];
-        for (node, slope) in element.gradient[at].iter().enumerate() {
-            let (layer, sub) = (node / (order + 1), node % (order + 1));
-            let phase = if sub == order {
-                turn
-            } else {
-                Complex64::new(1.0, 0.0)
-            };
-            for direction in 0..2 {
-                let unknown = (2 * layer + direction) * order + sub % order;
-                for axis in 0..2 {
-                    slopes[unknown][2 * direction + axis] += phase * slope[axis];
-                }
-            }
-        }
-        let mut stiffness = mean.stiffness.map(Complex64::from);
-        if let (Some(weight), Some((stress, state))) = (weight, &mean.memory) {
-            for a in 0..4 {
-                for b in 0..4 {
-                    let sum: f64 = (0..4).map(|k| stress[4 * a + k] * state[4 * k + b]).sum();
-                    stiffness[4 * a + b] += weight * sum;
-                }
-            }
-        }
-        for (j, by_j) in slopes.iter().enumerate() {
-            let stress: [Complex64; 4] =
-                std::array::from_fn(|a| (0..4).map(|b| stiffness[4 * a + b] * by_j[b]).sum());
-            for (i, by_i) in slopes.iter().enumerate() {
-                let force: Complex64 = (0..4).map(|a| by_i[a].conj() * stress[a]).sum();
-                matrix[j * size + i] += force;
-            }
-        }
-        for (m, mode) in element.mode[at].iter().enumerate() {
-            for (i, by_i) in slopes.iter().enumerate() {
-                let force: Complex64 = (0..4).map(|a| by_i[a].conj() * mean.volume[a]).sum();
-                pressing[m * size + i] += mode * force;
-            }
-        }
-    }
-    (matrix, pressing)
 }
 
 /// target += factor blocks x for each of `count` harmonics, blocks column-major.

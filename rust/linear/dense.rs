@@ -1,4 +1,4 @@
-//! Dense matrices: LU factorisation, solutions and products.
+//! Dense matrices: LU factorisation and solutions.
 
 use std::ops::Range;
 
@@ -157,55 +157,6 @@ pub fn column(values: &[f64]) -> Mat<f64> {
 }
 
 /// The entries of one column.
-pub fn column_mut(matrix: &mut Mat<f64>, index: usize) -> &mut [f64] {
-    matrix.col_as_slice_mut(index)
-}
-
 pub fn column_ref(matrix: &Mat<f64>, index: usize) -> &[f64] {
     matrix.col_as_slice(index)
-}
-
-/// target = left right.
-pub fn product(target: &mut Mat<f64>, left: &Mat<f64>, right: &Mat<f64>) {
-    matmul(
-        target.as_mut(),
-        Accum::Replace,
-        left.as_ref(),
-        right.as_ref(),
-        1.0,
-        Par::Seq,
-    );
-}
-
-/// target += factor left right.
-pub(super) fn add_product(
-    target: &mut Mat<f64>,
-    left: &Mat<f64>,
-    right: &Mat<f64>,
-    factor: f64,
-    watch: &Watch<'_>,
-) -> Result<(), Status> {
-    for columns in tiles(target.ncols()) {
-        for inner in tiles(left.ncols()) {
-            watch.look()?;
-            matmul(
-                target.get_mut(.., columns.clone()),
-                Accum::Add,
-                left.get(.., inner.clone()),
-                right.get(inner, columns.clone()),
-                factor,
-                Par::Seq,
-            );
-        }
-    }
-    Ok(())
-}
-
-pub(super) fn add_block(target: &mut Mat<f64>, at: usize, block: &Mat<f64>) {
-    for j in 0..block.ncols() {
-        let column = &mut column_mut(target, at + j)[at..];
-        for (t, b) in column.iter_mut().zip(column_ref(block, j)) {
-            *t += b;
-        }
-    }
 }

@@ -37,7 +37,7 @@ pub fn raise(
     let (mut spent, mut steps) = (0, 0);
     loop {
         let mut trial = state.clone();
-        let mut report = newton::solve(pressed, &mut None, &mut trial, next, settings);
+        let mut report = newton::solve(pressed, &mut trial, next, settings);
         counts.add(&report);
         counts.load_steps += 1;
         spent += report.iterations;

@@ -1,6 +1,5 @@
 //! Solving: one load, raising it, a sequence of meshes and the way from one mesh to another.
 
-pub mod dense;
 mod increment;
 pub mod judge;
 mod krylov;

@@ -1,11 +1,9 @@
 //! Newton's method for one load, on the linearised problem of the block in contact.
 //!
-//! Few columns are eliminated densely, and the factored block is kept as long as it makes the residual
-//! fall fast enough (modified Newton). For many the linearised problem is solved by iteration, and no
-//! better than pays: to the share (Eisenstat & Walker, SIAM J. Sci. Comput. 17 (1996) 16, choice 2)
+//! It is solved by iteration, no better than pays: to the share of the forces out of balance
+//! (Eisenstat & Walker, SIAM J. Sci. Comput. 17 (1996) 16, choice 2)
 //!     eta = gamma (residual / residual before)^2,   at least gamma eta_before^2 where that is large.
 
-use super::dense::Factored;
 use super::increment::Increment;
 use super::krylov::{self, Accuracy};
 use crate::contact::{PressedBlock, State};
@@ -37,11 +35,9 @@ impl Report {
     }
 }
 
-/// Iterate on `state` under `load` (mean pressure times one wavelength), starting from the factored
-/// block in `kept` and leaving the last one there.
+/// Iterate on `state` under `load` (mean pressure times one wavelength).
 pub fn solve(
     pressed: &PressedBlock<'_>,
-    kept: &mut Option<Factored>,
     state: &mut State,
     load: f64,
     settings: &Settings,
@@ -52,7 +48,7 @@ pub fn solve(
         products: 0,
         residual: f64::INFINITY,
     };
-    if let Err(status) = iterate(pressed, kept, state, load, settings, &mut report) {
+    if let Err(status) = iterate(pressed, state, load, settings, &mut report) {
         report.status = status;
     }
     report
@@ -60,7 +56,6 @@ pub fn solve(
 
 fn iterate(
     pressed: &PressedBlock<'_>,
-    kept: &mut Option<Factored>,
     state: &mut State,
     load: f64,
     settings: &Settings,
@@ -85,23 +80,11 @@ fn iterate(
         if stalled || report.iterations >= settings.max_iterations {
             return Err(Status::IterationLimit);
         }
-        let falling = before.is_infinite() || report.residual < settings.reuse_reduction * before;
-        if !(falling && report.residual < settings.reuse_below) {
-            *kept = None;
-        }
         report.iterations += 1;
-        let increment = if pressed.mesh().layer_nodes() <= settings.dense_nodes {
-            let factored = match kept {
-                Some(factored) => factored,
-                None => kept.insert(Factored::new(pressed, state, &rows)?),
-            };
-            factored.increment(pressed, state, &rows, load, settings)?
-        } else {
-            share = forcing(share, report.residual / before, settings);
-            let least = ITERATED_TO * settings.residual_tolerance * load.min(1.0);
-            let accuracy = Accuracy { share, least };
-            krylov::increment(pressed, state, &rows, load, accuracy, settings)?
-        };
+        share = forcing(share, report.residual / before, settings);
+        let least = ITERATED_TO * settings.residual_tolerance * load.min(1.0);
+        let accuracy = Accuracy { share, least };
+        let increment = krylov::increment(pressed, state, &rows, load, accuracy, settings)?;
         report.products += increment.products;
         step(pressed, increment, state, &mut rows, settings)?;
     }

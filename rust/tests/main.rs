@@ -3,18 +3,17 @@
 mod complementarity;
 mod dissipation;
 mod element_and_mesh;
-mod elimination;
 mod energy;
 mod hostile_input;
 mod jacobian;
 mod krylov;
+mod linear;
 mod material_point;
 mod mesh_sequence;
 mod profile;
 mod settings;
 mod sliding_history;
 mod steady;
-mod tangent;
 mod transient;
 
 use gripscale_kernel::contact::profile::Heights;
@@ -137,18 +136,13 @@ pub fn energy(kind: &str, parameters: &[(&str, f64)]) -> Energy {
     new_energy(kind, parameters).unwrap()
 }
 
-/// Let the pressures of one row follow displacement increments as its volumes ask.
-pub fn add_pressure(
-    block: &Block<'_>,
-    row: usize,
-    state: &RowState,
-    du: &[f64],
-    field: &mut Field,
-) {
-    let increments = block.pressure_increments(row, state, state, du, field);
-    let at = row * increments.len();
-    for (p, increment) in field.pressure[at..].iter_mut().zip(increments) {
-        *p += increment;
+/// Let the pressures of one row be what its volumes ask for.
+pub fn balance_volumes(block: &Block<'_>, row: usize, state: &RowState, field: &mut Field) {
+    let volumes = block.row_volumes(row, field, state);
+    let masses = &block.mesh.elements[row].mode_mass;
+    let at = row * volumes.len();
+    for (i, (p, volume)) in field.pressure[at..].iter_mut().zip(volumes).enumerate() {
+        *p += block.bulk_modulus / masses[i % masses.len()] * volume;
     }
 }
 
