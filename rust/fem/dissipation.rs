@@ -1,7 +1,7 @@
 //! The energy lost in the block per sliding distance.
 
 use super::block::{Block, Memory, RowState};
-use super::circular::{correlate, directly, Correlations};
+use super::circular::Correlations;
 use crate::material::kinematics::{isochoric, remembered, Symmetric, UNIT};
 use crate::status::Status;
 use crate::watch::Watch;
@@ -50,18 +50,12 @@ impl Block<'_> {
         let mut correlations = Correlations::new(self.mesh.columns);
         for (row, (state, part)) in rows.iter().zip(&mut parts).enumerate() {
             watch.look()?;
-            if directly(self.mesh.columns) {
-                self.pairs(row, state, |weight, y, c| {
-                    correlate(weight, y, c, [&mut *part, &mut whole]);
-                });
-            } else {
-                self.pairs(row, state, |weight, y, c| correlations.add(weight, y, c));
-                *part = correlations.take();
-                whole
-                    .iter_mut()
-                    .zip(&*part)
-                    .for_each(|(sum, own)| *sum += own);
-            }
+            self.add_pairs(row, state, &mut correlations);
+            *part = correlations.take();
+            whole
+                .iter_mut()
+                .zip(&*part)
+                .for_each(|(sum, own)| *sum += own);
             let own = part[0];
             part.iter_mut().for_each(|product| *product -= own);
         }
@@ -79,8 +73,8 @@ impl Block<'_> {
         Ok(StrainSince { whole, rows })
     }
 
-    /// Hand over every pair of lines of y and c in a row, with the weight of their product.
-    fn pairs(&self, row: usize, state: &RowState, mut each: impl FnMut(f64, &[f64], &[f64])) {
+    /// Add every pair of lines of y and c in a row.
+    fn add_pairs(&self, row: usize, state: &RowState, correlations: &mut Correlations) {
         let points = self.points();
         let less_unit = |tensor: Symmetric, k: usize| tensor[k] - UNIT[k];
         for (line, gradient) in state.gradient.iter().enumerate() {
@@ -92,7 +86,7 @@ impl Block<'_> {
                     let (y, c): (Vec<f64>, Vec<f64>) = column
                         .map(|f| (less_unit(remembered(f), k), less_unit(isochoric(f), k)))
                         .unzip();
-                    each(times * weight, &y, &c);
+                    correlations.add(times * weight, &y, &c);
                 }
             }
         }
