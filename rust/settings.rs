@@ -74,8 +74,7 @@ settings! {
     krylov_least_share: f64 = 1e-4 in 1e-12..=0.9, "Smallest share of the forces out of balance that it is iterated to [-].";
     krylov_safety: f64 = 0.9 in 0.01..=1.0, "That share over the square of the last ratio of residuals [-].";
     krylov_basis: usize = 60 in 2..=1000, "Directions kept in the iteration before it starts anew.";
-    krylov_iterations: usize = 300 in 1..=100_000, "Most iterations for one contact set.";
-    contact_rounds: usize = 10 in 1..=1000, "Contact sets for which one linearised problem is iterated.";
+    krylov_iterations: usize = 100 in 1..=100_000, "Most iterations for one linearised problem.";
 
     active_set_rounds: usize = 60 in 0..=10_000, "Changes of the whole active set before nodes change sides one by one, along a path that finds a set where there is one.";
     single_node_rounds: usize = 2000 in 1..=100_000, "Changes of single nodes of the active set.";

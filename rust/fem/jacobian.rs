@@ -12,6 +12,8 @@ use super::mesh::Mesh;
 use crate::material::kinematics::{cofactor, remembered_slope, Gradient};
 use crate::material::stress::{memory_slope, tangent};
 use crate::spectral::{Complex64, Lines};
+use crate::status::Status;
+use crate::watch::Watch;
 
 const LANES: usize = 8;
 type Lane = [f64; LANES];
@@ -70,7 +72,12 @@ pub struct Room {
 
 impl<'a> Jacobian<'a> {
     /// At the state of `field`, whose rows are in the states `rows`.
-    pub fn new(block: &Block<'a>, field: &Field, rows: &[RowState]) -> Self {
+    pub fn new(
+        block: &Block<'a>,
+        field: &Field,
+        rows: &[RowState],
+        watch: &Watch<'_>,
+    ) -> Result<Self, Status> {
         let mesh = block.mesh;
         let memory = match block.memory {
             Memory::Sliding(history) => Some(history.spectrum.clone()),
@@ -85,11 +92,12 @@ impl<'a> Jacobian<'a> {
             remembering: Vec::with_capacity(mesh.rows),
         };
         for (row, state) in rows.iter().enumerate() {
+            watch.look()?;
             let (local, remembering) = jacobian.slopes(block, field, row, state);
             jacobian.local.push(local);
             jacobian.remembering.push(remembering);
         }
-        jacobian
+        Ok(jacobian)
     }
 
     fn points(&self) -> usize {

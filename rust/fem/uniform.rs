@@ -11,6 +11,7 @@ use super::mesh::Mesh;
 use crate::linear::invert;
 use crate::spectral::{Complex64, Lines};
 use crate::status::Status;
+use crate::watch::Watch;
 
 /// Coefficients of one kind for all harmonics: `[entry][harmonic]`.
 type Blocks = Vec<Complex64>;
@@ -50,7 +51,7 @@ pub struct Room {
 }
 
 impl<'a> Uniform<'a> {
-    pub fn new(jacobian: &Jacobian<'a>) -> Result<Self, Status> {
+    pub fn new(jacobian: &Jacobian<'a>, watch: &Watch<'_>) -> Result<Self, Status> {
         let mesh = jacobian.mesh;
         let lines = Lines::new(mesh.columns);
         let harmonics = lines.harmonics();
@@ -58,6 +59,7 @@ impl<'a> Uniform<'a> {
         let mut rows: Vec<Row> = Vec::with_capacity(mesh.rows);
         let mut above = vec![Complex64::default(); lowest * lowest * harmonics];
         for index in (0..mesh.rows).rev() {
+            watch.look()?;
             let means = jacobian.means(index);
             let averaged = HarmonicRow::new(mesh, index, &means, jacobian.bulk_modulus);
             let size = averaged.size;

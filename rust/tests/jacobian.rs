@@ -10,6 +10,7 @@ use gripscale_kernel::material::kinematics::{cofactor, remembered_slope};
 use gripscale_kernel::material::maxwell::Maxwell;
 use gripscale_kernel::material::sliding_history::SlidingHistory;
 use gripscale_kernel::material::stress::{memory_slope, tangent};
+use gripscale_kernel::watch::Watch;
 
 use crate::{energy, mesh, noise};
 
@@ -38,6 +39,11 @@ fn block<'a>(mesh: &'a Mesh, memory: &'a Memory, energy: Energy) -> Block<'a> {
 fn states(block: &Block<'_>, field: &Field) -> Vec<RowState> {
     let rows = 0..block.mesh.rows;
     rows.map(|row| block.row_state(row, &field.u)).collect()
+}
+
+fn jacobian<'a>(block: &Block<'a>, field: &Field) -> Jacobian<'a> {
+    let rows = states(block, field);
+    Jacobian::new(block, field, &rows, &Watch::endless()).unwrap()
 }
 
 fn energies() -> [Energy; 3] {
@@ -145,7 +151,7 @@ fn the_product_is_the_sum_over_points_and_pairs() {
             let memory = memory(&mesh, slides);
             let block = block(&mesh, &memory, energy);
             let field = bent(&mesh);
-            let jacobian = Jacobian::new(&block, &field, &states(&block, &field));
+            let jacobian = jacobian(&block, &field);
             let x: Vec<f64> = (0..jacobian.unknowns()).map(|i| noise(1000 + i)).collect();
             let mut found = vec![0.0; x.len()];
             jacobian.product(&x, &mut found, &mut jacobian.room());
@@ -190,7 +196,7 @@ fn the_product_is_the_slope_of_forces_and_volumes() {
             let memory = memory(&mesh, slides);
             let block = block(&mesh, &memory, energy);
             let field = bent(&mesh);
-            let jacobian = Jacobian::new(&block, &field, &states(&block, &field));
+            let jacobian = jacobian(&block, &field);
             let x: Vec<f64> = (0..jacobian.unknowns()).map(|i| noise(1000 + i)).collect();
             let moved = |step: f64| {
                 let mut moved = field.clone();
@@ -235,8 +241,8 @@ fn a_uniform_state_is_solved_at_once() {
         for (i, p) in field.pressure.iter_mut().enumerate() {
             *p = if i % mesh.modes() == 0 { 0.3 } else { 0.0 };
         }
-        let jacobian = Jacobian::new(&block, &field, &states(&block, &field));
-        let uniform = Uniform::new(&jacobian).unwrap();
+        let jacobian = jacobian(&block, &field);
+        let uniform = Uniform::new(&jacobian, &Watch::endless()).unwrap();
         let right: Vec<f64> = (0..jacobian.unknowns()).map(noise).collect();
         let mut solution = vec![0.0; right.len()];
         let mut room = uniform.room();
