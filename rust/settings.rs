@@ -70,11 +70,11 @@ settings! {
     step_halvings: usize = 8 in 1..=50, "Lengths tried for one Newton step, each half of the one before.";
     patience: usize = 12 in 1..=1000, "Newton iterations without a smaller residual after which a load step is given up.";
 
-    krylov_share: f64 = 0.1 in 1e-12..=0.9, "Largest share of the forces out of balance that the linearised problem is solved to [-].";
-    krylov_least_share: f64 = 1e-4 in 1e-12..=0.9, "Smallest share of the forces out of balance that it is iterated to [-].";
+    krylov_share: f64 = 1e-3 in 1e-12..=0.9, "Largest share of the forces out of balance that the linearised problem is solved to [-].";
+    krylov_least_share: f64 = 1e-5 in 1e-12..=0.9, "Smallest share of the forces out of balance that it is iterated to [-].";
     krylov_safety: f64 = 0.9 in 0.01..=1.0, "That share over the square of the last ratio of residuals [-].";
-    krylov_basis: usize = 60 in 2..=1000, "Directions kept in the iteration before it starts anew.";
-    krylov_iterations: usize = 100 in 1..=100_000, "Most iterations for one linearised problem.";
+    krylov_basis: usize = 100 in 2..=1000, "Directions kept in the iteration before it starts anew.";
+    krylov_iterations: usize = 200 in 1..=100_000, "Most iterations for one linearised problem.";
 
     active_set_rounds: usize = 60 in 0..=10_000, "Changes of the whole active set before nodes change sides one by one, along a path that finds a set where there is one.";
     single_node_rounds: usize = 2000 in 1..=100_000, "Changes of single nodes of the active set.";
