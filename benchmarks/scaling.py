@@ -43,9 +43,7 @@ class Cost:
 
 def run(console: Console, figure: Path) -> None:
     """Print and draw the costs."""
-    costs = {
-        kind: [_cost(kind, columns, rows) for columns, rows in MESHES] for kind in PRESSURES
-    }
+    costs = {kind: [_cost(kind, columns, rows) for columns, rows in MESHES] for kind in PRESSURES}
     for kind, found in costs.items():
         rows = [
             [
