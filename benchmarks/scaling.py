@@ -64,7 +64,7 @@ def run(console: Console, figure: Path) -> None:
             ["mesh", "unknowns", "peak MB", "CPU s", "Newton", "products", "us an unknown"],
             rows,
             "One wave from cold, all meshes of the sequence together. Products: with the Jacobian, "
-            "by GMRES. Peak: above the start. Exponent: by unknowns, least squares over all meshes.",
+            "by GMRES. Peak: above the start. Exponent: by unknowns, least squares over all.",
         )
     figure.parent.mkdir(parents=True, exist_ok=True)
     for path in save_figure(_draw(costs), figure.parent, figure.stem):
