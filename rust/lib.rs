@@ -8,13 +8,14 @@
 //! |---|---|
 //! | `error`, `status`, `settings` | refusals, endings, every constant of the solver |
 //! | `watch` | whether to go on: a caller that stops, a limit of time |
-//! | `linear` | the one file with faer: dense LU, elimination of node layers |
+//! | `spectral` | the one file with realfft: transforms of lines |
+//! | `linear` | the one room with faer: dense LU, small complex blocks, GMRES |
 //! | `material` | kinematics, stress, strain energies, Maxwell elements and what they remember |
-//! | `fem` | element, mesh, block, element rows with their memory coupling |
-//! | `contact` | profile, linearised contact, complementarity, edges between nodes |
+//! | `fem` | element, mesh, block, element rows, their Jacobian applied, its average solved |
+//! | `contact` | profile, answer of the averaged surface, complementarity, edges between nodes |
 //! | `outcome` | contact, friction and stretches of a state |
 //! | `problem`, `model` | one wave in SI units, checked; the same in kernel units |
-//! | `solve` | Newton, load stepping, mesh sequence, transfer between meshes |
+//! | `solve` | Newton and its linearised problem, load stepping, mesh sequence, transfer |
 //! | `solution`, `steady`, `transient` | one wave solved; steady sliding; sliding in time |
 //! | `python` | bindings, no numerics |
 //!
@@ -35,6 +36,7 @@ mod python;
 pub mod settings;
 pub mod solution;
 pub mod solve;
+pub mod spectral;
 pub mod status;
 pub mod steady;
 pub mod transient;

@@ -55,6 +55,7 @@ getters! {
     status: &'static str = |s, _| Ok(s.finest.report.status.word());
     residual: f64 = |s, _| Ok(s.finest.report.residual);
     newton_iterations: usize = |s, _| Ok(s.counts.iterations);
+    jacobian_products: usize = |s, _| Ok(s.counts.products);
     load_steps: usize = |s, _| Ok(s.counts.load_steps);
     load_reached: f64 = |s, _| Ok(s.finest.load_reached);
     approach: f64 = |s, _| Ok(s.finest.state.approach);

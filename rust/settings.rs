@@ -69,8 +69,12 @@ settings! {
     smallest_volume_ratio: f64 = 0.05 in 1e-6..=0.9, "A Newton step may leave no Gauss point with a smaller ratio of volumes [-].";
     step_halvings: usize = 8 in 1..=50, "Lengths tried for one Newton step, each half of the one before.";
     patience: usize = 12 in 1..=1000, "Newton iterations without a smaller residual after which a load step is given up.";
-    reuse_below: f64 = 0.1 in 1e-15..=1.0, "A factored tangent is used again only while the residual is below this [-].";
-    reuse_reduction: f64 = 0.3 in 1e-6..=1.0, "A factored tangent is used again while each residual is below this share of the last [-].";
+
+    krylov_share: f64 = 1e-3 in 1e-12..=0.9, "Largest share of the forces out of balance that the linearised problem is solved to [-].";
+    krylov_least_share: f64 = 1e-5 in 1e-12..=0.9, "Smallest share of the forces out of balance that it is iterated to [-].";
+    krylov_safety: f64 = 0.9 in 0.01..=1.0, "That share over the square of the last ratio of residuals [-].";
+    krylov_basis: usize = 100 in 2..=1000, "Directions kept in the iteration before it starts anew.";
+    krylov_iterations: usize = 200 in 1..=100_000, "Most iterations for one linearised problem.";
 
     active_set_rounds: usize = 60 in 0..=10_000, "Changes of the whole active set before nodes change sides one by one, along a path that finds a set where there is one.";
     single_node_rounds: usize = 2000 in 1..=100_000, "Changes of single nodes of the active set.";
@@ -88,7 +92,7 @@ settings! {
     easy_iterations: usize = 7 in 1..=1000, "Newton iterations of an easy load step.";
 
     coarsest_nodes: usize = 32 in 8..=2048, "Fewest nodes along the wave on the coarsest mesh of a sequence.";
-    finest_columns: usize = 512 in 4..=1024, "Most columns of the mesh that a tolerance refines to.";
+    finest_columns: usize = 512 in 4..=4096, "Most columns of the mesh that a tolerance refines to.";
     row_exponent: f64 = 0.585 in 0.01..=1.0, "Rows grow with this power of the columns [-]: by 1.5 for every doubling.";
     edge_error: f64 = 0.15 in 1e-6..=10.0, "Node spacings to which both edges of a contact of many nodes together are known [-].";
     edge_nodes: f64 = 16.0 in 0.0..=1000.0, "Nodes in a contact or gap with which that number doubles [-].";
@@ -105,8 +109,8 @@ settings! {
     dwell_steps: usize = 40 in 2..=10_000, "Time steps of a dwell, their lengths growing geometrically.";
     dwell_first: f64 = 1e-4 in 1e-12..=0.5, "First time step of a dwell over its duration [-].";
     longest_stage: f64 = 10_000.0 in 1.0..=1e6, "Longest way of one stage [wavelengths].";
-    path_columns: usize = 128 in 4..=1024, "Most columns of a mesh, finer than asked for trust alone, on which the load is raised anew.";
-    rescue_columns: usize = 256 in 4..=1024, "Most columns of a mesh finer than the one asked for, where that does not carry the load or is not to be trusted.";
+    path_columns: usize = 128 in 4..=4096, "Most columns of a mesh, finer than asked for trust alone, on which the load is raised anew.";
+    rescue_columns: usize = 256 in 4..=4096, "Most columns of a mesh finer than the one asked for, where that does not carry the load or is not to be trusted.";
     large_mean_shear: f64 = 2.0 in 0.1..=100.0, "A load path that ends at a mean shear of the block beyond this ends because of it [-].";
 
     load_parts: usize = 8 in 1..=1000, "Parts a change of load is cut into where a time step fails.";

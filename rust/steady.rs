@@ -84,6 +84,7 @@ struct Work<'a> {
 const GIVEN_UP: newton::Report = newton::Report {
     status: Status::IterationLimit,
     iterations: 0,
+    products: 0,
     residual: f64::NAN,
 };
 
@@ -111,6 +112,7 @@ impl Work<'_> {
         let report = newton::Report {
             status: Status::ContactTooNarrow,
             iterations: 0,
+            products: 0,
             residual: f64::NAN,
         };
         let memory = self.memory(&mesh);
@@ -158,8 +160,8 @@ impl Work<'_> {
         let load = self.load();
         let (mut solved, mut time_left) = (None, true);
         if let Some(mut state) = self.guess(&pressed, coarse) {
-            let report = newton::solve(&pressed, &mut None, &mut state, load, self.settings);
-            self.counts.iterations += report.iterations;
+            let report = newton::solve(&pressed, &mut state, load, self.settings);
+            self.counts.add(&report);
             self.counts.load_steps += 1;
             time_left = report.status != Status::TimeLimit;
             if report.status == Status::Converged {

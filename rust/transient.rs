@@ -17,7 +17,7 @@ use crate::problem::{MeshSize, Profile, Rubber};
 use crate::settings::Settings;
 use crate::solution::Solution;
 use crate::solve::load_stepping::{raise, Counts};
-use crate::solve::newton::{self, Factored, Report};
+use crate::solve::newton::{self, Report};
 use crate::solve::transfer::transfer;
 use crate::status::Status;
 use crate::watch::Watch;
@@ -133,8 +133,6 @@ struct Integration<'a> {
     watch: &'a Watch<'a>,
     state: State,
     networks: CarriedHistory,
-    /// The factored block of the last step, good enough for the next one as a rule.
-    kept: Option<Factored>,
     counts: Counts,
     moments: Vec<Moment>,
     time: f64,
@@ -166,7 +164,6 @@ impl<'a> Integration<'a> {
             wavelength,
             watch,
             state,
-            kept: None,
             counts: Counts::default(),
             moments: Vec::new(),
             time: 0.0,
@@ -241,15 +238,15 @@ impl<'a> Integration<'a> {
         let (settings, counts) = (self.settings, &mut self.counts);
         let from: f64 = self.state.force.iter().sum();
         let mut trial = self.state.clone();
-        let mut report = newton::solve(pressed, &mut self.kept, &mut trial, load, settings);
-        counts.iterations += report.iterations;
+        let mut report = newton::solve(pressed, &mut trial, load, settings);
+        counts.add(&report);
         counts.load_steps += 1;
         if report.status != Status::Converged {
             trial = self.state.clone();
             for part in 1..=settings.load_parts {
                 let between = from + (load - from) * part as f64 / settings.load_parts as f64;
-                report = newton::solve(pressed, &mut None, &mut trial, between, settings);
-                counts.iterations += report.iterations;
+                report = newton::solve(pressed, &mut trial, between, settings);
+                counts.add(&report);
                 if report.status != Status::Converged {
                     break;
                 }

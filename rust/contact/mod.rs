@@ -4,9 +4,9 @@ pub mod complementarity;
 pub mod edges;
 pub mod harmonics;
 pub mod hertz;
-pub mod linearised;
 pub mod pivoting;
 pub mod profile;
+pub mod surface;
 pub mod touching;
 
 use crate::fem::block::{Block, Field, RowState};

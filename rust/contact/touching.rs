@@ -15,26 +15,35 @@ pub struct Contact {
     pub active: Vec<bool>,
 }
 
+/// What forces at the nodes add to the gaps.
+pub trait Compliance {
+    /// Of node `to` by a unit force at node `from`.
+    fn between(&self, to: usize, from: usize) -> f64;
+
+    /// Add what `force` opens to `gap`.
+    fn open(&self, force: &[f64], gap: &mut [f64]);
+}
+
 /// The problem: gaps without forces or approach, and what unit forces add to them.
 #[derive(Clone, Copy)]
 pub struct Linearised<'a> {
-    pub compliance: &'a Matrix<f64>,
+    pub compliance: &'a dyn Compliance,
     pub free: &'a [f64],
     pub load: f64,
 }
 
 impl Linearised<'_> {
     /// Scale of the border like the compliance's, so that pivoting sees comparable rows.
-    pub(super) fn border(&self, set: &[usize]) -> f64 {
-        self.compliance[(set[0], set[0])].abs().max(1e-300)
+    pub(crate) fn border(&self, set: &[usize]) -> f64 {
+        self.compliance.between(set[0], set[0]).abs().max(1e-300)
     }
 
     /// The compliance between the nodes of `set`, with the approach and the sum of forces.
-    pub(super) fn bordered(&self, set: &[usize]) -> Matrix<f64> {
+    pub(crate) fn bordered(&self, set: &[usize]) -> Matrix<f64> {
         let (n, border) = (set.len(), self.border(set));
         Matrix::from_fn(n + 1, n + 1, |i, j| {
             if i < n && j < n {
-                self.compliance[(set[i], set[j])]
+                self.compliance.between(set[i], set[j])
             } else if i < n || j < n {
                 border * if i < n { -1.0 } else { 1.0 }
             } else {
@@ -66,18 +75,12 @@ impl Linearised<'_> {
 
 /// Gaps under `force` at `approach`.
 pub(super) fn gaps(
-    compliance: &Matrix<f64>,
+    compliance: &dyn Compliance,
     free: &[f64],
     force: &[f64],
     approach: f64,
 ) -> Vec<f64> {
     let mut gap: Vec<f64> = free.iter().map(|g| g - approach).collect();
-    for (j, &f) in force.iter().enumerate() {
-        if f != 0.0 {
-            for (i, g) in gap.iter_mut().enumerate() {
-                *g += compliance[(i, j)] * f;
-            }
-        }
-    }
+    compliance.open(force, &mut gap);
     gap
 }

@@ -1,8 +1,8 @@
 //! The energy lost in the block per sliding distance.
 
 use super::block::{Block, Memory, RowState};
-use super::circular::correlate;
-use crate::material::kinematics::{isochoric, remembered, Gradient, Symmetric, UNIT};
+use super::circular::Correlations;
+use crate::material::kinematics::{isochoric, remembered, Symmetric, UNIT};
 use crate::status::Status;
 use crate::watch::Watch;
 
@@ -47,11 +47,15 @@ impl Block<'_> {
         let nothing = vec![0.0; self.mesh.columns];
         let mut parts = vec![nothing.clone(); rows.len()];
         let mut whole = nothing;
+        let mut correlations = Correlations::new(self.mesh.columns);
         for (row, (state, part)) in rows.iter().zip(&mut parts).enumerate() {
             watch.look()?;
-            for (line, gradient) in state.gradient.iter().enumerate() {
-                self.add_products(row, line, gradient, [part, &mut whole]);
-            }
+            self.add_pairs(row, state, &mut correlations);
+            *part = correlations.take();
+            whole
+                .iter_mut()
+                .zip(&*part)
+                .for_each(|(sum, own)| *sum += own);
             let own = part[0];
             part.iter_mut().for_each(|product| *product -= own);
         }
@@ -69,26 +73,21 @@ impl Block<'_> {
         Ok(StrainSince { whole, rows })
     }
 
-    /// Add the integral of y(x - m columns) : c(x) along one line to both sums.
-    fn add_products(
-        &self,
-        row: usize,
-        line: usize,
-        gradient: &[Gradient],
-        sums: [&mut Vec<f64>; 2],
-    ) {
-        let [part, whole] = sums;
+    /// Add every pair of lines of y and c in a row.
+    fn add_pairs(&self, row: usize, state: &RowState, correlations: &mut Correlations) {
         let points = self.points();
         let less_unit = |tensor: Symmetric, k: usize| tensor[k] - UNIT[k];
-        for point in 0..points {
-            let weight = self.mesh.elements[row].weight[line * points + point];
-            let column = gradient.iter().skip(point).step_by(points);
-            for (k, times) in [1.0, 1.0, 2.0, 1.0].into_iter().enumerate() {
-                let column = column.clone();
-                let (y, c): (Vec<f64>, Vec<f64>) = column
-                    .map(|f| (less_unit(remembered(f), k), less_unit(isochoric(f), k)))
-                    .unzip();
-                correlate(times * weight, &y, &c, [&mut *part, &mut *whole]);
+        for (line, gradient) in state.gradient.iter().enumerate() {
+            for point in 0..points {
+                let weight = self.mesh.elements[row].weight[line * points + point];
+                let column = gradient.iter().skip(point).step_by(points);
+                for (k, times) in [1.0, 1.0, 2.0, 1.0].into_iter().enumerate() {
+                    let column = column.clone();
+                    let (y, c): (Vec<f64>, Vec<f64>) = column
+                        .map(|f| (less_unit(remembered(f), k), less_unit(isochoric(f), k)))
+                        .unzip();
+                    correlations.add(times * weight, &y, &c);
+                }
             }
         }
     }

@@ -57,7 +57,7 @@ impl Block<'_> {
             Memory::Relaxed => {}
             Memory::Sliding(history) => {
                 let y: Vec<Symmetric> = gradient.iter().map(remembered).collect();
-                for (h, past) in h.iter_mut().zip(convolve(&history.stress, &y)) {
+                for (h, past) in h.iter_mut().zip(convolve(history, &y)) {
                     for k in 0..4 {
                         h[k] += past[k] + history.frozen_modulus * UNIT[k];
                     }

@@ -10,6 +10,7 @@
 
 use super::dissipation::Dissipation;
 use super::maxwell::{recurrence, Maxwell};
+use crate::spectral::{Complex64, Lines};
 
 /// Weights between equally placed points of the columns of one line (they form a circulant matrix).
 ///
@@ -21,6 +22,9 @@ pub struct SlidingHistory {
     pub frozen_modulus: f64,
     /// `stress[m]`: weight of Y in column e - m in H in column e.
     pub stress: Vec<f64>,
+    /// Its harmonics, by which those of Y are multiplied.
+    pub spectrum: Vec<Complex64>,
+    pub lines: Lines,
     pub dissipation: Dissipation,
 }
 
@@ -64,7 +68,12 @@ impl SlidingHistory {
     /// Take out the weight of each point on itself, which DEV would remove, to avoid cancellation.
     fn without_local_part(maxwell: &Maxwell, mean: f64, mut stress: Vec<f64>) -> Self {
         stress[0] = 0.0;
+        let mut lines = Lines::new(stress.len());
+        let mut spectrum = vec![Complex64::default(); lines.harmonics()];
+        lines.forward(&stress, &mut spectrum);
         Self {
+            spectrum,
+            lines,
             frozen_modulus: mean - maxwell.equilibrium,
             dissipation: Dissipation::new(stress.len(), maxwell),
             stress,

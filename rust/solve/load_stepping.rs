@@ -11,6 +11,15 @@ use crate::status::Status;
 pub struct Counts {
     pub load_steps: usize,
     pub iterations: usize,
+    /// Products with the Jacobian where the linearised problem is iterated.
+    pub products: usize,
+}
+
+impl Counts {
+    pub fn add(&mut self, report: &Report) {
+        self.iterations += report.iterations;
+        self.products += report.products;
+    }
 }
 
 /// Raise the load on `state`, at rest before, to `load`; returns the share of it that was reached.
@@ -28,8 +37,8 @@ pub fn raise(
     let (mut spent, mut steps) = (0, 0);
     loop {
         let mut trial = state.clone();
-        let mut report = newton::solve(pressed, &mut None, &mut trial, next, settings);
-        counts.iterations += report.iterations;
+        let mut report = newton::solve(pressed, &mut trial, next, settings);
+        counts.add(&report);
         counts.load_steps += 1;
         spent += report.iterations;
         steps += 1;

@@ -1,18 +1,26 @@
-//! Newton's method for one load: tangent, condensation to the surface, exact linearised contact.
+//! Newton's method for one load, on the linearised problem of the block in contact.
 //!
-//! The factored block is kept as long as it makes the residual fall fast enough (modified Newton).
+//! It is solved by iteration, no better than pays: to the share of the forces out of balance
+//! (Eisenstat & Walker, SIAM J. Sci. Comput. 17 (1996) 16, choice 2)
+//!     eta = gamma (residual / residual before)^2,   at least gamma eta_before^2 where that is large.
 
+use super::increment::Increment;
+use super::krylov::{self, Accuracy};
 use crate::contact::{PressedBlock, State};
 use crate::fem::block::RowState;
-use crate::linear::Elimination;
 use crate::material::kinematics::jacobian;
 use crate::settings::Settings;
 use crate::status::Status;
+
+/// Share of the residual allowed below which the linearised problem is not solved.
+const ITERATED_TO: f64 = 0.1;
 
 #[derive(Debug, Clone, Copy)]
 pub struct Report {
     pub status: Status,
     pub iterations: usize,
+    /// Products with the Jacobian that the iterations took.
+    pub products: usize,
     /// Largest of the forces out of balance over the load and the gaps over half the range.
     pub residual: f64,
 }
@@ -27,18 +35,9 @@ impl Report {
     }
 }
 
-/// A factored block and the state it was factored at. The volume change keeps the slope of that
-/// state too: with a bulk modulus of hundreds of shear moduli a mixture of slopes would not converge.
-pub struct Factored {
-    elimination: Elimination,
-    rows: Vec<RowState>,
-}
-
-/// Iterate on `state` under `load` (mean pressure times one wavelength), starting from the factored
-/// block in `kept` and leaving the last one there.
+/// Iterate on `state` under `load` (mean pressure times one wavelength).
 pub fn solve(
     pressed: &PressedBlock<'_>,
-    kept: &mut Option<Factored>,
     state: &mut State,
     load: f64,
     settings: &Settings,
@@ -46,9 +45,10 @@ pub fn solve(
     let mut report = Report {
         status: Status::Converged,
         iterations: 0,
+        products: 0,
         residual: f64::INFINITY,
     };
-    if let Err(status) = iterate(pressed, kept, state, load, settings, &mut report) {
+    if let Err(status) = iterate(pressed, state, load, settings, &mut report) {
         report.status = status;
     }
     report
@@ -56,7 +56,6 @@ pub fn solve(
 
 fn iterate(
     pressed: &PressedBlock<'_>,
-    kept: &mut Option<Factored>,
     state: &mut State,
     load: f64,
     settings: &Settings,
@@ -64,6 +63,7 @@ fn iterate(
 ) -> Result<(), Status> {
     let mut rows = pressed.row_states(&state.field)?;
     let (mut best, mut best_at) = (f64::INFINITY, 0);
+    let mut share = settings.krylov_share;
     loop {
         let before = report.residual;
         report.residual = residual(pressed, state, &rows, load);
@@ -80,52 +80,54 @@ fn iterate(
         if stalled || report.iterations >= settings.max_iterations {
             return Err(Status::IterationLimit);
         }
-        let falling = before.is_infinite() || report.residual < settings.reuse_reduction * before;
-        if !(falling && report.residual < settings.reuse_below) {
-            *kept = None;
-        }
         report.iterations += 1;
-        step(pressed, kept, state, &mut rows, load, settings)?;
+        share = forcing(share, report.residual / before, settings);
+        let least = ITERATED_TO * settings.residual_tolerance * load.min(1.0);
+        let accuracy = Accuracy { share, least };
+        let increment = krylov::increment(pressed, state, &rows, load, accuracy, settings)?;
+        report.products += increment.products;
+        step(pressed, increment, state, &mut rows, settings)?;
     }
 }
 
-/// One Newton step, limited in displacement gradient and kept from turning elements over.
+/// The share to which forces out of balance are to fall, from the last one and what came of it.
+fn forcing(last: f64, ratio: f64, settings: &Settings) -> f64 {
+    let gamma = settings.krylov_safety;
+    let careful = gamma * last * last;
+    let next = gamma * ratio * ratio;
+    let next = if careful > 0.1 {
+        next.max(careful)
+    } else {
+        next
+    };
+    next.clamp(settings.krylov_least_share, settings.krylov_share)
+}
+
+/// One Newton step by `increment`, limited in displacement gradient and kept from turning elements
+/// over.
 fn step(
     pressed: &PressedBlock<'_>,
-    kept: &mut Option<Factored>,
+    increment: Increment,
     state: &mut State,
     rows: &mut Vec<RowState>,
-    load: f64,
     settings: &Settings,
 ) -> Result<(), Status> {
-    let (block, watch) = (&pressed.block, pressed.watch);
-    let factored = match kept {
-        Some(factored) => factored,
-        None => kept.insert(factor(pressed, state, rows)?),
-    };
-    let rights: Vec<Vec<f64>> = (0..rows.len())
-        .map(|row| block.row_right(row, &state.field, &rows[row], &factored.rows[row]))
-        .collect();
-    let elimination = &factored.elimination;
-    let reduced = elimination.reduce(&rights, watch)?;
-    let (surface, contact) =
-        pressed.linearised_contact(state, elimination, &reduced.surface_right, load, settings)?;
-    let mut du = elimination.expand(&reduced, &surface, watch)?;
-    du.resize(state.field.u.len(), 0.0);
-    if du.iter().any(|value| !value.is_finite()) {
+    let Increment {
+        u,
+        pressure,
+        contact,
+        ..
+    } = increment;
+    if u.iter().any(|value| !value.is_finite()) {
         return Err(Status::NotFinite);
     }
-    let mut share = (settings.largest_step / largest_gradient(pressed, &du)).min(1.0);
+    let mut share = (settings.largest_step / largest_gradient(pressed, &u)).min(1.0);
     for _ in 0..settings.step_halvings {
         let mut trial = state.field.clone();
-        for (u, d) in trial.u.iter_mut().zip(&du) {
-            *u += share * d;
-        }
+        add(&mut trial.u, share, &u);
         let trial_rows = pressed.row_states(&trial)?;
         if smallest_jacobian(&trial_rows) > settings.smallest_volume_ratio {
-            for (row, (now, old)) in rows.iter().zip(&factored.rows).enumerate() {
-                block.update_pressure(row, now, old, &du, share, &mut trial);
-            }
+            add(&mut trial.pressure, share, &pressure);
             for (f, new) in state.force.iter_mut().zip(&contact.force) {
                 *f += share * (new - *f);
             }
@@ -140,20 +142,10 @@ fn step(
     Err(Status::ElementInverted)
 }
 
-fn factor(
-    pressed: &PressedBlock<'_>,
-    state: &State,
-    rows: &[RowState],
-) -> Result<Factored, Status> {
-    let (block, watch) = (&pressed.block, pressed.watch);
-    let matrix = |row: usize| block.row_matrix(row, &state.field, &rows[row], watch);
-    let uppermost = pressed.mesh().rows - 1;
-    let layer = pressed.mesh().layer_size();
-    let below = (0..uppermost).rev().map(matrix);
-    Ok(Factored {
-        elimination: Elimination::new(layer, matrix(uppermost)?, below, watch)?,
-        rows: rows.to_vec(),
-    })
+fn add(to: &mut [f64], share: f64, change: &[f64]) {
+    for (to, change) in to.iter_mut().zip(change) {
+        *to += share * change;
+    }
 }
 
 /// The residual of a state that nothing was done to; infinite where it has none.

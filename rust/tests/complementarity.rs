@@ -3,8 +3,8 @@
 use std::f64::consts::{PI, TAU};
 
 use gripscale_kernel::contact::complementarity::solve;
-use gripscale_kernel::contact::touching::{Contact, Linearised};
-use gripscale_kernel::linear::{solve_dense, Matrix};
+use gripscale_kernel::contact::touching::{Compliance, Contact, Linearised};
+use gripscale_kernel::linear::{column_ref, solve_dense, Matrix};
 use gripscale_kernel::settings::Settings;
 use gripscale_kernel::watch::Watch;
 use proptest::prelude::*;
@@ -32,9 +32,27 @@ fn viscous(n: usize) -> Matrix<f64> {
     Matrix::from_fn(n, n, |i, j| by_distance[(n + i - j) % n])
 }
 
+struct Dense<'a>(&'a Matrix<f64>);
+
+impl Compliance for Dense<'_> {
+    fn between(&self, to: usize, from: usize) -> f64 {
+        self.0[(to, from)]
+    }
+
+    fn open(&self, force: &[f64], gap: &mut [f64]) {
+        for (j, &f) in force.iter().enumerate() {
+            if f != 0.0 {
+                for (g, c) in gap.iter_mut().zip(column_ref(self.0, j)) {
+                    *g += c * f;
+                }
+            }
+        }
+    }
+}
+
 fn solved(c: &Matrix<f64>, free: &[f64], load: f64, start: &[bool]) -> Contact {
     let problem = Linearised {
-        compliance: c,
+        compliance: &Dense(c),
         free,
         load,
     };

@@ -97,7 +97,7 @@ fn refusals_name_the_value() {
     let columns = refuse(|case| case.columns = 2).to_string();
     assert_eq!(
         columns,
-        "columns must be a whole number from 4 to 1024; got 2"
+        "columns must be a whole number from 4 to 4096; got 2"
     );
     assert!(refuse(|case| case.moduli = vec![1.0])
         .to_string()

@@ -3,20 +3,22 @@
 mod complementarity;
 mod dissipation;
 mod element_and_mesh;
-mod elimination;
 mod energy;
 mod hostile_input;
+mod jacobian;
+mod krylov;
+mod linear;
 mod material_point;
 mod mesh_sequence;
 mod profile;
 mod settings;
 mod sliding_history;
 mod steady;
-mod tangent;
 mod transient;
 
 use gripscale_kernel::contact::profile::Heights;
 use gripscale_kernel::error::KernelError;
+use gripscale_kernel::fem::block::{Block, Field, RowState};
 use gripscale_kernel::fem::mesh::Mesh;
 use gripscale_kernel::material::energy::Energy;
 use gripscale_kernel::problem::{Load, MeshSize, Problem, Profile, Rubber};
@@ -132,6 +134,16 @@ fn new_energy(kind: &str, parameters: &[(&str, f64)]) -> Result<Energy, KernelEr
 
 pub fn energy(kind: &str, parameters: &[(&str, f64)]) -> Energy {
     new_energy(kind, parameters).unwrap()
+}
+
+/// Let the pressures of one row be what its volumes ask for.
+pub fn balance_volumes(block: &Block<'_>, row: usize, state: &RowState, field: &mut Field) {
+    let volumes = block.row_volumes(row, field, state);
+    let masses = &block.mesh.elements[row].mode_mass;
+    let at = row * volumes.len();
+    for (i, (p, volume)) in field.pressure[at..].iter_mut().zip(volumes).enumerate() {
+        *p += block.bulk_modulus / masses[i % masses.len()] * volume;
+    }
 }
 
 /// A reproducible pseudo-random number in [-1, 1) (splitmix64), for fields without structure.

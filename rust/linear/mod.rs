@@ -1,0 +1,11 @@
+//! Linear algebra, the one room with faer: dense LU, small complex blocks, and GMRES for
+//! what is never formed.
+
+mod blocks;
+mod dense;
+mod gmres;
+
+pub use blocks::invert;
+pub use dense::{column, column_ref, solve_columns, solve_dense, Factor, Matrix};
+pub(crate) use gmres::norm;
+pub use gmres::{gmres, Found};

@@ -1,0 +1,336 @@
+//! The linearised problem of a Newton step without a matrix, GMRES on displacement and pressure:
+//!     J y - C^T df = r,   g + C y - dd = 0 on the nodes that touch,   sum f = load
+//!
+//! J is applied (`fem::jacobian`), its average along the rows solved (`fem::uniform`). With that in
+//! place of J the whole problem, complementarity included, is dense in the contact forces alone: it
+//! says which nodes touch. On that set, its conditions kept by every direction, GMRES brings the forces
+//! into balance (constraint preconditioning: Keller, Gould & Wathen, SIAM J. Matrix Anal. Appl. 21
+//! (2000) 1300). The next Newton step finds the next set: to iterate one problem on set after set, until
+//! none changes, took more products and no fewer steps.
+
+use super::increment::Increment;
+use crate::contact::complementarity;
+use crate::contact::surface::Surface;
+use crate::contact::touching::{Contact, Linearised};
+use crate::contact::{PressedBlock, State};
+use crate::fem::block::RowState;
+use crate::fem::jacobian::{self, Jacobian};
+use crate::fem::mesh::Mesh;
+use crate::fem::uniform::{self, Uniform};
+use crate::linear::{column, column_ref, gmres, norm, Factor};
+use crate::settings::Settings;
+use crate::status::Status;
+use crate::watch::Watch;
+
+/// The forces out of balance may fall to this share, or to this absolute size.
+#[derive(Debug, Clone, Copy)]
+pub struct Accuracy {
+    pub share: f64,
+    pub least: f64,
+}
+
+/// Increment of a Newton step from `state`, whose rows are in the states `rows`, under `load`.
+pub fn increment(
+    pressed: &PressedBlock<'_>,
+    state: &State,
+    rows: &[RowState],
+    load: f64,
+    accuracy: Accuracy,
+    settings: &Settings,
+) -> Result<Increment, Status> {
+    let watch = pressed.watch;
+    let jacobian = Jacobian::new(&pressed.block, &state.field, rows, watch)?;
+    let uniform = Uniform::new(&jacobian, watch)?;
+    let x = pressed.abscissae(&state.field);
+    let slope: Vec<f64> = x.iter().map(|&x| pressed.heights.slope(x)).collect();
+    let bend = x.iter().zip(&state.force);
+    let step = Step {
+        mesh: pressed.mesh(),
+        watch,
+        jacobian: &jacobian,
+        uniform: &uniform,
+        surface: Surface::new(&uniform, &slope),
+        bend: bend
+            .map(|(&x, f)| f * pressed.heights.curvature(x))
+            .collect(),
+        gap: pressed.gaps(state, &x),
+        state,
+        load,
+        right: right(pressed, state, rows, &slope)?,
+    };
+    step.solve(accuracy, settings)
+}
+
+/// Forces and volumes out of balance, with the contact forces there are.
+fn right(
+    pressed: &PressedBlock<'_>,
+    state: &State,
+    rows: &[RowState],
+    slope: &[f64],
+) -> Result<Vec<f64>, Status> {
+    let mesh = pressed.mesh();
+    let (modes, columns) = (mesh.modes(), mesh.columns);
+    let mut forces = vec![0.0; state.field.u.len()];
+    let mut volumes = Vec::with_capacity(state.field.pressure.len());
+    for (row, row_state) in rows.iter().enumerate() {
+        pressed.watch.look()?;
+        let (local, _) = pressed.block.row_forces(row, &state.field, row_state);
+        let offset = row * mesh.order * mesh.layer_size();
+        for (total, force) in forces[offset..].iter_mut().zip(&local) {
+            *total -= force;
+        }
+        let own = pressed.block.row_volumes(row, &state.field, row_state);
+        for mode in 0..modes {
+            volumes.extend((0..columns).map(|column| -own[column * modes + mode]));
+        }
+    }
+    for (a, force) in state.force.iter().enumerate() {
+        forces[mesh.place(a, 0)] -= slope[a] * force;
+        forces[mesh.place(a, 1)] += force;
+    }
+    forces.truncate(forces.len() - mesh.layer_size());
+    forces.extend(volumes);
+    Ok(forces)
+}
+
+/// One linearised problem.
+struct Step<'a> {
+    mesh: &'a Mesh,
+    watch: &'a Watch<'a>,
+    jacobian: &'a Jacobian<'a>,
+    uniform: &'a Uniform<'a>,
+    surface: Surface<'a>,
+    /// Contact force times curvature of the profile, at every node.
+    bend: Vec<f64>,
+    gap: Vec<f64>,
+    state: &'a State,
+    load: f64,
+    right: Vec<f64>,
+}
+
+/// Where products and averaged solutions take place.
+struct Rooms {
+    product: jacobian::Room,
+    uniform: uniform::Room,
+    solution: Vec<f64>,
+}
+
+/// A solution on the way.
+struct Iterate {
+    y: Vec<f64>,
+    contact: Contact,
+    /// Forces and volumes out of balance.
+    left: Vec<f64>,
+}
+
+impl Step<'_> {
+    /// Contact by the average, then balance on its set.
+    fn solve(&self, accuracy: Accuracy, settings: &Settings) -> Result<Increment, Status> {
+        let mut rooms = Rooms {
+            product: self.jacobian.room(),
+            uniform: self.uniform.room(),
+            solution: vec![0.0; self.right.len()],
+        };
+        let mut now = Iterate {
+            y: vec![0.0; self.right.len()],
+            contact: Contact {
+                force: self.state.force.clone(),
+                approach: self.state.approach,
+                active: self.state.active.clone(),
+            },
+            left: self.right.clone(),
+        };
+        let moved = self.uniform.reduce(&now.left, &mut rooms.uniform);
+        let contact = self.touching(&now, &moved, settings)?;
+        self.correct(&mut now, contact, moved, &mut rooms);
+        let largest = norm(&self.right).max(norm(&now.left));
+        let target = (accuracy.share * largest).max(accuracy.least);
+        let held = Held::new(&self.surface, &now.contact.active, self.watch)?;
+        let products = self.balance(&mut now, &held, target, &mut rooms, settings)?;
+        let displacements = self.jacobian.displacements();
+        let mut u = now.y[..displacements].to_vec();
+        u.resize(self.state.field.u.len(), 0.0);
+        Ok(Increment {
+            u,
+            pressure: self.by_element(&now.y[displacements..]),
+            contact: now.contact,
+            products,
+        })
+    }
+
+    /// Contact of the linearised problem with the average in place of the Jacobian; what is left out
+    /// of balance moves the surface by `moved`.
+    fn touching(
+        &self,
+        now: &Iterate,
+        moved: &[f64],
+        settings: &Settings,
+    ) -> Result<Contact, Status> {
+        let answered = self
+            .surface
+            .answer(&self.surface.forces(&now.contact.force));
+        let surface = now.y.iter().zip(moved).zip(answered);
+        let free: Vec<f64> = surface
+            .map(|((y, moved), answered)| y + moved - answered)
+            .collect();
+        let mut free = self.surface.opening(&free);
+        for (free, gap) in free.iter_mut().zip(&self.gap) {
+            *free += gap + self.state.approach;
+        }
+        if free.iter().any(|gap| !gap.is_finite()) {
+            return Err(Status::NotFinite);
+        }
+        let problem = Linearised {
+            compliance: &self.surface,
+            free: &free,
+            load: self.load,
+        };
+        complementarity::solve(&problem, &now.contact.active, settings, self.watch)
+    }
+
+    /// Let the average answer to what is left, of which it has been reduced to `moved`, and to new
+    /// contact forces.
+    fn correct(&self, now: &mut Iterate, contact: Contact, moved: Vec<f64>, rooms: &mut Rooms) {
+        let mut correction = std::mem::take(&mut rooms.solution);
+        self.complete(
+            moved,
+            &difference(&contact.force, &now.contact.force),
+            &mut correction,
+            rooms,
+        );
+        for (y, change) in now.y.iter_mut().zip(&correction) {
+            *y += change;
+        }
+        rooms.solution = correction;
+        now.contact = contact;
+        let change = difference(&now.contact.force, &self.state.force);
+        self.product(&now.y, &change, &mut now.left, rooms);
+        for (left, right) in now.left.iter_mut().zip(&self.right) {
+            *left = right - *left;
+        }
+    }
+
+    /// The averaged solution of what was reduced to `moved`, under contact forces as well.
+    fn complete(&self, mut moved: Vec<f64>, forces: &[f64], out: &mut [f64], rooms: &mut Rooms) {
+        let answered = self.surface.answer(&self.surface.forces(forces));
+        for (u, answered) in moved.iter_mut().zip(answered) {
+            *u += answered;
+        }
+        self.uniform.expand(&moved, out, &mut rooms.uniform);
+    }
+
+    /// `out` = J y - C^T `forces`.
+    fn product(&self, y: &[f64], forces: &[f64], out: &mut [f64], rooms: &mut Rooms) {
+        self.jacobian.product(y, out, &mut rooms.product);
+        let shift = self.mesh.mean_shift(y);
+        for (a, bend) in self.bend.iter().enumerate() {
+            let at = self.mesh.place(a, 0);
+            out[at] += bend * (y[at] - shift);
+        }
+        for (out, force) in out.iter_mut().zip(self.surface.forces(forces)) {
+            *out -= force;
+        }
+    }
+
+    /// Bring forces and volumes into balance with the nodes of `held` touching.
+    fn balance(
+        &self,
+        now: &mut Iterate,
+        held: &Held,
+        target: f64,
+        rooms: &mut Rooms,
+        settings: &Settings,
+    ) -> Result<usize, Status> {
+        let mut failed = Ok(());
+        let apply = |v: &[f64], out: &mut [f64]| {
+            let mut solution = std::mem::take(&mut rooms.solution);
+            match self.corrected(v, held, &mut solution, rooms) {
+                Ok((force, _)) => self.product(&solution, &force, out, rooms),
+                Err(status) => failed = Err(status),
+            }
+            rooms.solution = solution;
+        };
+        let limits = (settings.krylov_basis, settings.krylov_iterations);
+        let found = gmres(apply, &now.left, target, limits, self.watch)?;
+        failed?;
+        let mut correction = std::mem::take(&mut rooms.solution);
+        let (force, approach) = self.corrected(&found.y, held, &mut correction, rooms)?;
+        for (y, change) in now.y.iter_mut().zip(&correction) {
+            *y += change;
+        }
+        rooms.solution = correction;
+        for (total, force) in now.contact.force.iter_mut().zip(&force) {
+            *total += force;
+        }
+        now.contact.approach += approach;
+        now.left = found.left;
+        Ok(found.iterations)
+    }
+
+    /// The averaged solution for forces and volumes `v` that keeps the gaps of the nodes held, with
+    /// the forces and the approach that keep them.
+    fn corrected(
+        &self,
+        v: &[f64],
+        held: &Held,
+        out: &mut [f64],
+        rooms: &mut Rooms,
+    ) -> Result<(Vec<f64>, f64), Status> {
+        let moved = self.uniform.reduce(v, &mut rooms.uniform);
+        let (force, approach) = held.keep(&self.surface.opening(&moved), self.watch)?;
+        self.complete(moved, &force, out, rooms);
+        Ok((force, approach))
+    }
+
+    /// Pressures `[row][mode][column]` in the order of a field, `[row][column][mode]`.
+    fn by_element(&self, pressure: &[f64]) -> Vec<f64> {
+        let (modes, columns) = (self.mesh.modes(), self.mesh.columns);
+        let rows = pressure.chunks_exact(modes * columns);
+        let places = rows.flat_map(|row| {
+            (0..columns).flat_map(move |column| (0..modes).map(move |m| row[m * columns + column]))
+        });
+        places.collect()
+    }
+}
+
+fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a - b).collect()
+}
+
+/// The nodes held in contact, and the averaged block's stiffness against opening them.
+struct Held {
+    set: Vec<usize>,
+    factor: Factor,
+    border: f64,
+}
+
+impl Held {
+    fn new(surface: &Surface<'_>, active: &[bool], watch: &Watch<'_>) -> Result<Self, Status> {
+        let set: Vec<usize> = (0..active.len()).filter(|&a| active[a]).collect();
+        let problem = Linearised {
+            compliance: surface,
+            free: &[],
+            load: 0.0,
+        };
+        let matrix = problem.bordered(&set);
+        Ok(Self {
+            factor: Factor::new(matrix.as_ref(), watch)?,
+            border: problem.border(&set),
+            set,
+        })
+    }
+
+    /// Forces, together zero, and approach that undo an `opening` of the nodes held.
+    fn keep(&self, opening: &[f64], watch: &Watch<'_>) -> Result<(Vec<f64>, f64), Status> {
+        let mut right: Vec<f64> = self.set.iter().map(|&a| -opening[a]).collect();
+        right.push(0.0);
+        let mut solution = column(&right);
+        self.factor.solve(&mut solution, watch)?;
+        let solution = column_ref(&solution, 0);
+        let mut force = vec![0.0; opening.len()];
+        for (&a, f) in self.set.iter().zip(solution) {
+            force[a] = *f;
+        }
+        Ok((force, self.border * solution[self.set.len()]))
+    }
+}
