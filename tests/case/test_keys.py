@@ -65,7 +65,7 @@ def test_every_key_says_what_it_takes_and_means_and_where_to_read_on() -> None:
     [
         ("load", "speed", 'a speed such as "0.3 m/s", or a plain number in m/s', NEEDED),
         ("load", "static", "true or false", "false"),
-        ("solver", "columns", "a whole number, at least 4, at most 1024, a multiple of 2", "-"),
+        ("solver", "columns", "a whole number, at least 4, at most 4096, a multiple of 2", "-"),
         ("surface", "crop", 'a list of 2, each a length such as "100 mm"', "-"),
         ("surface", "detrend", '"linear" or "mean" or "none"', '"linear"'),
         ("surface", "x_unit", "one of m, cm, mm", "-"),

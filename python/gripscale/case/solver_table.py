@@ -16,7 +16,7 @@ class Solver(Table):
 
     model: Literal["finite_strain", "half_plane"] = "finite_strain"
     """What solves a wave: the block at finite strain or the half-plane at small strain."""
-    columns: int | None = Field(default=None, ge=4, le=1024, multiple_of=2)
+    columns: int | None = Field(default=None, ge=4, le=4096, multiple_of=2)
     """Elements along the block, doubled where the two frictions differ."""
     rows: int | None = Field(default=None, ge=2, le=256)
     """Elements across the block."""

@@ -33,7 +33,7 @@ class Mesh:
 
     def __post_init__(self) -> None:
         checked = {
-            "columns": checks.whole("columns", self.columns, least=4, most=1024),
+            "columns": checks.whole("columns", self.columns, least=4, most=4096),
             "rows": checks.whole("rows", self.rows, least=2, most=256),
             "depth": checks.positive("depth", self.depth),
             "element_order": checks.whole("element_order", self.element_order, least=1, most=2),

@@ -26,7 +26,7 @@ from gripscale.wave.result import WaveResult
 
 Array = NDArray[np.float64]
 
-COLUMNS = (128, 192, 256, 384, 512, 768, 1024)
+COLUMNS = (128, 192, 256, 384, 512, 768, 1024, 1536, 2048, 3072, 4096)
 """Columns to choose from: all can be halved for the coarser meshes of a sequence."""
 COLUMNS_PER_WAVE = 12
 FEWEST_PER_WAVE = 6
@@ -82,7 +82,7 @@ def solve_profile(
         Height of the block in periods.
     columns, rows : int, optional
         Elements along and across the block; by default 12 columns along the smallest wave, rounded
-        up to a number of few factors, from 128 to 1024, and rows to suit.
+        up to a number of few factors, from 128 to 4096, and rows to suit.
     element_order : int
         1: bilinear with one pressure; 2: biquadratic with linear discontinuous pressure.
     tolerance, time_limit : float, optional
