@@ -66,7 +66,7 @@ settings! {
     max_iterations: usize = 40 in 1..=1000, "Newton iterations in one load step.";
     residual_tolerance: f64 = 1e-8 in 1e-15..=1.0, "Largest residual force over the load, and gap over half the profile's range [-].";
     largest_step: f64 = 0.4 in 1e-6..=100.0, "Largest change of the displacement gradient in one Newton iteration [-].";
-    smallest_volume_ratio: f64 = 0.05 in 1e-6..=0.9, "A Newton step may leave no Gauss point with a smaller ratio of volumes [-].";
+    smallest_volume_ratio: f64 = 0.15 in 1e-6..=0.9, "A Newton step may leave no Gauss point with a smaller ratio of volumes [-].";
     step_halvings: usize = 8 in 1..=50, "Lengths tried for one Newton step, each half of the one before.";
     patience: usize = 12 in 1..=1000, "Newton iterations without a smaller residual after which a load step is given up.";
 
