@@ -1,8 +1,8 @@
 //! Solving: one load, raising it, a sequence of meshes and the way from one mesh to another.
 
-mod increment;
+pub mod increment;
 pub mod judge;
-mod krylov;
+pub mod krylov;
 pub mod load_stepping;
 pub mod mesh_sequence;
 pub mod mesh_solution;
