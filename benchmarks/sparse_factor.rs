@@ -20,8 +20,7 @@ use gripscale_kernel::contact::{PressedBlock, State};
 use gripscale_kernel::fem::block::{Block, Memory, RowState};
 use gripscale_kernel::fem::jacobian::Jacobian;
 use gripscale_kernel::fem::mesh::Mesh;
-use gripscale_kernel::fem::uniform::Uniform;
-use gripscale_kernel::linear::{gmres, solve_dense, Matrix};
+use gripscale_kernel::linear::{gmres, Matrix};
 use gripscale_kernel::material::energy::Energy;
 use gripscale_kernel::material::sliding_history::SlidingHistory;
 use gripscale_kernel::model::Model;
@@ -839,12 +838,545 @@ fn sparse_step(
     Some(())
 }
 
+/// Newton steps on a set of nodes that touch: their constraint eliminated, one factor and three
+/// solutions a step.
+struct Direct<'a> {
+    pattern: Pattern,
+    way: Cholesky,
+    pressed: &'a PressedBlock<'a>,
+    places: Vec<usize>,
+    columns_of: Vec<usize>,
+}
+
+/// A factor with what belongs to it.
+struct Kept {
+    elements: Elements,
+    numbers: Numbers,
+    slope: Vec<f64>,
+    active: Vec<bool>,
+    moved: Vec<Vec<f64>>,
+    pressed: Vec<Vec<f64>>,
+}
+
+/// What is kept of the elements: their volumes, and the stiffness of those at the surface.
+struct Elements {
+    values: Vec<f64>,
+    volumes: Vec<f64>,
+    surface: Vec<f64>,
+}
+
+fn element<const SIZE: usize>(
+    block: &Block<'_>,
+    pressures: &[f64],
+    state: &RowState,
+    (row, column): (usize, usize),
+    k: &mut [[f64; SIZE]; SIZE],
+    b: &mut [[f64; SIZE]; 3],
+) {
+    use gripscale_kernel::material::kinematics::cofactor;
+    use gripscale_kernel::material::stress::tangent;
+    let element = &block.mesh.elements[row];
+    let points = block.mesh.order + 1;
+    *k = [[0.0; SIZE]; SIZE];
+    *b = [[0.0; SIZE]; 3];
+    for at in 0..points * points {
+        let (line, q) = (at / points, column * points + at % points);
+        let f = &state.gradient[line][q];
+        let mode = &element.mode[at];
+        let level = mode.iter().zip(pressures).map(|(mode, p)| mode * p).sum();
+        let weight = element.weight[at];
+        let d = tangent(f, &state.h[line][q], level);
+        let cof = cofactor(f);
+        let mut stress = [[0.0; SIZE]; 4];
+        let mut volume = [0.0; SIZE];
+        let gradient = &element.gradient[at];
+        for j in 0..SIZE / 2 {
+            let [x, z] = gradient[j];
+            let (x, z) = (weight * x, weight * z);
+            for a in 0..4 {
+                stress[a][2 * j] = d[a][0] * x + d[a][1] * z;
+                stress[a][2 * j + 1] = d[a][2] * x + d[a][3] * z;
+            }
+            volume[2 * j] = cof[0] * x + cof[1] * z;
+            volume[2 * j + 1] = cof[2] * x + cof[3] * z;
+        }
+        for i in 0..SIZE / 2 {
+            let [x, z] = gradient[i];
+            for j in 0..SIZE {
+                k[2 * i][j] += x * stress[0][j] + z * stress[1][j];
+                k[2 * i + 1][j] += x * stress[2][j] + z * stress[3][j];
+            }
+        }
+        for (m, mode) in mode.iter().enumerate() {
+            for j in 0..SIZE {
+                b[m][j] += mode * volume[j];
+            }
+        }
+    }
+    for (m, mass) in element.mode_mass.iter().enumerate() {
+        let stiffness = block.bulk_modulus / mass;
+        for i in 0..SIZE {
+            let factor = stiffness * b[m][i];
+            for j in 0..SIZE {
+                k[i][j] += factor * b[m][j];
+            }
+        }
+    }
+}
+
+impl<'a> Direct<'a> {
+    fn new(pressed: &'a PressedBlock<'a>) -> Self {
+        let mesh = pressed.block.mesh;
+        let pattern = Pattern::new(&pressed.block, dissection(mesh), true);
+        let way = Cholesky::new(&pattern, Kind::Ldlt, false, false);
+        let places = (0..mesh.rows)
+            .flat_map(|r| (0..mesh.columns).map(move |c| (r, c)))
+            .flat_map(|at| places(&pressed.block, at))
+            .collect();
+        Self { pattern, way, pressed, places, columns_of: Vec::new() }
+    }
+
+    fn elements(&self, state: &State, rows: &[RowState], slope: &[f64], bend: &[f64]) -> Elements {
+        match self.pressed.block.mesh.order {
+            1 => self.elements_of::<8>(state, rows, slope, bend),
+            _ => self.elements_of::<18>(state, rows, slope, bend),
+        }
+    }
+
+    fn elements_of<const SIZE: usize>(&self, state: &State, rows: &[RowState], slope: &[f64], bend: &[f64]) -> Elements {
+        let block = &self.pressed.block;
+        let mesh = block.mesh;
+        let modes = mesh.modes();
+        // One more place for what belongs nowhere.
+        let mut values = vec![0.0; self.pattern.rows.len()];
+        let mut volumes = Vec::with_capacity(mesh.rows * mesh.columns * modes * SIZE);
+        let mut surface = Vec::with_capacity(mesh.columns * SIZE * SIZE);
+        let mut k = [[0.0; SIZE]; SIZE];
+        let mut b = [[0.0; SIZE]; 3];
+        for row in 0..mesh.rows {
+            for column in 0..mesh.columns {
+                let e = row * mesh.columns + column;
+                let pressures = &state.field.pressure[e * modes..][..modes];
+                pulp::Arch::new().dispatch(|| element::<SIZE>(block, pressures, &rows[row], (row, column), &mut k, &mut b));
+                b[..modes].iter().for_each(|b| volumes.extend_from_slice(b));
+                if row == 0 {
+                    k.iter().for_each(|line| surface.extend_from_slice(line));
+                    for sub in 0..=mesh.order {
+                        let a = (column * mesh.order + sub) % mesh.layer_nodes();
+                        if state.active[a] {
+                            let (x, z) = (2 * sub, 2 * sub + 1);
+                            for i in 0..SIZE {
+                                k[i][x] += slope[a] * k[i][z];
+                                k[i][z] = 0.0;
+                            }
+                            for j in 0..SIZE {
+                                k[x][j] += slope[a] * k[z][j];
+                                k[z][j] = 0.0;
+                            }
+                        }
+                    }
+                }
+                let to = &self.pattern.to[e * SIZE * SIZE..][..SIZE * SIZE];
+                for i in 0..SIZE {
+                    for j in 0..SIZE {
+                        let to = to[i * SIZE + j];
+                        if to != u32::MAX {
+                            values[to as usize] += k[i][j];
+                        }
+                    }
+                }
+            }
+        }
+        for (a, bend) in bend.iter().enumerate() {
+            let number = &self.pattern.number;
+            values[self.pattern.diagonal[number[mesh.place(a, 0)]]] += bend;
+            if state.active[a] {
+                values[self.pattern.diagonal[number[mesh.place(a, 1)]]] = 1.0;
+            }
+        }
+        Elements { values, volumes, surface }
+    }
+
+    /// Forces on the surface layer's z, and on all of the lowest row, by displacements of it.
+    fn by_surface(&self, elements: &Elements, u: &[f64]) -> Vec<f64> {
+        let mesh = self.pressed.block.mesh;
+        let size = 2 * mesh.elements[0].nodes();
+        let mut out = vec![0.0; (mesh.order + 1) * mesh.layer_size()];
+        for column in 0..mesh.columns {
+            let places = &self.places[column * size..][..size];
+            let k = &elements.surface[column * size * size..][..size * size];
+            let mut own = [0.0; 18];
+            for (to, &place) in own.iter_mut().zip(places) {
+                *to = u[place];
+            }
+            for (line, &place) in k.chunks_exact(size).zip(places) {
+                out[place] += line.iter().zip(&own).map(|(k, u)| k * u).sum::<f64>();
+            }
+        }
+        out
+    }
+
+    /// Load and residual as the solver judges them.
+    fn judged(&self, linear: &Linear, state: &State, load: f64) -> f64 {
+        let free = linear.right.len() - self.pressed.block.mesh.layer_size();
+        let forces = linear.right[..free].iter().map(|f| f * f).sum::<f64>().sqrt() / load;
+        let volumes = linear.volumes.iter().map(|f| f * f).sum::<f64>().sqrt();
+        let total = (state.force.iter().sum::<f64>() / load - 1.0).abs();
+        let gap = linear.gap.iter().zip(&state.active);
+        let gap = gap.map(|(gap, active)| if *active { gap.abs() } else { -gap }).fold(0.0, f64::max);
+        forces.max(volumes).max(total).max(gap / self.pressed.heights.half_range())
+    }
+
+    /// Steps with the factor that there is as long as they halve the residual four times or so.
+    fn chord(&self, state: &mut State, load: f64, kept: &mut Option<Kept>, counts: &mut [usize; 2]) -> bool {
+        let mut before = f64::INFINITY;
+        for _ in 0..60 {
+            let linear = linearise(self.pressed, state);
+            let residual = self.judged(&linear, state, load);
+            if residual < 1e-8 {
+                return true;
+            }
+            let stale = kept.as_ref().is_none_or(|kept| kept.active != state.active);
+            if stale || residual > 0.3 * before {
+                *kept = self.keep(state, &linear);
+                counts[0] += 1;
+            }
+            before = residual;
+            counts[1] += 1;
+            let Some(next) = self.by_kept(state, load, &linear, kept.as_ref()) else { return false };
+            if next != state.active {
+                before = f64::INFINITY;
+            }
+            for a in 0..next.len() {
+                if !next[a] {
+                    state.force[a] = 0.0;
+                }
+            }
+            state.active = next;
+        }
+        false
+    }
+
+    fn keep(&self, state: &State, linear: &Linear) -> Option<Kept> {
+        let mesh = self.pressed.block.mesh;
+        let elements = self.elements(state, &linear.rows, &linear.slope, &linear.bend);
+        let numbers = self.way.factor(&self.pattern, &elements.values)?;
+        let touching: Vec<usize> = (0..mesh.layer_nodes()).filter(|&a| state.active[a]).collect();
+        let mut kept = Kept { elements, numbers, slope: linear.slope.clone(), active: state.active.clone(), moved: Vec::new(), pressed: Vec::new() };
+        let mut loads = Mat::zeros(self.pattern.count, 2);
+        let mut prescribed = Vec::new();
+        for which in 0..2 {
+            let mut q = vec![0.0; (mesh.order + 1) * mesh.layer_size()];
+            for &a in &touching {
+                q[mesh.place(a, 1)] = if which == 0 { 1.0 } else { -linear.slope[a] };
+            }
+            let mut force: Vec<f64> = self.by_surface(&kept.elements, &q).iter().map(|f| -f).collect();
+            if which == 1 {
+                linear.bend.iter().enumerate().for_each(|(a, bend)| force[mesh.place(a, 0)] += bend);
+            }
+            self.project(&mut force, &kept, &touching);
+            for (f, &to) in force.iter().zip(&self.pattern.number) {
+                if to != NONE {
+                    loads[(to, which)] = *f;
+                }
+            }
+            prescribed.push(q);
+        }
+        self.way.solve(&kept.numbers, loads.as_mut());
+        for (which, q) in prescribed.iter().enumerate() {
+            let u = self.unprojected(&loads, which, q, &kept, &touching);
+            let by = self.by_surface(&kept.elements, &u);
+            kept.pressed.push(touching.iter().map(|&a| by[mesh.place(a, 1)]).collect());
+            kept.moved.push(u);
+        }
+        Some(kept)
+    }
+
+    fn project(&self, force: &mut [f64], kept: &Kept, touching: &[usize]) {
+        let mesh = self.pressed.block.mesh;
+        for &a in touching {
+            let z = std::mem::take(&mut force[mesh.place(a, 1)]);
+            force[mesh.place(a, 0)] += kept.slope[a] * z;
+        }
+    }
+
+    fn unprojected(&self, loads: &Mat<f64>, which: usize, q: &[f64], kept: &Kept, touching: &[usize]) -> Vec<f64> {
+        let mesh = self.pressed.block.mesh;
+        let column = loads.col_as_slice(which);
+        let number = self.pattern.number.iter();
+        let mut u: Vec<f64> = number.map(|&n| if n == NONE { 0.0 } else { column[n] }).collect();
+        for &a in touching {
+            u[mesh.place(a, 1)] = kept.slope[a] * u[mesh.place(a, 0)] + q[mesh.place(a, 1)];
+        }
+        u
+    }
+
+    fn by_kept(&self, state: &mut State, load: f64, linear: &Linear, kept: Option<&Kept>) -> Option<Vec<bool>> {
+        let kept = kept?;
+        let mesh = self.pressed.block.mesh;
+        let (size, modes, nodes) = (2 * mesh.elements[0].nodes(), mesh.modes(), mesh.layer_nodes());
+        let bulk = self.pressed.block.bulk_modulus;
+        let mut right = linear.right.clone();
+        for (e, volume) in kept.elements.volumes.chunks_exact(modes * size).enumerate() {
+            let places = &self.places[e * size..][..size];
+            for (m, b) in volume.chunks_exact(size).enumerate() {
+                let factor = bulk / mesh.elements[e / mesh.columns].mode_mass[m] * linear.volumes[e * modes + m];
+                places.iter().zip(b).for_each(|(&p, b)| right[p] += factor * b);
+            }
+        }
+        let touching: Vec<usize> = (0..nodes).filter(|&a| state.active[a]).collect();
+        let mut q = vec![0.0; (mesh.order + 1) * mesh.layer_size()];
+        for &a in &touching {
+            q[mesh.place(a, 1)] = -linear.gap[a];
+        }
+        let mut force = right.clone();
+        force.iter_mut().zip(self.by_surface(&kept.elements, &q)).for_each(|(f, by)| *f -= by);
+        self.project(&mut force, kept, &touching);
+        let mut loads = Mat::zeros(self.pattern.count, 1);
+        for (f, &to) in force.iter().zip(&self.pattern.number) {
+            if to != NONE {
+                loads[(to, 0)] = *f;
+            }
+        }
+        self.way.solve(&kept.numbers, loads.as_mut());
+        let mut u = self.unprojected(&loads, 0, &q, kept, &touching);
+        let by = self.by_surface(&kept.elements, &u);
+        let pressed: Vec<f64> = touching.iter().map(|&a| by[mesh.place(a, 1)] - right[mesh.place(a, 1)]).collect();
+        let mean = [mesh.mean_shift(&u), mesh.mean_shift(&kept.moved[0]), mesh.mean_shift(&kept.moved[1])];
+        let sum = [pressed.iter().sum::<f64>(), kept.pressed[0].iter().sum(), kept.pressed[1].iter().sum()];
+        let old: f64 = touching.iter().map(|&a| state.force[a]).sum();
+        let (a11, a12, b1) = (mean[1], mean[2] - 1.0, -mean[0]);
+        let (a21, a22, b2) = (sum[1], sum[2], load - old - sum[0]);
+        let determinant = a11 * a22 - a12 * a21;
+        let approach = (b1 * a22 - a12 * b2) / determinant;
+        let shift = (a11 * b2 - b1 * a21) / determinant;
+        for (u, (a, b)) in u.iter_mut().zip(kept.moved[0].iter().zip(&kept.moved[1])) {
+            *u += approach * a + shift * b;
+        }
+        let mut next = state.active.clone();
+        for (k, &a) in touching.iter().enumerate() {
+            state.force[a] += pressed[k] + approach * kept.pressed[0][k] + shift * kept.pressed[1][k];
+            next[a] = state.force[a] >= 0.0;
+        }
+        for a in (0..nodes).filter(|&a| !state.active[a]) {
+            let gap = linear.gap[a] + u[mesh.place(a, 1)] - kept.slope[a] * (u[mesh.place(a, 0)] - shift) - approach;
+            next[a] = gap < 0.0;
+        }
+        for (e, volume) in kept.elements.volumes.chunks_exact(modes * size).enumerate() {
+            let places = &self.places[e * size..][..size];
+            for (m, b) in volume.chunks_exact(size).enumerate() {
+                let sum: f64 = places.iter().zip(b).map(|(&p, b)| b * u[p]).sum();
+                state.field.pressure[e * modes + m] += bulk / mesh.elements[e / mesh.columns].mode_mass[m] * (sum - linear.volumes[e * modes + m]);
+            }
+        }
+        state.field.u.iter_mut().zip(&u).for_each(|(to, u)| *to += u);
+        state.approach += approach;
+        Some(next)
+    }
+
+    /// One step on the set of `state`; the next set is in what comes back.
+    fn step(&self, state: &mut State, load: f64, clocks: &mut [f64; 5]) -> Option<Vec<bool>> {
+        let mesh = self.pressed.block.mesh;
+        let mut mark = cpu();
+        let mut lap = |i: usize| {
+            let now = cpu();
+            clocks[i] += now - mark;
+            mark = now;
+        };
+        let linear = linearise(self.pressed, state);
+        lap(0);
+        let elements = self.elements(state, &linear.rows, &linear.slope, &linear.bend);
+        lap(1);
+        let numbers = self.way.factor(&self.pattern, &elements.values)?;
+        lap(2);
+        let size = 2 * mesh.elements[0].nodes();
+        let modes = mesh.modes();
+        // Condensed right-hand side.
+        let mut right = linear.right.clone();
+        for (e, volume) in elements.volumes.chunks_exact(modes * size).enumerate() {
+            let places = &self.places[e * size..][..size];
+            for (m, b) in volume.chunks_exact(size).enumerate() {
+                let mass = mesh.elements[e / mesh.columns].mode_mass[m];
+                let factor = self.pressed.block.bulk_modulus / mass * linear.volumes[e * modes + m];
+                places.iter().zip(b).for_each(|(&p, b)| right[p] += factor * b);
+            }
+        }
+        // Of the gaps, of the approach and of the shift: what is prescribed.
+        let nodes = mesh.layer_nodes();
+        let touching: Vec<usize> = (0..nodes).filter(|&a| state.active[a]).collect();
+        let reach = (mesh.order + 1) * mesh.layer_size();
+        let prescribed: [Vec<f64>; 3] = std::array::from_fn(|which| {
+            let mut q = vec![0.0; reach];
+            for &a in &touching {
+                q[mesh.place(a, 1)] = match which {
+                    0 => -linear.gap[a],
+                    1 => 1.0,
+                    _ => -linear.slope[a],
+                };
+            }
+            q
+        });
+        let mut loads = Mat::zeros(self.pattern.count, 3);
+        let mut forces: Vec<Vec<f64>> = Vec::new();
+        for (which, q) in prescribed.iter().enumerate() {
+            let mut force: Vec<f64> = self.by_surface(&elements, q).iter().map(|f| -f).collect();
+            force.resize(right.len(), 0.0);
+            match which {
+                0 => force.iter_mut().zip(&right).for_each(|(f, r)| *f += r),
+                2 => linear.bend.iter().enumerate().for_each(|(a, bend)| force[mesh.place(a, 0)] += bend),
+                _ => {}
+            }
+            for &a in &touching {
+                let z = std::mem::take(&mut force[mesh.place(a, 1)]);
+                force[mesh.place(a, 0)] += linear.slope[a] * z;
+            }
+            for (f, &to) in force.iter().zip(&self.pattern.number) {
+                if to != NONE {
+                    loads[(to, which)] = *f;
+                }
+            }
+            forces.push(force);
+        }
+        self.way.solve(&numbers, loads.as_mut());
+        lap(3);
+        // Displacements, and the forces at the nodes that touch, of each.
+        let mut moved: Vec<Vec<f64>> = Vec::new();
+        let mut pressed: Vec<Vec<f64>> = Vec::new();
+        for (which, q) in prescribed.iter().enumerate() {
+            let number = self.pattern.number.iter();
+            let mut u: Vec<f64> = number.map(|&n| if n == NONE { 0.0 } else { loads[(n, which)] }).collect();
+            for &a in &touching {
+                u[mesh.place(a, 1)] = linear.slope[a] * u[mesh.place(a, 0)] + q[mesh.place(a, 1)];
+            }
+            let by = self.by_surface(&elements, &u);
+            pressed.push(touching.iter().map(|&a| {
+                let z = mesh.place(a, 1);
+                by[z] - if which == 0 { right[z] } else { 0.0 }
+            }).collect());
+            moved.push(u);
+        }
+        // sigma = mean u_x, sum f = load.
+        let mean: Vec<f64> = moved.iter().map(|u| mesh.mean_shift(u)).collect();
+        let sum: Vec<f64> = pressed.iter().map(|f| f.iter().sum()).collect();
+        let old: f64 = touching.iter().map(|&a| state.force[a]).sum();
+        // mean0 + d mean1 + s mean2 = s; sum0 + d sum1 + s sum2 = load - old
+        let (a11, a12, b1) = (mean[1], mean[2] - 1.0, -mean[0]);
+        let (a21, a22, b2) = (sum[1], sum[2], load - old - sum[0]);
+        let determinant = a11 * a22 - a12 * a21;
+        let approach = (b1 * a22 - a12 * b2) / determinant;
+        let shift = (a11 * b2 - b1 * a21) / determinant;
+        let combined = |parts: &[Vec<f64>], i: usize| parts[0][i] + approach * parts[1][i] + shift * parts[2][i];
+        let u: Vec<f64> = (0..right.len()).map(|i| combined(&moved, i)).collect();
+        let mut next = state.active.clone();
+        let mut open = vec![true; nodes];
+        for (k, &a) in touching.iter().enumerate() {
+            let force = state.force[a] + combined(&pressed, k);
+            open[a] = false;
+            state.force[a] = force;
+            if force < 0.0 {
+                next[a] = false;
+            }
+        }
+        for a in (0..nodes).filter(|&a| open[a]) {
+            let gap = linear.gap[a] + u[mesh.place(a, 1)] - linear.slope[a] * (u[mesh.place(a, 0)] - shift) - approach;
+            if gap < 0.0 {
+                next[a] = true;
+            }
+        }
+        for (e, volume) in elements.volumes.chunks_exact(modes * size).enumerate() {
+            let places = &self.places[e * size..][..size];
+            for (m, b) in volume.chunks_exact(size).enumerate() {
+                let mass = mesh.elements[e / mesh.columns].mode_mass[m];
+                let sum: f64 = places.iter().zip(b).map(|(&p, b)| b * u[p]).sum();
+                state.field.pressure[e * modes + m] += self.pressed.block.bulk_modulus / mass * (sum - linear.volumes[e * modes + m]);
+            }
+        }
+        state.field.u.iter_mut().zip(&u).for_each(|(to, u)| *to += u);
+        state.approach += approach;
+        lap(4);
+        Some(next)
+    }
+
+    /// Iterations it took.
+    fn solve(&self, state: &mut State, load: f64, clocks: &mut [f64; 5]) -> usize {
+        for iteration in 0..40 {
+            let settled = newton::missed(self.pressed, state, load) < 1e-8;
+            if settled {
+                return iteration;
+            }
+            let Some(next) = self.step(state, load, clocks) else { return 98 };
+            for a in 0..next.len() {
+                if !next[a] {
+                    state.force[a] = 0.0;
+                }
+            }
+            state.active = next;
+        }
+        99
+    }
+}
+
+fn directs() {
+    let settings = Settings::default();
+    for order in [1, 2] {
+        for columns in sizes() {
+            for (amplitude, pressure) in [(0.05, 0.1), (0.1, 0.5), (0.15, 1.0), (0.2, 1.5)] {
+                let case = Case { amplitude, pressure, slides: false };
+                let (fine, mesh, start, solved, _) = carried(&case, columns, order);
+                let model = Model::new(&fine_rubber(&fine), &fine_profile(&case), f64::INFINITY, 1.0);
+                let memory = Memory::Relaxed;
+                let watch = Watch::endless();
+                let pressed = model.pressed(&mesh, &memory, &watch);
+                let (by_gmres, gmres_mb, report) = timed(|| {
+                    let mut state = start.clone();
+                    newton::solve(&pressed, &mut state, case.pressure, &settings)
+                });
+                let (setup, _, direct) = timed(|| Direct::new(&pressed));
+                let mut clocks = [0.0; 5];
+                let mut runs = 0;
+                let (by_direct, direct_mb, (iterations, state)) = timed(|| {
+                    runs += 1;
+                    let mut state = start.clone();
+                    let count = direct.solve(&mut state, case.pressure, &mut clocks);
+                    (count, state)
+                });
+                let (by_chord, _, chord) = timed(|| {
+                    let mut state = start.clone();
+                    let mut counts = [0; 2];
+                    let done = direct.chord(&mut state, case.pressure, &mut None, &mut counts);
+                    (done, counts, (state.approach - solved.approach).abs() / case.amplitude)
+                });
+                let far = state.force.iter().zip(&solved.force).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / case.pressure * state.force.len() as f64;
+                let far = far.max((state.approach - solved.approach).abs() / case.amplitude);
+                println!("    chord {by_chord:.2} ms {chord:?}, gmres/chord with setup {:.2}", by_gmres / (by_chord + setup));
+                println!(
+                    "order {order} {}x{} A {amplitude} p {pressure} touch {}: gmres {by_gmres:.2} ms, {} newton, {} products, {:.2}/step {gmres_mb:.1} MB | direct {by_direct:.2} ms + setup {setup:.2}, {iterations} newton, {:.2}/step {direct_mb:.1} MB: lin {:.2} asm {:.2} factor {:.2} solve {:.2} rest {:.2} | gmres/direct {:.2}, with setup {:.2}, a step {:.2} | apart {far:.1e}",
+                    mesh.columns, mesh.rows,
+                    solved.active.iter().filter(|&&a| a).count(),
+                    report.iterations, report.products, by_gmres / report.iterations as f64,
+                    by_direct / iterations as f64,
+                    1e3 * clocks[0] / (runs * iterations) as f64,
+                    1e3 * clocks[1] / (runs * iterations) as f64,
+                    1e3 * clocks[2] / (runs * iterations) as f64,
+                    1e3 * clocks[3] / (runs * iterations) as f64,
+                    1e3 * clocks[4] / (runs * iterations) as f64,
+                    by_gmres / by_direct,
+                    by_gmres / (by_direct + setup),
+                    by_gmres / report.iterations as f64 * iterations as f64 / by_direct,
+                );
+            }
+        }
+    }
+}
+
 fn main() {
     let wanted = std::env::args().nth(1).unwrap_or_default();
     match wanted.as_str() {
         "fill" => fill(),
         "solve" => solves(),
         "slide" => slide(),
+        "direct" => directs(),
+        "steps" => steps(),
         _ => fill(),
     }
 }
@@ -1026,4 +1558,236 @@ fn solves() {
     }
 }
 
-fn slide() {}
+fn norm(x: &[f64]) -> f64 {
+    x.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// `[row][column][mode]` of `[row][mode][column]`, or back.
+fn turned(mesh: &Mesh, p: &[f64], by_mode: bool) -> Vec<f64> {
+    let (modes, columns) = (mesh.modes(), mesh.columns);
+    let mut out = vec![0.0; p.len()];
+    for row in 0..mesh.rows {
+        for m in 0..modes {
+            for c in 0..columns {
+                let (a, b) = ((row * modes + m) * columns + c, (row * columns + c) * modes + m);
+                if by_mode {
+                    out[b] = p[a];
+                } else {
+                    out[a] = p[b];
+                }
+            }
+        }
+    }
+    out
+}
+
+/// Steady sliding: the first Newton step on a mesh, preconditioned by the average and by a factor.
+fn slide() {
+    let settings = Settings::default();
+    for order in [1, 2] {
+        for columns in sizes() {
+            for (amplitude, pressure) in [(0.05, 0.5), (0.1, 2.0), (0.16, 5.0)] {
+                let case = Case { amplitude, pressure, slides: true };
+                let (fine, mesh, start, _, unit) = carried(&case, columns, order);
+                let model = Model::new(&fine.rubber, &fine_profile(&case), 1.0, std::f64::consts::TAU);
+                let load = pressure / unit;
+                let history = SlidingHistory::new(mesh.columns, &model.maxwell, 5.0);
+                let own_weight = history.stress[0];
+                let memory = Memory::Sliding(history);
+                let watch = Watch::endless();
+                let pressed = model.pressed(&mesh, &memory, &watch);
+                let mut increment = None;
+                let (by_average, _, _) = timed(|| {
+                    let rows = pressed.row_states(&start.field).unwrap();
+                    let accuracy = Accuracy { share: 1e-3, least: 1e-12 };
+                    increment = Some(krylov::increment(&pressed, &start, &rows, load, accuracy, &settings).unwrap());
+                });
+                let increment = increment.unwrap();
+                print!("order {order} {}x{} A {amplitude} p {pressure}: average {by_average:.2} ms, {} products |", mesh.columns, mesh.rows, increment.products);
+                let pattern = Pattern::new(&pressed.block, dissection(&mesh), true);
+                let way = Way::Cholesky(Cholesky::new(&pattern, Kind::Ldlt, false, false));
+                let set: Vec<usize> = (0..start.active.len()).filter(|&a| increment.contact.active[a]).collect();
+                for instantaneous in [false, true] {
+                    let mut parts = [0.0; 3];
+                    let (ms, mb, products) = timed(|| {
+                        let mark = cpu();
+                        let mut linear = linearise(&pressed, &start);
+                        let jacobian = Jacobian::new(&pressed.block, &start.field, &linear.rows, &watch).unwrap();
+                        if instantaneous {
+                            for row in &mut linear.rows {
+                                let past = row.remembered();
+                                for (h, y) in row.h.iter_mut().flatten().zip(past.iter().flatten()) {
+                                    (0..4).for_each(|k| h[k] -= own_weight * y[k]);
+                                }
+                            }
+                        }
+                        let tangent = Tangent::new(&pressed, &start, &linear, &pattern, &way).unwrap();
+                        parts[0] = cpu() - mark;
+                        let mark = cpu();
+                        let compliance = tangent.compliance(&set, &linear.slope);
+                        parts[1] = cpu() - mark;
+                        let mark = cpu();
+                        let n = set.len();
+                        let border = compliance.0[0][0].abs();
+                        let matrix = Matrix::from_fn(n + 1, n + 1, |i, j| match (i < n, j < n) {
+                            (true, true) => compliance.0[j][i],
+                            (true, false) => -border,
+                            (false, true) => border,
+                            _ => 0.0,
+                        });
+                        let held = gripscale_kernel::linear::Factor::new(matrix.as_ref(), &watch).unwrap();
+                        let free = jacobian.displacements();
+                        let mut room = jacobian.room();
+                        // M^-1 with gaps `target` on the set and forces that sum to `total`.
+                        let corrected = |v: &[f64], target: &[f64], total: f64| {
+                            let mut forces = v[..free].to_vec();
+                            forces.resize(start.field.u.len(), 0.0);
+                            let volumes = turned(&mesh, &v[free..], true);
+                            let mut right = tangent.condensed(&forces, &volumes);
+                            let opening = tangent.opening(&tangent.displaced(&right), &linear.slope);
+                            let mut border_right: Vec<f64> = set.iter().enumerate().map(|(k, &a)| target[k] - opening[a]).collect();
+                            border_right.push(border * total);
+                            let mut solution = Mat::from_fn(n + 1, 1, |i, _| border_right[i]);
+                            held.solve(&mut solution, &watch).unwrap();
+                            let mut force = vec![0.0; start.force.len()];
+                            for (k, &a) in set.iter().enumerate() {
+                                force[a] = solution[(k, 0)];
+                                right[mesh.place(a, 0)] -= linear.slope[a] * force[a];
+                                right[mesh.place(a, 1)] += force[a];
+                            }
+                            let u = tangent.displaced(&right);
+                            let p = tangent.pressures(&u, &volumes);
+                            let mut y = u[..free].to_vec();
+                            y.extend(turned(&mesh, &p, false));
+                            (y, force)
+                        };
+                        let mut product = |y: &[f64], force: &[f64], out: &mut [f64]| {
+                            jacobian.product(y, out, &mut room);
+                            let shift = mesh.mean_shift(y);
+                            for (a, bend) in linear.bend.iter().enumerate() {
+                                let (x, z) = (mesh.place(a, 0), mesh.place(a, 1));
+                                out[x] += bend * (y[x] - shift) + linear.slope[a] * force[a];
+                                out[z] -= force[a];
+                            }
+                        };
+                        let mut right = linear.right[..free].to_vec();
+                        right.extend(turned(&mesh, &linear.volumes, false));
+                        // Forces of nodes that no longer touch are taken away.
+                        let mut gone = vec![0.0; start.force.len()];
+                        for a in 0..gone.len() {
+                            if !increment.contact.active[a] {
+                                gone[a] = -start.force[a];
+                            }
+                        }
+                        let total: f64 = load - start.force.iter().sum::<f64>() - gone.iter().sum::<f64>();
+                        for (a, f) in gone.iter().enumerate() {
+                            right[mesh.place(a, 0)] -= linear.slope[a] * f;
+                            right[mesh.place(a, 1)] += f;
+                        }
+                        let target: Vec<f64> = set.iter().map(|&a| -linear.gap[a]).collect();
+                        let (y, force) = corrected(&right, &target, total);
+                        let mut left = vec![0.0; right.len()];
+                        product(&y, &force, &mut left);
+                        left.iter_mut().zip(&right).for_each(|(left, r)| *left = r - *left);
+                        let goal = 1e-3 * norm(&right).max(norm(&left));
+                        let nothing = vec![0.0; n];
+                        let apply = |v: &[f64], out: &mut [f64]| {
+                            let (y, force) = corrected(v, &nothing, 0.0);
+                            product(&y, &force, out);
+                        };
+                        let found = gmres(apply, &left, goal, (100, 400), &watch).unwrap();
+                        parts[2] = cpu() - mark;
+                        found.iterations
+                    });
+                    print!(" {} {ms:.2} ms (factor {:.2} surface {:.2} iteration {:.2}), {products} products, {mb:.0} MB |", if instantaneous { "instantaneous" } else { "fixed memory" }, 1e3 * parts[0], 1e3 * parts[1], 1e3 * parts[2]);
+                }
+                println!();
+            }
+        }
+    }
+}
+
+/// Sliding in time from static contact: a step by each.
+fn steps() {
+    use gripscale_kernel::material::carried_history::{CarriedHistory, Points};
+    let settings = Settings::default();
+    for order in [1, 2] {
+        for columns in sizes() {
+            for (amplitude, pressure) in [(0.05, 0.3), (0.1, 0.8), (0.16, 2.0)] {
+                let relaxed = Case { amplitude, pressure: 0.5 * pressure, slides: false };
+                let (_, mesh, _, solved, _) = carried(&relaxed, columns, order);
+                let rubber = problem(&Case { amplitude, pressure, slides: true }, columns, order).rubber;
+                let model = Model::new(&rubber, &fine_profile(&relaxed), 1.0, std::f64::consts::TAU);
+                let unit = model.stress_unit;
+                let load = relaxed.pressure / unit;
+                let watch = Watch::endless();
+                let nothing = Memory::Relaxed;
+                let remembered = |pressed: &PressedBlock<'_>, state: &State| -> Points {
+                    pressed.row_states(&state.field).unwrap().iter().map(|row| row.remembered()).collect()
+                };
+                let first = solved.restressed(1.0 / unit);
+                let y = remembered(&model.pressed(&mesh, &nothing, &watch), &first);
+                let dt = 1.0 / mesh.columns as f64;
+                let count = 16;
+                let mut lines = Vec::new();
+                let mut ends = Vec::new();
+                for way in ["gmres", "direct", "chord"] {
+                    let mut best = f64::INFINITY;
+                    let mut line = String::new();
+                    for _ in 0..3 {
+                        let mut networks = CarriedHistory::relaxed(y.clone(), mesh.columns, &model.maxwell);
+                        let mut state = first.clone();
+                        let (mut spent, mut newtons, mut products, mut factors) = (0.0, 0, 0, 0);
+                        let mut kept = None;
+                        let mut failed = false;
+                        let template = Memory::Relaxed;
+                        let pressed = model.pressed(&mesh, &template, &watch);
+                        let shell = Direct::new(&pressed);
+                        let mut shell = Some((shell.pattern, shell.way, shell.places));
+                        for _ in 0..count {
+                            networks.carry(true);
+                            let memory = Memory::Given(networks.known_part(&model.maxwell, dt));
+                            let pressed = model.pressed(&mesh, &memory, &watch);
+                            let (pattern, symbolic, places) = shell.take().unwrap();
+                            let direct = Direct { pattern, way: symbolic, places, pressed: &pressed, columns_of: Vec::new() };
+                            let mark = cpu();
+                            match way {
+                                "gmres" => {
+                                    let report = newton::solve(&pressed, &mut state, load, &settings);
+                                    newtons += report.iterations;
+                                    products += report.products;
+                                    failed |= report.status != Status::Converged;
+                                }
+                                "direct" => {
+                                    let mut clocks = [0.0; 5];
+                                    let count = direct.solve(&mut state, load, &mut clocks);
+                                    failed |= count > 90;
+                                    newtons += count;
+                                    factors += count;
+                                }
+                                _ => {
+                                    let mut counts = [0; 2];
+                                    failed |= !direct.chord(&mut state, load, &mut kept, &mut counts);
+                                    newtons += counts[1];
+                                    factors += counts[0];
+                                }
+                            }
+                            spent += cpu() - mark;
+                            shell = Some((direct.pattern, direct.way, direct.places));
+                            networks.advance(remembered(&pressed, &state), &model.maxwell, dt);
+                        }
+                        let each = |n: usize| n as f64 / count as f64;
+                        if spent < best {
+                            best = spent;
+                            line = format!("{way} {:.2} ms a step ({:.1} iterations, {:.1} products, {:.1} factors{})", 1e3 * spent / count as f64, each(newtons), each(products), each(factors), if failed { ", FAILED" } else { "" });
+                        }
+                        ends.push(state.approach);
+                    }
+                    lines.push((line, best));
+                }
+                let apart = ends.iter().map(|e| (e - ends[0]).abs()).fold(0.0, f64::max) / amplitude;
+                println!("order {order} {}x{} A {amplitude} p {:.2}: {} | {} | {} | gmres/direct {:.2} gmres/chord {:.2} apart {apart:.1e}", mesh.columns, mesh.rows, relaxed.pressure, lines[0].0, lines[1].0, lines[2].0, lines[0].1 / lines[1].1, lines[0].1 / lines[2].1);
+            }
+        }
+    }
+}
