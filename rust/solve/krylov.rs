@@ -41,31 +41,15 @@ pub fn increment(
     let watch = pressed.watch;
     let jacobian = Jacobian::new(&pressed.block, &state.field, rows, watch)?;
     let uniform = Uniform::new(&jacobian, watch)?;
-    increment_by(&jacobian, &uniform, pressed, state, rows, load, accuracy, settings)
-}
-
-/// The same by a Jacobian of another state.
-#[allow(clippy::too_many_arguments)]
-pub fn increment_by(
-    jacobian: &Jacobian<'_>,
-    uniform: &Uniform<'_>,
-    pressed: &PressedBlock<'_>,
-    state: &State,
-    rows: &[RowState],
-    load: f64,
-    accuracy: Accuracy,
-    settings: &Settings,
-) -> Result<Increment, Status> {
-    let watch = pressed.watch;
     let x = pressed.abscissae(&state.field);
     let slope: Vec<f64> = x.iter().map(|&x| pressed.heights.slope(x)).collect();
     let bend = x.iter().zip(&state.force);
     let step = Step {
         mesh: pressed.mesh(),
         watch,
-        jacobian,
-        uniform,
-        surface: Surface::new(uniform, &slope),
+        jacobian: &jacobian,
+        uniform: &uniform,
+        surface: Surface::new(&uniform, &slope),
         bend: bend
             .map(|(&x, f)| f * pressed.heights.curvature(x))
             .collect(),

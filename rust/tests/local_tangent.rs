@@ -72,7 +72,9 @@ impl ElementTangent {
         for (volume, mass) in self.volume.chunks_exact(size).zip(masses) {
             for (i, row) in self.stiffness.chunks_exact_mut(size).enumerate() {
                 let factor = bulk_modulus / mass * volume[i];
-                row.iter_mut().zip(volume).for_each(|(to, b)| *to += factor * b);
+                row.iter_mut()
+                    .zip(volume)
+                    .for_each(|(to, b)| *to += factor * b);
             }
         }
     }

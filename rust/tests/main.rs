@@ -8,11 +8,13 @@ mod hostile_input;
 mod jacobian;
 mod krylov;
 mod linear;
+mod local_tangent;
 mod material_point;
 mod mesh_sequence;
 mod profile;
 mod settings;
 mod sliding_history;
+mod sparse_step;
 mod steady;
 mod transient;
 

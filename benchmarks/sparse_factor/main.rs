@@ -1,0 +1,223 @@
+//! Sparse factors of the assembled tangent (faer) against the iteration that the solver uses:
+//! what they cost, static contact, time steps, and as preconditioner of steady sliding.
+//!
+//! cargo bench --bench sparse_factor -- [MOST COLUMNS, by default 256]
+
+mod bordered;
+mod clock;
+mod factor;
+#[path = "../../rust/tests/local_tangent.rs"]
+mod local_tangent;
+mod pattern;
+mod sliding;
+mod time_steps;
+
+use faer::Mat;
+use gripscale_kernel::contact::profile::Heights;
+use gripscale_kernel::contact::State;
+use gripscale_kernel::fem::block::Memory;
+use gripscale_kernel::fem::mesh::Mesh;
+use gripscale_kernel::material::energy::Energy;
+use gripscale_kernel::model::Model;
+use gripscale_kernel::problem::{Load, MeshSize, Problem, Profile, Rubber};
+use gripscale_kernel::settings::Settings;
+use gripscale_kernel::solve::newton;
+use gripscale_kernel::solve::transfer::transfer;
+use gripscale_kernel::status::Status;
+use gripscale_kernel::steady;
+use gripscale_kernel::watch::Watch;
+
+use bordered::{Bordered, Linear, Spent};
+use clock::timed;
+use factor::{Ldl, Lu};
+use pattern::{dissection, natural, Pattern};
+
+const SIZES: [usize; 6] = [32, 64, 128, 256, 512, 1024];
+/// A / lambda and pressure over the relaxed modulus: half, three quarters and more of the wave touch.
+const STATIC: [(f64, f64); 3] = [(0.05, 0.1), (0.1, 0.5), (0.2, 1.5)];
+
+fn main() {
+    let mut arguments = std::env::args()
+        .skip(1)
+        .filter_map(|text| text.parse().ok());
+    let most: usize = arguments.next().unwrap_or(256);
+    let sizes = || SIZES.into_iter().filter(|&nodes| nodes <= most);
+    let meshes: Vec<(usize, usize)> = [1, 2]
+        .into_iter()
+        .flat_map(|order| sizes().map(move |nodes| (nodes, order)))
+        .collect();
+    println!(
+        "Processor milliseconds, one thread. Meshes: columns x rows, order of the elements.\n"
+    );
+    factors(&meshes);
+    static_contact(&meshes);
+    time_steps::table(&meshes);
+    sliding::table(&meshes);
+}
+
+/// A block of unit modulus when relaxed, pressed on a sine; of two Maxwell elements where it slides.
+pub fn problem((amplitude, pressure): (f64, f64), slides: bool, mesh: (usize, usize)) -> Problem {
+    let (nodes, order) = mesh;
+    let elements = match slides {
+        true => (vec![2.0, 6.0], vec![0.3, 0.03]),
+        false => (vec![], vec![]),
+    };
+    let rows = 20.0 * (nodes as f64 / 128.0).powf(0.33) / order as f64;
+    let energy = Energy::new("neo_hookean", &Default::default()).unwrap();
+    Problem {
+        rubber: Rubber::new(energy, 1.0, elements.0, elements.1, 1000.0).unwrap(),
+        profile: Profile::new(1.0, Heights::sine(amplitude).unwrap()).unwrap(),
+        load: Load::new(pressure, f64::from(u8::from(slides)), 5.0).unwrap(),
+        mesh: MeshSize::new(nodes / order, rows.round() as usize, 1.5, order).unwrap(),
+    }
+}
+
+/// A problem solved; on its mesh, the solution and what the one on half the columns starts it with.
+pub struct Solved {
+    pub model: Model,
+    pub mesh: Mesh,
+    pub start: State,
+    pub state: State,
+    pub load: f64,
+}
+
+impl Solved {
+    pub fn new(problem: &Problem, pressure: f64) -> Option<Self> {
+        let settings = Settings::default();
+        let solution = steady::solve(problem, &settings, None, None, &Watch::endless()).ok()?;
+        let finest = solution.finest;
+        let (coarse, state) = finest.judged_by?;
+        let wanted = Mesh::new(&problem.mesh);
+        let time = 1.0 / problem_speed(problem);
+        (finest.report.status == Status::Converged && finest.mesh.same(&wanted)).then(|| Self {
+            model: Model::new(
+                &problem.rubber,
+                &problem.profile,
+                time,
+                std::f64::consts::TAU,
+            ),
+            start: transfer(&coarse, &state, &wanted, 1.0),
+            mesh: wanted,
+            state: finest.state,
+            load: pressure / solution.stress_unit,
+        })
+    }
+}
+
+/// One if it slides: every case here is a wavelength long and slides it in a unit of time.
+fn problem_speed(problem: &Problem) -> f64 {
+    f64::from(u8::from(
+        format!("{:?}", problem.load).contains("speed: 1.0"),
+    ))
+}
+
+pub fn name(mesh: &Mesh) -> String {
+    format!("{}x{} order {}", mesh.columns, mesh.rows, mesh.order)
+}
+
+/// What a factor costs, in contact at the middle load.
+fn factors(meshes: &[(usize, usize)]) {
+    println!(
+        "mesh, unknowns | way | symbolic once, assembly, factor, solve [ms] | L [1e6], Gflop, MB"
+    );
+    for &mesh in meshes {
+        let Some(solved) = Solved::new(&problem(STATIC[1], false, mesh), STATIC[1].1) else {
+            continue;
+        };
+        let (memory, watch) = (Memory::Relaxed, Watch::endless());
+        let pressed = solved.model.pressed(&solved.mesh, &memory, &watch);
+        let linear = Linear::new(&pressed, &solved.state);
+        let bordered = Bordered::new(&pressed.block);
+        let assembled = || bordered.assemble(&pressed.block, &solved.state, &linear);
+        let assembly = timed(assembled).0.ms;
+        let names = ["LDL dissection", "LDL minimum degree", "LU COLAMD"];
+        for (which, way) in names.into_iter().enumerate() {
+            let order = match which {
+                0 => dissection(&solved.mesh),
+                _ => natural(&solved.mesh),
+            };
+            let own = Bordered {
+                pattern: Pattern::new(&pressed.block, &order, which < 2),
+                ..Bordered::new(&pressed.block)
+            };
+            let values = own.assemble(&pressed.block, &solved.state, &linear).values;
+            let pattern = &own.pattern;
+            let right = Mat::from_fn(pattern.size, 1, |i, _| (i % 7) as f64);
+            let line = |symbolic: f64, costs: [&clock::Cost; 2], (fill, flops): (f64, f64)| {
+                println!(
+                    "{}, {} | {way} | {symbolic:.2}, {assembly:.2}, {:.2}, {:.3} | {:.3}, {:.4}, {:.1}",
+                    name(&solved.mesh),
+                    pattern.size,
+                    costs[0].ms,
+                    costs[1].ms,
+                    fill * 1e-6,
+                    flops * 1e-9,
+                    costs[0].megabytes
+                );
+            };
+            if which < 2 {
+                let (symbolic, ldl) = timed(|| Ldl::new(pattern, which == 1));
+                let (numeric, factor) = timed(|| ldl.factor(pattern, &values).expect("a factor"));
+                let (solve, ()) = timed(|| ldl.solve(&factor, right.clone().as_mut()));
+                line(symbolic.ms, [&numeric, &solve], ldl.cost());
+            } else {
+                let (symbolic, lu) = timed(|| Lu::new(pattern));
+                let (numeric, factor) = timed(|| lu.factor(pattern, &values).expect("a factor"));
+                let (solve, ()) = timed(|| lu.solve(&factor, right.clone().as_mut()));
+                line(symbolic.ms, [&numeric, &solve], (f64::NAN, f64::NAN));
+            }
+        }
+    }
+    println!();
+}
+
+/// Newton's method on a mesh from the solution on half its columns.
+fn static_contact(meshes: &[(usize, usize)]) {
+    println!(
+        "static: mesh, A/lambda, p | GMRES: ms, Newton, products, MB | factors: ms, pattern and \
+         symbolic, Newton, MB | GMRES over factors, apart"
+    );
+    for &mesh in meshes {
+        for case in STATIC {
+            let Some(solved) = Solved::new(&problem(case, false, mesh), case.1) else {
+                continue;
+            };
+            let (memory, watch) = (Memory::Relaxed, Watch::endless());
+            let pressed = solved.model.pressed(&solved.mesh, &memory, &watch);
+            let (iterated, report) = timed(|| {
+                let settings = Settings::default();
+                newton::solve(&pressed, &mut solved.start.clone(), solved.load, &settings)
+            });
+            let (symbolic, bordered) = timed(|| Bordered::new(&pressed.block));
+            let (eliminated, (ended, spent, state)) = timed(|| {
+                let (mut state, mut spent) = (solved.start.clone(), Spent::default());
+                let how = (true, &mut spent);
+                let ended = bordered.newton(&pressed, &mut state, solved.load, &mut None, how);
+                (ended, spent, state)
+            });
+            let apart = (state.approach - solved.state.approach).abs() / case.0;
+            println!(
+                "{}, {}, {} | {:.2}, {}, {}, {:.1} | {:.2}, {:.2}, {}, {:.1} | {}",
+                name(&solved.mesh),
+                case.0,
+                case.1,
+                iterated.ms,
+                report.iterations,
+                report.products,
+                iterated.megabytes,
+                eliminated.ms,
+                symbolic.ms,
+                spent.iterations,
+                eliminated.megabytes,
+                match ended && apart < 1e-6 {
+                    true => {
+                        let ratio = iterated.ms / (eliminated.ms + symbolic.ms);
+                        format!("{ratio:.2}, {apart:.0e}")
+                    }
+                    false => "factors do not get there".to_owned(),
+                }
+            );
+        }
+    }
+    println!();
+}

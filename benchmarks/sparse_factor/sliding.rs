@@ -1,0 +1,140 @@
+//! Steady sliding: the first Newton step on a mesh, preconditioned by the average along the rows and
+//! by a sparse factor of the tangent at fixed memory, the contact of the first kept by both.
+
+use gripscale_kernel::contact::State;
+use gripscale_kernel::fem::block::Memory;
+use gripscale_kernel::fem::jacobian::Jacobian;
+use gripscale_kernel::fem::mesh::Mesh;
+use gripscale_kernel::linear::gmres;
+use gripscale_kernel::material::sliding_history::SlidingHistory;
+use gripscale_kernel::settings::Settings;
+use gripscale_kernel::solve::krylov::{self, Accuracy};
+use gripscale_kernel::watch::Watch;
+
+use crate::bordered::{Bordered, Change, Linear};
+use crate::clock::timed;
+use crate::{name, problem, Solved};
+
+/// A / lambda and pressure over the relaxed modulus.
+const CASES: [(f64, f64); 3] = [(0.05, 0.5), (0.1, 2.0), (0.16, 5.0)];
+/// The forces out of balance fall to this share.
+const SHARE: f64 = 1e-3;
+const LIMITS: (usize, usize) = (100, 400);
+
+pub fn table(meshes: &[(usize, usize)]) {
+    println!("sliding: mesh, A/lambda, p | average: ms, products | factor: ms, products | ratio");
+    for &mesh in meshes {
+        for case in CASES {
+            let Some(solved) = Solved::new(&problem(case, true, mesh), case.1) else {
+                continue;
+            };
+            let model = &solved.model;
+            let history = SlidingHistory::new(solved.mesh.columns, &model.maxwell, 5.0);
+            let (memory, watch) = (Memory::Sliding(history), Watch::endless());
+            let pressed = model.pressed(&solved.mesh, &memory, &watch);
+            let start = &solved.start;
+            let (averaged, found) = timed(|| {
+                let rows = pressed.row_states(&start.field).expect("an endless watch");
+                let accuracy = Accuracy {
+                    share: SHARE,
+                    least: 0.0,
+                };
+                let settings = Settings::default();
+                krylov::increment(&pressed, start, &rows, solved.load, accuracy, &settings)
+                    .expect("a step")
+            });
+            let bordered = Bordered::new(&pressed.block);
+            let (factored, products) = timed(|| {
+                let mut state = start.clone();
+                state.active = found.contact.active.clone();
+                for (force, active) in state.force.iter_mut().zip(&state.active) {
+                    *force *= f64::from(u8::from(*active));
+                }
+                let linear = Linear::new(&pressed, &state);
+                let jacobian =
+                    Jacobian::new(&pressed.block, &state.field, &linear.rows, &watch).unwrap();
+                let more = solved.load - state.force.iter().sum::<f64>();
+                let kept = bordered
+                    .keep(&pressed.block, &state, &linear)
+                    .expect("a factor");
+                let solve = |v: &[f64], gap: &[f64], more: f64| {
+                    let (forces, volumes) = unmixed(&jacobian, v, &state);
+                    bordered.solve(&pressed.block, &kept, (&forces, &volumes, gap), more)
+                };
+                let mut room = jacobian.room();
+                let mut product = |change: &Change, out: &mut [f64]| {
+                    let y = mixed(&jacobian, &change.u, &change.pressure);
+                    jacobian.product(&y, out, &mut room);
+                    let shift = solved.mesh.mean_shift(&y);
+                    for (a, force) in change.force.iter().enumerate() {
+                        let [x, z] = [0, 1].map(|d| solved.mesh.place(a, d));
+                        out[x] += linear.bend[a] * (y[x] - shift) + linear.slope[a] * force;
+                        out[z] -= force;
+                    }
+                };
+                let right = mixed(&jacobian, &linear.forces, &linear.volumes);
+                let mut left = vec![0.0; right.len()];
+                product(&solve(&right, &linear.gap, more), &mut left);
+                left.iter_mut()
+                    .zip(&right)
+                    .for_each(|(left, r)| *left = r - *left);
+                let closed = vec![0.0; linear.gap.len()];
+                let apply = |v: &[f64], out: &mut [f64]| product(&solve(v, &closed, 0.0), out);
+                let target = SHARE * size(&right).max(size(&left));
+                gmres(apply, &left, target, LIMITS, &watch)
+                    .unwrap()
+                    .iterations
+            });
+            println!(
+                "{}, {}, {} | {:.2}, {} | {:.2}, {products} | {:.2}",
+                name(&solved.mesh),
+                case.0,
+                case.1,
+                averaged.ms,
+                found.products,
+                factored.ms,
+                averaged.ms / factored.ms
+            );
+        }
+    }
+}
+
+fn size(x: &[f64]) -> f64 {
+    x.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// Free displacements, then pressures `[row][mode][column]`.
+fn mixed(jacobian: &Jacobian<'_>, u: &[f64], pressure: &[f64]) -> Vec<f64> {
+    let mut out = u[..jacobian.displacements()].to_vec();
+    let mut turned = vec![0.0; pressure.len()];
+    each(jacobian.mesh, |field, mixed| {
+        turned[mixed] = pressure[field]
+    });
+    out.extend(turned);
+    out
+}
+
+/// The same in the order of a field.
+fn unmixed(jacobian: &Jacobian<'_>, y: &[f64], state: &State) -> (Vec<f64>, Vec<f64>) {
+    let (u, pressure) = y.split_at(jacobian.displacements());
+    let mut forces = u.to_vec();
+    forces.resize(state.field.u.len(), 0.0);
+    let mut volumes = vec![0.0; pressure.len()];
+    each(jacobian.mesh, |field, mixed| {
+        volumes[field] = pressure[mixed]
+    });
+    (forces, volumes)
+}
+
+/// Places of a pressure in a field and among the mixed unknowns.
+fn each(mesh: &Mesh, mut visit: impl FnMut(usize, usize)) {
+    let (modes, columns) = (mesh.modes(), mesh.columns);
+    for field in 0..mesh.rows * columns * modes {
+        let (row, column, mode) = (
+            field / modes / columns,
+            field / modes % columns,
+            field % modes,
+        );
+        visit(field, (row * modes + mode) * columns + column);
+    }
+}
