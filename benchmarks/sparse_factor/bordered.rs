@@ -114,7 +114,7 @@ pub struct Change {
 
 pub struct Bordered {
     pub pattern: Pattern,
-    ldl: Ldl,
+    pub ldl: Ldl,
 }
 
 /// Newton iterations and factors that they took.

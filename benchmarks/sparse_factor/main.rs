@@ -12,6 +12,8 @@ mod pattern;
 mod sliding;
 mod time_steps;
 
+use std::f64::consts::TAU;
+
 use faer::Mat;
 use gripscale_kernel::contact::profile::Heights;
 use gripscale_kernel::contact::State;
@@ -82,33 +84,23 @@ pub struct Solved {
 }
 
 impl Solved {
-    pub fn new(problem: &Problem, pressure: f64) -> Option<Self> {
-        let settings = Settings::default();
-        let solution = steady::solve(problem, &settings, None, None, &Watch::endless()).ok()?;
+    /// None if there is no solution on just this mesh.
+    pub fn new(case: (f64, f64), slides: bool, mesh: (usize, usize)) -> Option<Self> {
+        let (problem, settings) = (problem(case, slides, mesh), Settings::default());
+        let solution = steady::solve(&problem, &settings, None, None, &Watch::endless()).ok()?;
         let finest = solution.finest;
         let (coarse, state) = finest.judged_by?;
         let wanted = Mesh::new(&problem.mesh);
-        let time = 1.0 / problem_speed(problem);
-        (finest.report.status == Status::Converged && finest.mesh.same(&wanted)).then(|| Self {
-            model: Model::new(
-                &problem.rubber,
-                &problem.profile,
-                time,
-                std::f64::consts::TAU,
-            ),
+        let solved = finest.report.status == Status::Converged && finest.mesh.same(&wanted);
+        let passage = if slides { 1.0 } else { f64::INFINITY };
+        solved.then(|| Self {
+            model: Model::new(&problem.rubber, &problem.profile, passage, TAU),
             start: transfer(&coarse, &state, &wanted, 1.0),
             mesh: wanted,
             state: finest.state,
-            load: pressure / solution.stress_unit,
+            load: case.1 / solution.stress_unit,
         })
     }
-}
-
-/// One if it slides: every case here is a wavelength long and slides it in a unit of time.
-fn problem_speed(problem: &Problem) -> f64 {
-    f64::from(u8::from(
-        format!("{:?}", problem.load).contains("speed: 1.0"),
-    ))
 }
 
 pub fn name(mesh: &Mesh) -> String {
@@ -121,7 +113,7 @@ fn factors(meshes: &[(usize, usize)]) {
         "mesh, unknowns | way | symbolic once, assembly, factor, solve [ms] | L [1e6], Gflop, MB"
     );
     for &mesh in meshes {
-        let Some(solved) = Solved::new(&problem(STATIC[1], false, mesh), STATIC[1].1) else {
+        let Some(solved) = Solved::new(STATIC[1], false, mesh) else {
             continue;
         };
         let (memory, watch) = (Memory::Relaxed, Watch::endless());
@@ -179,7 +171,7 @@ fn static_contact(meshes: &[(usize, usize)]) {
     );
     for &mesh in meshes {
         for case in STATIC {
-            let Some(solved) = Solved::new(&problem(case, false, mesh), case.1) else {
+            let Some(solved) = Solved::new(case, false, mesh) else {
                 continue;
             };
             let (memory, watch) = (Memory::Relaxed, Watch::endless());

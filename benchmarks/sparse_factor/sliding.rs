@@ -13,7 +13,7 @@ use gripscale_kernel::watch::Watch;
 
 use crate::bordered::{Bordered, Change, Linear};
 use crate::clock::timed;
-use crate::{name, problem, Solved};
+use crate::{name, Solved};
 
 /// A / lambda and pressure over the relaxed modulus.
 const CASES: [(f64, f64); 3] = [(0.05, 0.5), (0.1, 2.0), (0.16, 5.0)];
@@ -25,7 +25,7 @@ pub fn table(meshes: &[(usize, usize)]) {
     println!("sliding: mesh, A/lambda, p | average: ms, products | factor: ms, products | ratio");
     for &mesh in meshes {
         for case in CASES {
-            let Some(solved) = Solved::new(&problem(case, true, mesh), case.1) else {
+            let Some(solved) = Solved::new(case, true, mesh) else {
                 continue;
             };
             let model = &solved.model;

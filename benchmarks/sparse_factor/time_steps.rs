@@ -1,9 +1,13 @@
 //! Sliding in time from static contact: a step by the iteration, by a factor for every Newton
 //! iteration, and by a factor that is kept from step to step.
 
+use std::f64::consts::TAU;
+
 use gripscale_kernel::contact::{PressedBlock, State};
 use gripscale_kernel::fem::block::Memory;
 use gripscale_kernel::material::carried_history::{CarriedHistory, Points};
+use gripscale_kernel::model::Model;
+use gripscale_kernel::problem::Problem;
 use gripscale_kernel::settings::Settings;
 use gripscale_kernel::solve::newton;
 use gripscale_kernel::status::Status;
@@ -43,7 +47,7 @@ pub fn table(meshes: &[(usize, usize)]) {
     );
     for &mesh in meshes {
         for case in CASES {
-            let Some(solved) = Solved::new(&problem(case, false, mesh), case.1) else {
+            let Some(solved) = Solved::new(case, false, mesh) else {
                 continue;
             };
             let sliding = problem(case, true, mesh);
@@ -76,9 +80,8 @@ pub fn table(meshes: &[(usize, usize)]) {
     println!();
 }
 
-fn slide(solved: &Solved, sliding: &gripscale_kernel::problem::Problem, way: Way) -> Run {
-    let time = std::f64::consts::TAU;
-    let model = gripscale_kernel::model::Model::new(&sliding.rubber, &sliding.profile, 1.0, time);
+fn slide(solved: &Solved, sliding: &Problem, way: Way) -> Run {
+    let model = Model::new(&sliding.rubber, &sliding.profile, 1.0, TAU);
     let (watch, settings, relaxed) = (Watch::endless(), Settings::default(), Memory::Relaxed);
     let unit = solved.model.stress_unit / model.stress_unit;
     let (mut state, load) = (solved.state.restressed(unit), solved.load * unit);
