@@ -17,8 +17,8 @@ use crate::bordered::{Bordered, Kept, Spent};
 use crate::clock::now;
 use crate::{name, problem, Solved};
 
-/// Passages that are slid.
-const PASSAGES: f64 = 0.5;
+/// Half a passage, but not more steps than these.
+const MOST_STEPS: usize = 64;
 /// A / lambda and pressure over the relaxed modulus.
 const CASES: [(f64, f64); 3] = [(0.05, 0.15), (0.1, 0.4), (0.16, 1.0)];
 
@@ -90,7 +90,7 @@ fn slide(solved: &Solved, sliding: &Problem, way: Way) -> Run {
     let y = remembered(&pressed, &state);
     let mut networks = CarriedHistory::relaxed(y, mesh.columns, &model.maxwell);
     let (bordered, mut kept): (_, Option<Kept>) = (Bordered::new(&pressed.block), None);
-    let steps = (PASSAGES * mesh.columns as f64) as usize;
+    let steps = (mesh.columns / 2).min(MOST_STEPS);
     let dt = 1.0 / mesh.columns as f64;
     let (mut ms, mut iterations, mut extra, mut converged) = (0.0, 0, 0, true);
     for _ in 0..steps {
