@@ -20,6 +20,7 @@ from benchmarks import (
     rival,
     rough_contact,
     scaling,
+    sparse_factor,
     sweep,
     transient,
     waves,
@@ -37,9 +38,10 @@ SUBJECTS: dict[str, Callable[[Console, Path], None]] = {
     "rival": lambda console, _: rival.run(console),
     "scaling": lambda console, figures: scaling.run(console, figures / "cost.png"),
     "large_maps": lambda console, _: rough_contact.run(console, large=True),
+    "sparse_factor": lambda console, _: sparse_factor.run(console),
 }
-ON_REQUEST = {"large_maps"}
-"""Minutes and gigabytes: only if asked for."""
+ON_REQUEST = {"large_maps", "sparse_factor"}
+"""Minutes, gigabytes or a compiler: only if asked for."""
 
 
 def main() -> None:

@@ -65,19 +65,6 @@ impl ElementTangent {
             }
         }
     }
-
-    /// Add what is left of the pressures, condensed: K / M b b^T of every mode.
-    pub fn condense(&mut self, masses: &[f64], bulk_modulus: f64) {
-        let size = self.volume.len() / masses.len();
-        for (volume, mass) in self.volume.chunks_exact(size).zip(masses) {
-            for (i, row) in self.stiffness.chunks_exact_mut(size).enumerate() {
-                let factor = bulk_modulus / mass * volume[i];
-                row.iter_mut()
-                    .zip(volume)
-                    .for_each(|(to, b)| *to += factor * b);
-            }
-        }
-    }
 }
 
 /// dP/dF at fixed memory, the permanent network's b following the strain.

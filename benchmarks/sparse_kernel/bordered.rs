@@ -210,7 +210,11 @@ impl Bordered {
         for (e, to) in self.pattern.to.chunks_exact(entries).enumerate() {
             let (row, column) = (e / mesh.columns, e % mesh.columns);
             element.fill(block, &state.field, &linear.rows[row], (row, column));
-            element.condense(&mesh.elements[row].mode_mass, block.bulk_modulus);
+            condense(
+                &mut element,
+                &mesh.elements[row].mode_mass,
+                block.bulk_modulus,
+            );
             volumes.extend_from_slice(&element.volume);
             if row == 0 {
                 surface.extend_from_slice(&element.stiffness);
@@ -391,6 +395,16 @@ fn add(to: &mut [f64], change: &[f64], factor: f64) {
     to.iter_mut()
         .zip(change)
         .for_each(|(to, c)| *to += factor * c);
+}
+
+/// Add what the pressures leave when they are eliminated: K / M b b^T of every mode.
+fn condense(element: &mut ElementTangent, masses: &[f64], bulk_modulus: f64) {
+    let size = element.volume.len() / masses.len();
+    for (volume, mass) in element.volume.chunks_exact(size).zip(masses) {
+        for (line, b) in element.stiffness.chunks_exact_mut(size).zip(volume) {
+            add(line, volume, bulk_modulus / mass * b);
+        }
+    }
 }
 
 /// Let u_z of a surface node follow its u_x along `slope`.
