@@ -1,8 +1,9 @@
 //! The linearised problem on given nodes in contact by one sparse factor.
 //!
-//! Where node a touches, u_z = w' (u_x - shift) + approach - gap: its u_z is eliminated and its force
-//! with it, which leaves a sparse symmetric system and two borders, the approach and the mean shift.
-//! That is the least that elimination can take: a factor and three solutions, no response of the surface.
+//! Where node a touches, u_z = w' (u_x - shift) + approach - gap: its u_z is eliminated and its
+//! force with it, which leaves a sparse symmetric system and two borders, the approach and the mean
+//! shift. That is the least that elimination can take: a factor and three solutions, no response
+//! of the surface.
 
 use faer::Mat;
 use gripscale_kernel::contact::{PressedBlock, State};
@@ -131,8 +132,9 @@ impl Bordered {
         Self { pattern, ldl }
     }
 
-    /// Newton's method from `state`, without limits of its steps: with a factor for every iteration, or
-    /// with the one in `kept` as long as the same nodes touch and it serves. False if it does not end.
+    /// Newton's method from `state`, without limits of its steps: with a factor for every iteration
+    /// (`anew`), or with the one in `kept` as long as the same nodes touch and it serves. False if
+    /// it does not end.
     pub fn newton(
         &self,
         pressed: &PressedBlock<'_>,
@@ -273,8 +275,8 @@ impl Bordered {
         Some(kept)
     }
 
-    /// The change that brings forces and volumes into balance and closes `gap` at the nodes that touch,
-    /// whose forces change by `more` together.
+    /// The change that brings forces and volumes into balance and closes `gap` at the nodes that
+    /// touch, whose forces change by `more` together.
     pub fn solve(
         &self,
         block: &Block<'_>,
@@ -369,7 +371,7 @@ impl Bordered {
         }
     }
 
-    /// Visit the places of every pressure mode's element with its volume's change, K / M and number.
+    /// Visit every pressure mode: its element's places, its volume's change, K / M and its number.
     fn each_mode(
         &self,
         block: &Block<'_>,

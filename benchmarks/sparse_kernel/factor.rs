@@ -13,8 +13,8 @@ use faer::{Conj, MatMut, Par, Side};
 
 use crate::pattern::Pattern;
 
-/// Supernodal L D L^T without pivots: the tangent is symmetric, but not positive where pressed rubber
-/// is softer than its load, so that Cholesky finds no factor.
+/// Supernodal L D L^T without pivots: the tangent is symmetric; without the profile that holds the
+/// pressed block it is not positive definite, so that Cholesky finds no factor.
 pub struct Ldl {
     symbolic: SymbolicCholesky<usize>,
 }

@@ -59,7 +59,7 @@ fn main() {
     sliding::table(&small);
 }
 
-/// A block of unit modulus when relaxed, pressed on a sine; of two Maxwell elements where it slides.
+/// A block of unit modulus when relaxed, pressed on a sine; two Maxwell elements where it slides.
 pub fn problem((amplitude, pressure): (f64, f64), slides: bool, mesh: (usize, usize)) -> Problem {
     let (nodes, order) = mesh;
     let elements = match slides {

@@ -24,8 +24,8 @@ pub fn natural(mesh: &Mesh) -> Order {
         .collect()
 }
 
-/// Nested dissection (George, SIAM J. Numer. Anal. 10 (1973) 345) of the periodic strip: two cuts from
-/// surface to lid, then the longer side halved, along lines of element edges.
+/// Nested dissection (George, SIAM J. Numer. Anal. 10 (1973) 345) of the periodic strip: two cuts
+/// from surface to lid, then the longer side halved, along lines of element edges.
 pub fn dissection(mesh: &Mesh) -> Order {
     let (width, layers) = (mesh.layer_nodes(), mesh.layers() - 1);
     let half = mesh.columns / 2 * mesh.order;

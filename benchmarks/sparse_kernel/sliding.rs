@@ -1,5 +1,5 @@
-//! Steady sliding: the first Newton step on a mesh, preconditioned by the average along the rows and
-//! by a sparse factor of the tangent at fixed memory, the contact of the first kept by both.
+//! Steady sliding: the first Newton step on a mesh, preconditioned by the average along the rows
+//! and by a sparse factor of the tangent at fixed memory, the contact of the first kept by both.
 
 use gripscale_kernel::contact::State;
 use gripscale_kernel::fem::block::Memory;

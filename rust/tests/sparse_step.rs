@@ -1,5 +1,5 @@
-//! One Newton step of static contact, its whole linear system assembled and eliminated by sparse LU,
-//! against the iteration that never forms it: Jacobian, pressures, border and contact forces.
+//! One Newton step of static contact, its whole linear system assembled and eliminated by sparse
+//! LU, against the iteration that never forms it: Jacobian, pressures, border, contact forces.
 
 use faer::prelude::Solve;
 use faer::sparse::{SparseColMat, Triplet};
@@ -16,8 +16,8 @@ use gripscale_kernel::watch::Watch;
 use crate::local_tangent::{places, ElementTangent};
 use crate::{mesh, Case};
 
-/// Entries and right-hand side; the unknowns are the displacements of a field, the lid's among them,
-/// its pressures, what the forces at the nodes that touch change by, and the approach.
+/// Entries and right-hand side; the unknowns are the displacements of a field, the lid's among
+/// them, its pressures, what the forces at the nodes that touch change by, and the approach.
 struct System {
     entries: Vec<Triplet<usize, usize, f64>>,
     right: Vec<f64>,
@@ -76,8 +76,8 @@ fn add_elements(system: &mut System, pressed: &PressedBlock<'_>, state: &State) 
     (free..displacements).for_each(|lid| system.add(lid, lid, 1.0));
 }
 
-/// The nodes of `touching` stay on the profile, which follows the surface's mean shift, under forces
-/// that turn with it; together they carry the load.
+/// The nodes of `touching` stay on the profile, which follows the surface's mean shift, under
+/// forces that turn with it; together they carry the load.
 fn add_contact(
     system: &mut System,
     pressed: &PressedBlock<'_>,
