@@ -159,9 +159,11 @@ def _drawn(known: Measurement, model: Model, load: NominalLoad, samples: int) ->
     Raises `InputError` if no samples can be drawn.
     """
     source = ProfileSource.of(known, Stated(models=(model.name,)))
+    case = Inputs.of(known)
     if isinstance(model, Chain):
         model = replace(model, solver=HalfPlane(points=POINTS))
-    case = Inputs.of(known)
+    else:  # no waves are fitted: the roughness ends where it does as measured, to the last bit
+        case = replace(case, fit={})
     parts = {TO_COMPARE: case}
     for number, one in enumerate(draws(case, [source], samples, SEED), start=1):
         if one.inputs is not None:
