@@ -16,6 +16,7 @@ from gripscale.report.roads_table import roads_sentences
 from gripscale.roads import Roads, compare_surfaces
 from gripscale.roads.by_octave import octave_ends, running_friction
 from gripscale.surface import Profile, self_affine_profile
+from tests.written import write_road
 
 CASE = """\
 [surface]
@@ -34,18 +35,13 @@ points = 64
 """
 
 
-def write(path: Path, road: Profile, factor: float) -> None:
-    rows = [f"{x * 1e3:.1f}\t{factor * z * 1e3:.6f}" for x, z in zip(road.x, road.z, strict=True)]
-    path.write_text("\n".join(["x [mm]\tz [mm]", *rows]))
-
-
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A case on a gentle road, the same road again, and three times as high."""
     folder = tmp_path_factory.mktemp("roads")
     road = self_affine_profile(0.8, 3e-3, 2e-4, length=0.4, step=2e-4, seed=1)
     for name, factor in (("road", 1.0), ("twin", 1.0), ("rough", 3.0)):
-        write(folder / f"{name}.txt", road, factor)
+        write_road(folder / f"{name}.txt", Profile(road.x, factor * road.z))
     (folder / "case.toml").write_text(CASE)
     return folder
 
