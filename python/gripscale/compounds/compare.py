@@ -35,8 +35,8 @@ from gripscale.differences import (
 from gripscale.model import NominalLoad
 from gripscale.rubber import Rubber
 from gripscale.study.inputs import rubber_of
-from gripscale.study.store import Store
-from gripscale.study.study import PREDICTIONS, Study
+from gripscale.study.store import PREDICTIONS, Store
+from gripscale.study.study import Study
 from gripscale.study.task import Task
 from gripscale.study.threads import OnTask, solve_all
 from gripscale.theory.half_plane import HalfPlane

@@ -31,7 +31,7 @@ from gripscale.roads.dataset import AS_MEASURED, MODELS, TO_COMPARE, Place, road
 from gripscale.rough.model import DirectContact
 from gripscale.study.inputs import case_rubber, surface_of
 from gripscale.study.models import model_of
-from gripscale.study.store import Store
+from gripscale.study.store import PREDICTIONS, Store
 from gripscale.study.task import Task
 from gripscale.study.threads import OnTask, solve_all
 from gripscale.surface import PreparedSurface
@@ -43,7 +43,7 @@ from gripscale.uncertainty.inputs import Inputs, Measurement
 from gripscale.uncertainty.sources.profile import ProfileSource
 from gripscale.uncertainty.sources.source import Stated
 
-RESULT, PREDICTIONS = "surfaces.nc", "predictions"
+RESULT = "surfaces.nc"
 POINTS = 128
 """Points of the half-planes that tell the range: only ratios of theirs count."""
 FEWEST_SAMPLES, MOST_SAMPLES = 10, 10_000

@@ -40,7 +40,7 @@ from gripscale.study.inputs import (
     surface_of,
 )
 from gripscale.study.models import model_of
-from gripscale.study.store import Store
+from gripscale.study.store import PREDICTIONS, Store
 from gripscale.study.task import Task, exact
 from gripscale.study.temperature import beyond_shift, with_master_curve
 from gripscale.study.threads import OnTask, Progress, solve_all
@@ -48,9 +48,6 @@ from gripscale.surface import PreparedSurface
 
 RESULT = "study.nc"
 """The Dataset, in the folder of the study."""
-
-PREDICTIONS = "predictions"
-"""Folder of the finished predictions, in the folder of the study."""
 
 
 @dataclass(frozen=True)
