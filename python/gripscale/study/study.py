@@ -29,7 +29,8 @@ from gripscale.rubber import Rubber
 from gripscale.software import software
 from gripscale.study import assemble
 from gripscale.study.assemble import Index
-from gripscale.study.axes import Axis, axes_of
+from gripscale.study.axes import axes_of
+from gripscale.study.axis import Axis
 from gripscale.study.conditioned import at_temperature, rubber_before, with_effects
 from gripscale.study.inputs import (
     case_rubber,

@@ -29,7 +29,8 @@ from gripscale.errors import FileError, InputError, RubberWarning
 from gripscale.model import Model, NominalLoad
 from gripscale.rough.model import DirectContact
 from gripscale.software import software
-from gripscale.study.axes import Axis, axes_of
+from gripscale.study.axes import axes_of
+from gripscale.study.axis import Axis
 from gripscale.study.inputs import contents
 from gripscale.study.store import Store, store_in
 from gripscale.study.task import Task, exact
