@@ -107,8 +107,7 @@ def compare_surfaces(
         checks.whole("samples", samples, least=FEWEST_SAMPLES, most=MOST_SAMPLES)
     file = case if isinstance(case, CaseFile) else read_case(case)
     given = {name: _surface(value, file) for name, value in surfaces.items()}
-    load = file.case.load
-    nominal = NominalLoad(load.pressure, load.speed, load.footprint, load.load_time)
+    load = file.case.load.nominal
     rubber, models = case_rubber(file), [_model(name, file) for name in MODELS]
     tasks: dict[Place, Task] = {}
     notes: list[str] = []
@@ -116,12 +115,12 @@ def compare_surfaces(
         if isinstance(model, DirectContact) and surface.measured is None:
             notes.append(f"{name} was not measured: no direct contact")
             continue
-        tasks[Place(model.name, name, AS_MEASURED)] = Task(rubber, surface, nominal, Attempt(model))
+        tasks[Place(model.name, name, AS_MEASURED)] = Task(rubber, surface, load, Attempt(model))
         if samples is None:
             continue
-        known = Measurement(surface, rubber, speed=nominal.speed, load_time=nominal.load_time)
+        known = Measurement(surface, rubber, speed=load.speed, load_time=load.load_time)
         try:
-            drawn = _drawn(known, model, nominal, samples)
+            drawn = _drawn(known, model, load, samples)
         except InputError as why:
             notes.append(f"{name}, {model.name}: no range; {why}")
             continue

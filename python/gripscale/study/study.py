@@ -24,7 +24,7 @@ from gripscale import netcdf, versions
 from gripscale.case.read import CaseFile, read_case
 from gripscale.chain.model import Chain
 from gripscale.errors import FileError, InputError
-from gripscale.model import Model, NominalLoad
+from gripscale.model import Model
 from gripscale.rubber import Rubber
 from gripscale.software import software
 from gripscale.study import assemble
@@ -262,17 +262,17 @@ class Study:
         return points
 
     def _task(self, chosen: dict[str, Any], place: dict[str, int], *, static: bool) -> Task:
-        load = self.file.case.load
+        load = self.file.case.load.nominal
         speed = 0.0 if static else chosen.get("speed", load.speed)
         model, rubber = self._model(chosen), self.rubbers[place.get("rubber", 0)]
         rubber_before(rubber, model)  # nothing is solved if one point of the study is impossible
         return Task(
             rubber=rubber,
             surface=self._surface(place.get("surface", 0), chosen),
-            load=NominalLoad(
+            load=replace(
+                load,
                 pressure=chosen.get("pressure", load.pressure),
                 speed=speed,
-                footprint=load.footprint,
                 load_time=load.load_time if speed > 0.0 else "passage",
             ),
             model=model,
