@@ -96,24 +96,7 @@ def uniform_at_surface(time: float, depth: DepthsOfLoss, thermal: ThermalPropert
 def uniform_where_lost(time: float, depth: DepthsOfLoss, thermal: ThermalProperties) -> float:
     """Return the temperature where the energy is lost of uniform heat per heat per area.
 
-    Parameters
-    ----------
-    time : float
-        How long the heat has lasted [s].
-    depth : DepthsOfLoss
-        Where it is lost.
-    thermal : ThermalProperties
-        Of the rubber.
-
-    Returns
-    -------
-    float
-        In [K m^2/W].
-
-    Raises
-    ------
-    InputError
-        If the time is no finite number from zero.
+    Arguments, unit and errors as for `uniform_at_surface`.
     """
     length = _spread(time, thermal)
     if length == 0.0:
