@@ -42,12 +42,14 @@ impl Linear {
         let mut forces = vec![0.0; state.field.u.len()];
         let mut volumes = Vec::with_capacity(state.field.pressure.len());
         for (row, of) in rows.iter().enumerate() {
-            let (inner, _) = block.row_forces(row, &state.field, of);
+            let inner = block.row_forces(row, &state.field, of);
             let from = row * mesh.order * mesh.layer_size();
             let pairs = forces[from..].iter_mut().zip(&inner);
             pairs.for_each(|(to, force)| *to -= force);
             let own = block.row_volumes(row, &state.field, of);
-            volumes.extend(own.iter().map(|v| -v));
+            for column in 0..mesh.columns {
+                volumes.extend((0..mesh.modes()).map(|m| -own[m * mesh.columns + column]));
+            }
         }
         for (a, force) in state.force.iter().enumerate() {
             forces[mesh.place(a, 0)] -= slope[a] * force;

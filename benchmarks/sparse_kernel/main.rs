@@ -51,8 +51,11 @@ fn main() {
     println!(
         "Processor milliseconds, one thread. Meshes: columns x rows, order of the elements.\n"
     );
+    let all = std::env::args().all(|text| text != "steps");
+    if all {
     factors(&meshes);
     static_contact(&meshes);
+    }
     let small = meshes.into_iter().filter(|&(nodes, _)| nodes <= 256);
     let small: Vec<(usize, usize)> = small.collect();
     time_steps::table(&small);

@@ -8,6 +8,7 @@ use gripscale_kernel::fem::mesh::Mesh;
 use gripscale_kernel::linear::gmres;
 use gripscale_kernel::material::sliding_history::SlidingHistory;
 use gripscale_kernel::settings::Settings;
+use gripscale_kernel::solve::balance::Balance;
 use gripscale_kernel::solve::krylov::{self, Accuracy};
 use gripscale_kernel::watch::Watch;
 
@@ -40,8 +41,17 @@ pub fn table(meshes: &[(usize, usize)]) {
                     least: 0.0,
                 };
                 let settings = Settings::default();
-                krylov::increment(&pressed, start, &rows, solved.load, accuracy, &settings)
-                    .expect("a step")
+                let balance = Balance::new(&pressed, start, &rows).expect("an endless watch");
+                krylov::increment(
+                    &pressed,
+                    start,
+                    &rows,
+                    &balance,
+                    solved.load,
+                    accuracy,
+                    &settings,
+                )
+                .expect("a step")
             });
             let bordered = Bordered::new(&pressed.block);
             let (factored, products) = timed(|| {

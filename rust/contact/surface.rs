@@ -2,7 +2,7 @@
 //!
 //! A force f_b along the gradient of its gap g_b, (-w'(x_b), 1), moves the surface by G(a - b), diagonal
 //! in the harmonics, and opens gap a by (-w'(x_a), 1) . (G - mean of G along x), as the profile follows
-//! the mean displacement (`linearised`).
+//! the mean displacement.
 
 use super::touching::Compliance;
 use crate::fem::mesh::Mesh;

@@ -7,47 +7,34 @@ use crate::material::kinematics::jacobian;
 use crate::material::stress::stress;
 
 impl Block<'_> {
-    /// Residual of the pressure equation of one element.
-    fn pressure_residual(
-        &self,
-        field: &Field,
-        state: &RowState,
-        row: usize,
-        column: usize,
-    ) -> Vec<f64> {
+    /// Residuals of the pressure equations of one row, `[mode][column]`.
+    pub fn row_volumes(&self, row: usize, field: &Field, state: &RowState) -> Vec<f64> {
         let element = &self.mesh.elements[row];
-        let pressure = self.element_pressure(field, row, column);
-        let mut residual: Vec<f64> = (0..pressure.len())
-            .map(|m| -element.mode_mass[m] * pressure[m] / self.bulk_modulus)
-            .collect();
-        for (at, line, q) in self.gauss_points(column) {
-            let f = &state.gradient[line][q];
-            let volume = element.weight[at] * (jacobian(f) - 1.0);
-            for (r, mode) in residual.iter_mut().zip(&element.mode[at]) {
-                *r += mode * volume;
+        let (columns, modes) = (self.mesh.columns, self.mesh.modes());
+        let mut residual = vec![0.0; modes * columns];
+        for column in 0..columns {
+            let pressure = self.element_pressure(field, row, column);
+            for (m, mass) in element.mode_mass.iter().enumerate() {
+                residual[m * columns + column] = -mass * pressure[m] / self.bulk_modulus;
+            }
+            for (at, line, q) in self.gauss_points(column) {
+                let f = &state.gradient[line][q];
+                let volume = element.weight[at] * (jacobian(f) - 1.0);
+                for (m, mode) in element.mode[at].iter().enumerate() {
+                    residual[m * columns + column] += mode * volume;
+                }
             }
         }
         residual
     }
 
-    /// Residuals of the pressure equations of one row, `[column][mode]`.
-    pub fn row_volumes(&self, row: usize, field: &Field, state: &RowState) -> Vec<f64> {
-        let columns = 0..self.mesh.columns;
-        columns
-            .flat_map(|column| self.pressure_residual(field, state, row, column))
-            .collect()
-    }
-
-    /// Internal forces of one row (over its layers) and the norm of its pressure residual.
-    pub fn row_forces(&self, row: usize, field: &Field, state: &RowState) -> (Vec<f64>, f64) {
+    /// Internal forces of one row, over its layers.
+    pub fn row_forces(&self, row: usize, field: &Field, state: &RowState) -> Vec<f64> {
         let element = &self.mesh.elements[row];
         let mut forces = vec![0.0; (self.mesh.order + 1) * self.mesh.layer_size()];
-        let mut volume_error = 0.0;
         for column in 0..self.mesh.columns {
             let unknowns = self.local_unknowns(column);
             let pressure = self.element_pressure(field, row, column);
-            let residual = self.pressure_residual(field, state, row, column);
-            volume_error += residual.iter().map(|r| r * r).sum::<f64>();
             for (at, line, q) in self.gauss_points(column) {
                 let level = dot(&element.mode[at], pressure);
                 let p = stress(&state.gradient[line][q], &state.h[line][q], level);
@@ -58,7 +45,7 @@ impl Block<'_> {
                 }
             }
         }
-        (forces, volume_error)
+        forces
     }
 }
 

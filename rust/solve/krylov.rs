@@ -8,6 +8,7 @@
 //! (2000) 1300). The next Newton step finds the next set: to iterate one problem on set after set, until
 //! none changes, took more products and no fewer steps.
 
+use super::balance::Balance;
 use super::increment::Increment;
 use crate::contact::complementarity;
 use crate::contact::surface::Surface;
@@ -29,11 +30,13 @@ pub struct Accuracy {
     pub least: f64,
 }
 
-/// Increment of a Newton step from `state`, whose rows are in the states `rows`, under `load`.
+/// Increment of a Newton step from `state`, whose rows are in the states `rows` and which leaves
+/// `balance`, under `load`.
 pub fn increment(
     pressed: &PressedBlock<'_>,
     state: &State,
     rows: &[RowState],
+    balance: &Balance,
     load: f64,
     accuracy: Accuracy,
     settings: &Settings,
@@ -41,56 +44,22 @@ pub fn increment(
     let watch = pressed.watch;
     let jacobian = Jacobian::new(&pressed.block, &state.field, rows, watch)?;
     let uniform = Uniform::new(&jacobian, watch)?;
-    let x = pressed.abscissae(&state.field);
-    let slope: Vec<f64> = x.iter().map(|&x| pressed.heights.slope(x)).collect();
-    let bend = x.iter().zip(&state.force);
+    let bend = balance.x.iter().zip(&state.force);
     let step = Step {
         mesh: pressed.mesh(),
         watch,
         jacobian: &jacobian,
         uniform: &uniform,
-        surface: Surface::new(&uniform, &slope),
+        surface: Surface::new(&uniform, &balance.slope),
         bend: bend
             .map(|(&x, f)| f * pressed.heights.curvature(x))
             .collect(),
-        gap: pressed.gaps(state, &x),
+        gap: &balance.gap,
         state,
         load,
-        right: right(pressed, state, rows, &slope)?,
+        right: balance.to_undo(pressed),
     };
     step.solve(accuracy, settings)
-}
-
-/// Forces and volumes out of balance, with the contact forces there are.
-fn right(
-    pressed: &PressedBlock<'_>,
-    state: &State,
-    rows: &[RowState],
-    slope: &[f64],
-) -> Result<Vec<f64>, Status> {
-    let mesh = pressed.mesh();
-    let (modes, columns) = (mesh.modes(), mesh.columns);
-    let mut forces = vec![0.0; state.field.u.len()];
-    let mut volumes = Vec::with_capacity(state.field.pressure.len());
-    for (row, row_state) in rows.iter().enumerate() {
-        pressed.watch.look()?;
-        let (local, _) = pressed.block.row_forces(row, &state.field, row_state);
-        let offset = row * mesh.order * mesh.layer_size();
-        for (total, force) in forces[offset..].iter_mut().zip(&local) {
-            *total -= force;
-        }
-        let own = pressed.block.row_volumes(row, &state.field, row_state);
-        for mode in 0..modes {
-            volumes.extend((0..columns).map(|column| -own[column * modes + mode]));
-        }
-    }
-    for (a, force) in state.force.iter().enumerate() {
-        forces[mesh.place(a, 0)] -= slope[a] * force;
-        forces[mesh.place(a, 1)] += force;
-    }
-    forces.truncate(forces.len() - mesh.layer_size());
-    forces.extend(volumes);
-    Ok(forces)
 }
 
 /// One linearised problem.
@@ -102,7 +71,7 @@ struct Step<'a> {
     surface: Surface<'a>,
     /// Contact force times curvature of the profile, at every node.
     bend: Vec<f64>,
-    gap: Vec<f64>,
+    gap: &'a [f64],
     state: &'a State,
     load: f64,
     right: Vec<f64>,
@@ -174,7 +143,7 @@ impl Step<'_> {
             .map(|((y, moved), answered)| y + moved - answered)
             .collect();
         let mut free = self.surface.opening(&free);
-        for (free, gap) in free.iter_mut().zip(&self.gap) {
+        for (free, gap) in free.iter_mut().zip(self.gap) {
             *free += gap + self.state.approach;
         }
         if free.iter().any(|gap| !gap.is_finite()) {

@@ -1,5 +1,6 @@
 //! Solving: one load, raising it, a sequence of meshes and the way from one mesh to another.
 
+pub mod balance;
 pub mod increment;
 pub mod judge;
 pub mod krylov;

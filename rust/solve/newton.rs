@@ -4,6 +4,7 @@
 //! (Eisenstat & Walker, SIAM J. Sci. Comput. 17 (1996) 16, choice 2)
 //!     eta = gamma (residual / residual before)^2,   at least gamma eta_before^2 where that is large.
 
+use super::balance::Balance;
 use super::increment::Increment;
 use super::krylov::{self, Accuracy};
 use crate::contact::{PressedBlock, State};
@@ -66,7 +67,8 @@ fn iterate(
     let mut share = settings.krylov_share;
     loop {
         let before = report.residual;
-        report.residual = residual(pressed, state, &rows, load);
+        let balance = Balance::new(pressed, state, &rows)?;
+        report.residual = balance.residual(pressed, state, load);
         if !report.residual.is_finite() {
             return Err(Status::NotFinite);
         }
@@ -84,7 +86,8 @@ fn iterate(
         share = forcing(share, report.residual / before, settings);
         let least = ITERATED_TO * settings.residual_tolerance * load.min(1.0);
         let accuracy = Accuracy { share, least };
-        let increment = krylov::increment(pressed, state, &rows, load, accuracy, settings)?;
+        let increment =
+            krylov::increment(pressed, state, &rows, &balance, load, accuracy, settings)?;
         report.products += increment.products;
         step(pressed, increment, state, &mut rows, settings)?;
     }
@@ -150,46 +153,13 @@ fn add(to: &mut [f64], share: f64, change: &[f64]) {
 
 /// The residual of a state that nothing was done to; infinite where it has none.
 pub fn missed(pressed: &PressedBlock<'_>, state: &State, load: f64) -> f64 {
-    let found = pressed.row_states(&state.field);
-    let residual = found.map(|rows| residual(pressed, state, &rows, load));
+    let rows = pressed.row_states(&state.field);
+    let balance = rows.and_then(|rows| Balance::new(pressed, state, &rows));
+    let residual = balance.map(|balance| balance.residual(pressed, state, load));
     residual.map_or(
         f64::INFINITY,
         |r| if r.is_nan() { f64::INFINITY } else { r },
     )
-}
-
-/// Forces out of balance relative to the load, gaps relative to half the range: the largest.
-fn residual(pressed: &PressedBlock<'_>, state: &State, rows: &[RowState], load: f64) -> f64 {
-    let mesh = pressed.mesh();
-    let layer = mesh.layer_size();
-    let mut forces = vec![0.0; state.field.u.len()];
-    let mut volume_error = 0.0;
-    for (row, row_state) in rows.iter().enumerate() {
-        let (local, error) = pressed.block.row_forces(row, &state.field, row_state);
-        let offset = row * mesh.order * layer;
-        for (total, force) in forces[offset..].iter_mut().zip(&local) {
-            *total += force;
-        }
-        volume_error += error;
-    }
-    let mut gap_error = 0.0_f64;
-    let x = pressed.abscissae(&state.field);
-    for (a, gap) in pressed.gaps(state, &x).into_iter().enumerate() {
-        forces[mesh.place(a, 0)] += state.force[a] * pressed.heights.slope(x[a]);
-        forces[mesh.place(a, 1)] -= state.force[a];
-        let violated = if state.active[a] { gap.abs() } else { -gap };
-        gap_error = gap_error.max(violated);
-    }
-    let free = forces.len() - layer;
-    let unbalanced = forces[..free].iter().map(|f| f * f).sum::<f64>().sqrt() / load;
-    let total = (state.force.iter().sum::<f64>() / load - 1.0).abs();
-    let overlap = gap_error / pressed.heights.half_range();
-    // f64::max would drop a NaN.
-    let all = [unbalanced, total, volume_error.sqrt(), overlap];
-    if all.iter().any(|v| v.is_nan()) {
-        return f64::NAN;
-    }
-    all.into_iter().fold(0.0, f64::max)
 }
 
 fn largest_gradient(pressed: &PressedBlock<'_>, du: &[f64]) -> f64 {

@@ -168,20 +168,16 @@ fn the_product_is_the_sum_over_points_and_pairs() {
 /// Forces and volumes of a field, in the order of the mixed unknowns.
 fn residual(block: &Block<'_>, field: &Field) -> Vec<f64> {
     let mesh = block.mesh;
-    let (modes, columns) = (mesh.modes(), mesh.columns);
     let mut out = vec![0.0; (mesh.layers() - 1) * mesh.layer_size()];
     let mut all = Vec::new();
     for (row, state) in states(block, field).iter().enumerate() {
-        let (forces, _) = block.row_forces(row, field, state);
+        let forces = block.row_forces(row, field, state);
         let at = row * mesh.order * mesh.layer_size();
         out[at..]
             .iter_mut()
             .zip(forces)
             .for_each(|(sum, force)| *sum += force);
-        let volumes = block.row_volumes(row, field, state);
-        for m in 0..modes {
-            all.extend((0..columns).map(|column| volumes[column * modes + m]));
-        }
+        all.extend(block.row_volumes(row, field, state));
     }
     out.extend(all);
     out

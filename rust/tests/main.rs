@@ -142,9 +142,11 @@ pub fn energy(kind: &str, parameters: &[(&str, f64)]) -> Energy {
 pub fn balance_volumes(block: &Block<'_>, row: usize, state: &RowState, field: &mut Field) {
     let volumes = block.row_volumes(row, field, state);
     let masses = &block.mesh.elements[row].mode_mass;
-    let at = row * volumes.len();
-    for (i, (p, volume)) in field.pressure[at..].iter_mut().zip(volumes).enumerate() {
-        *p += block.bulk_modulus / masses[i % masses.len()] * volume;
+    let (columns, at) = (block.mesh.columns, row * volumes.len());
+    for (i, volume) in volumes.into_iter().enumerate() {
+        let (mode, column) = (i / columns, i % columns);
+        let pressure = &mut field.pressure[at + column * masses.len() + mode];
+        *pressure += block.bulk_modulus / masses[mode] * volume;
     }
 }
 

@@ -9,6 +9,7 @@ use gripscale_kernel::contact::{PressedBlock, State};
 use gripscale_kernel::fem::block::Memory;
 use gripscale_kernel::model::Model;
 use gripscale_kernel::settings::Settings;
+use gripscale_kernel::solve::balance::Balance;
 use gripscale_kernel::solve::increment::Increment;
 use gripscale_kernel::solve::krylov::{self, Accuracy};
 use gripscale_kernel::watch::Watch;
@@ -46,7 +47,7 @@ fn add_elements(system: &mut System, pressed: &PressedBlock<'_>, state: &State) 
     let mut element = ElementTangent::new(block);
     for row in 0..mesh.rows {
         let of_row = block.row_state(row, &state.field.u);
-        let (forces, _) = block.row_forces(row, &state.field, &of_row);
+        let forces = block.row_forces(row, &state.field, &of_row);
         let from = row * mesh.order * mesh.layer_size();
         for (right, force) in system.right[from..free].iter_mut().zip(&forces) {
             *right -= force;
@@ -69,7 +70,7 @@ fn add_elements(system: &mut System, pressed: &PressedBlock<'_>, state: &State) 
                     system.add(pressure, place, volume);
                 }
                 system.add(pressure, pressure, -mass / block.bulk_modulus);
-                system.right[pressure] = -volumes[column * mesh.modes() + m];
+                system.right[pressure] = -volumes[m * mesh.columns + column];
             }
         }
     }
@@ -162,8 +163,10 @@ fn a_step_by_iteration_is_that_of_sparse_elimination() {
                 least: 1e-15,
             };
             let settings = Settings::default();
+            let balance = Balance::new(&pressed, state, &rows).unwrap();
             let found =
-                krylov::increment(&pressed, state, &rows, load, accuracy, &settings).unwrap();
+                krylov::increment(&pressed, state, &rows, &balance, load, accuracy, &settings)
+                    .unwrap();
             assert_ne!(found.contact.active, state.active);
 
             let expected = eliminated(&pressed, state, load, &found);

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from gripscale import Rubber, surface
+from tests.written import write_master_curve, write_road
 
 pytest.importorskip("panel", reason="needs pip install 'gripscale[app]'")
 
@@ -33,27 +34,16 @@ points = 64
 """
 
 
-def road_text() -> str:
-    """Return a profile of 0.1 m with a step of 0.1 mm."""
-    road = surface.self_affine_profile(0.8, 3e-3, 8e-4, length=0.1, step=1e-4, seed=1)
-    rows = [f"{x * 1e3:.1f}\t{z * 1e3:.5f}" for x, z in zip(road.x, road.z, strict=True)]
-    return "\n".join(["x [mm]\tz [mm]", *rows])
-
-
-def dma_text() -> str:
-    """Return a master curve of two relaxations."""
-    frequency = np.geomspace(1e-1, 1e5, 30)
-    modulus = Rubber(6e6, [3e6, 5e6], [1e-1, 1e-4]).complex_modulus(2 * np.pi * frequency)
-    lines = [f"{f:.5e} {e.real:.6e} {e.imag:.6e}" for f, e in zip(frequency, modulus, strict=True)]
-    return "\n".join(["# frequency (Hz) E' (Pa) E'' (Pa)", *lines])
-
-
 @pytest.fixture(scope="session")
 def small(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a folder with case.toml, road.txt and dma.txt, side by side as they are dropped."""
     folder = tmp_path_factory.mktemp("small")
-    for name, text in (("case.toml", CASE), ("road.txt", road_text()), ("dma.txt", dma_text())):
-        (folder / name).write_text(text, encoding="utf-8")
+    road = surface.self_affine_profile(0.8, 3e-3, 8e-4, length=0.1, step=1e-4, seed=1)
+    write_road(folder / "road.txt", road)
+    frequency = np.geomspace(1e-1, 1e5, 30)
+    modulus = Rubber(6e6, [3e6, 5e6], [1e-1, 1e-4]).complex_modulus(2 * np.pi * frequency)
+    write_master_curve(folder / "dma.txt", frequency, modulus)
+    (folder / "case.toml").write_text(CASE, encoding="utf-8")
     return folder
 
 

@@ -14,6 +14,7 @@ from gripscale.case import prepare_case, read_case, run_case
 from gripscale.cli import app
 from gripscale.comparison import compare_over
 from gripscale.study import Study
+from tests.written import write_road
 
 CASE = """\
 [surface]
@@ -39,8 +40,7 @@ ROAD = surface.self_affine_profile(0.8, 3e-3, 6e-4, length=0.1, step=1e-4, seed=
 
 @pytest.fixture
 def case(tmp_path: Path) -> Path:
-    rows = [f"{x * 1e3:.1f}\t{z * 1e3:.6f}" for x, z in zip(ROAD.x, ROAD.z, strict=True)]
-    (tmp_path / "road.txt").write_text("\n".join(["x [mm]\tz [mm]", *rows]))
+    write_road(tmp_path / "road.txt", ROAD)
     path = tmp_path / "case.toml"
     path.write_text(CASE.format(end='cut_off = "instrument"'))
     return path

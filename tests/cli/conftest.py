@@ -6,12 +6,11 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 from typer.testing import CliRunner, Result
 
 from gripscale.cli import app
-from gripscale.rubber import Rubber
+from tests.written import three_waves, write_maxwell, write_road
 
 CASE = """\
 [surface]
@@ -43,20 +42,8 @@ folder = "results"
 def inputs(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with a road of three waves, a Maxwell rubber and a case."""
     folder = tmp_path_factory.mktemp("inputs")
-    x = np.arange(4000) * 0.1
-    z = 2.0 * np.cos(x / 3.0) + 0.7 * np.cos(x + 1.0) + 0.2 * np.cos(3.1 * x + 2.0)
-    rows = [f"{a:.1f}\t{b:.4f}" for a, b in zip(x, z, strict=True)]
-    (folder / "road.txt").write_text("\n".join(["x [mm]\tz [mm]", *rows]) + "\n")
-    frequency = np.geomspace(1e-2, 1e6, 60)
-    rubber = Rubber(6e6, [2e6, 3e6, 5e6], [1e-1, 1e-3, 1e-5])
-    modulus = rubber.complex_modulus(2 * np.pi * frequency)
-    lines = [
-        f"{f:.5e} {e.real / 1e6:.6e} {e.imag / 1e6:.6e}"
-        for f, e in zip(frequency, modulus, strict=True)
-        if e.imag > 0.0
-    ]
-    header = "# Frequency (Hz) E' (MPa) E'' (MPa)"
-    (folder / "dma.txt").write_text("\n".join([header, *lines]) + "\n")
+    write_road(folder / "road.txt", three_waves())
+    write_maxwell(folder / "dma.txt")
     (folder / "case.toml").write_text(CASE)
     return folder
 

@@ -16,6 +16,7 @@ from gripscale.cli import app
 from gripscale.rubber import WLF, Rubber, fit_prony, read_master_curve
 from gripscale.surface import SineStack
 from tests.export.readers import READERS, read_abaqus
+from tests.written import MAXWELL, write_maxwell
 
 CASE = """\
 [surface]
@@ -41,13 +42,9 @@ def run(*arguments: object):
 def inputs(tmp_path_factory) -> Path:
     """A folder with a measured rubber, a case of it, and the file of a rubber."""
     folder = tmp_path_factory.mktemp("inputs")
-    rubber = Rubber(6e6, [2e6, 3e6, 5e6], [1e-1, 1e-3, 1e-5])
-    frequency = np.geomspace(1e-2, 1e6, 60)
-    modulus = rubber.complex_modulus(2 * np.pi * frequency)
-    rows = [f"{f:.5e} {e.real:.6e} {e.imag:.6e}" for f, e in zip(frequency, modulus, strict=True)]
-    (folder / "dma.txt").write_text("\n".join(["# Frequency (Hz) E' (Pa) E'' (Pa)", *rows]))
+    write_maxwell(folder / "dma.txt")
     (folder / "case.toml").write_text(CASE)
-    (folder / "rubber.json").write_text(json.dumps(rubber.to_dict()))
+    (folder / "rubber.json").write_text(json.dumps(MAXWELL.to_dict()))
     return folder
 
 
@@ -60,7 +57,7 @@ def test_a_rubber_of_any_file(inputs, tmp_path, program, source):
     assert "The material is" in done.stdout
     found = READERS[program](target.read_text())
     if source == "rubber.json":
-        own = Rubber(6e6, [2e6, 3e6, 5e6], [1e-1, 1e-3, 1e-5])
+        own = MAXWELL
     else:
         terms = 6 if source == "case.toml" else None
         own = fit_prony(read_master_curve(inputs / "dma.txt"), terms=terms)

@@ -26,8 +26,8 @@ from gripscale.comparison import (
 )
 from gripscale.measured import MeasuredFriction
 from gripscale.model import TOTALS
-from gripscale.rubber import Rubber
 from gripscale.study.axes import axes_of
+from tests.written import three_waves, write_maxwell, write_road
 
 CASE = """\
 # A small case <b>with</b> "marks" & signs
@@ -59,21 +59,9 @@ WAVES = 3
 
 def write_inputs(folder: Path) -> None:
     """Write two roads of three waves, a Maxwell rubber and the case."""
-    x = np.arange(4000) * 0.1
     for name, phase in (("road", 0.0), ("lane", 0.7)):
-        z = 2.0 * np.cos(x / 3.0 + phase) + 0.7 * np.cos(x + 1.0) + 0.2 * np.cos(3.1 * x + 2.0)
-        rows = [f"{a:.1f}\t{b:.4f}" for a, b in zip(x, z, strict=True)]
-        (folder / f"{name}.txt").write_text("\n".join(["x [mm]\tz [mm]", *rows]) + "\n")
-    frequency = np.geomspace(1e-2, 1e6, 60)
-    modulus = Rubber(6e6, [2e6, 3e6, 5e6], [1e-1, 1e-3, 1e-5]).complex_modulus(
-        2 * np.pi * frequency
-    )
-    lines = [
-        f"{f:.5e} {e.real / 1e6:.6e} {e.imag / 1e6:.6e}"
-        for f, e in zip(frequency, modulus, strict=True)
-    ]
-    header = "# Frequency (Hz) E' (MPa) E'' (MPa)"
-    (folder / "dma.txt").write_text("\n".join([header, *lines]) + "\n")
+        write_road(folder / f"{name}.txt", three_waves(phase))
+    write_maxwell(folder / "dma.txt")
     (folder / "case.toml").write_text(CASE)
 
 

@@ -16,6 +16,7 @@ from gripscale.report.roads_table import roads_sentences
 from gripscale.roads import Roads, compare_surfaces
 from gripscale.roads.by_octave import octave_ends, running_friction
 from gripscale.surface import Profile, self_affine_profile
+from tests.written import write_road
 
 CASE = """\
 [surface]
@@ -34,26 +35,33 @@ points = 64
 """
 
 
-def write(path: Path, road: Profile, factor: float) -> None:
-    rows = [f"{x * 1e3:.1f}\t{factor * z * 1e3:.6f}" for x, z in zip(road.x, road.z, strict=True)]
-    path.write_text("\n".join(["x [mm]\tz [mm]", *rows]))
-
-
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A case on a gentle road, the same road again, and three times as high."""
     folder = tmp_path_factory.mktemp("roads")
     road = self_affine_profile(0.8, 3e-3, 2e-4, length=0.4, step=2e-4, seed=1)
     for name, factor in (("road", 1.0), ("twin", 1.0), ("rough", 3.0)):
-        write(folder / f"{name}.txt", road, factor)
+        write_road(folder / f"{name}.txt", Profile(road.x, factor * road.z))
     (folder / "case.toml").write_text(CASE)
     return folder
 
 
 @pytest.fixture(scope="module")
-def made(folder: Path) -> Roads:
+def solves() -> list[str]:
+    """What was solved for `made`, a label each."""
+    return []
+
+
+@pytest.fixture(scope="module")
+def made(folder: Path, solves: list[str]) -> Roads:
     surfaces = {name: str(folder / f"{name}.txt") for name in ("road", "twin", "rough")}
-    return compare_surfaces(folder / "case.toml", surfaces, folder / "out", samples=10)
+    return compare_surfaces(
+        folder / "case.toml",
+        surfaces,
+        folder / "out",
+        samples=10,
+        on_task=lambda one: solves.append(one.label),
+    )
 
 
 def test_a_twin_differs_by_nothing_and_a_rough_road_by_more_than_its_stretches(made: Roads) -> None:
@@ -81,6 +89,16 @@ def test_octaves_add_up_to_the_totals(made: Roads) -> None:
         running - running.isel(surface=0, drop=True),
         atol=1e-12,
     )
+
+
+def test_the_direct_contact_is_solved_once_for_itself_and_for_its_samples(
+    made: Roads, solves: list[str]
+) -> None:
+    """The chain twice: its samples are half-planes, and so is what they are compared with."""
+    assert np.isfinite(made.data.total_friction_low).all()
+    for model, beside_the_samples in (("chain", 2), ("direct", 1)):
+        told = [label for label in solves if label.startswith(f"{model}, rough, ")]
+        assert len(told) == beside_the_samples + 10
 
 
 def test_ranges_are_of_the_drawn_blocks(folder: Path, made: Roads) -> None:

@@ -13,6 +13,7 @@ from gripscale import Rubber, netcdf, surface
 from gripscale.cli import app
 from gripscale.report import tables
 from gripscale.wave import Status
+from tests.written import write_master_curve, write_road
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "reading-results.md").read_text(encoding="utf-8")
@@ -66,12 +67,10 @@ def folder(tmp_path_factory):
     """A run and a study of a made-up road and rubber."""
     folder = tmp_path_factory.mktemp("case")
     road = surface.self_affine_profile(0.8, 3e-3, 8e-4, length=0.1, step=1e-4, seed=1)
-    rows = [f"{x * 1e3:.1f}\t{z * 1e3:.5f}" for x, z in zip(road.x, road.z, strict=True)]
-    (folder / "road.txt").write_text("\n".join(["x [mm]\tz [mm]", *rows]))
+    write_road(folder / "road.txt", road)
     frequency = np.geomspace(1e-1, 1e5, 30)
     modulus = Rubber(6e6, [3e6, 5e6], [1e-1, 1e-4]).complex_modulus(2 * np.pi * frequency)
-    lines = [f"{f:.5e} {e.real:.6e} {e.imag:.6e}" for f, e in zip(frequency, modulus, strict=True)]
-    (folder / "dma.txt").write_text("\n".join(["# frequency (Hz) E' (Pa) E'' (Pa)", *lines]))
+    write_master_curve(folder / "dma.txt", frequency, modulus)
     (folder / "case.toml").write_text(CASE)
     (folder / "mu.csv").write_text("speed,friction\n0.1,0.3\n1,0.4\n")
     for arguments in (

@@ -12,6 +12,7 @@ import gripscale as gs
 from gripscale.case import read_case
 from gripscale.errors import FileError, InputError
 from gripscale.study.inputs import case_surface, rubber_of, surface_of
+from tests.written import write_road
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "road_and_tread" / "case.toml"
 STACK = gs.SineStack(wavelength=20e-3 / 3.0 ** np.arange(5), amplitude=2e-3 / 2.2 ** np.arange(5))
@@ -21,9 +22,8 @@ STACK = gs.SineStack(wavelength=20e-3 / 3.0 ** np.arange(5), amplitude=2e-3 / 2.
 def measured(tmp_path: Path) -> Path:
     """A case on a made-up road of five waves, and a copy of the road under another name."""
     profile = gs.surface.sine_profile(STACK, length=0.5, step=1e-4, seed=3)
-    rows = [f"{x * 1e3:.3f}\t{z * 1e3:.6f}" for x, z in zip(profile.x, profile.z, strict=True)]
     for name in ("road.txt", "other.txt"):
-        (tmp_path / name).write_text("\n".join(["x [mm]\tz [mm]", *rows]) + "\n")
+        write_road(tmp_path / name, profile)
     path = tmp_path / "case.toml"
     path.write_text(
         '[surface]\nfiles = ["road.txt"]\nremove_spikes = false\nscales = 5\n'

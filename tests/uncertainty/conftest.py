@@ -11,6 +11,7 @@ from gripscale import Rubber
 from gripscale.case import prepare_case
 from gripscale.surface import self_affine_profile
 from gripscale.uncertainty.inputs import Inputs, Measurement
+from tests.written import write_master_curve, write_road
 
 CASE = """\
 [surface]
@@ -36,18 +37,14 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with a road, a master curve with 3 % of noise, and a case."""
     folder = tmp_path_factory.mktemp("uncertain")
     road = self_affine_profile(0.8, 3e-3, 8e-4, length=0.4, step=2e-4, seed=1)
-    rows = [f"{x * 1e3:.1f}\t{z * 1e3:.5f}" for x, z in zip(road.x, road.z, strict=True)]
-    (folder / "road.txt").write_text("\n".join(["x [mm]\tz [mm]", *rows]))
+    write_road(folder / "road.txt", road)
     frequency = np.geomspace(1e-1, 1e6, 40)
     modulus = Rubber(6e6, [3e6, 4e6, 8e6, 2e7], [1e-2, 1e-3, 1e-4, 1e-5]).complex_modulus(
         2 * np.pi * frequency
     )
     noise = np.exp(0.03 * np.random.default_rng(1).standard_normal((2, frequency.size)))
-    lines = [
-        f"{f:.5e} {e.real * a:.6e} {e.imag * b:.6e}"
-        for f, e, a, b in zip(frequency, modulus, *noise, strict=True)
-    ]
-    (folder / "dma.txt").write_text("\n".join(["# frequency (Hz) E' (Pa) E'' (Pa)", *lines]))
+    noisy = modulus.real * noise[0] + 1j * modulus.imag * noise[1]
+    write_master_curve(folder / "dma.txt", frequency, noisy)
     (folder / "case.toml").write_text(CASE)
     return folder
 

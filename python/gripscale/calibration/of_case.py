@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -24,15 +23,12 @@ from gripscale.measured.predicted import predictions_at
 from gripscale.model import Model
 from gripscale.rough.model import DirectContact
 from gripscale.rubber.extrapolation import require_measured
-from gripscale.study.store import Store
+from gripscale.study.store import store_in
 from gripscale.study.threads import OnTask
 from gripscale.units import parse_quantity
 
 MODELS = ("direct", "chain")
 """Models whose hysteresis an area term can be put beside."""
-
-PREDICTIONS = "predictions"
-"""Folder of the finished answers, in the folder of the calibration."""
 
 KINDS_OF_QUANTITY = {
     "stress_0": "pressure",
@@ -89,8 +85,7 @@ def calibrate_case(
     found = measured or measured_of(results.file)
     if results.file.case.rubber.extrapolate == "refuse":
         _require_measured(results, found)
-    with TemporaryDirectory(prefix="gripscale-") as forgotten:
-        store = Store(forgotten if folder is None else Path(folder) / PREDICTIONS)
+    with store_in(folder) as store:
         predicted = predictions_at(
             found,
             _model(model, results),

@@ -13,6 +13,7 @@ from pydantic import BeforeValidator
 from gripscale.case.expected import Words
 from gripscale.case.quantity import Length, Pressure, Speed
 from gripscale.case.table import Table
+from gripscale.model import NominalLoad
 from gripscale.units import parse_quantity
 
 LOAD_TIME = '"passage", "infinite" or a time such as "1 s"'
@@ -46,3 +47,8 @@ class Load(Table):
     """The relaxed rubber at rest, too."""
     load_time: Annotated[Any, BeforeValidator(_load_time), Words(LOAD_TIME)] = "passage"
     """How long a wave is loaded: while the contact above it passes, for ever, or a time."""
+
+    @property
+    def nominal(self) -> NominalLoad:
+        """The load on the whole surface, at the speed stated."""
+        return NominalLoad(self.pressure, self.speed, self.footprint, self.load_time)

@@ -10,6 +10,7 @@ from pydantic import GetCoreSchemaHandler
 from pydantic_core import core_schema
 
 from gripscale.case.expected import Words
+from gripscale.case.reading import Reading
 from gripscale.units import listed, parse_quantity, spelled, such_as
 
 
@@ -26,19 +27,14 @@ def _not_negative(value: float) -> float:
 
 
 @dataclass(frozen=True)
-class Quantity(Words):
+class Quantity(Reading):
     """Read with its unit, then checked."""
 
     kind: str
     check: Callable[[float], float]
 
-    def __get_pydantic_core_schema__(
-        self, source: Any, handler: GetCoreSchemaHandler
-    ) -> core_schema.CoreSchema:
-        """Read the quantity before pydantic looks at the number."""
-        return core_schema.no_info_before_validator_function(self._read, handler(source))
-
-    def _read(self, value: Any) -> float:
+    def read(self, value: Any) -> float:
+        """Return a number in SI units."""
         return self.check(parse_quantity(value, self.kind))
 
 

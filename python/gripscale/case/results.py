@@ -57,8 +57,7 @@ class CaseResults:
     @property
     def load(self) -> NominalLoad:
         """The load of the case, at its speed."""
-        load = self.file.case.load
-        return NominalLoad(load.pressure, load.speed, load.footprint, load.load_time)
+        return self.file.case.load.nominal
 
     def key(self, name: str) -> str:
         """Return what the prediction `name` depends on, as one word.

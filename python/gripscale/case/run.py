@@ -21,7 +21,6 @@ from gripscale.case.resume import FINISHED, KEY, Earlier, earlier
 from gripscale.chain.predict import ChainError, predict
 from gripscale.chain.prediction import Prediction
 from gripscale.errors import InputError, about_keys
-from gripscale.model import NominalLoad
 from gripscale.rubber.carrying import require_solid
 from gripscale.rubber.extrapolation import require_measured
 
@@ -127,11 +126,10 @@ def _require_shift(results: CaseResults) -> None:
 
 def _require_solid(results: CaseResults) -> None:
     """Raise `InputError` before anything is solved or written if the rubber cannot carry a load."""
-    load = results.file.case.load
     for _, speed in results.planned():
-        nominal = NominalLoad(load.pressure, speed, load.footprint, load.load_time)
-        time = nominal.time_under(nominal.footprint)
-        require_solid(results.rubber_before, nominal.pressure, time)
+        load = replace(results.load, speed=speed)
+        time = load.time_under(load.footprint)
+        require_solid(results.rubber_before, load.pressure, time)
 
 
 def _require_measured(results: CaseResults) -> None:

@@ -6,10 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, ValidationError
-from pydantic_core import core_schema
+from pydantic import BaseModel, ConfigDict, ValidationError
 
-from gripscale.case.expected import Words
+from gripscale.case.reading import Reading
 from gripscale.case.sentence import sentence
 from gripscale.checks import shown
 
@@ -26,16 +25,10 @@ class Table(BaseModel):
 
 
 @dataclass(frozen=True)
-class ByKind(Words):
+class ByKind(Reading):
     """Reads tables such as { kind = "wlf", c1 = 8.0, c2 = "120 K" }."""
 
     tables: Mapping[str, type[Table]] = field(hash=False)
-
-    def __get_pydantic_core_schema__(
-        self, source: Any, handler: GetCoreSchemaHandler
-    ) -> core_schema.CoreSchema:
-        """Read the table before pydantic asks what it is an instance of."""
-        return core_schema.no_info_before_validator_function(self.read, handler(source))
 
     def read(self, value: Any) -> Any:
         """Return the table of the kind that `value` names."""

@@ -9,11 +9,10 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, GetCoreSchemaHandler
-from pydantic_core import core_schema
+from pydantic import Field
 
-from gripscale.case.expected import Words
 from gripscale.case.quantity import Length
+from gripscale.case.reading import Reading
 from gripscale.case.table import Table
 from gripscale.units import parse_quantity, such_as
 
@@ -35,18 +34,13 @@ FACTOR = "factor"
 
 
 @dataclass(frozen=True)
-class Values(Words):
+class Values(Reading):
     """Values of a source: quantities of one kind, or factors."""
 
     kind: str
 
-    def __get_pydantic_core_schema__(
-        self, source: Any, handler: GetCoreSchemaHandler
-    ) -> core_schema.CoreSchema:
-        """Read the quantities before pydantic looks at the numbers."""
-        return core_schema.no_info_before_validator_function(self._read, handler(source))
-
-    def _read(self, value: Any) -> list[float]:
+    def read(self, value: Any) -> list[float]:
+        """Return rising numbers in SI units."""
         if not isinstance(value, list) or not value:
             raise ValueError(f"expected {self.words}")
         found = [self._number(one) for one in value]

@@ -63,10 +63,10 @@ def compare(
     """Show what each assumption of the chain costs; resumes where it was stopped."""
     from gripscale.case import folder, prepare_case, read_case
     from gripscale.comparison import at_measured, compare_case, compare_over
-    from gripscale.comparison.run import PREDICTIONS
     from gripscale.measured import read_measured_friction
     from gripscale.report.uncertainty_summary import uncertainty_lines
     from gripscale.study.axes import parse_vary
+    from gripscale.study.store import PREDICTIONS
     from gripscale.uncertainty.stored import input_digests, stored_uncertainty
 
     axes = None if vary is None else dict([parse_vary(vary)])
@@ -112,10 +112,10 @@ def _effects(
 
     Nothing without conditions.
     """
-    from gripscale.comparison.run import PREDICTIONS
     from gripscale.effects import case_effects
     from gripscale.model import Model
     from gripscale.rough.model import DirectContact
+    from gripscale.study.store import PREDICTIONS
 
     models: list[Model] = [results.chain] if results.conditions is not None else []
     if models and results.surface.measured is not None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from gripscale.cli.options import Workers
+from gripscale.cli.options import OwnFolder, Workers
 from gripscale.cli.progress import teller
 from gripscale.cli.side_by_side import case_of, fail_if_any, keep, names_of
 from gripscale.cli.terminal import command, say, screen
@@ -49,14 +49,7 @@ def compare_rubbers(
     uncertainty: Annotated[
         bool, typer.Option(help="Predict what each measurement leaves open, too.")
     ] = True,
-    output: Annotated[
-        Path | None,
-        typer.Option(
-            help="Results folder, instead of `rubbers` in the one of the case.",
-            metavar="DIR",
-            readable=False,
-        ),
-    ] = None,
+    output: OwnFolder = None,
     workers: Workers = None,
 ) -> None:
     """Compare compounds on the same road: friction, area, and what makes the difference."""

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from gripscale.cli.options import Workers
+from gripscale.cli.options import OwnFolder, Workers
 from gripscale.cli.progress import teller
 from gripscale.cli.side_by_side import case_of, fail_if_any, keep, names_of
 from gripscale.cli.terminal import command, say, screen
@@ -43,14 +43,7 @@ def compare_surfaces(
         int,
         typer.Option(help="Stretches drawn of each road, for the range of its totals; 0: none."),
     ] = 20,
-    output: Annotated[
-        Path | None,
-        typer.Option(
-            help="Results folder, instead of `surfaces` in the one of the case.",
-            metavar="DIR",
-            readable=False,
-        ),
-    ] = None,
+    output: OwnFolder = None,
     workers: Workers = None,
 ) -> None:
     """Compare roads under the same rubber: friction, area, and which scale makes the difference."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from gripscale.cli.terminal import NOT_CONVERGED, complain, say
+from gripscale.cli.terminal import NOT_CONVERGED, complain, say_all
 from gripscale.errors import InputError
 
 if TYPE_CHECKING:
@@ -43,12 +43,9 @@ def keep(console: Console, path: Path, told: Sequence[Table], below: Sequence[st
     from gripscale.case import folder
     from gripscale.report import tables
 
-    for table in told:
-        console.print()
-        console.print(table)
-    for text in below:
-        say(console, text)
-    folder.write_text(path, tables.as_text(*told, *below))
+    parts = [*told, *below]
+    say_all(console, parts)
+    folder.write_text(path, tables.as_text(*parts))
 
 
 def fail_if_any(failed: Sequence[str], what: str) -> None:

@@ -10,7 +10,7 @@ import typer
 
 from gripscale.cli.options import CasePath, Cluster, OwnFolder, Workers
 from gripscale.cli.progress import teller
-from gripscale.cli.terminal import NOT_CONVERGED, command, complain, pointed, say, screen
+from gripscale.cli.terminal import NOT_CONVERGED, command, complain, pointed, say, say_all, screen
 from gripscale.errors import InputError
 
 if TYPE_CHECKING:
@@ -80,13 +80,9 @@ def _conclude(
     from gripscale.report import tables
     from gripscale.report.study_table import study_table
 
-    table = study_table(result)
-    below = _below(result)
-    console.print()
-    console.print(table)
-    for line in below:
-        say(console, line)
-    folder.write_text(target / "study.txt", tables.as_text(*opening, table, *below))
+    parts = [study_table(result), *_below(result)]
+    say_all(console, parts)
+    folder.write_text(target / "study.txt", tables.as_text(*opening, *parts))
     figures = target / "figures"
     if not (drawn and any(figures.iterdir())):
         from gripscale.figures.study_all import draw

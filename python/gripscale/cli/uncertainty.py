@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from gripscale.cli.options import CasePath, Cluster, Workers
+from gripscale.cli.options import CasePath, Cluster, OwnFolder, Workers
 from gripscale.cli.progress import teller
 from gripscale.cli.terminal import NOT_CONVERGED, command, complain, say, screen
 from gripscale.errors import InputError
@@ -79,14 +79,7 @@ def uncertainty(
         int | None,
         typer.Option(help="Seed of the random numbers; 0 by default.", show_default=False),
     ] = None,
-    output: Annotated[
-        Path | None,
-        typer.Option(
-            help="Results folder, instead of `uncertainty` in the one of the case.",
-            metavar="DIR",
-            readable=False,
-        ),
-    ] = None,
+    output: OwnFolder = None,
     workers: Workers = None,
     cluster: Cluster = None,
 ) -> None:

@@ -27,7 +27,7 @@ from gripscale.model import (
     WHY_NO_EXPONENT,
 )
 from gripscale.study.assemble import coordinates
-from gripscale.study.axes import Axis
+from gripscale.study.axis import Axis
 from gripscale.wave.dataset import labelled
 
 SOURCE = "gripscale compare"

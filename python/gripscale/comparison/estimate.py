@@ -72,13 +72,13 @@ class BestEstimate:
 
     @property
     def contact_fraction(self) -> Uncertain:
-        """Real over nominal contact area."""
+        """Real over nominal contact area [-], the product of what is included."""
         parts = [factor.contact_fraction for factor in self.included]
         return reduce(Uncertain.times, parts, self.base.contact_fraction)
 
     @property
     def friction(self) -> Uncertain:
-        """Friction coefficient."""
+        """Friction coefficient [-], the product of what is included."""
         parts = [factor.friction for factor in self.included]
         return reduce(Uncertain.times, parts, self.base.friction)
 

@@ -26,7 +26,21 @@ FILE = "direct.nc"
 def judged(results: CaseResults) -> SolvedRung | None:
     """Return the direct contact of the measured profiles, at the speed of the case.
 
-    None if no profile was measured. Solved to an estimated relative error of `JUDGED_TO`.
+    Parameters
+    ----------
+    results : CaseResults
+        The prepared case; its conditions change the rubber of the direct contact, too.
+
+    Returns
+    -------
+    SolvedRung or None
+        A sample for each profile, solved to an estimated relative error of `JUDGED_TO`, 10 %; None
+        if no profile was measured.
+
+    Raises
+    ------
+    InputError
+        If the direct contact cannot use the rubber or a profile.
     """
     rung = next(one for one in LADDER if one.name == DIRECT)
     model = DirectContact(tolerance=JUDGED_TO, conditions=results.conditions)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from gripscale.comparison.solved_ladder import SolvedLadder
-from gripscale.study.axes import Axis
+from gripscale.study.axis import Axis
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
 from gripscale import checks
@@ -24,13 +22,10 @@ from gripscale.measured.friction import MeasuredFriction
 from gripscale.measured.of_case import friction_of_case
 from gripscale.rubber.extrapolation import require_measured
 from gripscale.study import Study
-from gripscale.study.store import Store
+from gripscale.study.store import Store, store_in
 from gripscale.study.task import Task
 from gripscale.study.threads import OnTask, solve_all
 from gripscale.theory.models import KlueppelHeinrich
-
-PREDICTIONS = "predictions"
-"""Folder of the finished answers, in the folder of the comparison."""
 
 VARIED = (
     "speed",
@@ -105,7 +100,7 @@ def compare_case(
     results = case if isinstance(case, CaseResults) else prepare_case(case)
     choice = Choice(seeds, tolerance, rungs, measured, factors)
     task = Task(results.rubber.rubber, results.surface, results.load, results.chain)
-    with _store(folder) as store:
+    with store_in(folder) as store:
         made = _compared(results.file, {"": task}, choice, store, workers, client, on_task)
     return made[0]
 
@@ -149,7 +144,7 @@ def compare_over(
         raise InputError(f"{axis.name} must have at least two values; got {axis.labels[0]}")
     choice = Choice(seeds, tolerance, rungs, measured, factors)
     tasks = {point.label: point.task for point in study.points}
-    with _store(folder) as store:
+    with store_in(folder) as store:
         made = _compared(study.file, tasks, choice, store, workers, client, on_task)
     return ComparisonOverAxis(axis, made)
 
@@ -228,13 +223,3 @@ def _label(place: str, label: str, draws: Sequence[Draw], at: int) -> str:
     """Return what one sample is called while it is solved."""
     number = f" {at + 1} of {len(draws)}" if len(draws) > 1 else ""
     return ": ".join(filter(None, [place, f"{label}{number}"]))
-
-
-@contextmanager
-def _store(folder: str | Path | None) -> Iterator[Store]:
-    """Give the store of `folder`, or one that is forgotten afterwards."""
-    if folder is not None:
-        yield Store(Path(folder) / PREDICTIONS)
-        return
-    with TemporaryDirectory(prefix="gripscale-") as forgotten:
-        yield Store(forgotten)

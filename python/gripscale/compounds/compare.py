@@ -32,11 +32,10 @@ from gripscale.differences import (
     to_first,
     total_differences,
 )
-from gripscale.model import NominalLoad
 from gripscale.rubber import Rubber
 from gripscale.study.inputs import rubber_of
-from gripscale.study.store import Store
-from gripscale.study.study import PREDICTIONS, Study
+from gripscale.study.store import PREDICTIONS, Store
+from gripscale.study.study import Study
 from gripscale.study.task import Task
 from gripscale.study.threads import OnTask, solve_all
 from gripscale.theory.half_plane import HalfPlane
@@ -118,11 +117,10 @@ def compare_compounds(
 def _ranges(study: Study, data: xr.Dataset, folder: Path, workers: int | None) -> dict[str, Any]:
     """Return the lowest and highest totals of each compound over its admissible series."""
     assert isinstance(study.model, Chain)
-    load = study.file.case.load
-    nominal = NominalLoad(load.pressure, load.speed, load.footprint, load.load_time)
+    load = study.file.case.load.nominal
     model = replace(study.model, solver=HalfPlane(points=POINTS))
     tasks = {
-        (name, i): Task(rubber, study.surfaces[0], nominal, model)
+        (name, i): Task(rubber, study.surfaces[0], load, model)
         for name, best in zip(data.rubber.values.tolist(), study.rubbers, strict=True)
         for i, rubber in enumerate([best, *best.admissible_rubbers()])
     }

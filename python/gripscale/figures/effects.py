@@ -42,7 +42,8 @@ def effects_figure(*results: xr.Dataset, title: str = "") -> Figure:
     Parameters
     ----------
     *results : xarray.Dataset
-        As `gripscale.effects.effects` returns them, one for each model; all of the same conditions.
+        As `gripscale.effects.effects` returns them, one for each model, one at least; all of the
+        same conditions.
     title : str
         Above the panels.
     """

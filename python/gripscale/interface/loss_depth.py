@@ -96,7 +96,7 @@ class LossDepth:
 
     @property
     def rate(self) -> float:
-        """B = shape / mean [1/m], infinite at the surface."""
+        """The rate b = shape/mean [1/m], infinite at the surface."""
         return self.shape / self.mean if self.mean > 0.0 else math.inf
 
     def decay(self, m: ComplexArray) -> ComplexArray:

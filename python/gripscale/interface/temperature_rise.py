@@ -68,18 +68,35 @@ def harmonic_where_lost(
 
 
 def uniform_at_surface(time: float, depth: DepthsOfLoss, thermal: ThermalProperties) -> float:
-    """Return the surface temperature after a `time` [s] of uniform heat per heat per area.
+    """Return the surface temperature of uniform heat per heat per area.
 
-    In [K m^2/W].
+    Parameters
+    ----------
+    time : float
+        How long the heat has lasted [s].
+    depth : DepthsOfLoss
+        Where it is lost.
+    thermal : ThermalProperties
+        Of the rubber.
+
+    Returns
+    -------
+    float
+        In [K m^2/W].
+
+    Raises
+    ------
+    InputError
+        If the time is no finite number from zero.
     """
     length = _spread(time, thermal)
     return length * depth.spread(length) / thermal.conductivity if length > 0.0 else 0.0
 
 
 def uniform_where_lost(time: float, depth: DepthsOfLoss, thermal: ThermalProperties) -> float:
-    """Return the temperature where the energy is lost after a `time` [s] per heat per area.
+    """Return the temperature where the energy is lost of uniform heat per heat per area.
 
-    In [K m^2/W].
+    Arguments, unit and errors as for `uniform_at_surface`.
     """
     length = _spread(time, thermal)
     if length == 0.0:

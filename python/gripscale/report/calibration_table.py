@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from rich import box
 from rich.table import Table
 
 from gripscale.calibration.profile import LEVEL
 from gripscale.calibration.snippet import interval, written
+from gripscale.report.printed_table import printed_table
 from gripscale.report.tables import significant
 from gripscale.units import ZERO_CELSIUS
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 def parameter_table(calibration: Calibration) -> Table:
     """Return value, standard error and interval of each parameter, and what was held."""
-    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
+    table = printed_table()
     table.add_column("parameter")
     for head in ("value", "standard error"):
         table.add_column(head, justify="right", no_wrap=True)
@@ -46,7 +46,7 @@ def held_out_table(calibration: Calibration) -> Table:
     """Return the errors of the law at each group of points, fitted to the others."""
     groups = calibration.held_out
     spread = any(np.isfinite(one.rms_outside_in_spread) for one in groups)
-    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
+    table = printed_table()
     table.add_column("left out")
     heads = ["points", "rms\ninside", "rms\noutside", *["outside/\nspread"] * spread]
     for head in heads:

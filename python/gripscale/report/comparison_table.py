@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
-from rich import box
 from rich.table import Table
 
 from gripscale.figures.rungs import JUDGE, flawed
@@ -21,6 +20,7 @@ from gripscale.model import (
     with_adhesive,
 )
 from gripscale.report.outside_band import comparison_sentences, friction_sentence
+from gripscale.report.printed_table import printed_table
 from gripscale.report.tables import significant
 from gripscale.rubber.extrapolation import WORTH_SAYING
 from gripscale.study.display import axis_shown
@@ -41,7 +41,7 @@ def comparison_table(comparison: xr.Dataset) -> Table:
 
     `comparison` has no axis but `rung`.
     """
-    table = _empty()
+    table = printed_table()
     table.add_column("model", overflow="fold", min_width=LABEL)
     parts = ["spread\n%", "error\n%", "×"]
     for head in ["A_r/A_0", *parts, "μ", "μ\ndiss.", *parts, "n"]:
@@ -65,7 +65,7 @@ def comparison_table(comparison: xr.Dataset) -> Table:
 def further_table(comparison: xr.Dataset) -> Table:
     """Return friction with the area term, where there is one, and what the cut-off does."""
     both = with_adhesive(comparison)
-    table = _empty()
+    table = printed_table()
     table.add_column("model", overflow="fold", min_width=LABEL)
     heads = [] if both is None else ["μ + area\nterm"]
     for head in [*heads, "d ln A_r/A_0 /\nd ln λ_min", "d ln μ /\nd ln λ_min"]:
@@ -80,7 +80,7 @@ def further_table(comparison: xr.Dataset) -> Table:
 def axis_table(comparison: xr.Dataset, axis: str, name: str) -> Table:
     """Return `contact_fraction` or `friction` of each rung over the axis that was varied."""
     shown = axis_shown(comparison, axis)
-    table = _empty()
+    table = printed_table()
     table.add_column(f"{SYMBOLS[name]}\n{axis.replace('_', ' ')} [{shown.unit}]", no_wrap=True)
     for rung in comparison.rung.values:
         table.add_column(str(rung).replace("_", "\n"), justify="right")
@@ -191,10 +191,6 @@ def judgement(chain: PredictionView, direct: xr.Dataset) -> Iterator[str]:
     if chain.moving:
         against += f" and {chain.total('friction') / friction:.2g} times its friction"
     yield f"The chain has {against}; `gripscale compare` shows which assumption costs what."
-
-
-def _empty() -> Table:
-    return Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
 
 
 def _cells(one: xr.Dataset, name: str) -> Iterator[str]:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 
 import xarray as xr
-from rich import box
 from rich.table import Table
 
 from gripscale.effects.effects import CHANGES, WITH_AREA_TERM
 from gripscale.model import ADHESIVE_FRICTION
+from gripscale.report.printed_table import printed_table
 from gripscale.report.tables import significant
 from gripscale.study.display import EFFECTS
 
@@ -24,7 +24,7 @@ def effects_table(*results: xr.Dataset) -> Table:
     *results : xarray.Dataset
         As `gripscale.effects.effects` returns them, one for each model.
     """
-    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
+    table = printed_table()
     table.add_column("model", no_wrap=True)
     table.add_column("effects", no_wrap=True)
     area_term = any(WITH_AREA_TERM in one for one in results)

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 
 import xarray as xr
-from rich import box
 from rich.table import Table
 
 from gripscale.figures.palette import MILLI
+from gripscale.report.printed_table import printed_table
 from gripscale.report.tables import significant
 from gripscale.units import ZERO_CELSIUS
 
@@ -23,7 +23,7 @@ def heat_table(data: xr.Dataset) -> Table:
     data : xarray.Dataset
         Of `Prediction.to_dataset`, with heat.
     """
-    table = Table(box=box.SIMPLE_HEAD, padding=(0, 2, 0, 0), pad_edge=False)
+    table = printed_table(padding=2)
     for head in (
         "#\n",
         "λ\nmm",

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
-from rich import box
 from rich.table import Table
 
+from gripscale.report.printed_table import printed_table
 from gripscale.report.tables import significant
 from gripscale.shown import Shown, shown
 from gripscale.units import ZERO_CELSIUS
@@ -34,7 +34,7 @@ def residual_table(data: xr.Dataset) -> Table:
     """
     terms = "area_term" in data
     spread = bool(np.isfinite(data.measured_spread).any())
-    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
+    table = printed_table()
     for head in _opening(data, spread=spread):
         table.add_column(head, justify="right", no_wrap=True)
     parts = ["μ hyst.", "μ"] if terms else ["μ"]

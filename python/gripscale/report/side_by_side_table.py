@@ -7,9 +7,9 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 import xarray as xr
-from rich import box
 from rich.table import Table
 
+from gripscale.report.printed_table import printed_table
 from gripscale.report.tables import significant
 
 QUANTITIES = ("total_contact_fraction", "total_friction")
@@ -25,14 +25,7 @@ class Row(NamedTuple):
 
 def totals_table(head: str, rows: Iterable[Row], title: str | None = None) -> Table:
     """Return the totals of predictions with their ranges, and the difference to the first."""
-    table = Table(
-        title=title,
-        title_justify="left",
-        title_style="",
-        box=box.SIMPLE_HEAD,
-        padding=(0, 1, 0, 0),
-        pad_edge=False,
-    )
+    table = printed_table(title)
     table.add_column(head, no_wrap=True)
     for text in ("A_r/A_0", "range", "μ", "range", "μ less that\nof the first", "range"):
         table.add_column(text, justify="right")

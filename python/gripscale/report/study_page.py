@@ -22,7 +22,7 @@ from gripscale.report.source import Study
 from gripscale.report.study_inputs import input_sections
 from gripscale.report.study_words import telling, words_of
 from gripscale.report.temperature_text import collapse_sentences, shift_sentence
-from gripscale.study.axes import COUNTS
+from gripscale.study.axis import COUNTS
 from gripscale.study.display import axis_shown, name_of, of_numbers
 
 NAMED_FAILURES = 12

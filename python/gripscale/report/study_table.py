@@ -6,11 +6,11 @@ from itertools import product
 
 import numpy as np
 import xarray as xr
-from rich import box
 from rich.table import Table
 
 from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND
 from gripscale.report.outside_band import share_text, study_sentence
+from gripscale.report.printed_table import printed_table
 from gripscale.report.tables import significant
 from gripscale.study.display import dimensions, name_of
 from gripscale.study.temperature import BEYOND_SHIFT
@@ -24,7 +24,7 @@ def study_table(result: xr.Dataset) -> Table:
     at_rest = "static_total_contact_fraction" in result
     beyond = study_sentence(result)
     area_term = ADHESIVE_FRICTION in result
-    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
+    table = printed_table()
     for name in names:
         table.add_column(name.replace("_", " "), no_wrap=True)
     heads = [

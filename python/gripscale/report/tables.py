@@ -8,7 +8,6 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from rich import box
 from rich.console import Console, Group
 from rich.measure import Measurement
 from rich.table import Table
@@ -20,6 +19,7 @@ from gripscale.model import with_adhesive
 from gripscale.report.conditions_notes import conditions_sentences
 from gripscale.report.cut_off import exponent_sentence
 from gripscale.report.outside_band import prediction_sentence
+from gripscale.report.printed_table import printed_table
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -192,7 +192,7 @@ def _width(table: Table) -> int:
 
 
 def _table(view: PredictionView, columns: Sequence[Column], padding: int) -> Table:
-    table = Table(box=box.SIMPLE_HEAD, padding=(0, padding, 0, 0), pad_edge=False)
+    table = printed_table(padding=padding)
     for column in columns:
         words = column.heading == "status"
         table.add_column(

@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from rich import box
 from rich.table import Table
 
+from gripscale.report.printed_table import printed_table
 from gripscale.report.tables import significant
 from gripscale.study.display import name_of
 from gripscale.uncertainty import summary
@@ -61,7 +61,7 @@ def parts(data: xr.Dataset) -> list[Any]:
 
 def quantile_table(data: xr.Dataset) -> Table:
     """Return the quantiles of friction and contact fraction of each model and load."""
-    table = _table()
+    table = printed_table()
     heads = ["", "", "case", *(f"{level:.0%}" for level in LEVELS), "samples", "failed"]
     for number, head in enumerate(heads):
         table.add_column(head, justify="left" if number < 2 else "right", no_wrap=True)
@@ -78,7 +78,7 @@ def share_table(one: xr.Dataset, title: str) -> Table:
 
     From and to: 5 and 95 % of what it does alone.
     """
-    table = _table(title)
+    table = printed_table(title)
     table.add_column("source")
     for head in HEADS.values():
         table.add_column(f"{head}\nfrom", justify="right", no_wrap=True)
@@ -155,14 +155,3 @@ def failures(data: xr.Dataset) -> str:
     if own:
         told.append(f"the case itself has no answer: {own[0]}")
     return "; ".join(told)
-
-
-def _table(title: str | None = None) -> Table:
-    return Table(
-        title=title,
-        title_justify="left",
-        title_style="",
-        box=box.SIMPLE_HEAD,
-        padding=(0, 1, 0, 0),
-        pad_edge=False,
-    )

@@ -31,7 +31,7 @@ from gripscale.roads.dataset import AS_MEASURED, MODELS, TO_COMPARE, Place, road
 from gripscale.rough.model import DirectContact
 from gripscale.study.inputs import case_rubber, surface_of
 from gripscale.study.models import model_of
-from gripscale.study.store import Store
+from gripscale.study.store import PREDICTIONS, Store
 from gripscale.study.task import Task
 from gripscale.study.threads import OnTask, solve_all
 from gripscale.surface import PreparedSurface
@@ -43,7 +43,7 @@ from gripscale.uncertainty.inputs import Inputs, Measurement
 from gripscale.uncertainty.sources.profile import ProfileSource
 from gripscale.uncertainty.sources.source import Stated
 
-RESULT, PREDICTIONS = "surfaces.nc", "predictions"
+RESULT = "surfaces.nc"
 POINTS = 128
 """Points of the half-planes that tell the range: only ratios of theirs count."""
 FEWEST_SAMPLES, MOST_SAMPLES = 10, 10_000
@@ -107,8 +107,7 @@ def compare_surfaces(
         checks.whole("samples", samples, least=FEWEST_SAMPLES, most=MOST_SAMPLES)
     file = case if isinstance(case, CaseFile) else read_case(case)
     given = {name: _surface(value, file) for name, value in surfaces.items()}
-    load = file.case.load
-    nominal = NominalLoad(load.pressure, load.speed, load.footprint, load.load_time)
+    load = file.case.load.nominal
     rubber, models = case_rubber(file), [_model(name, file) for name in MODELS]
     tasks: dict[Place, Task] = {}
     notes: list[str] = []
@@ -116,12 +115,12 @@ def compare_surfaces(
         if isinstance(model, DirectContact) and surface.measured is None:
             notes.append(f"{name} was not measured: no direct contact")
             continue
-        tasks[Place(model.name, name, AS_MEASURED)] = Task(rubber, surface, nominal, Attempt(model))
+        tasks[Place(model.name, name, AS_MEASURED)] = Task(rubber, surface, load, Attempt(model))
         if samples is None:
             continue
-        known = Measurement(surface, rubber, speed=nominal.speed, load_time=nominal.load_time)
+        known = Measurement(surface, rubber, speed=load.speed, load_time=load.load_time)
         try:
-            drawn = _drawn(known, model, nominal, samples)
+            drawn = _drawn(known, model, load, samples)
         except InputError as why:
             notes.append(f"{name}, {model.name}: no range; {why}")
             continue
@@ -159,9 +158,11 @@ def _drawn(known: Measurement, model: Model, load: NominalLoad, samples: int) ->
     Raises `InputError` if no samples can be drawn.
     """
     source = ProfileSource.of(known, Stated(models=(model.name,)))
+    case = Inputs.of(known)
     if isinstance(model, Chain):
         model = replace(model, solver=HalfPlane(points=POINTS))
-    case = Inputs.of(known)
+    else:  # no waves are fitted: the roughness ends where it does as measured, to the last bit
+        case = replace(case, fit={})
     parts = {TO_COMPARE: case}
     for number, one in enumerate(draws(case, [source], samples, SEED), start=1):
         if one.inputs is not None:

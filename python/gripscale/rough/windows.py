@@ -25,16 +25,24 @@ LEAST_VALID = 0.5
 
 @dataclass(frozen=True)
 class WindowContacts:
-    """Contacts of the windows of one surface."""
+    """Contacts of the windows of one surface; those that did not converge count in no number.
+
+    A `name` below is that of a number of `RoughContact`, in its unit: `contact_fraction`,
+    `friction`, `friction_from_dissipation` and so on.
+    """
 
     contacts: list[RoughContact]
+    """One for each window."""
 
     def values(self, name: str) -> Array:
-        """Return `contact_fraction`, `friction` ... of each window that converged."""
+        """Return a number of each window that converged, shape (windows,)."""
         return np.array([float(getattr(c, name)) for c in self.contacts if c.converged])
 
     def mean(self, name: str) -> float:
-        """Return the mean over windows: pressure and size are the same, so it is the surface's."""
+        """Return the mean over windows; NaN if none converged.
+
+        Pressure and size are the same, so it is the surface's.
+        """
         values = self.values(name)
         return float(values.mean()) if values.size else math.nan
 
@@ -51,6 +59,20 @@ class WindowContacts:
         Percentiles of 9999 resamples (B. Efron & R. Tibshirani, An Introduction to the Bootstrap,
         1993, ch. 13); NaN for fewer than three windows. Too narrow if windows are shorter than the
         surface's longest correlation, or few.
+
+        Parameters
+        ----------
+        name : str
+            The number.
+        level : float
+            Confidence level, between 0 and 1.
+        seed : int
+            Seed of the resamples.
+
+        Returns
+        -------
+        tuple of two floats
+            Its lower and upper end.
         """
         values = self.values(name)
         if values.size < 3:

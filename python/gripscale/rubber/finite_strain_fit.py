@@ -58,7 +58,11 @@ class FiniteStrainFit:
 
 
 def rms_error(rubber: Rubber, test: UniaxialTest) -> float:
-    """Return the root mean square error of the predicted stress over the measured peak [-]."""
+    """Return the root mean square error of the predicted stress over the measured peak [-].
+
+    Of all samples of the test, each counting alike. Raises `InputError` if `test` is no
+    `UniaxialTest` or `rubber` no `Rubber`.
+    """
     checks.instance("test", test, UniaxialTest)
     error = uniaxial_stress(rubber, test.time, test.stretch) - test.stress
     return float(np.sqrt(np.mean(error**2)) / test.peak)

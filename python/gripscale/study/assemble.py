@@ -17,7 +17,7 @@ from gripscale.model import (
 )
 from gripscale.rubber import Rubber
 from gripscale.shown import GIVEN
-from gripscale.study.axes import LONG_NAMES, UNITS, Axis
+from gripscale.study.axis import LONG_NAMES, UNITS, Axis
 from gripscale.study.decades import friction_by_decade
 
 RENAMED = {"temperature": "wave_temperature"}

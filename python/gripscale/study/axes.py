@@ -13,106 +13,24 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from gripscale import checks
-from gripscale.chain.pressure import MOST_CLASSES
 from gripscale.errors import InputError
-from gripscale.shown import KEYS, Shown, shown
-from gripscale.study.conditioned import SELECTIONS
-from gripscale.surface.cut_off import CutOffRule, RmsSlope, cut_off_rule
-from gripscale.surface.sine_fit import MOST_WAVES
-from gripscale.units import ZERO_CELSIUS, parse_quantity, unit_of
+from gripscale.shown import KEYS
+from gripscale.study.axis import COUNTS, NUMBERS, QUANTITIES, UNITS, Axis
+from gripscale.study.axis_value import axis_label, axis_value, bare
+from gripscale.surface.cut_off import RmsSlope
+from gripscale.units import unit_of
 
 MOST_VALUES = 1000
 MOST_AXES = 2
 
-QUANTITIES = {
-    "speed": "speed",
-    "pressure": "pressure",
-    "temperature": "temperature",
-    "smallest_wavelength": "length",
-    "cut_off": "length",
-}
-"""Axes of numbers, with the kind of quantity."""
-
-COUNTS = {"waves": MOST_WAVES, "pressure_classes": MOST_CLASSES}
-"""Axes of whole numbers, with the largest."""
-
-NUMBERS = (*QUANTITIES, *COUNTS, "upper_share")
-"""Axes whose values are numbers."""
-
-UNITS = {
-    "speed": "m/s",
-    "pressure": "Pa",
-    "temperature": "K",
-    "smallest_wavelength": "m",
-    "cut_off": "m",
-    "upper_share": "1",
-    "waves": "1",
-    "pressure_classes": "1",
-    "factors": "1",
-    "effects": "1",
-    "rubber": "1",
-    "surface": "1",
-}
-"""All axes, with the units of their values."""
-
-LONG_NAMES = {
-    "speed": "sliding speed",
-    "pressure": "nominal pressure",
-    "temperature": "temperature of the rubber before the contact",
-    "smallest_wavelength": "smallest wavelength",
-    "cut_off": "shortest wavelength of the roughness",
-    "upper_share": "share of the heights that counts",
-    "waves": "number of waves",
-    "pressure_classes": "number of pressure classes",
-    "factors": "magnification factors of wavelength and amplitude",
-    "effects": "effects of the conditions on the rubber",
-    "rubber": "rubber",
-    "surface": "surface",
-}
-
 _RANGE = re.compile(r"\s*([^:]+?)\s*:\s*([^:]+?)\s*:\s*(lin|log)(\d+)\s*")
-
-
-@dataclass(frozen=True)
-class Axis:
-    """One varied input: its values as the study uses them, and what they are called."""
-
-    name: str
-    values: tuple[Any, ...]
-    labels: tuple[str, ...]
-    unit: str = ""
-    """The unit the values were given in; empty for plain numbers."""
-
-    @property
-    def numeric(self) -> bool:
-        """Whether the values are numbers, in the unit of `UNITS`."""
-        return self.name in NUMBERS and not any(
-            isinstance(value, str | RmsSlope) for value in self.values
-        )
-
-    @property
-    def coordinate(self) -> list[Any]:
-        """Values along the axis of a Dataset: numbers, or labels."""
-        return list(self.values) if self.numeric else list(self.labels)
-
-    def shown(self, case: str) -> Shown | None:
-        """Return how its values are shown, in a study of this text of a case; None of no length."""
-        if not self.numeric or self.name not in KEYS:
-            return None
-        return shown(self.name, case, self.unit)
-
-    def called(self, i: int, case: str) -> str:
-        """Return what value `i` is called in a study of this text of a case."""
-        how = self.shown(case)
-        return self.labels[i] if how is None else how.text(self.values[i])
 
 
 def axes_of(vary: Mapping[str, Any]) -> tuple[Axis, ...]:
@@ -138,10 +56,12 @@ def _axis(name: str, given: Any) -> Axis:
     if name in ("rubber", "surface"):
         values, labels = _named(name, given)
     else:
-        values = tuple(_READERS[name](name, entry) for entry in _entries(name, given))
+        values = tuple(axis_value(name, entry) for entry in _entries(name, given))
         worded = any(isinstance(value, RmsSlope | str) for value in values)
         unit = f" {UNITS[name]}" if worded else ""
-        labels = tuple(f"{_label(name, v)}{unit if isinstance(v, float) else ''}" for v in values)
+        labels = tuple(
+            f"{axis_label(name, v)}{unit if isinstance(v, float) else ''}" for v in values
+        )
     if not 1 <= len(values) <= MOST_VALUES:
         raise InputError(f"{name} must have 1 to {MOST_VALUES} values; got {len(values)}")
     twice = {label for label in labels if labels.count(label) > 1}
@@ -194,10 +114,10 @@ def _spaced(name: str, first: str, last: str, spacing: str, count: str) -> list[
     """Return evenly spaced values between two ends in SI units, the ends exactly."""
     if name not in NUMBERS:
         raise InputError(f"{name} must be a list, not a range; got {first}:{last}")
-    if _bare(first) != _bare(last):
+    if bare(first) != bare(last):
         raise InputError(f"{name} must have a unit at both ends or none; got {first}:{last}")
     number = checks.whole(f"{name}: number of values", int(count), least=2, most=MOST_VALUES)
-    low, high = _READERS[name](name, first), _READERS[name](name, last)
+    low, high = axis_value(name, first), axis_value(name, last)
     if low >= high:
         raise InputError(f"{name} must go from low to high; got {first}:{last}")
     if spacing == "lin":
@@ -208,62 +128,6 @@ def _spaced(name: str, first: str, last: str, spacing: str, count: str) -> list[
     if name in COUNTS:
         return [float(value) for value in np.unique(np.rint(values))]
     return [low, *(float(f"{value:.12g}") for value in values[1:-1]), high]
-
-
-def _quantity(name: str, value: Any) -> float:
-    """Read a number in SI units or a text with a unit."""
-    if isinstance(value, str) and not _bare(value):
-        try:
-            value = parse_quantity(value, QUANTITIES[name])
-        except ValueError as error:
-            raise InputError(f"{name} = {value!r}: {error}") from error
-    if isinstance(value, str) and name == "temperature":
-        raise InputError(f'temperature must have a unit, such as "20 C"; got {value!r}')
-    check = checks.not_negative if name == "speed" else checks.positive
-    return check(name, float(value) if isinstance(value, str) else value, unit=UNITS[name])
-
-
-def _cut_off(name: str, value: Any) -> CutOffRule:
-    """Read a length, or one of the other rules."""
-    if not isinstance(value, str | dict | RmsSlope) or (isinstance(value, str) and _bare(value)):
-        return _quantity(name, value)
-    try:
-        return cut_off_rule(value)
-    except ValueError as error:
-        raise InputError(f"{name} = {value!r}: {error}") from error
-
-
-def _count(name: str, value: Any) -> int:
-    if isinstance(value, str) and _bare(value):
-        value = float(value)
-    return checks.whole(name, value, least=1, most=COUNTS[name])
-
-
-def _share(name: str, value: Any) -> float:
-    share = checks.positive(
-        name, float(value) if isinstance(value, str) and _bare(value) else value
-    )
-    if share > 1.0:
-        raise InputError(f"{name} must be at most 1; got {share:g}")
-    return share
-
-
-def _pair(name: str, value: Any) -> tuple[float, float]:
-    """Read `3.5/2.4`, or a pair of numbers."""
-    parts = value.split("/") if isinstance(value, str) else value
-    try:
-        first, second = (float(part) for part in parts)
-    except (TypeError, ValueError) as error:
-        raise InputError(f'factors must be pairs such as "3.5/2.4"; got {value!r}') from error
-    for part in (first, second):
-        if checks.number(name, part) <= 1.0:
-            raise InputError(f"factors must be greater than 1; got {part:g}")
-    return first, second
-
-
-def _selection(name: str, value: Any) -> str:
-    text = value.replace("_", " ") if isinstance(value, str) else value
-    return checks.one_of(name, text, SELECTIONS)
 
 
 def _named(name: str, given: Any) -> tuple[tuple[Any, ...], tuple[str, ...]]:
@@ -279,30 +143,3 @@ def _named(name: str, given: Any) -> tuple[tuple[Any, ...], tuple[str, ...]]:
     texts = [str(entry).strip() for entry in entries]
     stems = tuple(Path(text).stem for text in texts)
     return tuple(texts), stems if len(set(stems)) == len(stems) else tuple(texts)
-
-
-def _bare(text: str) -> bool:
-    """Return whether `text` is a number without a unit."""
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
-
-
-def _label(name: str, value: Any) -> str:
-    if isinstance(value, str | RmsSlope):
-        return str(value)
-    if isinstance(value, tuple):
-        return "/".join(f"{part:g}" for part in value)
-    return f"{value - ZERO_CELSIUS:.6g} C" if name == "temperature" else f"{value:.6g}"
-
-
-_READERS: dict[str, Callable[[str, Any], Any]] = {
-    **dict.fromkeys(QUANTITIES, _quantity),
-    **dict.fromkeys(COUNTS, _count),
-    "upper_share": _share,
-    "factors": _pair,
-    "cut_off": _cut_off,
-    "effects": _selection,
-}

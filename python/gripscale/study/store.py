@@ -6,12 +6,18 @@ cannot be read back all the same (a disk that was full, a power cut) counts as n
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import xarray as xr
 
 from gripscale import netcdf
 from gripscale.errors import FileError
+
+PREDICTIONS = "predictions"
+"""Folder of the finished predictions, in the folder of a result."""
 
 
 class Store:
@@ -54,3 +60,16 @@ class Store:
         Raises `FileError` if it cannot be written.
         """
         return netcdf.load(netcdf.save(solved, self.path(key)))
+
+
+@contextmanager
+def store_in(folder: str | Path | None) -> Iterator[Store]:
+    """Give the store in the folder of a result or, without one, one that is forgotten afterwards.
+
+    Raises `FileError` if it cannot be made.
+    """
+    if folder is not None:
+        yield Store(Path(folder) / PREDICTIONS)
+        return
+    with TemporaryDirectory(prefix="gripscale-") as forgotten:
+        yield Store(forgotten)

@@ -24,12 +24,13 @@ from gripscale import netcdf, versions
 from gripscale.case.read import CaseFile, read_case
 from gripscale.chain.model import Chain
 from gripscale.errors import FileError, InputError
-from gripscale.model import Model, NominalLoad
+from gripscale.model import Model
 from gripscale.rubber import Rubber
 from gripscale.software import software
 from gripscale.study import assemble
 from gripscale.study.assemble import Index
-from gripscale.study.axes import Axis, axes_of
+from gripscale.study.axes import axes_of
+from gripscale.study.axis import Axis
 from gripscale.study.conditioned import at_temperature, rubber_before, with_effects
 from gripscale.study.inputs import (
     case_rubber,
@@ -40,7 +41,7 @@ from gripscale.study.inputs import (
     surface_of,
 )
 from gripscale.study.models import model_of
-from gripscale.study.store import Store
+from gripscale.study.store import PREDICTIONS, Store
 from gripscale.study.task import Task, exact
 from gripscale.study.temperature import beyond_shift, with_master_curve
 from gripscale.study.threads import OnTask, Progress, solve_all
@@ -48,9 +49,6 @@ from gripscale.surface import PreparedSurface
 
 RESULT = "study.nc"
 """The Dataset, in the folder of the study."""
-
-PREDICTIONS = "predictions"
-"""Folder of the finished predictions, in the folder of the study."""
 
 
 @dataclass(frozen=True)
@@ -264,17 +262,17 @@ class Study:
         return points
 
     def _task(self, chosen: dict[str, Any], place: dict[str, int], *, static: bool) -> Task:
-        load = self.file.case.load
+        load = self.file.case.load.nominal
         speed = 0.0 if static else chosen.get("speed", load.speed)
         model, rubber = self._model(chosen), self.rubbers[place.get("rubber", 0)]
         rubber_before(rubber, model)  # nothing is solved if one point of the study is impossible
         return Task(
             rubber=rubber,
             surface=self._surface(place.get("surface", 0), chosen),
-            load=NominalLoad(
+            load=replace(
+                load,
                 pressure=chosen.get("pressure", load.pressure),
                 speed=speed,
-                footprint=load.footprint,
                 load_time=load.load_time if speed > 0.0 else "passage",
             ),
             model=model,

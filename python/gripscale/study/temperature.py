@@ -14,7 +14,7 @@ import xarray as xr
 
 from gripscale.model import TOTALS
 from gripscale.rubber import Rubber
-from gripscale.study.axes import Axis
+from gripscale.study.axis import Axis
 from gripscale.study.collapse import collapse
 from gripscale.study.conditioned import rubber_before
 from gripscale.study.task import Task

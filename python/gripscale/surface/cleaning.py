@@ -23,11 +23,17 @@ class StepReport:
     """What one cleaning step did, in numbers of points."""
 
     step: str
+    """Its name, such as "crop" or "spikes"."""
     points: int
+    """Points after it."""
     removed: int
+    """Points it cut off."""
     made_missing: int
+    """Heights it took out, of points that stay."""
     missing: int
+    """Points without height after it."""
     note: str = ""
+    """What else is to be said, in words."""
 
 
 @dataclass(frozen=True)

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from gripscale import checks
 from gripscale.errors import InputError
 from gripscale.surface.profile import FloatArray, Profile
+from gripscale.surface.several import of_one_step
 
 BAND_LEVEL = 0.95
 """Nominal confidence level of the band."""
@@ -198,7 +199,7 @@ def block_sums(
     lags_per_decade: int = 20,
 ) -> BlockSums:
     """Return the sums behind C_z, block by block; arguments and errors as `height_difference`."""
-    profiles = _profiles(profile)
+    profiles = of_one_step(profile, "pooled")
     per_decade = checks.whole("lags_per_decade", lags_per_decade, least=1, most=1000)
     step = float(np.mean([p.step for p in profiles]))
     shifts = _lag_steps(profiles, step, max_lag, per_decade)
@@ -228,22 +229,6 @@ def require_positive(hdc: HeightDifference) -> None:
             "the height difference correlation must be positive at every lag; "
             f"got {hdc.value[at]:g} m^2 at {hdc.lag[at]:g} m"
         )
-
-
-def _profiles(profile: Profile | Sequence[Profile]) -> list[Profile]:
-    given: object = [profile] if isinstance(profile, Profile) else profile
-    profiles = list(given) if isinstance(given, Sequence) else []
-    if not profiles or not all(isinstance(p, Profile) for p in profiles):
-        raise InputError(
-            f"profile must be a Profile or a list of them; got {checks.shown(profile)}"
-        )
-    for at, other in enumerate(profiles):
-        if abs(other.step - profiles[0].step) > 1e-3 * profiles[0].step:
-            raise InputError(
-                f"profiles must have the same step to be pooled; got {profiles[0].step:g} m at "
-                f"index 0 and {other.step:g} m at index {at}"
-            )
-    return profiles
 
 
 def _upper(z: FloatArray, share: float) -> FloatArray:

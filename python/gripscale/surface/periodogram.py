@@ -20,6 +20,7 @@ from gripscale import checks
 from gripscale.errors import InputError
 from gripscale.surface.gaps import filled
 from gripscale.surface.profile import FEWEST_POINTS, FloatArray, Profile
+from gripscale.surface.several import of_one_step
 from gripscale.surface.spectrum import PER_DECADE, ArealSpectrum, ProfileSpectrum, first_of_bins
 
 TAPERS: dict[str, tuple[str, Literal["linear", "constant"]]] = {
@@ -61,7 +62,7 @@ def profile_spectrum(
     """
     from scipy import signal
 
-    profiles = _profiles(profile)
+    profiles = of_one_step(profile, "averaged")
     step = profiles[0].step
     weights, trend = TAPERS[checks.one_of("taper", taper, TAPERS)]
     shortest = min(len(one) for one in profiles)
@@ -151,22 +152,6 @@ def _plane_waves(
     power = np.asarray(area * np.abs(np.fft.fft2(window * z)) ** 2, dtype=np.float64)
     qx, qy = (2.0 * np.pi * np.fft.fftfreq(n, d) for n, d in zip(z.shape, steps, strict=True))
     return power, np.asarray(np.hypot(qx[:, None], qy), dtype=np.float64)
-
-
-def _profiles(profile: Profile | Sequence[Profile]) -> list[Profile]:
-    given: object = [profile] if isinstance(profile, Profile) else profile
-    profiles = list(given) if isinstance(given, Sequence) else []
-    if not profiles or not all(isinstance(one, Profile) for one in profiles):
-        raise InputError(
-            f"profile must be a Profile or a list of them; got {checks.shown(profile)}"
-        )
-    for at, one in enumerate(profiles):
-        if abs(one.step - profiles[0].step) > 1e-3 * profiles[0].step:
-            raise InputError(
-                f"profiles must have the same step to be averaged; got {profiles[0].step:g} m at "
-                f"index 0 and {one.step:g} m at index {at}"
-            )
-    return profiles
 
 
 def _points(most: int, step: float, window: float) -> int:

@@ -32,7 +32,7 @@ class SelfAffineFit:
     Attributes
     ----------
     hurst : float
-        Hurst exponent H: half the slope of log C_z over log lag.
+        Hurst exponent H [-]: half the slope of log C_z over log lag.
     xi_parallel : float
         Cut-off lag [m], where the power law meets the plateau.
     xi_perpendicular : float
@@ -63,11 +63,14 @@ class SelfAffineFit:
 
     @property
     def fractal_dimension(self) -> float:
-        """Fractal dimension of the surface, D = 3 - H."""
+        """Fractal dimension of the surface, D = 3 - H [-]."""
         return 3.0 - self.hurst
 
     def evaluate(self, lag: ArrayLike) -> FloatArray:
-        """Return C_z [m^2] at lags [m], by [LW eq. 6]."""
+        """Return C_z [m^2] at lags [m], same shape, by [LW eq. 6].
+
+        Raises `InputError` unless the lags are above zero.
+        """
         lags = checks.positive_vector("lag", lag, unit="m")
         below = np.minimum(lags / self.xi_parallel, 1.0)
         return np.asarray(self.xi_perpendicular**2 * below ** (2.0 * self.hurst))

@@ -26,8 +26,8 @@ def self_affine_profile(
 
     which has the two asymptotes of [LW eq. 6] (the power law and the plateau meet at xi_par) with
     a smooth bend between: the sharp bend itself is no covariance of a line for H > 1/2.
-    Drawn exactly, by circulant embedding (Dietrich & Newsam 1997,
-    doi:10.1137/S1064827592240555).
+    Drawn exactly, by circulant embedding (C. R. Dietrich & G. N. Newsam, SIAM J. Sci. Comput. 18
+    (1997) 1088, doi:10.1137/S1064827592240555). [LW] Lind & Wangenheim, ASME IMECE2014-37998.
 
     Parameters
     ----------
@@ -39,6 +39,11 @@ def self_affine_profile(
         Length and step of the profile [m].
     seed : int
         Seed of the random numbers.
+
+    Returns
+    -------
+    Profile
+        About zero, of variance xi_perp^2/2 in the mean over seeds.
 
     Raises
     ------

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from gripscale import versions
 from gripscale.model import FRICTION_OUTSIDE_BAND
 from gripscale.shown import GIVEN
-from gripscale.study.axes import LONG_NAMES, UNITS, Axis
+from gripscale.study.axis import LONG_NAMES, UNITS, Axis
 from gripscale.uncertainty.choice import Chosen
 from gripscale.uncertainty.design import Drawn
 from gripscale.uncertainty.quantiles import LEVELS, QUANTITIES, quantiles

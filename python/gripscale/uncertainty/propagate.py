@@ -13,11 +13,9 @@ from __future__ import annotations
 import hashlib
 import json
 import warnings
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 import xarray as xr
@@ -31,9 +29,10 @@ from gripscale.errors import FileError, InputError, RubberWarning
 from gripscale.model import Model, NominalLoad
 from gripscale.rough.model import DirectContact
 from gripscale.software import software
-from gripscale.study.axes import Axis, axes_of
+from gripscale.study.axes import axes_of
+from gripscale.study.axis import Axis
 from gripscale.study.inputs import contents
-from gripscale.study.store import Store
+from gripscale.study.store import Store, store_in
 from gripscale.study.task import Task, exact
 from gripscale.study.threads import OnTask, solve_all
 from gripscale.uncertainty import assemble
@@ -43,9 +42,6 @@ from gripscale.uncertainty.choice import Chosen, Uncertainty
 from gripscale.uncertainty.design import Drawn, draws
 from gripscale.uncertainty.inputs import Inputs, Measurement
 from gripscale.uncertainty.stored import FILES, RESULT, input_digests
-
-PREDICTIONS = "predictions"
-"""Folder of the finished predictions, in the folder of the result."""
 
 MODELS = ("chain", "direct")
 VARIED = ("speed", "pressure")
@@ -154,7 +150,7 @@ def propagate(
         return known
     results = prepare_case(plan.file)
     chosen = plan.uncertainty.of(Measurement.of(results), plan.models)
-    with _store(folder) as store, warnings.catch_warnings():
+    with store_in(folder) as store, warnings.catch_warnings():
         warnings.simplefilter("ignore", RubberWarning)  # drawn rubbers are not made by hand
         data = _solved(plan, results, chosen, store, workers, client, on_task)
     if folder is None:
@@ -188,15 +184,6 @@ def _axis(vary: Mapping[str, Any] | None) -> Axis | None:
         names = ", ".join(axis.name for axis in axes)
         raise InputError(f"uncertainty varies one of {', '.join(VARIED)}; got {names}")
     return axes[0]
-
-
-@contextmanager
-def _store(folder: str | Path | None) -> Iterator[Store]:
-    if folder is not None:
-        yield Store(Path(folder) / PREDICTIONS)
-        return
-    with TemporaryDirectory() as temporary:
-        yield Store(temporary)
 
 
 def _solved(

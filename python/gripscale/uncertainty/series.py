@@ -57,7 +57,17 @@ class SeriesScatter:
 
     @classmethod
     def of(cls, master: MasterCurve, fit: PronyFit, bulk_modulus: float) -> SeriesScatter:
-        """Return what a master curve leaves open beside the fit that was made of it."""
+        """Return what a master curve leaves open beside the fit that was made of it.
+
+        Parameters
+        ----------
+        master : MasterCurve
+            As measured; the rows the fit has left out do not count.
+        fit : PronyFit
+            The report of `fit_prony_report` on it.
+        bulk_modulus : float
+            Of the rubber [Pa]; it limits the sum of the moduli.
+        """
         kept = ~np.isin(master.frequency, fit.outlier_frequency)
         curve = Curve(master.angular_frequency, master.storage, master.loss).rows(kept)
         limit = largest_modulus(float(curve.storage.max()), bulk_modulus)

@@ -6,6 +6,8 @@
 Rows count by their standard errors, but none as more certain than a hundredth of a decade. Where
 the formula misses the rows by more than their errors, the errors of its constants grow in
 proportion.
+Sources: M. L. Williams, R. F. Landel & J. D. Ferry, J. Am. Chem. Soc. 77 (1955) 3701,
+doi:10.1021/ja01619a008; J. D. Ferry, Viscoelastic Properties of Polymers, 3rd ed. (1980), ch. 11.
 """
 
 from __future__ import annotations
@@ -35,7 +37,7 @@ class ShiftFit:
     shift: WLF | Arrhenius
     """With the temperatures fitted as its `valid_range`."""
     errors: dict[str, float]
-    """Standard error of each constant."""
+    """Standard error of each constant by its name: c1 [-], c2 [K], activation_energy [J/mol]."""
     temperature: Array = field(repr=False)
     """Temperatures fitted [K], shape (rows,)."""
     residual: Array = field(repr=False)
@@ -74,10 +76,16 @@ def fit_wlf(
     lowest : float, optional
         Rows colder than this [K], such as those of the glass, do not count.
 
+    Returns
+    -------
+    ShiftFit
+        The law at T_0, valid between the temperatures that count, with its errors.
+
     Raises
     ------
     InputError
-        If too few rows count, or they do not follow the law: log10 a_T must fall ever more slowly.
+        If T_0 is missing or outside the table, too few rows count, or they do not follow the law:
+        log10 a_T must fall ever more slowly.
     """
     reference = _reference(table, reference_temperature)
     kelvin, log_a, error = _rows(table, reference, lowest, None, 3)
@@ -133,10 +141,16 @@ def fit_arrhenius(
     lowest, highest : float, optional
         Only rows between these [K] count.
 
+    Returns
+    -------
+    ShiftFit
+        The law, valid between the temperatures that count, with its error.
+
     Raises
     ------
     InputError
-        If too few rows count or log10 a_T does not fall with temperature.
+        If T_0 is missing or outside the table, too few rows count, or log10 a_T does not fall with
+        temperature.
     """
     reference = _reference(table, reference_temperature)
     kelvin, log_a, error = _rows(table, reference, lowest, highest, 2)

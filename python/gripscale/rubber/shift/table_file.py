@@ -73,12 +73,17 @@ def read_shift_table(path: str | Path, *, temperature_unit: str | None = None) -
     temperature_unit : {"K", "C", "F"}, optional
         Unit of the temperatures, if the header does not state it.
 
+    Returns
+    -------
+    ShiftTable
+        In K, log10 a_T and log10 b_T, with the reference temperature the file states, if any.
+
     Raises
     ------
     FileError
         If the file cannot be read or has no such columns.
     InputError
-        If the unit is not known, or the numbers are no table.
+        If the unit of the temperatures is neither stated nor given, or the numbers are no table.
     """
     place = file_path(path)
     table = read_table(

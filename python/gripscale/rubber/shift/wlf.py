@@ -4,8 +4,9 @@
     Arrhenius  log10 a_T = H / (R ln 10) (1/T - 1/T_0)
 
 The first holds above the glass transition and has a pole at T_0 - c2. Referred to another
-temperature T_1 the same law has c2' = c2 + T_1 - T_0 and c1' = c1 c2 / c2'. Source: M. L. Williams,
-R. F. Landel & J. D. Ferry, J. Am. Chem. Soc. 77 (1955) 3701, doi:10.1021/ja01619a008.
+temperature T_1 the same law has c2' = c2 + T_1 - T_0 and c1' = c1 c2 / c2'. Sources: M. L.
+Williams, R. F. Landel & J. D. Ferry, J. Am. Chem. Soc. 77 (1955) 3701, doi:10.1021/ja01619a008;
+J. D. Ferry, Viscoelastic Properties of Polymers, 3rd ed. (1980), ch. 11.
 """
 
 from __future__ import annotations

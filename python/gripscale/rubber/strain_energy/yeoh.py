@@ -21,6 +21,11 @@ class Yeoh(StrainEnergy):
     ----------
     second, third : float
         c2 and c3, the coefficients of (I1 - 3)^2 and (I1 - 3)^3 over G/2 [-].
+
+    Raises
+    ------
+    InputError
+        If one is not a finite number.
     """
 
     second: float
@@ -30,6 +35,6 @@ class Yeoh(StrainEnergy):
     least_coefficients: ClassVar[tuple[float, ...]] = (0.0, -np.inf, 0.0)
 
     def slopes(self, first: Array, second: Array) -> tuple[Array, Array]:
-        """Return w1 = 1 + 2 c2 (I1 - 3) + 3 c3 (I1 - 3)^2 and w2 = 0."""
+        """Return w1 = 1 + 2 c2 (I1 - 3) + 3 c3 (I1 - 3)^2 and w2 = 0 [-] at I1 - 3 and I2 - 3."""
         w1 = 1.0 + 2.0 * self.second * first + 3.0 * self.third * first**2
         return w1, np.zeros_like(second)

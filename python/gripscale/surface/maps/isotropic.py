@@ -14,6 +14,7 @@ from gripscale.surface.maps.measured import measured_lines
 from gripscale.surface.maps.spectrum_map import gaussian_waves, map_amplitudes, with_heights
 from gripscale.surface.maps.square import Square
 from gripscale.surface.profile import FloatArray, Profile
+from gripscale.surface.several import one_or_several
 
 CONSTRUCTIONS = {
     "spectrum": "spectrum of the lines, random phases",
@@ -75,7 +76,7 @@ def isotropic_maps(
     InputError
         If an argument is out of its range, when the first map is asked for.
     """
-    profiles = _profiles(profile)
+    profiles = one_or_several(profile)
     square = _square(profiles, smallest_wavelength, points)
     checks.one_of("construction", construction, CONSTRUCTIONS)
     chosen = seed_numbers(seeds)
@@ -116,19 +117,6 @@ def _share(
     if on_batch is None:
         return None
     return lambda done: on_batch(seed, done / (matching.batches + 1))
-
-
-def _profiles(profile: Profile | Sequence[Profile]) -> list[Profile]:
-    profiles = [profile] if isinstance(profile, Profile) else profile
-    if (
-        not isinstance(profiles, Sequence)
-        or not profiles
-        or not all(isinstance(one, Profile) for one in profiles)
-    ):
-        raise InputError(
-            f"profile must be a Profile or a list of them; got {checks.shown(profile)}"
-        )
-    return list(profiles)
 
 
 def _square(profiles: list[Profile], smallest_wavelength: float, points: int) -> Square:
