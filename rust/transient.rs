@@ -16,6 +16,7 @@ use crate::outcome::Outcome;
 use crate::problem::{MeshSize, Profile, Rubber};
 use crate::settings::Settings;
 use crate::solution::Solution;
+use crate::solve::kept_factor::KeptFactor;
 use crate::solve::load_stepping::{raise, Counts};
 use crate::solve::newton::{self, Report};
 use crate::solve::transfer::transfer;
@@ -132,6 +133,7 @@ struct Integration<'a> {
     wavelength: f64,
     watch: &'a Watch<'a>,
     state: State,
+    kept: Option<KeptFactor>,
     networks: CarriedHistory,
     counts: Counts,
     moments: Vec<Moment>,
@@ -155,8 +157,10 @@ impl<'a> Integration<'a> {
                 transfer(&from.mesh, &from.state, mesh, stress)
             },
         );
-        let y = remembered(&model.pressed(mesh, &Memory::Relaxed, watch), &state);
+        let pressed = model.pressed(mesh, &Memory::Relaxed, watch);
+        let y = remembered(&pressed, &state);
         Self {
+            kept: KeptFactor::new(&pressed, settings),
             networks: networks(model, mesh, wavelength, y, start),
             model,
             mesh,
@@ -232,15 +236,24 @@ impl<'a> Integration<'a> {
         Ok(())
     }
 
-    /// Newton from the last step's state; if that fails, the load is led to its new value in parts,
-    /// and at last raised anew.
+    /// Newton from the last step's state, first by the factor kept; if that fails, the load is led to
+    /// its new value in parts, and at last raised anew.
     fn follow(&mut self, pressed: &PressedBlock<'_>, load: f64) -> Report {
         let (settings, counts) = (self.settings, &mut self.counts);
         let from: f64 = self.state.force.iter().sum();
         let mut trial = self.state.clone();
+        counts.load_steps += 1;
+        if let Some(kept) = &mut self.kept {
+            let report = kept.solve(pressed, &mut trial, load, settings);
+            counts.add(&report);
+            if report.status == Status::Converged {
+                self.state = trial;
+                return report;
+            }
+            trial = self.state.clone();
+        }
         let mut report = newton::solve(pressed, &mut trial, load, settings);
         counts.add(&report);
-        counts.load_steps += 1;
         if report.status != Status::Converged {
             trial = self.state.clone();
             for part in 1..=settings.load_parts {

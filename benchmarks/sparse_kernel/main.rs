@@ -53,8 +53,8 @@ fn main() {
     );
     let all = std::env::args().all(|text| text != "steps");
     if all {
-    factors(&meshes);
-    static_contact(&meshes);
+        factors(&meshes);
+        static_contact(&meshes);
     }
     let small = meshes.into_iter().filter(|&(nodes, _)| nodes <= 256);
     let small: Vec<(usize, usize)> = small.collect();

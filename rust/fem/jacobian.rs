@@ -445,7 +445,7 @@ fn put(to: &mut [Lane; 16], lane: usize, weight: f64, slopes: &[Gradient; 4]) {
 }
 
 /// Stiffness from the permanent network where its b changes with the strain.
-fn add_network_slope(block: &Block<'_>, f: &Gradient, d: &mut [Gradient; 4]) {
+pub(super) fn add_network_slope(block: &Block<'_>, f: &Gradient, d: &mut [Gradient; 4]) {
     let Some(slope) = block.energy.network_slope(f) else {
         return;
     };

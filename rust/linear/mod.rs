@@ -1,11 +1,13 @@
-//! Linear algebra, the one room with faer: dense LU, small complex blocks, and GMRES for
+//! Linear algebra, the one room with faer: dense LU, sparse L D L^T, small complex blocks, and GMRES for
 //! what is never formed.
 
 mod blocks;
 mod dense;
 mod gmres;
+mod sparse;
 
 pub use blocks::invert;
 pub use dense::{column, column_ref, solve_columns, solve_dense, Factor, Matrix};
 pub(crate) use gmres::norm;
 pub use gmres::{gmres, Found};
+pub use sparse::{Ldl, LdlFactor};

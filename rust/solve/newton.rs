@@ -36,6 +36,21 @@ impl Report {
     }
 }
 
+/// A state on the way, with what it leaves out of balance.
+pub(super) struct Now<'a> {
+    pub state: &'a State,
+    pub rows: &'a [RowState],
+    pub balance: &'a Balance,
+    pub residual: f64,
+}
+
+/// What to do where a whole step would go too far.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Cut {
+    Shorten,
+    GiveUp,
+}
+
 /// Iterate on `state` under `load` (mean pressure times one wavelength).
 pub fn solve(
     pressed: &PressedBlock<'_>,
@@ -43,54 +58,67 @@ pub fn solve(
     load: f64,
     settings: &Settings,
 ) -> Report {
+    let (mut share, mut before) = (settings.krylov_share, f64::INFINITY);
+    iterate(pressed, state, load, settings, Cut::Shorten, |now| {
+        share = forcing(share, now.residual / before, settings);
+        before = now.residual;
+        let least = ITERATED_TO * settings.residual_tolerance * load.min(1.0);
+        let accuracy = Accuracy { share, least };
+        let (rows, balance) = (now.rows, now.balance);
+        krylov::increment(pressed, now.state, rows, balance, load, accuracy, settings)
+    })
+}
+
+/// Iterate on `state` by increments as `next` finds them.
+pub(super) fn iterate(
+    pressed: &PressedBlock<'_>,
+    state: &mut State,
+    load: f64,
+    settings: &Settings,
+    cut: Cut,
+    mut next: impl FnMut(Now<'_>) -> Result<Increment, Status>,
+) -> Report {
     let mut report = Report {
         status: Status::Converged,
         iterations: 0,
         products: 0,
         residual: f64::INFINITY,
     };
-    if let Err(status) = iterate(pressed, state, load, settings, &mut report) {
+    let mut run = || -> Result<(), Status> {
+        let mut rows = pressed.row_states(&state.field)?;
+        let (mut best, mut best_at) = (f64::INFINITY, 0);
+        loop {
+            let balance = Balance::new(pressed, state, &rows)?;
+            let residual = balance.residual(pressed, state, load);
+            report.residual = residual;
+            if !residual.is_finite() {
+                return Err(Status::NotFinite);
+            }
+            if residual < settings.residual_tolerance {
+                return Ok(());
+            }
+            if residual < best {
+                (best, best_at) = (residual, report.iterations);
+            }
+            let stalled = report.iterations >= best_at + settings.patience;
+            if stalled || report.iterations >= settings.max_iterations {
+                return Err(Status::IterationLimit);
+            }
+            report.iterations += 1;
+            let increment = next(Now {
+                state,
+                rows: &rows,
+                balance: &balance,
+                residual,
+            })?;
+            report.products += increment.products;
+            step(pressed, increment, state, &mut rows, settings, cut)?;
+        }
+    };
+    if let Err(status) = run() {
         report.status = status;
     }
     report
-}
-
-fn iterate(
-    pressed: &PressedBlock<'_>,
-    state: &mut State,
-    load: f64,
-    settings: &Settings,
-    report: &mut Report,
-) -> Result<(), Status> {
-    let mut rows = pressed.row_states(&state.field)?;
-    let (mut best, mut best_at) = (f64::INFINITY, 0);
-    let mut share = settings.krylov_share;
-    loop {
-        let before = report.residual;
-        let balance = Balance::new(pressed, state, &rows)?;
-        report.residual = balance.residual(pressed, state, load);
-        if !report.residual.is_finite() {
-            return Err(Status::NotFinite);
-        }
-        if report.residual < settings.residual_tolerance {
-            return Ok(());
-        }
-        if report.residual < best {
-            (best, best_at) = (report.residual, report.iterations);
-        }
-        let stalled = report.iterations >= best_at + settings.patience;
-        if stalled || report.iterations >= settings.max_iterations {
-            return Err(Status::IterationLimit);
-        }
-        report.iterations += 1;
-        share = forcing(share, report.residual / before, settings);
-        let least = ITERATED_TO * settings.residual_tolerance * load.min(1.0);
-        let accuracy = Accuracy { share, least };
-        let increment =
-            krylov::increment(pressed, state, &rows, &balance, load, accuracy, settings)?;
-        report.products += increment.products;
-        step(pressed, increment, state, &mut rows, settings)?;
-    }
 }
 
 /// The share to which forces out of balance are to fall, from the last one and what came of it.
@@ -107,13 +135,14 @@ fn forcing(last: f64, ratio: f64, settings: &Settings) -> f64 {
 }
 
 /// One Newton step by `increment`, limited in displacement gradient and kept from turning elements
-/// over.
+/// over, as `cut` says.
 fn step(
     pressed: &PressedBlock<'_>,
     increment: Increment,
     state: &mut State,
     rows: &mut Vec<RowState>,
     settings: &Settings,
+    cut: Cut,
 ) -> Result<(), Status> {
     let Increment {
         u,
@@ -126,6 +155,9 @@ fn step(
     }
     let mut share = (settings.largest_step / largest_gradient(pressed, &u)).min(1.0);
     for _ in 0..settings.step_halvings {
+        if share < 1.0 && cut == Cut::GiveUp {
+            return Err(Status::IterationLimit);
+        }
         let mut trial = state.field.clone();
         add(&mut trial.u, share, &u);
         let trial_rows = pressed.row_states(&trial)?;

@@ -1,0 +1,86 @@
+//! The tangent of one element at fixed memory, assembled, its pressures condensed:
+//!     k = int grad(N) : dP/dF : grad(N) dV + sum over modes m of K / M b b^T,   b = int m cof F : grad(N) dV
+
+use super::block::{Block, Field, RowState};
+use super::jacobian::add_network_slope;
+use crate::material::kinematics::cofactor;
+use crate::material::stress::tangent;
+
+pub struct ElementTangent {
+    /// Row by row, unknown 2 node + direction; symmetric.
+    pub stiffness: Vec<f64>,
+    /// b, `[mode][unknown]`.
+    pub volume: Vec<f64>,
+}
+
+impl ElementTangent {
+    /// Room for an element of the block.
+    pub fn new(block: &Block<'_>) -> Self {
+        let size = 2 * block.mesh.elements[0].nodes();
+        Self {
+            stiffness: vec![0.0; size * size],
+            volume: vec![0.0; size * block.mesh.modes()],
+        }
+    }
+
+    /// Of the element in `row` and `column` in the state of `field`.
+    pub fn fill(
+        &mut self,
+        block: &Block<'_>,
+        field: &Field,
+        state: &RowState,
+        (row, column): (usize, usize),
+    ) {
+        let element = &block.mesh.elements[row];
+        let size = 2 * element.nodes();
+        let pressure = block.element_pressure(field, row, column);
+        self.stiffness.fill(0.0);
+        self.volume.fill(0.0);
+        for (at, line, q) in block.gauss_points(column) {
+            let (f, h) = (&state.gradient[line][q], &state.h[line][q]);
+            let mode = &element.mode[at];
+            let weight = element.weight[at];
+            let level = mode.iter().zip(pressure).map(|(mode, p)| mode * p).sum();
+            let mut slopes = tangent(f, h, level);
+            add_network_slope(block, f, &mut slopes);
+            let cof = cofactor(f);
+            for (j, &[x, z]) in element.gradient[at].iter().enumerate() {
+                for d in 0..2 {
+                    let unknown = 2 * j + d;
+                    let along = |of: &[f64; 4]| weight * (of[2 * d] * x + of[2 * d + 1] * z);
+                    let stress: [f64; 4] = std::array::from_fn(|a| along(&slopes[a]));
+                    for (i, &[x, z]) in element.gradient[at].iter().enumerate().skip(j) {
+                        for e in 0..2 {
+                            self.stiffness[(2 * i + e) * size + unknown] +=
+                                x * stress[2 * e] + z * stress[2 * e + 1];
+                        }
+                    }
+                    let volume = along(&cof);
+                    for (m, mode) in mode.iter().enumerate() {
+                        self.volume[m * size + unknown] += mode * volume;
+                    }
+                }
+            }
+        }
+        self.condense(&element.mode_mass, block.bulk_modulus);
+    }
+
+    /// Eliminate the pressures and complete the upper triangle.
+    fn condense(&mut self, masses: &[f64], bulk_modulus: f64) {
+        let size = self.volume.len() / masses.len();
+        for (b, mass) in self.volume.chunks_exact(size).zip(masses) {
+            let lines = self.stiffness.chunks_exact_mut(size).zip(b);
+            for (i, (line, by)) in lines.enumerate() {
+                let by = bulk_modulus / mass * by;
+                for (k, b) in line[..=i].iter_mut().zip(b) {
+                    *k += by * b;
+                }
+            }
+        }
+        for i in 0..size {
+            for j in i + 1..size {
+                self.stiffness[i * size + j] = self.stiffness[j * size + i];
+            }
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! Newton's method with a tangent that is kept: from iteration to iteration, and from one time step to
+//! the next, as long as the same nodes touch and residuals fall fast enough.
+//!
+//! In the frame of the profile a contact nearly stands still, so that one factor serves a step or two
+//! (chord method: Kelley, "Iterative Methods for Linear and Nonlinear Equations" (1995), section 5.4).
+
+use super::bordered::{Bordered, Tangent};
+use super::newton::{self, Report};
+use crate::contact::{PressedBlock, State};
+use crate::settings::Settings;
+use crate::status::Status;
+
+/// A tangent that leaves more of the residual than this share is made anew.
+const WORTH_KEEPING: f64 = 0.3;
+
+pub struct KeptFactor {
+    bordered: Bordered,
+    tangent: Option<Tangent>,
+}
+
+impl KeptFactor {
+    /// Nothing kept yet; none where there is no memory for it, or more columns than pay.
+    pub fn new(pressed: &PressedBlock<'_>, settings: &Settings) -> Option<Self> {
+        let pays = pressed.mesh().columns <= settings.kept_factor_columns;
+        let bordered = pays.then(|| Bordered::new(&pressed.block)).flatten()?;
+        Some(Self {
+            bordered,
+            tangent: None,
+        })
+    }
+
+    /// Iterate on `state` under `load`, its memory given; gives up where a step would be cut.
+    pub fn solve(
+        &mut self,
+        pressed: &PressedBlock<'_>,
+        state: &mut State,
+        load: f64,
+        settings: &Settings,
+    ) -> Report {
+        let mut before = f64::INFINITY;
+        let bordered = &self.bordered;
+        let tangent = &mut self.tangent;
+        newton::iterate(pressed, state, load, settings, newton::Cut::GiveUp, |now| {
+            let last = std::mem::replace(&mut before, now.residual);
+            let serves = tangent.as_ref().is_some_and(|tangent| {
+                tangent.active == now.state.active && now.residual < WORTH_KEEPING * last
+            });
+            if !serves {
+                *tangent = None;
+                *tangent = Some(bordered.factor(pressed, now.state, now.rows, now.balance)?);
+            }
+            let tangent = tangent.as_ref().ok_or(Status::NotFinite)?;
+            let increment = bordered.solve(pressed, tangent, now.state, now.balance, load);
+            if increment.contact.active != now.state.active {
+                before = f64::INFINITY;
+            }
+            Ok(increment)
+        })
+    }
+}
