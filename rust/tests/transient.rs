@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use gripscale_kernel::settings::Settings;
 use gripscale_kernel::status::Status;
-use gripscale_kernel::transient::Stage;
+use gripscale_kernel::transient::{Run, Stage};
 
 use crate::Case;
 
@@ -158,4 +158,94 @@ fn a_start_that_did_not_converge_is_refused() {
     };
     let refusal = case.run(&[stage], Some(&start)).unwrap_err().to_string();
     assert!(refusal.starts_with("start must be a solution that converged; its status is"));
+}
+
+/// Forward, at rest and, more heavily loaded, backward.
+fn there_and_back(case: &Case) -> [Stage; 3] {
+    let forward = Stage {
+        duration: 0.5,
+        speed: 1.0,
+        pressure: case.pressure,
+    };
+    let still = Stage {
+        speed: 0.0,
+        ..forward
+    };
+    let back = Stage {
+        speed: -2.0,
+        pressure: 1.5 * case.pressure,
+        ..forward
+    };
+    [forward, still, back]
+}
+
+fn largest_difference(one: &Run, other: &Run) -> f64 {
+    assert_eq!(
+        (one.status, other.status),
+        (Status::Converged, Status::Converged)
+    );
+    assert_eq!(one.moments.len(), other.moments.len());
+    let pairs = one.moments.iter().zip(&other.moments);
+    let apart = pairs.flat_map(|(one, other)| {
+        [
+            one.friction - other.friction,
+            one.contact_fraction - other.contact_fraction,
+            one.approach - other.approach,
+        ]
+    });
+    apart.fold(0.0, |most, apart| most.max(apart.abs()))
+}
+
+/// Steps by a factor that is kept end where those by GMRES do: both leave 1e-11 of the forces, of
+/// which friction, contact and approach of the whole way stay the same to far below the 1e-8 allowed.
+/// That few products are left says that it is the factor that solved them.
+#[test]
+fn a_kept_factor_gives_the_run_of_gmres() {
+    let energies = [
+        ("neo_hookean", vec![]),
+        ("mooney_rivlin", vec![("share", 0.3)]),
+        ("yeoh", vec![("second", -0.05), ("third", 0.02)]),
+    ];
+    for (order, columns, rows) in [(1, 32, 8), (2, 16, 6)] {
+        for energy in &energies {
+            let mut case = lossy();
+            (case.order, case.columns, case.rows) = (order, columns, rows);
+            case.energy = energy.clone();
+            let run = |most: f64| {
+                let changes = [("residual_tolerance", 1e-11), ("kept_factor_columns", most)];
+                let mut case = case.clone();
+                case.settings = Settings::new(changes).unwrap();
+                case.run(&there_and_back(&case), None).unwrap()
+            };
+            let (kept, iterated) = (run(64.0), run(0.0));
+            let apart = largest_difference(&kept, &iterated);
+            assert!(apart < 1e-8, "{order} {energy:?}: {apart}");
+            let (few, many) = (kept.counts.products, iterated.counts.products);
+            assert!(
+                5 * few < many,
+                "{order} {energy:?}: {few} products of {many}"
+            );
+        }
+    }
+}
+
+/// Where a step would change the strain by more than is allowed, the factor leaves it to the iteration,
+/// which cuts it.
+#[test]
+fn a_kept_factor_gives_up_where_a_step_would_be_cut() {
+    let run = |most: f64| {
+        let mut case = lossy();
+        let changes = [
+            ("residual_tolerance", 1e-11),
+            ("largest_step", 0.02),
+            ("kept_factor_columns", most),
+        ];
+        case.settings = Settings::new(changes).unwrap();
+        case.run(&there_and_back(&case), None).unwrap()
+    };
+    let (kept, iterated) = (run(64.0), run(0.0));
+    assert!(largest_difference(&kept, &iterated) < 1e-8);
+    let (few, many) = (kept.counts.products, iterated.counts.products);
+    println!("{few} {many}");
+    assert!(few < many && 5 * few > many, "{few} products of {many}");
 }
