@@ -9,7 +9,7 @@ use super::increment::Increment;
 use super::krylov::{self, Accuracy};
 use crate::contact::{PressedBlock, State};
 use crate::fem::block::RowState;
-use crate::material::kinematics::jacobian;
+use crate::material::kinematics::{jacobian, Gradient};
 use crate::settings::Settings;
 use crate::status::Status;
 
@@ -153,14 +153,18 @@ fn step(
     if u.iter().any(|value| !value.is_finite()) {
         return Err(Status::NotFinite);
     }
-    let mut share = (settings.largest_step / largest_gradient(pressed, &u)).min(1.0);
+    let mut share = match cut {
+        Cut::Shorten => (settings.largest_step / largest_gradient(pressed, &u)).min(1.0),
+        Cut::GiveUp => 1.0,
+    };
     for _ in 0..settings.step_halvings {
-        if share < 1.0 && cut == Cut::GiveUp {
-            return Err(Status::IterationLimit);
-        }
         let mut trial = state.field.clone();
         add(&mut trial.u, share, &u);
         let trial_rows = pressed.row_states(&trial)?;
+        let far = || largest_change(rows, &trial_rows) > settings.largest_step;
+        if cut == Cut::GiveUp && (share < 1.0 || far()) {
+            return Err(Status::IterationLimit);
+        }
         if smallest_jacobian(&trial_rows) > settings.smallest_volume_ratio {
             add(&mut trial.pressure, share, &pressure);
             for (f, new) in state.force.iter_mut().zip(&contact.force) {
@@ -202,9 +206,17 @@ fn largest_gradient(pressed: &PressedBlock<'_>, du: &[f64]) -> f64 {
         .fold(1e-300, |m: f64, value| m.max(value.abs()))
 }
 
+/// Of the displacement gradient between two states of the rows.
+fn largest_change(from: &[RowState], to: &[RowState]) -> f64 {
+    let pairs = gradients(from).zip(gradients(to));
+    let changes = pairs.flat_map(|(from, to)| (0..4).map(move |k| (to[k] - from[k]).abs()));
+    changes.fold(0.0, f64::max)
+}
+
 fn smallest_jacobian(rows: &[RowState]) -> f64 {
-    rows.iter()
-        .flat_map(|row| row.gradient.iter().flatten())
-        .map(jacobian)
-        .fold(f64::INFINITY, f64::min)
+    gradients(rows).map(jacobian).fold(f64::INFINITY, f64::min)
+}
+
+fn gradients(rows: &[RowState]) -> impl Iterator<Item = &Gradient> {
+    rows.iter().flat_map(|row| row.gradient.iter().flatten())
 }
