@@ -13,6 +13,10 @@ use crate::status::Status;
 /// A tangent that leaves more of the residual than this share is made anew.
 const WORTH_KEEPING: f64 = 0.3;
 
+/// Share of the residual allowed that is asked for: residuals fall by a factor an iteration and would end
+/// just below it, where Newton's own end far below.
+const ITERATED_TO: f64 = 0.1;
+
 pub struct KeptFactor {
     bordered: Bordered,
     tangent: Option<Tangent>,
@@ -38,6 +42,10 @@ impl KeptFactor {
         settings: &Settings,
     ) -> Report {
         let mut before = f64::INFINITY;
+        let settings = &Settings {
+            residual_tolerance: ITERATED_TO * settings.residual_tolerance,
+            ..*settings
+        };
         let bordered = &self.bordered;
         let tangent = &mut self.tangent;
         newton::iterate(pressed, state, load, settings, newton::Cut::GiveUp, |now| {
