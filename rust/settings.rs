@@ -113,7 +113,7 @@ settings! {
     rescue_columns: usize = 256 in 4..=4096, "Most columns of a mesh finer than the one asked for, where that does not carry the load or is not to be trusted.";
     large_mean_shear: f64 = 2.0 in 0.1..=100.0, "A load path that ends at a mean shear of the block beyond this ends because of it [-].";
 
-    kept_factor_columns: usize = 256 in 0..=4096, "Most columns of a mesh whose time steps are solved by a sparse factor that is kept from step to step; 0: none.";
+    kept_factor_nodes: usize = 256 in 0..=8192, "Most nodes along the wave of a mesh on which time steps are solved by a sparse factor that is kept from step to step.";
     load_parts: usize = 8 in 1..=1000, "Parts a change of load is cut into where a time step fails.";
 }
 

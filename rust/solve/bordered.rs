@@ -35,11 +35,28 @@ pub struct Tangent {
     borders: [Answer; 2],
 }
 
+/// Entries of the matrix, and of a tangent what is not factored.
+struct Assembled {
+    values: Vec<f64>,
+    surface: Vec<f64>,
+    volumes: Vec<f64>,
+}
+
 /// Displacements as in a field, and what they add to the forces of the nodes held.
 #[derive(Default)]
 struct Answer {
     u: Vec<f64>,
     force: Vec<f64>,
+}
+
+/// Solution of the linearised problem: displacements and pressures as in a field, and the change of
+/// every node's contact force, of the approach and of the mean shift.
+pub struct Change {
+    pub u: Vec<f64>,
+    pub pressure: Vec<f64>,
+    pub force: Vec<f64>,
+    pub approach: f64,
+    pub shift: f64,
 }
 
 /// A pressure mode: its number in a field, that of its volume out of balance, K / M, its element's
@@ -68,6 +85,39 @@ impl Bordered {
         rows: &[RowState],
         balance: &Balance,
     ) -> Result<Tangent, Status> {
+        let mesh = pressed.mesh();
+        let mut assembled = self.assemble(pressed, state, rows, balance)?;
+        let nodes = balance.x.iter().zip(&state.force);
+        let bend = nodes.map(|(&x, force)| force * pressed.heights.curvature(x));
+        let bend: Vec<f64> = bend.collect();
+        for (a, bend) in bend.iter().enumerate() {
+            let [x, z] = [0, 1].map(|d| self.pattern.diagonal_of(mesh.place(a, d)));
+            assembled.values[x] += bend;
+            if state.active[a] {
+                assembled.values[z] = 1.0;
+            }
+        }
+        let factor = self.ldl.factor(&assembled.values);
+        let mut tangent = Tangent {
+            factor: factor.ok_or(Status::NotFinite)?,
+            active: state.active.clone(),
+            slope: balance.slope.clone(),
+            surface: assembled.surface,
+            volumes: assembled.volumes,
+            borders: Default::default(),
+        };
+        tangent.borders = self.borders(mesh, &tangent, &bend);
+        Ok(tangent)
+    }
+
+    /// The elements alone, the nodes in contact held.
+    fn assemble(
+        &self,
+        pressed: &PressedBlock<'_>,
+        state: &State,
+        rows: &[RowState],
+        balance: &Balance,
+    ) -> Result<Assembled, Status> {
         let (block, mesh) = (&pressed.block, pressed.mesh());
         let mut values = vec![0.0; self.pattern.rows.len()];
         let mut element = ElementTangent::new(block);
@@ -90,25 +140,11 @@ impl Bordered {
                 self.pattern.add(number, &element.stiffness, &mut values);
             }
         }
-        let bend: Vec<f64> = bends(pressed, state, balance).collect();
-        for (a, bend) in bend.iter().enumerate() {
-            let [x, z] = [0, 1].map(|d| self.pattern.diagonal_of(mesh.place(a, d)));
-            values[x] += bend;
-            if state.active[a] {
-                values[z] = 1.0;
-            }
-        }
-        let factor = self.ldl.factor(&values).ok_or(Status::NotFinite)?;
-        let mut tangent = Tangent {
-            factor,
-            active: state.active.clone(),
-            slope: balance.slope.clone(),
+        Ok(Assembled {
+            values,
             surface,
             volumes,
-            borders: Default::default(),
-        };
-        tangent.borders = self.borders(mesh, &tangent, &bend);
-        Ok(tangent)
+        })
     }
 
     fn borders(&self, mesh: &Mesh, tangent: &Tangent, bend: &[f64]) -> [Answer; 2] {
@@ -122,10 +158,10 @@ impl Bordered {
         [raised, shifted]
     }
 
-    /// The increment by `tangent` that undoes `balance` of `state` under `load`: the nodes that it
-    /// holds stay on the profile, none else touches. The contact it leads to drops the nodes that it
-    /// would pull and takes those that would come to lie in the profile.
-    pub fn solve(
+    /// The increment by `tangent` that undoes `balance` of `state` under `load`. The contact it leads to
+    /// is that of the tangent without the nodes it would pull, and with those that would come to lie in
+    /// the profile.
+    pub fn increment(
         &self,
         pressed: &PressedBlock<'_>,
         tangent: &Tangent,
@@ -133,7 +169,44 @@ impl Bordered {
         balance: &Balance,
         load: f64,
     ) -> Increment {
-        let (block, mesh) = (&pressed.block, pressed.mesh());
+        let mesh = pressed.mesh();
+        let missing = load - state.force.iter().sum::<f64>();
+        let change = self.change(&pressed.block, tangent, balance, missing);
+        let Change { u, mut force, .. } = change;
+        add(&mut force, 1.0, &state.force);
+        let touches = |a: usize| {
+            if tangent.active[a] {
+                return force[a] >= 0.0;
+            }
+            let along = u[mesh.place(a, 0)] - change.shift;
+            let opening = u[mesh.place(a, 1)] - balance.slope[a] * along - change.approach;
+            balance.gap[a] + opening < 0.0
+        };
+        let active: Vec<bool> = (0..force.len()).map(touches).collect();
+        for (force, _) in force.iter_mut().zip(&active).filter(|(_, &active)| !active) {
+            *force = 0.0;
+        }
+        Increment {
+            u,
+            pressure: change.pressure,
+            contact: Contact {
+                force,
+                approach: state.approach + change.approach,
+                active,
+            },
+            products: 0,
+        }
+    }
+
+    /// What undoes `balance` where the nodes held stay on the profile and no other touches, the forces
+    /// growing by `missing` together.
+    pub fn change(
+        &self,
+        block: &Block<'_>,
+        tangent: &Tangent,
+        balance: &Balance,
+        missing: f64,
+    ) -> Change {
         let mut right: Vec<f64> = balance.forces.iter().map(|force| -force).collect();
         self.each_mode(block, tangent, |mode| {
             let pressed = -mode.stiffness * balance.volumes[mode.volume];
@@ -141,42 +214,25 @@ impl Bordered {
                 right[place] += pressed * change;
             }
         });
-        let own = self.answer(mesh, tangent, right, |a| -balance.gap[a]);
-        let missing = load - state.force.iter().sum::<f64>();
-        let (approach, shift) = amounts(mesh, &own, &tangent.borders, missing);
+        let own = self.answer(block.mesh, tangent, right, |a| -balance.gap[a]);
+        let (approach, shift) = amounts(block.mesh, &own, &tangent.borders, missing);
         let Answer { mut u, mut force } = own;
         for (border, amount) in tangent.borders.iter().zip([approach, shift]) {
             add(&mut u, amount, &border.u);
             add(&mut force, amount, &border.force);
         }
-        add(&mut force, 1.0, &state.force);
-        let mut pressure = vec![0.0; state.field.pressure.len()];
+        let mut pressure = vec![0.0; balance.volumes.len()];
         self.each_mode(block, tangent, |mode| {
             let changes = mode.places.iter().zip(mode.change);
             let volume: f64 = changes.map(|(&place, change)| change * u[place]).sum();
             pressure[mode.pressure] = mode.stiffness * (volume + balance.volumes[mode.volume]);
         });
-        let touches = |a: usize| {
-            if tangent.active[a] {
-                return force[a] >= 0.0;
-            }
-            let along = u[mesh.place(a, 0)] - shift;
-            let opening = u[mesh.place(a, 1)] - balance.slope[a] * along - approach;
-            balance.gap[a] + opening < 0.0
-        };
-        let active: Vec<bool> = (0..force.len()).map(touches).collect();
-        for (force, active) in force.iter_mut().zip(&active) {
-            *force = if *active { *force } else { 0.0 };
-        }
-        Increment {
+        Change {
             u,
             pressure,
-            contact: Contact {
-                force,
-                approach: state.approach + approach,
-                active,
-            },
-            products: 0,
+            force,
+            approach,
+            shift,
         }
     }
 
@@ -258,16 +314,6 @@ fn amounts(mesh: &Mesh, own: &Answer, borders: &[Answer; 2], missing: f64) -> (f
     let (e, f) = (-mesh.mean_shift(&own.u), missing - sum(own));
     let determinant = a * d - b * c;
     ((e * d - b * f) / determinant, (a * f - e * c) / determinant)
-}
-
-/// Contact force times curvature of the profile, at every node.
-fn bends<'a>(
-    pressed: &'a PressedBlock<'_>,
-    state: &'a State,
-    balance: &'a Balance,
-) -> impl Iterator<Item = f64> + 'a {
-    let nodes = balance.x.iter().zip(&state.force);
-    nodes.map(|(&x, force)| force * pressed.heights.curvature(x))
 }
 
 fn add(to: &mut [f64], factor: f64, change: &[f64]) {

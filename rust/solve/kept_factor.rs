@@ -23,9 +23,9 @@ pub struct KeptFactor {
 }
 
 impl KeptFactor {
-    /// Nothing kept yet; none where there is no memory for it, or more columns than pay.
+    /// Nothing kept yet; none where there is no memory for it, or more nodes along the wave than pay.
     pub fn new(pressed: &PressedBlock<'_>, settings: &Settings) -> Option<Self> {
-        let pays = pressed.mesh().columns <= settings.kept_factor_columns;
+        let pays = pressed.mesh().layer_nodes() <= settings.kept_factor_nodes;
         let bordered = pays.then(|| Bordered::new(&pressed.block)).flatten()?;
         Some(Self {
             bordered,
@@ -58,7 +58,7 @@ impl KeptFactor {
                 *tangent = Some(bordered.factor(pressed, now.state, now.rows, now.balance)?);
             }
             let tangent = tangent.as_ref().ok_or(Status::NotFinite)?;
-            let increment = bordered.solve(pressed, tangent, now.state, now.balance, load);
+            let increment = bordered.increment(pressed, tangent, now.state, now.balance, load);
             if increment.contact.active != now.state.active {
                 before = f64::INFINITY;
             }

@@ -208,7 +208,7 @@ fn a_step_by_the_bordered_factor_is_that_of_sparse_elimination() {
         let balance = Balance::new(pressed, state, rows).unwrap();
         let bordered = Bordered::new(&pressed.block).unwrap();
         let tangent = bordered.factor(pressed, state, rows, &balance).unwrap();
-        let found = bordered.solve(pressed, &tangent, state, &balance, load);
+        let found = bordered.increment(pressed, &tangent, state, &balance, load);
         (found, state.active.clone())
     });
 }

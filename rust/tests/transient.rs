@@ -212,7 +212,7 @@ fn a_kept_factor_gives_the_run_of_gmres() {
             (case.order, case.columns, case.rows) = (order, columns, rows);
             case.energy = energy.clone();
             let run = |most: f64| {
-                let changes = [("residual_tolerance", 1e-11), ("kept_factor_columns", most)];
+                let changes = [("residual_tolerance", 1e-11), ("kept_factor_nodes", most)];
                 let mut case = case.clone();
                 case.settings = Settings::new(changes).unwrap();
                 case.run(&there_and_back(&case), None).unwrap()
@@ -238,7 +238,7 @@ fn a_kept_factor_gives_up_where_a_step_would_be_cut() {
         let changes = [
             ("residual_tolerance", 1e-11),
             ("largest_step", 0.02),
-            ("kept_factor_columns", most),
+            ("kept_factor_nodes", most),
         ];
         case.settings = Settings::new(changes).unwrap();
         case.run(&there_and_back(&case), None).unwrap()
