@@ -3,12 +3,9 @@
 //!
 //! cargo bench --bench sparse_factor -- [MOST NODES ALONG THE WAVE, by default 256]
 
-mod bordered;
 mod clock;
 mod factor;
-#[path = "../../rust/tests/local_tangent.rs"]
-mod local_tangent;
-mod pattern;
+mod newton_steps;
 mod sliding;
 mod time_steps;
 
@@ -19,6 +16,7 @@ use gripscale_kernel::contact::profile::Heights;
 use gripscale_kernel::contact::State;
 use gripscale_kernel::fem::block::Memory;
 use gripscale_kernel::fem::mesh::Mesh;
+use gripscale_kernel::fem::pattern::Pattern;
 use gripscale_kernel::material::energy::Energy;
 use gripscale_kernel::model::Model;
 use gripscale_kernel::problem::{Load, MeshSize, Problem, Profile, Rubber};
@@ -29,10 +27,10 @@ use gripscale_kernel::status::Status;
 use gripscale_kernel::steady;
 use gripscale_kernel::watch::Watch;
 
-use bordered::{Bordered, Linear, Spent};
 use clock::timed;
-use factor::{Ldl, Lu};
-use pattern::{dissection, natural, Pattern};
+use factor::{Compressed, Ldl, Lu};
+use gripscale_kernel::solve::bordered::Bordered;
+use newton_steps::eliminate;
 
 const SIZES: [usize; 6] = [32, 64, 128, 256, 512, 1024];
 /// A / lambda and pressure over the relaxed modulus: a quarter to six tenths of the nodes touch.
@@ -115,7 +113,7 @@ pub fn name(mesh: &Mesh) -> String {
 /// What a factor costs, in contact at the middle load.
 fn factors(meshes: &[(usize, usize)]) {
     println!(
-        "mesh, unknowns | way | symbolic once, assembly, factor, solve [ms] | L [1e6], Gflop, MB"
+        "mesh, unknowns | way | pattern, symbolic once, assembly, factor, solve [ms] | L [1e6], Gflop, MB"
     );
     for &mesh in meshes {
         let Some(solved) = Solved::new(STATIC[1], false, mesh) else {
@@ -123,28 +121,25 @@ fn factors(meshes: &[(usize, usize)]) {
         };
         let (memory, watch) = (Memory::Relaxed, Watch::endless());
         let pressed = solved.model.pressed(&solved.mesh, &memory, &watch);
-        let linear = Linear::new(&pressed, &solved.state);
-        let bordered = Bordered::new(&pressed.block);
-        let assembled = || bordered.assemble(&pressed.block, &solved.state, &linear);
-        let assembly = timed(assembled).0.ms;
+        let rows = pressed
+            .row_states(&solved.state.field)
+            .expect("an endless watch");
+        let block = &pressed.block;
+        let (patterned, pattern) = timed(|| Pattern::new(block));
+        let assemble = || Compressed::lower(block, &pattern, &solved.state, &rows);
+        let (assembly, lower) = timed(assemble);
+        let full = lower.full();
         let names = ["LDL dissection", "LDL minimum degree", "LU COLAMD"];
         for (which, way) in names.into_iter().enumerate() {
-            let order = match which {
-                0 => dissection(&solved.mesh),
-                _ => natural(&solved.mesh),
-            };
-            let own = Bordered {
-                pattern: Pattern::new(&pressed.block, &order, which < 2),
-                ..Bordered::new(&pressed.block)
-            };
-            let values = own.assemble(&pressed.block, &solved.state, &linear).values;
-            let pattern = &own.pattern;
-            let right = Mat::from_fn(pattern.size, 1, |i, _| (i % 7) as f64);
+            let matrix = if which < 2 { &lower } else { &full };
+            let right = Mat::from_fn(matrix.size, 1, |i, _| (i % 7) as f64);
             let line = |symbolic: f64, costs: [&clock::Cost; 2], (fill, flops): (f64, f64)| {
                 println!(
-                    "{}, {} | {way} | {symbolic:.2}, {assembly:.2}, {:.2}, {:.3} | {:.3}, {:.4}, {:.1}",
+                    "{}, {} | {way} | {:.2}, {symbolic:.2}, {:.2}, {:.2}, {:.3} | {:.3}, {:.4}, {:.1}",
                     name(&solved.mesh),
-                    pattern.size,
+                    matrix.size,
+                    patterned.ms,
+                    assembly.ms,
                     costs[0].ms,
                     costs[1].ms,
                     fill * 1e-6,
@@ -153,13 +148,13 @@ fn factors(meshes: &[(usize, usize)]) {
                 );
             };
             if which < 2 {
-                let (symbolic, ldl) = timed(|| Ldl::new(pattern, which == 1));
-                let (numeric, factor) = timed(|| ldl.factor(pattern, &values).expect("a factor"));
+                let (symbolic, ldl) = timed(|| Ldl::new(matrix, which == 1));
+                let (numeric, factor) = timed(|| ldl.factor(matrix).expect("a factor"));
                 let (solve, ()) = timed(|| ldl.solve(&factor, right.clone().as_mut()));
                 line(symbolic.ms, [&numeric, &solve], ldl.cost());
             } else {
-                let (symbolic, lu) = timed(|| Lu::new(pattern));
-                let (numeric, factor) = timed(|| lu.factor(pattern, &values).expect("a factor"));
+                let (symbolic, lu) = timed(|| Lu::new(matrix));
+                let (numeric, factor) = timed(|| lu.factor(matrix).expect("a factor"));
                 let (solve, ()) = timed(|| lu.solve(&factor, right.clone().as_mut()));
                 line(symbolic.ms, [&numeric, &solve], (f64::NAN, f64::NAN));
             }
@@ -185,12 +180,11 @@ fn static_contact(meshes: &[(usize, usize)]) {
                 let settings = Settings::default();
                 newton::solve(&pressed, &mut solved.start.clone(), solved.load, &settings)
             });
-            let (symbolic, bordered) = timed(|| Bordered::new(&pressed.block));
-            let (eliminated, (ended, spent, state)) = timed(|| {
-                let (mut state, mut spent) = (solved.start.clone(), Spent::default());
-                let how = (true, &mut spent);
-                let ended = bordered.newton(&pressed, &mut state, solved.load, &mut None, how);
-                (ended, spent, state)
+            let (symbolic, bordered) = timed(|| Bordered::new(&pressed.block).expect("memory"));
+            let (eliminated, (steps, state)) = timed(|| {
+                let mut state = solved.start.clone();
+                let steps = eliminate(&bordered, &pressed, &mut state, solved.load);
+                (steps, state)
             });
             let apart = (state.approach - solved.state.approach).abs() / case.0;
             println!(
@@ -204,9 +198,9 @@ fn static_contact(meshes: &[(usize, usize)]) {
                 iterated.megabytes,
                 eliminated.ms,
                 symbolic.ms,
-                spent.iterations,
+                steps.unwrap_or(0),
                 eliminated.megabytes,
-                match ended && apart < 1e-6 {
+                match steps.is_some() && apart < 1e-6 {
                     true => {
                         let ratio = iterated.ms / (eliminated.ms + symbolic.ms);
                         format!("{ratio:.2}, {apart:.0e}")

@@ -1,7 +1,6 @@
 //! Steady sliding: the first Newton step on a mesh, preconditioned by the average along the rows
 //! and by a sparse factor of the tangent at fixed memory, the contact of the first kept by both.
 
-use gripscale_kernel::contact::State;
 use gripscale_kernel::fem::block::Memory;
 use gripscale_kernel::fem::jacobian::Jacobian;
 use gripscale_kernel::fem::mesh::Mesh;
@@ -9,10 +8,10 @@ use gripscale_kernel::linear::gmres;
 use gripscale_kernel::material::sliding_history::SlidingHistory;
 use gripscale_kernel::settings::Settings;
 use gripscale_kernel::solve::balance::Balance;
+use gripscale_kernel::solve::bordered::{Bordered, Change};
 use gripscale_kernel::solve::krylov::{self, Accuracy};
 use gripscale_kernel::watch::Watch;
 
-use crate::bordered::{Bordered, Change, Linear};
 use crate::clock::timed;
 use crate::{name, Solved};
 
@@ -53,23 +52,35 @@ pub fn table(meshes: &[(usize, usize)]) {
                 )
                 .expect("a step")
             });
-            let bordered = Bordered::new(&pressed.block);
+            let bordered = Bordered::new(&pressed.block).expect("memory");
             let (factored, products) = timed(|| {
                 let mut state = start.clone();
                 state.active = found.contact.active.clone();
                 for (force, active) in state.force.iter_mut().zip(&state.active) {
                     *force *= f64::from(u8::from(*active));
                 }
-                let linear = Linear::new(&pressed, &state);
-                let jacobian =
-                    Jacobian::new(&pressed.block, &state.field, &linear.rows, &watch).unwrap();
+                let rows = pressed.row_states(&state.field).expect("an endless watch");
+                let balance = Balance::new(&pressed, &state, &rows).expect("an endless watch");
+                let jacobian = Jacobian::new(&pressed.block, &state.field, &rows, &watch).unwrap();
                 let more = solved.load - state.force.iter().sum::<f64>();
-                let kept = bordered
-                    .keep(&pressed.block, &state, &linear)
-                    .expect("a factor");
+                let tangent = bordered.factor(&pressed, &state, &rows, &balance);
+                let tangent = tangent.expect("a factor");
+                let bends = balance.x.iter().zip(&state.force);
+                let bend: Vec<f64> = bends
+                    .map(|(&x, force)| force * pressed.heights.curvature(x))
+                    .collect();
                 let solve = |v: &[f64], gap: &[f64], more: f64| {
-                    let (forces, volumes) = unmixed(&jacobian, v, &state);
-                    bordered.solve(&pressed.block, &kept, (&forces, &volumes, gap), more)
+                    let (forces, volumes) = v.split_at(jacobian.displacements());
+                    let mut forces: Vec<f64> = forces.iter().map(|force| -force).collect();
+                    forces.resize(state.field.u.len(), 0.0);
+                    let wrong = Balance {
+                        forces,
+                        volumes: volumes.iter().map(|volume| -volume).collect(),
+                        x: Vec::new(),
+                        slope: Vec::new(),
+                        gap: gap.to_vec(),
+                    };
+                    bordered.change(&pressed.block, &tangent, &wrong, more)
                 };
                 let mut room = jacobian.room();
                 let mut product = |change: &Change, out: &mut [f64]| {
@@ -78,17 +89,17 @@ pub fn table(meshes: &[(usize, usize)]) {
                     let shift = solved.mesh.mean_shift(&y);
                     for (a, force) in change.force.iter().enumerate() {
                         let [x, z] = [0, 1].map(|d| solved.mesh.place(a, d));
-                        out[x] += linear.bend[a] * (y[x] - shift) + linear.slope[a] * force;
+                        out[x] += bend[a] * (y[x] - shift) + balance.slope[a] * force;
                         out[z] -= force;
                     }
                 };
-                let right = mixed(&jacobian, &linear.forces, &linear.volumes);
+                let right = balance.to_undo(&pressed);
                 let mut left = vec![0.0; right.len()];
-                product(&solve(&right, &linear.gap, more), &mut left);
+                product(&solve(&right, &balance.gap, more), &mut left);
                 left.iter_mut()
                     .zip(&right)
                     .for_each(|(left, r)| *left = r - *left);
-                let closed = vec![0.0; linear.gap.len()];
+                let closed = vec![0.0; balance.gap.len()];
                 let apply = |v: &[f64], out: &mut [f64]| product(&solve(v, &closed, 0.0), out);
                 let target = SHARE * size(&right).max(size(&left));
                 gmres(apply, &left, target, LIMITS, &watch)
@@ -122,18 +133,6 @@ fn mixed(jacobian: &Jacobian<'_>, u: &[f64], pressure: &[f64]) -> Vec<f64> {
     });
     out.extend(turned);
     out
-}
-
-/// The same in the order of a field.
-fn unmixed(jacobian: &Jacobian<'_>, y: &[f64], state: &State) -> (Vec<f64>, Vec<f64>) {
-    let (u, pressure) = y.split_at(jacobian.displacements());
-    let mut forces = u.to_vec();
-    forces.resize(state.field.u.len(), 0.0);
-    let mut volumes = vec![0.0; pressure.len()];
-    each(jacobian.mesh, |field, mixed| {
-        volumes[field] = pressure[mixed]
-    });
-    (forces, volumes)
 }
 
 /// Places of a pressure in a field and among the mixed unknowns.

@@ -1,78 +1,62 @@
-//! Sliding in time from static contact: a step by the iteration, by a factor for every Newton
-//! iteration, and by a factor that is kept from step to step.
+//! Sliding in time from static contact: whole steps by GMRES, and by a factor that is kept.
 
-use std::f64::consts::TAU;
-
-use gripscale_kernel::contact::{PressedBlock, State};
-use gripscale_kernel::fem::block::Memory;
-use gripscale_kernel::material::carried_history::{CarriedHistory, Points};
-use gripscale_kernel::model::Model;
+use gripscale_kernel::fem::mesh::Mesh;
 use gripscale_kernel::problem::Problem;
 use gripscale_kernel::settings::Settings;
-use gripscale_kernel::solve::newton;
+use gripscale_kernel::solution::Solution;
 use gripscale_kernel::status::Status;
+use gripscale_kernel::steady;
+use gripscale_kernel::transient::{self, Run, Stage};
 use gripscale_kernel::watch::Watch;
 
-use crate::bordered::{Bordered, Kept, Spent};
-use crate::clock::now;
-use crate::{name, problem, Solved};
+use crate::clock::{timed, Cost};
+use crate::{name, problem};
 
 /// Half a passage, but not more steps than these.
 const MOST_STEPS: usize = 64;
 /// A / lambda and pressure over the relaxed modulus.
 const CASES: [(f64, f64); 3] = [(0.05, 0.15), (0.1, 0.4), (0.16, 1.0)];
 
-#[derive(Clone, Copy, PartialEq)]
-enum Way {
-    Iterated,
-    Eliminated,
-    Kept,
-}
-
-/// What a run took, and where it ended.
-struct Run {
-    /// A step [ms].
-    ms: f64,
-    /// A step.
-    iterations: f64,
-    extra: f64,
-    approach: f64,
-    converged: bool,
-}
-
 pub fn table(meshes: &[(usize, usize)]) {
     println!(
-        "time steps: mesh, A/lambda, p | GMRES: ms, Newton, products a step | factors: ms, Newton | \
-         kept factors: ms, Newton, factors | GMRES over each, apart"
+        "time steps: mesh, A/lambda, p | GMRES: ms, Newton, products a step, MB | kept factor: ms, \
+         iterations, products a step, MB | ratio, largest difference of the moments"
     );
     for &mesh in meshes {
         for case in CASES {
-            let Some(solved) = Solved::new(case, false, mesh) else {
-                continue;
-            };
+            let still = problem(case, false, mesh);
             let sliding = problem(case, true, mesh);
-            let run = |way: Way| slide(&solved, &sliding, way);
-            let [iterated, eliminated, kept] = [Way::Iterated, Way::Eliminated, Way::Kept].map(run);
-            let apart = [&eliminated, &kept].map(|run| (run.approach - iterated.approach).abs());
+            let start = Problem {
+                load: still.load,
+                ..problem(case, true, mesh)
+            };
+            let settings = Settings::default();
+            let start = steady::solve(&start, &settings, None, None, &Watch::endless());
+            let Ok(start) = start else { continue };
+            let [iterated, kept] = [0.0, 1e3].map(|most| slide(&sliding, case.1, &start, most));
+            let ended = |run: &Run| run.status == Status::Converged;
+            let steps = iterated.1.moments.len() as f64;
+            let line = |(cost, run): &(Cost, Run)| {
+                format!(
+                    "{:.2}, {:.1}, {:.1}, {:.1}",
+                    cost.ms / steps,
+                    run.counts.iterations as f64 / steps,
+                    run.counts.products as f64 / steps,
+                    cost.megabytes
+                )
+            };
             println!(
-                "{}, {}, {} | {:.2}, {:.1}, {:.1} | {:.2}, {:.1} | {:.2}, {:.1}, {:.2} | {:.2}, {:.2}, {:.0e}{}",
-                name(&solved.mesh),
+                "{}, {}, {} | {} | {} | {:.2}, {:.0e}{}",
+                name(&Mesh::new(&sliding.mesh)),
                 case.0,
                 case.1,
-                iterated.ms,
-                iterated.iterations,
-                iterated.extra,
-                eliminated.ms,
-                eliminated.iterations,
-                kept.ms,
-                kept.iterations,
-                kept.extra,
-                iterated.ms / eliminated.ms,
-                iterated.ms / kept.ms,
-                apart[0].max(apart[1]) / case.0,
-                match iterated.converged && eliminated.converged && kept.converged {
+                line(&iterated),
+                line(&kept),
+                iterated.0.ms / kept.0.ms,
+                apart(&iterated.1, &kept.1),
+                match ended(&iterated.1) && ended(&kept.1) {
                     true => "",
-                    false => ", not all converged",
+                    false => ", not both converged",
                 }
             );
         }
@@ -80,49 +64,35 @@ pub fn table(meshes: &[(usize, usize)]) {
     println!();
 }
 
-fn slide(solved: &Solved, sliding: &Problem, way: Way) -> Run {
-    let model = Model::new(&sliding.rubber, &sliding.profile, 1.0, TAU);
-    let (watch, settings, relaxed) = (Watch::endless(), Settings::default(), Memory::Relaxed);
-    let unit = solved.model.stress_unit / model.stress_unit;
-    let (mut state, load) = (solved.state.restressed(unit), solved.load * unit);
-    let mesh = &solved.mesh;
-    let pressed = model.pressed(mesh, &relaxed, &watch);
-    let y = remembered(&pressed, &state);
-    let mut networks = CarriedHistory::relaxed(y, mesh.columns, &model.maxwell);
-    let (bordered, mut kept): (_, Option<Kept>) = (Bordered::new(&pressed.block), None);
-    let steps = (mesh.columns / 2).min(MOST_STEPS);
-    let dt = 1.0 / mesh.columns as f64;
-    let (mut ms, mut iterations, mut extra, mut converged) = (0.0, 0, 0, true);
-    for _ in 0..steps {
-        networks.carry(true);
-        let memory = Memory::Given(networks.known_part(&model.maxwell, dt));
-        let pressed = model.pressed(mesh, &memory, &watch);
-        let begin = now();
-        if way == Way::Iterated {
-            let report = newton::solve(&pressed, &mut state, load, &settings);
-            converged &= report.status == Status::Converged;
-            iterations += report.iterations;
-            extra += report.products;
-        } else {
-            let mut spent = Spent::default();
-            let how = (way == Way::Eliminated, &mut spent);
-            converged &= bordered.newton(&pressed, &mut state, load, &mut kept, how);
-            iterations += spent.iterations;
-            extra += spent.factors;
-        }
-        ms += now() - begin;
-        networks.advance(remembered(&pressed, &state), &model.maxwell, dt);
-    }
-    Run {
-        ms: ms / steps as f64,
-        iterations: iterations as f64 / steps as f64,
-        extra: extra as f64 / steps as f64,
-        approach: state.approach,
-        converged,
-    }
+fn slide(sliding: &Problem, pressure: f64, start: &Solution, most_nodes: f64) -> (Cost, Run) {
+    let columns = Mesh::new(&sliding.mesh).columns;
+    let stage = Stage {
+        duration: (columns / 2).min(MOST_STEPS) as f64 / columns as f64,
+        speed: 1.0,
+        pressure,
+    };
+    let settings = Settings::new([("kept_factor_nodes", most_nodes)]).expect("a setting");
+    let Problem {
+        rubber,
+        profile,
+        mesh,
+        ..
+    } = sliding;
+    let (start, watch) = (Some(start), Watch::endless());
+    timed(|| {
+        transient::solve(rubber, profile, mesh, &settings, &[stage], start, &watch)
+            .expect("a start of the same rubber")
+    })
 }
 
-fn remembered(pressed: &PressedBlock<'_>, state: &State) -> Points {
-    let rows = pressed.row_states(&state.field).expect("an endless watch");
-    rows.iter().map(|row| row.remembered()).collect()
+fn apart(one: &Run, other: &Run) -> f64 {
+    let pairs = one.moments.iter().zip(&other.moments);
+    let differences = pairs.flat_map(|(one, other)| {
+        [
+            one.friction - other.friction,
+            one.contact_fraction - other.contact_fraction,
+            one.approach - other.approach,
+        ]
+    });
+    differences.fold(0.0, |most, difference| most.max(difference.abs()))
 }
