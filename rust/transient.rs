@@ -182,6 +182,7 @@ impl<'a> Integration<'a> {
                 self.record(stage)?;
                 pressed = true;
             }
+            self.kept.iter_mut().for_each(KeptFactor::turn);
             for dt in self.steps(stage) {
                 self.step(stage, dt)?;
                 self.record(stage)?;

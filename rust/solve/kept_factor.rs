@@ -20,6 +20,8 @@ const ITERATED_TO: f64 = 0.1;
 pub struct KeptFactor {
     bordered: Bordered,
     tangent: Option<Tangent>,
+    /// State from which the last step started.
+    before: Option<State>,
 }
 
 impl KeptFactor {
@@ -30,10 +32,17 @@ impl KeptFactor {
         Some(Self {
             bordered,
             tangent: None,
+            before: None,
         })
     }
 
-    /// Iterate on `state` under `load`, its memory given; gives up where a step would be cut.
+    /// Forget the last step: the next one does not go on like it.
+    pub fn turn(&mut self) {
+        self.before = None;
+    }
+
+    /// Iterate on `state` under `load`, its memory given, from where it would come to if it went on as in
+    /// the last step; gives up where a step would be cut.
     pub fn solve(
         &mut self,
         pressed: &PressedBlock<'_>,
@@ -41,6 +50,10 @@ impl KeptFactor {
         load: f64,
         settings: &Settings,
     ) -> Report {
+        let last = self.before.replace(state.clone());
+        if let Some(last) = last.filter(|last| last.active == state.active) {
+            go_on(state, &last);
+        }
         let mut before = f64::INFINITY;
         let settings = &Settings {
             residual_tolerance: ITERATED_TO * settings.residual_tolerance,
@@ -65,4 +78,17 @@ impl KeptFactor {
             Ok(increment)
         })
     }
+}
+
+/// Change `state` once more as it changed from `last`, with the same nodes touching.
+fn go_on(state: &mut State, last: &State) {
+    let (field, from) = (&mut state.field, &last.field);
+    let unknowns = field.u.iter_mut().chain(&mut field.pressure);
+    for (now, last) in unknowns.zip(from.u.iter().chain(&from.pressure)) {
+        *now += *now - last;
+    }
+    for (now, last) in state.force.iter_mut().zip(&last.force) {
+        *now = (2.0 * *now - last).max(0.0);
+    }
+    state.approach += state.approach - last.approach;
 }
