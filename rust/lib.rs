@@ -9,13 +9,13 @@
 //! | `error`, `status`, `settings` | refusals, endings, every constant of the solver |
 //! | `watch` | whether to go on: a caller that stops, a limit of time |
 //! | `spectral` | the one file with realfft: transforms of lines |
-//! | `linear` | the one room with faer: dense LU, small complex blocks, GMRES |
+//! | `linear` | the one room with faer: dense LU, sparse L D L^T, small complex blocks, GMRES |
 //! | `material` | kinematics, stress, strain energies, Maxwell elements and what they remember |
-//! | `fem` | element, mesh, block, element rows, their Jacobian applied, its average solved |
+//! | `fem` | element, mesh, block, element rows, their Jacobian applied or assembled |
 //! | `contact` | profile, answer of the averaged surface, complementarity, edges between nodes |
 //! | `outcome` | contact, friction and stretches of a state |
 //! | `problem`, `model` | one wave in SI units, checked; the same in kernel units |
-//! | `solve` | Newton and its linearised problem, load stepping, mesh sequence, transfer |
+//! | `solve` | Newton, its linear problem by GMRES or a kept factor, load stepping, meshes, transfer |
 //! | `solution`, `steady`, `transient` | one wave solved; steady sliding; sliding in time |
 //! | `python` | bindings, no numerics |
 //!

@@ -1,5 +1,5 @@
-//! Linear algebra, the one room with faer: dense LU, sparse L D L^T, small complex blocks, and GMRES for
-//! what is never formed.
+//! Linear algebra, the one room with faer: dense LU, sparse L D L^T, small complex blocks, and GMRES
+//! for what is never formed.
 
 mod blocks;
 mod dense;
