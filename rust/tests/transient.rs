@@ -246,6 +246,5 @@ fn a_kept_factor_gives_up_where_a_step_would_be_cut() {
     let (kept, iterated) = (run(64.0), run(0.0));
     assert!(largest_difference(&kept, &iterated) < 1e-8);
     let (few, many) = (kept.counts.products, iterated.counts.products);
-    println!("{few} {many}");
     assert!(few < many && 5 * few > many, "{few} products of {many}");
 }
