@@ -16,6 +16,7 @@ use crate::settings::Settings;
 use crate::solution::Solution;
 use crate::status::Status;
 use crate::steady;
+use crate::threads::Threads;
 use crate::transient::{self, Moment, Stage};
 use crate::watch::Watch;
 
@@ -191,6 +192,7 @@ fn watched<T: Send>(
     py: Python<'_>,
     look: &Bound<'_, PyAny>,
     time_limit: Option<f64>,
+    workers: usize,
     solve: impl FnOnce(&Watch<'_>) -> Result<T, KernelError> + Send,
 ) -> PyResult<T> {
     let look = look.clone().unbind();
@@ -203,7 +205,8 @@ fn watched<T: Send>(
         }
         raised.get().is_some()
     };
-    let found = py.detach(|| solve(&Watch::new(&stopped, time_limit)?));
+    let threads = Threads::new(workers);
+    let found = py.detach(|| solve(&Watch::new(&stopped, time_limit)?.with(&threads)));
     match raised.into_inner() {
         Some(error) => Err(error),
         None => Ok(found?),
@@ -211,7 +214,8 @@ fn watched<T: Send>(
 }
 
 /// Solve one wave at rest or in steady sliding; `start`, any other solution, is a first guess.
-/// `look` is called every 50 ms and raises to stop; what `time_limit` [s] leaves time for is solved.
+/// `look` is called every 50 ms, by this thread alone, and raises to stop; what `time_limit` [s] leaves
+/// time for is solved, by at most `workers` threads.
 #[pyfunction]
 fn solve_steady(
     py: Python<'_>,
@@ -220,6 +224,7 @@ fn solve_steady(
     tolerance: Option<f64>,
     start: Option<Bound<'_, PySolution>>,
     time_limit: Option<f64>,
+    workers: usize,
     look: &Bound<'_, PyAny>,
 ) -> PyResult<PySolution> {
     let (rubber, profile, mesh) = problem.extract::<BodyItems>()?.checked()?;
@@ -233,12 +238,12 @@ fn solve_steady(
     let settings = self::settings(settings)?;
     let start = start.as_ref().map(|solution| &solution.get().0);
     let solve = |watch: &Watch<'_>| steady::solve(&problem, &settings, tolerance, start, watch);
-    Ok(PySolution(watched(py, look, time_limit, solve)?))
+    Ok(PySolution(watched(py, look, time_limit, workers, solve)?))
 }
 
 /// Slide through stages (duration, speed, pressure), from rest or from a `start` of the same rubber
 /// and profile. Returns status, iterations and one row per moment: time, distance, speed, pressure,
-/// friction, contact fraction, approach. `look` and `time_limit` are those of `solve_steady`.
+/// friction, contact fraction, approach. `look`, `time_limit` and `workers` are those of `solve_steady`.
 #[pyfunction]
 fn solve_transient<'py>(
     py: Python<'py>,
@@ -247,6 +252,7 @@ fn solve_transient<'py>(
     stages: Vec<(f64, f64, f64)>,
     start: Option<Bound<'py, PySolution>>,
     time_limit: Option<f64>,
+    workers: usize,
     look: &Bound<'py, PyAny>,
 ) -> PyResult<(&'static str, usize, Table<'py>)> {
     let (rubber, profile, mesh) = problem.checked()?;
@@ -261,7 +267,7 @@ fn solve_transient<'py>(
     let solve = |watch: &Watch<'_>| {
         transient::solve(&rubber, &profile, &mesh, &settings, &stages, start, watch)
     };
-    let run = watched(py, look, time_limit, solve)?;
+    let run = watched(py, look, time_limit, workers, solve)?;
     let row = |m: &Moment| {
         vec![
             m.time,

@@ -117,6 +117,7 @@ def solve_steady(
     tolerance: float | None,
     start: Solution | None,
     time_limit: float | None,
+    workers: int,
     look: Callable[[], object],
 ) -> Solution: ...
 def solve_transient(
@@ -125,6 +126,7 @@ def solve_transient(
     stages: list[tuple[float, float, float]],
     start: Solution | None,
     time_limit: float | None,
+    workers: int,
     look: Callable[[], object],
 ) -> tuple[str, int, NDArray[np.float64]]: ...
 def default_settings() -> list[tuple[str, float, str]]: ...

@@ -13,9 +13,12 @@ use crate::material::kinematics::{cofactor, remembered_slope, Gradient};
 use crate::material::stress::{memory_slope, tangent};
 use crate::spectral::{Complex64, Lines};
 use crate::status::Status;
+use crate::threads::Threads;
 use crate::watch::Watch;
 
 const LANES: usize = 8;
+/// Rows of elements that a thread takes at a time.
+const BAND: usize = 2;
 type Lane = [f64; LANES];
 
 /// Nodes and points of a biquadratic element.
@@ -57,8 +60,21 @@ pub struct Jacobian<'a> {
     remembering: Vec<Vec<Remembering>>,
 }
 
+/// Where products take place.
+pub struct Room<'t> {
+    threads: &'t Threads,
+    /// One a thread.
+    rows: Vec<RowRoom>,
+    /// Forces on the layer above every band of rows, by its uppermost row.
+    above: Vec<f64>,
+}
+
+/// What a band of rows adds to: forces on its layers and on the one above, volumes.
+type Band<'a> = ((&'a mut [f64], &'a mut [f64]), &'a mut [f64]);
+
 /// Room for one row at a time.
-pub struct Room {
+#[derive(Clone)]
+struct RowRoom {
     lines: Lines,
     /// Unknowns of the layers of a row, each line wrapped round at its end.
     strip: Vec<f64>,
@@ -88,16 +104,19 @@ impl<'a> Jacobian<'a> {
             bulk_modulus: block.bulk_modulus,
             memory,
             chunks: mesh.columns.div_ceil(LANES),
-            local: Vec::with_capacity(mesh.rows),
-            remembering: Vec::with_capacity(mesh.rows),
+            local: Vec::new(),
+            remembering: Vec::new(),
         };
-        for (row, state) in rows.iter().enumerate() {
-            watch.look()?;
-            let (local, remembering) = jacobian.slopes(block, field, row, state);
-            jacobian.local.push(local);
-            jacobian.remembering.push(remembering);
-        }
+        let slopes = |row: usize| jacobian.slopes(block, field, row, &rows[row]);
+        let slopes = watch.map(jacobian.size(), mesh.rows, slopes)?;
+        (jacobian.local, jacobian.remembering) = slopes.into_iter().unzip();
         Ok(jacobian)
+    }
+
+    /// Numbers kept.
+    pub fn size(&self) -> usize {
+        let a_point = if self.memory.is_some() { 52 } else { 20 };
+        a_point * self.mesh.points()
     }
 
     fn points(&self) -> usize {
@@ -197,11 +216,11 @@ impl<'a> Jacobian<'a> {
         mean
     }
 
-    pub fn room(&self) -> Room {
+    pub fn room<'t>(&self, threads: &'t Threads) -> Room<'t> {
         let mesh = self.mesh;
         let width = (self.chunks + 1) * LANES;
         let strip = (mesh.order + 1) * 2 * mesh.order * width;
-        Room {
+        let row = RowRoom {
             lines: Lines::new(mesh.columns),
             strip: vec![0.0; strip],
             forces: vec![0.0; strip],
@@ -209,46 +228,72 @@ impl<'a> Jacobian<'a> {
             volume: vec![0.0; mesh.modes() * width],
             stress: vec![[0.0; LANES]; 4 * self.points() * self.chunks],
             past: vec![0.0; 4 * self.points() * width],
+        };
+        Room {
+            threads,
+            rows: vec![row; threads.on(self.size())],
+            above: vec![0.0; mesh.rows.div_ceil(BAND) * mesh.layer_size()],
         }
     }
 
     /// `out` = J `x`.
-    pub fn product(&self, x: &[f64], out: &mut [f64], room: &mut Room) {
+    pub fn product(&self, x: &[f64], out: &mut [f64], room: &mut Room<'_>) {
         let displacements = self.displacements();
         let (u, p) = x.split_at(displacements);
         let (forces, volumes) = out.split_at_mut(displacements);
         forces.fill(0.0);
-        let per_row = self.mesh.modes() * self.mesh.columns;
-        for row in 0..self.mesh.rows {
-            self.fill(row, u, room);
-            let pressure = &p[row * per_row..][..per_row];
-            let width = (self.chunks + 1) * LANES;
-            for (line, values) in pressure.chunks_exact(self.mesh.columns).enumerate() {
-                room.pressure[line * width..][..values.len()].copy_from_slice(values);
+        room.above.fill(0.0);
+        let (columns, layer) = (self.mesh.columns, self.mesh.layer_size());
+        let per_row = self.mesh.modes() * columns;
+        let per_band = BAND * self.mesh.order * layer;
+        let bands = forces
+            .chunks_mut(per_band)
+            .zip(room.above.chunks_exact_mut(layer))
+            .zip(volumes.chunks_mut(BAND * per_row))
+            .enumerate();
+        let band = |room: &mut RowRoom, (band, part): (usize, Band<'_>)| {
+            let ((forces, above), volumes) = part;
+            let mut lines: Vec<&mut [f64]> = forces.chunks_exact_mut(columns).collect();
+            lines.extend(above.chunks_exact_mut(columns));
+            for (at, volumes) in volumes.chunks_exact_mut(per_row).enumerate() {
+                let row = band * BAND + at;
+                let lines = &mut lines[2 * self.mesh.order.pow(2) * at..];
+                self.row(row, u, &p[row * per_row..][..per_row], room);
+                self.collect(lines, room);
+                self.volumes(row, &p[row * per_row..][..per_row], volumes, room);
             }
-            pulp::Arch::new().dispatch(|| match self.mesh.order {
-                1 => self.strain::<4>(row, room),
-                _ => self.strain::<MOST_NODES>(row, room),
-            });
-            if let Some(spectrum) = &self.memory {
-                for line in room.past.chunks_exact_mut(width) {
-                    let line = &mut line[..self.mesh.columns];
-                    room.lines.convolve(spectrum, line);
-                }
+        };
+        room.threads.share(self.size(), &mut room.rows, bands, band);
+        let next = forces.chunks_mut(per_band).skip(1);
+        for (to, above) in next.zip(room.above.chunks_exact(layer)) {
+            for (to, force) in to.iter_mut().zip(above) {
+                *to += force;
             }
-            room.forces.fill(0.0);
-            pulp::Arch::new().dispatch(|| match self.mesh.order {
-                1 => self.balance::<4>(row, room),
-                _ => self.balance::<MOST_NODES>(row, room),
-            });
-            self.collect(row, forces, room);
-            self.volumes(
-                row,
-                pressure,
-                &mut volumes[row * per_row..][..per_row],
-                room,
-            );
         }
+    }
+
+    /// Forces and changes of volume in one row, into `room`.
+    fn row(&self, row: usize, u: &[f64], pressure: &[f64], room: &mut RowRoom) {
+        self.fill(row, u, room);
+        let width = (self.chunks + 1) * LANES;
+        for (line, values) in pressure.chunks_exact(self.mesh.columns).enumerate() {
+            room.pressure[line * width..][..values.len()].copy_from_slice(values);
+        }
+        pulp::Arch::new().dispatch(|| match self.mesh.order {
+            1 => self.strain::<4>(row, room),
+            _ => self.strain::<MOST_NODES>(row, room),
+        });
+        if let Some(spectrum) = &self.memory {
+            for line in room.past.chunks_exact_mut(width) {
+                let line = &mut line[..self.mesh.columns];
+                room.lines.convolve(spectrum, line);
+            }
+        }
+        room.forces.fill(0.0);
+        pulp::Arch::new().dispatch(|| match self.mesh.order {
+            1 => self.balance::<4>(row, room),
+            _ => self.balance::<MOST_NODES>(row, room),
+        });
     }
 
     /// Where the line of local node `node` begins in a strip, in direction 0.
@@ -260,7 +305,7 @@ impl<'a> Jacobian<'a> {
     }
 
     /// Copy the layers of a row into the strip, the lid's as zeros.
-    fn fill(&self, row: usize, u: &[f64], room: &mut Room) {
+    fn fill(&self, row: usize, u: &[f64], room: &mut RowRoom) {
         let mesh = self.mesh;
         let width = (self.chunks + 1) * LANES;
         let from = row * mesh.order * mesh.layer_size();
@@ -275,7 +320,7 @@ impl<'a> Jacobian<'a> {
 
     /// Stresses at fixed memory, changes of volume and of what is remembered.
     #[inline(always)]
-    fn strain<const NODES: usize>(&self, row: usize, room: &mut Room) {
+    fn strain<const NODES: usize>(&self, row: usize, room: &mut RowRoom) {
         let element = &self.mesh.elements[row];
         let (points, modes) = (self.points(), self.mesh.modes());
         let width = (self.chunks + 1) * LANES;
@@ -352,7 +397,7 @@ impl<'a> Jacobian<'a> {
 
     /// Forces of the stresses, those of the memory included.
     #[inline(always)]
-    fn balance<const NODES: usize>(&self, row: usize, room: &mut Room) {
+    fn balance<const NODES: usize>(&self, row: usize, room: &mut RowRoom) {
         let element = &self.mesh.elements[row];
         let points = self.points();
         let width = (self.chunks + 1) * LANES;
@@ -396,21 +441,19 @@ impl<'a> Jacobian<'a> {
         }
     }
 
-    /// Add the forces in the strip to those of the layers, the lid's left out.
-    fn collect(&self, row: usize, forces: &mut [f64], room: &mut Room) {
-        let mesh = self.mesh;
+    /// Add the forces in the strip to those of the layers.
+    fn collect(&self, layers: &mut [&mut [f64]], room: &RowRoom) {
+        let columns = self.mesh.columns;
         let width = (self.chunks + 1) * LANES;
-        let from = row * mesh.order * mesh.layer_size();
-        let lines = forces[from..].chunks_exact_mut(mesh.columns);
-        for (to, line) in lines.zip(room.forces.chunks_exact(width)) {
+        for (to, line) in layers.iter_mut().zip(room.forces.chunks_exact(width)) {
             for (to, force) in to.iter_mut().zip(line) {
                 *to += force;
             }
-            to[0] += line[mesh.columns];
+            to[0] += line[columns];
         }
     }
 
-    fn volumes(&self, row: usize, pressure: &[f64], out: &mut [f64], room: &Room) {
+    fn volumes(&self, row: usize, pressure: &[f64], out: &mut [f64], room: &RowRoom) {
         let element = &self.mesh.elements[row];
         let columns = self.mesh.columns;
         let width = (self.chunks + 1) * LANES;

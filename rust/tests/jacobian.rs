@@ -154,7 +154,7 @@ fn the_product_is_the_sum_over_points_and_pairs() {
             let jacobian = jacobian(&block, &field);
             let x: Vec<f64> = (0..jacobian.unknowns()).map(|i| noise(1000 + i)).collect();
             let mut found = vec![0.0; x.len()];
-            jacobian.product(&x, &mut found, &mut jacobian.room());
+            jacobian.product(&x, &mut found, &mut jacobian.room(Watch::endless().threads));
             let expected = expected(&block, &field, &x);
             let scale = expected.iter().fold(0.0_f64, |most, f| most.max(f.abs()));
             for (found, expected) in found.iter().zip(&expected) {
@@ -208,7 +208,7 @@ fn the_product_is_the_slope_of_forces_and_volumes() {
             };
             let (high, low) = (moved(1e-6), moved(-1e-6));
             let mut found = vec![0.0; x.len()];
-            jacobian.product(&x, &mut found, &mut jacobian.room());
+            jacobian.product(&x, &mut found, &mut jacobian.room(Watch::endless().threads));
             let scale = found.iter().fold(0.0_f64, |most, f| most.max(f.abs()));
             for i in 0..x.len() {
                 let error = (found[i] - (high[i] - low[i]) / 2e-6).abs() / scale;
@@ -241,11 +241,15 @@ fn a_uniform_state_is_solved_at_once() {
         let uniform = Uniform::new(&jacobian, &Watch::endless()).unwrap();
         let right: Vec<f64> = (0..jacobian.unknowns()).map(noise).collect();
         let mut solution = vec![0.0; right.len()];
-        let mut room = uniform.room();
+        let mut room = uniform.room(Watch::endless().threads);
         let surface = uniform.reduce(&right, &mut room);
         uniform.expand(&surface, &mut solution, &mut room);
         let mut back = vec![0.0; right.len()];
-        jacobian.product(&solution, &mut back, &mut jacobian.room());
+        jacobian.product(
+            &solution,
+            &mut back,
+            &mut jacobian.room(Watch::endless().threads),
+        );
         for i in 0..right.len() {
             let error = (back[i] - right[i]).abs();
             assert!(
