@@ -287,7 +287,7 @@ impl Held {
             free: &[],
             load: 0.0,
         };
-        let matrix = problem.bordered(&set);
+        let matrix = problem.bordered(&set, watch.threads);
         Ok(Self {
             factor: Factor::new(matrix.as_ref(), watch)?,
             border: problem.border(&set),
