@@ -3,7 +3,7 @@
 use super::mesh::Mesh;
 use crate::material::carried_history::Points;
 use crate::material::energy::Energy;
-use crate::material::kinematics::{Gradient, Symmetric};
+use crate::material::kinematics::{Deformation, Symmetric};
 use crate::material::sliding_history::SlidingHistory;
 
 /// Displacements (all layers, lid included) and pressure modes `[row][column][mode]`.
@@ -46,7 +46,7 @@ pub struct Block<'a> {
 /// Kinematics and memory at the Gauss points of one element row: `[line][column * points + point]`.
 #[derive(Debug, Clone)]
 pub struct RowState {
-    pub gradient: Vec<Vec<Gradient>>,
+    pub deformation: Vec<Vec<Deformation>>,
     pub h: Vec<Vec<Symmetric>>,
 }
 

@@ -78,10 +78,10 @@ impl Block<'_> {
     fn add_pairs(&self, row: usize, state: &RowState, correlations: &mut Correlations) {
         let points = self.points();
         let less_unit = |tensor: Symmetric, k: usize| tensor[k] - UNIT[k];
-        for (line, gradient) in state.gradient.iter().enumerate() {
+        for (line, along) in state.deformation.iter().enumerate() {
             for point in 0..points {
                 let weight = self.mesh.elements[row].weight[line * points + point];
-                let column = gradient.iter().skip(point).step_by(points);
+                let column = along.iter().skip(point).step_by(points);
                 for (k, times) in [1.0, 1.0, 2.0, 1.0].into_iter().enumerate() {
                     let column = column.clone();
                     let (y, c): (Vec<f64>, Vec<f64>) = column

@@ -1,7 +1,7 @@
 //! The exact Jacobian of the mixed system, applied to a direction and never formed:
 //!     r_u = int (dP/dF : grad du + dP/dH : dH + dp cof F) : grad N dV,
 //!     r_p = int m cof F : grad du dV - M dp / K,     dH(x) = sum weight(x - x') dY/dF : grad du(x'),
-//! with the slopes kept at every Gauss point. Displacement and pressure both stay unknowns: condensed,
+//! with deformation and stiffness kept at every Gauss point. Displacement and pressure both stay unknowns: condensed,
 //! the volume's stiffness varies from point to point and no uniform state is near it.
 //!
 //! `LANES` columns at a time: all elements of a row are equal, and unknowns of equal place in their
@@ -9,7 +9,7 @@
 
 use super::block::{Block, Field, Memory, RowState};
 use super::mesh::Mesh;
-use crate::material::kinematics::{cofactor, remembered_slope, Gradient};
+use crate::material::kinematics::{cofactor, remembered_slope, Deformation, Gradient};
 use crate::material::stress::{memory_slope, tangent};
 use crate::spectral::{Complex64, Lines};
 use crate::status::Status;
@@ -24,20 +24,17 @@ type Lane = [f64; LANES];
 /// Nodes and points of a biquadratic element.
 const MOST_NODES: usize = 9;
 
-/// Slopes at one Gauss point of `LANES` columns, its weight included once.
-#[derive(Clone)]
+/// Deformation and slopes at one Gauss point of `LANES` columns. What the memory's slopes are is found
+/// from the deformation at every product: to fetch them takes longer.
+#[derive(Clone, Default)]
 struct Local {
-    /// dP/dF at fixed memory, `[component of P * 4 + component of F]`.
-    stiffness: [Lane; 16],
-    /// dJ/dF.
-    volume: [Lane; 4],
-}
-
-/// The same for the memory: dP/dH, and dY/dF without the weight.
-#[derive(Clone)]
-struct Remembering {
-    stress: [Lane; 16],
-    state: [Lane; 16],
+    /// Upper triangle of dP/dF at fixed memory by rows, symmetric as P then has a potential; times the
+    /// point's weight.
+    stiffness: [Lane; 10],
+    f: [Lane; 4],
+    /// 1 / J and J^(-2/3); zeros beyond the last column.
+    inverse: Lane,
+    scale: Lane,
 }
 
 /// Means along a row of the slopes at one Gauss point of its elements.
@@ -49,6 +46,48 @@ pub struct MeanSlopes {
     pub memory: Option<[f64; 16]>,
 }
 
+/// Sums along a row of the slopes at one Gauss point of its elements, without its weight.
+#[derive(Clone, Default)]
+struct Sums {
+    stiffness: [Gradient; 4],
+    volume: Gradient,
+    /// dP/dH and dY/dF, where something is remembered.
+    memory: Option<([Gradient; 4], [Gradient; 4])>,
+}
+
+impl Sums {
+    fn add(&mut self, point: &Deformation, stiffness: &[Gradient; 4], remembers: bool) {
+        add_each(&mut self.stiffness, stiffness);
+        let volume = cofactor(&point.f);
+        (0..4).for_each(|k| self.volume[k] += volume[k]);
+        if remembers {
+            let (stress, state) = self.memory.get_or_insert_default();
+            add_each(stress, &memory_slope(point));
+            add_each(state, &remembered_slope(point));
+        }
+    }
+
+    fn mean(&self, columns: usize, weight: f64) -> MeanSlopes {
+        let share = 1.0 / columns as f64;
+        let place = |at: usize| (at / 4, at % 4);
+        let product = |(stress, state): &([Gradient; 4], [Gradient; 4])| {
+            std::array::from_fn(|at| {
+                let (a, b) = place(at);
+                let products = (0..4).map(|k| stress[a][k] * state[k][b]);
+                products.sum::<f64>() * weight * share * share
+            })
+        };
+        MeanSlopes {
+            stiffness: std::array::from_fn(|at| {
+                let (a, b) = place(at);
+                self.stiffness[a][b] * weight * share
+            }),
+            volume: self.volume.map(|sum| sum * weight * share),
+            memory: self.memory.as_ref().map(product),
+        }
+    }
+}
+
 pub struct Jacobian<'a> {
     pub mesh: &'a Mesh,
     pub bulk_modulus: f64,
@@ -57,7 +96,8 @@ pub struct Jacobian<'a> {
     chunks: usize,
     /// `[row][chunk * points + point]`.
     local: Vec<Vec<Local>>,
-    remembering: Vec<Vec<Remembering>>,
+    /// `[row][point]`.
+    means: Vec<Vec<MeanSlopes>>,
 }
 
 /// Where products take place.
@@ -105,18 +145,17 @@ impl<'a> Jacobian<'a> {
             memory,
             chunks: mesh.columns.div_ceil(LANES),
             local: Vec::new(),
-            remembering: Vec::new(),
+            means: Vec::new(),
         };
         let slopes = |row: usize| jacobian.slopes(block, field, row, &rows[row]);
         let slopes = watch.map(jacobian.size(), mesh.rows, slopes)?;
-        (jacobian.local, jacobian.remembering) = slopes.into_iter().unzip();
+        (jacobian.local, jacobian.means) = slopes.into_iter().unzip();
         Ok(jacobian)
     }
 
     /// Numbers kept.
     pub fn size(&self) -> usize {
-        let a_point = if self.memory.is_some() { 52 } else { 20 };
-        a_point * self.mesh.points()
+        16 * self.mesh.points()
     }
 
     fn points(&self) -> usize {
@@ -133,87 +172,38 @@ impl<'a> Jacobian<'a> {
         self.displacements() + self.mesh.rows * self.mesh.modes() * self.mesh.columns
     }
 
+    /// Of one row.
     fn slopes(
         &self,
         block: &Block<'_>,
         field: &Field,
         row: usize,
         state: &RowState,
-    ) -> (Vec<Local>, Vec<Remembering>) {
+    ) -> (Vec<Local>, Vec<MeanSlopes>) {
         let element = &self.mesh.elements[row];
-        let places = self.chunks * self.points();
-        let nothing = [[0.0; LANES]; 16];
-        let mut local = vec![
-            Local {
-                stiffness: nothing,
-                volume: [[0.0; LANES]; 4],
-            };
-            places
-        ];
-        let remembers = self.memory.is_some();
-        let empty = Remembering {
-            stress: nothing,
-            state: nothing,
-        };
-        let mut remembering = vec![empty; if remembers { places } else { 0 }];
+        let mut local = vec![Local::default(); self.chunks * self.points()];
+        let mut sums = vec![Sums::default(); self.points()];
         for column in 0..self.mesh.columns {
             let (chunk, lane) = (column / LANES, column % LANES);
             let pressure = block.element_pressure(field, row, column);
             for (at, line, q) in block.gauss_points(column) {
-                let (f, h) = (&state.gradient[line][q], &state.h[line][q]);
-                let weight = element.weight[at];
+                let (point, h) = (&state.deformation[line][q], &state.h[line][q]);
                 let modes = element.mode[at].iter().zip(pressure);
                 let level = modes.map(|(mode, p)| mode * p).sum();
-                let mut d = tangent(f, h, level);
-                add_network_slope(block, f, &mut d);
-                let place = chunk * self.points() + at;
-                put(&mut local[place].stiffness, lane, weight, &d);
-                for (to, slope) in local[place].volume.iter_mut().zip(cofactor(f)) {
-                    to[lane] = weight * slope;
-                }
-                if remembers {
-                    let target = &mut remembering[place];
-                    put(&mut target.stress, lane, weight, &memory_slope(f));
-                    put(&mut target.state, lane, 1.0, &remembered_slope(f));
-                }
+                let mut d = tangent(point, h, level);
+                add_network_slope(block, point, &mut d);
+                local[chunk * self.points() + at].put(lane, element.weight[at], point, &d);
+                sums[at].add(point, &d, self.memory.is_some());
             }
         }
-        (local, remembering)
+        let means = sums.iter().zip(&element.weight);
+        let means = means.map(|(sums, weight)| sums.mean(self.mesh.columns, *weight));
+        (local, means.collect())
     }
 
     /// Means along one row at every Gauss point of its elements.
-    pub fn means(&self, row: usize) -> Vec<MeanSlopes> {
-        let points = self.points();
-        (0..points).map(|at| self.mean(row, at)).collect()
-    }
-
-    fn mean(&self, row: usize, at: usize) -> MeanSlopes {
-        let points = self.points();
-        let mut mean = MeanSlopes {
-            stiffness: [0.0; 16],
-            volume: [0.0; 4],
-            memory: None,
-        };
-        for local in self.local[row].iter().skip(at).step_by(points) {
-            add_sums(&mut mean.stiffness, &local.stiffness);
-            add_sums(&mut mean.volume, &local.volume);
-        }
-        let share = 1.0 / self.mesh.columns as f64;
-        mean.stiffness.iter_mut().for_each(|sum| *sum *= share);
-        mean.volume.iter_mut().for_each(|sum| *sum *= share);
-        if self.memory.is_some() {
-            let (mut stress, mut state) = ([0.0; 16], [0.0; 16]);
-            for past in self.remembering[row].iter().skip(at).step_by(points) {
-                add_sums(&mut stress, &past.stress);
-                add_sums(&mut state, &past.state);
-            }
-            mean.memory = Some(std::array::from_fn(|at| {
-                let (a, b) = (at / 4, at % 4);
-                let products = (0..4).map(|k| stress[4 * a + k] * state[4 * k + b]);
-                products.sum::<f64>() * share * share
-            }));
-        }
-        mean
+    pub fn means(&self, row: usize) -> &[MeanSlopes] {
+        &self.means[row]
     }
 
     pub fn room<'t>(&self, threads: &'t Threads) -> Room<'t> {
@@ -346,46 +336,26 @@ impl<'a> Jacobian<'a> {
                     }
                 }
                 let local = &self.local[row][chunk * points + point];
-                let mode = &element.mode[point];
-                let (mut level, mut volume) = ([0.0; LANES], [0.0; LANES]);
+                let (mode, weight) = (&element.mode[point], element.weight[point]);
+                let mut level = [0.0; LANES];
                 for m in 0..modes {
                     let p = lane(&room.pressure, m * width + at);
                     for i in 0..LANES {
-                        level[i] += mode[m] * p[i];
+                        level[i] += weight * mode[m] * p[i];
                     }
                 }
-                for k in 0..4 {
-                    for i in 0..LANES {
-                        volume[i] += local.volume[k][i] * f[k][i];
-                    }
-                }
+                let volume = local.volume(&f);
                 for m in 0..modes {
                     for i in 0..LANES {
-                        volumes[m][i] += mode[m] * volume[i];
+                        volumes[m][i] += weight * mode[m] * volume[i];
                     }
                 }
                 let stress = &mut room.stress[4 * (chunk * points + point)..][..4];
-                for a in 0..4 {
-                    let row = &local.stiffness[4 * a..][..4];
-                    for i in 0..LANES {
-                        stress[a][i] = level[i] * local.volume[a][i]
-                            + row[0][i] * f[0][i]
-                            + row[1][i] * f[1][i]
-                            + row[2][i] * f[2][i]
-                            + row[3][i] * f[3][i];
-                    }
-                }
+                stress.copy_from_slice(&local.stress(&f, &level));
                 if self.memory.is_some() {
-                    let slopes = &self.remembering[row][chunk * points + point].state;
-                    for a in 0..4 {
-                        let row = &slopes[4 * a..][..4];
-                        let past = &mut room.past[(4 * point + a) * width + at..][..LANES];
-                        for i in 0..LANES {
-                            past[i] = row[0][i] * f[0][i]
-                                + row[1][i] * f[1][i]
-                                + row[2][i] * f[2][i]
-                                + row[3][i] * f[3][i];
-                        }
+                    for (k, change) in local.remembered(&f, &volume).iter().enumerate() {
+                        let from = (4 * point + k) * width + at;
+                        room.past[from..from + LANES].copy_from_slice(change);
                     }
                 }
             }
@@ -410,15 +380,12 @@ impl<'a> Jacobian<'a> {
                 let stress = &room.stress[4 * (chunk * points + point)..][..4];
                 let mut p: [Lane; 4] = std::array::from_fn(|a| stress[a]);
                 if self.memory.is_some() {
-                    let slopes = &self.remembering[row][chunk * points + point].stress;
-                    for k in 0..4 {
-                        let h = lane(&room.past, (4 * point + k) * width + at);
-                        for a in 0..4 {
-                            for i in 0..LANES {
-                                p[a][i] += slopes[4 * a + k][i] * h[i];
-                            }
-                        }
-                    }
+                    let local = &self.local[row][chunk * points + point];
+                    let h = std::array::from_fn(|k| {
+                        let from = (4 * point + k) * width + at;
+                        lane(&room.past, from)
+                    });
+                    local.add_memory(&mut p, &h, element.weight[point]);
                 }
                 let slopes: &[[f64; 2]] = &element.gradient[point];
                 for node in 0..NODES {
@@ -467,9 +434,105 @@ impl<'a> Jacobian<'a> {
     }
 }
 
-fn add_sums(sums: &mut [f64], lanes: &[Lane]) {
-    for (sum, lane) in sums.iter_mut().zip(lanes) {
-        *sum += lane.iter().sum::<f64>();
+impl Local {
+    fn put(&mut self, lane: usize, weight: f64, point: &Deformation, stiffness: &[Gradient; 4]) {
+        let mut entry = 0;
+        for a in 0..4 {
+            for b in a..4 {
+                self.stiffness[entry][lane] = weight * stiffness[a][b];
+                entry += 1;
+            }
+            self.f[a][lane] = point.f[a];
+        }
+        self.inverse[lane] = 1.0 / point.j;
+        self.scale[lane] = point.scale;
+    }
+
+    /// dJ of a change `df` of F.
+    #[inline(always)]
+    fn volume(&self, df: &[Lane; 4]) -> Lane {
+        let f = &self.f;
+        each(|i| f[3][i] * df[0][i] - f[2][i] * df[1][i] - f[1][i] * df[2][i] + f[0][i] * df[3][i])
+    }
+
+    /// dP at fixed memory, `level` the change of pressure, all times the weight.
+    #[inline(always)]
+    fn stress(&self, df: &[Lane; 4], level: &Lane) -> [Lane; 4] {
+        let (d, f) = (&self.stiffness, &self.f);
+        let row = |[a, b, c, e]: [usize; 4], i: usize| {
+            d[a][i] * df[0][i] + d[b][i] * df[1][i] + d[c][i] * df[2][i] + d[e][i] * df[3][i]
+        };
+        [
+            each(|i| level[i] * f[3][i] + row([0, 1, 2, 3], i)),
+            each(|i| -level[i] * f[2][i] + row([1, 4, 5, 6], i)),
+            each(|i| -level[i] * f[1][i] + row([2, 5, 7, 8], i)),
+            each(|i| level[i] * f[0][i] + row([3, 6, 8, 9], i)),
+        ]
+    }
+
+    /// C11, C22 and C12.
+    #[inline(always)]
+    fn stretches(&self) -> [Lane; 3] {
+        let f = &self.f;
+        [
+            each(|i| f[0][i] * f[0][i] + f[2][i] * f[2][i]),
+            each(|i| f[1][i] * f[1][i] + f[3][i] * f[3][i]),
+            each(|i| f[0][i] * f[1][i] + f[2][i] * f[3][i]),
+        ]
+    }
+
+    /// dY of a change `df` of F and `volume` of J (`kinematics::remembered_slope`), with
+    /// Y33 = J^(2/3) = J^2 J^(-4/3).
+    #[inline(always)]
+    fn remembered(&self, df: &[Lane; 4], volume: &Lane) -> [Lane; 4] {
+        let (f, [c11, c22, c12]) = (&self.f, self.stretches());
+        let factor: Lane = each(|i| self.scale[i] * self.scale[i]);
+        let third: Lane = each(|i| 2.0 / 3.0 * volume[i] * self.inverse[i]);
+        let j: Lane = each(|i| f[0][i] * f[3][i] - f[1][i] * f[2][i]);
+        [
+            each(|i| {
+                let change = f[1][i] * df[1][i] + f[3][i] * df[3][i];
+                2.0 * factor[i] * (change - third[i] * c22[i])
+            }),
+            each(|i| {
+                let change = f[0][i] * df[0][i] + f[2][i] * df[2][i];
+                2.0 * factor[i] * (change - third[i] * c11[i])
+            }),
+            each(|i| {
+                let first = f[1][i] * df[0][i] + f[0][i] * df[1][i];
+                let change = first + f[3][i] * df[2][i] + f[2][i] * df[3][i];
+                factor[i] * (2.0 * third[i] * c12[i] - change)
+            }),
+            each(|i| third[i] * factor[i] * j[i] * j[i]),
+        ]
+    }
+
+    /// Add dP of a change `h` of H (`stress::memory_slope`), times the weight.
+    #[inline(always)]
+    fn add_memory(&self, p: &mut [Lane; 4], h: &[Lane; 4], weight: f64) {
+        let (f, [c11, c22, c12]) = (&self.f, self.stretches());
+        let scale: Lane = each(|i| weight * self.scale[i]);
+        let trace: Lane = each(|i| {
+            let sum = c11[i] * h[0][i] + c22[i] * h[1][i] + 2.0 * c12[i] * h[2][i] + h[3][i];
+            1.0 / 3.0 * self.inverse[i] * sum
+        });
+        for i in 0..LANES {
+            p[0][i] += scale[i] * (f[0][i] * h[0][i] + f[1][i] * h[2][i] - trace[i] * f[3][i]);
+            p[1][i] += scale[i] * (f[1][i] * h[1][i] + f[0][i] * h[2][i] + trace[i] * f[2][i]);
+            p[2][i] += scale[i] * (f[2][i] * h[0][i] + f[3][i] * h[2][i] + trace[i] * f[1][i]);
+            p[3][i] += scale[i] * (f[3][i] * h[1][i] + f[2][i] * h[2][i] - trace[i] * f[0][i]);
+        }
+    }
+}
+
+#[inline(always)]
+fn each(value: impl Fn(usize) -> f64) -> Lane {
+    std::array::from_fn(value)
+}
+
+fn add_each(sums: &mut [Gradient; 4], values: &[Gradient; 4]) {
+    for (sums, values) in sums.iter_mut().zip(values) {
+        (0..4).for_each(|k| sums[k] += values[k]);
     }
 }
 
@@ -479,20 +542,12 @@ fn lane(values: &[f64], at: usize) -> Lane {
     lane
 }
 
-fn put(to: &mut [Lane; 16], lane: usize, weight: f64, slopes: &[Gradient; 4]) {
-    for a in 0..4 {
-        for b in 0..4 {
-            to[4 * a + b][lane] = weight * slopes[a][b];
-        }
-    }
-}
-
 /// Stiffness from the permanent network where its b changes with the strain.
-fn add_network_slope(block: &Block<'_>, f: &Gradient, d: &mut [Gradient; 4]) {
-    let Some(slope) = block.energy.network_slope(f) else {
+fn add_network_slope(block: &Block<'_>, point: &Deformation, d: &mut [Gradient; 4]) {
+    let Some(slope) = block.energy.network_slope(point) else {
         return;
     };
-    let by_h = memory_slope(f);
+    let by_h = memory_slope(point);
     for a in 0..4 {
         for k in 0..4 {
             let sum: f64 = (0..4).map(|c| by_h[a][c] * slope[c][k]).sum();

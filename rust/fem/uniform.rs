@@ -77,10 +77,8 @@ impl<'a> Uniform<'a> {
         let mesh = jacobian.mesh;
         let lines = Lines::new(mesh.columns);
         let harmonics = lines.harmonics();
-        let averaged = |row: usize| {
-            let means = jacobian.means(row);
-            HarmonicRow::new(mesh, row, &means, jacobian.bulk_modulus)
-        };
+        let averaged =
+            |row: usize| HarmonicRow::new(mesh, row, jacobian.means(row), jacobian.bulk_modulus);
         let averaged = watch.map(jacobian.size(), mesh.rows, averaged)?;
         let turn = |k: usize| {
             let weight = jacobian.memory.as_ref().map(|weights| weights[k]);

@@ -9,7 +9,6 @@ use super::increment::Increment;
 use super::krylov::{self, Accuracy};
 use crate::contact::{PressedBlock, State};
 use crate::fem::block::RowState;
-use crate::material::kinematics::jacobian;
 use crate::settings::Settings;
 use crate::status::Status;
 
@@ -178,7 +177,7 @@ fn larger(a: f64, b: f64) -> f64 {
 
 fn smallest_jacobian(rows: &[RowState]) -> f64 {
     rows.iter()
-        .flat_map(|row| row.gradient.iter().flatten())
-        .map(jacobian)
+        .flat_map(|row| row.deformation.iter().flatten())
+        .map(|point| point.j)
         .fold(f64::INFINITY, f64::min)
 }

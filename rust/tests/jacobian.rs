@@ -85,13 +85,13 @@ fn expected(block: &Block<'_>, field: &Field, x: &[f64]) -> Vec<f64> {
             };
             let dy: Vec<[f64; 4]> = df
                 .iter()
-                .zip(&state.gradient[line])
+                .zip(&state.deformation[line])
                 .map(|(df, f)| times(&remembered_slope(f), df))
                 .collect();
             for q in 0..df.len() {
                 let (column, point) = (q / points, q % points);
                 let at = line * points + point;
-                let (f, h) = (&state.gradient[line][q], &state.h[line][q]);
+                let (f, h) = (&state.deformation[line][q], &state.h[line][q]);
                 let level = |p: &dyn Fn(usize) -> f64| -> f64 {
                     (0..modes).map(|m| element.mode[at][m] * p(m)).sum()
                 };
@@ -113,7 +113,7 @@ fn expected(block: &Block<'_>, field: &Field, x: &[f64]) -> Vec<f64> {
                     let by_memory = times(&memory_slope(f), &dh);
                     (0..4).for_each(|k| dp[k] += by_memory[k]);
                 }
-                let cof = cofactor(f);
+                let cof = cofactor(&f.f);
                 let volume: f64 = (0..4).map(|k| cof[k] * df[q][k]).sum();
                 for m in 0..modes {
                     volumes[place(m)] += element.weight[at] * element.mode[at][m] * volume;
