@@ -15,21 +15,28 @@ const WORTH_A_THREAD: usize = 100_000;
 /// The calling thread and those that help it, started when there is enough to do.
 pub struct Threads {
     most: usize,
+    worth: usize,
     helpers: OnceLock<Option<ThreadPool>>,
 }
 
 impl Threads {
     /// At most this many, the calling one among them.
     pub const fn new(most: usize) -> Self {
+        Self::each_worth(most, WORTH_A_THREAD)
+    }
+
+    /// The same where this many numbers are `worth` a thread, at least one.
+    pub const fn each_worth(most: usize, worth: usize) -> Self {
         Self {
             most,
+            worth,
             helpers: OnceLock::new(),
         }
     }
 
     /// How many work on something of `size`, the numbers that it reads and writes.
     pub fn on(&self, size: usize) -> usize {
-        (size / WORTH_A_THREAD).min(self.most).max(1)
+        (size / self.worth).min(self.most).max(1)
     }
 
     /// Do every part, in whatever order. A thread has one of the `rooms` for itself, and there are

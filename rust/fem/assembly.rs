@@ -36,10 +36,10 @@ impl Block<'_> {
             for (at, line, q) in self.gauss_points(column) {
                 let level = dot(&element.mode[at], pressure);
                 let p = stress(&state.deformation[line][q], &state.h[line][q], level);
-                for (node, slope) in element.gradient[at].iter().enumerate() {
+                for (slope, [x, z]) in element.gradient[at].iter().zip(unknowns) {
                     let w = element.weight[at];
-                    forces[unknowns[2 * node]] += w * (p[0] * slope[0] + p[1] * slope[1]);
-                    forces[unknowns[2 * node + 1]] += w * (p[2] * slope[0] + p[3] * slope[1]);
+                    forces[x] += w * (p[0] * slope[0] + p[1] * slope[1]);
+                    forces[z] += w * (p[2] * slope[0] + p[3] * slope[1]);
                 }
             }
         }

@@ -8,6 +8,7 @@
 //! elements stand together. The memory is a product of harmonics along every line of points.
 
 use super::block::{Block, Field, Memory, RowState};
+use super::element::MOST_NODES;
 use super::mesh::Mesh;
 use crate::material::kinematics::{cofactor, remembered_slope, Deformation, Gradient};
 use crate::material::stress::{memory_slope, tangent};
@@ -20,9 +21,6 @@ const LANES: usize = 8;
 /// Rows of elements that a thread takes at a time.
 const BAND: usize = 2;
 type Lane = [f64; LANES];
-
-/// Nodes and points of a biquadratic element.
-const MOST_NODES: usize = 9;
 
 /// Deformation and slopes at one Gauss point of `LANES` columns. What the memory's slopes are is found
 /// from the deformation at every product: to fetch them takes longer.

@@ -26,9 +26,8 @@ impl Block<'_> {
             for (at, line, q) in self.gauss_points(column) {
                 let f = &mut out[line][q];
                 *f = [identity, 0.0, 0.0, identity];
-                for (node, slope) in element.gradient[at].iter().enumerate() {
-                    let ux = u[offset + unknowns[2 * node]];
-                    let uz = u[offset + unknowns[2 * node + 1]];
+                for (slope, unknowns) in element.gradient[at].iter().zip(&unknowns) {
+                    let [ux, uz] = unknowns.map(|unknown| u[offset + unknown]);
                     f[0] += ux * slope[0];
                     f[1] += ux * slope[1];
                     f[2] += uz * slope[0];
