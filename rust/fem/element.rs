@@ -91,10 +91,6 @@ impl Element {
             mode_mass,
         }
     }
-
-    pub fn nodes(&self) -> usize {
-        (self.order + 1) * (self.order + 1)
-    }
 }
 
 fn gradients(order: usize, xi: f64, eta: f64, width: f64, height: f64) -> Vec<[f64; 2]> {
