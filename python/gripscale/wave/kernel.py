@@ -54,7 +54,8 @@ def solve_steady(
 ) -> Solution:
     """Return the static or steadily sliding solution; `start` is a first guess.
 
-    Worked on by `workers` threads, of which none changes a bit of it. Ctrl-C and the end of a job of `gripscale.parallel` are heeded on the way.
+    Worked on by `workers` threads, of which none changes a bit of it. Ctrl-C and the end of a job
+    of `gripscale.parallel` are heeded on the way.
     """
     load = problem.load
     inputs: _kernel.Problem = {
