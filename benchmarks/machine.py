@@ -17,8 +17,8 @@ def describe() -> str:
     load = f"{os.getloadavg()[0]:.1f}" if hasattr(os, "getloadavg") else "unknown"
     return (
         f"{datetime.now(UTC):%Y-%m-%d %H:%M} UTC, {_processor()}, {cores()} cores "
-        f"(one thread where nothing else is said), load average {load} at the start, {platform.system()}, "
-        f"Python {platform.python_version()}, {packages}"
+        f"(one thread where nothing else is said), load average {load} at the start, "
+        f"{platform.system()}, Python {platform.python_version()}, {packages}"
     )
 
 

@@ -8,7 +8,7 @@
 //! |---|---|
 //! | `error`, `status`, `settings` | refusals, endings, every constant of the solver |
 //! | `threads` | the one file with rayon: work shared between threads, in parts that do not depend on them |
-//! | `watch` | whether to go on: a caller that stops, a limit of time |
+//! | `watch` | whether to go on: a caller that stops, a limit of time; who does the work |
 //! | `spectral` | the one file with realfft: transforms of lines |
 //! | `linear` | the one room with faer: dense LU, small complex blocks, GMRES |
 //! | `material` | kinematics, stress, strain energies, Maxwell elements and what they remember |

@@ -35,7 +35,7 @@ impl Block<'_> {
             let pressure = self.element_pressure(field, row, column);
             for (at, line, q) in self.gauss_points(column) {
                 let level = dot(&element.mode[at], pressure);
-                let p = stress(&state.deformation[line][q], &state.h[line][q], level);
+                let p = stress(state.deformation[line][q], &state.h[line][q], level);
                 for (slope, [x, z]) in element.gradient[at].iter().zip(unknowns) {
                     let w = element.weight[at];
                     forces[x] += w * (p[0] * slope[0] + p[1] * slope[1]);

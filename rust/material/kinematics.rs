@@ -70,7 +70,7 @@ pub fn isochoric_slope(deformation: impl Into<Deformation>) -> [Gradient; 4] {
     let deformation = deformation.into();
     let Deformation { f, j, scale } = deformation;
     let g = cofactor(&f).map(|value| value / j);
-    let c = isochoric(&deformation);
+    let c = isochoric(deformation);
     let direct = [
         [2.0 * f[0], 0.0, 2.0 * f[2], 0.0],
         [0.0, 2.0 * f[1], 0.0, 2.0 * f[3]],
@@ -100,7 +100,7 @@ pub fn remembered_slope(deformation: impl Into<Deformation>) -> [Gradient; 4] {
     let Deformation { f, j, scale } = deformation;
     let factor = scale * scale;
     let g = cofactor(&f).map(|value| value / j);
-    let y = remembered(&deformation);
+    let y = remembered(deformation);
     let c22 = [0.0, 2.0 * f[1], 0.0, 2.0 * f[3]];
     let c11 = [2.0 * f[0], 0.0, 2.0 * f[2], 0.0];
     let c12 = [f[1], f[0], f[3], f[2]];

@@ -62,8 +62,8 @@ def solve_steady(
         **_body(problem.rubber, problem.profile, mesh),
         "load": {"pressure": load.pressure, "speed": load.speed, "load_time": load.load_time},
     }
-    options = (settings, tolerance, start, time_limit, worker_count(workers), look)
-    return _asked(lambda: _kernel.solve_steady(inputs, *options))
+    work = _work(workers, time_limit)
+    return _asked(lambda: _kernel.solve_steady(inputs, settings, tolerance, start, work))
 
 
 def solve_transient(
@@ -78,8 +78,8 @@ def solve_transient(
 ) -> tuple[str, int, NDArray[np.float64]]:
     """Return status, iterations and a row of numbers for each moment of a programme in time."""
     body = _body(rubber, profile, mesh)
-    options = (settings, list(stages), start, time_limit, worker_count(workers), look)
-    return _asked(lambda: _kernel.solve_transient(body, *options))
+    work = _work(workers, time_limit)
+    return _asked(lambda: _kernel.solve_transient(body, settings, list(stages), start, work))
 
 
 def solution_of(start: WaveResult) -> Solution:
@@ -95,6 +95,10 @@ def solution_of(start: WaveResult) -> Solution:
         f"got one of {start.model}"
         + (" without the solver's state, as read from a file" if start.solution is None else "")
     )
+
+
+def _work(workers: int | None, time_limit: float | None) -> _kernel.Work:
+    return {"workers": worker_count(workers), "time_limit": time_limit, "look": look}
 
 
 def _body(rubber: Rubber, profile: Sine | SampledProfile, mesh: Mesh) -> _kernel.Body:
