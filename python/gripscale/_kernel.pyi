@@ -111,21 +111,25 @@ class Body(TypedDict):
 class Problem(Body):
     load: Load
 
+@type_check_only
+class Work(TypedDict):
+    workers: int
+    time_limit: float | None
+    look: Callable[[], object]
+
 def solve_steady(
     problem: Problem,
     settings: Mapping[str, float],
     tolerance: float | None,
     start: Solution | None,
-    time_limit: float | None,
-    look: Callable[[], object],
+    work: Work,
 ) -> Solution: ...
 def solve_transient(
     problem: Body,
     settings: Mapping[str, float],
     stages: list[tuple[float, float, float]],
     start: Solution | None,
-    time_limit: float | None,
-    look: Callable[[], object],
+    work: Work,
 ) -> tuple[str, int, NDArray[np.float64]]: ...
 def default_settings() -> list[tuple[str, float, str]]: ...
 def statuses() -> list[str]: ...

@@ -6,6 +6,6 @@ mod dense;
 mod gmres;
 
 pub use blocks::invert;
-pub use dense::{column, column_ref, solve_columns, solve_dense, Factor, Matrix};
+pub use dense::{column, column_ref, from_entries, solve_columns, solve_dense, Factor, Matrix};
 pub(crate) use gmres::norm;
 pub use gmres::{gmres, Found};

@@ -9,7 +9,6 @@ use super::increment::Increment;
 use super::krylov::{self, Accuracy};
 use crate::contact::{PressedBlock, State};
 use crate::fem::block::RowState;
-use crate::material::kinematics::jacobian;
 use crate::settings::Settings;
 use crate::status::Status;
 
@@ -124,7 +123,7 @@ fn step(
     if u.iter().any(|value| !value.is_finite()) {
         return Err(Status::NotFinite);
     }
-    let mut share = (settings.largest_step / largest_gradient(pressed, &u)).min(1.0);
+    let mut share = (settings.largest_step / largest_gradient(pressed, &u)?).min(1.0);
     for _ in 0..settings.step_halvings {
         let mut trial = state.field.clone();
         add(&mut trial.u, share, &u);
@@ -162,17 +161,23 @@ pub fn missed(pressed: &PressedBlock<'_>, state: &State, load: f64) -> f64 {
     )
 }
 
-fn largest_gradient(pressed: &PressedBlock<'_>, du: &[f64]) -> f64 {
-    (0..pressed.mesh().rows)
-        .flat_map(|row| pressed.block.gradients(row, du, 0.0))
-        .flatten()
-        .flatten()
-        .fold(1e-300, |m: f64, value| m.max(value.abs()))
+fn largest_gradient(pressed: &PressedBlock<'_>, du: &[f64]) -> Result<f64, Status> {
+    let (block, mesh) = (&pressed.block, pressed.mesh());
+    let of_row = |row: usize| {
+        let gradients = block.gradients(row, du, 0.0).into_iter().flatten();
+        gradients.flatten().fold(1e-300, larger)
+    };
+    let rows = pressed.watch.map(12 * mesh.points(), mesh.rows, of_row)?;
+    Ok(rows.into_iter().fold(1e-300, larger))
+}
+
+fn larger(a: f64, b: f64) -> f64 {
+    a.max(b.abs())
 }
 
 fn smallest_jacobian(rows: &[RowState]) -> f64 {
     rows.iter()
-        .flat_map(|row| row.gradient.iter().flatten())
-        .map(jacobian)
+        .flat_map(|row| row.deformation.iter().flatten())
+        .map(|point| point.j)
         .fold(f64::INFINITY, f64::min)
 }

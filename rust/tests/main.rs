@@ -14,6 +14,7 @@ mod profile;
 mod settings;
 mod sliding_history;
 mod steady;
+mod threads;
 mod transient;
 
 use gripscale_kernel::contact::profile::Heights;
@@ -96,14 +97,16 @@ impl Case {
     }
 
     pub fn solve(&self, start: Option<&Solution>) -> Result<Solution, KernelError> {
+        self.watched(start, &Watch::endless())
+    }
+
+    pub fn watched(
+        &self,
+        start: Option<&Solution>,
+        watch: &Watch<'_>,
+    ) -> Result<Solution, KernelError> {
         let problem = self.problem()?;
-        gripscale_kernel::steady::solve(
-            &problem,
-            &self.settings,
-            self.tolerance,
-            start,
-            &Watch::endless(),
-        )
+        gripscale_kernel::steady::solve(&problem, &self.settings, self.tolerance, start, watch)
     }
 
     pub fn run(&self, stages: &[Stage], start: Option<&Solution>) -> Result<Run, KernelError> {

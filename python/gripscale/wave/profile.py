@@ -51,6 +51,7 @@ def solve_profile(
     element_order: int = Mesh.element_order,
     tolerance: float | None = None,
     time_limit: float | None = None,
+    workers: int | None = None,
     start: WaveResult | None = None,
     max_iterations: int | None = None,
     residual_tolerance: float | None = None,
@@ -86,6 +87,8 @@ def solve_profile(
     element_order : int
         1: bilinear with one pressure; 2: biquadratic with linear discontinuous pressure.
     tolerance, time_limit : float, optional
+        As in `gripscale.solve_scale`.
+    workers : int, optional
         As in `gripscale.solve_scale`.
     start : WaveResult, optional
         A result of the block to start from, of any profile, load and rubber.
@@ -128,7 +131,7 @@ def solve_profile(
     problem = WaveProblem(rubber, heights, Load(pressure, speed, load_time))
     if problem.load.speed == 0.0:
         require_solid(rubber, problem.load.pressure, math.inf)
-    result = block.solve(problem, start)
+    result = block.solve(problem, start, workers=workers)
     pressed = result.x[result.pressure > 0.0]
     told = {
         "missing_share": profile.missing / len(profile),
