@@ -73,6 +73,7 @@ getters! {
     columns: usize = |s, _| Ok(s.finest.mesh.columns);
     rows: usize = |s, _| Ok(s.finest.mesh.rows);
     too_narrow: Option<(f64, f64)> = |s, _| Ok(s.too_narrow);
+    waves_carried: Option<usize> = |s, _| Ok(s.waves_carried);
     min_stretch: f64 = |s, _| Ok(s.finest.outcome.min_stretch);
     max_stretch: f64 = |s, _| Ok(s.finest.outcome.max_stretch);
     x: Vector<'py> = |s, py| Ok(PyArray1::from_slice(py, &s.finest.outcome.x));

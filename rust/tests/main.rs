@@ -11,6 +11,7 @@ mod linear;
 mod material_point;
 mod mesh_sequence;
 mod profile;
+mod roughening;
 mod settings;
 mod sliding_history;
 mod steady;

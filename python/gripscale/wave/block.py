@@ -247,6 +247,7 @@ def _result(problem: WaveProblem, mesh: Mesh, solution: kernel.Solution) -> Wave
             "depth": mesh.depth,
             "element_order": mesh.element_order,
             **_widths(profile.wavelength, solution.too_narrow),
+            **_carried(profile.wavelength, solution.waves_carried),
         },
         contact_fraction_error=solution.contact_fraction_error,
         friction_error=solution.friction_error,
@@ -268,6 +269,11 @@ def _widths(wavelength: float, too_narrow: tuple[float, float] | None) -> dict[s
         "expected_contact_width": expected * wavelength,
         "smallest_contact_width": smallest * wavelength,
     }
+
+
+def _carried(period: float, waves: int | None) -> dict[str, float]:
+    """Return the smallest wave [m] with which a profile that is too rough carried the load."""
+    return {"smallest_wave_carried": period / waves} if waves else {}
 
 
 def _no_estimate(solution: kernel.Solution) -> dict[str, Any]:
