@@ -16,9 +16,9 @@ def describe() -> str:
     packages = ", ".join(f"{name} {version(name)}" for name in ("gripscale", "numpy", "scipy"))
     load = f"{os.getloadavg()[0]:.1f}" if hasattr(os, "getloadavg") else "unknown"
     return (
-        f"{datetime.now(UTC):%Y-%m-%d %H:%M} UTC, {_processor()}, {cores()} cores (the kernel "
-        f"uses one thread), load average {load} at the start, {platform.system()}, "
-        f"Python {platform.python_version()}, {packages}"
+        f"{datetime.now(UTC):%Y-%m-%d %H:%M} UTC, {_processor()}, {cores()} cores "
+        f"(one thread where nothing else is said), load average {load} at the start, "
+        f"{platform.system()}, Python {platform.python_version()}, {packages}"
     )
 
 

@@ -7,7 +7,8 @@
 //! | room | what |
 //! |---|---|
 //! | `error`, `status`, `settings` | refusals, endings, every constant of the solver |
-//! | `watch` | whether to go on: a caller that stops, a limit of time |
+//! | `threads` | the one file with rayon: work shared between threads, in parts that do not depend on them |
+//! | `watch` | whether to go on: a caller that stops, a limit of time; who does the work |
 //! | `spectral` | the one file with realfft: transforms of lines |
 //! | `linear` | the one room with faer: dense LU, sparse L D L^T, small complex blocks, GMRES |
 //! | `material` | kinematics, stress, strain energies, Maxwell elements and what they remember |
@@ -39,5 +40,6 @@ pub mod solve;
 pub mod spectral;
 pub mod status;
 pub mod steady;
+pub mod threads;
 pub mod transient;
 pub mod watch;

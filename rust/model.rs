@@ -15,6 +15,7 @@ use crate::material::maxwell::Maxwell;
 use crate::problem::{Profile, Rubber};
 use crate::watch::Watch;
 
+#[derive(Clone)]
 pub struct Model {
     /// [Pa].
     pub stress_unit: f64,
@@ -68,6 +69,14 @@ impl Model {
             },
             heights: &self.heights,
             watch,
+        }
+    }
+
+    /// The same rubber on other heights.
+    pub fn on(&self, heights: Heights) -> Self {
+        Self {
+            heights,
+            ..self.clone()
         }
     }
 

@@ -35,8 +35,8 @@ impl Outcome {
             .sum();
         let lost = pressed.block.dissipation(&rows, pressed.watch)?;
         let (mut low, mut high) = (f64::INFINITY, 0.0_f64);
-        for f in rows.iter().flat_map(|row| row.gradient.iter().flatten()) {
-            let (least, most) = principal_stretches(f);
+        for point in rows.iter().flat_map(|row| row.deformation.iter().flatten()) {
+            let (least, most) = principal_stretches(&point.f);
             low = low.min(least);
             high = high.max(most);
         }

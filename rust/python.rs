@@ -16,6 +16,7 @@ use crate::settings::Settings;
 use crate::solution::Solution;
 use crate::status::Status;
 use crate::steady;
+use crate::threads::Threads;
 use crate::transient::{self, Moment, Stage};
 use crate::watch::Watch;
 
@@ -72,6 +73,7 @@ getters! {
     columns: usize = |s, _| Ok(s.finest.mesh.columns);
     rows: usize = |s, _| Ok(s.finest.mesh.rows);
     too_narrow: Option<(f64, f64)> = |s, _| Ok(s.too_narrow);
+    waves_carried: Option<usize> = |s, _| Ok(s.waves_carried);
     min_stretch: f64 = |s, _| Ok(s.finest.outcome.min_stretch);
     max_stretch: f64 = |s, _| Ok(s.finest.outcome.max_stretch);
     x: Vector<'py> = |s, py| Ok(PyArray1::from_slice(py, &s.finest.outcome.x));
@@ -178,6 +180,16 @@ impl BodyItems {
     }
 }
 
+/// Threads to work with at most, seconds to work for, and what is called every 50 ms, by the calling
+/// thread alone: it raises to stop.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+struct WorkItems {
+    workers: usize,
+    time_limit: Option<f64>,
+    look: Py<PyAny>,
+}
+
 /// The defaults with the changes in a mapping from names to numbers.
 fn settings(changes: &Bound<'_, PyMapping>) -> PyResult<Settings> {
     let changes: Vec<(String, f64)> = changes.items()?.extract()?;
@@ -189,21 +201,20 @@ fn settings(changes: &Bound<'_, PyMapping>) -> PyResult<Settings> {
 /// such as Ctrl-C, and by `look`, which raises to stop. What was raised is what comes out.
 fn watched<T: Send>(
     py: Python<'_>,
-    look: &Bound<'_, PyAny>,
-    time_limit: Option<f64>,
+    work: WorkItems,
     solve: impl FnOnce(&Watch<'_>) -> Result<T, KernelError> + Send,
 ) -> PyResult<T> {
-    let look = look.clone().unbind();
     let raised: OnceLock<PyErr> = OnceLock::new();
     let stopped = || {
-        let ask = |py: Python<'_>| py.check_signals().and_then(|()| look.call0(py));
+        let ask = |py: Python<'_>| py.check_signals().and_then(|()| work.look.call0(py));
         if let Err(error) = Python::attach(ask) {
             // The first is kept.
             raised.get_or_init(|| error);
         }
         raised.get().is_some()
     };
-    let found = py.detach(|| solve(&Watch::new(&stopped, time_limit)?));
+    let threads = Threads::new(work.workers);
+    let found = py.detach(|| solve(&Watch::new(&stopped, work.time_limit)?.with(&threads)));
     match raised.into_inner() {
         Some(error) => Err(error),
         None => Ok(found?),
@@ -211,7 +222,7 @@ fn watched<T: Send>(
 }
 
 /// Solve one wave at rest or in steady sliding; `start`, any other solution, is a first guess.
-/// `look` is called every 50 ms and raises to stop; what `time_limit` [s] leaves time for is solved.
+/// What `work` leaves time for is solved.
 #[pyfunction]
 fn solve_steady(
     py: Python<'_>,
@@ -219,8 +230,7 @@ fn solve_steady(
     settings: &Bound<'_, PyMapping>,
     tolerance: Option<f64>,
     start: Option<Bound<'_, PySolution>>,
-    time_limit: Option<f64>,
-    look: &Bound<'_, PyAny>,
+    work: WorkItems,
 ) -> PyResult<PySolution> {
     let (rubber, profile, mesh) = problem.extract::<BodyItems>()?.checked()?;
     let load: LoadItems = problem.get_item("load")?.extract()?;
@@ -233,12 +243,12 @@ fn solve_steady(
     let settings = self::settings(settings)?;
     let start = start.as_ref().map(|solution| &solution.get().0);
     let solve = |watch: &Watch<'_>| steady::solve(&problem, &settings, tolerance, start, watch);
-    Ok(PySolution(watched(py, look, time_limit, solve)?))
+    Ok(PySolution(watched(py, work, solve)?))
 }
 
 /// Slide through stages (duration, speed, pressure), from rest or from a `start` of the same rubber
 /// and profile. Returns status, iterations and one row per moment: time, distance, speed, pressure,
-/// friction, contact fraction, approach. `look` and `time_limit` are those of `solve_steady`.
+/// friction, contact fraction, approach.
 #[pyfunction]
 fn solve_transient<'py>(
     py: Python<'py>,
@@ -246,8 +256,7 @@ fn solve_transient<'py>(
     settings: &Bound<'py, PyMapping>,
     stages: Vec<(f64, f64, f64)>,
     start: Option<Bound<'py, PySolution>>,
-    time_limit: Option<f64>,
-    look: &Bound<'py, PyAny>,
+    work: WorkItems,
 ) -> PyResult<(&'static str, usize, Table<'py>)> {
     let (rubber, profile, mesh) = problem.checked()?;
     let settings = self::settings(settings)?;
@@ -261,7 +270,7 @@ fn solve_transient<'py>(
     let solve = |watch: &Watch<'_>| {
         transient::solve(&rubber, &profile, &mesh, &settings, &stages, start, watch)
     };
-    let run = watched(py, look, time_limit, solve)?;
+    let run = watched(py, work, solve)?;
     let row = |m: &Moment| {
         vec![
             m.time,

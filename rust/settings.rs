@@ -91,6 +91,11 @@ settings! {
     growth_cut: f64 = 0.4 in 0.01..=0.9, "Power that cuts the ratio of pressures after a load step that failed [-].";
     easy_iterations: usize = 7 in 1..=1000, "Newton iterations of an easy load step.";
 
+    nodes_per_wave: usize = 12 in 3..=1000, "Nodes along a wave with which a mesh is fine enough to start from it.";
+    roughening_patience: usize = 4 in 1..=1000, "Newton iterations without a smaller residual after which waves are added in smaller parts.";
+    roughening_iterations: usize = 12 in 1..=1000, "Newton iterations after which waves are added in smaller parts.";
+    smallest_roughening: f64 = 0.1 in 1e-6..=1.0, "Smallest part of the heights of waves that are added [-].";
+
     coarsest_nodes: usize = 32 in 8..=2048, "Fewest nodes along the wave on the coarsest mesh of a sequence.";
     finest_columns: usize = 512 in 4..=4096, "Most columns of the mesh that a tolerance refines to.";
     row_exponent: f64 = 0.585 in 0.01..=1.0, "Rows grow with this power of the columns [-]: by 1.5 for every doubling.";

@@ -15,6 +15,8 @@ pub struct Solution {
     /// Contact widths in wavelengths, of Hertz and the smallest that can be followed, where there
     /// was nothing to solve for that reason.
     pub too_narrow: Option<(f64, f64)>,
+    /// Waves, from the longest, with which the profile carried the load, where all are too rough.
+    pub waves_carried: Option<usize>,
 }
 
 impl Solution {

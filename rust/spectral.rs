@@ -74,6 +74,20 @@ impl Lines {
         self.inverse_own(line);
     }
 
+    /// The same of harmonics that stand in pieces.
+    pub fn inverse_of<'s>(
+        &mut self,
+        pieces: impl Iterator<Item = &'s [Complex64]>,
+        line: &mut [f64],
+    ) {
+        let mut at = 0;
+        for piece in pieces {
+            self.spectrum[at..at + piece.len()].copy_from_slice(piece);
+            at += piece.len();
+        }
+        self.inverse_own(line);
+    }
+
     /// `line` convolved round the period with a line of these harmonics.
     pub fn convolve(&mut self, with: &[Complex64], line: &mut [f64]) {
         self.line.copy_from_slice(line);

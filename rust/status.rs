@@ -37,4 +37,6 @@ statuses! {
     FrictionsDisagree = "frictions disagree",
     /// Too few nodes carry the load on the finest mesh allowed, or would: then nothing is solved.
     ContactTooNarrow = "contact too narrow",
+    /// The longer waves of the profile carry the load, all of them find no solution on this mesh.
+    ProfileTooRough = "profile too rough",
 }

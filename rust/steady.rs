@@ -20,6 +20,7 @@ use crate::solve::load_stepping::{raise, Counts};
 use crate::solve::mesh_sequence::MeshSequence;
 use crate::solve::mesh_solution::MeshSolution;
 use crate::solve::newton;
+use crate::solve::roughening::{Ended, Roughening};
 use crate::solve::transfer::transfer;
 use crate::status::Status;
 use crate::watch::Watch;
@@ -47,11 +48,12 @@ pub fn solve(
         watch,
         tolerance,
         counts: Counts::default(),
+        waves_carried: 0,
     };
     let first = start.map(|solution| &solution.finest);
     let heights = &model.heights;
     let judge = Judge::new(heights, problem.load.speed > 0.0, tolerance, settings);
-    let sequence = MeshSequence::new(&problem.mesh, first, heights.fewest_nodes(), &judge);
+    let sequence = MeshSequence::new(&problem.mesh, first, heights, &judge);
     let too_narrow = work.too_narrow();
     let finest = match too_narrow {
         Some(_) => work.refused()?,
@@ -61,10 +63,12 @@ pub fn solve(
             work.rescued(finest, &judge)?
         }
     };
+    let too_rough = finest.report.status == Status::ProfileTooRough;
     Ok(Solution {
         problem: problem.clone(),
         stress_unit: model.stress_unit,
         finest,
+        waves_carried: too_rough.then_some(work.waves_carried),
         counts: work.counts,
         too_narrow,
     })
@@ -78,6 +82,8 @@ struct Work<'a> {
     watch: &'a Watch<'a>,
     tolerance: Option<f64>,
     counts: Counts,
+    /// Waves of a rough profile that did carry the load.
+    waves_carried: usize,
 }
 
 /// What is said of a mesh that was not worth a load path.
@@ -133,6 +139,7 @@ impl Work<'_> {
                 | Status::ElementInverted
                 | Status::NoActiveSet
                 | Status::NotFinite
+                | Status::MeanShear
         );
         let columns = 2 * finest.mesh.columns;
         if !mesh_may_be_why || columns > self.settings.rescue_columns {
@@ -149,7 +156,8 @@ impl Work<'_> {
         })
     }
 
-    /// Solve on `mesh`: from the coarser mesh, else from the start, else by raising the load.
+    /// Solve on `mesh`: from the coarser mesh, else from the start, else by raising the load. From a
+    /// finer mesh, which needs no other way to its solution, or not at all.
     fn on_mesh(
         &mut self,
         mesh: Mesh,
@@ -168,9 +176,18 @@ impl Work<'_> {
                 solved = Some((state, report, 1.0));
             }
         }
-        if time_left && solved.is_none() && coarse.is_some() && self.beyond(&mesh) {
+        let from_finer = coarse.is_some_and(|from| from.mesh.columns > mesh.columns);
+        let given_up = from_finer || coarse.is_some() && self.beyond(&mesh);
+        if time_left && solved.is_none() && given_up {
             let nothing = State::at_rest(&mesh);
             return self.solution(mesh, &memory, nothing, GIVEN_UP, 0.0);
+        }
+        if time_left && solved.is_none() {
+            match self.roughened(&mesh) {
+                Some(Ok((state, report))) => solved = Some((state, report, 1.0)),
+                Some(Err(ended)) => return self.too_rough(mesh, &memory, coarse, ended),
+                None => {}
+            }
         }
         let (state, report, load_reached) = solved.unwrap_or_else(|| {
             let mut state = State::at_rest(&mesh);
@@ -188,6 +205,42 @@ impl Work<'_> {
             found.report.status = Status::MeanShear;
         }
         Ok(found)
+    }
+
+    /// The solution on `mesh` from smoother profiles on coarser ones, where the profile is rough.
+    fn roughened(&mut self, mesh: &Mesh) -> Option<Result<(State, newton::Report), Ended>> {
+        let (model, passages) = (self.model, self.passages());
+        let memory = |mesh: &Mesh| memory(model, passages, mesh);
+        let roughening = Roughening {
+            model,
+            size: &self.problem.mesh,
+            load: self.load(),
+            settings: self.settings,
+            watch: self.watch,
+            memory: &memory,
+        };
+        roughening.solve(mesh.columns, &mut self.counts)
+    }
+
+    /// What is left of a mesh on which the rough profile was not solved.
+    fn too_rough(
+        &mut self,
+        mesh: Mesh,
+        memory: &Memory,
+        coarse: Option<&MeshSolution>,
+        ended: Ended,
+    ) -> Result<MeshSolution, KernelError> {
+        self.watch.unless_stopped()?;
+        self.waves_carried = self.waves_carried.max(ended.waves);
+        if let (Status::TimeLimit, Some(coarse)) = (ended.status, coarse) {
+            return Ok(coarse.out_of_time());
+        }
+        let report = newton::Report {
+            status: ended.status,
+            ..GIVEN_UP
+        };
+        let nothing = State::at_rest(&mesh);
+        self.solution(mesh, memory, nothing, report, 0.0)
     }
 
     /// Whether a mesh is finer than what was asked for, wanted for trust alone, and too fine to be
@@ -258,10 +311,14 @@ impl Work<'_> {
     }
 
     fn memory(&self, mesh: &Mesh) -> Memory {
-        if self.model.maxwell.moduli.is_empty() {
-            return Memory::Relaxed;
-        }
-        let history = SlidingHistory::new(mesh.columns, &self.model.maxwell, self.passages());
-        Memory::Sliding(history)
+        memory(self.model, self.passages(), mesh)
     }
+}
+
+/// What the networks remember on `mesh`, after a load time of so many `passages` of the wave.
+fn memory(model: &Model, passages: f64, mesh: &Mesh) -> Memory {
+    if model.maxwell.moduli.is_empty() {
+        return Memory::Relaxed;
+    }
+    Memory::Sliding(SlidingHistory::new(mesh.columns, &model.maxwell, passages))
 }

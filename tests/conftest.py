@@ -1,13 +1,23 @@
-"""The browser of the tests that open pages."""
+"""What all tests stand on: the cores of their process, and the browser of those that open pages."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
+from contextlib import nullcontext
 from typing import Any
 
 import pytest
 
+from gripscale.parallel import sharing
 from tests.browsing import started_browser
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _own_core() -> Iterator[None]:
+    """Let a process of pytest-xdist use one core: the others have theirs."""
+    with sharing(1) if "PYTEST_XDIST_WORKER" in os.environ else nullcontext():
+        yield
 
 
 @pytest.fixture(scope="module")

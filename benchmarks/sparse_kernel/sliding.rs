@@ -82,7 +82,7 @@ pub fn table(meshes: &[(usize, usize)]) {
                     };
                     bordered.change(&pressed.block, &tangent, &wrong, more)
                 };
-                let mut room = jacobian.room();
+                let mut room = jacobian.room(watch.threads);
                 let mut product = |change: &Change, out: &mut [f64]| {
                     let y = mixed(&jacobian, &change.u, &change.pressure);
                     jacobian.product(&y, out, &mut room);

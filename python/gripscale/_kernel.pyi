@@ -56,6 +56,8 @@ class Solution:
     @property
     def too_narrow(self) -> tuple[float, float] | None: ...
     @property
+    def waves_carried(self) -> int | None: ...
+    @property
     def min_stretch(self) -> float: ...
     @property
     def max_stretch(self) -> float: ...
@@ -111,21 +113,25 @@ class Body(TypedDict):
 class Problem(Body):
     load: Load
 
+@type_check_only
+class Work(TypedDict):
+    workers: int
+    time_limit: float | None
+    look: Callable[[], object]
+
 def solve_steady(
     problem: Problem,
     settings: Mapping[str, float],
     tolerance: float | None,
     start: Solution | None,
-    time_limit: float | None,
-    look: Callable[[], object],
+    work: Work,
 ) -> Solution: ...
 def solve_transient(
     problem: Body,
     settings: Mapping[str, float],
     stages: list[tuple[float, float, float]],
     start: Solution | None,
-    time_limit: float | None,
-    look: Callable[[], object],
+    work: Work,
 ) -> tuple[str, int, NDArray[np.float64]]: ...
 def default_settings() -> list[tuple[str, float, str]]: ...
 def statuses() -> list[str]: ...

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import os
 import threading
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, as_completed
+from contextlib import contextmanager
 from typing import TypeVar
 
 from gripscale import checks
@@ -30,27 +31,43 @@ def look() -> None:
         raise Stopped
 
 
+@contextmanager
+def sharing(workers: int) -> Iterator[None]:
+    """Let what this thread solves use `workers` threads by default: others work beside it."""
+    before = getattr(_here, "workers", None)
+    _here.workers = workers
+    try:
+        yield
+    finally:
+        _here.workers = before
+
+
 def cores() -> int:
     """Return how many cores this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def worker_count(workers: int | None) -> int:
-    """Return `workers`, or one per core.
+    """Return `workers`, or one per core; in a job of `in_threads` or under `sharing` its share.
 
     Raises `InputError` if it is not a whole number from 1 to 1024.
     """
-    return cores() if workers is None else checks.whole("workers", workers, least=1, most=1024)
+    if workers is not None:
+        return checks.whole("workers", workers, least=1, most=1024)
+    share: int | None = getattr(_here, "workers", None)
+    return cores() if share is None else share
 
 
 def in_threads(jobs: Sequence[Job[T]], workers: int) -> Generator[tuple[int, T], None, None]:
     """Yield the place and the result of each job as they come.
 
+    Jobs fewer than workers share them: what a job solves uses its share by default.
     On any end but the natural one (an error, Ctrl-C, `close`) the others are told to stop, and
     those that run are waited for: they hear it from their event and from `look`.
     """
     stop = threading.Event()
-    pool = ThreadPoolExecutor(workers, "gripscale", initializer=_serve, initargs=(stop,))
+    share = max(workers // max(len(jobs), 1), 1)
+    pool = ThreadPoolExecutor(workers, "gripscale", initializer=_serve, initargs=(stop, share))
     try:
         futures: dict[Future[T], int] = {
             pool.submit(job, stop): place for place, job in enumerate(jobs)
@@ -62,6 +79,7 @@ def in_threads(jobs: Sequence[Job[T]], workers: int) -> Generator[tuple[int, T],
         pool.shutdown(wait=True, cancel_futures=True)
 
 
-def _serve(stop: threading.Event) -> None:
-    """Tell `look` what ends the jobs of this thread."""
+def _serve(stop: threading.Event, workers: int) -> None:
+    """Tell `look` what ends the jobs of this thread, and how many threads each may use."""
     _here.stop = stop
+    _here.workers = workers

@@ -49,6 +49,10 @@ impl Harmonics {
         while coefficients.last().map(size) <= Some(SMALLEST_SHARE * largest) {
             coefficients.pop();
         }
+        Ok(Self::of(coefficients))
+    }
+
+    fn of(coefficients: Vec<(f64, f64)>) -> Self {
         let mut harmonics = Self {
             coefficients,
             range: (0.0, 0.0),
@@ -58,7 +62,26 @@ impl Harmonics {
         harmonics.full_contact_pressure = harmonics.fine_points().fold(0.0, |most, x| {
             most.max(-4.0 * PI * harmonics.sum(x, |n| n).0)
         });
-        Ok(harmonics)
+        harmonics
+    }
+
+    /// The first `kept` of the waves.
+    pub fn smoothed(&self, kept: usize) -> Self {
+        let kept = kept.clamp(1, self.len());
+        Self::of(self.coefficients[..kept].to_vec())
+    }
+
+    /// A `share` of the way to other heights.
+    pub fn toward(&self, other: &Self, share: f64) -> Self {
+        let wave = |of: &Self, n: usize| of.coefficients.get(n).copied().unwrap_or_default();
+        let between = |n: usize| {
+            let (from, to) = (wave(self, n), wave(other, n));
+            (
+                from.0 + share * (to.0 - from.0),
+                from.1 + share * (to.1 - from.1),
+            )
+        };
+        Self::of((0..self.len().max(other.len())).map(between).collect())
     }
 
     /// The same heights in units of `length`.

@@ -77,11 +77,8 @@ impl PressedBlock<'_> {
     }
 
     pub fn row_states(&self, field: &Field) -> Result<Vec<RowState>, Status> {
-        (0..self.mesh().rows)
-            .map(|row| {
-                self.watch.look()?;
-                Ok(self.block.row_state(row, &field.u))
-            })
-            .collect()
+        let (block, mesh) = (&self.block, self.mesh());
+        let state = |row| block.row_state(row, &field.u);
+        self.watch.map(32 * mesh.points(), mesh.rows, state)
     }
 }

@@ -118,7 +118,7 @@ impl<'a> Path<'a> {
         if set.is_empty() {
             return Err(Status::NoActiveSet);
         }
-        let matrix = self.problem.bordered(&set);
+        let matrix = self.problem.bordered(&set, watch.threads);
         let border = self.problem.border(&set);
         let right = Matrix::from_fn(set.len() + 1, 2, |row, column| {
             match (set.get(row), column) {

@@ -97,6 +97,32 @@ impl Heights {
         }
     }
 
+    /// The longest waves alone, so many of them.
+    pub fn smoothed(&self, waves: usize) -> Self {
+        match self {
+            Self::Sine { .. } => self.clone(),
+            Self::Sampled(harmonics) => Self::Sampled(harmonics.smoothed(waves)),
+        }
+    }
+
+    /// A `share` of the way to other heights of the same kind; those themselves where there is none.
+    pub fn toward(&self, other: &Self, share: f64) -> Self {
+        match (self, other) {
+            (Self::Sampled(from), Self::Sampled(to)) if share < 1.0 => {
+                Self::Sampled(from.toward(to, share))
+            }
+            _ => other.clone(),
+        }
+    }
+
+    /// Number of the last wave of the period.
+    pub fn waves(&self) -> usize {
+        match self {
+            Self::Sine { .. } => 1,
+            Self::Sampled(harmonics) => harmonics.len(),
+        }
+    }
+
     /// Nodes along the period below which a mesh cannot follow the smallest wave.
     pub fn fewest_nodes(&self) -> usize {
         match self {

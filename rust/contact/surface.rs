@@ -75,7 +75,9 @@ impl<'a> Surface<'a> {
 impl Compliance for Surface<'_> {
     fn between(&self, to: usize, from: usize) -> f64 {
         let (order, columns) = (self.mesh.order, self.mesh.columns);
-        let apart = (to / order + columns - from / order) % columns;
+        let (ahead, behind) = (to / order, from / order);
+        let round = if ahead < behind { columns } else { 0 };
+        let apart = ahead + round - behind;
         let unknowns = 2 * order;
         let moved = |direction: usize, by: usize| {
             let source = by * order + from % order;

@@ -4,8 +4,9 @@
 //!     gap = free + C f - d >= 0,   gap . f = 0,   sum f = load.
 //! Where it is known which nodes touch it is linear.
 
-use crate::linear::{solve_dense, Matrix};
+use crate::linear::{from_entries, solve_dense, Matrix};
 use crate::status::Status;
+use crate::threads::Threads;
 use crate::watch::Watch;
 
 #[derive(Debug, Clone)]
@@ -16,7 +17,7 @@ pub struct Contact {
 }
 
 /// What forces at the nodes add to the gaps.
-pub trait Compliance {
+pub trait Compliance: Sync {
     /// Of node `to` by a unit force at node `from`.
     fn between(&self, to: usize, from: usize) -> f64;
 
@@ -39,9 +40,9 @@ impl Linearised<'_> {
     }
 
     /// The compliance between the nodes of `set`, with the approach and the sum of forces.
-    pub(crate) fn bordered(&self, set: &[usize]) -> Matrix<f64> {
+    pub(crate) fn bordered(&self, set: &[usize], threads: &Threads) -> Matrix<f64> {
         let (n, border) = (set.len(), self.border(set));
-        Matrix::from_fn(n + 1, n + 1, |i, j| {
+        let entry = |i: usize, j: usize| {
             if i < n && j < n {
                 self.compliance.between(set[i], set[j])
             } else if i < n || j < n {
@@ -49,7 +50,8 @@ impl Linearised<'_> {
             } else {
                 0.0
             }
-        })
+        };
+        from_entries(n + 1, entry, threads)
     }
 
     /// Forces and approach where just these nodes touch; None if they cannot be told.
@@ -62,7 +64,8 @@ impl Linearised<'_> {
         let border = self.border(&set);
         let mut right: Vec<f64> = set.iter().map(|&i| -self.free[i]).collect();
         right.push(border * self.load);
-        let Some(solution) = solve_dense(&self.bordered(&set), &right, watch)? else {
+        let Some(solution) = solve_dense(&self.bordered(&set, watch.threads), &right, watch)?
+        else {
             return Ok(None);
         };
         let mut force = vec![0.0; active.len()];

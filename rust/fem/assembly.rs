@@ -3,7 +3,6 @@
 //! with the pressure an independent unknown, updated linearly.
 
 use super::block::{Block, Field, RowState};
-use crate::material::kinematics::jacobian;
 use crate::material::stress::stress;
 
 impl Block<'_> {
@@ -18,8 +17,7 @@ impl Block<'_> {
                 residual[m * columns + column] = -mass * pressure[m] / self.bulk_modulus;
             }
             for (at, line, q) in self.gauss_points(column) {
-                let f = &state.gradient[line][q];
-                let volume = element.weight[at] * (jacobian(f) - 1.0);
+                let volume = element.weight[at] * (state.deformation[line][q].j - 1.0);
                 for (m, mode) in element.mode[at].iter().enumerate() {
                     residual[m * columns + column] += mode * volume;
                 }
@@ -37,11 +35,11 @@ impl Block<'_> {
             let pressure = self.element_pressure(field, row, column);
             for (at, line, q) in self.gauss_points(column) {
                 let level = dot(&element.mode[at], pressure);
-                let p = stress(&state.gradient[line][q], &state.h[line][q], level);
-                for (node, slope) in element.gradient[at].iter().enumerate() {
+                let p = stress(state.deformation[line][q], &state.h[line][q], level);
+                for (slope, [x, z]) in element.gradient[at].iter().zip(unknowns) {
                     let w = element.weight[at];
-                    forces[unknowns[2 * node]] += w * (p[0] * slope[0] + p[1] * slope[1]);
-                    forces[unknowns[2 * node + 1]] += w * (p[2] * slope[0] + p[3] * slope[1]);
+                    forces[x] += w * (p[0] * slope[0] + p[1] * slope[1]);
+                    forces[z] += w * (p[2] * slope[0] + p[3] * slope[1]);
                 }
             }
         }

@@ -1,9 +1,10 @@
 //! The rubber block: its unknowns, what it is made of, and where unknowns stand in an element row.
 
+use super::element::MOST_NODES;
 use super::mesh::Mesh;
 use crate::material::carried_history::Points;
 use crate::material::energy::Energy;
-use crate::material::kinematics::{Gradient, Symmetric};
+use crate::material::kinematics::{Deformation, Symmetric};
 use crate::material::sliding_history::SlidingHistory;
 
 /// Displacements (all layers, lid included) and pressure modes `[row][column][mode]`.
@@ -46,7 +47,7 @@ pub struct Block<'a> {
 /// Kinematics and memory at the Gauss points of one element row: `[line][column * points + point]`.
 #[derive(Debug, Clone)]
 pub struct RowState {
-    pub gradient: Vec<Vec<Gradient>>,
+    pub deformation: Vec<Vec<Deformation>>,
     pub h: Vec<Vec<Symmetric>>,
 }
 
@@ -64,15 +65,16 @@ impl Block<'_> {
         (0..n).flat_map(move |line| (0..n).map(move |i| (line * n + i, line, column * n + i)))
     }
 
-    /// Positions in the row system of the local unknowns of element `column`.
-    pub(super) fn local_unknowns(&self, column: usize) -> Vec<usize> {
+    /// Positions in the row system of the unknowns of element `column`, node by node; what is left
+    /// for larger elements is zero.
+    pub(super) fn local_unknowns(&self, column: usize) -> [[usize; 2]; MOST_NODES] {
         let order = self.mesh.order;
-        let mut out = Vec::with_capacity(2 * self.mesh.elements[0].nodes());
+        let mut out = [[0; 2]; MOST_NODES];
         for layer in 0..=order {
             for sub in 0..=order {
                 let at = layer * self.mesh.layer_size();
                 let node = order * column + sub;
-                out.extend([at + self.mesh.place(node, 0), at + self.mesh.place(node, 1)]);
+                out[layer * (order + 1) + sub] = [0, 1].map(|to| at + self.mesh.place(node, to));
             }
         }
         out

@@ -26,6 +26,7 @@ pub fn convolve(history: &SlidingHistory, y: &[Symmetric]) -> Vec<Symmetric> {
 }
 
 /// Sums over columns e of y(e - m) c(e), for every m, of many pairs of lines together.
+#[derive(Clone)]
 pub struct Correlations {
     lines: Lines,
     harmonics: [Vec<Complex64>; 2],

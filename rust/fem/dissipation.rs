@@ -44,17 +44,18 @@ impl Block<'_> {
         rows: &[RowState],
         watch: &Watch<'_>,
     ) -> Result<StrainSince, Status> {
-        let nothing = vec![0.0; self.mesh.columns];
-        let mut parts = vec![nothing.clone(); rows.len()];
-        let mut whole = nothing;
-        let mut correlations = Correlations::new(self.mesh.columns);
-        for (row, (state, part)) in rows.iter().zip(&mut parts).enumerate() {
-            watch.look()?;
-            self.add_pairs(row, state, &mut correlations);
-            *part = correlations.take();
+        let mut whole = vec![0.0; self.mesh.columns];
+        let correlations = Correlations::new(self.mesh.columns);
+        let of_row = |row: usize| {
+            let mut correlations = correlations.clone();
+            self.add_pairs(row, &rows[row], &mut correlations);
+            correlations.take()
+        };
+        let mut parts = watch.map(100 * self.mesh.points(), rows.len(), of_row)?;
+        for part in &mut parts {
             whole
                 .iter_mut()
-                .zip(&*part)
+                .zip(part.iter())
                 .for_each(|(sum, own)| *sum += own);
             let own = part[0];
             part.iter_mut().for_each(|product| *product -= own);
@@ -77,10 +78,10 @@ impl Block<'_> {
     fn add_pairs(&self, row: usize, state: &RowState, correlations: &mut Correlations) {
         let points = self.points();
         let less_unit = |tensor: Symmetric, k: usize| tensor[k] - UNIT[k];
-        for (line, gradient) in state.gradient.iter().enumerate() {
+        for (line, along) in state.deformation.iter().enumerate() {
             for point in 0..points {
                 let weight = self.mesh.elements[row].weight[line * points + point];
-                let column = gradient.iter().skip(point).step_by(points);
+                let column = along.iter().skip(point).step_by(points);
                 for (k, times) in [1.0, 1.0, 2.0, 1.0].into_iter().enumerate() {
                     let column = column.clone();
                     let (y, c): (Vec<f64>, Vec<f64>) = column

@@ -4,6 +4,9 @@
 //! a discontinuous linear pressure (Q2P-1): Boffi, Brezzi & Fortin, "Mixed Finite Element Methods
 //! and Applications" (2013), section 8.6. Quadrature is the (order + 1)^2 Gauss rule.
 
+/// Nodes and points of a biquadratic element.
+pub const MOST_NODES: usize = 9;
+
 /// Gauss points and weights on [-1, 1].
 pub fn gauss(order: usize) -> Vec<(f64, f64)> {
     if order == 1 {

@@ -37,13 +37,13 @@ impl ElementTangent {
         self.stiffness.fill(0.0);
         self.volume.fill(0.0);
         for (at, line, q) in block.gauss_points(column) {
-            let (f, h) = (&state.gradient[line][q], &state.h[line][q]);
+            let (point, h) = (&state.deformation[line][q], &state.h[line][q]);
             let mode = &element.mode[at];
             let weight = element.weight[at];
             let level = mode.iter().zip(pressure).map(|(mode, p)| mode * p).sum();
-            let mut slopes = tangent(f, h, level);
-            add_network_slope(block, f, &mut slopes);
-            let cof = cofactor(f);
+            let mut slopes = tangent(point, h, level);
+            add_network_slope(block, point, &mut slopes);
+            let cof = cofactor(&point.f);
             for (j, &[x, z]) in element.gradient[at].iter().enumerate() {
                 for d in 0..2 {
                     let unknown = 2 * j + d;

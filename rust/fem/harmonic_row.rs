@@ -5,8 +5,8 @@
 //! memory and what the memory's harmonic w multiplies, the matrix is a sum of real ones:
 //!     (E + t E')^H (D + w M) (E + t E') = D_0 + t D_1 + D_2 / t + w (M_0 + t M_1 + M_2 / t)
 
-use super::jacobian::MeanSlopes;
 use super::mesh::Mesh;
+use super::point_slopes::MeanSlopes;
 use crate::spectral::Complex64;
 
 pub struct HarmonicRow {

@@ -1,51 +1,25 @@
 //! The exact Jacobian of the mixed system, applied to a direction and never formed:
 //!     r_u = int (dP/dF : grad du + dP/dH : dH + dp cof F) : grad N dV,
 //!     r_p = int m cof F : grad du dV - M dp / K,     dH(x) = sum weight(x - x') dY/dF : grad du(x'),
-//! with the slopes kept at every Gauss point. Displacement and pressure both stay unknowns: condensed,
+//! with deformation and stiffness kept at every Gauss point. Displacement and pressure both stay unknowns: condensed,
 //! the volume's stiffness varies from point to point and no uniform state is near it.
 //!
 //! `LANES` columns at a time: all elements of a row are equal, and unknowns of equal place in their
 //! elements stand together. The memory is a product of harmonics along every line of points.
 
 use super::block::{Block, Field, Memory, RowState};
+use super::element::MOST_NODES;
 use super::mesh::Mesh;
-use crate::material::kinematics::{cofactor, remembered_slope, Gradient};
+use super::point_slopes::{lane, Lane, Local, MeanSlopes, Sums, LANES};
+use crate::material::kinematics::{Deformation, Gradient};
 use crate::material::stress::{memory_slope, tangent};
 use crate::spectral::{Complex64, Lines};
 use crate::status::Status;
+use crate::threads::Threads;
 use crate::watch::Watch;
 
-const LANES: usize = 8;
-type Lane = [f64; LANES];
-
-/// Nodes and points of a biquadratic element.
-const MOST_NODES: usize = 9;
-
-/// Slopes at one Gauss point of `LANES` columns, its weight included once.
-#[derive(Clone)]
-struct Local {
-    /// dP/dF at fixed memory, `[component of P * 4 + component of F]`.
-    stiffness: [Lane; 16],
-    /// dJ/dF.
-    volume: [Lane; 4],
-}
-
-/// The same for the memory: dP/dH, and dY/dF without the weight.
-#[derive(Clone)]
-struct Remembering {
-    stress: [Lane; 16],
-    state: [Lane; 16],
-}
-
-/// Means along a row of the slopes at one Gauss point of its elements.
-#[derive(Clone)]
-pub struct MeanSlopes {
-    pub stiffness: [f64; 16],
-    pub volume: [f64; 4],
-    /// Of dP/dH times the mean of dY/dF.
-    pub memory: Option<[f64; 16]>,
-}
-
+/// Rows of elements that a thread takes at a time.
+const BAND: usize = 2;
 pub struct Jacobian<'a> {
     pub mesh: &'a Mesh,
     pub bulk_modulus: f64,
@@ -54,11 +28,25 @@ pub struct Jacobian<'a> {
     chunks: usize,
     /// `[row][chunk * points + point]`.
     local: Vec<Vec<Local>>,
-    remembering: Vec<Vec<Remembering>>,
+    /// `[row][point]`.
+    means: Vec<Vec<MeanSlopes>>,
 }
 
+/// Where products take place.
+pub struct Room<'t> {
+    threads: &'t Threads,
+    /// One a thread.
+    rows: Vec<RowRoom>,
+    /// Forces on the layer above every band of rows, by its uppermost row.
+    above: Vec<f64>,
+}
+
+/// What a band of rows adds to: forces on its layers and on the one above, volumes.
+type Band<'a> = ((&'a mut [f64], &'a mut [f64]), &'a mut [f64]);
+
 /// Room for one row at a time.
-pub struct Room {
+#[derive(Clone)]
+struct RowRoom {
     lines: Lines,
     /// Unknowns of the layers of a row, each line wrapped round at its end.
     strip: Vec<f64>,
@@ -88,16 +76,18 @@ impl<'a> Jacobian<'a> {
             bulk_modulus: block.bulk_modulus,
             memory,
             chunks: mesh.columns.div_ceil(LANES),
-            local: Vec::with_capacity(mesh.rows),
-            remembering: Vec::with_capacity(mesh.rows),
+            local: Vec::new(),
+            means: Vec::new(),
         };
-        for (row, state) in rows.iter().enumerate() {
-            watch.look()?;
-            let (local, remembering) = jacobian.slopes(block, field, row, state);
-            jacobian.local.push(local);
-            jacobian.remembering.push(remembering);
-        }
+        let slopes = |row: usize| jacobian.slopes(block, field, row, &rows[row]);
+        let slopes = watch.map(jacobian.size(), mesh.rows, slopes)?;
+        (jacobian.local, jacobian.means) = slopes.into_iter().unzip();
         Ok(jacobian)
+    }
+
+    /// Numbers kept.
+    pub fn size(&self) -> usize {
+        16 * self.mesh.points()
     }
 
     fn points(&self) -> usize {
@@ -114,94 +104,45 @@ impl<'a> Jacobian<'a> {
         self.displacements() + self.mesh.rows * self.mesh.modes() * self.mesh.columns
     }
 
+    /// Of one row.
     fn slopes(
         &self,
         block: &Block<'_>,
         field: &Field,
         row: usize,
         state: &RowState,
-    ) -> (Vec<Local>, Vec<Remembering>) {
+    ) -> (Vec<Local>, Vec<MeanSlopes>) {
         let element = &self.mesh.elements[row];
-        let places = self.chunks * self.points();
-        let nothing = [[0.0; LANES]; 16];
-        let mut local = vec![
-            Local {
-                stiffness: nothing,
-                volume: [[0.0; LANES]; 4],
-            };
-            places
-        ];
-        let remembers = self.memory.is_some();
-        let empty = Remembering {
-            stress: nothing,
-            state: nothing,
-        };
-        let mut remembering = vec![empty; if remembers { places } else { 0 }];
+        let mut local = vec![Local::default(); self.chunks * self.points()];
+        let mut sums = vec![Sums::default(); self.points()];
         for column in 0..self.mesh.columns {
             let (chunk, lane) = (column / LANES, column % LANES);
             let pressure = block.element_pressure(field, row, column);
             for (at, line, q) in block.gauss_points(column) {
-                let (f, h) = (&state.gradient[line][q], &state.h[line][q]);
-                let weight = element.weight[at];
+                let (point, h) = (&state.deformation[line][q], &state.h[line][q]);
                 let modes = element.mode[at].iter().zip(pressure);
                 let level = modes.map(|(mode, p)| mode * p).sum();
-                let mut d = tangent(f, h, level);
-                add_network_slope(block, f, &mut d);
-                let place = chunk * self.points() + at;
-                put(&mut local[place].stiffness, lane, weight, &d);
-                for (to, slope) in local[place].volume.iter_mut().zip(cofactor(f)) {
-                    to[lane] = weight * slope;
-                }
-                if remembers {
-                    let target = &mut remembering[place];
-                    put(&mut target.stress, lane, weight, &memory_slope(f));
-                    put(&mut target.state, lane, 1.0, &remembered_slope(f));
-                }
+                let mut d = tangent(point, h, level);
+                add_network_slope(block, point, &mut d);
+                local[chunk * self.points() + at].put(lane, element.weight[at], point, &d);
+                sums[at].add(point, &d, self.memory.is_some());
             }
         }
-        (local, remembering)
+        let means = sums.iter().zip(&element.weight);
+        let means = means.map(|(sums, weight)| sums.mean(self.mesh.columns, *weight));
+        (local, means.collect())
     }
 
     /// Means along one row at every Gauss point of its elements.
-    pub fn means(&self, row: usize) -> Vec<MeanSlopes> {
-        let points = self.points();
-        (0..points).map(|at| self.mean(row, at)).collect()
+    pub fn means(&self, row: usize) -> &[MeanSlopes] {
+        &self.means[row]
     }
 
-    fn mean(&self, row: usize, at: usize) -> MeanSlopes {
-        let points = self.points();
-        let mut mean = MeanSlopes {
-            stiffness: [0.0; 16],
-            volume: [0.0; 4],
-            memory: None,
-        };
-        for local in self.local[row].iter().skip(at).step_by(points) {
-            add_sums(&mut mean.stiffness, &local.stiffness);
-            add_sums(&mut mean.volume, &local.volume);
-        }
-        let share = 1.0 / self.mesh.columns as f64;
-        mean.stiffness.iter_mut().for_each(|sum| *sum *= share);
-        mean.volume.iter_mut().for_each(|sum| *sum *= share);
-        if self.memory.is_some() {
-            let (mut stress, mut state) = ([0.0; 16], [0.0; 16]);
-            for past in self.remembering[row].iter().skip(at).step_by(points) {
-                add_sums(&mut stress, &past.stress);
-                add_sums(&mut state, &past.state);
-            }
-            mean.memory = Some(std::array::from_fn(|at| {
-                let (a, b) = (at / 4, at % 4);
-                let products = (0..4).map(|k| stress[4 * a + k] * state[4 * k + b]);
-                products.sum::<f64>() * share * share
-            }));
-        }
-        mean
-    }
-
-    pub fn room(&self) -> Room {
+    pub fn room<'t>(&self, threads: &'t Threads) -> Room<'t> {
         let mesh = self.mesh;
         let width = (self.chunks + 1) * LANES;
         let strip = (mesh.order + 1) * 2 * mesh.order * width;
-        Room {
+        let row = RowRoom {
             lines: Lines::new(mesh.columns),
             strip: vec![0.0; strip],
             forces: vec![0.0; strip],
@@ -209,46 +150,72 @@ impl<'a> Jacobian<'a> {
             volume: vec![0.0; mesh.modes() * width],
             stress: vec![[0.0; LANES]; 4 * self.points() * self.chunks],
             past: vec![0.0; 4 * self.points() * width],
+        };
+        Room {
+            threads,
+            rows: vec![row; threads.on(self.size())],
+            above: vec![0.0; mesh.rows.div_ceil(BAND) * mesh.layer_size()],
         }
     }
 
     /// `out` = J `x`.
-    pub fn product(&self, x: &[f64], out: &mut [f64], room: &mut Room) {
+    pub fn product(&self, x: &[f64], out: &mut [f64], room: &mut Room<'_>) {
         let displacements = self.displacements();
         let (u, p) = x.split_at(displacements);
         let (forces, volumes) = out.split_at_mut(displacements);
         forces.fill(0.0);
-        let per_row = self.mesh.modes() * self.mesh.columns;
-        for row in 0..self.mesh.rows {
-            self.fill(row, u, room);
-            let pressure = &p[row * per_row..][..per_row];
-            let width = (self.chunks + 1) * LANES;
-            for (line, values) in pressure.chunks_exact(self.mesh.columns).enumerate() {
-                room.pressure[line * width..][..values.len()].copy_from_slice(values);
+        room.above.fill(0.0);
+        let (columns, layer) = (self.mesh.columns, self.mesh.layer_size());
+        let per_row = self.mesh.modes() * columns;
+        let per_band = BAND * self.mesh.order * layer;
+        let bands = forces
+            .chunks_mut(per_band)
+            .zip(room.above.chunks_exact_mut(layer))
+            .zip(volumes.chunks_mut(BAND * per_row))
+            .enumerate();
+        let band = |room: &mut RowRoom, (band, part): (usize, Band<'_>)| {
+            let ((forces, above), volumes) = part;
+            let mut lines: Vec<&mut [f64]> = forces.chunks_exact_mut(columns).collect();
+            lines.extend(above.chunks_exact_mut(columns));
+            for (at, volumes) in volumes.chunks_exact_mut(per_row).enumerate() {
+                let row = band * BAND + at;
+                let lines = &mut lines[2 * self.mesh.order.pow(2) * at..];
+                self.row(row, u, &p[row * per_row..][..per_row], room);
+                self.collect(lines, room);
+                self.volumes(row, &p[row * per_row..][..per_row], volumes, room);
             }
-            pulp::Arch::new().dispatch(|| match self.mesh.order {
-                1 => self.strain::<4>(row, room),
-                _ => self.strain::<MOST_NODES>(row, room),
-            });
-            if let Some(spectrum) = &self.memory {
-                for line in room.past.chunks_exact_mut(width) {
-                    let line = &mut line[..self.mesh.columns];
-                    room.lines.convolve(spectrum, line);
-                }
+        };
+        room.threads.share(self.size(), &mut room.rows, bands, band);
+        let next = forces.chunks_mut(per_band).skip(1);
+        for (to, above) in next.zip(room.above.chunks_exact(layer)) {
+            for (to, force) in to.iter_mut().zip(above) {
+                *to += force;
             }
-            room.forces.fill(0.0);
-            pulp::Arch::new().dispatch(|| match self.mesh.order {
-                1 => self.balance::<4>(row, room),
-                _ => self.balance::<MOST_NODES>(row, room),
-            });
-            self.collect(row, forces, room);
-            self.volumes(
-                row,
-                pressure,
-                &mut volumes[row * per_row..][..per_row],
-                room,
-            );
         }
+    }
+
+    /// Forces and changes of volume in one row, into `room`.
+    fn row(&self, row: usize, u: &[f64], pressure: &[f64], room: &mut RowRoom) {
+        self.fill(row, u, room);
+        let width = (self.chunks + 1) * LANES;
+        for (line, values) in pressure.chunks_exact(self.mesh.columns).enumerate() {
+            room.pressure[line * width..][..values.len()].copy_from_slice(values);
+        }
+        pulp::Arch::new().dispatch(|| match self.mesh.order {
+            1 => self.strain::<4>(row, room),
+            _ => self.strain::<MOST_NODES>(row, room),
+        });
+        if let Some(spectrum) = &self.memory {
+            for line in room.past.chunks_exact_mut(width) {
+                let line = &mut line[..self.mesh.columns];
+                room.lines.convolve(spectrum, line);
+            }
+        }
+        room.forces.fill(0.0);
+        pulp::Arch::new().dispatch(|| match self.mesh.order {
+            1 => self.balance::<4>(row, room),
+            _ => self.balance::<MOST_NODES>(row, room),
+        });
     }
 
     /// Where the line of local node `node` begins in a strip, in direction 0.
@@ -260,7 +227,7 @@ impl<'a> Jacobian<'a> {
     }
 
     /// Copy the layers of a row into the strip, the lid's as zeros.
-    fn fill(&self, row: usize, u: &[f64], room: &mut Room) {
+    fn fill(&self, row: usize, u: &[f64], room: &mut RowRoom) {
         let mesh = self.mesh;
         let width = (self.chunks + 1) * LANES;
         let from = row * mesh.order * mesh.layer_size();
@@ -275,7 +242,7 @@ impl<'a> Jacobian<'a> {
 
     /// Stresses at fixed memory, changes of volume and of what is remembered.
     #[inline(always)]
-    fn strain<const NODES: usize>(&self, row: usize, room: &mut Room) {
+    fn strain<const NODES: usize>(&self, row: usize, room: &mut RowRoom) {
         let element = &self.mesh.elements[row];
         let (points, modes) = (self.points(), self.mesh.modes());
         let width = (self.chunks + 1) * LANES;
@@ -301,46 +268,26 @@ impl<'a> Jacobian<'a> {
                     }
                 }
                 let local = &self.local[row][chunk * points + point];
-                let mode = &element.mode[point];
-                let (mut level, mut volume) = ([0.0; LANES], [0.0; LANES]);
+                let (mode, weight) = (&element.mode[point], element.weight[point]);
+                let mut level = [0.0; LANES];
                 for m in 0..modes {
                     let p = lane(&room.pressure, m * width + at);
                     for i in 0..LANES {
-                        level[i] += mode[m] * p[i];
+                        level[i] += weight * mode[m] * p[i];
                     }
                 }
-                for k in 0..4 {
-                    for i in 0..LANES {
-                        volume[i] += local.volume[k][i] * f[k][i];
-                    }
-                }
+                let volume = local.volume(&f);
                 for m in 0..modes {
                     for i in 0..LANES {
-                        volumes[m][i] += mode[m] * volume[i];
+                        volumes[m][i] += weight * mode[m] * volume[i];
                     }
                 }
                 let stress = &mut room.stress[4 * (chunk * points + point)..][..4];
-                for a in 0..4 {
-                    let row = &local.stiffness[4 * a..][..4];
-                    for i in 0..LANES {
-                        stress[a][i] = level[i] * local.volume[a][i]
-                            + row[0][i] * f[0][i]
-                            + row[1][i] * f[1][i]
-                            + row[2][i] * f[2][i]
-                            + row[3][i] * f[3][i];
-                    }
-                }
+                stress.copy_from_slice(&local.stress(&f, &level));
                 if self.memory.is_some() {
-                    let slopes = &self.remembering[row][chunk * points + point].state;
-                    for a in 0..4 {
-                        let row = &slopes[4 * a..][..4];
-                        let past = &mut room.past[(4 * point + a) * width + at..][..LANES];
-                        for i in 0..LANES {
-                            past[i] = row[0][i] * f[0][i]
-                                + row[1][i] * f[1][i]
-                                + row[2][i] * f[2][i]
-                                + row[3][i] * f[3][i];
-                        }
+                    for (k, change) in local.remembered(&f, &volume).iter().enumerate() {
+                        let from = (4 * point + k) * width + at;
+                        room.past[from..from + LANES].copy_from_slice(change);
                     }
                 }
             }
@@ -352,7 +299,7 @@ impl<'a> Jacobian<'a> {
 
     /// Forces of the stresses, those of the memory included.
     #[inline(always)]
-    fn balance<const NODES: usize>(&self, row: usize, room: &mut Room) {
+    fn balance<const NODES: usize>(&self, row: usize, room: &mut RowRoom) {
         let element = &self.mesh.elements[row];
         let points = self.points();
         let width = (self.chunks + 1) * LANES;
@@ -365,15 +312,12 @@ impl<'a> Jacobian<'a> {
                 let stress = &room.stress[4 * (chunk * points + point)..][..4];
                 let mut p: [Lane; 4] = std::array::from_fn(|a| stress[a]);
                 if self.memory.is_some() {
-                    let slopes = &self.remembering[row][chunk * points + point].stress;
-                    for k in 0..4 {
-                        let h = lane(&room.past, (4 * point + k) * width + at);
-                        for a in 0..4 {
-                            for i in 0..LANES {
-                                p[a][i] += slopes[4 * a + k][i] * h[i];
-                            }
-                        }
-                    }
+                    let local = &self.local[row][chunk * points + point];
+                    let h = std::array::from_fn(|k| {
+                        let from = (4 * point + k) * width + at;
+                        lane(&room.past, from)
+                    });
+                    local.add_memory(&mut p, &h, element.weight[point]);
                 }
                 let slopes: &[[f64; 2]] = &element.gradient[point];
                 for node in 0..NODES {
@@ -396,21 +340,19 @@ impl<'a> Jacobian<'a> {
         }
     }
 
-    /// Add the forces in the strip to those of the layers, the lid's left out.
-    fn collect(&self, row: usize, forces: &mut [f64], room: &mut Room) {
-        let mesh = self.mesh;
+    /// Add the forces in the strip to those of the layers.
+    fn collect(&self, layers: &mut [&mut [f64]], room: &RowRoom) {
+        let columns = self.mesh.columns;
         let width = (self.chunks + 1) * LANES;
-        let from = row * mesh.order * mesh.layer_size();
-        let lines = forces[from..].chunks_exact_mut(mesh.columns);
-        for (to, line) in lines.zip(room.forces.chunks_exact(width)) {
+        for (to, line) in layers.iter_mut().zip(room.forces.chunks_exact(width)) {
             for (to, force) in to.iter_mut().zip(line) {
                 *to += force;
             }
-            to[0] += line[mesh.columns];
+            to[0] += line[columns];
         }
     }
 
-    fn volumes(&self, row: usize, pressure: &[f64], out: &mut [f64], room: &Room) {
+    fn volumes(&self, row: usize, pressure: &[f64], out: &mut [f64], room: &RowRoom) {
         let element = &self.mesh.elements[row];
         let columns = self.mesh.columns;
         let width = (self.chunks + 1) * LANES;
@@ -424,32 +366,12 @@ impl<'a> Jacobian<'a> {
     }
 }
 
-fn add_sums(sums: &mut [f64], lanes: &[Lane]) {
-    for (sum, lane) in sums.iter_mut().zip(lanes) {
-        *sum += lane.iter().sum::<f64>();
-    }
-}
-
-fn lane(values: &[f64], at: usize) -> Lane {
-    let mut lane = [0.0; LANES];
-    lane.copy_from_slice(&values[at..at + LANES]);
-    lane
-}
-
-fn put(to: &mut [Lane; 16], lane: usize, weight: f64, slopes: &[Gradient; 4]) {
-    for a in 0..4 {
-        for b in 0..4 {
-            to[4 * a + b][lane] = weight * slopes[a][b];
-        }
-    }
-}
-
 /// Stiffness from the permanent network where its b changes with the strain.
-pub(super) fn add_network_slope(block: &Block<'_>, f: &Gradient, d: &mut [Gradient; 4]) {
-    let Some(slope) = block.energy.network_slope(f) else {
+pub(super) fn add_network_slope(block: &Block<'_>, point: &Deformation, d: &mut [Gradient; 4]) {
+    let Some(slope) = block.energy.network_slope(point) else {
         return;
     };
-    let by_h = memory_slope(f);
+    let by_h = memory_slope(point);
     for a in 0..4 {
         for k in 0..4 {
             let sum: f64 = (0..4).map(|c| by_h[a][c] * slope[c][k]).sum();

@@ -100,6 +100,11 @@ impl Mesh {
         2 * self.layer_nodes()
     }
 
+    /// Gauss points of all elements.
+    pub fn points(&self) -> usize {
+        self.rows * self.columns * (self.order + 1).pow(2)
+    }
+
     /// Node layers, the lid included.
     pub fn layers(&self) -> usize {
         self.order * self.rows + 1

@@ -125,7 +125,11 @@ fn places_of_elements(block: &Block<'_>) -> Vec<usize> {
     for row in 0..mesh.rows {
         let from = block.row_offset(row);
         for column in 0..mesh.columns {
-            places.extend(block.local_unknowns(column).iter().map(|at| from + at));
+            let unknowns = block.local_unknowns(column);
+            let own = unknowns[..block.mesh.elements[row].nodes()]
+                .iter()
+                .flatten();
+            places.extend(own.map(|at| from + at));
         }
     }
     places

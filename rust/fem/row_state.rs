@@ -2,12 +2,12 @@
 
 use super::block::{Block, Memory, RowState};
 use super::circular::convolve;
-use crate::material::kinematics::{remembered, Gradient, Symmetric, UNIT};
+use crate::material::kinematics::{remembered, Deformation, Gradient, Symmetric, UNIT};
 
 impl RowState {
     /// What the temporary networks remember of the row's deformation, `[line][column * points + point]`.
     pub fn remembered(&self) -> Vec<Vec<Symmetric>> {
-        let lines = self.gradient.iter();
+        let lines = self.deformation.iter();
         lines
             .map(|line| line.iter().map(remembered).collect())
             .collect()
@@ -26,9 +26,8 @@ impl Block<'_> {
             for (at, line, q) in self.gauss_points(column) {
                 let f = &mut out[line][q];
                 *f = [identity, 0.0, 0.0, identity];
-                for (node, slope) in element.gradient[at].iter().enumerate() {
-                    let ux = u[offset + unknowns[2 * node]];
-                    let uz = u[offset + unknowns[2 * node + 1]];
+                for (slope, unknowns) in element.gradient[at].iter().zip(&unknowns) {
+                    let [ux, uz] = unknowns.map(|unknown| u[offset + unknown]);
                     f[0] += ux * slope[0];
                     f[1] += ux * slope[1];
                     f[2] += uz * slope[0];
@@ -40,23 +39,26 @@ impl Block<'_> {
     }
 
     pub fn row_state(&self, row: usize, u: &[f64]) -> RowState {
-        let gradient = self.gradients(row, u, 1.0);
-        let h = (0..gradient.len())
-            .map(|line| self.remember(row, line, &gradient[line]))
+        let gradients = self.gradients(row, u, 1.0).into_iter();
+        let deformation: Vec<Vec<Deformation>> = gradients
+            .map(|line| line.iter().map(Deformation::from).collect())
             .collect();
-        RowState { gradient, h }
+        let h = (0..deformation.len())
+            .map(|line| self.remember(row, line, &deformation[line]))
+            .collect();
+        RowState { deformation, h }
     }
 
     /// H along one line: permanent network and memory.
-    fn remember(&self, row: usize, line: usize, gradient: &[Gradient]) -> Vec<Symmetric> {
-        let mut h: Vec<Symmetric> = gradient
+    fn remember(&self, row: usize, line: usize, along: &[Deformation]) -> Vec<Symmetric> {
+        let mut h: Vec<Symmetric> = along
             .iter()
             .map(|f| self.energy.network(f).map(|b| self.equilibrium * b))
             .collect();
         match self.memory {
             Memory::Relaxed => {}
             Memory::Sliding(history) => {
-                let y: Vec<Symmetric> = gradient.iter().map(remembered).collect();
+                let y: Vec<Symmetric> = along.iter().map(remembered).collect();
                 for (h, past) in h.iter_mut().zip(convolve(history, &y)) {
                     for k in 0..4 {
                         h[k] += past[k] + history.frozen_modulus * UNIT[k];

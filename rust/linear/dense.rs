@@ -10,6 +10,7 @@ use faer::reborrow::{Reborrow, ReborrowMut};
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 
 use crate::status::Status;
+use crate::threads::Threads;
 use crate::watch::Watch;
 
 pub use faer::Mat as Matrix;
@@ -17,6 +18,8 @@ pub use faer::Mat as Matrix;
 /// Most columns of a matrix that are worked on at a time: some ten milliseconds of work at the
 /// sizes of the finest meshes.
 const TILE: usize = 512;
+/// Columns after a panel that a thread takes at a time.
+const STRIP: usize = 128;
 
 /// LU factorisation with partial pivoting of a square matrix, panel by panel of `TILE` columns.
 ///
@@ -57,10 +60,7 @@ impl Factor {
                 lu,
                 after: Mat::zeros(width, 0),
             };
-            for tile in tiles(rest.ncols()) {
-                watch.look()?;
-                panel.forward(rest.get_mut(.., tile));
-            }
+            panel.forward_all(rest.as_mut(), watch)?;
             left = rest.get(width.., ..).to_owned();
             let after = rest.get(..width, ..).to_owned();
             panels.push(Panel { after, ..panel });
@@ -88,6 +88,25 @@ impl Factor {
 impl Panel {
     fn width(&self) -> usize {
         self.lu.U().ncols()
+    }
+
+    /// `forward` for the columns after the panel.
+    fn forward_all(&self, columns: MatMut<'_, f64>, watch: &Watch<'_>) -> Result<(), Status> {
+        let size = 2 * self.width() / 16 * columns.nrows() * columns.ncols();
+        let (mut strips, mut left) = (Vec::new(), columns);
+        while left.ncols() > 0 {
+            let width = left.ncols().min(STRIP);
+            let (strip, rest) = left.split_at_col_mut(width);
+            strips.push(strip);
+            left = rest;
+        }
+        let mut rooms = vec![(); watch.threads.on(size)];
+        let look = || watch.look();
+        watch
+            .threads
+            .share_until(size, &mut rooms, strips.into_iter(), look, |(), strip| {
+                self.forward(strip);
+            })
     }
 
     /// From the right-hand side of the rows that were left to L^-1 of it, and those below less
@@ -150,6 +169,24 @@ pub fn solve_columns(
     let columns = 0..right.ncols();
     let finite = |j: usize| column_ref(&right, j).iter().all(|v| v.is_finite());
     Ok(columns.into_iter().all(finite).then_some(right))
+}
+
+/// The square matrix of these entries by row and column.
+pub fn from_entries(
+    size: usize,
+    entry: impl Fn(usize, usize) -> f64 + Sync,
+    threads: &Threads,
+) -> Mat<f64> {
+    let mut matrix = Mat::zeros(size, size);
+    let work = 16 * size * size;
+    let mut rooms = vec![(); threads.on(work)];
+    let columns = matrix.col_iter_mut().enumerate();
+    threads.share(work, &mut rooms, columns, |(), (j, column)| {
+        for (i, value) in column.iter_mut().enumerate() {
+            *value = entry(i, j);
+        }
+    });
+    matrix
 }
 
 pub fn column(values: &[f64]) -> Mat<f64> {

@@ -5,7 +5,12 @@
 //! With the preconditioner on the right the residual that is minimised is the true one.
 
 use crate::status::Status;
+use crate::threads::Threads;
 use crate::watch::Watch;
+
+/// Numbers of a vector that a thread takes at a time; what is summed is summed piece by piece, in
+/// their order.
+const PIECE: usize = 8192;
 
 /// What an iteration found.
 #[derive(Debug, Clone)]
@@ -31,7 +36,7 @@ pub fn gmres(
     let (mut iterations, mut residual) = (0, norm(&left));
     while residual > target && iterations < most {
         let count = basis.min(most - iterations);
-        let mut space = Space::new(left, residual);
+        let mut space = Space::new(left, residual, watch.threads);
         while space.residual() > target && space.size() < count {
             watch.look()?;
             let mut next = vec![0.0; right.len()];
@@ -60,7 +65,8 @@ pub fn gmres(
 }
 
 /// An orthonormal basis of a Krylov space with its Hessenberg matrix, rotated to be triangular.
-struct Space {
+struct Space<'t> {
+    threads: &'t Threads,
     basis: Vec<Vec<f64>>,
     /// Columns of the triangular factor.
     columns: Vec<Vec<f64>>,
@@ -70,10 +76,11 @@ struct Space {
     rotated: Vec<f64>,
 }
 
-impl Space {
-    fn new(mut first: Vec<f64>, norm: f64) -> Self {
+impl<'t> Space<'t> {
+    fn new(mut first: Vec<f64>, norm: f64, threads: &'t Threads) -> Self {
         first.iter_mut().for_each(|value| *value /= norm);
         Self {
+            threads,
             basis: vec![first],
             columns: Vec::new(),
             turns: Vec::new(),
@@ -96,20 +103,11 @@ impl Space {
     /// Add the image of the last direction; false if it leads nowhere new.
     fn add(&mut self, mut image: Vec<f64>) -> bool {
         let mut column: Vec<f64> = vec![0.0; self.size() + 2];
-        let before = norm(&image);
-        for (entry, direction) in column.iter_mut().zip(&self.basis) {
-            *entry = dot(&image, direction);
-            add(&mut image, -*entry, direction);
-        }
-        let mut left = norm(&image);
+        let before = self.add_and_dot(&mut image, None, None).sqrt();
+        let mut left = self.orthogonalise(&mut image, &mut column);
         // Where most of it went, so did its digits: once more (Giraud, Langou & Rozloznik, 2005).
         if left < 0.1 * before {
-            for (entry, direction) in column.iter_mut().zip(&self.basis) {
-                let again = dot(&image, direction);
-                *entry += again;
-                add(&mut image, -again, direction);
-            }
-            left = norm(&image);
+            left = self.orthogonalise(&mut image, &mut column);
         }
         let last = self.size();
         column[last + 1] = left;
@@ -136,6 +134,52 @@ impl Space {
         false
     }
 
+    /// Take the directions of the basis out of `image`, one after the other (modified Gram-Schmidt),
+    /// and add what there was of them to `column`; returns the norm of what is left.
+    fn orthogonalise(&self, image: &mut [f64], column: &mut [f64]) -> f64 {
+        let mut part = self.add_and_dot(image, None, self.basis.first());
+        for (i, direction) in self.basis.iter().enumerate() {
+            column[i] += part;
+            part = self.add_and_dot(image, Some((-part, direction)), self.basis.get(i + 1));
+        }
+        part.sqrt()
+    }
+
+    /// `to` += factor x, and then its scalar product with a vector, with itself if there is none.
+    fn add_and_dot(
+        &self,
+        to: &mut [f64],
+        added: Option<(f64, &Vec<f64>)>,
+        with: Option<&Vec<f64>>,
+    ) -> f64 {
+        let mut sums = vec![0.0; to.len().div_ceil(PIECE)];
+        let size = 4 * to.len();
+        let pieces = sums.iter_mut().zip(to.chunks_mut(PIECE)).enumerate();
+        let mut rooms = vec![(); self.threads.on(size)];
+        self.threads
+            .share(size, &mut rooms, pieces, |(), (piece, (sum, to))| {
+                let within = piece * PIECE..piece * PIECE + to.len();
+                if let Some((factor, x)) = added {
+                    add(to, factor, &x[within.clone()]);
+                }
+                *sum = with.map_or_else(|| dot(to, to), |with| dot(to, &with[within]));
+            });
+        sums.iter().sum()
+    }
+
+    /// `to` += the sum of the directions of the basis times `weights`.
+    fn combine(&self, to: &mut [f64], weights: &[f64]) {
+        let size = to.len() * weights.len();
+        let mut rooms = vec![(); self.threads.on(size)];
+        let pieces = to.chunks_mut(PIECE).enumerate();
+        self.threads
+            .share(size, &mut rooms, pieces, |(), (piece, to)| {
+                for (weight, direction) in weights.iter().zip(&self.basis) {
+                    add(to, *weight, &direction[piece * PIECE..][..to.len()]);
+                }
+            });
+    }
+
     /// The vector of smallest residual, and that residual.
     fn solution(&self) -> (Vec<f64>, Vec<f64>) {
         let size = self.size();
@@ -145,9 +189,7 @@ impl Space {
             weights[i] = (weights[i] - known) / self.columns[i][i];
         }
         let mut x = vec![0.0; self.basis[0].len()];
-        for (weight, direction) in weights.iter().zip(&self.basis) {
-            add(&mut x, *weight, direction);
-        }
+        self.combine(&mut x, &weights);
         // The residual is the rotated last unit vector, in the basis.
         let mut coordinates = vec![0.0; size + 1];
         coordinates[size] = self.rotated[size];
@@ -157,9 +199,7 @@ impl Space {
             coordinates[i + 1] = sine * a + cosine * b;
         }
         let mut residual = vec![0.0; x.len()];
-        for (weight, direction) in coordinates.iter().zip(&self.basis) {
-            add(&mut residual, *weight, direction);
-        }
+        self.combine(&mut residual, &coordinates);
         (x, residual)
     }
 }

@@ -8,6 +8,32 @@ pub type Symmetric = [f64; 4];
 /// The symmetric unit tensor.
 pub const UNIT: Symmetric = [1.0, 1.0, 0.0, 1.0];
 
+/// F with J and J^(-2/3), which all that follows needs: the power costs as much as the rest together.
+#[derive(Debug, Clone, Copy)]
+pub struct Deformation {
+    pub f: Gradient,
+    pub j: f64,
+    /// J^(-2/3).
+    pub scale: f64,
+}
+
+impl From<&Gradient> for Deformation {
+    fn from(f: &Gradient) -> Self {
+        let j = jacobian(f);
+        Self {
+            f: *f,
+            j,
+            scale: j.powf(-2.0 / 3.0),
+        }
+    }
+}
+
+impl From<&Deformation> for Deformation {
+    fn from(deformation: &Deformation) -> Self {
+        *deformation
+    }
+}
+
 /// det F in plane strain.
 pub fn jacobian(f: &Gradient) -> f64 {
     f[0] * f[3] - f[1] * f[2]
@@ -34,17 +60,17 @@ pub fn contract(a: &Symmetric, b: &Symmetric) -> f64 {
 }
 
 /// Isochoric Cbar = J^(-2/3) C.
-pub fn isochoric(f: &Gradient) -> Symmetric {
-    let factor = jacobian(f).powf(-2.0 / 3.0);
-    right_cauchy_green(f).map(|c| factor * c)
+pub fn isochoric(deformation: impl Into<Deformation>) -> Symmetric {
+    let Deformation { f, scale, .. } = deformation.into();
+    right_cauchy_green(&f).map(|c| scale * c)
 }
 
 /// dCbar/dF, `[component of Cbar][component of F]`.
-pub fn isochoric_slope(f: &Gradient) -> [Gradient; 4] {
-    let j = jacobian(f);
-    let factor = j.powf(-2.0 / 3.0);
-    let g = cofactor(f).map(|value| value / j);
-    let c = isochoric(f);
+pub fn isochoric_slope(deformation: impl Into<Deformation>) -> [Gradient; 4] {
+    let deformation = deformation.into();
+    let Deformation { f, j, scale } = deformation;
+    let g = cofactor(&f).map(|value| value / j);
+    let c = isochoric(deformation);
     let direct = [
         [2.0 * f[0], 0.0, 2.0 * f[2], 0.0],
         [0.0, 2.0 * f[1], 0.0, 2.0 * f[3]],
@@ -54,31 +80,27 @@ pub fn isochoric_slope(f: &Gradient) -> [Gradient; 4] {
     let mut slope = [[0.0; 4]; 4];
     for a in 0..4 {
         for k in 0..4 {
-            slope[a][k] = factor * direct[a][k] - 2.0 / 3.0 * g[k] * c[a];
+            slope[a][k] = scale * direct[a][k] - 2.0 / 3.0 * g[k] * c[a];
         }
     }
     slope
 }
 
 /// Y = Cbar^-1, the state that the temporary networks remember.
-pub fn remembered(f: &Gradient) -> Symmetric {
-    let j = jacobian(f);
-    let c = right_cauchy_green(f);
-    let factor = j.powf(-4.0 / 3.0);
-    [
-        factor * c[1],
-        factor * c[0],
-        -factor * c[2],
-        j.powf(2.0 / 3.0),
-    ]
+pub fn remembered(deformation: impl Into<Deformation>) -> Symmetric {
+    let Deformation { f, scale, .. } = deformation.into();
+    let c = right_cauchy_green(&f);
+    let factor = scale * scale;
+    [factor * c[1], factor * c[0], -factor * c[2], 1.0 / scale]
 }
 
 /// dY/dF, `[component of Y][component of F]`.
-pub fn remembered_slope(f: &Gradient) -> [Gradient; 4] {
-    let j = jacobian(f);
-    let factor = j.powf(-4.0 / 3.0);
-    let g = cofactor(f).map(|value| value / j);
-    let y = remembered(f);
+pub fn remembered_slope(deformation: impl Into<Deformation>) -> [Gradient; 4] {
+    let deformation = deformation.into();
+    let Deformation { f, j, scale } = deformation;
+    let factor = scale * scale;
+    let g = cofactor(&f).map(|value| value / j);
+    let y = remembered(deformation);
     let c22 = [0.0, 2.0 * f[1], 0.0, 2.0 * f[3]];
     let c11 = [2.0 * f[0], 0.0, 2.0 * f[2], 0.0];
     let c12 = [f[1], f[0], f[3], f[2]];

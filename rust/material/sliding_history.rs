@@ -8,6 +8,8 @@
 //! The weights follow from the Fourier series, where harmonic k is multiplied by the complex modulus
 //! G*(2 pi k v / lambda); the exact recurrence between neighbouring points is kept as a check.
 
+use std::f64::consts::TAU;
+
 use super::dissipation::Dissipation;
 use super::maxwell::{recurrence, Maxwell};
 use crate::spectral::{Complex64, Lines};
@@ -34,19 +36,14 @@ impl SlidingHistory {
     /// Harmonic k of Y is multiplied by G(t) - G*(omega_k), the mean by nothing.
     pub fn new(columns: usize, maxwell: &Maxwell, load_time: f64) -> Self {
         let mean = maxwell.relaxation_modulus(load_time);
-        let mut stress = vec![0.0; columns];
-        for harmonic in 1..=columns / 2 {
-            let omega = std::f64::consts::TAU * harmonic as f64;
-            let (storage, loss) = maxwell.complex_modulus(omega);
-            // The Nyquist harmonic appears once and is real; all others come with their conjugate.
-            let nyquist = 2 * harmonic == columns;
-            let share = if nyquist { 1.0 } else { 2.0 } / columns as f64;
-            for column in 0..columns {
-                let (sine, cosine) = (omega * column as f64 / columns as f64).sin_cos();
-                let odd = if nyquist { 0.0 } else { sine };
-                stress[column] += share * ((mean - storage) * cosine + loss * odd);
-            }
+        let mut lines = Lines::new(columns);
+        let mut spectrum = vec![Complex64::default(); lines.harmonics()];
+        for (harmonic, factor) in spectrum.iter_mut().enumerate().skip(1) {
+            let (storage, loss) = maxwell.complex_modulus(TAU * harmonic as f64);
+            *factor = Complex64::new(mean - storage, -loss);
         }
+        let mut stress = vec![0.0; columns];
+        lines.inverse(&spectrum, &mut stress);
         Self::without_local_part(maxwell, mean, stress)
     }
 

@@ -5,32 +5,30 @@
 //! H is the sum of the permanent network G_inf I and of the temporary networks G_i A_i; anything
 //! proportional to the local Y may be added to it, because DEV removes it.
 
-use super::kinematics::{cofactor, contract, jacobian, right_cauchy_green, Gradient, Symmetric};
+use super::kinematics::{cofactor, contract, right_cauchy_green, Deformation, Gradient, Symmetric};
 
 /// First Piola-Kirchhoff stress P(F; H, p).
-pub fn stress(f: &Gradient, h: &Symmetric, pressure: f64) -> Gradient {
-    let j = jacobian(f);
-    let factor = j.powf(-2.0 / 3.0);
-    let cof = cofactor(f);
-    let trace = contract(h, &right_cauchy_green(f)) / (3.0 * j);
-    let fh = forward(f, h);
+pub fn stress(deformation: impl Into<Deformation>, h: &Symmetric, pressure: f64) -> Gradient {
+    let Deformation { f, j, scale } = deformation.into();
+    let cof = cofactor(&f);
+    let trace = contract(h, &right_cauchy_green(&f)) / (3.0 * j);
+    let fh = forward(&f, h);
     let mut p = [0.0; 4];
     for k in 0..4 {
-        p[k] = factor * (fh[k] - trace * cof[k]) + pressure * cof[k];
+        p[k] = scale * (fh[k] - trace * cof[k]) + pressure * cof[k];
     }
     p
 }
 
 /// dP/dF at fixed H and pressure, `[component of P][component of F]`.
-pub fn tangent(f: &Gradient, h: &Symmetric, pressure: f64) -> [Gradient; 4] {
-    let j = jacobian(f);
-    let factor = j.powf(-2.0 / 3.0);
-    let g = cofactor(f).map(|value| value / j);
-    let trace = contract(h, &right_cauchy_green(f)) / 3.0;
-    let fh = forward(f, h);
+pub fn tangent(deformation: impl Into<Deformation>, h: &Symmetric, pressure: f64) -> [Gradient; 4] {
+    let Deformation { f, j, scale } = deformation.into();
+    let g = cofactor(&f).map(|value| value / j);
+    let trace = contract(h, &right_cauchy_green(&f)) / 3.0;
+    let fh = forward(&f, h);
     let mut d = [[0.0; 4]; 4];
     for a in 0..4 {
-        let isochoric = factor * (fh[a] - trace * g[a]);
+        let isochoric = scale * (fh[a] - trace * g[a]);
         for b in 0..4 {
             let (row_a, col_a, row_b, col_b) = (a / 2, a % 2, b / 2, b % 2);
             // dg_iJ/dF_kL = -g_kJ g_iL
@@ -41,7 +39,7 @@ pub fn tangent(f: &Gradient, h: &Symmetric, pressure: f64) -> [Gradient; 4] {
                 0.0
             };
             d[a][b] = -2.0 / 3.0 * g[b] * isochoric
-                + factor * (slope_fh - 2.0 / 3.0 * fh[b] * g[a] - trace * slope_g);
+                + scale * (slope_fh - 2.0 / 3.0 * fh[b] * g[a] - trace * slope_g);
         }
     }
     // d(cof F)/dF
@@ -53,11 +51,10 @@ pub fn tangent(f: &Gradient, h: &Symmetric, pressure: f64) -> [Gradient; 4] {
 }
 
 /// dP/dH, `[component of P][component of H]`; component 12 moves both off-diagonal entries.
-pub fn memory_slope(f: &Gradient) -> [Symmetric; 4] {
-    let j = jacobian(f);
-    let factor = j.powf(-2.0 / 3.0);
-    let g = cofactor(f).map(|value| value / j);
-    let c = right_cauchy_green(f);
+pub fn memory_slope(deformation: impl Into<Deformation>) -> [Symmetric; 4] {
+    let Deformation { f, j, scale } = deformation.into();
+    let g = cofactor(&f).map(|value| value / j);
+    let c = right_cauchy_green(&f);
     let direct = [
         [f[0], 0.0, f[1], 0.0],
         [0.0, f[1], f[0], 0.0],
@@ -68,7 +65,7 @@ pub fn memory_slope(f: &Gradient) -> [Symmetric; 4] {
     let mut slope = [[0.0; 4]; 4];
     for a in 0..4 {
         for k in 0..4 {
-            slope[a][k] = factor * (direct[a][k] - traced[k] * g[a]);
+            slope[a][k] = scale * (direct[a][k] - traced[k] * g[a]);
         }
     }
     slope

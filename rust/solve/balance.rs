@@ -26,14 +26,17 @@ impl Balance {
         let (mesh, block, field) = (pressed.mesh(), &pressed.block, &state.field);
         let mut forces = vec![0.0; field.u.len()];
         let mut volumes = Vec::with_capacity(field.pressure.len());
-        for (row, row_state) in rows.iter().enumerate() {
-            pressed.watch.look()?;
-            let local = block.row_forces(row, field, row_state);
+        let of_row = |row: usize| {
+            let forces = block.row_forces(row, field, &rows[row]);
+            (forces, block.row_volumes(row, field, &rows[row]))
+        };
+        let of_rows = pressed.watch.map(16 * mesh.points(), mesh.rows, of_row)?;
+        for (row, (local, volume)) in of_rows.into_iter().enumerate() {
             let offset = row * mesh.order * mesh.layer_size();
             for (total, force) in forces[offset..].iter_mut().zip(local) {
                 *total += force;
             }
-            volumes.extend(block.row_volumes(row, field, row_state));
+            volumes.extend(volume);
         }
         let x = pressed.abscissae(field);
         let slope: Vec<f64> = x.iter().map(|&x| pressed.heights.slope(x)).collect();

@@ -78,9 +78,9 @@ struct Step<'a> {
 }
 
 /// Where products and averaged solutions take place.
-struct Rooms {
-    product: jacobian::Room,
-    uniform: uniform::Room,
+struct Rooms<'t> {
+    product: jacobian::Room<'t>,
+    uniform: uniform::Room<'t>,
     solution: Vec<f64>,
 }
 
@@ -96,8 +96,8 @@ impl Step<'_> {
     /// Contact by the average, then balance on its set.
     fn solve(&self, accuracy: Accuracy, settings: &Settings) -> Result<Increment, Status> {
         let mut rooms = Rooms {
-            product: self.jacobian.room(),
-            uniform: self.uniform.room(),
+            product: self.jacobian.room(self.watch.threads),
+            uniform: self.uniform.room(self.watch.threads),
             solution: vec![0.0; self.right.len()],
         };
         let mut now = Iterate {
@@ -159,7 +159,7 @@ impl Step<'_> {
 
     /// Let the average answer to what is left, of which it has been reduced to `moved`, and to new
     /// contact forces.
-    fn correct(&self, now: &mut Iterate, contact: Contact, moved: Vec<f64>, rooms: &mut Rooms) {
+    fn correct(&self, now: &mut Iterate, contact: Contact, moved: Vec<f64>, rooms: &mut Rooms<'_>) {
         let mut correction = std::mem::take(&mut rooms.solution);
         self.complete(
             moved,
@@ -180,7 +180,13 @@ impl Step<'_> {
     }
 
     /// The averaged solution of what was reduced to `moved`, under contact forces as well.
-    fn complete(&self, mut moved: Vec<f64>, forces: &[f64], out: &mut [f64], rooms: &mut Rooms) {
+    fn complete(
+        &self,
+        mut moved: Vec<f64>,
+        forces: &[f64],
+        out: &mut [f64],
+        rooms: &mut Rooms<'_>,
+    ) {
         let answered = self.surface.answer(&self.surface.forces(forces));
         for (u, answered) in moved.iter_mut().zip(answered) {
             *u += answered;
@@ -189,7 +195,7 @@ impl Step<'_> {
     }
 
     /// `out` = J y - C^T `forces`.
-    fn product(&self, y: &[f64], forces: &[f64], out: &mut [f64], rooms: &mut Rooms) {
+    fn product(&self, y: &[f64], forces: &[f64], out: &mut [f64], rooms: &mut Rooms<'_>) {
         self.jacobian.product(y, out, &mut rooms.product);
         let shift = self.mesh.mean_shift(y);
         for (a, bend) in self.bend.iter().enumerate() {
@@ -207,7 +213,7 @@ impl Step<'_> {
         now: &mut Iterate,
         held: &Held,
         target: f64,
-        rooms: &mut Rooms,
+        rooms: &mut Rooms<'_>,
         settings: &Settings,
     ) -> Result<usize, Status> {
         let mut failed = Ok(());
@@ -243,7 +249,7 @@ impl Step<'_> {
         v: &[f64],
         held: &Held,
         out: &mut [f64],
-        rooms: &mut Rooms,
+        rooms: &mut Rooms<'_>,
     ) -> Result<(Vec<f64>, f64), Status> {
         let moved = self.uniform.reduce(v, &mut rooms.uniform);
         let (force, approach) = held.keep(&self.surface.opening(&moved), self.watch)?;
@@ -281,7 +287,7 @@ impl Held {
             free: &[],
             load: 0.0,
         };
-        let matrix = problem.bordered(&set);
+        let matrix = problem.bordered(&set, watch.threads);
         Ok(Self {
             factor: Factor::new(matrix.as_ref(), watch)?,
             border: problem.border(&set),

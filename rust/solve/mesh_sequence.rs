@@ -5,6 +5,7 @@
 
 use super::judge::Judge;
 use super::mesh_solution::MeshSolution;
+use crate::contact::profile::Heights;
 use crate::error::KernelError;
 use crate::fem::mesh::{Mesh, MeshSize};
 use crate::status::Status;
@@ -16,24 +17,31 @@ const FEWEST_NODES: usize = 8;
 pub struct MeshSequence {
     pub sizes: Vec<MeshSize>,
     pub required: usize,
+    /// The mesh of half the first's columns where the profile is too rough to begin with it: solved
+    /// afterwards, from the first's solution, to tell its error.
+    pub below: Option<MeshSize>,
 }
 
 impl MeshSequence {
     /// Up to the mesh asked for, or with a tolerance to any that meets it, and beyond as long as no
     /// solution can be trusted; less of it is needed where there is a solution to `start` from. No
-    /// mesh has less than half of the `fewest_nodes` that resolve the profile: it would find
-    /// contacts that are not there, and finer meshes may keep them.
+    /// mesh but the one asked for is coarser than the waves of `heights` need: it would find contacts
+    /// that are not there, and finer meshes may keep them.
     pub fn new(
         finest: &MeshSize,
         start: Option<&MeshSolution>,
-        fewest_nodes: usize,
+        heights: &Heights,
         judge: &Judge,
     ) -> Self {
-        let (settings, half) = (&judge.settings, fewest_nodes / 2);
+        let settings = &judge.settings;
+        let smooth = match heights.waves() {
+            1 => 0,
+            waves => settings.nodes_per_wave * waves,
+        };
         let mut columns = vec![finest.columns];
         let mut halve = |least: usize| {
             let coarser = columns[0].div_ceil(2);
-            let enough = coarser < columns[0] && finest.order * coarser >= least.max(half);
+            let enough = coarser < columns[0] && finest.order * coarser >= least.max(smooth);
             if enough {
                 columns.insert(0, coarser);
             }
@@ -44,6 +52,9 @@ impl MeshSequence {
             halve(FEWEST_NODES);
         }
         while halve(settings.coarsest_nodes) {}
+        let follows = |columns: usize| finest.order * columns >= heights.fewest_nodes() / 2;
+        let below = finest.columns.div_ceil(2);
+        let below = (smooth > 0 && columns.len() == 1 && follows(below)).then_some(below);
         let mut required = columns.len();
         let most = match judge.tolerance {
             Some(_) => settings.finest_columns,
@@ -65,10 +76,12 @@ impl MeshSequence {
         Self {
             sizes: columns.into_iter().map(size).collect(),
             required: required.saturating_sub(needed),
+            below: below.map(size),
         }
     }
 
-    /// Solve on one mesh after the other by `on_mesh(mesh, coarser solution)`, until time is over.
+    /// Solve on one mesh after the other by `on_mesh(mesh, coarser solution)`, until time is over; the
+    /// mesh below from the finer solution.
     pub fn solve(
         &self,
         judge: &Judge,
@@ -81,7 +94,13 @@ impl MeshSequence {
             if fine.report.status == Status::TimeLimit {
                 return Ok(fine);
             }
-            let fine = judge.judged(fine, coarse);
+            let below = match (&self.below, coarse) {
+                (Some(size), None) if i == 0 && fine.converged() => {
+                    Some(on_mesh(Mesh::new(size), Some(&fine))?).filter(MeshSolution::converged)
+                }
+                _ => None,
+            };
+            let fine = judge.judged(fine, coarse.or(below.as_ref()));
             // What was asked for failed, or what was solved has no finer solution: that is the answer.
             let ends = judge.tolerance.is_none() && i + 1 >= self.required && !fine.converged();
             if ends && i + 1 > self.required {

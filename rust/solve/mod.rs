@@ -10,4 +10,5 @@ pub mod load_stepping;
 pub mod mesh_sequence;
 pub mod mesh_solution;
 pub mod newton;
+pub mod roughening;
 pub mod transfer;

@@ -9,7 +9,7 @@ use super::increment::Increment;
 use super::krylov::{self, Accuracy};
 use crate::contact::{PressedBlock, State};
 use crate::fem::block::RowState;
-use crate::material::kinematics::{jacobian, Gradient};
+use crate::material::kinematics::Deformation;
 use crate::settings::Settings;
 use crate::status::Status;
 
@@ -154,7 +154,7 @@ fn step(
         return Err(Status::NotFinite);
     }
     let mut share = match cut {
-        Cut::Shorten => (settings.largest_step / largest_gradient(pressed, &u)).min(1.0),
+        Cut::Shorten => (settings.largest_step / largest_gradient(pressed, &u)?).min(1.0),
         Cut::GiveUp => 1.0,
     };
     for _ in 0..settings.step_halvings {
@@ -198,25 +198,33 @@ pub fn missed(pressed: &PressedBlock<'_>, state: &State, load: f64) -> f64 {
     )
 }
 
-fn largest_gradient(pressed: &PressedBlock<'_>, du: &[f64]) -> f64 {
-    (0..pressed.mesh().rows)
-        .flat_map(|row| pressed.block.gradients(row, du, 0.0))
-        .flatten()
-        .flatten()
-        .fold(1e-300, |m: f64, value| m.max(value.abs()))
+fn largest_gradient(pressed: &PressedBlock<'_>, du: &[f64]) -> Result<f64, Status> {
+    let (block, mesh) = (&pressed.block, pressed.mesh());
+    let of_row = |row: usize| {
+        let gradients = block.gradients(row, du, 0.0).into_iter().flatten();
+        gradients.flatten().fold(1e-300, larger)
+    };
+    let rows = pressed.watch.map(12 * mesh.points(), mesh.rows, of_row)?;
+    Ok(rows.into_iter().fold(1e-300, larger))
+}
+
+fn larger(a: f64, b: f64) -> f64 {
+    a.max(b.abs())
 }
 
 /// Of the displacement gradient between two states of the rows.
 fn largest_change(from: &[RowState], to: &[RowState]) -> f64 {
-    let pairs = gradients(from).zip(gradients(to));
-    let changes = pairs.flat_map(|(from, to)| (0..4).map(move |k| (to[k] - from[k]).abs()));
+    let pairs = points(from).zip(points(to));
+    let changes = pairs.flat_map(|(from, to)| (0..4).map(move |k| (to.f[k] - from.f[k]).abs()));
     changes.fold(0.0, f64::max)
 }
 
 fn smallest_jacobian(rows: &[RowState]) -> f64 {
-    gradients(rows).map(jacobian).fold(f64::INFINITY, f64::min)
+    points(rows)
+        .map(|point| point.j)
+        .fold(f64::INFINITY, f64::min)
 }
 
-fn gradients(rows: &[RowState]) -> impl Iterator<Item = &Gradient> {
-    rows.iter().flat_map(|row| row.gradient.iter().flatten())
+fn points(rows: &[RowState]) -> impl Iterator<Item = &Deformation> {
+    rows.iter().flat_map(|row| row.deformation.iter().flatten())
 }

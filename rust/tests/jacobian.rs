@@ -85,13 +85,13 @@ fn expected(block: &Block<'_>, field: &Field, x: &[f64]) -> Vec<f64> {
             };
             let dy: Vec<[f64; 4]> = df
                 .iter()
-                .zip(&state.gradient[line])
+                .zip(&state.deformation[line])
                 .map(|(df, f)| times(&remembered_slope(f), df))
                 .collect();
             for q in 0..df.len() {
                 let (column, point) = (q / points, q % points);
                 let at = line * points + point;
-                let (f, h) = (&state.gradient[line][q], &state.h[line][q]);
+                let (f, h) = (&state.deformation[line][q], &state.h[line][q]);
                 let level = |p: &dyn Fn(usize) -> f64| -> f64 {
                     (0..modes).map(|m| element.mode[at][m] * p(m)).sum()
                 };
@@ -113,7 +113,7 @@ fn expected(block: &Block<'_>, field: &Field, x: &[f64]) -> Vec<f64> {
                     let by_memory = times(&memory_slope(f), &dh);
                     (0..4).for_each(|k| dp[k] += by_memory[k]);
                 }
-                let cof = cofactor(f);
+                let cof = cofactor(&f.f);
                 let volume: f64 = (0..4).map(|k| cof[k] * df[q][k]).sum();
                 for m in 0..modes {
                     volumes[place(m)] += element.weight[at] * element.mode[at][m] * volume;
@@ -154,7 +154,7 @@ fn the_product_is_the_sum_over_points_and_pairs() {
             let jacobian = jacobian(&block, &field);
             let x: Vec<f64> = (0..jacobian.unknowns()).map(|i| noise(1000 + i)).collect();
             let mut found = vec![0.0; x.len()];
-            jacobian.product(&x, &mut found, &mut jacobian.room());
+            jacobian.product(&x, &mut found, &mut jacobian.room(Watch::endless().threads));
             let expected = expected(&block, &field, &x);
             let scale = expected.iter().fold(0.0_f64, |most, f| most.max(f.abs()));
             for (found, expected) in found.iter().zip(&expected) {
@@ -208,7 +208,7 @@ fn the_product_is_the_slope_of_forces_and_volumes() {
             };
             let (high, low) = (moved(1e-6), moved(-1e-6));
             let mut found = vec![0.0; x.len()];
-            jacobian.product(&x, &mut found, &mut jacobian.room());
+            jacobian.product(&x, &mut found, &mut jacobian.room(Watch::endless().threads));
             let scale = found.iter().fold(0.0_f64, |most, f| most.max(f.abs()));
             for i in 0..x.len() {
                 let error = (found[i] - (high[i] - low[i]) / 2e-6).abs() / scale;
@@ -241,11 +241,15 @@ fn a_uniform_state_is_solved_at_once() {
         let uniform = Uniform::new(&jacobian, &Watch::endless()).unwrap();
         let right: Vec<f64> = (0..jacobian.unknowns()).map(noise).collect();
         let mut solution = vec![0.0; right.len()];
-        let mut room = uniform.room();
+        let mut room = uniform.room(Watch::endless().threads);
         let surface = uniform.reduce(&right, &mut room);
         uniform.expand(&surface, &mut solution, &mut room);
         let mut back = vec![0.0; right.len()];
-        jacobian.product(&solution, &mut back, &mut jacobian.room());
+        jacobian.product(
+            &solution,
+            &mut back,
+            &mut jacobian.room(Watch::endless().threads),
+        );
         for i in 0..right.len() {
             let error = (back[i] - right[i]).abs();
             assert!(

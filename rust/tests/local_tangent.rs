@@ -2,7 +2,7 @@
 //! at the Gauss points, with nothing of `fem::jacobian` in it.
 
 use gripscale_kernel::fem::block::{Block, Field, RowState};
-use gripscale_kernel::material::kinematics::{cofactor, Gradient};
+use gripscale_kernel::material::kinematics::{cofactor, Deformation, Gradient};
 use gripscale_kernel::material::stress::{memory_slope, tangent};
 
 /// Slopes of the forces and volumes of one element.
@@ -39,12 +39,12 @@ impl ElementTangent {
         self.volume.fill(0.0);
         for at in 0..points * points {
             let (line, q) = (at / points, column * points + at % points);
-            let f = &state.gradient[line][q];
+            let point = &state.deformation[line][q];
             let mode = &element.mode[at];
             let level = mode.iter().zip(pressures).map(|(mode, p)| mode * p).sum();
             let weight = element.weight[at];
-            let slopes = weighted_slopes(block, f, &state.h[line][q], level, weight);
-            let cof = cofactor(f).map(|slope| weight * slope);
+            let slopes = weighted_slopes(block, point, &state.h[line][q], level, weight);
+            let cof = cofactor(&point.f).map(|slope| weight * slope);
             for (j, gradient) in element.gradient[at].iter().enumerate() {
                 for direction in 0..2 {
                     let unknown = 2 * j + direction;
@@ -70,7 +70,7 @@ impl ElementTangent {
 /// dP/dF at fixed memory, the permanent network's b following the strain.
 fn weighted_slopes(
     block: &Block<'_>,
-    f: &Gradient,
+    f: &Deformation,
     h: &[f64; 4],
     level: f64,
     weight: f64,

@@ -12,10 +12,12 @@ mod local_tangent;
 mod material_point;
 mod mesh_sequence;
 mod profile;
+mod roughening;
 mod settings;
 mod sliding_history;
 mod sparse_step;
 mod steady;
+mod threads;
 mod transient;
 
 use gripscale_kernel::contact::profile::Heights;
@@ -98,14 +100,16 @@ impl Case {
     }
 
     pub fn solve(&self, start: Option<&Solution>) -> Result<Solution, KernelError> {
+        self.watched(start, &Watch::endless())
+    }
+
+    pub fn watched(
+        &self,
+        start: Option<&Solution>,
+        watch: &Watch<'_>,
+    ) -> Result<Solution, KernelError> {
         let problem = self.problem()?;
-        gripscale_kernel::steady::solve(
-            &problem,
-            &self.settings,
-            self.tolerance,
-            start,
-            &Watch::endless(),
-        )
+        gripscale_kernel::steady::solve(&problem, &self.settings, self.tolerance, start, watch)
     }
 
     pub fn run(&self, stages: &[Stage], start: Option<&Solution>) -> Result<Run, KernelError> {

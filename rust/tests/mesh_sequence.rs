@@ -17,6 +17,7 @@ fn an_empty_sequence_is_an_internal_error() {
     let sequence = MeshSequence {
         sizes: vec![],
         required: 0,
+        below: None,
     };
     let result = sequence.solve(&judge(None), |_, _| unreachable!());
     let error = result.map(|_| ()).unwrap_err();
@@ -40,15 +41,18 @@ fn a_start_on_a_much_finer_mesh_leaves_two() {
     assert!(solution.finest.contact_fraction_error > 1e-3);
 }
 
+fn sine() -> Heights {
+    Heights::sine(0.05).unwrap()
+}
+
 fn judge(tolerance: Option<f64>) -> Judge {
-    let heights = Heights::sine(0.05).unwrap();
-    Judge::new(&heights, true, tolerance, &Settings::default())
+    Judge::new(&sine(), true, tolerance, &Settings::default())
 }
 
 fn sequence(finest: usize, tolerance: Option<f64>, start: Option<&Solution>) -> MeshSequence {
     let size = MeshSize::new(finest, 12, 1.5, 1).unwrap();
     let first = start.map(|solution| &solution.finest);
-    MeshSequence::new(&size, first, 0, &judge(tolerance))
+    MeshSequence::new(&size, first, &sine(), &judge(tolerance))
 }
 
 /// Columns of the meshes of a sequence, coarsest first, without those solved only if needed.

@@ -46,9 +46,16 @@ class ProfileCase:
 
 
 @cache
-def road_windows(station: int, cut_off: float, count: int = 20) -> tuple[ProfileCase, ...]:
-    """Return `count` windows spread over the record of a station, at 3 bar and 0.3 m/s."""
+def road_windows(
+    station: int, cut_off: float, count: int = 20, *, cleaned: bool = False
+) -> tuple[ProfileCase, ...]:
+    """Return `count` windows spread over the record of a station, at 3 bar and 0.3 m/s.
+
+    `cleaned` takes out what is no road, spikes above all, which matter to the shortest waves.
+    """
     road = gs.read_profile(ROAD / f"20211011_aylesbury_dec_station_{station}.dat")
+    if cleaned:
+        road, _ = gs.clean(road)
     points = round(WINDOW / road.step)
     x = road.x - road.x[0]
     inside = [

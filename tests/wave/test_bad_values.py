@@ -27,6 +27,8 @@ GOOD = {"wavelength": 1e-3, "amplitude": 1e-4, "pressure": 1e5, "speed": 0.1}
         ({"depth": 0.0}, r"depth must be greater than zero; got 0"),
         ({"residual_tolerance": 0.0}, r"residual_tolerance must be from 1e-15 to 1.0; got 0"),
         ({"time_limit": 0.0}, r"time_limit must be greater than zero \[s\]; got 0"),
+        ({"workers": 0}, r"workers must be a whole number from 1 to 1024; got 0"),
+        ({"workers": 1.5}, r"workers must be a whole number from 1 to 1024; got 1.5"),
         ({"element_order": 3}, r"element_order must be a whole number from 1 to 2; got 3"),
     ],
 )

@@ -234,3 +234,35 @@ def test_windows_of_the_measured_road(station, first):
 def detrended(window):
     z = np.interp(window.x, window.x[np.isfinite(window.z)], window.z[np.isfinite(window.z)])
     return (z - np.linspace(z[0], z[-1], z.size))[:-1]
+
+
+def self_affine(waves, slope):
+    """Waves of the same slope each, at random phases."""
+    random = np.random.default_rng(7)
+    numbers = np.arange(1, waves + 1)
+    amplitudes = slope * PERIOD / (2.0 * np.pi * numbers)
+    return sum_of_sines(zip(numbers, amplitudes, random.uniform(0.0, 6.28, waves), strict=True))
+
+
+def test_rows_that_grow_gently_are_enough():
+    """Below 0.1 % in friction and 0.3 % in area, where twice the columns change 1 % and more."""
+    load = {"pressure": 3e5, "speed": 0.3, "periodic": True, "columns": 512}
+    one = gs.solve_profile(tread(), self_affine(32, 0.06), **load)
+    more = gs.solve_profile(tread(), self_affine(32, 0.06), rows=80, **load)
+    assert (one.details["rows"], more.details["rows"]) == (40, 80)
+    assert one.friction == pytest.approx(more.friction, rel=1e-3)
+    assert one.contact_fraction == pytest.approx(more.contact_fraction, rel=3e-3)
+
+
+def test_a_profile_too_rough_for_its_columns_says_what_it_carried():
+    load = {"pressure": 1e6, "speed": 0.3, "periodic": True, "columns": 128}
+    one = gs.solve_profile(tread(), self_affine(20, 2.0), **load)
+    assert one.status == "profile too rough"
+    carried = one.details["smallest_wave_carried"]
+    assert PERIOD / 20 < carried < PERIOD
+    assert one.why == (
+        f"profile too rough for 128 columns: found with waves down to {carried:.2g} m alone; "
+        "leave out shorter waves, or take more columns"
+    )
+    smooth = gs.solve_profile(tread(), self_affine(20, 2.0), smallest_wavelength=carried, **load)
+    assert smooth.details["load_reached"] == 1.0

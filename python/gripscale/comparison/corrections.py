@@ -17,10 +17,9 @@ from gripscale.surface.maps.isotropic import STEPS_IN_WAVE
 from gripscale.surface.maps.measured import FEWEST_PERIODS
 from gripscale.wave.model import BlockOnProfile
 
-WINDOW, WAVES_IN_WINDOW, WINDOWS = 1.1, 20, 8
-"""Windows of a profile in the block: length over the largest sine wave, length over the smallest
-wave that is kept, and how many at most. Finite strain changes the same within its scatter whether
-19, 27 or 38 waves are kept."""
+WINDOW, MOST_WAVES, WINDOWS = 1.1, 190, 8
+"""Windows of a profile in the block: length over the largest sine wave, waves that are kept at most
+(those of the roughness that the measurement has), and how many windows at most."""
 
 MAP, WAVES_IN_MAP, MAPS, LINES = 1.8, 128, 2, 10
 """Synthetic maps: least length over the largest sine wave, length over the smallest wave that is
@@ -57,17 +56,20 @@ def _on_windows(subject: Subject, model: Model) -> Sequence[Draw]:
             only(subject.surface, line),
             f"{line.name} from {line.x[0]:.4g} m",
         )
-        for line in _windows(lines, length)
+        for line in _windows(lines, length, float(sines.roughness_end))
     ]
 
 
 @lru_cache(maxsize=4)
-def _windows(lines: tuple[Profile, ...], length: float) -> list[Profile]:
-    """Return windows of the profiles that are long enough for one."""
+def _windows(lines: tuple[Profile, ...], length: float, end: float) -> list[Profile]:
+    """Return windows of the profiles that are long enough for one, with waves down to `end`."""
     from gripscale.rough import spread_windows  # scipy.stats with it: 0.3 s, which no run pays
 
     enough = [line for line in lines if line.length > length]
-    return spread_windows(enough, length, WINDOWS, length / WAVES_IN_WINDOW) if enough else []
+    if not enough:
+        return []
+    smallest = max(length / MOST_WAVES, end, 2.0 * max(line.step for line in enough))
+    return spread_windows(enough, length, WINDOWS, smallest)
 
 
 def _on_maps(subject: Subject, lines: int) -> Sequence[Draw]:

@@ -21,6 +21,7 @@ STATUS_CHAPTERS = {
     Status.FRICTIONS_DISAGREE: _WAVES,
     Status.ACTIVE_SET_NOT_SETTLED: _STATUSES,
     Status.CONTACT_TOO_NARROW: _WAVES,
+    Status.PROFILE_TOO_ROUGH: _MESHES,
     Status.CONDITIONS_NOT_SETTLED: "conditions.md#how-they-settle",
 }
 """Chapters in `docs` by status."""

@@ -13,6 +13,7 @@ from contextlib import ExitStack, contextmanager
 from typing import Any
 
 from gripscale.errors import ConvergenceError, InputError
+from gripscale.parallel import sharing
 from gripscale.software import software
 from gripscale.study.task import Solved, Task
 
@@ -52,9 +53,7 @@ def cluster(client: Any, workers: int) -> Iterator[Solve]:
 
 def _solve(distributed: Any, client: Any, tasks: list[Task]) -> Generator[Solved, None, None]:
     """Yield results as they come."""
-    futures = [
-        client.submit(Task.solve, task.reduced(), key=f"gripscale-{task.key}") for task in tasks
-    ]
+    futures = [client.submit(_alone, task.reduced(), key=f"gripscale-{task.key}") for task in tasks]
     try:
         for future, result in distributed.as_completed(
             futures, loop=client.loop, with_results=True
@@ -68,6 +67,12 @@ def _solve(distributed: Any, client: Any, tasks: list[Task]) -> Generator[Solved
         ) from error
     finally:
         client.cancel(futures)
+
+
+def _alone(task: Task) -> Solved:
+    """Solve in a worker, whose neighbours have the other cores."""
+    with sharing(1):
+        return task.solve()
 
 
 def _distributed() -> Any:

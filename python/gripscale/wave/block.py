@@ -93,16 +93,24 @@ class FiniteStrainBlock:
         columns, rows = max(mesh.columns // 2, 4), max(2 * mesh.rows // 3, 2)
         return replace(self, mesh=replace(mesh, columns=columns, rows=rows), tolerance=None)
 
-    def solve(self, problem: WaveProblem, start: WaveResult | None = None) -> WaveResult:
+    def solve(
+        self,
+        problem: WaveProblem,
+        start: WaveResult | None = None,
+        *,
+        workers: int | None = None,
+    ) -> WaveResult:
         """Return contact and friction of `problem`.
 
-        `start` may be of another rubber, wave or load: it is only a first guess.
+        `start` may be of another rubber, wave or load: it is only a first guess. `workers` is that
+        of `gripscale.solve_scale`.
 
-        Raises `InputError` if `start` is of another solver or was read from a file.
+        Raises `InputError` if `start` is of another solver or was read from a file, or `workers`
+        is not a whole number from 1 to 1024.
         """
         first = None if start is None else kernel.solution_of(start)
         solution = kernel.solve_steady(
-            problem, self.mesh, self.settings, self.tolerance, first, self.time_limit
+            problem, self.mesh, self.settings, self.tolerance, first, self.time_limit, workers
         )
         return _result(problem, self.mesh, solution)
 
@@ -122,6 +130,7 @@ def solve_scale(
     element_order: int = Mesh.element_order,
     tolerance: float | None = None,
     time_limit: float | None = None,
+    workers: int | None = None,
     start: WaveResult | None = None,
     max_iterations: int | None = None,
     residual_tolerance: float | None = None,
@@ -163,6 +172,9 @@ def solve_scale(
     time_limit : float, optional
         Seconds after which the solution ends early, as `time limit`: with the finest mesh that was
         solved, or where there is none with the pressure reached. None: as long as it takes.
+    workers : int, optional
+        Threads that share the work of a large mesh, of which none changes a bit of the result; one
+        per core by default, and one where gripscale solves several waves side by side.
     start : WaveResult, optional
         A result of another wave, pressure, speed or rubber to start from (a warm start).
     max_iterations : int, optional
@@ -193,7 +205,7 @@ def solve_scale(
         max_iterations=max_iterations,
         residual_tolerance=residual_tolerance,
     )
-    return block.solve(problem, start)
+    return block.solve(problem, start, workers=workers)
 
 
 def _result(problem: WaveProblem, mesh: Mesh, solution: kernel.Solution) -> WaveResult:
@@ -235,6 +247,7 @@ def _result(problem: WaveProblem, mesh: Mesh, solution: kernel.Solution) -> Wave
             "depth": mesh.depth,
             "element_order": mesh.element_order,
             **_widths(profile.wavelength, solution.too_narrow),
+            **_carried(profile.wavelength, solution.waves_carried),
         },
         contact_fraction_error=solution.contact_fraction_error,
         friction_error=solution.friction_error,
@@ -256,6 +269,11 @@ def _widths(wavelength: float, too_narrow: tuple[float, float] | None) -> dict[s
         "expected_contact_width": expected * wavelength,
         "smallest_contact_width": smallest * wavelength,
     }
+
+
+def _carried(period: float, waves: int | None) -> dict[str, float]:
+    """Return the smallest wave [m] with which a profile that is too rough carried the load."""
+    return {"smallest_wave_carried": period / waves} if waves else {}
 
 
 def _no_estimate(solution: kernel.Solution) -> dict[str, Any]:

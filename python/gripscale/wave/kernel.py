@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from gripscale import _kernel, checks
 from gripscale.errors import InputError
-from gripscale.parallel import look
+from gripscale.parallel import look, worker_count
 from gripscale.rubber import Rubber
 from gripscale.wave.mesh import Mesh
 from gripscale.wave.problem import SampledProfile, Sine, WaveProblem
@@ -50,19 +50,20 @@ def solve_steady(
     tolerance: float | None,
     start: Solution | None,
     time_limit: float | None,
+    workers: int | None,
 ) -> Solution:
     """Return the static or steadily sliding solution; `start` is a first guess.
 
-    Ctrl-C and the end of a job of `gripscale.parallel` are heeded on the way.
+    Worked on by `workers` threads, of which none changes a bit of it. Ctrl-C and the end of a job
+    of `gripscale.parallel` are heeded on the way.
     """
     load = problem.load
     inputs: _kernel.Problem = {
         **_body(problem.rubber, problem.profile, mesh),
         "load": {"pressure": load.pressure, "speed": load.speed, "load_time": load.load_time},
     }
-    return _asked(
-        lambda: _kernel.solve_steady(inputs, settings, tolerance, start, time_limit, look)
-    )
+    work = _work(workers, time_limit)
+    return _asked(lambda: _kernel.solve_steady(inputs, settings, tolerance, start, work))
 
 
 def solve_transient(
@@ -73,12 +74,12 @@ def solve_transient(
     stages: Sequence[tuple[float, float, float]],
     start: Solution | None,
     time_limit: float | None,
+    workers: int | None,
 ) -> tuple[str, int, NDArray[np.float64]]:
     """Return status, iterations and a row of numbers for each moment of a programme in time."""
     body = _body(rubber, profile, mesh)
-    return _asked(
-        lambda: _kernel.solve_transient(body, settings, list(stages), start, time_limit, look)
-    )
+    work = _work(workers, time_limit)
+    return _asked(lambda: _kernel.solve_transient(body, settings, list(stages), start, work))
 
 
 def solution_of(start: WaveResult) -> Solution:
@@ -94,6 +95,10 @@ def solution_of(start: WaveResult) -> Solution:
         f"got one of {start.model}"
         + (" without the solver's state, as read from a file" if start.solution is None else "")
     )
+
+
+def _work(workers: int | None, time_limit: float | None) -> _kernel.Work:
+    return {"workers": worker_count(workers), "time_limit": time_limit, "look": look}
 
 
 def _body(rubber: Rubber, profile: Sine | SampledProfile, mesh: Mesh) -> _kernel.Body:

@@ -30,6 +30,8 @@ COLUMNS = (128, 192, 256, 384, 512, 768, 1024, 1536, 2048, 3072, 4096)
 """Columns to choose from: all can be halved for the coarser meshes of a sequence."""
 COLUMNS_PER_WAVE = 12
 FEWEST_PER_WAVE = 6
+ROW_GROWTH = 1.12
+"""Ratio of heights of neighbouring rows, at most one as wide as high at the surface."""
 
 
 ROUND_OFF = 1e-12
@@ -51,6 +53,7 @@ def solve_profile(
     element_order: int = Mesh.element_order,
     tolerance: float | None = None,
     time_limit: float | None = None,
+    workers: int | None = None,
     start: WaveResult | None = None,
     max_iterations: int | None = None,
     residual_tolerance: float | None = None,
@@ -82,10 +85,13 @@ def solve_profile(
         Height of the block in periods.
     columns, rows : int, optional
         Elements along and across the block; by default 12 columns along the smallest wave, rounded
-        up to a number of few factors, from 128 to 4096, and rows to suit.
+        up to a number of few factors, from 128 to 4096, and rows to suit: no more than grow by 12 %
+        from one to the next.
     element_order : int
         1: bilinear with one pressure; 2: biquadratic with linear discontinuous pressure.
     tolerance, time_limit : float, optional
+        As in `gripscale.solve_scale`.
+    workers : int, optional
         As in `gripscale.solve_scale`.
     start : WaveResult, optional
         A result of the block to start from, of any profile, load and rubber.
@@ -113,11 +119,9 @@ def solve_profile(
     checks.flag("periodic", periodic)
     heights = _one_period(profile, smallest_wavelength, periodic)
     chosen = _columns(heights) if columns is None else columns
-    share = checks.positive("columns", chosen) / Mesh.columns
-    grows = kernel.default_settings()["row_exponent"]
     block = FiniteStrainBlock.of(
         columns=chosen,
-        rows=round(Mesh.rows * share**grows) if rows is None else rows,
+        rows=_rows(checks.positive("columns", chosen), depth) if rows is None else rows,
         depth=depth,
         element_order=element_order,
         tolerance=tolerance,
@@ -128,7 +132,7 @@ def solve_profile(
     problem = WaveProblem(rubber, heights, Load(pressure, speed, load_time))
     if problem.load.speed == 0.0:
         require_solid(rubber, problem.load.pressure, math.inf)
-    result = block.solve(problem, start)
+    result = block.solve(problem, start, workers=workers)
     pressed = result.x[result.pressure > 0.0]
     told = {
         "missing_share": profile.missing / len(profile),
@@ -167,6 +171,14 @@ def _cut_off(z: Array, period: float, smallest: float) -> Array:
     kept = np.fft.rfft(z)[: waves + 1]
     count = max(4 * (kept.size - 1), 16)
     return np.asarray(np.fft.irfft(kept, count) * (count / z.size))
+
+
+def _rows(columns: float, depth: float) -> int:
+    """Return rows that follow the columns, no more than a gentle grading over the depth takes."""
+    grows = float(kernel.default_settings()["row_exponent"])
+    following = Mesh.rows * math.pow(columns / Mesh.columns, grows)
+    graded = math.log1p((ROW_GROWTH - 1.0) * depth * columns) / math.log(ROW_GROWTH)
+    return round(min(following, graded))
 
 
 def _columns(heights: SampledProfile) -> int:

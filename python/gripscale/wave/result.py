@@ -109,6 +109,12 @@ class WaveResult:
                 f"the finest mesh follows {self.details['smallest_contact_width']:.2g} m; "
                 "the pressure is too small for the block"
             )
+        if "smallest_wave_carried" in self.details:
+            return (
+                f"{self.status} for {self.details['columns']} columns: found with waves down to "
+                f"{self.details['smallest_wave_carried']:.2g} m alone; leave out shorter waves, or "
+                "take more columns"
+            )
         if not math.isfinite(reached) or reached == 1.0:
             return str(self.status)
         return f"{self.status} at {100.0 * reached:.3g} % of the pressure"

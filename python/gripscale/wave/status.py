@@ -20,4 +20,5 @@ class Status(StrEnum):
     FRICTIONS_DISAGREE = "frictions disagree"
     ACTIVE_SET_NOT_SETTLED = "active set not settled"
     CONTACT_TOO_NARROW = "contact too narrow"
+    PROFILE_TOO_ROUGH = "profile too rough"
     CONDITIONS_NOT_SETTLED = "conditions not settled"

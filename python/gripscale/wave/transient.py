@@ -129,6 +129,7 @@ def solve_transient(
     depth: float = 1.5,
     columns: int = DEFAULT_COLUMNS,
     rows: int = DEFAULT_ROWS,
+    workers: int | None = None,
     **options: Any,
 ) -> TransientResult:
     """Press a rubber block on a rigid sine wave and slide it through a programme in time.
@@ -146,7 +147,7 @@ def solve_transient(
         The programme. The first pressure is put on at once, on rubber at rest.
     start : WaveResult, optional
         A static or steady state to start from, solved with the same rubber and wave.
-    depth, columns, rows, **options
+    depth, columns, rows, workers, **options
         As in `gripscale.solve_scale`.
 
     Returns
@@ -170,7 +171,7 @@ def solve_transient(
     block = FiniteStrainBlock.of(depth=depth, columns=columns, rows=rows, **options)
     programme = [(stage.duration, stage.speed, stage.pressure) for stage in stages]
     status, iterations, table = kernel.solve_transient(
-        rubber, profile, block.mesh, block.settings, programme, first, block.time_limit
+        rubber, profile, block.mesh, block.settings, programme, first, block.time_limit, workers
     )
     time, distance, speeds, pressure, friction, fraction, approach = table.reshape(-1, 7).T
     return TransientResult(

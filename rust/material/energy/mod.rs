@@ -12,7 +12,9 @@ mod yeoh;
 use std::collections::BTreeMap;
 use std::fmt;
 
-use super::kinematics::{contract, isochoric, isochoric_slope, Gradient, Symmetric, UNIT};
+use super::kinematics::{
+    contract, isochoric, isochoric_slope, Deformation, Gradient, Symmetric, UNIT,
+};
 use crate::error::{finite, unknown, KernelError};
 
 /// Parameters of a strain energy by name.
@@ -82,16 +84,16 @@ macro_rules! energies {
             }
 
             /// b = 2 dW/dCbar at F.
-            pub fn network(&self, f: &Gradient) -> Symmetric {
+            pub fn network(&self, f: impl Into<Deformation>) -> Symmetric {
                 match self {
-                    $(Self::$kind(energy) => network(energy, f),)+
+                    $(Self::$kind(energy) => network(energy, &f.into()),)+
                 }
             }
 
             /// db/dF, `[component of b][component of F]`; None where b is constant.
-            pub fn network_slope(&self, f: &Gradient) -> Option<[Gradient; 4]> {
+            pub fn network_slope(&self, f: impl Into<Deformation>) -> Option<[Gradient; 4]> {
                 match self {
-                    $(Self::$kind(energy) => network_slope(energy, f),)+
+                    $(Self::$kind(energy) => network_slope(energy, &f.into()),)+
                 }
             }
         }
@@ -110,7 +112,7 @@ fn invariants(c: &Symmetric) -> Invariants {
     [first, 0.5 * (first * first - contract(c, c))]
 }
 
-fn network<E: StrainEnergy>(energy: &E, f: &Gradient) -> Symmetric {
+fn network<E: StrainEnergy>(energy: &E, f: &Deformation) -> Symmetric {
     if E::CONSTANT {
         let [w1, _] = energy.slopes([3.0, 3.0]);
         return UNIT.map(|unit| 2.0 * w1 * unit);
@@ -126,7 +128,7 @@ fn network<E: StrainEnergy>(energy: &E, f: &Gradient) -> Symmetric {
 }
 
 /// db/dF with dI1 = 1 : dCbar and dI2 = I1 dI1 - Cbar : dCbar.
-fn network_slope<E: StrainEnergy>(energy: &E, f: &Gradient) -> Option<[Gradient; 4]> {
+fn network_slope<E: StrainEnergy>(energy: &E, f: &Deformation) -> Option<[Gradient; 4]> {
     if E::CONSTANT {
         return None;
     }

@@ -1,0 +1,188 @@
+//! Deformation and slopes at one Gauss point, of several columns at a time, and their means along a row.
+//!
+//! What the memory's slopes are is found from the deformation at every product: to fetch them would take
+//! longer.
+
+use crate::material::kinematics::{cofactor, remembered_slope, Deformation, Gradient};
+use crate::material::stress::memory_slope;
+
+/// Columns at a time.
+pub const LANES: usize = 8;
+pub type Lane = [f64; LANES];
+
+/// Of `LANES` columns.
+#[derive(Clone, Default)]
+pub struct Local {
+    /// Upper triangle of dP/dF at fixed memory by rows, symmetric as P then has a potential; times the
+    /// point's weight.
+    stiffness: [Lane; 10],
+    f: [Lane; 4],
+    /// 1 / J and J^(-2/3); zeros beyond the last column.
+    inverse: Lane,
+    scale: Lane,
+}
+
+/// Means along a row of the slopes at one Gauss point of its elements.
+#[derive(Clone)]
+pub struct MeanSlopes {
+    pub stiffness: [f64; 16],
+    pub volume: [f64; 4],
+    /// Of dP/dH times the mean of dY/dF.
+    pub memory: Option<[f64; 16]>,
+}
+
+/// Sums along a row of the slopes at one Gauss point of its elements, without its weight.
+#[derive(Clone, Default)]
+pub struct Sums {
+    stiffness: [Gradient; 4],
+    volume: Gradient,
+    /// dP/dH and dY/dF, where something is remembered.
+    memory: Option<([Gradient; 4], [Gradient; 4])>,
+}
+
+impl Sums {
+    pub fn add(&mut self, point: &Deformation, stiffness: &[Gradient; 4], remembers: bool) {
+        add_each(&mut self.stiffness, stiffness);
+        let volume = cofactor(&point.f);
+        (0..4).for_each(|k| self.volume[k] += volume[k]);
+        if remembers {
+            let (stress, state) = self.memory.get_or_insert_default();
+            add_each(stress, &memory_slope(point));
+            add_each(state, &remembered_slope(point));
+        }
+    }
+
+    pub fn mean(&self, columns: usize, weight: f64) -> MeanSlopes {
+        let share = 1.0 / columns as f64;
+        let place = |at: usize| (at / 4, at % 4);
+        let product = |(stress, state): &([Gradient; 4], [Gradient; 4])| {
+            std::array::from_fn(|at| {
+                let (a, b) = place(at);
+                let products = (0..4).map(|k| stress[a][k] * state[k][b]);
+                products.sum::<f64>() * weight * share * share
+            })
+        };
+        MeanSlopes {
+            stiffness: std::array::from_fn(|at| {
+                let (a, b) = place(at);
+                self.stiffness[a][b] * weight * share
+            }),
+            volume: self.volume.map(|sum| sum * weight * share),
+            memory: self.memory.as_ref().map(product),
+        }
+    }
+}
+
+impl Local {
+    pub fn put(
+        &mut self,
+        lane: usize,
+        weight: f64,
+        point: &Deformation,
+        stiffness: &[Gradient; 4],
+    ) {
+        let mut entry = 0;
+        for a in 0..4 {
+            for b in a..4 {
+                self.stiffness[entry][lane] = weight * stiffness[a][b];
+                entry += 1;
+            }
+            self.f[a][lane] = point.f[a];
+        }
+        self.inverse[lane] = 1.0 / point.j;
+        self.scale[lane] = point.scale;
+    }
+
+    /// dJ of a change `df` of F.
+    #[inline(always)]
+    pub fn volume(&self, df: &[Lane; 4]) -> Lane {
+        let f = &self.f;
+        each(|i| f[3][i] * df[0][i] - f[2][i] * df[1][i] - f[1][i] * df[2][i] + f[0][i] * df[3][i])
+    }
+
+    /// dP at fixed memory, `level` the change of pressure, all times the weight.
+    #[inline(always)]
+    pub fn stress(&self, df: &[Lane; 4], level: &Lane) -> [Lane; 4] {
+        let (d, f) = (&self.stiffness, &self.f);
+        let row = |[a, b, c, e]: [usize; 4], i: usize| {
+            d[a][i] * df[0][i] + d[b][i] * df[1][i] + d[c][i] * df[2][i] + d[e][i] * df[3][i]
+        };
+        [
+            each(|i| level[i] * f[3][i] + row([0, 1, 2, 3], i)),
+            each(|i| -level[i] * f[2][i] + row([1, 4, 5, 6], i)),
+            each(|i| -level[i] * f[1][i] + row([2, 5, 7, 8], i)),
+            each(|i| level[i] * f[0][i] + row([3, 6, 8, 9], i)),
+        ]
+    }
+
+    /// C11, C22 and C12.
+    #[inline(always)]
+    fn stretches(&self) -> [Lane; 3] {
+        let f = &self.f;
+        [
+            each(|i| f[0][i] * f[0][i] + f[2][i] * f[2][i]),
+            each(|i| f[1][i] * f[1][i] + f[3][i] * f[3][i]),
+            each(|i| f[0][i] * f[1][i] + f[2][i] * f[3][i]),
+        ]
+    }
+
+    /// dY of a change `df` of F and `volume` of J (`kinematics::remembered_slope`), with
+    /// Y33 = J^(2/3) = J^2 J^(-4/3).
+    #[inline(always)]
+    pub fn remembered(&self, df: &[Lane; 4], volume: &Lane) -> [Lane; 4] {
+        let (f, [c11, c22, c12]) = (&self.f, self.stretches());
+        let factor: Lane = each(|i| self.scale[i] * self.scale[i]);
+        let third: Lane = each(|i| 2.0 / 3.0 * volume[i] * self.inverse[i]);
+        let j: Lane = each(|i| f[0][i] * f[3][i] - f[1][i] * f[2][i]);
+        [
+            each(|i| {
+                let change = f[1][i] * df[1][i] + f[3][i] * df[3][i];
+                2.0 * factor[i] * (change - third[i] * c22[i])
+            }),
+            each(|i| {
+                let change = f[0][i] * df[0][i] + f[2][i] * df[2][i];
+                2.0 * factor[i] * (change - third[i] * c11[i])
+            }),
+            each(|i| {
+                let first = f[1][i] * df[0][i] + f[0][i] * df[1][i];
+                let change = first + f[3][i] * df[2][i] + f[2][i] * df[3][i];
+                factor[i] * (2.0 * third[i] * c12[i] - change)
+            }),
+            each(|i| third[i] * factor[i] * j[i] * j[i]),
+        ]
+    }
+
+    /// Add dP of a change `h` of H (`stress::memory_slope`), times the weight.
+    #[inline(always)]
+    pub fn add_memory(&self, p: &mut [Lane; 4], h: &[Lane; 4], weight: f64) {
+        let (f, [c11, c22, c12]) = (&self.f, self.stretches());
+        let scale: Lane = each(|i| weight * self.scale[i]);
+        let trace: Lane = each(|i| {
+            let sum = c11[i] * h[0][i] + c22[i] * h[1][i] + 2.0 * c12[i] * h[2][i] + h[3][i];
+            1.0 / 3.0 * self.inverse[i] * sum
+        });
+        for i in 0..LANES {
+            p[0][i] += scale[i] * (f[0][i] * h[0][i] + f[1][i] * h[2][i] - trace[i] * f[3][i]);
+            p[1][i] += scale[i] * (f[1][i] * h[1][i] + f[0][i] * h[2][i] + trace[i] * f[2][i]);
+            p[2][i] += scale[i] * (f[2][i] * h[0][i] + f[3][i] * h[2][i] + trace[i] * f[1][i]);
+            p[3][i] += scale[i] * (f[3][i] * h[1][i] + f[2][i] * h[2][i] - trace[i] * f[0][i]);
+        }
+    }
+}
+
+#[inline(always)]
+fn each(value: impl Fn(usize) -> f64) -> Lane {
+    std::array::from_fn(value)
+}
+
+fn add_each(sums: &mut [Gradient; 4], values: &[Gradient; 4]) {
+    for (sums, values) in sums.iter_mut().zip(values) {
+        (0..4).for_each(|k| sums[k] += values[k]);
+    }
+}
+
+pub fn lane(values: &[f64], at: usize) -> Lane {
+    let mut lane = [0.0; LANES];
+    lane.copy_from_slice(&values[at..at + LANES]);
+    lane
+}

@@ -1,0 +1,59 @@
+"""A large wave is solved by several threads, to the same last bit as by one."""
+
+from __future__ import annotations
+
+import dataclasses
+import pickle
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+import gripscale as gs
+
+RUBBER = gs.Rubber(3e6, [6e6, 9e6], [2e-5, 2e-4], bulk_modulus=1e9)
+LOAD = {"pressure": 3e6, "load_time": 1e-3}
+WAVE = {"wavelength": 1e-3, "amplitude": 1.5e-4}
+
+
+def fields(result: gs.ScaleResult) -> bytes:
+    """Return every number of a result."""
+    return pickle.dumps(dataclasses.asdict(dataclasses.replace(result, solution=None)))
+
+
+def scale(workers: int, speed: float, order: int) -> gs.ScaleResult:
+    """Solve a mesh of which most pieces of work are worth a thread."""
+    mesh = {"columns": 768 // order, "rows": 36 // order, "element_order": order}
+    return gs.solve_scale(RUBBER, **WAVE, **LOAD, **mesh, speed=speed, workers=workers)
+
+
+def profile(workers: int, speed: float, order: int) -> gs.ScaleResult:
+    """Solve a profile of two waves."""
+    x = np.arange(64) * 1.6e-5
+    z = 1e-4 * np.cos(2e3 / 1.024 * np.pi * x) + 2e-5 * np.cos(6e3 / 1.024 * np.pi * x)
+    mesh = {"columns": 768 // order, "rows": 36 // order, "element_order": order}
+    road = gs.Profile(x, z)
+    return gs.solve_profile(
+        RUBBER, road, **LOAD, **mesh, speed=speed, periodic=True, workers=workers
+    )
+
+
+@pytest.mark.parametrize("solve", [scale, profile])
+@pytest.mark.parametrize(("speed", "order"), [(1.0, 1), (0.0, 1), (1.0, 2), (0.0, 2)])
+def test_no_bit_depends_on_the_number_of_workers(
+    solve: Callable[[int, float, int], gs.ScaleResult], speed: float, order: int
+) -> None:
+    one = solve(1, speed, order)
+    assert one.converged
+    assert [fields(solve(workers, speed, order)) == fields(one) for workers in (2, 3)] == [True] * 2
+
+
+def test_no_bit_of_a_run_in_time_depends_on_the_number_of_workers() -> None:
+    stages = [gs.Stage(3e-6, 1.0, 3e6)]
+    mesh = {"columns": 512, "rows": 32}
+
+    def run(workers: int) -> list[bytes]:
+        found = gs.solve_transient(RUBBER, **WAVE, **mesh, stages=stages, workers=workers)
+        return [found.friction.tobytes(), found.contact_fraction.tobytes()]
+
+    assert run(2) == run(1)
