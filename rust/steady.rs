@@ -86,14 +86,6 @@ struct Work<'a> {
     waves_carried: usize,
 }
 
-/// What is said of a mesh that was not worth a load path.
-const GIVEN_UP: newton::Report = newton::Report {
-    status: Status::IterationLimit,
-    iterations: 0,
-    products: 0,
-    residual: f64::NAN,
-};
-
 impl Work<'_> {
     fn load(&self) -> f64 {
         self.problem.load.pressure / self.model.stress_unit
@@ -114,15 +106,25 @@ impl Work<'_> {
     /// Nothing solved: the block at rest.
     fn refused(&self) -> Result<MeshSolution, KernelError> {
         let mesh = Mesh::new(&self.problem.mesh);
+        let memory = self.memory(&mesh);
+        self.unsolved(mesh, &memory, Status::ContactTooNarrow)
+    }
+
+    /// The block at rest on a mesh for which nothing was found.
+    fn unsolved(
+        &self,
+        mesh: Mesh,
+        memory: &Memory,
+        status: Status,
+    ) -> Result<MeshSolution, KernelError> {
         let state = State::at_rest(&mesh);
         let report = newton::Report {
-            status: Status::ContactTooNarrow,
+            status,
             iterations: 0,
             products: 0,
             residual: f64::NAN,
         };
-        let memory = self.memory(&mesh);
-        self.solution(mesh, &memory, state, report, 0.0)
+        self.solution(mesh, memory, state, report, 0.0)
     }
 
     /// `finest` itself, or where its mesh did not carry the load what a mesh twice as fine gives:
@@ -179,8 +181,7 @@ impl Work<'_> {
         let from_finer = coarse.is_some_and(|from| from.mesh.columns > mesh.columns);
         let given_up = from_finer || coarse.is_some() && self.beyond(&mesh);
         if time_left && solved.is_none() && given_up {
-            let nothing = State::at_rest(&mesh);
-            return self.solution(mesh, &memory, nothing, GIVEN_UP, 0.0);
+            return self.unsolved(mesh, &memory, Status::IterationLimit);
         }
         if time_left && solved.is_none() {
             match self.roughened(&mesh) {
@@ -235,12 +236,7 @@ impl Work<'_> {
         if let (Status::TimeLimit, Some(coarse)) = (ended.status, coarse) {
             return Ok(coarse.out_of_time());
         }
-        let report = newton::Report {
-            status: ended.status,
-            ..GIVEN_UP
-        };
-        let nothing = State::at_rest(&mesh);
-        self.solution(mesh, memory, nothing, report, 0.0)
+        self.unsolved(mesh, memory, ended.status)
     }
 
     /// Whether a mesh is finer than what was asked for, wanted for trust alone, and too fine to be

@@ -65,10 +65,7 @@ pub fn table(meshes: &[(usize, usize)]) {
                 let more = solved.load - state.force.iter().sum::<f64>();
                 let tangent = bordered.factor(&pressed, &state, &rows, &balance);
                 let tangent = tangent.expect("a factor");
-                let bends = balance.x.iter().zip(&state.force);
-                let bend: Vec<f64> = bends
-                    .map(|(&x, force)| force * pressed.heights.curvature(x))
-                    .collect();
+                let bend = balance.bend(&pressed, &state);
                 let solve = |v: &[f64], gap: &[f64], more: f64| {
                     let (forces, volumes) = v.split_at(jacobian.displacements());
                     let mut forces: Vec<f64> = forces.iter().map(|force| -force).collect();

@@ -1,8 +1,8 @@
 //! The exact Jacobian of the mixed system, applied to a direction and never formed:
 //!     r_u = int (dP/dF : grad du + dP/dH : dH + dp cof F) : grad N dV,
 //!     r_p = int m cof F : grad du dV - M dp / K,     dH(x) = sum weight(x - x') dY/dF : grad du(x'),
-//! with deformation and stiffness kept at every Gauss point. Displacement and pressure both stay unknowns: condensed,
-//! the volume's stiffness varies from point to point and no uniform state is near it.
+//! with deformation and stiffness kept at every Gauss point. Displacement and pressure both stay
+//! unknowns: condensed, the volume's stiffness varies from point to point and no uniform state is near it.
 //!
 //! `LANES` columns at a time: all elements of a row are equal, and unknowns of equal place in their
 //! elements stand together. The memory is a product of harmonics along every line of points.
@@ -20,6 +20,7 @@ use crate::watch::Watch;
 
 /// Rows of elements that a thread takes at a time.
 const BAND: usize = 2;
+
 pub struct Jacobian<'a> {
     pub mesh: &'a Mesh,
     pub bulk_modulus: f64,

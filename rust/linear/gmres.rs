@@ -224,7 +224,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// to += factor x.
-fn add(to: &mut [f64], factor: f64, x: &[f64]) {
+pub(crate) fn add(to: &mut [f64], factor: f64, x: &[f64]) {
     pulp::Arch::new().dispatch(|| {
         for (to, x) in to.iter_mut().zip(x) {
             *to += factor * x;

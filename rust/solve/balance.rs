@@ -74,6 +74,14 @@ impl Balance {
         forces.chain(&self.volumes).map(|value| -value).collect()
     }
 
+    /// Contact force times curvature of the profile, at every node.
+    pub fn bend(&self, pressed: &PressedBlock<'_>, state: &State) -> Vec<f64> {
+        let nodes = self.x.iter().zip(&state.force);
+        nodes
+            .map(|(&x, force)| force * pressed.heights.curvature(x))
+            .collect()
+    }
+
     fn free_forces(&self, pressed: &PressedBlock<'_>) -> &[f64] {
         &self.forces[..self.forces.len() - pressed.mesh().layer_size()]
     }

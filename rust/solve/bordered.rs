@@ -13,7 +13,7 @@ use crate::fem::block::{Block, RowState};
 use crate::fem::element_tangent::ElementTangent;
 use crate::fem::mesh::Mesh;
 use crate::fem::pattern::Pattern;
-use crate::linear::{Ldl, LdlFactor};
+use crate::linear::{add, Ldl, LdlFactor};
 use crate::status::Status;
 
 /// What follows from the mesh alone.
@@ -87,9 +87,7 @@ impl Bordered {
     ) -> Result<Tangent, Status> {
         let mesh = pressed.mesh();
         let mut assembled = self.assemble(pressed, state, rows, balance)?;
-        let nodes = balance.x.iter().zip(&state.force);
-        let bend = nodes.map(|(&x, force)| force * pressed.heights.curvature(x));
-        let bend: Vec<f64> = bend.collect();
+        let bend = balance.bend(pressed, state);
         for (a, bend) in bend.iter().enumerate() {
             let [x, z] = [0, 1].map(|d| self.pattern.diagonal_of(mesh.place(a, d)));
             assembled.values[x] += bend;
@@ -314,12 +312,6 @@ fn amounts(mesh: &Mesh, own: &Answer, borders: &[Answer; 2], missing: f64) -> (f
     let (e, f) = (-mesh.mean_shift(&own.u), missing - sum(own));
     let determinant = a * d - b * c;
     ((e * d - b * f) / determinant, (a * f - e * c) / determinant)
-}
-
-fn add(to: &mut [f64], factor: f64, change: &[f64]) {
-    for (to, change) in to.iter_mut().zip(change) {
-        *to += factor * change;
-    }
 }
 
 /// Let u_z of a surface node follow its u_x along `slope`.

@@ -44,16 +44,13 @@ pub fn increment(
     let watch = pressed.watch;
     let jacobian = Jacobian::new(&pressed.block, &state.field, rows, watch)?;
     let uniform = Uniform::new(&jacobian, watch)?;
-    let bend = balance.x.iter().zip(&state.force);
     let step = Step {
         mesh: pressed.mesh(),
         watch,
         jacobian: &jacobian,
         uniform: &uniform,
         surface: Surface::new(&uniform, &balance.slope),
-        bend: bend
-            .map(|(&x, f)| f * pressed.heights.curvature(x))
-            .collect(),
+        bend: balance.bend(pressed, state),
         gap: &balance.gap,
         state,
         load,

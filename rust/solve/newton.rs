@@ -9,6 +9,7 @@ use super::increment::Increment;
 use super::krylov::{self, Accuracy};
 use crate::contact::{PressedBlock, State};
 use crate::fem::block::RowState;
+use crate::linear::add;
 use crate::material::kinematics::Deformation;
 use crate::settings::Settings;
 use crate::status::Status;
@@ -179,12 +180,6 @@ fn step(
         share *= 0.5;
     }
     Err(Status::ElementInverted)
-}
-
-fn add(to: &mut [f64], share: f64, change: &[f64]) {
-    for (to, change) in to.iter_mut().zip(change) {
-        *to += share * change;
-    }
 }
 
 /// The residual of a state that nothing was done to; infinite where it has none.
