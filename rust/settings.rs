@@ -79,6 +79,8 @@ settings! {
     active_set_rounds: usize = 60 in 0..=10_000, "Changes of the whole active set before nodes change sides one by one, along a path that finds a set where there is one.";
     single_node_rounds: usize = 2000 in 1..=100_000, "Changes of single nodes of the active set.";
     active_set_tolerance: f64 = 1e-12 in 1e-15..=1e-3, "Largest tension and overlap, in units of the mean contact force and the largest gap [-].";
+    signs_below: f64 = 0.03 in 0.0..=10.0, "Residual below which the signs of forces and gaps tell the next active set, in place of complementarity with the averaged compliance [-].";
+    factored_contacts: usize = 512 in 0..=2048, "Most nodes in contact for which the linearised contact is factored: for more it is iterated on.";
 
     iteration_budget: usize = 500 in 1..=100_000, "Newton iterations while the load is raised once.";
     most_load_steps: usize = 300 in 1..=10_000, "Load steps while the load is raised once.";

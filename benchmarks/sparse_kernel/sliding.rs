@@ -9,6 +9,7 @@ use gripscale_kernel::material::sliding_history::SlidingHistory;
 use gripscale_kernel::settings::Settings;
 use gripscale_kernel::solve::balance::Balance;
 use gripscale_kernel::solve::bordered::{Bordered, Change};
+use gripscale_kernel::solve::increment::Now;
 use gripscale_kernel::solve::krylov::{self, Accuracy};
 use gripscale_kernel::watch::Watch;
 
@@ -41,16 +42,14 @@ pub fn table(meshes: &[(usize, usize)]) {
                 };
                 let settings = Settings::default();
                 let balance = Balance::new(&pressed, start, &rows).expect("an endless watch");
-                krylov::increment(
-                    &pressed,
-                    start,
-                    &rows,
-                    &balance,
-                    solved.load,
-                    accuracy,
-                    &settings,
-                )
-                .expect("a step")
+                let now = Now {
+                    state: start,
+                    rows: &rows,
+                    balance: &balance,
+                    residual: balance.residual(&pressed, start, solved.load),
+                };
+                krylov::increment(&pressed, now, None, solved.load, accuracy, &settings)
+                    .expect("a step")
             });
             let bordered = Bordered::new(&pressed.block).expect("memory");
             let (factored, products) = timed(|| {

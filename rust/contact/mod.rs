@@ -3,6 +3,7 @@
 pub mod complementarity;
 pub mod edges;
 pub mod harmonics;
+pub mod held;
 pub mod hertz;
 pub mod pivoting;
 pub mod profile;

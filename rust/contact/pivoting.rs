@@ -8,8 +8,9 @@
 //! compliance is positive definite, symmetric or not, there is one solution for every t and t only
 //! falls. Elsewhere it may rise in between; where it rises for ever there is no answer.
 
+use super::held::Held;
 use super::touching::{gaps, Contact, Linearised};
-use crate::linear::{solve_columns, Matrix};
+use crate::linear::add;
 use crate::settings::Settings;
 use crate::status::Status;
 use crate::watch::Watch;
@@ -20,16 +21,16 @@ const SPREAD: f64 = 0.1;
 const GOLDEN: f64 = 0.618_033_988_749_894_8;
 
 /// Solve from the active set `start`, which must not be empty.
-pub fn solve(
-    problem: &Linearised<'_>,
+pub fn solve<'a>(
+    problem: &Linearised<'a, '_>,
     start: &[bool],
     settings: &Settings,
     watch: &Watch<'_>,
-) -> Result<Contact, Status> {
-    let mut path = Path::from(problem, start, watch)?;
+) -> Result<(Contact, Held<'a>), Status> {
+    let mut path = Path::from(problem, start, settings, watch)?;
     let (mut t, mut falling) = (1.0, true);
     for _ in 0..settings.single_node_rounds {
-        let (fixed, slope) = path.lines(watch)?;
+        let (held, [fixed, slope]) = path.lines(watch)?;
         if let Some(node) = path.changed {
             // What the node has now, a force or a gap, is zero and must grow.
             falling = slope.distance[node] < 0.0;
@@ -37,11 +38,12 @@ pub fn solve(
         let kink = next_kink(&fixed.distance, &slope.distance, t, falling);
         let step = kink.map_or(f64::INFINITY, |(_, step)| step);
         if falling && step >= t {
-            return Ok(Contact {
+            let contact = Contact {
                 force: fixed.force,
                 approach: fixed.approach,
                 active: path.active,
-            });
+            };
+            return Ok((contact, held));
         }
         let (node, _) = kink.ok_or(Status::NoActiveSet)?;
         t += if falling { -step } else { step };
@@ -52,8 +54,9 @@ pub fn solve(
 }
 
 /// Where on the path: the active set, and how far bounds are moved at t = 1.
-struct Path<'a> {
-    problem: &'a Linearised<'a>,
+struct Path<'a, 's> {
+    problem: &'s Linearised<'a, 's>,
+    settings: &'s Settings,
     active: Vec<bool>,
     /// The node that changed sides last.
     changed: Option<usize>,
@@ -69,21 +72,23 @@ struct Line {
     distance: Vec<f64>,
 }
 
-impl<'a> Path<'a> {
+impl<'a, 's> Path<'a, 's> {
     fn from(
-        problem: &'a Linearised<'a>,
+        problem: &'s Linearised<'a, 's>,
         start: &[bool],
+        settings: &'s Settings,
         watch: &Watch<'_>,
     ) -> Result<Self, Status> {
         let nodes = start.len();
         let mut path = Self {
             problem,
+            settings,
             active: start.to_vec(),
             changed: None,
             force_moved: vec![0.0; nodes],
             gap_moved: vec![0.0; nodes],
         };
-        let (fixed, _) = path.lines(watch)?;
+        let (_, [fixed, _]) = path.lines(watch)?;
         for (i, distance) in fixed.distance.iter().enumerate() {
             let spread = 1.0 + SPREAD * (GOLDEN * (i + 1) as f64).fract();
             let moved = if start[i] {
@@ -97,59 +102,54 @@ impl<'a> Path<'a> {
     }
 
     /// The solution on the active set as fixed part + t slope; bounds hold where nodes lie on them.
-    fn lines(&self, watch: &Watch<'_>) -> Result<(Line, Line), Status> {
-        let Linearised {
+    fn lines(&self, watch: &Watch<'_>) -> Result<(Held<'a>, [Line; 2]), Status> {
+        let &Linearised {
             compliance,
             free,
             load,
-        } = *self.problem;
-        let nodes = free.len();
-        let held: Vec<f64> = (0..nodes)
-            .map(|i| {
-                if self.active[i] {
-                    0.0
-                } else {
-                    -self.force_moved[i]
-                }
+        } = self.problem;
+        let held = Held::new(compliance, &self.active, self.settings)?;
+        let fixed = self.line(&held, free, load, 0.0, watch)?;
+        let slope = self.line(&held, &vec![0.0; free.len()], 0.0, 1.0, watch)?;
+        Ok((held, [fixed, slope]))
+    }
+
+    /// The solution for gaps `free` under `load` where bounds are `moved` times as far as at t = 1.
+    fn line(
+        &self,
+        held: &Held<'_>,
+        free: &[f64],
+        load: f64,
+        moved: f64,
+        watch: &Watch<'_>,
+    ) -> Result<Line, Status> {
+        let compliance = self.problem.compliance;
+        let open = |(force, &active): (&f64, &bool)| if active { 0.0 } else { -moved * force };
+        let mut force: Vec<f64> = self
+            .force_moved
+            .iter()
+            .zip(&self.active)
+            .map(open)
+            .collect();
+        let mut to_close = free.to_vec();
+        add(&mut to_close, moved, &self.gap_moved);
+        compliance.open(&force, &mut to_close);
+        let load = load - force.iter().sum::<f64>();
+        let solved = held.close(&to_close, load, watch)?;
+        let (on_set, approach) = solved.ok_or(Status::NoActiveSet)?;
+        add(&mut force, 1.0, &on_set);
+        let gap = gaps(compliance, free, &force, approach);
+        let distance = (0..force.len())
+            .map(|i| match self.active[i] {
+                true => force[i] + moved * self.force_moved[i],
+                false => gap[i] + moved * self.gap_moved[i],
             })
             .collect();
-        let opened = gaps(compliance, &vec![0.0; nodes], &held, 0.0);
-        let set: Vec<usize> = (0..nodes).filter(|&i| self.active[i]).collect();
-        if set.is_empty() {
-            return Err(Status::NoActiveSet);
-        }
-        let matrix = self.problem.bordered(&set, watch.threads);
-        let border = self.problem.border(&set);
-        let right = Matrix::from_fn(set.len() + 1, 2, |row, column| {
-            match (set.get(row), column) {
-                (Some(&i), 0) => -free[i],
-                (Some(&i), _) => -self.gap_moved[i] - opened[i],
-                (None, 0) => border * load,
-                (None, _) => -border * held.iter().sum::<f64>(),
-            }
-        });
-        let solved = solve_columns(&matrix, right, watch)?.ok_or(Status::NoActiveSet)?;
-        let line = |column: usize, free: &[f64], outside: &[f64], moved: f64| {
-            let mut force = outside.to_vec();
-            for (row, &i) in set.iter().enumerate() {
-                force[i] = solved[(row, column)];
-            }
-            let approach = border * solved[(set.len(), column)];
-            let gap = gaps(compliance, free, &force, approach);
-            let distance = (0..nodes)
-                .map(|i| match self.active[i] {
-                    true => force[i] + moved * self.force_moved[i],
-                    false => gap[i] + moved * self.gap_moved[i],
-                })
-                .collect();
-            Line {
-                force,
-                approach,
-                distance,
-            }
-        };
-        let nothing = vec![0.0; nodes];
-        Ok((line(0, free, &nothing, 0.0), line(1, &nothing, &held, 1.0)))
+        Ok(Line {
+            force,
+            approach,
+            distance,
+        })
     }
 }
 

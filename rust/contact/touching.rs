@@ -1,13 +1,8 @@
-//! The linearised contact problem: a dense complementarity problem with one border.
+//! The linearised contact problem: a complementarity problem with one border.
 //!
 //! Find forces f >= 0 and the approach d with
 //!     gap = free + C f - d >= 0,   gap . f = 0,   sum f = load.
-//! Where it is known which nodes touch it is linear.
-
-use crate::linear::{from_entries, solve_dense, Matrix};
-use crate::status::Status;
-use crate::threads::Threads;
-use crate::watch::Watch;
+//! Where it is known which nodes touch it is linear (`held`).
 
 #[derive(Debug, Clone)]
 pub struct Contact {
@@ -23,57 +18,23 @@ pub trait Compliance: Sync {
 
     /// Add what `force` opens to `gap`.
     fn open(&self, force: &[f64], gap: &mut [f64]);
+
+    /// Forces between all nodes that nearly make an opening, for openings of the nodes of `set`; none
+    /// where nothing is known of it.
+    fn inverse(&self, _set: &[usize]) -> Option<Inverse<'_>> {
+        None
+    }
 }
+
+/// From openings to forces, at every node.
+pub type Inverse<'a> = Box<dyn Fn(&[f64]) -> Vec<f64> + 'a>;
 
 /// The problem: gaps without forces or approach, and what unit forces add to them.
 #[derive(Clone, Copy)]
-pub struct Linearised<'a> {
-    pub compliance: &'a dyn Compliance,
-    pub free: &'a [f64],
+pub struct Linearised<'c, 'f> {
+    pub compliance: &'c dyn Compliance,
+    pub free: &'f [f64],
     pub load: f64,
-}
-
-impl Linearised<'_> {
-    /// Scale of the border like the compliance's, so that pivoting sees comparable rows.
-    pub(crate) fn border(&self, set: &[usize]) -> f64 {
-        self.compliance.between(set[0], set[0]).abs().max(1e-300)
-    }
-
-    /// The compliance between the nodes of `set`, with the approach and the sum of forces.
-    pub(crate) fn bordered(&self, set: &[usize], threads: &Threads) -> Matrix<f64> {
-        let (n, border) = (set.len(), self.border(set));
-        let entry = |i: usize, j: usize| {
-            if i < n && j < n {
-                self.compliance.between(set[i], set[j])
-            } else if i < n || j < n {
-                border * if i < n { -1.0 } else { 1.0 }
-            } else {
-                0.0
-            }
-        };
-        from_entries(n + 1, entry, threads)
-    }
-
-    /// Forces and approach where just these nodes touch; None if they cannot be told.
-    pub(super) fn on_set(
-        &self,
-        active: &[bool],
-        watch: &Watch<'_>,
-    ) -> Result<Option<(Vec<f64>, f64)>, Status> {
-        let set: Vec<usize> = (0..active.len()).filter(|&i| active[i]).collect();
-        let border = self.border(&set);
-        let mut right: Vec<f64> = set.iter().map(|&i| -self.free[i]).collect();
-        right.push(border * self.load);
-        let Some(solution) = solve_dense(&self.bordered(&set, watch.threads), &right, watch)?
-        else {
-            return Ok(None);
-        };
-        let mut force = vec![0.0; active.len()];
-        for (&i, &f) in set.iter().zip(&solution) {
-            force[i] = f;
-        }
-        Ok(Some((force, border * solution[set.len()])))
-    }
 }
 
 /// Gaps under `force` at `approach`.

@@ -6,7 +6,7 @@ mod circular;
 pub mod dissipation;
 pub mod element;
 pub mod element_tangent;
-mod harmonic_band;
+pub(crate) mod harmonic_band;
 mod harmonic_row;
 pub mod jacobian;
 pub mod mesh;

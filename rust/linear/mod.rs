@@ -7,7 +7,7 @@ mod gmres;
 mod sparse;
 
 pub use blocks::invert;
-pub use dense::{column, column_ref, from_entries, solve_columns, solve_dense, Factor, Matrix};
+pub use dense::{Factor, Matrix};
 pub(crate) use gmres::{add, norm};
 pub use gmres::{gmres, Found};
 pub use sparse::{Ldl, LdlFactor};

@@ -53,15 +53,17 @@ impl Balance {
         })
     }
 
-    /// Forces relative to the load, gaps relative to half the range: the largest.
+    /// Forces relative to the load, those that pull among them, gaps relative to half the range: the
+    /// largest.
     pub fn residual(&self, pressed: &PressedBlock<'_>, state: &State, load: f64) -> f64 {
         let unbalanced = norm(self.free_forces(pressed)) / load;
         let total = (state.force.iter().sum::<f64>() / load - 1.0).abs();
         let wrong = |(gap, active): (&f64, &bool)| if *active { gap.abs() } else { -gap };
         let wrong = self.gap.iter().zip(&state.active).map(wrong);
         let overlap = wrong.fold(0.0, f64::max) / pressed.heights.half_range();
+        let pull = state.force.iter().fold(0.0_f64, |most, f| most.max(-f)) / load;
         // f64::max would drop a NaN.
-        let all = [unbalanced, total, norm(&self.volumes), overlap];
+        let all = [unbalanced, total, pull, norm(&self.volumes), overlap];
         if all.iter().any(|v| v.is_nan()) {
             return f64::NAN;
         }

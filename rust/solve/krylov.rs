@@ -8,17 +8,16 @@
 //! (2000) 1300). The next Newton step finds the next set: to iterate one problem on set after set, until
 //! none changes, took more products and no fewer steps.
 
-use super::balance::Balance;
-use super::increment::Increment;
+use super::increment::{Increment, Now};
 use crate::contact::complementarity;
+use crate::contact::held::Held;
 use crate::contact::surface::Surface;
 use crate::contact::touching::{Contact, Linearised};
 use crate::contact::{PressedBlock, State};
-use crate::fem::block::RowState;
 use crate::fem::jacobian::{self, Jacobian};
 use crate::fem::mesh::Mesh;
 use crate::fem::uniform::{self, Uniform};
-use crate::linear::{column, column_ref, gmres, norm, Factor};
+use crate::linear::{gmres, norm};
 use crate::settings::Settings;
 use crate::status::Status;
 use crate::watch::Watch;
@@ -30,17 +29,22 @@ pub struct Accuracy {
     pub least: f64,
 }
 
-/// Increment of a Newton step from `state`, whose rows are in the states `rows` and which leaves
-/// `balance`, under `load`.
+/// Increment of a Newton step from `now` under `load`, the nodes of `set` held; the average tells them
+/// where none are given.
 pub fn increment(
     pressed: &PressedBlock<'_>,
-    state: &State,
-    rows: &[RowState],
-    balance: &Balance,
+    now: Now<'_>,
+    set: Option<&[bool]>,
     load: f64,
     accuracy: Accuracy,
     settings: &Settings,
 ) -> Result<Increment, Status> {
+    let Now {
+        state,
+        rows,
+        balance,
+        ..
+    } = now;
     let watch = pressed.watch;
     let jacobian = Jacobian::new(&pressed.block, &state.field, rows, watch)?;
     let uniform = Uniform::new(&jacobian, watch)?;
@@ -53,6 +57,7 @@ pub fn increment(
         bend: balance.bend(pressed, state),
         gap: &balance.gap,
         state,
+        set,
         load,
         right: balance.to_undo(pressed),
     };
@@ -70,6 +75,7 @@ struct Step<'a> {
     bend: Vec<f64>,
     gap: &'a [f64],
     state: &'a State,
+    set: Option<&'a [bool]>,
     load: f64,
     right: Vec<f64>,
 }
@@ -107,11 +113,10 @@ impl Step<'_> {
             left: self.right.clone(),
         };
         let moved = self.uniform.reduce(&now.left, &mut rooms.uniform);
-        let contact = self.touching(&now, &moved, settings)?;
+        let (contact, held) = self.touching(&now, &moved, settings)?;
         self.correct(&mut now, contact, moved, &mut rooms);
         let largest = norm(&self.right).max(norm(&now.left));
         let target = (accuracy.share * largest).max(accuracy.least);
-        let held = Held::new(&self.surface, &now.contact.active, self.watch)?;
         let products = self.balance(&mut now, &held, target, &mut rooms, settings)?;
         let displacements = self.jacobian.displacements();
         let mut u = now.y[..displacements].to_vec();
@@ -131,7 +136,7 @@ impl Step<'_> {
         now: &Iterate,
         moved: &[f64],
         settings: &Settings,
-    ) -> Result<Contact, Status> {
+    ) -> Result<(Contact, Held<'_>), Status> {
         let answered = self
             .surface
             .answer(&self.surface.forces(&now.contact.force));
@@ -151,7 +156,10 @@ impl Step<'_> {
             free: &free,
             load: self.load,
         };
-        complementarity::solve(&problem, &now.contact.active, settings, self.watch)
+        match self.set {
+            None => complementarity::solve(&problem, &now.contact.active, settings, self.watch),
+            Some(active) => complementarity::on_set(&problem, active, settings, self.watch),
+        }
     }
 
     /// Let the average answer to what is left, of which it has been reduced to `moved`, and to new
@@ -208,7 +216,7 @@ impl Step<'_> {
     fn balance(
         &self,
         now: &mut Iterate,
-        held: &Held,
+        held: &Held<'_>,
         target: f64,
         rooms: &mut Rooms<'_>,
         settings: &Settings,
@@ -244,12 +252,14 @@ impl Step<'_> {
     fn corrected(
         &self,
         v: &[f64],
-        held: &Held,
+        held: &Held<'_>,
         out: &mut [f64],
         rooms: &mut Rooms<'_>,
     ) -> Result<(Vec<f64>, f64), Status> {
         let moved = self.uniform.reduce(v, &mut rooms.uniform);
-        let (force, approach) = held.keep(&self.surface.opening(&moved), self.watch)?;
+        let opening = self.surface.opening(&moved);
+        let kept = held.close(&opening, 0.0, self.watch)?;
+        let (force, approach) = kept.ok_or(Status::NoActiveSet)?;
         self.complete(moved, &force, out, rooms);
         Ok((force, approach))
     }
@@ -267,42 +277,4 @@ impl Step<'_> {
 
 fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a - b).collect()
-}
-
-/// The nodes held in contact, and the averaged block's stiffness against opening them.
-struct Held {
-    set: Vec<usize>,
-    factor: Factor,
-    border: f64,
-}
-
-impl Held {
-    fn new(surface: &Surface<'_>, active: &[bool], watch: &Watch<'_>) -> Result<Self, Status> {
-        let set: Vec<usize> = (0..active.len()).filter(|&a| active[a]).collect();
-        let problem = Linearised {
-            compliance: surface,
-            free: &[],
-            load: 0.0,
-        };
-        let matrix = problem.bordered(&set, watch.threads);
-        Ok(Self {
-            factor: Factor::new(matrix.as_ref(), watch)?,
-            border: problem.border(&set),
-            set,
-        })
-    }
-
-    /// Forces, together zero, and approach that undo an `opening` of the nodes held.
-    fn keep(&self, opening: &[f64], watch: &Watch<'_>) -> Result<(Vec<f64>, f64), Status> {
-        let mut right: Vec<f64> = self.set.iter().map(|&a| -opening[a]).collect();
-        right.push(0.0);
-        let mut solution = column(&right);
-        self.factor.solve(&mut solution, watch)?;
-        let solution = column_ref(&solution, 0);
-        let mut force = vec![0.0; opening.len()];
-        for (&a, f) in self.set.iter().zip(solution) {
-            force[a] = *f;
-        }
-        Ok((force, self.border * solution[self.set.len()]))
-    }
 }

@@ -10,5 +10,6 @@ pub mod load_stepping;
 pub mod mesh_sequence;
 pub mod mesh_solution;
 pub mod newton;
+mod next_set;
 pub mod roughening;
 pub mod transfer;

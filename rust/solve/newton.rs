@@ -5,8 +5,9 @@
 //!     eta = gamma (residual / residual before)^2,   at least gamma eta_before^2 where that is large.
 
 use super::balance::Balance;
-use super::increment::Increment;
+use super::increment::{Increment, Now};
 use super::krylov::{self, Accuracy};
+use super::next_set::next_set;
 use crate::contact::{PressedBlock, State};
 use crate::fem::block::RowState;
 use crate::linear::add;
@@ -37,14 +38,6 @@ impl Report {
     }
 }
 
-/// A state on the way, with what it leaves out of balance.
-pub(super) struct Now<'a> {
-    pub state: &'a State,
-    pub rows: &'a [RowState],
-    pub balance: &'a Balance,
-    pub residual: f64,
-}
-
 /// What to do where a whole step would go too far.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Cut {
@@ -65,8 +58,8 @@ pub fn solve(
         before = now.residual;
         let least = ITERATED_TO * settings.residual_tolerance * load.min(1.0);
         let accuracy = Accuracy { share, least };
-        let (rows, balance) = (now.rows, now.balance);
-        krylov::increment(pressed, now.state, rows, balance, load, accuracy, settings)
+        let set = next_set(now, settings);
+        krylov::increment(pressed, now, set.as_deref(), load, accuracy, settings)
     })
 }
 

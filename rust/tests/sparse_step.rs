@@ -11,7 +11,7 @@ use gripscale_kernel::model::Model;
 use gripscale_kernel::settings::Settings;
 use gripscale_kernel::solve::balance::Balance;
 use gripscale_kernel::solve::bordered::Bordered;
-use gripscale_kernel::solve::increment::Increment;
+use gripscale_kernel::solve::increment::{Increment, Now};
 use gripscale_kernel::solve::krylov::{self, Accuracy};
 use gripscale_kernel::watch::Watch;
 
@@ -193,9 +193,14 @@ fn a_step_by_iteration_is_that_of_sparse_elimination() {
     compare(1.5, |pressed, state, rows, load| {
         let settings = Settings::default();
         let balance = Balance::new(pressed, state, rows).unwrap();
+        let now = Now {
+            state,
+            rows,
+            balance: &balance,
+            residual: balance.residual(pressed, state, load),
+        };
         let accuracy = Accuracy { share, least };
-        let found =
-            krylov::increment(pressed, state, rows, &balance, load, accuracy, &settings).unwrap();
+        let found = krylov::increment(pressed, now, None, load, accuracy, &settings).unwrap();
         assert_ne!(found.contact.active, state.active);
         let active = found.contact.active.clone();
         (found, active)
