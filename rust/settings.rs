@@ -79,7 +79,7 @@ settings! {
     active_set_rounds: usize = 60 in 0..=10_000, "Changes of the whole active set before nodes change sides one by one, along a path that finds a set where there is one.";
     single_node_rounds: usize = 2000 in 1..=100_000, "Changes of single nodes of the active set.";
     active_set_tolerance: f64 = 1e-12 in 1e-15..=1e-3, "Largest tension and overlap, in units of the mean contact force and the largest gap [-].";
-    signs_below: f64 = 0.03 in 0.0..=10.0, "Residual below which the signs of forces and gaps tell the next active set, in place of complementarity with the averaged compliance [-].";
+    signs_below: f64 = 0.005 in 0.0..=10.0, "Residual below which the signs of forces and gaps tell the next active set, in place of complementarity with the averaged compliance [-].";
     factored_contacts: usize = 512 in 0..=2048, "Most nodes in contact for which the linearised contact is factored: for more it is iterated on.";
 
     iteration_budget: usize = 500 in 1..=100_000, "Newton iterations while the load is raised once.";
@@ -99,7 +99,7 @@ settings! {
     smallest_roughening: f64 = 0.1 in 1e-6..=1.0, "Smallest part of the heights of waves that are added [-].";
 
     coarsest_nodes: usize = 32 in 8..=2048, "Fewest nodes along the wave on the coarsest mesh of a sequence.";
-    finest_columns: usize = 512 in 4..=4096, "Most columns of the mesh that a tolerance refines to.";
+    finest_columns: usize = 2048 in 4..=4096, "Most columns of the mesh that a tolerance refines to.";
     row_exponent: f64 = 0.585 in 0.01..=1.0, "Rows grow with this power of the columns [-]: by 1.5 for every doubling.";
     edge_error: f64 = 0.15 in 1e-6..=10.0, "Node spacings to which both edges of a contact of many nodes together are known [-].";
     edge_nodes: f64 = 16.0 in 0.0..=1000.0, "Nodes in a contact or gap with which that number doubles [-].";

@@ -91,14 +91,18 @@ impl Work<'_> {
         self.problem.load.pressure / self.model.stress_unit
     }
 
-    /// The contact's width after Hertz and the node spacing of the finest mesh allowed, in
+    /// The contact's width after Hertz and half the node spacing of the finest mesh allowed, in
     /// wavelengths, if the contact is the narrower.
     fn too_narrow(&self) -> Option<(f64, f64)> {
-        let size = &self.problem.mesh;
-        let finest = size.order * size.columns.max(self.settings.finest_columns);
+        let (size, settings) = (&self.problem.mesh, self.settings);
+        let finest = match self.tolerance {
+            Some(_) => settings.finest_columns,
+            None => settings.rescue_columns,
+        };
+        let finest = size.order * size.columns.max(finest);
         let widths = (
             self.model.expected_contact(self.load()),
-            1.0 / finest as f64,
+            0.5 / finest as f64,
         );
         (widths.0 < widths.1).then_some(widths)
     }

@@ -27,7 +27,7 @@ pub struct Local {
 pub struct MeanSlopes {
     pub stiffness: [f64; 16],
     pub volume: [f64; 4],
-    /// Of dP/dH times the mean of dY/dF.
+    /// Of dP/dH times dY/dF.
     pub memory: Option<[f64; 16]>,
 }
 
@@ -36,8 +36,8 @@ pub struct MeanSlopes {
 pub struct Sums {
     stiffness: [Gradient; 4],
     volume: Gradient,
-    /// dP/dH and dY/dF, where something is remembered.
-    memory: Option<([Gradient; 4], [Gradient; 4])>,
+    /// dP/dH times dY/dF, where something is remembered.
+    memory: Option<[Gradient; 4]>,
 }
 
 impl Sums {
@@ -46,29 +46,26 @@ impl Sums {
         let volume = cofactor(&point.f);
         (0..4).for_each(|k| self.volume[k] += volume[k]);
         if remembers {
-            let (stress, state) = self.memory.get_or_insert_default();
-            add_each(stress, &memory_slope(point));
-            add_each(state, &remembered_slope(point));
+            let (stress, state) = (memory_slope(point), remembered_slope(point));
+            let product = |a: usize, b: usize| (0..4).map(|k| stress[a][k] * state[k][b]).sum();
+            let product = std::array::from_fn(|a| std::array::from_fn(|b| product(a, b)));
+            add_each(self.memory.get_or_insert_default(), &product);
         }
     }
 
     pub fn mean(&self, columns: usize, weight: f64) -> MeanSlopes {
         let share = 1.0 / columns as f64;
         let place = |at: usize| (at / 4, at % 4);
-        let product = |(stress, state): &([Gradient; 4], [Gradient; 4])| {
+        let mean = |sums: &[Gradient; 4]| {
             std::array::from_fn(|at| {
                 let (a, b) = place(at);
-                let products = (0..4).map(|k| stress[a][k] * state[k][b]);
-                products.sum::<f64>() * weight * share * share
+                sums[a][b] * weight * share
             })
         };
         MeanSlopes {
-            stiffness: std::array::from_fn(|at| {
-                let (a, b) = place(at);
-                self.stiffness[a][b] * weight * share
-            }),
+            stiffness: mean(&self.stiffness),
             volume: self.volume.map(|sum| sum * weight * share),
-            memory: self.memory.as_ref().map(product),
+            memory: self.memory.as_ref().map(mean),
         }
     }
 }

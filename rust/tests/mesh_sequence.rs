@@ -67,11 +67,18 @@ fn visited(finest: usize, tolerance: Option<f64>, start: Option<&Solution>) -> V
 
 #[test]
 fn any_number_of_columns_has_a_coarser_mesh_to_be_judged_by() {
-    assert_eq!(visited(128, Some(0.01), None), [32, 64, 128, 256, 512]);
+    let refined = [32, 64, 128, 256, 512, 1024, 2048];
+    assert_eq!(visited(128, Some(0.01), None), refined);
     assert_eq!(visited(128, None, None), [32, 64, 128]);
     assert_eq!(visited(100, None, None), [50, 100]);
-    assert_eq!(visited(100, Some(0.01), None), [50, 100, 200, 400]);
-    assert_eq!(visited(258, Some(0.01), None), [33, 65, 129, 258]);
+    assert_eq!(
+        visited(100, Some(0.01), None),
+        [50, 100, 200, 400, 800, 1600]
+    );
+    assert_eq!(
+        visited(258, Some(0.01), None),
+        [33, 65, 129, 258, 516, 1032]
+    );
     assert_eq!(visited(258, None, None), [33, 65, 129, 258]);
     assert_eq!(visited(63, None, None), [32, 63]);
     assert_eq!(visited(48, None, None), [24, 48]);
@@ -79,7 +86,7 @@ fn any_number_of_columns_has_a_coarser_mesh_to_be_judged_by() {
     assert_eq!(visited(14, None, None), [14]);
     assert_eq!(
         visited(1023, Some(0.01), None),
-        [32, 64, 128, 256, 512, 1023]
+        [32, 64, 128, 256, 512, 1023, 2046]
     );
 }
 
@@ -108,14 +115,12 @@ fn a_start_much_better_than_the_tolerance_is_not_refined_to() {
         start.finest.contact_fraction_error = error;
         visited(128, Some(0.01), Some(&start))
     };
-    assert_eq!(good_to(0.009), [128, 256, 512]);
-    assert_eq!(good_to(0.002), [64, 128, 256, 512]);
-    assert_eq!(good_to(0.0), [32, 64, 128, 256, 512]);
+    assert_eq!(good_to(0.009), [128, 256, 512, 1024, 2048]);
+    assert_eq!(good_to(0.002), [64, 128, 256, 512, 1024, 2048]);
+    let all = [32, 64, 128, 256, 512, 1024, 2048];
+    assert_eq!(good_to(0.0), all);
     start.finest.friction_error = f64::NAN;
-    assert_eq!(
-        visited(128, Some(0.01), Some(&start)),
-        [32, 64, 128, 256, 512]
-    );
+    assert_eq!(visited(128, Some(0.01), Some(&start)), all);
 }
 
 fn zener(amplitude: f64, pressure: f64, time: f64) -> Case {

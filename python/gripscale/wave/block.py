@@ -41,7 +41,7 @@ class FiniteStrainBlock:
     tolerance : float, optional
         Largest estimated discretisation error, absolute in contact fraction and relative in
         friction (to 0.04 of the slope 2 pi amplitude/wavelength where friction is less). The mesh
-        is refined until it is met, from coarser than `mesh` to 512 columns.
+        is refined until it is met, from coarser than `mesh` to 2048 columns.
     settings : mapping
         What differs from `gripscale.wave.default_settings()`.
     time_limit : float, optional
@@ -166,7 +166,7 @@ def solve_scale(
     tolerance : float, optional
         Largest estimated discretisation error, absolute in contact fraction and relative in
         friction (to 0.04 of the slope 2 pi amplitude/wavelength where friction is less). The mesh
-        is refined until it is met, from coarser than `columns` x `rows` to 512 columns; without it
+        is refined until it is met, from coarser than `columns` x `rows` to 2048 columns; without it
         the mesh is the one given, refined only where its two frictions differ by more than the
         `friction_bound` of the result or fewer than 4 nodes touch.
     time_limit : float, optional
