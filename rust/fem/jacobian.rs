@@ -126,11 +126,21 @@ impl<'a> Jacobian<'a> {
                 let mut d = tangent(point, h, level);
                 add_network_slope(block, point, &mut d);
                 local[chunk * self.points() + at].put(lane, element.weight[at], point, &d);
-                sums[at].add(point, &d, self.memory.is_some());
+                sums[at].add(point, &d);
             }
         }
+        let (columns, remembers) = (self.mesh.columns, self.memory.is_some());
+        if remembers {
+            pulp::Arch::new().dispatch(|| {
+                for local in local.chunks_exact(self.points()) {
+                    for (at, local) in local.iter().enumerate() {
+                        sums[at].add_memory(local, element.weight[at]);
+                    }
+                }
+            });
+        }
         let means = sums.iter().zip(&element.weight);
-        let means = means.map(|(sums, weight)| sums.mean(self.mesh.columns, *weight));
+        let means = means.map(|(sums, weight)| sums.mean(columns, *weight, remembers));
         (local, means.collect())
     }
 

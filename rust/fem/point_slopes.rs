@@ -3,8 +3,7 @@
 //! What the memory's slopes are is found from the deformation at every product: to fetch them would take
 //! longer.
 
-use crate::material::kinematics::{cofactor, remembered_slope, Deformation, Gradient};
-use crate::material::stress::memory_slope;
+use crate::material::kinematics::{cofactor, Deformation, Gradient};
 
 /// Columns at a time.
 pub const LANES: usize = 8;
@@ -36,36 +35,40 @@ pub struct MeanSlopes {
 pub struct Sums {
     stiffness: [Gradient; 4],
     volume: Gradient,
-    /// dP/dH times dY/dF, where something is remembered.
-    memory: Option<[Gradient; 4]>,
+    /// Of dP/dH times dY/dF, with the weight.
+    memory: [f64; 16],
 }
 
 impl Sums {
-    pub fn add(&mut self, point: &Deformation, stiffness: &[Gradient; 4], remembers: bool) {
-        add_each(&mut self.stiffness, stiffness);
+    pub fn add(&mut self, point: &Deformation, stiffness: &[Gradient; 4]) {
+        for (sums, values) in self.stiffness.iter_mut().zip(stiffness) {
+            (0..4).for_each(|k| sums[k] += values[k]);
+        }
         let volume = cofactor(&point.f);
         (0..4).for_each(|k| self.volume[k] += volume[k]);
-        if remembers {
-            let (stress, state) = (memory_slope(point), remembered_slope(point));
-            let product = |a: usize, b: usize| (0..4).map(|k| stress[a][k] * state[k][b]).sum();
-            let product = std::array::from_fn(|a| std::array::from_fn(|b| product(a, b)));
-            add_each(self.memory.get_or_insert_default(), &product);
+    }
+
+    /// Add dP/dH dY/dF of several columns. What the memory answers to waves shorter than the changes of
+    /// F is its mean: that of dP/dH times that of dY/dF is far from it where F changes much.
+    #[inline(always)]
+    pub fn add_memory(&mut self, local: &Local, weight: f64) {
+        for b in 0..4 {
+            let mut df = [[0.0; LANES]; 4];
+            df[b] = [1.0; LANES];
+            let mut p = [[0.0; LANES]; 4];
+            local.add_memory(&mut p, &local.remembered(&df, &local.volume(&df)), weight);
+            for (a, p) in p.iter().enumerate() {
+                self.memory[4 * a + b] += p.iter().sum::<f64>();
+            }
         }
     }
 
-    pub fn mean(&self, columns: usize, weight: f64) -> MeanSlopes {
+    pub fn mean(&self, columns: usize, weight: f64, remembers: bool) -> MeanSlopes {
         let share = 1.0 / columns as f64;
-        let place = |at: usize| (at / 4, at % 4);
-        let mean = |sums: &[Gradient; 4]| {
-            std::array::from_fn(|at| {
-                let (a, b) = place(at);
-                sums[a][b] * weight * share
-            })
-        };
         MeanSlopes {
-            stiffness: mean(&self.stiffness),
+            stiffness: std::array::from_fn(|at| self.stiffness[at / 4][at % 4] * weight * share),
             volume: self.volume.map(|sum| sum * weight * share),
-            memory: self.memory.as_ref().map(mean),
+            memory: remembers.then(|| self.memory.map(|sum| sum * share)),
         }
     }
 }
@@ -167,15 +170,14 @@ impl Local {
     }
 }
 
+/// A loop, as `array::from_fn` is not always taken apart where it is called.
 #[inline(always)]
 fn each(value: impl Fn(usize) -> f64) -> Lane {
-    std::array::from_fn(value)
-}
-
-fn add_each(sums: &mut [Gradient; 4], values: &[Gradient; 4]) {
-    for (sums, values) in sums.iter_mut().zip(values) {
-        (0..4).for_each(|k| sums[k] += values[k]);
+    let mut out = [0.0; LANES];
+    for (i, to) in out.iter_mut().enumerate() {
+        *to = value(i);
     }
+    out
 }
 
 pub fn lane(values: &[f64], at: usize) -> Lane {

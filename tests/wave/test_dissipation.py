@@ -13,7 +13,7 @@ STEEP = {"wavelength": 180e-6, "amplitude": 111e-6, "pressure": 14.95e6, "load_t
 
 
 def test_dissipation_on_a_mesh_too_coarse_keeps_sign_and_size():
-    """Stretches to 4: friction 0.41 or 0.43 (the mesh has two states), 0.389 on four times the columns.
+    """Stretches to 4: friction 0.41 or 0.43 (two states), 0.389 on four times the columns.
 
     As work on the derivative of the strain along x it was -19 here, and 16.6 on 128 columns.
     """
