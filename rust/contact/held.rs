@@ -14,7 +14,7 @@ use crate::watch::Watch;
 /// Share of the gaps that iteration leaves open: some digits of what a factor leaves, far below what a
 /// solution may.
 const ITERATED_TO: f64 = 1e-13;
-/// Directions kept in the iteration, and most products: some 20 are needed.
+/// Directions kept in the iteration, and most products: 9 to 17 are needed.
 const LIMITS: (usize, usize) = (100, 300);
 
 /// Where the compliance has no inverse to start from, more nodes than this are not factored either.
