@@ -5,10 +5,9 @@
 //! the mean displacement.
 
 use super::touching::{Compliance, Inverse};
-use crate::fem::harmonic_band::product;
+use crate::fem::harmonic_band::invert_each;
 use crate::fem::mesh::Mesh;
-use crate::fem::uniform::Uniform;
-use crate::linear::invert;
+use crate::fem::uniform::{convolved, Uniform};
 use crate::spectral::{Complex64, Lines};
 
 pub struct Surface<'a> {
@@ -96,66 +95,40 @@ impl Surface<'_> {
             let sheared = moved(0, 0) * twice - (moved(0, 1) + moved(1, 0)) * once;
             (moved(1, 1) + sheared * along) / (1.0 + along * twice)
         };
-        let size = order * order;
-        let mut inverses = vec![Complex64::default(); size * count];
         // What is the same everywhere is the approach's, and may be as large as the first wave's.
         let raised = entry(0, 0, 1.min(count - 1)).norm();
-        let mut block = vec![Complex64::default(); size];
-        for k in 0..count {
-            for (at, value) in block.iter_mut().enumerate() {
-                *value = entry(at % order, at / order, k);
-                if k == 0 {
-                    *value += raised;
-                }
-            }
-            if !positive(&block, order) || !invert(&mut block, order) {
-                return None;
-            }
-            for (at, value) in block.iter().enumerate() {
-                inverses[at * count + k] = *value;
-            }
+        let mut blocks = Vec::with_capacity(order * order * count);
+        for (from, to) in (0..order).flat_map(|from| (0..order).map(move |to| (from, to))) {
+            blocks.extend((0..count).map(|k| entry(to, from, k)));
+            blocks[(from * order + to) * count] += raised;
         }
-        Some(inverses)
+        let closing = positive(&blocks, order, count) && invert_each(&mut blocks, order, count);
+        closing.then_some(blocks)
     }
 
     /// Forces at all nodes, by `inverses`, that nearly make an `opening`.
-    fn opened_by(&self, inverses: &[Complex64], opening: &[f64]) -> Vec<f64> {
-        let (order, columns) = (self.mesh.order, self.mesh.columns);
-        let mut lines = self.lines.clone();
-        let count = lines.harmonics();
+    fn nearly_opening(&self, inverses: &[Complex64], opening: &[f64]) -> Vec<f64> {
         let size = |a: usize| self.slope[a].hypot(1.0);
-        let mut line = vec![0.0; columns];
-        let mut spectra = vec![Complex64::default(); order * count];
-        for (sub, spectrum) in spectra.chunks_exact_mut(count).enumerate() {
-            for (column, value) in line.iter_mut().enumerate() {
-                let a = column * order + sub;
-                *value = opening[a] / size(a);
-            }
-            lines.forward(&line, spectrum);
+        let mut lines = vec![0.0; opening.len()];
+        for (a, opening) in opening.iter().enumerate() {
+            lines[self.mesh.place(a, 0)] = opening / size(a);
         }
-        let mut forces = vec![Complex64::default(); order * count];
-        product(&mut forces, inverses, &spectra, 1.0, count);
-        let mut force = vec![0.0; opening.len()];
-        for (sub, spectrum) in forces.chunks_exact(count).enumerate() {
-            lines.inverse(spectrum, &mut line);
-            for (column, value) in line.iter().enumerate() {
-                let a = column * order + sub;
-                force[a] = value / size(a);
-            }
-        }
-        force
+        let forces = convolved(inverses, &lines, &mut self.lines.clone());
+        let force = |a: usize| forces[self.mesh.place(a, 0)] / size(a);
+        (0..opening.len()).map(force).collect()
     }
 }
 
-/// Whether the Hermitian part of a block of one or two rows is positive definite.
-fn positive(block: &[Complex64], size: usize) -> bool {
-    let diagonal = |i: usize| block[i * size + i].re;
-    let off = if size == 1 {
-        0.0
-    } else {
-        (0.5 * (block[1] + block[2].conj())).norm()
-    };
-    diagonal(0) > 0.0 && diagonal(0) * diagonal(size - 1) > off * off
+/// Whether the Hermitian parts of all blocks, of one or two rows, are positive definite.
+fn positive(blocks: &[Complex64], size: usize, count: usize) -> bool {
+    let entry = |to: usize, from: usize, k: usize| blocks[(from * size + to) * count + k];
+    let last = size - 1;
+    (0..count).all(|k| {
+        let (first, second) = (entry(0, 0, k).re, entry(last, last, k).re);
+        let between = 0.5 * (entry(last, 0, k) + entry(0, last, k).conj());
+        let off = if size == 1 { 0.0 } else { between.norm() };
+        first > 0.0 && first * second > off * off
+    })
 }
 
 impl Compliance for Surface<'_> {
@@ -186,6 +159,8 @@ impl Compliance for Surface<'_> {
 
     fn inverse(&self, set: &[usize]) -> Option<Inverse<'_>> {
         let inverses = self.inverses(set)?;
-        Some(Box::new(move |opening| self.opened_by(&inverses, opening)))
+        Some(Box::new(move |opening| {
+            self.nearly_opening(&inverses, opening)
+        }))
     }
 }

@@ -73,17 +73,8 @@ impl Band {
             rows.push(row);
         }
         rows.reverse();
-        let mut block = vec![Complex64::default(); lowest * lowest];
-        for k in 0..count {
-            for (entry, value) in block.iter_mut().enumerate() {
-                *value = above[entry * count + k];
-            }
-            if !invert(&mut block, lowest) {
-                return Err(Status::NotFinite);
-            }
-            for (entry, value) in block.iter().enumerate() {
-                above[entry * count + k] = *value;
-            }
+        if !invert_each(&mut above, lowest, count) {
+            return Err(Status::NotFinite);
         }
         Ok((Self { from, count, rows }, above))
     }
@@ -218,6 +209,22 @@ pub fn product(
             multiply_add(to, block, x, factor);
         }
     }
+}
+
+/// Replace square blocks of `size` rows, one for each harmonic, by their inverses; false if one is
+/// singular.
+pub fn invert_each(blocks: &mut [Complex64], size: usize, count: usize) -> bool {
+    let mut block = vec![Complex64::default(); size * size];
+    (0..count).all(|k| {
+        for (entry, value) in block.iter_mut().enumerate() {
+            *value = blocks[entry * count + k];
+        }
+        let regular = invert(&mut block, size);
+        for (entry, value) in block.iter().enumerate() {
+            blocks[entry * count + k] = *value;
+        }
+        regular
+    })
 }
 
 /// to += factor a x, entry by entry.

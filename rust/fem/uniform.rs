@@ -132,35 +132,16 @@ impl<'a> Uniform<'a> {
             let reduced = &from.layers[..lowest * band.count];
             put(&mut room.spectra, count, reduced, (band.from, band.count));
         }
-        self.moved(&room.spectra[..lowest * count], &mut room.lines[0])
+        multiplied(
+            &self.surface,
+            &room.spectra[..lowest * count],
+            &mut room.lines[0],
+        )
     }
 
     /// Displacements of the surface layer by forces on it.
     pub fn answer(&self, forces: &[f64], lines: &mut Lines) -> Vec<f64> {
-        let (columns, count) = (self.mesh.columns, self.harmonics);
-        let mut spectra = vec![Complex64::default(); self.lowest() * count];
-        for (line, spectrum) in forces
-            .chunks_exact(columns)
-            .zip(spectra.chunks_exact_mut(count))
-        {
-            lines.forward(line, spectrum);
-        }
-        self.moved(&spectra, lines)
-    }
-
-    /// Displacements of the surface layer by the harmonics of the forces on it.
-    fn moved(&self, forces: &[Complex64], lines: &mut Lines) -> Vec<f64> {
-        let (columns, count) = (self.mesh.columns, self.harmonics);
-        let mut moved = vec![Complex64::default(); self.lowest() * count];
-        product(&mut moved, &self.surface, forces, 1.0, count);
-        let mut surface = vec![0.0; self.lowest() * columns];
-        for (spectrum, line) in moved
-            .chunks_exact(count)
-            .zip(surface.chunks_exact_mut(columns))
-        {
-            lines.inverse(spectrum, line);
-        }
-        surface
+        convolved(&self.surface, forces, lines)
     }
 
     /// The whole solution of what was reduced, from the displacements of the surface.
@@ -191,6 +172,35 @@ impl<'a> Uniform<'a> {
                 lines.inverse_of(pieces, line);
             });
     }
+}
+
+/// Lines convolved round the period with those of which `blocks` has the harmonics,
+/// `[(to, from)][harmonic]`.
+pub fn convolved(blocks: &[Complex64], values: &[f64], lines: &mut Lines) -> Vec<f64> {
+    let (columns, count) = (lines.len(), lines.harmonics());
+    let mut spectra = vec![Complex64::default(); values.len() / columns * count];
+    for (line, spectrum) in values
+        .chunks_exact(columns)
+        .zip(spectra.chunks_exact_mut(count))
+    {
+        lines.forward(line, spectrum);
+    }
+    multiplied(blocks, &spectra, lines)
+}
+
+/// The lines of the harmonics `spectra` times `blocks`.
+fn multiplied(blocks: &[Complex64], spectra: &[Complex64], lines: &mut Lines) -> Vec<f64> {
+    let (columns, count) = (lines.len(), lines.harmonics());
+    let mut products = vec![Complex64::default(); spectra.len()];
+    product(&mut products, blocks, spectra, 1.0, count);
+    let mut values = vec![0.0; spectra.len() / count * columns];
+    for (spectrum, line) in products
+        .chunks_exact(count)
+        .zip(values.chunks_exact_mut(columns))
+    {
+        lines.inverse(spectrum, line);
+    }
+    values
 }
 
 /// Copy the part (from, count) of every line of `count` harmonics.
