@@ -1,0 +1,291 @@
+"""Small cases through the command line: what every command prints and writes, for the pins.
+
+The shipped road is cut short and thinned, and its meshes are coarse: the numbers pin the code, they
+say nothing of a road. Figures are not rendered, which would take most of the time.
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import IO, Any
+
+import numpy as np
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_pdf import FigureCanvasPdf
+from matplotlib.layout_engine import ConstrainedLayoutEngine
+from numpy.typing import NDArray
+from typer.testing import CliRunner
+
+import gripscale as gs
+from gripscale.cli import app
+from tests.written import write_road
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+WIDE, KEYS_WIDE = 2000, 160
+"""Characters of a line: no sentence is wrapped, so that none depends on the length of a path."""
+
+PNG = bytes.fromhex(
+    "89504e470d0a1a0a0000000d49484452000000010000000108060000001f15c489"
+    "0000000d49444154789c6360606060000000050001a5f645400000000049454e44ae426082"
+)
+"""One transparent pixel, in place of each figure."""
+
+RUBBER = """
+[rubber]
+file = "measured_dma.txt"
+reference_temperature = "20 C"
+bulk_modulus = "2 GPa"
+shift = { kind = "wlf", c1 = 8.0, c2 = "120 K", valid_range = ["0 C", "100 C"] }
+"""
+
+LOAD = """
+[load]
+pressure = "3 bar"
+speed = "0.3 m/s"
+footprint = "100 mm"
+"""
+
+HALF_PLANE = """
+[solver]
+model = "half_plane"
+points = 64
+"""
+
+ROAD = f"""\
+[surface]
+files = ["road.txt", "lane.txt"]
+scales = 4
+smallest_wavelength = "1 mm"
+{RUBBER}{LOAD}static = true
+
+[solver]
+columns = 16
+rows = 4
+
+[measured]
+friction = "friction.csv"
+
+[compare]
+layer_ratio = 1.3
+penetration_depth = "0.5 mm"
+"""
+"""Everything a run says: two profiles, finite strain, at rest too, measured friction."""
+
+PLAIN = f"""\
+[surface]
+files = ["road.txt", "lane.txt"]
+scales = 3
+smallest_wavelength = "4 mm"
+{RUBBER}{LOAD}{HALF_PLANE}"""
+"""What many predictions are made of: half-planes."""
+
+WARM = f"""\
+[surface]
+files = ["road.txt"]
+scales = 3
+smallest_wavelength = "2 mm"
+{RUBBER}
+[conditions]
+temperature = "40 C"
+
+[conditions.softening]
+kind = "kraus"
+storage_ratio = 0.3
+loss_ratio = 0.2
+critical_strain = "2 %"
+measured_at = "0.1 %"
+deformation = "shear"
+
+[conditions.heat]
+conductivity = "0.25 W/(m K)"
+density = "1150 kg/m^3"
+specific_heat = "1500 J/(kg K)"
+
+[conditions.shear_stress]
+kind = "gaussian"
+stress_0 = "1 MPa"
+width = 0.1
+speed_0 = "6 mm/s"
+{LOAD}{HALF_PLANE}"""
+"""All effects at once."""
+
+MAP = f"""\
+[surface]
+map = "map.txt"
+step = ["0.2 mm", "0.4 mm"]
+z_unit = "mm"
+scales = 3
+smallest_wavelength = "1.6 mm"
+
+[rubber]
+name = "styrene_butadiene"
+{LOAD}{HALF_PLANE}"""
+
+FRICTION = "speed [m/s],friction,spread\n0.1,0.7,0.05\n1,0.8,0.05\n"
+
+COMMANDS: dict[str, tuple[str, ...]] = {
+    "run": ("run", "road.toml", "--output", "run"),
+    "run_conditions": ("run", "warm.toml", "--output", "run_conditions"),
+    "run_map": ("run", "map.toml", "--output", "run_map"),
+    "compare": (
+        "compare", "road.toml", "--output", "compare", "--seeds", "1",
+        "--rungs", "chain,direct,theory",
+    ),
+    "compare_ladder": (
+        "compare", "plain.toml", "--output", "compare_ladder", "--seeds", "1",
+        "--rungs", "waves,measured,theory,windows",
+    ),
+    "compare_conditions": (
+        "compare", "warm.toml", "--output", "compare_conditions",
+        "--rungs", "chain_half_plane,direct,persson",
+    ),
+    "compare_over_speed": (
+        "compare", "plain.toml", "--output", "compare_over_speed", "--vary", "speed=0.1,1",
+        "--rungs", "chain_half_plane,direct,theory",
+    ),
+    "study": (
+        "study", "plain.toml", "--output", "study", "--static",
+        "--vary", "speed=0.1,1", "--vary", "temperature=20 C,40 C",
+    ),
+    "study_direct": (
+        "study", "plain.toml", "--output", "study_direct", "--model", "direct",
+        "--vary", "pressure=2 bar,4 bar",
+    ),
+    "study_effects": (
+        "study", "warm.toml", "--output", "study_effects", "--vary", "effects=all,no_heat,none",
+    ),
+    "uncertainty": (
+        "uncertainty", "plain.toml", "--output", "uncertainty", "--samples", "16",
+        "--without", "waves", "--without", "load_time",
+    ),
+    "uncertainty_direct": (
+        "uncertainty", "plain.toml", "--output", "uncertainty_direct", "--samples", "12",
+        "--model", "direct", "--without", "cut_off", "--without", "load_time",
+    ),
+    "calibrate": (
+        "calibrate", "measured/case.toml", "--output", "calibrate", "--model", "chain",
+        "--hold-out", "temperature",
+    ),
+    "calibrate_direct": (
+        "calibrate", "road.toml", "--output", "calibrate_direct", "--law", "constant",
+    ),
+    "compare_rubbers": (
+        "compare-rubbers", "plain.toml", "styrene_butadiene", "--output", "compare_rubbers",
+        "--no-uncertainty",
+    ),
+    "compare_surfaces": (
+        "compare-surfaces", "road.txt", "lane.txt", "--case", "plain.toml",
+        "--output", "compare_surfaces", "--samples", "10",
+    ),
+    "fit_surface": (
+        "fit-surface", "road.txt", "lane.txt", "--scales", "4", "--smallest-wavelength", "1 mm",
+        "--slopes", "--output", "fit_surface",
+    ),
+    "fit_rubber": (
+        "fit-rubber", "measured_dma.txt", "--reference-temperature", "20 C",
+        "--output", "fit_rubber",
+    ),
+    "fit_rubber_sweeps": (
+        "fit-rubber", "sweeps.csv", "--reference-temperature", "20 C", "--bulk-modulus", "20 GPa",
+        "--output", "fit_rubber_sweeps",
+    ),
+    "export_rubber": (
+        "export", "rubber", "plain.toml", "--to", "abaqus", "--output", "rubber.inp",
+    ),
+    "export_tables": ("export", "tables", "study/study.nc", "--output", "export_tables"),
+    "export_mesh": ("export", "mesh", "run/dynamic.nc", "--wave", "2", "--output", "wave.vtu"),
+    "keys": ("keys",),
+    "init": ("init", "init"),
+    "report_run": ("report", "run"),
+    "report_run_conditions": ("report", "run_conditions"),
+    "report_compare": ("report", "compare"),
+    "report_compare_ladder": ("report", "compare_ladder"),
+    "report_compare_conditions": ("report", "compare_conditions"),
+    "report_compare_over_speed": ("report", "compare_over_speed"),
+    "report_study": ("report", "study"),
+    "report_uncertainty": ("report", "uncertainty"),
+    "report_calibrate": ("report", "calibrate"),
+    "report_compare_rubbers": ("report", "compare_rubbers/study.nc"),
+}  # fmt: skip
+"""The words of each command, by the name of its pin and, where it writes one, of its folder."""
+
+
+@dataclass(frozen=True)
+class Experiments:
+    """What the commands left behind in a folder, and printed."""
+
+    folder: Path
+    printed: dict[str, str] = field(repr=False)
+
+
+def run_experiments(folder: Path) -> Experiments:
+    """Run all commands in `folder`, on one core: what is done first is printed first."""
+    _write_inputs(folder)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        patch.setattr(os, "sched_getaffinity", lambda _: {0}, raising=False)
+        patch.setattr(os, "cpu_count", lambda: 1)
+        patch.setattr(ConstrainedLayoutEngine, "execute", lambda *_: None)
+        patch.setattr(FigureCanvasAgg, "print_png", _blank_png)
+        patch.setattr(FigureCanvasPdf, "print_pdf", _blank_pdf)
+        printed = {name: _printed(words) for name, words in COMMANDS.items()}
+    return Experiments(folder, printed)
+
+
+def _write_inputs(folder: Path) -> None:
+    for name, text in (("road", ROAD), ("plain", PLAIN), ("warm", WARM), ("map", MAP)):
+        (folder / f"{name}.toml").write_text(text, encoding="utf-8")
+    (folder / "friction.csv").write_text(FRICTION, encoding="utf-8")
+    for name, station in (("road", 0), ("lane", 1)):
+        whole = gs.read_profile(
+            EXAMPLES / f"data/road/20211011_aylesbury_dec_station_{station}.dat"
+        )
+        kept = slice(4000, 20000, 8)  # without the steel plate at its beginning, every 0.3 mm
+        write_road(folder / f"{name}.txt", gs.Profile(whole.x[kept], whole.z[kept]))
+    np.savetxt(folder / "map.txt", _heights(), fmt="%.6f")
+    data = EXAMPLES / "data/rubber"
+    for source, name in (
+        (data / "measured_dma.txt", "measured_dma.txt"),
+        (data / "multi_temperature_polymer/freq_user_raw.csv", "sweeps.csv"),
+        (EXAMPLES / "measured_friction/case.toml", "measured/case.toml"),
+        (EXAMPLES / "measured_friction/synthetic_friction.csv", "measured/synthetic_friction.csv"),
+    ):
+        (folder / name).parent.mkdir(exist_ok=True)
+        (folder / name).write_bytes(source.read_bytes())
+
+
+def _heights() -> NDArray[np.float64]:
+    """Return a map of 32 by 64 heights [mm]: waves of falling amplitude in all directions."""
+    random = np.random.default_rng(0)
+    y, x = np.meshgrid(0.4 * np.arange(32), 0.2 * np.arange(64), indexing="ij")
+    heights = np.zeros_like(x)
+    for wavelength in np.geomspace(12.0, 0.8, 40):
+        angle, phase = random.uniform(0.0, 2.0 * np.pi, 2)
+        along = np.cos(angle) * x + np.sin(angle) * y
+        heights += 0.01 * wavelength * np.cos(2.0 * np.pi * along / wavelength + phase)
+    return heights
+
+
+def _printed(words: tuple[str, ...]) -> str:
+    """Return what a command prints, and its exit code."""
+    columns = KEYS_WIDE if words[0] == "keys" else WIDE
+    environment = {"COLUMNS": str(columns), "NO_COLOR": "1", "TERM": "dumb"}
+    result = CliRunner().invoke(app, list(words), env=environment)
+    if result.exception is not None and not isinstance(result.exception, SystemExit):
+        raise result.exception
+    return f"{result.output.rstrip()}\n\nexit code {result.exit_code}\n"
+
+
+def _blank_png(_: FigureCanvasAgg, target: Path | IO[bytes], **__: Any) -> None:
+    if isinstance(target, str | os.PathLike):
+        Path(target).write_bytes(PNG)
+    else:
+        target.write(PNG)
+
+
+def _blank_pdf(_: FigureCanvasPdf, target: Path, **__: Any) -> None:
+    Path(target).write_bytes(b"")

@@ -1,0 +1,21 @@
+"""Write numbers, texts and abilities anew (`python -m tests.golden.make_experiments`)."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+from .experiment_numbers import experiment_numbers
+from .experiments import run_experiments
+from .instruction_set import instruction_set
+
+HERE = Path(__file__).parent
+
+if __name__ == "__main__":
+    with tempfile.TemporaryDirectory() as folder:
+        made = run_experiments(Path(folder))
+        numbers = experiment_numbers(made)
+    kept = {"instruction_set": np.array(instruction_set()), **numbers}
+    np.savez_compressed(HERE / "experiments.npz", allow_pickle=False, **kept)
