@@ -14,8 +14,7 @@ import gripscale as gs
 from benchmarks.rough_contact import road
 from benchmarks.table import show
 from gripscale.case import prepare_case
-from gripscale.conditions import Conditions, passes
-from gripscale.interface import GaussianStress, ThermalProperties
+from gripscale.conditions import Conditions, GaussianStress, ThermalProperties, fixed_point
 from gripscale.rubber import WLF
 from gripscale.rubber.softening import Kraus
 from tests.verification.families import ROOT
@@ -124,12 +123,12 @@ def _settled(solve: Solve, conditions: Conditions | None) -> Any:
 
 @contextmanager
 def _bounds(value: float) -> Iterator[None]:
-    kept = {name: getattr(passes, name) for name in (*BOUNDS, "MOST_PASSES")}
+    kept = {name: getattr(fixed_point, name) for name in (*BOUNDS, "MOST_PASSES")}
     for name in BOUNDS:
-        setattr(passes, name, value)
-    passes.MOST_PASSES = 40
+        setattr(fixed_point, name, value)
+    fixed_point.MOST_PASSES = 40
     try:
         yield
     finally:
         for name, before in kept.items():
-            setattr(passes, name, before)
+            setattr(fixed_point, name, before)

@@ -8,7 +8,7 @@ from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
 
-from gripscale.parallel import cores
+from gripscale.core.parallel import cores
 
 
 def describe() -> str:

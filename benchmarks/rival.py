@@ -22,7 +22,7 @@ from rich.console import Console
 
 import gripscale as gs
 from benchmarks.table import show
-from gripscale.rough.grids import LevelContact
+from gripscale.half_space.grid_sequence import LevelContact
 from gripscale.surface import HeightMap, Profile
 from tests.rough.rough_cases import isotropic_map, on_grid
 

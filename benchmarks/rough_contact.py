@@ -20,7 +20,7 @@ from rich.console import Console
 import gripscale as gs
 from benchmarks.measure import peak_since_reset, reset_peak
 from benchmarks.table import show
-from gripscale.rough import RoughContact
+from gripscale.half_space import RoughContact
 from gripscale.surface import HeightMap, Profile
 
 DATA = Path(__file__).parents[1] / "examples/data"

@@ -13,9 +13,8 @@ from rich.console import Console
 import gripscale as gs
 from benchmarks.measure import peak_since_reset, reset_peak
 from benchmarks.table import show
-from gripscale.figures.palette import BLUE, GREEN, WIDE
-from gripscale.figures.style import save_figure, sheet, styled
-from gripscale.parallel import cores
+from gripscale.charts.style import BLUE, GREEN, WIDE, save_figure, sheet, styled
+from gripscale.core.parallel import cores
 from tests.verification.families import WAVELENGTH, tread
 
 MESHES = [

@@ -13,12 +13,11 @@ from pathlib import Path
 
 import numpy as np
 
-from gripscale.calibration import calibrate_case
+from gripscale.analysis import MeasuredFriction, calibrate_case, predictions_at
 from gripscale.case import prepare_case
-from gripscale.figures.calibration import draw
-from gripscale.interface import GaussianStress
-from gripscale.measured import MeasuredFriction, predictions_at
-from gripscale.study import Store
+from gripscale.charts.print_uncertainty import draw_calibration
+from gripscale.conditions import GaussianStress
+from gripscale.experiment import Store
 
 CASE = Path(__file__).parent / "measured_friction" / "case.toml"
 TRUE = GaussianStress(
@@ -68,7 +67,7 @@ def main(folder: str = "results/examples") -> None:
     )
     worst = max(one.rms_outside for one in wrong.held_out)
     print(f"with a constant stress: rms up to {worst:.3f}")
-    draw(fit.to_dataset(), target)
+    draw_calibration(fit.to_dataset(), target)
 
 
 if __name__ == "__main__":

@@ -11,8 +11,8 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-from gripscale.figures.finite_strain import finite_strain_figure
-from gripscale.figures.style import save_figure
+from gripscale.charts.print_inputs import finite_strain_figure
+from gripscale.charts.style import save_figure
 from gripscale.rubber import (
     FiniteStrainFit,
     UniaxialTest,

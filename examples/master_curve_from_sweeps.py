@@ -14,7 +14,7 @@ import sys
 from pathlib import Path
 
 import gripscale as gs
-from gripscale.figures import (
+from gripscale.charts import (
     save_figure,
     shift_figure,
     superposition_figure,

@@ -12,9 +12,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import gripscale as gs
-from gripscale.figures import block_figure, save_figure
+from gripscale.charts import block_figure, save_figure
 from gripscale.theory import solve_half_plane
-from gripscale.wave.dataset import waves_to_dataset
+from gripscale.wave.result import waves_to_dataset
 
 WAVELENGTH, PRESSURE, SPEED = 5e-3, 1.25e6, 10.0  # [m], [Pa] at slope 1, [m/s]
 SLOPES = (0.05, 0.3, 0.6, 0.9)  # largest slope of the wave, 2 pi amplitude / wavelength

@@ -1,7 +1,7 @@
 """Contact area and friction over the speed: each speed starts from the solution before it.
 
 Run as `python examples/speed_sweep.py [FOLDER [COLUMNS]]`. For whole stacks of waves, on all cores,
-with results kept on disk, see `gripscale study` and `gripscale.study.Study`.
+with results kept on disk, see `gripscale study` and `gripscale.experiment.Study`.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import gripscale as gs
-from gripscale.figures import save_figure
+from gripscale.charts import save_figure
 
 WAVELENGTH, AMPLITUDE, PRESSURE = 1e-3, 0.06e-3, 1e6  # [m], [m], [Pa]
 SPEEDS = np.geomspace(1e-6, 1e4, 41)  # [m/s]

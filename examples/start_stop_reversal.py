@@ -11,7 +11,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 import gripscale as gs
-from gripscale.figures import save_figure
+from gripscale.charts import save_figure
 
 WAVELENGTH, AMPLITUDE, PRESSURE, SPEED = 1e-3, 0.06e-3, 4e5, 0.05  # [m], [m], [Pa], [m/s]
 RUBBER = gs.Rubber(3e6, [3e6, 6e6], [1e-2, 1e-3])  # [Pa], [Pa], [s]

@@ -22,9 +22,9 @@ import xarray as xr
 from rich.console import Console
 
 import gripscale as gs
+from gripscale.experiment import Study
 from gripscale.model import NominalLoad, answer
-from gripscale.report.study_table import study_table
-from gripscale.study import Study
+from gripscale.report.tables_study import study_table
 from gripscale.surface import PreparedSurface
 
 CASE = Path(__file__).parent / "three_waves" / "case.toml"

@@ -9,8 +9,8 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from gripscale.errors import ConvergenceError, GripscaleError
-from gripscale.study import Progress
+from gripscale.core.errors import ConvergenceError, GripscaleError
+from gripscale.experiment import Progress
 from reproduction.run import FIGURES, chosen, reproduce
 from reproduction.statement import Statement
 

@@ -8,8 +8,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from gripscale.figures.palette import COLOURS, GREY, INK, MEGA, MILLI, SQUARE_MM, WIDE
-from gripscale.figures.style import sheet, styled
+from gripscale.charts.style import COLOURS, GREY, INK, WIDE, sheet, styled
+from gripscale.core.units import MEGA, MILLI, SQUARE_MM
 from gripscale.rubber import MasterCurve, Rubber
 from gripscale.surface import HeightDifference, SelfAffineFit, SineStack
 

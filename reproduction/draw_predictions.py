@@ -10,9 +10,9 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from gripscale.figures.palette import GREY, MILLI, NARROW, WIDE
-from gripscale.figures.study_axes import colours
-from gripscale.figures.style import area_axis, falling_wavelength, sheet, styled
+from gripscale.charts.print_study import colours
+from gripscale.charts.style import GREY, NARROW, WIDE, area_axis, falling_wavelength, sheet, styled
+from gripscale.core.units import MILLI
 
 Quantity = Literal["area", "friction", "running_friction"]
 Predictions = Mapping[str, xr.Dataset]

@@ -10,10 +10,10 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from gripscale.errors import InputError
-from gripscale.software import software
+from gripscale.core.errors import InputError
+from gripscale.core.provenance import software
 from gripscale.surface import SelfAffineFit, SineStack, fit_self_affine
-from gripscale.wave.dataset import LW
+from gripscale.wave.result import LW
 from reproduction import judge_area, judge_friction, judge_inputs
 from reproduction.draw_inputs import (
     correlations_figure,

@@ -11,19 +11,13 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from gripscale.case import (
-    RubberSource,
-    Surface,
-    prepare_rubber,
-    prepare_surface,
-    validate,
-)
-from gripscale.errors import FileError
+from gripscale.case import RubberSource, Surface, prepare_rubber, prepare_surface, validate
+from gripscale.core.errors import FileError
+from gripscale.experiment import Task
 from gripscale.model import NominalLoad
 from gripscale.rubber import MasterCurve, PronyFit, Rubber, styrene_butadiene
-from gripscale.study import Task
 from gripscale.surface import HeightDifference, PreparedSurface, SineStack, fit_sines
-from gripscale.surface.named import synthetic_surface
+from gripscale.surface.synthetic import synthetic_surface
 
 DATA = Path(__file__).resolve().parents[1] / "examples" / "data"
 

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
 from gripscale.rubber import springpot_modulus
 from gripscale.surface import SineStack, fit_self_affine, fit_sines
 from reproduction.inputs import DENSE, PAPER_FACTORS, ROAD, SBR, TREAD, Inputs

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 import xarray as xr
 
-from gripscale.study import Task
+from gripscale.experiment import Task
 from reproduction.inputs import (
     DENSE,
     FAST,

@@ -6,9 +6,10 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from gripscale import checks, netcdf
-from gripscale.figures import save_figure
-from gripscale.study import Progress, Store, Task, solve_all
+from gripscale.charts import save_figure
+from gripscale.core import checks
+from gripscale.experiment import Progress, Store, Task, solve_all
+from gripscale.io import netcdf
 from reproduction.figures import TITLES, make
 from reproduction.inputs import DATA, read_inputs
 from reproduction.panels import Panels, panels_of, results_of
@@ -43,7 +44,7 @@ def reproduce(
     data
         Folder of the example data; by default the one beside this folder.
     workers, client, on_task
-        As for `gripscale.study.solve_all`.
+        As for `gripscale.experiment.solve_all`.
 
     Returns
     -------

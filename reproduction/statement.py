@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass
 from functools import partial
 from pathlib import Path
 
-from gripscale.netcdf import write_whole
+from gripscale.io.netcdf import write_whole
 
 
 @dataclass(frozen=True)

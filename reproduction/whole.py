@@ -12,8 +12,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from gripscale.figures.palette import COLOURS, GREY, WIDE
-from gripscale.figures.style import sheet, styled, write_png
+from gripscale.charts.style import COLOURS, GREY, WIDE, sheet, styled, write_png
 from reproduction.inputs import read_inputs
 from reproduction.whole_surfaces import Cases, Found, solved
 

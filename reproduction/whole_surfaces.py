@@ -14,7 +14,7 @@ from functools import partial
 import numpy as np
 
 import gripscale as gs
-from gripscale.rough import random_phases, surface_of_sines
+from gripscale.half_space import random_phases, surface_of_sines
 from gripscale.surface import HeightMap, Profile, SineStack
 from reproduction.inputs import FASTEST, FOOTPRINT, PRESSURE, ROAD, SBR, SPEED, TREAD, Inputs
 

@@ -13,9 +13,8 @@ from dataclasses import replace
 from typing import Any
 
 import gripscale as gs
-from gripscale.conditions import Conditions
-from gripscale.conditions.wave_heat import WaveHeat
-from gripscale.interface import ThermalProperties
+from gripscale.conditions import Conditions, ThermalProperties
+from gripscale.conditions.chain_heat import WaveHeat
 from gripscale.rubber import WLF
 from gripscale.rubber.softening import Kraus
 from studies.shipped import road, tread

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 import gripscale as gs
-from gripscale.rough import FiniteStrainPairs, solve_both_ways, surface_of_sines
+from gripscale.half_space import FiniteStrainPairs, solve_both_ways, surface_of_sines
 from gripscale.theory import solve_half_plane
 from studies.shipped import tread
 

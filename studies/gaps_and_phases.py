@@ -20,8 +20,8 @@ from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
 import gripscale as gs
-from gripscale.rough import one_period, random_phases
-from gripscale.surface.gaps import filled
+from gripscale.half_space import one_period, random_phases
+from gripscale.surface.resampling import filled
 from gripscale.surface.sine_fit import first_consistent_lag
 from studies.shipped import road, tread
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from gripscale.rough import map_over_lines, solve_map_and_lines
+from gripscale.half_space import map_over_lines, solve_map_and_lines
 from gripscale.surface import HeightMap, Profile
 from studies.isotropic_maps.setting import AREA, FRICTION, LOAD, TOLERANCE
 from studies.shipped import tread

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from gripscale.parallel import sharing
+from gripscale.core.parallel import sharing
 from tests.browsing import started_browser
 
 

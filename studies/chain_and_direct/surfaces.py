@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 import gripscale as gs
-from gripscale.rough import random_phases
+from gripscale.half_space import random_phases
 from gripscale.rubber import styrene_butadiene
 from gripscale.surface import self_affine_profile
 from studies.shipped import road, tread

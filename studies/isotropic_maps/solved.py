@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 import gripscale as gs
-from gripscale.rough import solve_map_and_lines, solve_windows, windows
+from gripscale.half_space import solve_map_and_lines, solve_windows, windows
 from gripscale.surface import HeightMap
-from gripscale.surface.maps.measured import measured_lines
+from gripscale.surface.line_statistics import measured_lines
 from studies.isotropic_maps.setting import AREA, FRICTION, LENGTH, LOAD, SMALLEST, TOLERANCE
 from studies.shipped import road
 

@@ -15,7 +15,7 @@ from typing import Any
 
 import pytest
 
-from gripscale.init import EXAMPLES
+from gripscale.case import EXAMPLES
 from tests.browsing import BETWEEN, CURVES, PATIENCE, Visit
 
 from .test_run import SLOW, there

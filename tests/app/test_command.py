@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 
 from gripscale.app import serve_app
 from gripscale.cli import app
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
 
 
 def refused(tmp_path: Path, *arguments: str) -> str:

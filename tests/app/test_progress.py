@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gripscale.app.progress import Progress, progress_of
+from gripscale.app.runs import Progress, progress_of
 
 HEAD = ["gripscale 0.1.0, case run-1.toml", "", "Surface", "  3 sine waves from 10 to 1 mm"]
 

@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gripscale.app.results_tab import results_elements
+from gripscale.analysis.comparison import judge_run
+from gripscale.app.tabs import results_elements
 from gripscale.case import read_case, run_case
-from gripscale.comparison.judged import judge_run
-from gripscale.report.elements import Chart, Text
+from gripscale.charts.page_elements import Chart, Text
 
 from .conftest import CASE
 

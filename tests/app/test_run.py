@@ -8,10 +8,9 @@ from pathlib import Path
 
 import pytest
 
+from gripscale.app.case import CaseState, VisitFolder
 from gripscale.app.runs import Runs
-from gripscale.app.state import CaseState
-from gripscale.app.visit_folder import VisitFolder
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
 
 SLOW = """\
 [[surface.sines]]

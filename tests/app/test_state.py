@@ -11,16 +11,20 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gripscale.app.case_text import stated, tables, value_of, with_value, words_of
-from gripscale.app.form import table_form
-from gripscale.app.load_tab import load_tab
-from gripscale.app.road_tab import road_tab
-from gripscale.app.rubber_tab import rubber_tab
-from gripscale.app.state import CaseState
-from gripscale.app.visit_folder import VisitFolder
+from gripscale.app.case import (
+    CaseState,
+    VisitFolder,
+    stated,
+    tables,
+    value_of,
+    with_value,
+    words_of,
+)
+from gripscale.app.forms import table_form
+from gripscale.app.tabs import load_tab, road_tab, rubber_tab
+from gripscale.case import EXAMPLES
 from gripscale.case.keys import sections
-from gripscale.errors import InputError
-from gripscale.init import EXAMPLES
+from gripscale.core.errors import InputError
 
 from .conftest import CASE
 

@@ -6,10 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from gripscale.app.case import MOST, CaseState, VisitFolder, safe_name
 from gripscale.app.runs import Runs
-from gripscale.app.state import CaseState
-from gripscale.app.visit_folder import MOST, VisitFolder, safe_name
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
 
 from .conftest import CASE
 

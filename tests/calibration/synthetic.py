@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from gripscale.interface import GaussianStress, InterfacialShearStress
-from gripscale.measured import MeasuredFriction, Predicted
+from gripscale.analysis import MeasuredFriction, Predicted
+from gripscale.conditions import GaussianStress, InterfacialShearStress
 
 Array = NDArray[np.float64]
 

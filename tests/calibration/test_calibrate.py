@@ -10,19 +10,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gripscale import netcdf
-from gripscale.calibration import calibrate
-from gripscale.calibration.notes import notes
-from gripscale.calibration.snippet import shear_stress_table
-from gripscale.errors import InputError
-from gripscale.interface import (
+from gripscale.analysis import MeasuredFriction, Predicted, calibrate
+from gripscale.analysis.calibration import notes, shear_stress_table
+from gripscale.conditions import (
     ConstantStress,
     GaussianStress,
     InterfacialShearStress,
     LeGalKlueppelStress,
     shear_stress_from_dict,
 )
-from gripscale.measured import MeasuredFriction, Predicted
+from gripscale.core.errors import InputError
+from gripscale.io import netcdf
 
 from .synthetic import REFERENCE, TRUE, measurement
 

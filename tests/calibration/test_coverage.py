@@ -10,12 +10,10 @@ import numpy as np
 import pytest
 import scipy.stats
 
-from gripscale.calibration import Calibration, calibrate
-from gripscale.calibration.least_squares import Problem, best
-from gripscale.calibration.parameters import family_of
-from gripscale.calibration.points import points_of
-from gripscale.calibration.profile import Profile, threshold_of
-from gripscale.interface import LeGalKlueppelStress
+from gripscale.analysis import Calibration, calibrate
+from gripscale.analysis.calibration_law import Problem, best, family_of, points_of
+from gripscale.analysis.profile_likelihood import Profile, threshold_of
+from gripscale.conditions import LeGalKlueppelStress
 
 from .synthetic import REFERENCE, TRUTH, measurement
 

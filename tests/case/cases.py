@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from gripscale.errors import GripscaleError
+from gripscale.core.errors import GripscaleError
 
 
 def written(folder: Path, text: str) -> Path:

@@ -25,10 +25,10 @@ from gripscale.case import (
     read_case,
     validate,
 )
-from gripscale.errors import FileError, InputError
+from gripscale.core.errors import FileError, InputError
+from gripscale.core.units import parse_quantity
 from gripscale.rubber import NeoHookean, Yeoh
 from gripscale.surface import fit_sines, height_difference, self_affine_profile
-from gripscale.units import parse_quantity
 from tests.case.cases import refusal, written
 
 GOOD = """

@@ -10,9 +10,8 @@ import pytest
 from gripscale.case import CaseFile, prepare_case, prepare_conditions, prepare_rubber, read_case
 from gripscale.case.run import run_case
 from gripscale.chain import predict
-from gripscale.conditions import Conditions
-from gripscale.errors import InputError
-from gripscale.interface import GaussianStress, ThermalProperties
+from gripscale.conditions import Conditions, GaussianStress, ThermalProperties
+from gripscale.core.errors import InputError
 from gripscale.rubber import WLF
 from gripscale.rubber.softening import Kraus
 from tests.case.cases import refusal, written

@@ -9,11 +9,12 @@ import pytest
 from typer.testing import CliRunner
 
 import gripscale as gs
-from gripscale import netcdf, surface
+from gripscale import surface
+from gripscale.analysis import compare_over
 from gripscale.case import prepare_case, read_case, run_case
 from gripscale.cli import app
-from gripscale.comparison import compare_over
-from gripscale.study import Study
+from gripscale.experiment import Study
+from gripscale.io import netcdf
 from tests.written import write_road
 
 CASE = """\

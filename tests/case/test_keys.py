@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 
 from gripscale.case import Case
 from gripscale.case.keys import NEEDED, sections
-from gripscale.case.table import ByKind
+from gripscale.case.schema import ByKind
 from gripscale.cli import app
 from gripscale.rubber.strain_energy import STRAIN_ENERGIES
 

@@ -10,13 +10,13 @@ import pytest
 import gripscale as gs
 from gripscale.case import prepare_surface, read_case
 from gripscale.chain import Chain
-from gripscale.errors import InputError
-from gripscale.figures.case_all import surface_figures
+from gripscale.charts.print_run import surface_figures
+from gripscale.core.errors import InputError
+from gripscale.experiment.inputs import contents, surface_of
+from gripscale.experiment.task import Task
+from gripscale.half_space import DirectContact
 from gripscale.model import NominalLoad
 from gripscale.report.inputs_text import surface_lines
-from gripscale.rough import DirectContact
-from gripscale.study.inputs import contents, surface_of
-from gripscale.study.task import Task
 from gripscale.theory import HalfPlane
 from tests.rough.rough_cases import ZENER, isotropic_heights
 

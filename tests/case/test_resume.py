@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 import xarray as xr
 
-from gripscale import netcdf
 from gripscale.case import WaveSolved, run_case
+from gripscale.io import netcdf
 from gripscale.theory import HalfPlane
 from gripscale.wave import FiniteStrainBlock, WaveProblem, WaveResult
 
@@ -122,7 +122,7 @@ def test_other_software_takes_nothing_up(
     three: Path, tmp_path: Path, solved: Count, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     run_case(three, output=tmp_path / "out")
-    monkeypatch.setattr("gripscale.case.key.software", lambda: "another")
+    monkeypatch.setattr("gripscale.case.read.software", lambda: "another")
     seen = solved(None)
     run_case(three, output=tmp_path / "out")
     assert len(seen) == 6

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 import gripscale as gs
-from gripscale import netcdf
 from gripscale.case import WaveSolved, case_chain, prepare_case, read_case, run_case
-from gripscale.errors import ExtrapolationError
+from gripscale.core.errors import ExtrapolationError
+from gripscale.io import netcdf
 from gripscale.wave import FiniteStrainBlock, Status, WaveProblem, WaveResult
 
 

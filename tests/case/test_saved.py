@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
+from gripscale.case import folder, prepare_case, read_case, run_case
 from gripscale.case import folder as results_folder
-from gripscale.case import prepare_case, read_case, run_case, saved
-from gripscale.case.saved import renamed, saved_case
+from gripscale.case.folder import renamed, saved_case
 
 
 def test_the_results_folder_alone_gives_the_same_result_elsewhere(
@@ -106,7 +106,7 @@ def test_files_of_one_name_and_files_of_others_keep_their_places(tmp_path: Path)
 def test_large_files_are_named_where_they_are(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(saved, "COPIED_AT_MOST", 8)
+    monkeypatch.setattr(folder, "COPIED_AT_MOST", 8)
     kept = saved_case(read_case(named(tmp_path, "long name.txt")), tmp_path / "out")
     assert not kept.copies
     files = tomllib.loads(kept.text)["surface"]["files"]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from gripscale.chain import ChainError, Prediction, predict
-from gripscale.errors import ConvergenceError, InputError
+from gripscale.core.errors import ConvergenceError, InputError
 from gripscale.rubber import Rubber
 from gripscale.surface import SineStack
 from gripscale.theory import HalfPlane, solve_half_plane

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gripscale import netcdf
 from gripscale.chain import Prediction, predict
-from gripscale.errors import FileError, InputError
+from gripscale.core.errors import FileError, InputError
+from gripscale.io import netcdf
 from gripscale.rubber import Rubber, Yeoh
 from gripscale.surface import SineStack
 

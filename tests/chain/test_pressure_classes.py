@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gripscale import netcdf
 from gripscale.chain import Chain, ChainError, Prediction, predict
-from gripscale.chain.pressure import PressureClasses
-from gripscale.errors import InputError
+from gripscale.chain.prediction import PressureClasses
+from gripscale.core.errors import InputError
+from gripscale.io import netcdf
 from gripscale.rubber import Rubber
 from gripscale.surface import SineStack
 from gripscale.theory import HalfPlane

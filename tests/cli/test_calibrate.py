@@ -10,14 +10,14 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner, Result
 
-from gripscale import netcdf
-from gripscale.calibration import calibrate_case
-from gripscale.calibration.of_case import parse_fixed
+from gripscale.analysis import calibrate_case
+from gripscale.analysis.calibration import parse_fixed
 from gripscale.case import prepare_conditions, read_case
+from gripscale.charts.print_uncertainty import fitted_figure, profiles_figure, residual_figure
 from gripscale.cli import app
-from gripscale.errors import ExtrapolationError, InputError
-from gripscale.figures.calibration import fitted_figure, profiles_figure, residual_figure
-from gripscale.interface import GaussianStress, shear_stress_from_dict
+from gripscale.conditions import GaussianStress, shear_stress_from_dict
+from gripscale.core.errors import ExtrapolationError, InputError
+from gripscale.io import netcdf
 
 Shell = Callable[..., Result]
 FOLDER = Path(__file__).parents[2] / "examples" / "measured_friction"

@@ -11,15 +11,14 @@ import xarray as xr
 from typer.testing import Result
 
 import gripscale as gs
-from gripscale import netcdf
+from gripscale.analysis import Comparison, Sample, SolvedRung, compare_case, judged
+from gripscale.analysis.comparison import FILE, judged_totals
 from gripscale.case import prepare_case
-from gripscale.comparison import Comparison, Sample, SolvedRung, compare_case, judged
-from gripscale.comparison.judged import FILE, judged_totals
-from gripscale.figures.comparison import comparison_figure
-from gripscale.figures.comparison_axis import comparison_axis_figure
-from gripscale.figures.view import PredictionView
-from gripscale.report.comparison_table import comparison_table, judgement, remarks
-from gripscale.report.tables import as_text
+from gripscale.charts.print_comparison import comparison_axis_figure, comparison_figure
+from gripscale.charts.view import PredictionView
+from gripscale.io import netcdf
+from gripscale.report.tables_comparison import comparison_table, judgement, remarks
+from gripscale.report.tables_run import as_text
 
 Shell = Callable[..., Result]
 FORMATS = ("png", "pdf")

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from typer.testing import Result
 
-from gripscale.versions import versions
+from gripscale.core.provenance import versions
 
 Shell = Callable[..., Result]
 

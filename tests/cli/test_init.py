@@ -11,10 +11,9 @@ import pytest
 from typer.testing import Result
 
 import gripscale
-from gripscale.case import prepare_case, read_case
-from gripscale.cli.init import Choice
-from gripscale.errors import FileError, InputError
-from gripscale.init import EXAMPLES, write_example
+from gripscale.case import EXAMPLES, prepare_case, read_case, write_example
+from gripscale.cli.inputs import Choice
+from gripscale.core.errors import FileError, InputError
 
 Shell = Callable[..., Result]
 ROOT = Path(__file__).parents[2]

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from gripscale.comparison import Rung, Sample, SolvedRung
+from gripscale.analysis import Rung, Sample, SolvedRung
 
 
 def sample(area: float, friction: float, of: str = "", **more: Any) -> Sample:

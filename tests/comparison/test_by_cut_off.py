@@ -9,9 +9,9 @@ import pytest
 import xarray as xr
 
 import gripscale as gs
+from gripscale.analysis.best_estimate import SolvedRung, sample_of
 from gripscale.chain import Chain
-from gripscale.comparison.sample import sample_of
-from gripscale.comparison.solved import SolvedRung
+from gripscale.half_space.model import DirectContact
 from gripscale.model import (
     CUT_OFF_EXPONENTS,
     WHY_NO_EXPONENT,
@@ -19,7 +19,6 @@ from gripscale.model import (
     NominalLoad,
     cut_off_exponents_of,
 )
-from gripscale.rough.model import DirectContact
 from gripscale.rubber import styrene_butadiene
 from gripscale.surface import (
     Measured,

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import gripscale as gs
+from gripscale.analysis import Comparison, compare_case, compare_over
 from gripscale.case import prepare_case
-from gripscale.comparison import Comparison, compare_case, compare_over
-from gripscale.report.comparison_table import best_sentence, further_table, remarks
-from gripscale.report.tables import as_text
+from gripscale.report.tables_comparison import best_sentence, further_table, remarks
+from gripscale.report.tables_run import as_text
 from gripscale.surface import self_affine_profile
 
 CASE = """

@@ -9,12 +9,11 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.comparison.ladder import LADDER, chosen
-from gripscale.comparison.rung import Subject
-from gripscale.comparison.sample import sample_of
+from gripscale.analysis.best_estimate import sample_of
+from gripscale.analysis.ladder import LADDER, Subject, chosen
+from gripscale.half_space import solve_both_ways, surface_of_sines
+from gripscale.half_space.model import DirectContact
 from gripscale.model import NominalLoad
-from gripscale.rough import solve_both_ways, surface_of_sines
-from gripscale.rough.model import DirectContact
 from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Measured, PreparedSurface, SineStack, self_affine_profile
 from gripscale.theory import HalfPlane
@@ -48,7 +47,7 @@ def test_both_models_answer_as_the_pair_does() -> None:
 def test_mesh_too_coarse_counts_as_failed(monkeypatch: pytest.MonkeyPatch) -> None:
     good = gs.solve_profile(RUBBER, LINE, pressure=5e4, speed=0.1, periodic=True)
     bad = replace(good, status=Status.FRICTIONS_DISAGREE)
-    monkeypatch.setattr("gripscale.wave.model.solve_profile", lambda *_, **__: bad)
+    monkeypatch.setattr("gripscale.wave.profile.solve_profile", lambda *_, **__: bad)
     model = BlockOnProfile(periodic=True)
     sample = sample_of(model.predict(RUBBER, SURFACE, LOAD), RUBBER)
     assert "frictions disagree" in sample.status

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gripscale.comparison.curve import Curve, octaves
+from gripscale.analysis.best_estimate import Curve, octaves
 
 WAVES = Curve(
     np.array([10e-3, 3e-3, 1e-3]), np.array([0.3, 0.1, 0.05]), np.array([0.1, 0.3, 0.4]), True

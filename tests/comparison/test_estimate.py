@@ -7,8 +7,8 @@ from collections.abc import Callable
 
 import pytest
 
-from gripscale.comparison import Factor, Sample, SolvedRung, Uncertain
-from gripscale.comparison.estimate import FACTORS, best_estimate
+from gripscale.analysis import Factor, Sample, SolvedRung, Uncertain
+from gripscale.analysis.best_estimate import FACTORS, best_estimate
 
 Make = Callable[..., SolvedRung]
 

@@ -13,12 +13,12 @@ import pytest
 
 import gripscale as gs
 from gripscale.chain import Chain
-from gripscale.errors import ExtrapolationError
+from gripscale.core.errors import ExtrapolationError
+from gripscale.half_space.model import DirectContact
 from gripscale.model import OUTSIDE_BAND, NominalLoad, extrapolation_of
-from gripscale.rough.model import DirectContact
 from gripscale.surface import Measured, PreparedSurface, Profile
 from gripscale.theory import HalfPlane, persson
-from gripscale.theory.full_contact import full_contact_friction
+from gripscale.theory.elastic import full_contact_friction
 from gripscale.wave import BlockOnProfile
 
 LONG, SHORT = 4e-3, 1e-3

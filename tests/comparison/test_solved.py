@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from gripscale.comparison import Sample, SolvedRung
+from gripscale.analysis import Sample, SolvedRung
 
 Make = Callable[..., SolvedRung]
 

@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from gripscale.comparison import Uncertain
-from gripscale.comparison.uncertain import of_mean, together
+from gripscale.analysis import Uncertain
+from gripscale.analysis.best_estimate import of_mean, together
 
 
 def test_products_and_quotients_of_drawn_numbers() -> None:

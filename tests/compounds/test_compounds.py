@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale import netcdf
-from gripscale.compounds import Compounds, at_one_temperature, compare_compounds
-from gripscale.errors import InputError
+from gripscale.analysis import Compounds, at_one_temperature, compare_compounds
+from gripscale.core.errors import InputError
+from gripscale.io import netcdf
 from gripscale.report import write_report
-from gripscale.report.compounds_table import compounds_sentences
+from gripscale.report.tables_comparison import compounds_sentences
 from gripscale.rubber import WLF, MasterCurve, fit_prony
 
 COLD, ROOM, WARM = 273.15, 293.15, 313.15

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.conditions import Conditions
-from gripscale.interface import ConstantStress, GaussianStress, ThermalProperties
+from gripscale.conditions import Conditions, ConstantStress, GaussianStress, ThermalProperties
 from gripscale.rubber.softening import Kraus
 
 from .shifted import LOAD, RUBBER, SINES
@@ -63,7 +62,7 @@ def test_the_stress_is_that_at_the_temperature_in_the_contact():
 
 
 def test_conditions_and_what_they_did_survive_a_file(tmp_path):
-    from gripscale import netcdf
+    from gripscale.io import netcdf
 
     found = gs.predict(RUBBER, SINES, solver="half_plane", conditions=EVERYTHING, **LOAD)
     again = gs.Prediction.from_dataset(

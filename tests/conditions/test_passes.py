@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from gripscale.conditions.passes import MOST_PASSES, SETTLED, Pass, settle
-from gripscale.errors import ConvergenceError
+from gripscale.conditions.fixed_point import MOST_PASSES, SETTLED, Pass, settle
+from gripscale.core.errors import ConvergenceError
 
 X = np.array([0.3, -1.2, 0.8])
 """Fixed point of the fine mesh."""

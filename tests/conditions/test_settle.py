@@ -4,14 +4,10 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.conditions import Conditions
-from gripscale.conditions.chain_heat import warming
+from gripscale.conditions import Conditions, ThermalProperties
+from gripscale.conditions.chain_heat import WaveHeat, strains, warming
 from gripscale.conditions.conditions import rubber_under
-from gripscale.conditions.wave_heat import WaveHeat
-from gripscale.conditions.wave_strain import strains
-from gripscale.interface import ThermalProperties
-from gripscale.rough.settle import temperature
-from gripscale.rough.strain import strain_by_scale
+from gripscale.half_space.conditions import strain_by_scale, temperature
 from gripscale.rubber.softening import Kraus
 
 from .shifted import LOAD, RUBBER, SINES

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.conditions import Conditions, passes
-from gripscale.interface import ThermalProperties
+from gripscale.conditions import Conditions, ThermalProperties, fixed_point
 from gripscale.rubber.softening import Kraus
 from gripscale.theory.half_plane import HalfPlane
 from gripscale.wave import FiniteStrainBlock
@@ -43,8 +42,8 @@ def tight(monkeypatch):
     def held(model, conditions):
         with monkeypatch.context() as patch:
             for name in ("SETTLED", "AGREED", "ROUGH"):
-                patch.setattr(passes, name, 1e-6)
-            patch.setattr(passes, "MOST_PASSES", 40)
+                patch.setattr(fixed_point, name, 1e-6)
+            patch.setattr(fixed_point, "MOST_PASSES", 40)
             found = model(conditions)
         assert found.converged
         return found

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.conditions import Conditions
-from gripscale.interface import ThermalProperties
+from gripscale.conditions import Conditions, ThermalProperties
 
 from .shifted import RUBBER, SINES
 

@@ -10,19 +10,19 @@ import pytest
 import xarray as xr
 
 import gripscale as gs
+from gripscale.analysis import effect_tasks, effects
 from gripscale.chain import Chain
-from gripscale.conditions import Conditions
-from gripscale.effects import effect_tasks, effects
-from gripscale.errors import InputError
-from gripscale.figures import effects_figure
-from gripscale.interface import ConstantStress, ThermalProperties
+from gripscale.charts import effects_figure
+from gripscale.conditions import Conditions, ConstantStress, ThermalProperties
+from gripscale.core.errors import InputError
+from gripscale.experiment import Progress
+from gripscale.half_space.model import DirectContact
+from gripscale.io import netcdf
 from gripscale.model import NominalLoad
-from gripscale.report.effects_table import effects_table
-from gripscale.report.tables import as_text
-from gripscale.rough.model import DirectContact
+from gripscale.report.tables_comparison import effects_table
+from gripscale.report.tables_run import as_text
 from gripscale.rubber import WLF
 from gripscale.rubber.softening import Kraus
-from gripscale.study import Progress
 from gripscale.surface import Measured, PreparedSurface
 from gripscale.theory import HalfPlane, Persson
 
@@ -127,7 +127,7 @@ def test_finished_answers_are_not_found_again(tmp_path: Path) -> None:
 def test_numbers_have_units_and_the_file_says_what_it_is_of(
     both: list[xr.Dataset], tmp_path: Path
 ) -> None:
-    kept = gs.netcdf.load(gs.netcdf.save(both[1], tmp_path / "effects.nc"))
+    kept = netcdf.load(netcdf.save(both[1], tmp_path / "effects.nc"))
     assert all({"units", "long_name"} <= set(kept[name].attrs) for name in kept.variables)
     assert kept.attrs["model"] == "direct"
     assert kept.attrs["nominal_speed"] == 1.0

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from gripscale import netcdf
+from gripscale.analysis import effects
 from gripscale.case import prepare_case
 from gripscale.cli import app
-from gripscale.effects import effects
-from gripscale.rough.model import DirectContact
+from gripscale.half_space.model import DirectContact
+from gripscale.io import netcdf
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "conditions" / "case.toml"
 COARSE = """

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gripscale import netcdf
+from gripscale.io import netcdf
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 COARSE = "64"

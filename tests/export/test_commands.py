@@ -11,8 +11,8 @@ import pytest
 from typer.testing import CliRunner
 
 import gripscale as gs
-from gripscale import netcdf
 from gripscale.cli import app
+from gripscale.io import netcdf
 from gripscale.rubber import WLF, Rubber, fit_prony, read_master_curve
 from gripscale.surface import SineStack
 from tests.export.readers import READERS, read_abaqus

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.errors import FileError, InputError
+from gripscale.core.errors import FileError, InputError
 from gripscale.export import block_stress, wave_of, write_mesh
 from gripscale.rubber import Isihara, MooneyRivlin, NeoHookean, Yeoh
 from gripscale.wave import Status
-from gripscale.wave.dataset import waves_to_dataset
+from gripscale.wave.result import waves_to_dataset
 
 LAW = {"wavelength": 1e-2, "amplitude": 1e-3, "pressure": 1e6, "rows": 6, "columns": 32}
 CASES = [

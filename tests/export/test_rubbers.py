@@ -10,7 +10,7 @@ from xml.etree import ElementTree as ET
 import numpy as np
 import pytest
 
-from gripscale.errors import FileError, InputError
+from gripscale.core.errors import FileError, InputError
 from gripscale.export import PROGRAMS, abaqus_rubber, ansys_rubber, febio_rubber, write_rubber
 from gripscale.rubber import (
     WLF,

@@ -12,12 +12,12 @@ import pytest
 import xarray as xr
 
 import gripscale as gs
-from gripscale import netcdf
-from gripscale.errors import FileError, InputError
-from gripscale.export import table_files, tables_of, write_tables
-from gripscale.rough import RoughContact
+from gripscale.core.errors import FileError, InputError
+from gripscale.export import tables, tables_of, write_tables
+from gripscale.half_space import RoughContact
+from gripscale.io import netcdf
 from gripscale.surface import SineStack, self_affine_profile
-from gripscale.wave.dataset import waves_to_dataset
+from gripscale.wave.result import waves_to_dataset
 
 
 @pytest.fixture(scope="module")
@@ -186,7 +186,7 @@ def test_what_a_workbook_cannot_hold(tmp_path, monkeypatch):
     write_tables(data, tmp_path)
     cells = [row[1] for row in read_csv(tmp_path / "place.csv")[1:]]
     assert cells == ["inf", "-inf", ""]
-    monkeypatch.setattr(table_files, "MOST_ROWS", 3)
+    monkeypatch.setattr(tables, "MOST_ROWS", 3)
     with pytest.raises(InputError, match="at most 2 rows for xlsx; got 3 in place"):
         write_tables(data, tmp_path / "other", format="xlsx")
 

@@ -13,8 +13,8 @@ from gripscale.model import TOTALS, NominalLoad, answer
 from gripscale.rubber import Rubber
 from gripscale.surface import SineStack
 from gripscale.wave import WaveResult
-from gripscale.wave.dataset import waves_to_dataset
-from gripscale.wave.status import Status
+from gripscale.wave.problem import Status
+from gripscale.wave.result import waves_to_dataset
 
 RUBBER = Rubber(5e6, [4e6, 8e6], [1e-2, 1e-4], valid_band=(1e-2, 1e6))
 

@@ -14,9 +14,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.markers import TICKDOWN
 
-from gripscale.case.drawn import envelope, sine_curves, trace
-from gripscale.errors import FileError, InputError
-from gripscale.figures import (
+from gripscale.case.record import envelope, sine_curves, trace
+from gripscale.charts import (
     block_figure,
     blocks_figure,
     contact_figure,
@@ -25,18 +24,12 @@ from gripscale.figures import (
     profile_figure,
     save_figure,
 )
-from gripscale.figures.profile import kept_points
-from gripscale.figures.stretches import stretches
-from gripscale.figures.style import short_number
-from gripscale.figures.view import JUDGE
+from gripscale.charts.print_inputs import kept_points
+from gripscale.charts.style import short_number, stretches
+from gripscale.charts.view import JUDGE
+from gripscale.core.errors import FileError, InputError
 from gripscale.rubber import MasterCurve, Rubber, fit_prony_report
-from gripscale.surface import (
-    Profile,
-    SelfAffineFit,
-    SineStack,
-    clean,
-    height_difference,
-)
+from gripscale.surface import Profile, SelfAffineFit, SineStack, clean, height_difference
 
 STACK = SineStack(wavelength=[20e-3, 5e-3], amplitude=[2e-3, 0.5e-3])
 

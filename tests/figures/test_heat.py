@@ -8,12 +8,10 @@ import xarray as xr
 from matplotlib.patches import Rectangle
 
 import gripscale as gs
-from gripscale.conditions import Conditions
-from gripscale.errors import InputError
-from gripscale.figures import direct_heat_figure, heat_figure
-from gripscale.interface import ThermalProperties
-from gripscale.report.heat_table import heat_table
-from gripscale.report.tables import as_text
+from gripscale.charts import direct_heat_figure, heat_figure
+from gripscale.conditions import Conditions, ThermalProperties
+from gripscale.core.errors import InputError
+from gripscale.report.tables_run import as_text, heat_table
 from gripscale.rubber import WLF
 from gripscale.surface import HeightMap
 

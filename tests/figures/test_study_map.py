@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gripscale import netcdf
-from gripscale.figures import friction_master_figure, map_figure
-from gripscale.figures.study_all import draw
+from gripscale.charts import friction_master_figure, map_figure
+from gripscale.charts.print_study import draw
+from gripscale.experiment.speed_and_temperature import BEYOND_SHIFT, with_master_curve
+from gripscale.io import netcdf
 from gripscale.model import TOTALS
 from gripscale.report import write_report
 from gripscale.rubber import WLF, Rubber
-from gripscale.study.temperature import BEYOND_SHIFT, with_master_curve
 
 RUBBER = Rubber(5e6, [4e6], [1e-2], reference_temperature=293.15, shift=WLF(c1=8.0, c2=120.0))
 SPEED = np.geomspace(1e-2, 10.0, 25)

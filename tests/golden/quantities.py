@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import gripscale as gs
-from gripscale.study import Study
+from gripscale.experiment import Study
 
 ROOT = Path(__file__).parents[2]
 DATA = ROOT / "examples" / "data"

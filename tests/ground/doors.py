@@ -9,8 +9,11 @@ from typing import Any
 import numpy as np
 
 import gripscale as gs
-from gripscale import interface, measured, rough, rubber, surface, theory, wave
-from gripscale.calibration import calibrate
+from gripscale import analysis as measured
+from gripscale import conditions as interface
+from gripscale import half_space as rough
+from gripscale import rubber, surface, theory, wave
+from gripscale.analysis import calibrate
 from gripscale.conditions import Conditions
 from gripscale.model import NominalLoad
 from gripscale.rubber import softening

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gripscale.checks import shown
-from gripscale.errors import ConvergenceError, FileError, InputError
+from gripscale.core.checks import short_repr
+from gripscale.core.errors import ConvergenceError, FileError, InputError
 from tests.ground.doors import Door, doors
 
 FOLLOWS = ("omega", "wavelength", "amplitude", "load_time", "profile", "heights")
@@ -60,7 +60,7 @@ def fault(door: Door, argument: str, value: Any) -> str | None:
 def faults(door: Door, values: list[Any]) -> list[str]:
     """Return what is wrong with any argument at any of the values."""
     return [
-        f"{argument} = {shown(value)} ({type(value).__name__}): {found}"
+        f"{argument} = {short_repr(value)} ({type(value).__name__}): {found}"
         for argument in door.good
         for value in values
         if (found := fault(door, argument, value))

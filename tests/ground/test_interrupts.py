@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gripscale import netcdf
-from gripscale.interrupts import held_back
+from gripscale.core.parallel import held_back
+from gripscale.io import netcdf
 
 
 def interrupt() -> None:

@@ -7,9 +7,9 @@ from contextlib import closing
 
 import pytest
 
-from gripscale.errors import InputError
-from gripscale.parallel import cores, in_threads, sharing, worker_count
-from gripscale.study import cluster
+from gripscale.core.errors import InputError
+from gripscale.core.parallel import cores, in_threads, sharing, worker_count
+from gripscale.experiment import solve
 
 
 def count(_: object = None) -> int:
@@ -55,4 +55,4 @@ def test_a_worker_of_a_cluster_uses_one_core() -> None:
             return count()
 
     with sharing(7):
-        assert cluster._alone(Counting()) == 1  # type: ignore[arg-type,comparison-overlap]
+        assert solve._alone(Counting()) == 1  # type: ignore[arg-type,comparison-overlap]

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gripscale import netcdf
-from gripscale.errors import FileError
+from gripscale.core.errors import FileError
+from gripscale.io import netcdf
 
 DATA = xr.Dataset({"friction": ("scale", np.arange(5.0))}, attrs={"title": "waves"})
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from gripscale.shown import GIVEN, given_units, shown
-from gripscale.study.assemble import coordinates
-from gripscale.study.axes import axes_of
+from gripscale.core.units import GIVEN, display_unit, given_units
+from gripscale.experiment.axis import axes_of
+from gripscale.experiment.study import coordinates
 
 CASE = """
 [surface]
@@ -20,15 +20,15 @@ footprint = 0.1
 
 def test_the_units_of_a_case() -> None:
     assert given_units(CASE) == {"pressure": "kPa", "speed": "km/h", "smallest_wavelength": "um"}
-    assert shown("pressure", CASE).text(3e5) == "300 kPa"
-    assert shown("speed", CASE).text(10.0) == "36 km/h"
-    assert shown("footprint", CASE).text(0.1) == "100 mm"
+    assert display_unit("pressure", CASE).text(3e5) == "300 kPa"
+    assert display_unit("speed", CASE).text(10.0) == "36 km/h"
+    assert display_unit("footprint", CASE).text(0.1) == "100 mm"
 
 
 @pytest.mark.parametrize("case", ["", "no = toml = at all", "load = 3", "[load]\npressure = 3e5"])
 def test_without_a_unit_it_is_the_usual_one(case: str) -> None:
-    assert shown("pressure", case).text(3e5) == "0.3 MPa"
-    assert shown("speed", case).text(10.0) == "10 m/s"
+    assert display_unit("pressure", case).text(3e5) == "0.3 MPa"
+    assert display_unit("speed", case).text(10.0) == "10 m/s"
 
 
 @pytest.mark.parametrize(

@@ -8,11 +8,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gripscale.cells import parse_number
-from gripscale.errors import FileError
+from gripscale.core.errors import FileError
+from gripscale.io.text_table import parse_number, read_table
 from gripscale.rubber import MasterCurve, read_master_curve
 from gripscale.surface import Profile, read_profile
-from gripscale.textfile import read_table
 
 # The first row of each holds whole numbers only, which look alike with either decimal sign.
 ROAD = [(0, 1), *((0.5 * i, 0.25 * (-1) ** i) for i in range(1, 20))]

@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from gripscale.errors import InputError
-from gripscale.units import UNITS, in_si, listed, parse_quantity, spelled
+from gripscale.core.errors import InputError
+from gripscale.core.units import UNITS, in_si, listed, parse_quantity, spelled
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.interface import (
+from gripscale.conditions import (
     ConstantStress,
     GaussianStress,
     LeGalKlueppelStress,
@@ -15,7 +15,7 @@ from gripscale.interface import (
     shear_stress_from_dict,
     shear_stress_to_dict,
 )
-from gripscale.interface.area_term import BOLTZMANN
+from gripscale.conditions.area_term import BOLTZMANN
 
 LAWS = [
     ConstantStress(5e6),

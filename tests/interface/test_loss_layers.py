@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.conditions.wave_heat import WaveHeat
-from gripscale.interface import (
+from gripscale.conditions import (
     LossDepth,
     ThermalProperties,
     harmonic_at_surface,
@@ -14,7 +13,8 @@ from gripscale.interface import (
     uniform_at_surface,
     uniform_where_lost,
 )
-from gripscale.interface.loss_layers import LossLayers
+from gripscale.conditions.chain_heat import WaveHeat
+from gripscale.conditions.flash_temperature import LossLayers
 
 THERMAL = ThermalProperties(conductivity=0.25, density=1150.0, specific_heat=1500.0)
 WAVELENGTH = 1e-3

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.special import gamma
 
-from gripscale.interface import (
+from gripscale.conditions import (
     LossDepth,
     ThermalProperties,
     harmonic_at_surface,
@@ -16,7 +16,7 @@ from gripscale.interface import (
     uniform_at_surface,
     uniform_where_lost,
 )
-from gripscale.interface.passing_harmonic import passing_at_surface, passing_where_lost
+from gripscale.conditions.flash_temperature import passing_at_surface, passing_where_lost
 
 THERMAL = ThermalProperties(conductivity=0.25, density=1150.0, specific_heat=1500.0)
 

@@ -8,7 +8,7 @@ from scipy.integrate import quad
 from scipy.special import erfcx, k0e
 
 import gripscale as gs
-from gripscale.interface import (
+from gripscale.conditions import (
     LossDepth,
     ThermalProperties,
     harmonic_at_surface,
@@ -17,7 +17,7 @@ from gripscale.interface import (
     uniform_at_surface,
     uniform_where_lost,
 )
-from gripscale.interface.loss_depth import ierfc
+from gripscale.conditions.flash_temperature import ierfc
 
 THERMAL = ThermalProperties(conductivity=0.25, density=1150.0, specific_heat=1500.0)
 KAPPA, D = 0.25, THERMAL.diffusivity

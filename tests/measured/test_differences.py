@@ -7,11 +7,11 @@ import math
 import numpy as np
 import pytest
 
-from gripscale.errors import InputError
-from gripscale.interface import ConstantStress
-from gripscale.measured import MeasuredFriction, Predicted, residuals
-from gripscale.report.residual_table import residual_table
-from gripscale.report.tables import as_text
+from gripscale.analysis import MeasuredFriction, Predicted, residuals
+from gripscale.conditions import ConstantStress
+from gripscale.core.errors import InputError
+from gripscale.report.tables_measured import residual_table
+from gripscale.report.tables_run import as_text
 
 MEASURED = MeasuredFriction(
     [0.1, 1.0, 10.0], [0.5, 0.6, 0.7], [0.1, np.nan, 0.05], [293.15] * 3, pressure=[2e5, 3e5, 3e5]

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gripscale.errors import FileError, InputError
-from gripscale.measured import MeasuredFriction, read_measured_friction
+from gripscale.analysis import MeasuredFriction, read_measured_friction
+from gripscale.core.errors import FileError, InputError
 
 
 def written(folder: Path, text: str) -> Path:

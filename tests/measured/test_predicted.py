@@ -12,15 +12,14 @@ import xarray as xr
 
 import gripscale as gs
 from gripscale import model
-from gripscale.chain.model import Chain
-from gripscale.conditions import Conditions
-from gripscale.errors import InputError
-from gripscale.interface import GaussianStress, ThermalProperties
-from gripscale.measured import MeasuredFriction, Predicted, averaged, predictions_at
-from gripscale.measured.probe import TemperatureProbe
+from gripscale.analysis import MeasuredFriction, Predicted, averaged, predictions_at
+from gripscale.analysis.measured_friction import TemperatureProbe
+from gripscale.chain.chain import Chain
+from gripscale.conditions import Conditions, GaussianStress, ThermalProperties
+from gripscale.core.errors import InputError
+from gripscale.experiment import Store
+from gripscale.half_space.model import DirectContact
 from gripscale.model import NominalLoad
-from gripscale.rough.model import DirectContact
-from gripscale.study import Store
 from gripscale.surface import Measured, PreparedSurface
 from gripscale.theory.half_plane import HalfPlane
 from tests.conditions.shifted import RUBBER, SINES

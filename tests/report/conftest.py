@@ -13,20 +13,20 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gripscale import netcdf
-from gripscale.case import prepare_case, run_case
-from gripscale.comparison import (
+from gripscale.analysis import (
     Comparison,
     ComparisonOverAxis,
     Factor,
+    MeasuredFriction,
     Sample,
     SolvedRung,
     Uncertain,
     compare_case,
 )
-from gripscale.measured import MeasuredFriction
+from gripscale.case import prepare_case, run_case
+from gripscale.experiment.axis import axes_of
+from gripscale.io import netcdf
 from gripscale.model import TOTALS
-from gripscale.study.axes import axes_of
 from tests.written import three_waves, write_maxwell, write_road
 
 CASE = """\

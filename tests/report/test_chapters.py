@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from gripscale.errors import ExtrapolationError, InputError
-from gripscale.report.chapters import STATUS_CHAPTERS, pointer
-from gripscale.wave.status import Status
+from gripscale.core.errors import ExtrapolationError, InputError
+from gripscale.report.notices import STATUS_CHAPTERS, pointer
+from gripscale.wave.problem import Status
 
 DOCS = Path(__file__).parents[2] / "docs"
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 import xarray as xr
 
-from gripscale import netcdf
-from gripscale.errors import FileError
+from gripscale.core.errors import FileError
+from gripscale.io import netcdf
 from gripscale.report import write_report
 
 from .reading import Page

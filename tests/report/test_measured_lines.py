@@ -2,9 +2,9 @@
 
 import pytest
 
-from gripscale.measured import MeasuredFriction
-from gripscale.report.measured_lines import measured_lines
-from gripscale.shown import shown
+from gripscale.analysis import MeasuredFriction
+from gripscale.core.units import display_unit
+from gripscale.report.tables_measured import measured_lines
 
 
 def test_measured_friction_at_a_speed_is_interpolated_in_its_logarithm() -> None:
@@ -14,19 +14,19 @@ def test_measured_friction_at_a_speed_is_interpolated_in_its_logarithm() -> None
         spread=[0.04, 0.08, 0.02, 0.02],
         temperature=[293.15, 293.15, 313.15, 313.15],
     )
-    cold, warm = measured_lines(found, 0.1, shown("speed"))
+    cold, warm = measured_lines(found, 0.1, display_unit("speed"))
     assert cold.startswith("Measured, 20 °C: mu = 1.00 ± 0.060 at 0.1 m/s")
     assert warm.startswith("Measured, 40 °C: mu = 0.800 ± 0.020 at 0.1 m/s")
 
 
 @pytest.mark.parametrize("speed", [0.001, 10.0])
 def test_nothing_is_extrapolated(speed: float) -> None:
-    [line] = measured_lines(MeasuredFriction([0.01, 1.0], [0.8, 1.2]), speed, shown("speed"))
+    [line] = measured_lines(MeasuredFriction([0.01, 1.0], [0.8, 1.2]), speed, display_unit("speed"))
     assert line == f"Measured: nothing at {speed:g} m/s, only from 0.0100 to 1.00 m/s."
 
 
 def test_speeds_are_those_of_the_case() -> None:
     [line] = measured_lines(
-        MeasuredFriction([0.01, 1.0], [0.8, 1.2]), 10.0, shown("speed", unit="km/h")
+        MeasuredFriction([0.01, 1.0], [0.8, 1.2]), 10.0, display_unit("speed", unit="km/h")
     )
     assert line == "Measured: nothing at 36 km/h, only from 0.0360 to 3.60 km/h."

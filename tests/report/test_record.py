@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from gripscale.case import prepare_case
-from gripscale.case.drawn import sine_curves
-from gripscale.rubber.plateau import fast_end
+from gripscale.case.record import sine_curves
+from gripscale.rubber.material import fast_end
 
 from .conftest import read
 

@@ -14,14 +14,14 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gripscale import netcdf
-from gripscale.errors import FileError, InputError
+from gripscale.charts.page_run import contact_charts
+from gripscale.core.errors import FileError, InputError
+from gripscale.io import netcdf
 from gripscale.model import OUTSIDE_BAND, TOTALS, NominalLoad, answer
 from gripscale.report import write_report
-from gripscale.report.charts.contact import contact_charts
-from gripscale.report.input_tables import rubber_facts
 from gripscale.report.notices import cards, notices
 from gripscale.report.source import Run, read_result
+from gripscale.report.tables_inputs import rubber_facts
 
 from .conftest import CASE, WAVES, read
 from .reading import Page

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from bokeh.models import ColumnDataSource
 
-from gripscale import netcdf
+from gripscale.charts.page_study import study_charts
+from gripscale.experiment import Study
+from gripscale.io import netcdf
 from gripscale.report import source, write_report
-from gripscale.report.charts.study import study_charts
-from gripscale.study import Study
 
 from .reading import Page
 

@@ -12,10 +12,10 @@ import pytest
 from typer.testing import CliRunner, Result
 
 import gripscale
-from gripscale import netcdf
 from gripscale.cli import app
-from gripscale.errors import FileError, InputError
-from gripscale.study import Progress
+from gripscale.core.errors import FileError, InputError
+from gripscale.experiment import Progress
+from gripscale.io import netcdf
 from reproduction.__main__ import main
 from reproduction.inputs import DENSE, PAPER_FACTORS, ROAD, TREAD, Inputs, read_inputs
 from reproduction.panels import panels_of

@@ -10,11 +10,11 @@ import xarray as xr
 from typer.testing import CliRunner
 
 import gripscale as gs
+from gripscale.analysis import Roads, compare_surfaces
+from gripscale.analysis.roads import octave_ends, running_friction
 from gripscale.cli import app
-from gripscale.errors import InputError
-from gripscale.report.roads_table import roads_sentences
-from gripscale.roads import Roads, compare_surfaces
-from gripscale.roads.by_octave import octave_ends, running_friction
+from gripscale.core.errors import InputError
+from gripscale.report.tables_comparison import roads_sentences
 from gripscale.surface import Profile, self_affine_profile
 from tests.written import write_road
 
@@ -104,11 +104,11 @@ def test_the_direct_contact_is_solved_once_for_itself_and_for_its_samples(
 def test_ranges_are_of_the_drawn_blocks(folder: Path, made: Roads) -> None:
     """With half-planes as its solver the chain's range is that of its uncertainty by profiles."""
     sources = ["modulus", "bulk_modulus", "load_time", "cut_off", "waves"]
-    choice = gs.uncertainty.Uncertainty(sources)
+    choice = gs.analysis.Uncertainty(sources)
     case = folder / "case.toml"
     case_of = case.with_name("fine.toml")
     case_of.write_text(case.read_text().replace("points = 64", "points = 128"))
-    told = gs.uncertainty.propagate(case_of, choice, samples=10)
+    told = gs.analysis.propagate(case_of, choice, samples=10)
     ratio = told.friction_quantile.values[0, [0, -1]] / float(told.friction_case[0])
     one = made.data.sel(surface="road", model="chain")
     assert float(one.total_friction_low / one.total_friction) == pytest.approx(ratio[0])

@@ -8,10 +8,9 @@ import numpy as np
 import scipy.fft
 
 import gripscale as gs
-from gripscale.rough.grid import Grid
-from gripscale.rough.grids import Climb, Level, finer, levels
-from gripscale.rough.half_space import HalfSpace
-from gripscale.rough.heights import periodic_heights
+from gripscale.half_space.grid import Grid, periodic_heights
+from gripscale.half_space.grid_sequence import Climb, Level, finer, levels
+from gripscale.half_space.response import HalfSpace
 from gripscale.surface import HeightMap, Profile
 
 WAVELENGTH, AMPLITUDE, RELAXED, TIME = 1e-3, 1e-5, 3e6, 1e-2

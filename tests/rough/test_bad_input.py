@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.errors import InputError
-from gripscale.rough import random_phases, windows
+from gripscale.core.errors import InputError
+from gripscale.half_space import random_phases, windows
 from gripscale.surface import HeightMap
 
 from .rough_cases import ZENER, isotropic_heights

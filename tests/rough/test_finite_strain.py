@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.errors import InputError
-from gripscale.rough import one_period, solve_both_ways, spread_windows, surface_of_sines
-from gripscale.rough.heights import periodic_heights
+from gripscale.core.errors import InputError
+from gripscale.half_space import one_period, solve_both_ways, spread_windows, surface_of_sines
+from gripscale.half_space.grid import periodic_heights
 from gripscale.surface import Profile, SineStack, self_affine_profile
 from gripscale.wave import Status
 

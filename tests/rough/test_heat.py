@@ -4,10 +4,14 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.interface import LossDepth, ThermalProperties, harmonic_at_surface, harmonic_decay
-from gripscale.rough.grid import Grid
-from gripscale.rough.heat import OctaveHeat, grid_temperature, octave_heats
-from gripscale.rough.strain import strain_by_scale
+from gripscale.conditions import LossDepth, ThermalProperties, harmonic_at_surface, harmonic_decay
+from gripscale.half_space.conditions import (
+    OctaveHeat,
+    grid_temperature,
+    octave_heats,
+    strain_by_scale,
+)
+from gripscale.half_space.grid import Grid
 
 THERMAL = ThermalProperties(conductivity=0.25, density=1150.0, specific_heat=1500.0)
 RUBBER = gs.Rubber(5e6, np.geomspace(3e6, 3e8, 8), np.geomspace(1e-1, 1e-8, 8))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import scipy.fft
 
-from gripscale.rough.line_filter import SHORTEST, LineFilter
+from gripscale.half_space.grid import SHORTEST, LineFilter
 
 ROUNDING = 2e-6
 """Of transforms in single precision: 6e-8 in each of some log2(N) = 16 stages, and margin."""

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from gripscale.errors import InputError
-from gripscale.rough import map_over_lines, solve_map_and_lines, solve_windows
+from gripscale.core.errors import InputError
+from gripscale.half_space import map_over_lines, solve_map_and_lines, solve_windows
 from gripscale.surface import HeightMap, isotropic_maps, self_affine_profile
 
 from .rough_cases import WAVELENGTH, ZENER, grooves

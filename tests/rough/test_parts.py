@@ -8,12 +8,11 @@ import numpy as np
 import pytest
 import scipy.fft
 
-from gripscale.rough import extension, gap_solver
-from gripscale.rough.estimate import errors
-from gripscale.rough.extension import FAR, Extension
-from gripscale.rough.grid import Grid, doubled, resampled
-from gripscale.rough.grids import GridRecord
-from gripscale.rough.half_space import HalfSpace, Response
+from gripscale.half_space import active_set
+from gripscale.half_space.active_set import FAR, Extension
+from gripscale.half_space.grid import Grid, doubled, resampled
+from gripscale.half_space.grid_sequence import GridRecord, errors
+from gripscale.half_space.response import HalfSpace, Response
 
 from .rough_cases import ZENER, isotropic_map, on_grid
 
@@ -36,15 +35,15 @@ def test_iterations_and_elimination_close_the_same_gap(monkeypatch):
     full[where] = start
     lifted = response.displacement(full.reshape(grid.shape)).reshape(-1)
     system = (response, where, height[where], start, lifted, 1e-6)
-    iterated = gap_solver.close_gap(*system, check=True)
-    monkeypatch.setattr(gap_solver, "SHORTEST", 1)
-    direct = gap_solver.close_gap(*system, check=True)
+    iterated = active_set.close_gap(*system, check=True)
+    monkeypatch.setattr(active_set, "SHORTEST", 1)
+    direct = active_set.close_gap(*system, check=True)
     assert direct.products == 2
     assert iterated.products > 5
     assert direct.pressure.sum() == pytest.approx(start.sum(), rel=1e-9)
     size = np.abs(direct.pressure).max()
     assert np.abs(iterated.pressure - direct.pressure).max() < 1e-4 * size
-    assert gap_solver.close_gap(*system, check=False).missing < 1e-6
+    assert active_set.close_gap(*system, check=False).missing < 1e-6
     full[where] = direct.pressure
     gap = response.displacement(full.reshape(grid.shape)).reshape(-1)[where] - height[where]
     assert np.ptp(gap) < 1e-9 * np.ptp(height)
@@ -77,10 +76,10 @@ def test_carrying_the_gap_saves_products(speed, monkeypatch):
     where = np.flatnonzero(height > np.quantile(height, 0.8))
     products = {}
     for far in (FAR, 1e6):
-        monkeypatch.setattr(extension, "FAR", far)
-        points = gap_solver.PointsInContact(response, where)
+        monkeypatch.setattr(active_set, "FAR", far)
+        points = active_set.PointsInContact(response, where)
         right = points.missing(height.reshape(-1)[where])
-        gap_solver.gmres(points, right / np.linalg.norm(right), 1e-4, 60)
+        active_set.gmres(points, right / np.linalg.norm(right), 1e-4, 60)
         products[far] = points.products
     assert products[FAR] <= 0.9 * products[1e6]
 

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gripscale import netcdf
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
+from gripscale.half_space import DirectContact
+from gripscale.half_space.result import patch_points
+from gripscale.io import netcdf
 from gripscale.model import TOTALS, Model, NominalLoad
-from gripscale.rough import DirectContact
-from gripscale.rough.patches import patch_points
 from gripscale.surface import (
     HeightMap,
     Measured,

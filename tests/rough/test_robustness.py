@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
 from gripscale.surface import Profile, self_affine_profile
 
 from .rough_cases import random_case

@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.errors import InputError
-from gripscale.rough import random_phases, solve_windows, surface_of_sines, windows
-from gripscale.rough.ends import joined
-from gripscale.rough.heights import periodic_heights
+from gripscale.core.errors import InputError
+from gripscale.half_space import random_phases, solve_windows, surface_of_sines, windows
+from gripscale.half_space.grid import joined, periodic_heights
 from gripscale.surface import HeightMap, Profile, SineStack, height_difference, self_affine_profile
-from gripscale.surface.gaps import filled
+from gripscale.surface.resampling import filled
 
 from .rough_cases import ZENER, isotropic_heights, isotropic_map, solve
 

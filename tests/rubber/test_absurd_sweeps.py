@@ -9,7 +9,7 @@ import pytest
 
 import gripscale as gs
 from gripscale import rubber as gr
-from gripscale.errors import GripscaleError
+from gripscale.core.errors import GripscaleError
 
 FILE = (
     Path(__file__).parents[2] / "examples/data/rubber/multi_temperature_polymer/freq_user_raw.csv"

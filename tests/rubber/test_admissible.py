@@ -6,10 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
 from gripscale.rubber import AdmissibleSeries, Rubber, fit_prony, fit_prony_report
+from gripscale.rubber.material import loss_shape, storage_shape
 from gripscale.rubber.maxwell_fit import Curve, Prior, fit_spectrum, relaxation_times
-from gripscale.rubber.maxwell_shapes import loss_shape, storage_shape
 from tests.rubber.truths import TRUTHS
 
 SERIES = AdmissibleSeries([1e-3, 1.0], [1e6, 2e6, 1.5e6], [[1e6, 2e6], [0.0, 3e6], [4e6, 0.0]])

@@ -9,14 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gripscale.errors import FileError, InputError
-from gripscale.rubber import (
-    MasterCurve,
-    Rubber,
-    fit_prony,
-    read_master_curve,
-    read_uniaxial_test,
-)
+from gripscale.core.errors import FileError, InputError
+from gripscale.rubber import MasterCurve, Rubber, fit_prony, read_master_curve, read_uniaxial_test
 
 DATA = Path(__file__).parents[2] / "examples/data/rubber"
 TREAD = DATA / "measured_dma.txt"

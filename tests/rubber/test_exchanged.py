@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
 from gripscale.rubber import MasterCurve, fit_prony_report, read_master_curve, springpot_modulus
-from gripscale.rubber.exchanged import exchange
+from gripscale.rubber.prony_report import exchange
 from tests.rubber.test_sweeps_reader import POLYMER
 from tests.rubber.truths import TREAD, TRUTHS, fractional_zener
 

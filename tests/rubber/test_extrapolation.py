@@ -8,7 +8,7 @@ import re
 import numpy as np
 import pytest
 
-from gripscale.errors import ExtrapolationError, InputError
+from gripscale.core.errors import ExtrapolationError, InputError
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import (
     UNKNOWN,

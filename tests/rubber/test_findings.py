@@ -7,10 +7,9 @@ import pytest
 
 import gripscale as gs
 from gripscale.case import run_case
-from gripscale.errors import InputError, RubberWarning
+from gripscale.core.errors import InputError, RubberWarning
 from gripscale.rubber import MasterCurve, Rubber, fit_prony, fit_prony_report
-from gripscale.rubber.carrying import require_solid
-from gripscale.rubber.plateau import fast_end, slow_end
+from gripscale.rubber.material import fast_end, require_solid, slow_end
 from tests.rubber.truths import TRUTHS, fractional_zener
 
 SINES = gs.SineStack([1e-2], [1e-3])

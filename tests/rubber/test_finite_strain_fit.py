@@ -8,7 +8,7 @@ import numpy as np
 import openpyxl
 import pytest
 
-from gripscale.errors import FileError, InputError
+from gripscale.core.errors import FileError, InputError
 from gripscale.rubber import (
     MooneyRivlin,
     NeoHookean,

@@ -16,9 +16,9 @@ import openpyxl
 import pytest
 
 import gripscale as gs
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
 from gripscale.rubber import WLF
-from gripscale.rubber.sweeps_found import holds_sweeps
+from gripscale.rubber.sweeps import holds_sweeps
 
 SOLID = gs.Rubber(3e6, [2e6, 20e6, 200e6], [1e-1, 1e-3, 1e-5], reference_temperature=293.15,
                   shift=WLF(8.86, 101.6))  # fmt: skip

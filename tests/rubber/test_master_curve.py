@@ -8,7 +8,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from gripscale.errors import FileError, InputError
+from gripscale.core.errors import FileError, InputError
 from gripscale.rubber import MasterCurve, read_master_curve
 
 TREAD = Path(__file__).parents[2] / "examples/data/rubber/measured_dma.txt"

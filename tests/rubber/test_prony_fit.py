@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
 from gripscale.rubber import MasterCurve, Rubber, fit_prony, fit_prony_report, read_master_curve
 
 TREAD = Path(__file__).parents[2] / "examples/data/rubber/measured_dma.txt"

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
 from gripscale.rubber import MooneyRivlin, NeoHookean, Rubber, Yeoh
 
 SERIES = st.lists(st.tuples(st.floats(1e3, 1e9), st.floats(1e-12, 1e6)), min_size=0, max_size=8)

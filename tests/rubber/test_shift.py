@@ -8,7 +8,7 @@ import math
 import numpy as np
 import pytest
 
-from gripscale.errors import FileError, InputError
+from gripscale.core.errors import FileError, InputError
 from gripscale.rubber import (
     SHIFTS,
     WLF,

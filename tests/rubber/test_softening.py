@@ -4,12 +4,7 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.rubber.softening import (
-    Kraus,
-    SofteningTable,
-    softened,
-    softening_from_dict,
-)
+from gripscale.rubber.softening import Kraus, SofteningTable, softened, softening_from_dict
 
 KRAUS = Kraus(
     storage_ratio=0.25,

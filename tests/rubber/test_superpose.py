@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
 from gripscale.rubber import (
     WLF,
     ShiftTable,
@@ -19,7 +19,7 @@ from gripscale.rubber import (
     superpose_report,
     write_master_curve,
 )
-from gripscale.rubber.superposition.spline import Basis, smooth
+from gripscale.rubber.joint_shift import Basis, smooth
 
 ROOM = 293.15
 TRUE = WLF(8.86, 101.6, ROOM)

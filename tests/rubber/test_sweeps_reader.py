@@ -9,10 +9,10 @@ import openpyxl
 import pytest
 
 import gripscale as gs
-from gripscale.errors import FileError, InputError
+from gripscale.core.errors import FileError, InputError
 from gripscale.rubber import Sweeps, read_strain_sweep, sweeps_from_ramps
-from gripscale.rubber.sweeps_found import holds_sweeps
-from gripscale.rubber.titles import quantity, stated_temperature, with_primes
+from gripscale.rubber.columns import quantity, stated_temperature, with_primes
+from gripscale.rubber.sweeps import holds_sweeps
 
 DATA = Path(__file__).parents[2] / "examples/data/rubber"
 POLYMER = DATA / "multi_temperature_polymer" / "freq_user_raw.csv"

@@ -10,13 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from gripscale.rubber import (
-    MasterCurve,
-    Rubber,
-    fit_prony,
-    read_master_curve,
-    springpot_modulus,
-)
+from gripscale.rubber import MasterCurve, Rubber, fit_prony, read_master_curve, springpot_modulus
 
 TREAD = Path(__file__).parents[2] / "examples/data/rubber/measured_dma.txt"
 

@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from gripscale import Rubber, netcdf, surface
+from gripscale import Rubber, surface
 from gripscale.cli import app
-from gripscale.report import tables
+from gripscale.io import netcdf
+from gripscale.report import tables_run
 from gripscale.wave import Status
 from tests.written import write_master_curve, write_road
 
@@ -118,7 +119,13 @@ def test_the_figures_are_listed(folder):
 
 
 def test_the_columns_of_the_table_are_listed():
-    columns = [tables.WAVE, tables.LENGTH, *tables.LOAD, *tables.CONTACT, *tables.EVIDENCE]
+    columns = [
+        tables_run.WAVE,
+        tables_run.LENGTH,
+        *tables_run.LOAD,
+        *tables_run.CONTACT,
+        *tables_run.EVIDENCE,
+    ]
     two_lines = {"area", "μ"}
     names = [f"{c.heading} {c.unit}" if c.heading in two_lines else c.heading for c in columns]
     assert first_cells("The table") == names

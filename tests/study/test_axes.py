@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
-from gripscale.errors import InputError
-from gripscale.study.axes import axes_of, parse_vary
+from gripscale.core.errors import InputError
+from gripscale.experiment.axis import axes_of, parse_vary
 
 
 @pytest.mark.parametrize(

@@ -12,8 +12,8 @@ from typing import Any
 import pytest
 import xarray as xr
 
-from gripscale.errors import InputError
-from gripscale.study import Progress, Study, cluster
+from gripscale.core.errors import InputError
+from gripscale.experiment import Progress, Study, solve
 
 distributed: Any = pytest.importorskip("distributed")
 
@@ -62,7 +62,7 @@ def test_scheduler_is_reached_by_its_address(
     study = Study(case, {"speed": [0.01, 1.0]})
     result = study.run(tmp_path / "cluster", client=workers.scheduler_address)
     same_bytes(result, study.run(tmp_path / "threads"))
-    monkeypatch.setattr(cluster, "software", lambda: "gripscale 0.1.0 other")
+    monkeypatch.setattr(solve, "software", lambda: "gripscale 0.1.0 other")
     with pytest.raises(InputError, match=r"has gripscale .*, this machine gripscale 0.1.0 other"):
         study.run(tmp_path / "other", client=workers.scheduler_address)
 
@@ -70,7 +70,7 @@ def test_scheduler_is_reached_by_its_address(
 def test_no_scheduler_is_one_sentence_and_leaves_nothing_behind(
     case: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(cluster, "CONNECT_SECONDS", 0.2)
+    monkeypatch.setattr(solve, "CONNECT_SECONDS", 0.2)
     study = Study(case, {"speed": [1.0]})
     for address in ("tcp://127.0.0.1:9", "nonsense"):
         with pytest.raises(InputError, match=f"that answers, such as .* got '{address}'"):
@@ -84,6 +84,6 @@ def test_dask_missing_is_one_sentence(
     def missing(name: str) -> None:
         raise ModuleNotFoundError(name)
 
-    monkeypatch.setattr(cluster.importlib, "import_module", missing)
+    monkeypatch.setattr(solve.importlib, "import_module", missing)
     with pytest.raises(InputError, match=r"pip install gripscale\[cluster\]"):
         Study(case, {"speed": [1.0]}).run(tmp_path, client="local")

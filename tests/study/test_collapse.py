@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
+from gripscale.experiment.speed_and_temperature import TRUSTED, collapse
 from gripscale.rubber import Rubber
-from gripscale.study.collapse import TRUSTED, collapse
 
 RUBBER = Rubber(5e6, np.geomspace(3e6, 3e8, 10), np.geomspace(1e-1, 1e-9, 10))
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from gripscale.experiment.speed_and_temperature import _in_decades, friction_by_decade
 from gripscale.rubber import Rubber
-from gripscale.study.decades import _in_decades, friction_by_decade
 
 RUBBER = Rubber(2e6, [3e6, 4e6], [2e-2, 5e-4])
 WAVELENGTH, SPEED, FRICTION = 10e-3, 0.3, 0.2

@@ -10,8 +10,8 @@ import pytest
 
 import gripscale as gs
 from gripscale.case import read_case
-from gripscale.errors import FileError, InputError
-from gripscale.study.inputs import case_surface, rubber_of, surface_of
+from gripscale.core.errors import FileError, InputError
+from gripscale.experiment.inputs import case_surface, rubber_of, surface_of
 from tests.written import write_road
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "road_and_tread" / "case.toml"

@@ -13,13 +13,13 @@ from pathlib import Path
 import pytest
 import xarray as xr
 
-from gripscale.study import Progress, Store, Study
-from gripscale.study.task import Stopped
+from gripscale.core.parallel import Stopped
+from gripscale.experiment import Progress, Store, Study
 
 VARY = {"speed": "0.01:1:log3", "pressure": "1 bar,3 bar"}
 PROGRAM = """
 import sys
-from gripscale.study import Study
+from gripscale.experiment import Study
 vary = {"speed": "0.01:1:log3", "pressure": "1 bar,3 bar"}
 Study(sys.argv[1], vary).run(
     sys.argv[2], workers=2, on_task=lambda told: print(told.done, told.label, flush=True)

@@ -14,14 +14,14 @@ import pytest
 import xarray as xr
 
 import gripscale as gs
-from gripscale import netcdf
 from gripscale.chain import Chain
-from gripscale.errors import FileError, InputError
+from gripscale.core.errors import FileError, InputError
+from gripscale.core.provenance import fingerprint
+from gripscale.experiment import Progress, Study, Task, task
+from gripscale.experiment import study as study_module
+from gripscale.half_space.model import DirectContact
+from gripscale.io import netcdf
 from gripscale.model import NominalLoad
-from gripscale.rough.model import DirectContact
-from gripscale.software import fingerprint
-from gripscale.study import Progress, Study, Task, task
-from gripscale.study import study as study_module
 from gripscale.surface import PreparedSurface
 from gripscale.theory import HalfPlane
 from gripscale.wave import FiniteStrainBlock, Mesh, Sine, Status, WaveProblem, WaveResult

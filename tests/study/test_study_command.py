@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from typer.testing import Result
 
-from gripscale import netcdf
+from gripscale.io import netcdf
 from gripscale.wave import FiniteStrainBlock, Status, WaveProblem, WaveResult
 
 Shell = Callable[..., Result]

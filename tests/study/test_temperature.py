@@ -14,15 +14,13 @@ from typer.testing import Result
 
 import gripscale as gs
 from gripscale.chain import Chain
-from gripscale.conditions import Conditions
-from gripscale.errors import InputError
-from gripscale.interface import ConstantStress, ThermalProperties
-from gripscale.report.study_table import study_table
-from gripscale.report.tables import as_text
-from gripscale.report.temperature_text import collapse_sentences, shift_sentence
-from gripscale.rough.model import DirectContact
+from gripscale.conditions import Conditions, ConstantStress, ThermalProperties
+from gripscale.core.errors import InputError
+from gripscale.experiment import Study
+from gripscale.half_space.model import DirectContact
+from gripscale.report.tables_run import as_text
+from gripscale.report.tables_study import collapse_sentences, shift_sentence, study_table
 from gripscale.rubber import ShiftTable
-from gripscale.study import Study
 from gripscale.surface import self_affine_profile
 from gripscale.theory import HalfPlane, Persson
 
@@ -212,7 +210,7 @@ def test_rubber_without_shift_is_refused_before_anything_is_solved(case: Path) -
 
 
 def test_kelvin_from_python_and_units_from_texts() -> None:
-    axis = gs.study.axes.axes_of({"temperature": [293.15, "40 C"]})[0]
+    axis = gs.experiment.axis.axes_of({"temperature": [293.15, "40 C"]})[0]
     assert axis.values == (293.15, 313.15)
     assert axis.labels == ("20 C", "40 C")
 

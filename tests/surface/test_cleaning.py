@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
 from gripscale.surface import clean, read_profile
 from gripscale.surface.cleaning import crop_profile, mark_dropouts, mark_spikes, subtract_trend
 

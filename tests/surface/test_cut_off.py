@@ -7,12 +7,7 @@ import math
 import pytest
 
 import gripscale as gs
-from gripscale.surface import (
-    RmsSlope,
-    find_cut_off,
-    self_affine_profile,
-    slope_by_wavelength,
-)
+from gripscale.surface import RmsSlope, find_cut_off, self_affine_profile, slope_by_wavelength
 from gripscale.surface.cut_off import cut_off_rule
 
 ROUGH = [self_affine_profile(0.7, 10e-3, 1e-3, 0.4, 1e-4, seed) for seed in (1, 2)]

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gripscale.surface.gaps import filled
+from gripscale.surface.resampling import filled
 
 X, Y = np.arange(24) * 1e-4, np.arange(30) * 2.5e-4
 

@@ -4,7 +4,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gripscale.surface import Profile, height_difference
-from gripscale.surface.grid import GRID_TOLERANCE, even_grid, uneven_step
+from gripscale.surface.profile import GRID_TOLERANCE, even_grid, uneven_step
 
 
 def printed(x, decimals):

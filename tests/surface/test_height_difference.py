@@ -4,7 +4,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
 from gripscale.surface import (
     HeightDifference,
     clean,

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
 from gripscale.surface import HeightMap
 
 X, Y = np.arange(20) * 1e-4, np.arange(30) * 2e-4

@@ -4,13 +4,21 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from gripscale.errors import InputError
-from gripscale.surface import Profile, clean, isotropic_maps, read_profile
-from gripscale.surface.maps import line_matching
-from gripscale.surface.maps.line_filter import BELL, CURVATURE, SLOPE, LineFilter, Term, scaled
-from gripscale.surface.maps.measured import measured_lines
-from gripscale.surface.maps.square import Square
-from gripscale.surface.maps.transport import CLASSES, Distribution, height_class
+from gripscale.core.errors import InputError
+from gripscale.surface import Profile, clean, isotropic_maps, line_statistics, read_profile
+from gripscale.surface.line_statistics import (
+    BELL,
+    CLASSES,
+    CURVATURE,
+    SLOPE,
+    Distribution,
+    LineFilter,
+    Square,
+    Term,
+    height_class,
+    measured_lines,
+    scaled,
+)
 
 from .surface_cases import ROAD, ROAD_ONLY
 
@@ -40,8 +48,8 @@ def one_map(construction, profile=ROUGH, seed=0):
 def quick():
     """Fewer filters and batches than a real map gets."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(line_matching, "STATISTICS", 48)
-        patch.setattr(line_matching, "STAGES", ((4, 50), (2, 50), (1, 50)))
+        patch.setattr(line_statistics, "STATISTICS", 48)
+        patch.setattr(line_statistics, "STAGES", ((4, 50), (2, 50), (1, 50)))
         yield
 
 

@@ -6,10 +6,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import gripscale as gs
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
 from gripscale.surface import HeightMap
-from gripscale.surface.cleaning import mark_spikes
-from gripscale.surface.map_cleaning import crop_map, mark_map_spikes, subtract_form, trim_map
+from gripscale.surface.cleaning import (
+    crop_map,
+    mark_map_spikes,
+    mark_spikes,
+    subtract_form,
+    trim_map,
+)
 
 from .surface_cases import DATA
 

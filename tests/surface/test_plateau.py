@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from gripscale.surface import HeightDifference
-from gripscale.surface.plateau import find_plateau, log_weights
+from gripscale.surface.height_difference import find_plateau, log_weights
 
 LAG = np.geomspace(1e-4, 1.0, 81)
 

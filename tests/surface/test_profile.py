@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
 from gripscale.surface import Profile
 
 X = 1e-4 * np.arange(20)

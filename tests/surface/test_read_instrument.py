@@ -3,7 +3,7 @@ import builtins
 import numpy as np
 import pytest
 
-from gripscale.errors import FileError, InputError
+from gripscale.core.errors import FileError, InputError
 from gripscale.surface import clean, read_profile, read_profiles
 
 from .surface_cases import DATA

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.errors import FileError, InputError
+from gripscale.core.errors import FileError, InputError
 from gripscale.surface import clean, read_profiles
 
 from .surface_cases import DATA

@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gripscale.errors import FileError, InputError
+from gripscale.core.errors import FileError, InputError
 from gripscale.surface import read_profile, read_profiles
 
 from .surface_cases import ROAD

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
 from gripscale.surface import resample
 
 RANDOM = np.random.default_rng(5)

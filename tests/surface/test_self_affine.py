@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
 from gripscale.surface import (
     HeightDifference,
     SelfAffineFit,

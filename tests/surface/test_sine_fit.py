@@ -4,7 +4,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
 from gripscale.surface import (
     HeightDifference,
     SelfAffineFit,

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
 from gripscale.surface import SineStack, height_difference, sine_profile
 
 from .surface_cases import geometric_stack

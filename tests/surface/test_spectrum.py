@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import integrate
 
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
 from gripscale.surface import (
     ArealSpectrum,
     Profile,

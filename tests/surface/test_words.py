@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
 from gripscale.surface import HeightDifference, Profile, clean, fit_self_affine, fit_sines
 
 

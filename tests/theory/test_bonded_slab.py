@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
 from gripscale.theory import slab_compliance
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
 from gripscale.theory import (
     contact_fraction,
     contact_half_width,

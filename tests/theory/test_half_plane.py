@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gripscale import ScaleResult
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
 from gripscale.rubber import Rubber, styrene_butadiene
 from gripscale.theory import (
     contact_fraction,

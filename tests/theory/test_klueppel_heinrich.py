@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
 from gripscale.model import Model, NominalLoad
 from gripscale.rubber import Rubber, styrene_butadiene
 from gripscale.surface import (
@@ -20,7 +20,7 @@ from gripscale.surface import (
     height_difference,
     self_affine_profile,
 )
-from gripscale.surface.prepared import Measured
+from gripscale.surface.surface import Measured
 from gripscale.theory import KlueppelHeinrich, klueppel_heinrich
 
 module = importlib.import_module("gripscale.theory.klueppel_heinrich")

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp, trapezoid
 
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
 from gripscale.rubber import (
     MooneyRivlin,
     NeoHookean,
@@ -15,7 +15,7 @@ from gripscale.rubber import (
     simple_shear_stress,
     uniaxial_stress,
 )
-from gripscale.rubber.material_point import network_states
+from gripscale.rubber.finite_strain import network_states
 from gripscale.theory import step_relaxation_stress
 
 LAWS = [NeoHookean(), MooneyRivlin(0.4), Yeoh(-0.05, 0.004)]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from gripscale.theory.periodic_contact import (
+from gripscale.theory.half_plane import (
     PeriodicContact,
     contact_edges,
     influence_column,

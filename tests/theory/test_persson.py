@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from scipy import special
 
 import gripscale as gs
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
 from gripscale.model import Model, NominalLoad
 from gripscale.rubber import Rubber, styrene_butadiene
 from gripscale.surface import (
@@ -23,7 +23,7 @@ from gripscale.surface import (
     profile_spectrum,
     self_affine_profile,
 )
-from gripscale.surface.prepared import Measured
+from gripscale.surface.surface import Measured
 from gripscale.theory import Persson, full_contact_friction, persson
 
 module = importlib.import_module("gripscale.theory.persson")

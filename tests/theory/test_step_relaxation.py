@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
 from gripscale.rubber import Rubber
 from gripscale.theory import step_relaxation_stress
 

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from gripscale import Rubber
+from gripscale.analysis.sampled_inputs import Inputs, Measurement
 from gripscale.case import prepare_case
 from gripscale.surface import self_affine_profile
-from gripscale.uncertainty.inputs import Inputs, Measurement
 from tests.written import write_master_curve, write_road
 
 CASE = """\

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gripscale.errors import InputError
+from gripscale.analysis import ProfileBlocks
+from gripscale.core.errors import InputError
 from gripscale.surface import height_difference, self_affine_profile
-from gripscale.uncertainty import ProfileBlocks
 
 WAVE = 9e-3
 

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from gripscale import netcdf
+from gripscale.analysis import Uncertainty, propagate, summary
 from gripscale.cli import app
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
+from gripscale.io import netcdf
 from gripscale.report import write_report
-from gripscale.report.uncertainty_table import failures
-from gripscale.uncertainty import Uncertainty, propagate, summary
+from gripscale.report.tables_uncertainty import failures
 
 QUICK = Uncertainty(without=["waves"])
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from gripscale import MasterCurve, Rubber
+from gripscale.analysis import SeriesScatter
 from gripscale.rubber import fit_prony_report
-from gripscale.uncertainty import SeriesScatter
 
 TIMES = np.geomspace(1e-8, 1e2, 41)
 TRUE = Rubber(6e6, 1e6 * (TIMES / 1e-2) ** -0.3, TIMES)

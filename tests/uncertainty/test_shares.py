@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gripscale.uncertainty import shares
+from gripscale.analysis import shares
 
 
 def evenly(samples: int, seed: int, count: int) -> np.ndarray:

@@ -9,17 +9,22 @@ import numpy as np
 import pytest
 
 from gripscale import Rubber
-from gripscale.chain.model import Chain
-from gripscale.errors import InputError
+from gripscale.analysis import Range, Uncertainty
+from gripscale.analysis.sampled_inputs import (
+    Inputs,
+    LongerLoaded,
+    Measurement,
+    RefinableLongerLoaded,
+    loaded_longer,
+)
+from gripscale.analysis.sampling import draws
+from gripscale.analysis.sources import SOURCES
+from gripscale.chain.chain import Chain
+from gripscale.core.errors import InputError
+from gripscale.half_space.model import DirectContact
 from gripscale.model import NominalLoad
-from gripscale.rough.model import DirectContact
 from gripscale.surface import HeightMap, Measured, PreparedSurface, Profile, SineStack
 from gripscale.theory.half_plane import HalfPlane
-from gripscale.uncertainty import Range, Uncertainty
-from gripscale.uncertainty.design import draws
-from gripscale.uncertainty.inputs import Inputs, Measurement
-from gripscale.uncertainty.load_time import LongerLoaded, RefinableLongerLoaded, loaded_longer
-from gripscale.uncertainty.sources import SOURCES
 from gripscale.wave.block import FiniteStrainBlock
 from gripscale.wave.problem import Load, Sine, WaveProblem
 

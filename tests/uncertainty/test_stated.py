@@ -8,13 +8,13 @@ from typing import get_args
 import pytest
 from typer.testing import CliRunner
 
-from gripscale import netcdf
+from gripscale.analysis import Uncertainty, propagate
+from gripscale.analysis.sources import SOURCES
 from gripscale.case import read_case
-from gripscale.case.uncertainty_table import Given, SourceName
+from gripscale.case.tables import Given, SourceName
 from gripscale.cli import app
-from gripscale.errors import InputError
-from gripscale.uncertainty import Uncertainty, propagate
-from gripscale.uncertainty.sources import SOURCES
+from gripscale.core.errors import InputError
+from gripscale.io import netcdf
 
 STATED = """
 [uncertainty]

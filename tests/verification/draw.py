@@ -9,8 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import gripscale as gs
-from gripscale.figures.palette import BLUE, GREEN, GREY, ORANGE, WIDE
-from gripscale.figures.style import save_figure, sheet, styled
+from gripscale.charts.style import BLUE, GREEN, GREY, ORANGE, WIDE, save_figure, sheet, styled
 from tests.verification.test_convergence import COLUMNS, FAMILIES, Errors, errors_of
 from tests.verification.transient_cases import PLAIN, SPEED
 

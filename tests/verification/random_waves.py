@@ -20,9 +20,9 @@ import typer
 from numpy.typing import NDArray
 
 import gripscale as gs
-from gripscale.errors import RubberWarning
+from gripscale.core.errors import RubberWarning
 from gripscale.rubber import styrene_butadiene
-from gripscale.rubber.carrying import MOST_PRESSURE
+from gripscale.rubber.material import MOST_PRESSURE
 
 WAVELENGTH = 1e-3
 SPEED = 1.0

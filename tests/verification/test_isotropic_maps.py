@@ -3,7 +3,7 @@
 import pytest
 
 import gripscale as gs
-from gripscale.rough import map_over_lines
+from gripscale.half_space import map_over_lines
 from gripscale.surface import clean, read_profile
 from tests.surface.surface_cases import DATA, ROAD, ROAD_ONLY
 

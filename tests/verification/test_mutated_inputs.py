@@ -18,7 +18,7 @@ from pathlib import Path
 
 import pytest
 
-from gripscale.errors import FileError, InputError
+from gripscale.core.errors import FileError, InputError
 from tests.verification.mutations import mutated
 from tests.verification.readers import Reader, readers
 

@@ -17,11 +17,8 @@ import pytest
 
 import gripscale as gs
 from gripscale import theory
-from gripscale.errors import ConvergenceError, InputError, RubberWarning
-from gripscale.surface import (
-    ProfileSpectrum,
-    SelfAffineFit,
-)
+from gripscale.core.errors import ConvergenceError, InputError, RubberWarning
+from gripscale.surface import ProfileSpectrum, SelfAffineFit
 
 MANY = int(os.environ.get("GRIPSCALE_CALLS", "3000"))
 FEW = 12

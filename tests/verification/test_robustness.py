@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.errors import RubberWarning
+from gripscale.core.errors import RubberWarning
 from tests.verification.load_grid import cases
 from tests.verification.random_waves import FAR, ORDINARY, Row, random_waves, solve
 

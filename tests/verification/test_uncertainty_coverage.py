@@ -12,7 +12,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gripscale.chain.model import Chain
+from gripscale.analysis import Uncertainty
+from gripscale.analysis.propagation import quantiles
+from gripscale.analysis.sampled_inputs import Inputs, Measurement
+from gripscale.analysis.sampling import draws
+from gripscale.chain.chain import Chain
 from gripscale.model import NominalLoad
 from gripscale.rubber import MasterCurve, Rubber, fit_prony_report
 from gripscale.surface import (
@@ -26,10 +30,6 @@ from gripscale.surface import (
     self_affine_profile,
 )
 from gripscale.theory.half_plane import HalfPlane
-from gripscale.uncertainty import Uncertainty
-from gripscale.uncertainty.design import draws
-from gripscale.uncertainty.inputs import Inputs, Measurement
-from gripscale.uncertainty.quantiles import quantiles
 
 REPEATS, SAMPLES = 40, 60
 HURST, CUT_OFF, HEIGHT = 0.8, 3e-3, 0.8e-3

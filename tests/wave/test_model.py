@@ -10,7 +10,7 @@ import pytest
 import gripscale as gs
 from gripscale.model import Model, NominalLoad
 from gripscale.surface import Measured, PreparedSurface, Profile, SineStack
-from gripscale.wave import BlockOnProfile, Status, model
+from gripscale.wave import BlockOnProfile, Status, profile
 
 RUBBER = gs.Rubber(1e6, [9e6], [1e-3])
 LOAD = NominalLoad(5e4, 0.1, 0.1)
@@ -50,7 +50,7 @@ def test_profiles_count_by_their_length():
 def test_what_does_not_converge_is_named_and_has_no_totals(monkeypatch):
     good = gs.solve_profile(RUBBER, line(0.0), pressure=5e4, speed=0.1, periodic=True)
     bad = replace(good, status=Status.ITERATION_LIMIT)
-    monkeypatch.setattr(model, "solve_profile", lambda *_, **__: bad)
+    monkeypatch.setattr(profile, "solve_profile", lambda *_, **__: bad)
     answer = BlockOnProfile(periodic=True).predict(RUBBER, surface_of(line(0.0)), LOAD)
     assert np.isnan(answer.total_friction)
     assert "profile 1 of 1: iteration limit" in str(answer.prediction_status.item())

@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.theory.half_plane import HalfPlane
-from gripscale.theory.periodic_contact import contact_edges, nodes, solve_periodic_contact
+from gripscale.theory.half_plane import HalfPlane, contact_edges, nodes, solve_periodic_contact
 from gripscale.wave import Load, SampledProfile, WaveProblem
 
 DATA = Path(__file__).parents[2] / "examples" / "data"

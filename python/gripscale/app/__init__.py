@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
 
 __all__ = ["serve_app"]
 

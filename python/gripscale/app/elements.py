@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import asyncio
+from collections.abc import Callable, Iterable, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib.resources import files
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeVar
 
 import panel as pn
 from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 
-from gripscale.report.elements import Card, Chart, Code, Element, Notice, Text
+from gripscale.charts.page_elements import Card, Chart, Code, Element, Notice, Text
 
 
 @dataclass(frozen=True)
@@ -67,3 +69,22 @@ def _template() -> Template:
 @lru_cache(maxsize=1)
 def _style() -> str:
     return files("gripscale.app").joinpath("templates/elements.css").read_text(encoding="utf-8")
+
+
+# The one thread that reads files and prepares cases beside the page.
+#
+# One, because the library under netCDF must not be entered by two threads.
+
+T = TypeVar("T")
+
+_ONE = ThreadPoolExecutor(1, thread_name_prefix="beside the page")
+
+
+async def beside(work: Callable[[], T]) -> T:
+    """Return what `work` returns; the page stays alive meanwhile."""
+    return await asyncio.get_running_loop().run_in_executor(_ONE, work)
+
+
+def in_turn(work: Callable[[], T]) -> T:
+    """Return what `work` returns, once the thread has come to it; the page waits."""
+    return _ONE.submit(work).result()

@@ -12,16 +12,27 @@ from typing import Any
 
 from pydantic.fields import FieldInfo
 
-from gripscale.case.conditions_table import SHEAR_STRESS, SOFTENING, ConditionsTable, Heat
-from gripscale.case.expected import expected
-from gripscale.case.load_table import Load
-from gripscale.case.models import Compare, MeasuredTable, Output
-from gripscale.case.rubber_table import RubberSource
-from gripscale.case.shift_table import LAWS
-from gripscale.case.solver_table import ChainOptions, Solver
-from gripscale.case.surface_table import Surface, Wave
-from gripscale.case.table import Table
-from gripscale.case.uncertainty_table import Given, UncertaintyTable
+from gripscale.case.rubber_tables import (
+    LAWS,
+    SHEAR_STRESS,
+    SOFTENING,
+    ConditionsTable,
+    Heat,
+    RubberSource,
+)
+from gripscale.case.schema import Table, expected
+from gripscale.case.tables import (
+    ChainOptions,
+    Compare,
+    Given,
+    Load,
+    MeasuredTable,
+    Output,
+    Solver,
+    Surface,
+    UncertaintyTable,
+    Wave,
+)
 from gripscale.rubber.strain_energy import STRAIN_ENERGIES, StrainEnergy
 
 Laws = Mapping[str, type[Table]] | Mapping[str, type[StrainEnergy]]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 import re
 import tomllib
 from collections.abc import Mapping
@@ -11,9 +13,11 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
-from gripscale.case.models import Case
-from gripscale.case.sentence import first_complaint, sentence
-from gripscale.errors import FileError, InputError, about_keys
+from gripscale.case.schema import first_complaint, sentence
+from gripscale.case.tables import Case
+from gripscale.core.errors import FileError, InputError, about_keys
+from gripscale.core.provenance import software, versions
+from gripscale.io.text_table import read_bytes
 
 M = TypeVar("M", bound=BaseModel)
 
@@ -100,3 +104,25 @@ def _reason(error: OSError | UnicodeDecodeError) -> str:
     if isinstance(error, UnicodeDecodeError):
         return "it is not UTF-8 text"
     return error.strerror or str(error)
+
+
+# The key of a prediction of a case: a hash of all it depends on.
+#
+# The text of the case, the bytes of the files it names and the software that solves it. Equal keys
+# mean equal results, to the last bit.
+
+
+def prediction_key(file: CaseFile, name: str) -> str:
+    """Return the key of the prediction `name` ("dynamic" or "static") of a case.
+
+    Raises `FileError` if a file it names cannot be read.
+    """
+    contents = [read_bytes(file.resolve(named)) for _, named in file.case.named_files()]
+    inputs = {
+        "software": software(),
+        "versions": versions(),
+        "prediction": name,
+        "case": file.text,
+        "files": [hashlib.sha256(content).hexdigest() for content in contents],
+    }
+    return hashlib.sha256(json.dumps(inputs, sort_keys=True).encode()).hexdigest()[:32]

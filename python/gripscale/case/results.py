@@ -7,21 +7,20 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gripscale.case.key import prediction_key
-from gripscale.case.load_table import Load
-from gripscale.case.prepare_rubber import PreparedRubber
-from gripscale.case.read import CaseFile
-from gripscale.chain.model import Chain
-from gripscale.chain.predict import ChainError
+from gripscale.case.prepare import PreparedRubber
+from gripscale.case.read import CaseFile, prediction_key
+from gripscale.case.tables import Load
+from gripscale.chain.chain import Chain, ChainError
 from gripscale.chain.prediction import Prediction
 from gripscale.conditions.conditions import Conditions
+from gripscale.core.units import DisplayUnit, display_unit
 from gripscale.model import NominalLoad
 from gripscale.rubber import Rubber, temperature_doubts
-from gripscale.shown import Shown, shown
 from gripscale.surface import PreparedSurface
 
 if TYPE_CHECKING:
     import xarray as xr
+
 
 DYNAMIC, STATIC = "dynamic", "static"
 
@@ -81,9 +80,9 @@ class CaseResults:
             )
         )
 
-    def shown(self, name: str) -> Shown:
+    def shown(self, name: str) -> DisplayUnit:
         """Return how `pressure`, `speed` or `footprint` is shown: as the case gives it."""
-        return shown(name, self.file.text)
+        return display_unit(name, self.file.text)
 
     @property
     def conditions(self) -> Conditions | None:
@@ -146,6 +145,6 @@ def planned(load: Load) -> Iterator[tuple[str, float]]:
         yield STATIC, 0.0
 
 
-def title(speed: float, how: Shown) -> str:
+def title(speed: float, how: DisplayUnit) -> str:
     """Return what tables and figures call a prediction at `speed` [m/s], shown as `how` says."""
     return "Static" if speed == 0.0 else f"Dynamic, {how.text(speed)}"

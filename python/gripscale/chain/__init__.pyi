@@ -1,6 +1,6 @@
-from .model import Chain as Chain
-from .predict import ChainError as ChainError
-from .predict import predict as predict
+from .chain import WAVE_SOLVERS as WAVE_SOLVERS
+from .chain import Chain as Chain
+from .chain import ChainError as ChainError
+from .chain import predict as predict
 from .prediction import Prediction as Prediction
-from .rubber_at import RubberAt as RubberAt
-from .solvers import WAVE_SOLVERS as WAVE_SOLVERS
+from .prediction import RubberAt as RubberAt

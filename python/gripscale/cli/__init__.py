@@ -10,22 +10,13 @@ from typing import Annotated
 
 import typer
 
-from gripscale.cli.app import app as app_command
-from gripscale.cli.calibrate import calibrate
-from gripscale.cli.compare import compare
-from gripscale.cli.compare_rubbers import compare_rubbers
-from gripscale.cli.compare_surfaces import compare_surfaces
+from gripscale.cli.comparisons import compare, compare_rubbers, compare_surfaces
+from gripscale.cli.experiments import calibrate, study, uncertainty
 from gripscale.cli.export import export
-from gripscale.cli.fit_rubber import fit_rubber
-from gripscale.cli.fit_surface import fit_surface
-from gripscale.cli.init import init
-from gripscale.cli.keys import keys
-from gripscale.cli.report import report
-from gripscale.cli.reproduce import PASS_ON, reproduce
-from gripscale.cli.run import run
-from gripscale.cli.study import study
-from gripscale.cli.uncertainty import uncertainty
-from gripscale.versions import version_of
+from gripscale.cli.inputs import fit_rubber, fit_surface, init, keys
+from gripscale.cli.run import PASS_ON, report, reproduce, run
+from gripscale.cli.run import app as app_command
+from gripscale.core.provenance import version_of
 
 EPILOGUE = (
     "To start: `gripscale init FOLDER` writes an example, `gripscale keys` lists what a case may "

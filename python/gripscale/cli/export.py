@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from gripscale.cli.terminal import command, say, screen
-from gripscale.errors import FileError, InputError
+from gripscale.core.errors import FileError, InputError
 
 if TYPE_CHECKING:
     from gripscale.rubber import Rubber
+
 
 export = typer.Typer(
     help="Write rubbers, tables and meshes for other programs.",
@@ -56,8 +57,8 @@ def rubber(
     ] = None,
 ) -> None:
     """Write a rubber as a material of a finite element program."""
+    from gripscale.core.units import parse_quantity
     from gripscale.export import write_rubber
-    from gripscale.units import parse_quantity
 
     found = _rubber_of(source)
     if temperature is not None:
@@ -106,8 +107,8 @@ def mesh(
     ],
 ) -> None:
     """Write the deformed block of a wave, with pressure and stress, for ParaView and the like."""
-    from gripscale import netcdf
     from gripscale.export import wave_of, write_mesh
+    from gripscale.io import netcdf
 
     found = wave_of(netcdf.load(result), wave)
     write_mesh(found, output)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import importlib
 import shlex
+import sys
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator
@@ -12,16 +14,18 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
-from gripscale.cli.options import CasePath
-from gripscale.cli.terminal import command, complain, pointed, say, screen
+import gripscale
+from gripscale.cli.terminal import CasePath, command, complain, pointed, say, screen
+from gripscale.core.errors import FileError
 
 if TYPE_CHECKING:
     import xarray as xr
     from rich.console import Console
 
+    from gripscale.analysis.measured_friction import MeasuredFriction
     from gripscale.case import CaseResults, WaveSolved
-    from gripscale.measured import MeasuredFriction
-    from gripscale.shown import Shown
+    from gripscale.core.units import DisplayUnit
+
 
 REPORT_WIDTH = 110
 
@@ -51,11 +55,11 @@ def run(
     ] = False,
 ) -> None:
     """Predict contact area and friction of a case; goes on where it was stopped."""
+    from gripscale.analysis.comparison import judge_run
+    from gripscale.analysis.effects import case_effects
+    from gripscale.analysis.measured_comparison import friction_of_case
     from gripscale.case import folder, prepare_case, read_case, run_case
-    from gripscale.comparison.judged import judge_run
-    from gripscale.effects import case_effects
-    from gripscale.figures.beside import drawn_beside
-    from gripscale.measured.of_case import friction_of_case
+    from gripscale.charts.print_run import drawn_beside
 
     console = screen()
     file = read_case(case)
@@ -83,7 +87,7 @@ def run(
             )
             direct = judge_run(results, target)
             worth = case_effects(results, results.chain, target, target / "effects")
-        _conclude(console, target, opening, results, Known(direct, worth, friction))
+        _conclude_run(console, target, opening, results, Known(direct, worth, friction))
     console.print()
     say(console, f"Results, report and figures are in {target}")
     _tell_old_page(console, target, results)
@@ -92,8 +96,8 @@ def run(
 
 def _opening(results: CaseResults) -> list[str]:
     """Return what the run starts from, line by line."""
+    from gripscale.core.provenance import version_of
     from gripscale.report.inputs_text import rubber_lines, surface_lines
-    from gripscale.versions import version_of
 
     return [
         f"gripscale {version_of('gripscale')}, case {results.file.path}",
@@ -123,7 +127,7 @@ def _spinner(console: Console) -> AbstractContextManager[Any]:
     return console.status("solving") if console.is_terminal else nullcontext()
 
 
-def _teller(console: Console, waves: int, how: Shown) -> Callable[[WaveSolved], None]:
+def _teller(console: Console, waves: int, how: DisplayUnit) -> Callable[[WaveSolved], None]:
     """Return what prints a line for each wave, and a title before the first of a prediction."""
     from gripscale.case.results import title
 
@@ -159,7 +163,7 @@ def _teller(console: Console, waves: int, how: Shown) -> Callable[[WaveSolved], 
     return tell
 
 
-def _conclude(
+def _conclude_run(
     console: Console,
     target: Path,
     opening: list[str],
@@ -167,25 +171,25 @@ def _conclude(
     known: Known,
 ) -> None:
     """Print the tables and what chain and effects are worth, and write them down."""
+    from gripscale.analysis.propagation import input_digests, stored_uncertainty
     from gripscale.case import folder
-    from gripscale.figures.view import PredictionView
-    from gripscale.report import tables
-    from gripscale.report.comparison_table import judgement
-    from gripscale.report.measured_lines import measured_lines
-    from gripscale.report.uncertainty_summary import uncertainty_lines
-    from gripscale.uncertainty.stored import input_digests, stored_uncertainty
+    from gripscale.charts.view import PredictionView
+    from gripscale.report import tables_run
+    from gripscale.report.tables_comparison import judgement
+    from gripscale.report.tables_measured import measured_lines
+    from gripscale.report.tables_uncertainty import uncertainty_lines
 
     solved = {PredictionView(d).title: d for d in map(results.dataset, results.predictions)}
     for name, data in solved.items():
         console.print()
-        console.print(tables.prediction_table(data, name, console.width))
+        console.print(tables_run.prediction_table(data, name, console.width))
     beside = list(_conditions_tables(results, known.effects))
     for table in beside:
         console.print()
         console.print(table)
     if solved:
         console.print()
-        say(console, tables.LEGEND)
+        say(console, tables_run.LEGEND)
     views = [PredictionView(data, name) for name, data in solved.items()]
     last = list(judgement(views[0], known.direct)) if views and known.direct is not None else []
     if known.friction is not None and results.load.speed > 0.0:
@@ -196,17 +200,19 @@ def _conclude(
         console.print()
     for line in last:
         say(console, line)
-    written = [tables.prediction_table(data, name, REPORT_WIDTH) for name, data in solved.items()]
-    parts = (*opening, "", *written, tables.LEGEND, *beside, "", *last)
-    folder.write_text(target / "report.txt", tables.as_text(*parts, width=REPORT_WIDTH))
+    written = [
+        tables_run.prediction_table(data, name, REPORT_WIDTH) for name, data in solved.items()
+    ]
+    parts = (*opening, "", *written, tables_run.LEGEND, *beside, "", *last)
+    folder.write_text(target / "report.txt", tables_run.as_text(*parts, width=REPORT_WIDTH))
 
 
 def _conditions_tables(results: CaseResults, worth: xr.Dataset | None) -> Iterator[Any]:
     """Yield the temperature of each wave and what each effect is worth, and draw both."""
     from gripscale.case.results import DYNAMIC
-    from gripscale.figures.case_all import draw_effects, draw_heat
-    from gripscale.report.effects_table import effects_table
-    from gripscale.report.heat_table import heat_table
+    from gripscale.charts.print_run import draw_effects, draw_heat
+    from gripscale.report.tables_comparison import effects_table
+    from gripscale.report.tables_run import heat_table
 
     moving = results.dynamic
     figures = None if results.folder is None else results.folder / "figures"
@@ -238,3 +244,85 @@ def _fail_if_any(results: CaseResults) -> None:
         complain(pointed(failure))
     if failures:
         raise failures[-1]
+
+
+# `gripscale report RESULT`: one self-contained HTML page of a result.
+
+
+@command
+def report(
+    result: Annotated[
+        Path,
+        typer.Argument(
+            help="Results folder of a run, comparison, study, calibration or uncertainty, or one "
+            "of its .nc files.",
+            metavar="RESULT",
+            readable=False,
+        ),
+    ],
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            help="The page, instead of report.html in the results folder.",
+            metavar="FILE.html",
+            readable=False,
+        ),
+    ] = None,
+) -> None:
+    """Write one HTML page with inputs, results, figures and evidence; it needs no network."""
+    from gripscale.report import write_report
+
+    page = write_report(result, output)
+    say(screen(), f"Report, {page.stat().st_size / 1e6:.1f} MB, is {page}")
+
+
+# `gripscale reproduce`: hands over to the paper's figures beside the package, in a clone.
+
+PASS_ON = {"allow_extra_args": True, "ignore_unknown_options": True, "help_option_names": []}
+"""Settings of the command: whatever follows its name is for the reproduction."""
+
+
+@command
+def reproduce(context: typer.Context) -> None:
+    """Reproduce figures of Lind & Wangenheim 2014 and judge the paper's statements."""
+    root = Path(gripscale.__file__).resolve().parents[2]
+    if not (root / "reproduction" / "__main__.py").is_file():
+        raise FileError(
+            "the reproduction is in the source of gripscale, not in the package: "
+            "run `python -m reproduction` in a clone of it"
+        )
+    sys.path.insert(0, str(root))
+    raise typer.Exit(importlib.import_module("reproduction.__main__").main(context.args))
+
+
+# `gripscale app [CASE.toml]`: a page in the browser, from measurement to friction.
+
+
+@command
+def app(
+    case: Annotated[
+        Path | None,
+        typer.Argument(
+            help="A case file to start with, instead of the shipped road.",
+            metavar="CASE.toml",
+            readable=False,
+            show_default=False,
+        ),
+    ] = None,
+    port: Annotated[int, typer.Option(help="Port of 127.0.0.1; 0 takes a free one.")] = 0,
+    folder: Annotated[
+        Path,
+        typer.Option(
+            help="Where each visit gets a folder for its files and results.",
+            metavar="DIR",
+            readable=False,
+        ),
+    ] = Path("gripscale-app"),
+    no_browser: Annotated[
+        bool, typer.Option("--no-browser", help="Open no browser; the address is printed.")
+    ] = False,
+) -> None:
+    """Open a page that shows, runs and compares cases, on this machine only."""
+    from gripscale.app import serve_app
+
+    serve_app(folder, case=case, port=port, browser=not no_browser)

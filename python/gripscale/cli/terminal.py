@@ -7,14 +7,18 @@ import sys
 import textwrap
 from collections.abc import Callable, Iterable
 from functools import wraps
-from typing import TYPE_CHECKING, Any, ParamSpec
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, ParamSpec
 
 import typer
 
-from gripscale.errors import ConvergenceError, GripscaleError
+from gripscale.core.errors import ConvergenceError, GripscaleError
 
 if TYPE_CHECKING:
     from rich.console import Console
+
+    from gripscale.experiment.solve import Progress
+
 
 BAD_INPUT, NOT_CONVERGED, STOPPED = 2, 3, 130
 """Exit codes: an input that cannot be used, a wave without solution, stopped from outside."""
@@ -44,7 +48,7 @@ def complain(message: str) -> None:
 
 def pointed(failure: object) -> str:
     """Return a failure in words, with the chapter of the documentation that says more."""
-    from gripscale.report.chapters import pointer
+    from gripscale.report.notices import pointer
 
     return f"{failure}{pointer(failure)}"
 
@@ -96,3 +100,64 @@ def command(body: Callable[P, None]) -> Callable[P, None]:
             raise typer.Exit(STOPPED) from None
 
     return inside
+
+
+# A line of the terminal for each prediction of many as it is done.
+
+
+def teller(console: Console) -> Callable[[Progress], None]:
+    """Return what prints a line for each prediction."""
+
+    def tell(progress: Progress) -> None:
+        found = progress.result
+        width = len(str(progress.total))
+        text = f"[{progress.done:>{width}}/{progress.total}] {progress.label}: "
+        if found.prediction_status != "converged":
+            text += str(found.prediction_status.item())
+        else:
+            text += f"area {float(found.total_contact_fraction):.4g}"
+            if found.nominal_speed > 0.0:
+                text += f", friction {float(found.total_friction):.3f}"
+        how = "already solved" if progress.stored else f"{progress.seconds:.1f} s"
+        say(console, f"{text}, {how}")
+
+    return tell
+
+
+# Options that several commands share.
+
+CasePath = Annotated[
+    Path, typer.Argument(help="The case file (TOML).", metavar="CASE.toml", readable=False)
+]
+
+OwnFolder = Annotated[
+    Path | None,
+    typer.Option(
+        "--output",
+        help="Results folder, instead of this command's own in that of the case.",
+        metavar="DIR",
+        readable=False,
+    ),
+]
+
+Measured = Annotated[
+    Path | None,
+    typer.Option(
+        "--measured",
+        help="Measured friction, instead of what the case names: a table with columns speed and "
+        "friction, and if known spread, temperature and pressure.",
+        metavar="FILE.csv",
+        readable=False,
+    ),
+]
+
+Workers = Annotated[
+    int | None, typer.Option(help="Cores to use; all by default.", show_default=False)
+]
+
+Cluster = Annotated[
+    str | None,
+    typer.Option(
+        help='"local", or the address of a Dask scheduler: tcp://host:8786.', show_default=False
+    ),
+]

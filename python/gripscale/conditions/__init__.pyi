@@ -1,1 +1,16 @@
+from .area_term import ConstantStress as ConstantStress
+from .area_term import GaussianStress as GaussianStress
+from .area_term import InterfacialShearStress as InterfacialShearStress
+from .area_term import LeGalKlueppelStress as LeGalKlueppelStress
+from .area_term import TableStress as TableStress
+from .area_term import adhesive_friction as adhesive_friction
+from .area_term import shear_stress_from_dict as shear_stress_from_dict
+from .area_term import shear_stress_to_dict as shear_stress_to_dict
 from .conditions import Conditions as Conditions
+from .flash_temperature import LossDepth as LossDepth
+from .flash_temperature import ThermalProperties as ThermalProperties
+from .flash_temperature import harmonic_at_surface as harmonic_at_surface
+from .flash_temperature import harmonic_decay as harmonic_decay
+from .flash_temperature import harmonic_where_lost as harmonic_where_lost
+from .flash_temperature import uniform_at_surface as uniform_at_surface
+from .flash_temperature import uniform_where_lost as uniform_where_lost

@@ -14,14 +14,92 @@ l = i over where wave i loses its energy. The road takes up no heat: an upper bo
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
-from gripscale.conditions.wave_heat import WaveHeat
-from gripscale.interface import temperature_rise as rise
-from gripscale.interface.thermal import ThermalProperties
+from gripscale.conditions import flash_temperature as rise
+from gripscale.conditions.conditions import StrainNorm
+from gripscale.conditions.flash_temperature import (
+    DepthsOfLoss,
+    LossDepth,
+    LossLayers,
+    ThermalProperties,
+    loss_pattern,
+)
+from gripscale.core.errors import InputError
+from gripscale.rubber import Rubber
+from gripscale.wave.result import WaveResult
+
+# The heat of one wave: where along it and how deep below it the friction work is lost.
+
+Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+POINTS = 256
+
+
+@dataclass(frozen=True)
+class WaveHeat:
+    """Patterns of a wave as amplitudes of its harmonics 1, 2, ... over the mean [-]."""
+
+    wavelength: float
+    pressure: float
+    """Mean pressure on the wave [Pa]."""
+    friction: float
+    contact: ComplexArray
+    """Of the pressure: where the smaller waves lose energy."""
+    lost: ComplexArray
+    """Of its own loss."""
+    depth: DepthsOfLoss
+    """Of its own loss."""
+
+    @property
+    def wavenumbers(self) -> Array:
+        """Of the harmonics [rad/m]."""
+        return np.asarray(2.0 * math.pi / self.wavelength * np.arange(1.0, POINTS // 2))
+
+    @classmethod
+    def of(cls, wave: WaveResult, rubber: Rubber) -> WaveHeat:
+        """Return the heat of a solved wave of `rubber`.
+
+        The pressure along the wave decides where along it: harmonic n of it loses
+        |p_n|^2 Im M / |M|^2 at n times the frequency of the wave. How deep it tells its solver, or
+        each harmonic has a mean depth of 3/2 over its wavenumber.
+        """
+        spectrum = np.fft.rfft(_pressure(wave)) / POINTS
+        number = np.arange(1, POINTS // 2)
+        modulus = rubber.plane_strain_modulus(number * wave.angular_frequency)
+        lost = np.zeros(spectrum.size)
+        lost[1:-1] = np.abs(spectrum[1:-1]) ** 2 * modulus.imag / np.abs(modulus) ** 2
+        total = lost.sum()
+        wavenumber = 2.0 * math.pi / wave.wavelength
+        depth: DepthsOfLoss = LossDepth.under(wavenumber)
+        if total <= 0.0:
+            pattern = np.zeros(number.size, dtype=complex)
+        else:
+            along = np.fft.rfft(loss_pattern(spectrum, lost))
+            pattern = along[1:-1] / along[0]
+            depth = LossDepth(float(lost[1:-1] @ (1.5 / number) / total / wavenumber))
+        if wave.loss_by_depth is not None and wave.friction_from_dissipation > 0.0:
+            depth = LossLayers.of(*wave.loss_by_depth)
+        return cls(
+            wave.wavelength,
+            wave.pressure_received,
+            max(wave.friction, 0.0),
+            spectrum[1:-1] / spectrum[0],
+            pattern,
+            depth,
+        )
+
+
+def _pressure(wave: WaveResult) -> Array:
+    """Return the pressure at equal steps along the wave [Pa]."""
+    steps = np.arange(POINTS) * wave.wavelength / POINTS
+    return np.asarray(np.interp(steps, wave.x, wave.pressure, period=wave.wavelength))
 
 
 @dataclass(frozen=True)
@@ -96,3 +174,36 @@ def _patterns(
 def _mean(temperature: np.ndarray, weight: np.ndarray) -> float:
     """Return the mean of a temperature over a pattern of unit mean, both as harmonics."""
     return float(2.0 * (temperature * weight.conj()).real.sum())
+
+
+# How strongly a wave strains the rubber it touches.
+
+
+def strains(waves: Sequence[WaveResult], norm: StrainNorm) -> list[float]:
+    """Return the strain amplitude [-] on each wave, largest wave first.
+
+    Raises `InputError` for the stretches of a solver that gives none.
+    """
+    if norm == "stretch":
+        return [_largest_strain(wave) for wave in waves]
+    squares = np.cumsum([(0.5 * contact_slope(wave)) ** 2 for wave in waves])
+    return [float(e) for e in np.sqrt(squares)]
+
+
+def contact_slope(wave: WaveResult) -> float:
+    """Return the rms slope of a solved wave in its contact [-]."""
+    k = 2.0 * math.pi / wave.wavelength
+    edges = np.asarray(wave.details["contact_edges"], dtype=float)
+    start, end = k * edges[:, 0], k * edges[:, 1]
+    square = 0.5 - (np.sin(2.0 * end) - np.sin(2.0 * start)).sum() / (4.0 * (end - start).sum())
+    return float(k * wave.amplitude * math.sqrt(max(square, 0.0)))
+
+
+def _largest_strain(wave: WaveResult) -> float:
+    strain = max(wave.max_stretch - 1.0, 1.0 - wave.min_stretch)
+    if not math.isfinite(strain):
+        raise InputError(
+            f'strain_norm must be "slope" for a solver without stretches; got "stretch" '
+            f"with {wave.model}"
+        )
+    return strain

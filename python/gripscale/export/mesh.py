@@ -2,22 +2,362 @@
 
 from __future__ import annotations
 
+import base64
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
+from xml.etree import ElementTree as ET
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from gripscale import checks
-from gripscale.errors import InputError
-from gripscale.export.reference_block import ReferenceBlock
-from gripscale.export.stress import EQUILIBRIUM, block_stress
-from gripscale.export.vtu import BIQUADRATIC_QUAD, QUAD, Grid, write_vtu
-from gripscale.textfile import file_path
-from gripscale.wave import WaveResult
-from gripscale.wave.dataset import waves_from_dataset
+from gripscale.core import checks
+from gripscale.core.errors import InputError
+from gripscale.io.netcdf import write_whole
+from gripscale.io.text_table import file_path
+from gripscale.rubber import Rubber
+from gripscale.wave import Status, WaveResult
+from gripscale.wave.result import waves_from_dataset
+
+# The block before it was pressed: its nodes, and what they make of deformed ones at every point.
+#
+# Lengths are in m. The kernel keeps deformed positions only; its mesh follows from columns, rows,
+# depth and order of the elements, and is made here by the same rule:
+#
+#     h_r = h_0 q^r,   sum h_r = depth,   h_0 = min(width of an element, depth/rows)
+#
+# with square first elements. Quadrature is the (order + 1)^2 Gauss rule, pressures are one number
+# in an element of order 1 and linear in one of order 2 (rust/fem).
 
 Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class ReferenceBlock:
+    """The undeformed mesh of a wave."""
+
+    wavelength: float
+    depth: float
+    """Height of the block [m]."""
+    columns: int
+    rows: int
+    order: int
+
+    @classmethod
+    def of(cls, result: WaveResult) -> ReferenceBlock:
+        """Return the mesh a wave was solved on.
+
+        Raises `InputError` if it has none: it is of a solver without a mesh.
+        """
+        wanted = ("columns", "rows", "depth", "element_order")
+        if result.deformed_mesh is None or not set(wanted) <= set(result.details):
+            raise InputError(
+                f"result must be of the finite-strain block, which has a mesh; got {result.model}"
+            )
+        columns, rows, depth, order = (result.details[name] for name in wanted)
+        block = cls(
+            result.wavelength, depth * result.wavelength, int(columns), int(rows), int(order)
+        )
+        x, z = result.deformed_mesh
+        if x.shape != block.shape or z.shape != block.shape:
+            raise InputError(
+                f"deformed_mesh must be of {block.shape} nodes, layers by columns; got {x.shape}"
+            )
+        return block
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Layers of nodes, and nodes of each with both ends."""
+        return self.order * self.rows + 1, self.order * self.columns + 1
+
+    @property
+    def width(self) -> float:
+        """Width of an element [m]."""
+        return self.wavelength / self.columns
+
+    @property
+    def heights(self) -> Array:
+        """Heights of the element rows [m], contact surface first, shape (rows,)."""
+        first = min(self.width, self.depth / self.rows)
+        heights = first * _ratio(self.rows, self.depth / first) ** np.arange(self.rows)
+        return np.asarray(heights * (self.depth / heights.sum()))
+
+    def nodes(self) -> tuple[Array, Array]:
+        """Return x and z of the nodes [m], shape (layers, nodes); z = 0 on the surface."""
+        x = np.linspace(0.0, self.wavelength, self.shape[1])
+        parts = np.repeat(self.heights / self.order, self.order)
+        z = np.concatenate([[0.0], np.cumsum(parts)])
+        along, up = np.meshgrid(x, z)
+        return along, up
+
+    def gradients(self, x: Array, z: Array) -> Array:
+        """Return F at the Gauss points of deformed nodes [m].
+
+        Shape (rows, columns, points across, points along, 2, 2), components (x, z).
+        """
+        return np.stack([self.slopes(x), self.slopes(z)], axis=-2)
+
+    def slopes(self, values: Array) -> Array:
+        """Return d/dx and d/dz of nodal values at the Gauss points [1/m times their unit].
+
+        Shape (rows, columns, points across, points along, 2).
+        """
+        local = self.elements(values)
+        shape, slope = shapes(self.order), slopes(self.order)
+        along = np.einsum("rclk,pl,qk->rcpq", local, shape, slope) * (2.0 / self.width)
+        up = np.einsum("rclk,pl,qk->rcpq", local, slope, shape)
+        up = up * (2.0 / self.heights)[:, None, None, None]
+        return np.stack([along, up], axis=-1)
+
+    def elements(self, values: Array) -> Array:
+        """Return nodal values element by element, shape (rows, columns, order + 1, order + 1)."""
+        layer = self.order * np.arange(self.rows)[:, None] + np.arange(self.order + 1)
+        node = self.order * np.arange(self.columns)[:, None] + np.arange(self.order + 1)
+        return np.asarray(values[layer[:, None, :, None], node[None, :, None, :]])
+
+    @property
+    def weights(self) -> Array:
+        """Areas of the Gauss points [m^2], shape (rows, 1, points across, points along)."""
+        _, weight = np.polynomial.legendre.leggauss(self.order + 1)
+        area = 0.25 * self.width * self.heights
+        return np.asarray(area[:, None, None, None] * np.outer(weight, weight))
+
+    def modes(self) -> Array:
+        """Return the pressure modes at the Gauss points, shape (modes, across, along)."""
+        point, _ = np.polynomial.legendre.leggauss(self.order + 1)
+        one = np.ones((self.order + 1, self.order + 1))
+        linear = [one * point[None, :], one * point[:, None]]
+        return np.stack([one, *(linear if self.order == 2 else [])])
+
+
+def shapes(order: int) -> Array:
+    """Return the Lagrange functions at the Gauss points, shape (points, nodes)."""
+    s, _ = np.polynomial.legendre.leggauss(order + 1)
+    if order == 1:
+        return np.stack([0.5 * (1.0 - s), 0.5 * (1.0 + s)], axis=1)
+    return np.stack([0.5 * s * (s - 1.0), 1.0 - s * s, 0.5 * s * (s + 1.0)], axis=1)
+
+
+def slopes(order: int) -> Array:
+    """Return their derivatives on [-1, 1] at the Gauss points, shape (points, nodes)."""
+    s, _ = np.polynomial.legendre.leggauss(order + 1)
+    if order == 1:
+        return np.stack([np.full_like(s, -0.5), np.full_like(s, 0.5)], axis=1)
+    return np.stack([s - 0.5, -2.0 * s, s + 0.5], axis=1)
+
+
+def _ratio(rows: int, total: float) -> float:
+    """Return q with sum q^r = `total`, r from 0 to rows - 1; 1 or more."""
+    low, high = 1.0, 1.0 + total
+    power = np.arange(rows)
+    for _ in range(200):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if (middle**power).sum() < total else (low, middle)
+    return low
+
+
+# The stress in the block of a wave, from its deformed mesh and the material law: no new solution.
+#
+#     P = J^(-2/3) (F H - 1/3 (H : C) F^-T) + p J F^-T,   sigma = P F^T / J
+#     H = G_inf b + (G(t) - G_inf) 1 + T^-1{ (G(t) - G*(w_k)) T{Y} },   Y = J^(2/3) C^-1
+#
+# with b = 2 dW/dCbar of a unit shear modulus, T the Fourier series along a line of equally placed
+# Gauss points (its mean not counted), w_k = 2 pi k v/wavelength, t the load time, and for p the
+# projection of K (J - 1) on the pressure modes of the element. At rest H = G_inf b. These are the
+# equations the kernel solves (rust/material), so that nodal forces vanish in the block to its
+# residual. Source: Lubliner, Mech. Res. Commun. 12 (1985) 93; Holzapfel, Nonlinear Solid Mechanics
+# (2000), section 6.4.
+
+EQUILIBRIUM = (Status.CONVERGED, Status.TOLERANCE_NOT_MET, Status.FRICTIONS_DISAGREE)
+"""Endings of a wave in which the forces on its nodes vanish."""
+
+
+@dataclass(frozen=True)
+class BlockStress:
+    """Deformation and stress at the Gauss points of the block.
+
+    Axes are element rows, contact surface first, columns, points across and points along an
+    element.
+    """
+
+    block: ReferenceBlock = field(repr=False)
+    gradient: Array = field(repr=False)
+    """F, shape (rows, columns, across, along, 2, 2), components (x, z)."""
+    pressure: Array = field(repr=False)
+    """Volumetric stress p [Pa], positive in tension, shape (rows, columns, across, along)."""
+    cauchy: Array = field(repr=False)
+    """sigma [Pa], shape (..., 3, 3), components (x, y, z); y is across the plane of strain."""
+
+    @property
+    def jacobian(self) -> Array:
+        """J = det F, shape (rows, columns, across, along)."""
+        return np.asarray(np.linalg.det(self.gradient))
+
+    def element_mean(self, values: Array) -> Array:
+        """Return the mean of values at the points over each deformed element.
+
+        Shape (rows, columns, ...).
+        """
+        volume = self.block.weights * self.jacobian
+        extra = (None,) * (values.ndim - 4)
+        total = (volume[(..., *extra)] * values).sum(axis=(2, 3))
+        return np.asarray(total / volume.sum(axis=(2, 3))[(..., *extra)])
+
+
+def block_stress(result: WaveResult) -> BlockStress:
+    """Return the stress in the block of a wave.
+
+    Parameters
+    ----------
+    result : WaveResult
+        Of the finite-strain block, solved or read from a file, with its mesh and its rubber.
+
+    Returns
+    -------
+    BlockStress
+        What the material law gives for the deformed mesh: the stress of the solver, as far as it
+        found one.
+
+    Raises
+    ------
+    InputError
+        If the wave has no mesh or no rubber, or no equilibrium was found.
+    """
+    checks.instance("result", result, WaveResult)
+    block = ReferenceBlock.of(result)
+    if result.status not in EQUILIBRIUM or result.rubber is None or result.deformed_mesh is None:
+        raise InputError(
+            "result must be in equilibrium and have its rubber for the stress to be known; got a "
+            f"wave with status {result.status}"
+        )
+    gradient = block.gradients(*result.deformed_mesh)
+    volume = np.linalg.det(gradient)
+    pressure = _pressure(block, volume, result.rubber.bulk_modulus)
+    full = _three_dimensional(gradient)
+    right = np.swapaxes(full, -1, -2) @ full
+    factor = (volume ** (-2.0 / 3.0))[..., None, None]
+    history = _networks(result.rubber, factor * right)
+    if result.speed > 0.0 and len(result.rubber.moduli):
+        history = history + _remembered(result, np.linalg.inv(factor * right))
+    pushed = factor * (full @ history @ np.swapaxes(full, -1, -2))
+    trace = np.trace(pushed, axis1=-2, axis2=-1)[..., None, None]
+    deviator = (pushed - trace / 3.0 * np.eye(3)) / volume[..., None, None]
+    return BlockStress(block, gradient, pressure, deviator + pressure[..., None, None] * np.eye(3))
+
+
+def _pressure(block: ReferenceBlock, volume: Array, bulk: float) -> Array:
+    """Return p = K (J - 1) projected on the pressure modes of each element."""
+    modes, weights = block.modes(), block.weights
+    change = np.einsum("rcpq,rcpq,mpq->rcm", *np.broadcast_arrays(weights, volume - 1.0), modes)
+    mass = np.einsum("rcpq,mpq->rcm", weights, modes**2)
+    return np.asarray(bulk * np.einsum("rcm,mpq->rcpq", change / mass, modes))
+
+
+def _three_dimensional(gradient: Array) -> Array:
+    """Return F with components (x, y, z), of plane strain."""
+    full = np.zeros((*gradient.shape[:-2], 3, 3))
+    full[..., 1, 1] = 1.0
+    full[..., ::2, ::2] = gradient
+    return full
+
+
+def _networks(rubber: Rubber, isochoric: Array) -> Array:
+    """Return G_inf b of the permanent network, b = w1 1 + w2 (I1 1 - Cbar)."""
+    first = np.trace(isochoric, axis1=-2, axis2=-1)
+    second = 0.5 * (first**2 - np.einsum("...ij,...ij->...", isochoric, isochoric))
+    w1, w2 = rubber.strain_energy.slopes(first - 3.0, second - 3.0)
+    one = (w1 + w2 * first)[..., None, None] * np.eye(3)
+    b = one - w2[..., None, None] * isochoric
+    return np.asarray(rubber.equilibrium_shear_modulus * b)
+
+
+def _remembered(result: WaveResult, inverse: Array) -> Array:
+    """Return what the temporary networks add to H, from Y = Cbar^-1 along the lines of points."""
+    assert result.rubber is not None
+    columns = inverse.shape[1]
+    omega = result.angular_frequency * np.arange(1, columns // 2 + 1)
+    mean = float(result.rubber.relaxation_modulus(result.load_time)) / 3.0
+    factor = np.zeros(columns // 2 + 1, dtype=complex)
+    factor[1:] = mean - result.rubber.complex_modulus(omega) / 3.0
+    harmonics = np.fft.rfft(inverse, axis=1) * factor[:, None, None, None, None]
+    frozen = mean - result.rubber.equilibrium_shear_modulus
+    return np.asarray(np.fft.irfft(harmonics, columns, axis=1) + frozen * np.eye(3))
+
+
+# Unstructured grids as VTK XML files (.vtu), which ParaView, VisIt, PyVista and meshio open.
+#
+# Arrays stand in the file as base64 of a length and little-endian numbers. Source: The VTK User's
+# Guide, 11th ed. (2010), section 19.3; VTK file formats, docs.vtk.org.
+
+Fields = Mapping[str, Array]
+
+QUAD, BIQUADRATIC_QUAD = 9, 28
+"""VTK's numbers of the elements."""
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Points, cells of one kind, and fields on them."""
+
+    points: Array
+    """Shape (points, 3)."""
+    cells: NDArray[np.int64]
+    """Numbers of the points of each cell in VTK's order, shape (cells, points of a cell)."""
+    cell_type: int
+    point_data: Fields = field(default_factory=dict)
+    """Shape (points,) or (points, components)."""
+    cell_data: Fields = field(default_factory=dict)
+    """Shape (cells,) or (cells, components)."""
+    field_data: Mapping[str, float] = field(default_factory=dict)
+    """Numbers of the whole grid."""
+
+
+def write_vtu(grid: Grid, path: Path) -> Path:
+    """Write a grid to `path`; return it. Raises `FileError` if it cannot be written."""
+    root = ET.Element(
+        "VTKFile",
+        type="UnstructuredGrid",
+        version="1.0",
+        byte_order="LittleEndian",
+        header_type="UInt64",
+    )
+    whole = ET.SubElement(root, "UnstructuredGrid")
+    numbers = ET.SubElement(whole, "FieldData")
+    for name, value in grid.field_data.items():
+        _array(numbers, name, np.array([value]), NumberOfTuples="1")
+    counts = {"NumberOfPoints": len(grid.points), "NumberOfCells": len(grid.cells)}
+    piece = ET.SubElement(whole, "Piece", {name: str(count) for name, count in counts.items()})
+    for place, fields in (("PointData", grid.point_data), ("CellData", grid.cell_data)):
+        part = ET.SubElement(piece, place)
+        for name, values in fields.items():
+            _array(part, name, values)
+    _array(ET.SubElement(piece, "Points"), "Points", grid.points)
+    cells = ET.SubElement(piece, "Cells")
+    ends = grid.cells.shape[1] * np.arange(1, len(grid.cells) + 1)
+    _array(cells, "connectivity", grid.cells.ravel())
+    _array(cells, "offsets", ends)
+    _array(cells, "types", np.full(len(grid.cells), grid.cell_type, dtype=np.uint8))
+    ET.indent(root)
+    text = ET.tostring(root, xml_declaration=True, encoding="utf-8")
+
+    def write(part: Path) -> None:
+        part.write_bytes(text)
+
+    return write_whole(path, write)
+
+
+def _array(into: ET.Element, name: str, values: NDArray[np.generic], **others: str) -> None:
+    kinds = {"f": ("Float64", "<f8"), "i": ("Int64", "<i8"), "u": ("UInt8", "u1")}
+    kind, form = kinds[values.dtype.kind]
+    content = np.ascontiguousarray(values, dtype=form).tobytes()
+    attributes = {"type": kind, "Name": name, "format": "binary", **others}
+    if values.ndim > 1:
+        attributes["NumberOfComponents"] = str(values.shape[1])
+    length = np.array([len(content)], dtype="<u8").tobytes()
+    element = ET.SubElement(into, "DataArray", attributes)
+    element.text = base64.b64encode(length + content).decode("ascii")
+
 
 NUMBERS = (
     "wavelength",

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from gripscale.errors import InputError
+from gripscale.core.errors import InputError
 
 __all__ = ["write_report"]
 

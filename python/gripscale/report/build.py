@@ -16,15 +16,11 @@ from bokeh.resources import Resources
 from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 from markupsafe import Markup
 
-from gripscale.errors import FileError
-from gripscale.netcdf import write_whole
-from gripscale.report.comparison_page import comparison_page
-from gripscale.report.elements import Page
-from gripscale.report.roads_page import roads_page
-from gripscale.report.run_page import run_page
+from gripscale.charts.page_elements import Page
+from gripscale.core.errors import FileError
+from gripscale.io.netcdf import write_whole
+from gripscale.report.pages import comparison_page, roads_page, run_page, study_page, told_page
 from gripscale.report.source import RoadsBeside, Run, Source, Study, Told, read_result
-from gripscale.report.study_page import study_page
-from gripscale.report.told_page import told_page
 
 REPORT = "report.html"
 

@@ -6,14 +6,12 @@ from collections.abc import Iterator
 from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
-from gripscale.figures.palette import MEGA, MILLI
-from gripscale.report.tables import significant
+from gripscale.core.units import MEGA, MILLI, ZERO_CELSIUS, significant
 from gripscale.rubber import ShiftTable
-from gripscale.rubber.plateau import BEYOND, End, fast_end, slow_end
-from gripscale.units import ZERO_CELSIUS
+from gripscale.rubber.material import BEYOND, End, fast_end, slow_end
 
 if TYPE_CHECKING:
-    from gripscale.case.prepare_rubber import PreparedRubber
+    from gripscale.case.prepare import PreparedRubber
     from gripscale.conditions.conditions import Conditions
     from gripscale.rubber import Rubber
     from gripscale.surface import PreparedSurface, SineStack

@@ -8,14 +8,14 @@ from typing import Any
 
 import xarray as xr
 
-from gripscale import netcdf
-from gripscale.comparison.judged import FILE as DIRECT
-from gripscale.effects import stored_effects
-from gripscale.errors import FileError
-from gripscale.figures.rungs import varied
-from gripscale.figures.view import PredictionView
-from gripscale.study.display import dimensions
-from gripscale.uncertainty import stored_uncertainty
+from gripscale.analysis.comparison import FILE as DIRECT
+from gripscale.analysis.effects import stored_effects
+from gripscale.analysis.propagation import stored_uncertainty
+from gripscale.charts.ladder import varied
+from gripscale.charts.view import PredictionView
+from gripscale.core.errors import FileError
+from gripscale.experiment.axis import dimensions
+from gripscale.io import netcdf
 
 PREDICTIONS = ("dynamic", "static")
 COMPARISON = "comparison"

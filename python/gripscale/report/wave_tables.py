@@ -8,11 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gripscale.figures.palette import MEGA, MILLI
-from gripscale.figures.view import PredictionView
-from gripscale.report.elements import Heading, Table
-from gripscale.report.numbers import NONE, number, percent, whole
-from gripscale.units import ZERO_CELSIUS
+from gripscale.charts.page_elements import NONE, Heading, Table, number, percent, whole
+from gripscale.charts.view import PredictionView
+from gripscale.core.units import MEGA, MILLI, ZERO_CELSIUS
 
 
 @dataclass(frozen=True)

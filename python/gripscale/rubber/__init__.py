@@ -1,36 +1,36 @@
 """Rubber: master curves, Prony series and the material they make."""
 
-from gripscale.rubber.admissible import AdmissibleSeries
 from gripscale.rubber.extrapolation import Extrapolation
-from gripscale.rubber.finite_strain_fit import (
+from gripscale.rubber.finite_strain import (
     FiniteStrainFit,
+    UniaxialTest,
     fit_finite_strain,
+    read_uniaxial_test,
     rms_error,
+    simple_shear_stress,
+    uniaxial_stress,
     work_error,
 )
-from gripscale.rubber.master_curve import MasterCurve
-from gripscale.rubber.master_curve_file import write_master_curve
-from gripscale.rubber.material import Rubber
-from gripscale.rubber.material_point import simple_shear_stress, uniaxial_stress
-from gripscale.rubber.misfit import Misfit
+from gripscale.rubber.master_curve import MasterCurve, read_master_curve, write_master_curve
+from gripscale.rubber.material import AdmissibleSeries, Rubber, temperature_doubts
+from gripscale.rubber.maxwell_fit import Candidate
 from gripscale.rubber.named import springpot_modulus, styrene_butadiene
 from gripscale.rubber.prony import fit_prony, fit_prony_report
-from gripscale.rubber.prony_report import PronyFit
-from gripscale.rubber.ramps import sweeps_from_ramps
-from gripscale.rubber.reader import read_master_curve
-from gripscale.rubber.same_temperature import temperature_doubts
+from gripscale.rubber.prony_report import Misfit, PronyFit
 from gripscale.rubber.shift import (
     SHIFTS,
     WLF,
     Arrhenius,
     Shift,
-    ShiftFit,
     ShiftTable,
     WLFArrhenius,
+    shift_from_dict,
+)
+from gripscale.rubber.shift_fit import (
+    ShiftFit,
     fit_arrhenius,
     fit_wlf,
     read_shift_table,
-    shift_from_dict,
     write_shift_table,
 )
 from gripscale.rubber.strain_energy import (
@@ -43,16 +43,8 @@ from gripscale.rubber.strain_energy import (
     strain_energy,
 )
 from gripscale.rubber.strain_sweep import StrainSweep, read_strain_sweep
-from gripscale.rubber.superposition import (
-    Overlap,
-    Superposition,
-    superpose,
-    superpose_report,
-)
-from gripscale.rubber.sweeps import Sweep, Sweeps
-from gripscale.rubber.sweeps_reader import read_sweeps
-from gripscale.rubber.term_choice import Candidate
-from gripscale.rubber.uniaxial_test import UniaxialTest, read_uniaxial_test
+from gripscale.rubber.superposition import Overlap, Superposition, superpose, superpose_report
+from gripscale.rubber.sweeps import Sweep, Sweeps, read_sweeps, sweeps_from_ramps
 
 __all__ = [
     "SHIFTS",

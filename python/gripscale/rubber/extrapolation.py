@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gripscale.errors import ExtrapolationError
+from gripscale.core.errors import ExtrapolationError
 from gripscale.rubber.material import Rubber
 
 Array = NDArray[np.float64]

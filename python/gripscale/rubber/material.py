@@ -12,24 +12,284 @@ incompressible limit; the few per cent by which a finite K changes it enter thro
 from __future__ import annotations
 
 import hashlib
+import math
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gripscale import checks
-from gripscale.errors import InputError
-from gripscale.rubber import material_checks
-from gripscale.rubber.admissible import AdmissibleSeries
-from gripscale.rubber.compressibility import too_compressible, warn_once
-from gripscale.rubber.maxwell_shapes import complex_sum
+from gripscale.core import checks
+from gripscale.core.errors import InputError, RubberWarning
+from gripscale.core.units import ZERO_CELSIUS
 from gripscale.rubber.shift import Shift, shift_at, shift_from_dict
 from gripscale.rubber.strain_energy import NeoHookean, StrainEnergy, strain_energy_from_dict
 
+# What one Maxwell element of unit modulus has of E' and E'', at any w tau without overflow.
+#
+#     E'/E_i  = x^2 / (1 + x^2) = 1 / (1 + 1/x^2),   E''/E_i = x / (1 + x^2),   x = w tau
+#
+# Source: J. D. Ferry, Viscoelastic Properties of Polymers, 3rd ed. (1980), ch. 3.
+
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
+
+_BLOCK = 256
+"""Frequencies at once: with a hundred terms an array of them is 200 kB."""
+
+
+def storage_shape(phase: Array) -> Array:
+    """Return E'/E_i [-] at w tau = `phase` [-], any sign, same shape."""
+    size = np.abs(phase)
+    square = np.minimum(size, 1.0) ** 2
+    inverse_square = (1.0 / np.maximum(size, 1.0)) ** 2
+    return np.where(size <= 1.0, square / (1.0 + square), 1.0 / (1.0 + inverse_square))
+
+
+def loss_shape(phase: Array) -> Array:
+    """Return E''/E_i [-] at w tau = `phase` [-], with its sign, same shape."""
+    size = np.abs(phase)
+    smaller = np.where(size <= 1.0, size, 1.0 / np.maximum(size, 1.0))
+    return np.copysign(smaller / (1.0 + smaller**2), phase)
+
+
+def complex_sum(omega: Array, times: Array, moduli: Array) -> ComplexArray:
+    """Return sum E_i (E' + i E'')(w tau_i)/E_i [Pa] at `omega` [rad/s], same shape.
+
+    `times` [s] and `moduli` [Pa] have shape (terms,). In blocks that stay in the processor's cache:
+    a direct contact asks for as many frequencies as its grid has points, and memory would take
+    longer than the sums.
+    """
+    flat = np.abs(omega).reshape(-1)
+    found = np.empty(flat.size, dtype=np.complex128)
+    for first in range(0, flat.size, _BLOCK):
+        phase = np.outer(flat[first : first + _BLOCK], times)
+        smaller = np.minimum(phase, 1.0 / np.maximum(phase, 1.0))
+        square = smaller * smaller
+        below = 1.0 + square
+        part = found[first : first + _BLOCK]
+        part.imag = (moduli * (smaller / below)).sum(-1)
+        np.copyto(square, 1.0, where=phase > 1.0)
+        part.real = (moduli * (square / below)).sum(-1)
+    found.imag = np.copysign(found.imag, np.reshape(omega, -1))
+    return found.reshape(np.shape(omega))
+
+
+# The Prony series that fit a master curve as well as the best one does: what the data leave open.
+#
+# A master curve fixes E*(w) within its band to about its noise, and beyond its ends less and less.
+# The series kept here are extremes: each has the least or the largest E' or E'' at some frequency
+# that the data allow. Their envelope is the uncertainty of E*(w); each of them is a rubber, so that
+# the same uncertainty of a friction is the spread of its predictions.
+
+
+@dataclass(frozen=True, init=False, eq=False)
+class AdmissibleSeries:
+    """Prony series on common relaxation times, one a row.
+
+    Parameters
+    ----------
+    relaxation_times : array_like, shape (terms,)
+        Relaxation times [s], above zero.
+    equilibrium_moduli : array_like, shape (series,)
+        E_inf of each series [Pa], above zero.
+    moduli : array_like, shape (series, terms)
+        Moduli of their Maxwell elements [Pa], not negative.
+    belongs_to : str
+        Fingerprint of the rubber's own series, which the first rubber they are given to leaves: the
+        others tell nothing of another one.
+
+    Raises
+    ------
+    InputError
+        If a value is not finite or out of its range, or the shapes do not match.
+    """
+
+    relaxation_times: Array = field(repr=False)
+    equilibrium_moduli: Array = field(repr=False)
+    moduli: Array = field(repr=False)
+    belongs_to: str = field(default="", repr=False)
+
+    def __init__(
+        self,
+        relaxation_times: ArrayLike,
+        equilibrium_moduli: ArrayLike,
+        moduli: ArrayLike,
+        belongs_to: str = "",
+    ) -> None:
+        times = checks.in_reason("relaxation_times", relaxation_times, unit="s")
+        equilibrium = checks.in_reason("equilibrium_moduli", equilibrium_moduli, unit="Pa")
+        shape = (len(equilibrium), len(times))
+        expected = f"moduli must be {shape[0]} rows of {shape[1]} numbers [Pa]"
+        elements = checks.array(moduli, expected)
+        if elements.size != math.prod(shape):
+            raise InputError(f"{expected}; got {checks.short_repr(moduli)}")
+        elements = elements.reshape(shape)
+        if not ((elements >= 0.0) & (elements <= checks.MOST)).all():
+            raise InputError(f"moduli must not be negative [Pa]; got {elements.min():g}")
+        for name, value in (
+            ("relaxation_times", times),
+            ("equilibrium_moduli", equilibrium),
+            ("moduli", elements),
+        ):
+            value.setflags(write=False)
+            object.__setattr__(self, name, value)
+        object.__setattr__(self, "belongs_to", str(belongs_to))
+
+    def given_to(self, fingerprint: str) -> AdmissibleSeries:
+        """Return them as those of the series with this fingerprint.
+
+        Raises `InputError` if they belong to another.
+        """
+        if self.belongs_to not in ("", fingerprint):
+            raise InputError(
+                "admissible must be what fits beside this series; got that of other moduli or "
+                "relaxation times: leave it out (admissible=None) where they are changed"
+            )
+        if self.belongs_to:
+            return self
+        return AdmissibleSeries(
+            self.relaxation_times, self.equilibrium_moduli, self.moduli, fingerprint
+        )
+
+    def __len__(self) -> int:
+        return len(self.equilibrium_moduli)
+
+    def __eq__(self, other: object) -> bool:
+        """Compare all numbers."""
+        return isinstance(other, AdmissibleSeries) and self._key() == other._key()
+
+    def __hash__(self) -> int:
+        return hash(self._key())
+
+    def _key(self) -> tuple[bytes, ...]:
+        columns = self.relaxation_times, self.equilibrium_moduli, self.moduli
+        return tuple(column.tobytes() for column in columns)
+
+    def complex_moduli(self, omega: Array) -> NDArray[np.complex128]:
+        """Return E*(w) of each series [Pa] at `omega` [rad/s], shape (series, *omega.shape)."""
+        phase = omega[..., None] * self.relaxation_times
+        storage = storage_shape(phase) @ self.moduli.T + self.equilibrium_moduli
+        loss = loss_shape(phase) @ self.moduli.T
+        return np.moveaxis(storage + 1j * loss, -1, 0)
+
+    def shifted(self, a: float, b: float) -> AdmissibleSeries:
+        """Return the series with times multiplied by `a` and moduli divided by `b` [-]."""
+        return AdmissibleSeries(
+            self.relaxation_times * a, self.equilibrium_moduli / b, self.moduli / b
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return all numbers as lists; whose they are is told by the rubber they stand beside."""
+        return {
+            "relaxation_times": self.relaxation_times.tolist(),
+            "equilibrium_moduli": self.equilibrium_moduli.tolist(),
+            "moduli": self.moduli.tolist(),
+        }
+
+    @classmethod
+    def from_dict(cls, values: Mapping[str, Any]) -> AdmissibleSeries:
+        """Return the series of `to_dict`; raise `InputError` if a key is another."""
+        known = {"relaxation_times", "equilibrium_moduli", "moduli"}
+        if not isinstance(values, Mapping) or set(values) != known:
+            raise InputError(
+                f"admissible must have the keys {', '.join(known)}; got {checks.short_repr(values)}"
+            )
+        return cls(**values)
+
+
+# A bulk modulus too small for the modulus it goes with: Poisson's ratio below that of any rubber.
+#
+# nu = (3K - 2|G|) / (2 (3K + |G|)),    K for nu: 2|G| (1 + nu) / (3 (1 - 2 nu))
+
+LEAST_POISSON_RATIO = 0.3
+"""Below this no rubber and hardly a glassy polymer is: the bulk modulus is too small."""
+
+
+def too_compressible(bulk: float, modulus: float, where: str) -> str:
+    """Return a sentence if Poisson's ratio is below `LEAST_POISSON_RATIO`, else nothing.
+
+    Parameters
+    ----------
+    bulk, modulus : float
+        Bulk modulus and |E*| [Pa].
+    where : str
+        The frequency in words.
+    """
+    shear = modulus / 3.0
+    ratio = (3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear))
+    if ratio >= LEAST_POISSON_RATIO:
+        return ""
+    least = 2.0 * shear * (1.0 + LEAST_POISSON_RATIO) / (3.0 - 6.0 * LEAST_POISSON_RATIO)
+    return (
+        f"the bulk modulus, {bulk / 1e6:.4g} MPa, gives Poisson's ratio {ratio:.2f} {where}; "
+        f"{least / 1e6:.4g} MPa would give {LEAST_POISSON_RATIO:g}"
+    )
+
+
+@lru_cache(maxsize=1024)
+def warn_once(sentence: str) -> None:
+    """Warn of a rubber made by hand; a second time of the same numbers nothing is said."""
+    warnings.warn(sentence, RubberWarning, stacklevel=4)
+
+
+# What the numbers of a rubber must be.
+
+
+def read_only(values: Array) -> Array:
+    """Return `values`, which nobody can change any more."""
+    values.setflags(write=False)
+    return values
+
+
+def finite(name: str, value: ArrayLike, unit: str) -> Array:
+    """Return `value` as an array of floats; raise `InputError` unless finite and in reason."""
+    return checks.real(name, value, unit=unit)
+
+
+def check_modulus(name: str, value: float) -> float:
+    """Return one modulus [Pa] within reason."""
+    return float(checks.in_reason(name, [checks.number(name, value, unit="Pa")], unit="Pa")[0])
+
+
+def check_admissible(value: AdmissibleSeries | None) -> AdmissibleSeries | None:
+    """Return `value`; raise `InputError` if it is something else."""
+    if not isinstance(value, AdmissibleSeries | None):
+        raise InputError(
+            f"admissible must be an AdmissibleSeries or None; got {checks.short_repr(value)}"
+        )
+    return value
+
+
+def check_temperature(value: float | None) -> float | None:
+    """Return a reference temperature [K]; raise `InputError` unless above zero or None."""
+    return None if value is None else checks.positive("reference_temperature", value, unit="K")
+
+
+def check_strain_energy(value: StrainEnergy) -> StrainEnergy:
+    """Return `value`; raise `InputError` if it is something else."""
+    if not isinstance(value, StrainEnergy):
+        raise InputError(
+            f"strain_energy must be a StrainEnergy, such as Yeoh; got {checks.short_repr(value)}"
+        )
+    return value
+
+
+def check_band(value: tuple[float, float] | None) -> tuple[float, float] | None:
+    """Return a band of angular frequencies [rad/s]; raise `InputError` if it is none."""
+    if value is None:
+        return None
+    band = checks.in_reason("valid_band", value, unit="rad/s")
+    if len(band) != 2 or band[0] >= band[1]:
+        raise InputError(
+            f"valid_band [rad/s] must be a lower and a higher frequency; "
+            f"got {checks.short_repr(value)}"
+        )
+    return float(band[0]), float(band[1])
+
 
 DEFAULT_ENERGY = NeoHookean()
 
@@ -104,20 +364,18 @@ class Rubber:
         shift: Shift | None = None,
     ) -> None:
         values = {
-            "equilibrium_modulus": material_checks.modulus(
-                "equilibrium_modulus", equilibrium_modulus
-            ),
-            "moduli": material_checks.read_only(checks.in_reason("moduli", moduli, unit="Pa")),
-            "relaxation_times": material_checks.read_only(
+            "equilibrium_modulus": check_modulus("equilibrium_modulus", equilibrium_modulus),
+            "moduli": read_only(checks.in_reason("moduli", moduli, unit="Pa")),
+            "relaxation_times": read_only(
                 checks.in_reason("relaxation_times", relaxation_times, unit="s")
             ),
-            "bulk_modulus": material_checks.modulus("bulk_modulus", bulk_modulus),
+            "bulk_modulus": check_modulus("bulk_modulus", bulk_modulus),
             "name": checks.text("name", name),
             "source": checks.text("source", source),
-            "valid_band": material_checks.band(valid_band),
-            "strain_energy": material_checks.energy(strain_energy),
-            "admissible": material_checks.admissible(admissible),
-            "reference_temperature": material_checks.temperature(reference_temperature),
+            "valid_band": check_band(valid_band),
+            "strain_energy": check_strain_energy(strain_energy),
+            "admissible": check_admissible(admissible),
+            "reference_temperature": check_temperature(reference_temperature),
             "shift": shift_at(shift, reference_temperature),
         }
         self._set(**values)
@@ -236,7 +494,7 @@ class Rubber:
         A negative frequency gives the complex conjugate. Raises `InputError` unless finite and
         below 1e100.
         """
-        frequency = material_checks.finite("omega", omega, "rad/s")
+        frequency = finite("omega", omega, "rad/s")
         relaxing = complex_sum(frequency, self.relaxation_times, self.moduli)
         return np.asarray(self.equilibrium_modulus + relaxing)
 
@@ -282,8 +540,8 @@ class Rubber:
         other._set(**{field.name: getattr(self, field.name) for field in fields(self)})
         other._set(
             equilibrium_modulus=equilibrium,
-            moduli=material_checks.read_only(moduli),
-            relaxation_times=material_checks.read_only(times),
+            moduli=read_only(moduli),
+            relaxation_times=read_only(times),
             admissible=None,
         )
         other._check_together()
@@ -341,7 +599,7 @@ class Rubber:
         """
         elapsed = checks.array(time, "time must be numbers, not negative [s]")
         if not (elapsed >= 0.0).all():
-            raise InputError(f"time must not be negative [s]; got {checks.shown(elapsed)}")
+            raise InputError(f"time must not be negative [s]; got {checks.short_repr(elapsed)}")
         with np.errstate(over="ignore"):  # infinitely many relaxation times have passed
             decay = np.exp(-elapsed[..., None] / self.relaxation_times)
         return np.asarray(self.equilibrium_modulus + (self.moduli * decay).sum(-1))
@@ -364,8 +622,129 @@ class Rubber:
 
     def outside_band(self, omega: ArrayLike) -> NDArray[np.bool_]:
         """Return whether each `omega` [rad/s] lies outside `valid_band`; False if none is known."""
-        frequency = np.abs(material_checks.finite("omega", omega, "rad/s"))
+        frequency = np.abs(finite("omega", omega, "rad/s"))
         if self.valid_band is None:
             return np.zeros(frequency.shape, dtype=bool)
         low, high = self.valid_band
         return np.asarray((frequency < low) | (frequency > high))
+
+
+# Whether a rubber's moduli level off within the data: only there is a modulus relaxed or glassy.
+#
+# A plateau counts as measured where no admissible series leaves the modulus of the end of the data
+# by more than a fifth within the two decades beyond it.
+
+BEYOND = 100.0
+"""How far beyond the data uncertainty is stated: a factor of frequency, two decades."""
+_CHANGE = 1.25
+
+
+@dataclass(frozen=True)
+class End:
+    """One end of what is known of a rubber."""
+
+    modulus: float
+    """Storage modulus [Pa]: of the plateau, or at the last frequency measured."""
+    plateau: bool
+    """Whether it is the relaxed, or the glassy, modulus."""
+
+
+def slow_end(rubber: Rubber) -> End:
+    """Return the relaxed modulus, or what was measured last on the way to it.
+
+    A rubber without a measured band is what its series says it is.
+    """
+    return _end(rubber, rubber.equilibrium_modulus, 0, 1.0 / BEYOND)
+
+
+def fast_end(rubber: Rubber) -> End:
+    """Return the glassy modulus, or what was measured last on the way to it, likewise."""
+    return _end(rubber, rubber.glassy_modulus, 1, BEYOND)
+
+
+def _end(rubber: Rubber, limit: float, side: int, factor: float) -> End:
+    """Return the `limit` of the series where the admissible ones hardly leave the last modulus.
+
+    `side` is 0 for the low end of the band and of the envelope, 1 for the high end.
+    """
+    if rubber.valid_band is None:
+        return End(limit, True)
+    omega = rubber.valid_band[side]
+    last = float(rubber.complex_modulus(omega).real)
+    if rubber.admissible is None:
+        return End(last, False)
+    furthest = float(rubber.complex_modulus_band(omega * factor)[side].real)
+    plateau = max(furthest / last, last / furthest) <= _CHANGE
+    return End(limit if plateau else last, plateau)
+
+
+# Whether a rubber is still solid after a load has lasted: its relaxation modulus against pressure.
+#
+# A block under a mean pressure of many times its modulus is squeezed into full contact and beyond
+# what a solid can be: there is no partial contact to solve for, and no solution is found.
+
+MOST_PRESSURE = 10.0
+"""Mean pressure over relaxation modulus that is let through; at slopes near one, three is full."""
+
+
+def require_solid(rubber: Rubber, pressure: float, load_time: float) -> None:
+    """Raise `InputError` unless E(t) after `load_time` [s] can carry `pressure` [Pa].
+
+    At rest the time is infinite and E(t) the equilibrium modulus.
+    """
+    checks.instance("rubber", rubber, Rubber)
+    modulus = float(rubber.relaxation_modulus(load_time))
+    if pressure <= MOST_PRESSURE * modulus:
+        return
+    at_rest = math.isinf(load_time)
+    name = "equilibrium_modulus" if at_rest else f"the relaxation modulus after {load_time:.3g} s"
+    flows = (
+        "; leave out the static contact of a melt, in a case by static = false" if at_rest else ""
+    )
+    raise InputError(
+        f"{name} [Pa] must be at least 1/{MOST_PRESSURE:g} of the pressure, "
+        f"{pressure / MOST_PRESSURE:.3g}, for a contact that is not squeezed flat{flows}; "
+        f"got {modulus:.3g}"
+    )
+
+
+# Whether rubbers that stand side by side hold for the same temperature.
+
+_SAME = 0.5
+"""Temperatures that differ by less are one [K]: 20 °C and 293 K."""
+
+
+def temperature_doubts(rubbers: Mapping[str, Rubber]) -> tuple[str, ...]:
+    """Return what is doubtful about comparing rubbers, a sentence each; empty if nothing is.
+
+    Parameters
+    ----------
+    rubbers
+        The rubbers by what they are called.
+
+    Returns
+    -------
+    tuple of str
+        That they hold for different temperatures, that some have none stated beside others that
+        do, or that a temperature lies beyond those its shift rests on.
+    """
+    stated = {
+        name: rubber.reference_temperature
+        for name, rubber in rubbers.items()
+        if rubber.reference_temperature is not None
+    }
+    doubts = []
+    if stated and max(stated.values()) - min(stated.values()) > _SAME:
+        each = ", ".join(
+            f"{name} {kelvin - ZERO_CELSIUS:.1f} °C" for name, kelvin in stated.items()
+        )
+        doubts.append(f"the rubbers hold for different temperatures: {each}")
+    if stated and len(stated) < len(rubbers):
+        others = ", ".join(name for name in rubbers if name not in stated)
+        doubts.append(
+            f"the temperature of {others} is not known beside that of {', '.join(stated)}"
+        )
+    beyond = [name for name, rubber in rubbers.items() if rubber.shift_extrapolated]
+    if beyond:
+        doubts.append(f"beyond the temperatures its shift rests on: {', '.join(beyond)}")
+    return tuple(doubts)

@@ -22,12 +22,14 @@ Mech. Thermodyn. 2 (1990) 17, doi:10.1007/BF01170953 (second differences as regu
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gripscale.rubber.maxwell_shapes import loss_shape, storage_shape
+from gripscale.core import checks
+from gripscale.rubber.material import loss_shape, storage_shape
 
 Array = NDArray[np.float64]
 
@@ -195,3 +197,189 @@ def _penalties(slow: NDArray[np.bool_], prior: Prior) -> Array:
     within = ~slow[2:] if terms > 2 else np.zeros(0, dtype=bool)
     shrinking = np.eye(terms, terms + 2, 1)[slow]
     return np.vstack([prior.smoothing * differences[within], prior.shrinkage * shrinking])
+
+
+# How many Maxwell elements a master curve supports, by cross-validation.
+#
+# Five folds, each holding out every fifth row; the error is the relative error of E' and E'' at the
+# rows held out. Taken is the smallest number within one standard error of the best (T. Hastie, R.
+# Tibshirani, J. Friedman, The Elements of Statistical Learning, 2nd ed. 2009, sec. 7.10), but not
+# fewer than 1.25 per decade: for a smooth spectrum, elements log-spaced by d (in natural logarithm)
+# make E'' ripple by 2 sech(pi^2/d), 6 % at one per decade and 2 % at 1.25 per decade (first Fourier
+# coefficient of the periodic sum of sech).
+
+_PER_DECADE = (0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0)
+_LEAST_PER_DECADE = 1.25
+_FOLDS = 5
+_MOST_TERMS = 60
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A number of terms and what cross-validation says of it."""
+
+    terms: int
+    error: float
+    """Root mean square relative error at rows held out [-]."""
+    standard_error: float
+
+
+def choose_terms(
+    omega: Array,
+    storage: Array,
+    loss: Array,
+    fit: Callable[[NDArray[np.bool_], int], Spectrum],
+) -> tuple[int, tuple[Candidate, ...]]:
+    """Return the number of terms and all candidates tried.
+
+    `fit` is the Maxwell fit to a choice of rows with a number of terms; `omega` [rad/s], `storage`
+    and `loss` [Pa] have shape (rows,).
+    """
+    decades = float(np.log10(omega.max() / omega.min()))
+    numbers = sorted({min(_terms(decades, density), _MOST_TERMS) for density in _PER_DECADE})
+    if len(omega) < 2 * _FOLDS:
+        return min(_terms(decades, _LEAST_PER_DECADE), len(omega)), ()
+    candidates = tuple(_cross_validate(omega, storage, loss, fit, n) for n in numbers)
+    best = min(candidates, key=lambda candidate: candidate.error)
+    least = min(_terms(decades, _LEAST_PER_DECADE), _MOST_TERMS)
+    good = [
+        candidate.terms
+        for candidate in candidates
+        if candidate.terms >= least and candidate.error <= best.error + best.standard_error
+    ]
+    return min(good, default=best.terms), candidates
+
+
+def _terms(decades: float, density: float) -> int:
+    return max(1, round(decades * density) + 1)
+
+
+def _cross_validate(
+    omega: Array,
+    storage: Array,
+    loss: Array,
+    fit: Callable[[NDArray[np.bool_], int], Spectrum],
+    terms: int,
+) -> Candidate:
+    fold = np.arange(len(omega)) % _FOLDS
+    squares = np.empty(len(omega))
+    for held_out in range(_FOLDS):
+        out = fold == held_out
+        spectrum = fit(~out, terms)
+        squares[out] = 0.5 * (spectrum.storage(omega[out]) / storage[out] - 1.0) ** 2
+        squares[out] += 0.5 * (spectrum.loss(omega[out]) / loss[out] - 1.0) ** 2
+    error = float(np.sqrt(squares.mean()))
+    most = max(float(squares.max()), np.finfo(float).tiny)  # its square may overflow
+    spread = most * float((squares / most).std(ddof=1) / np.sqrt(len(squares)))
+    return Candidate(terms, error, 0.5 * spread / error if error > 0.0 else 0.0)
+
+
+# Finding rows of a master curve that do not belong to it.
+#
+# A row is an outlier if its storage or its loss modulus leaves the local trend of its neighbours by
+# more than `threshold` times the typical scatter, both
+#
+# - in the data themselves (log-log straight line through the neighbours), and
+# - in the data divided by a Maxwell fit (so that curvature of a smooth spectrum is no outlier).
+#
+# The line is the median of pairwise slopes (P. K. Sen, J. Am. Stat. Assoc. 63 (1968) 1379,
+# doi:10.1080/01621459.1968.10480934); the scatter is 1.4826 times the median distance from it.
+# The fit alone would not do: measured E' and E'' are often not Kramers-Kronig consistent, and the
+# joint fit then misses both by more than their scatter.
+
+_NEIGHBOURS = 8
+_PASSES = 10
+LEAST_SCATTER = 0.02
+"""Scatter below this (2 %, a good laboratory) is not believed."""
+_FEWEST_ROWS = _NEIGHBOURS + 3
+
+
+@dataclass(frozen=True)
+class Screening:
+    """Which rows are kept, and how far each is from its neighbours."""
+
+    kept: NDArray[np.bool_]
+    storage_deviation: Array
+    """Log deviation of E' from the local trend [-], shape (rows,)."""
+    loss_deviation: Array
+    """The same of E''."""
+    storage_scatter: float
+    """Robust relative scatter of E' about its local trend [-]."""
+    loss_scatter: float
+
+    @property
+    def believed_scatter(self) -> tuple[float, float]:
+        """Scatter of E' and E'' [-], at least what a good laboratory has."""
+        return max(self.storage_scatter, LEAST_SCATTER), max(self.loss_scatter, LEAST_SCATTER)
+
+
+def screen(
+    omega: Array,
+    storage: Array,
+    loss: Array,
+    fit: Callable[[NDArray[np.bool_]], Spectrum],
+    threshold: float,
+) -> Screening:
+    """Return which rows belong to the curve; `fit` is the Maxwell fit to a choice of rows.
+
+    `omega` [rad/s] ascending, `storage` and `loss` [Pa], all of shape (rows,).
+    """
+    kept = np.ones(len(omega), dtype=bool)
+    position = np.log(omega)
+    for _ in range(_PASSES):
+        spectrum = fit(kept)
+        raw = [
+            _deviation(position, np.log(storage), kept),
+            _deviation(position, np.log(loss), kept),
+        ]
+        relative = [
+            _deviation(position, _log_ratio(storage, spectrum.storage(omega)), kept),
+            _deviation(position, _log_ratio(loss, spectrum.loss(omega)), kept),
+        ]
+        scores = [
+            np.minimum(np.abs(a) / _scatter(a[kept]), np.abs(b) / _scatter(b[kept]))
+            for a, b in zip(raw, relative, strict=True)
+        ]
+        new = np.maximum(scores[0], scores[1]) <= threshold
+        if len(omega) < _FEWEST_ROWS or new.sum() < _FEWEST_ROWS or (new == kept).all():
+            break
+        kept = new
+    return Screening(kept, raw[0], raw[1], _spread(raw[0][kept]), _spread(raw[1][kept]))
+
+
+def _deviation(position: Array, value: Array, kept: NDArray[np.bool_]) -> Array:
+    """Return each value minus the straight line through its nearest kept neighbours."""
+    result = np.empty_like(value)
+    members = np.flatnonzero(kept)
+    for row in range(len(value)):
+        near = _nearest(members[members != row], row)
+        run, rise = position[near] - position[row], value[near]
+        result[row] = value[row] - np.median(rise - _median_slope(run, rise) * run)
+    return result
+
+
+def _median_slope(run: Array, rise: Array) -> float:
+    """Return the median of all slopes between two points; 0 if all stand at one place."""
+    across = run[:, None] - run
+    apart = across > 0.0
+    return float(np.median((rise[:, None] - rise)[apart] / across[apart])) if apart.any() else 0.0
+
+
+def _log_ratio(measured: Array, fitted: Array) -> Array:
+    """Return log(measured/fitted); a fit may have no loss at all where it is far off."""
+    return np.asarray(np.log(measured) - np.log(np.maximum(fitted, checks.LEAST)))
+
+
+def _nearest(members: NDArray[np.intp], row: int) -> NDArray[np.intp]:
+    """Return up to eight members around `row`: half on each side, more where one side ends."""
+    split = int(np.searchsorted(members, row))
+    start = min(max(split - _NEIGHBOURS // 2, 0), max(len(members) - _NEIGHBOURS, 0))
+    return members[start : start + _NEIGHBOURS]
+
+
+def _spread(deviation: Array) -> float:
+    return float(1.4826 * np.median(np.abs(deviation)))
+
+
+def _scatter(deviation: Array) -> float:
+    return max(_spread(deviation), LEAST_SCATTER)

@@ -7,8 +7,8 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gripscale import checks
-from gripscale.errors import InputError
+from gripscale.core import checks
+from gripscale.core.errors import InputError
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.material import Rubber
 from gripscale.rubber.prony import fit_prony
@@ -56,7 +56,7 @@ def springpot_modulus(omega: ArrayLike) -> ComplexArray:
     if not (frequency >= checks.LEAST).all():
         raise InputError(
             f"omega must be greater than zero, at least {checks.LEAST:g} [rad/s]; "
-            f"got {checks.shown(omega)}"
+            f"got {checks.short_repr(omega)}"
         )
     scaled = 1j * frequency / _REFERENCE_FREQUENCY
     rubbery, transition, glassy = (
@@ -97,7 +97,9 @@ def styrene_butadiene(
     """
     ends = checks.positive_vector("band", band, unit="rad/s")
     if len(ends) != 2 or ends[1] < 100.0 * ends[0]:
-        raise InputError(f"band [rad/s] must span at least two decades; got {checks.shown(band)}")
+        raise InputError(
+            f"band [rad/s] must span at least two decades; got {checks.short_repr(band)}"
+        )
     bulk = checks.positive("bulk_modulus", bulk_modulus, unit="Pa")
     return _styrene_butadiene(float(ends[0]), float(ends[1]), bulk)
 

@@ -13,15 +13,23 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale import checks
-from gripscale.errors import FileError, InputError
-from gripscale.rubber.moduli import above_zero, young_moduli
-from gripscale.rubber.stated import MODULI, QUANTITIES, Columns, Stated, columns_of, missing
-from gripscale.rubber.sweep_blocks import Block, read_blocks
-from gripscale.rubber.sweeps import TOLERANCE, Array
-from gripscale.rubber.sweeps_reader import row_temperatures
-from gripscale.textfile import TextTable, file_path
-from gripscale.units import in_si
+from gripscale.core import checks
+from gripscale.core.errors import FileError, InputError
+from gripscale.core.units import in_si
+from gripscale.io.text_table import TextTable, file_path
+from gripscale.rubber.columns import (
+    MODULI,
+    QUANTITIES,
+    Block,
+    Columns,
+    Stated,
+    above_zero,
+    columns_of,
+    missing,
+    read_blocks,
+    young_moduli,
+)
+from gripscale.rubber.sweeps import TOLERANCE, Array, row_temperatures
 
 AMPLITUDES = {"single": 1.0, "peak-to-peak": 0.5}
 """What an amplitude may be, and what makes it a single one."""

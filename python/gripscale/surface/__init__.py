@@ -1,25 +1,33 @@
 """The surface: measured profile, its height difference correlation, and the sines that match it."""
 
-from gripscale.surface.cleaning import CleaningReport, StepReport, clean
-from gripscale.surface.cut_off import CutOff, CutOffRule, RmsSlope, find_cut_off
-from gripscale.surface.doubts import profile_doubts
+from gripscale.surface.cleaning import CleaningReport, StepReport, clean, clean_map
+from gripscale.surface.cut_off import (
+    CutOff,
+    CutOffRule,
+    PowerLaw,
+    RmsSlope,
+    SlopeByWavelength,
+    find_cut_off,
+    slope_by_wavelength,
+)
 from gripscale.surface.height_difference import HeightDifference, height_difference
-from gripscale.surface.height_map import HeightMap
-from gripscale.surface.isotropy import areal_spectrum
-from gripscale.surface.map_cleaning import clean_map
-from gripscale.surface.map_file import read_map
-from gripscale.surface.maps.isotropic import isotropic_maps
-from gripscale.surface.periodogram import map_spectrum, profile_spectrum
-from gripscale.surface.prepared import Measured, PreparedSurface
-from gripscale.surface.profile import Profile
-from gripscale.surface.read import read_profile, read_profiles
+from gripscale.surface.isotropic_maps import isotropic_maps
+from gripscale.surface.plausibility import profile_doubts
+from gripscale.surface.profile import HeightMap, Profile
+from gripscale.surface.read import read_map, read_profile, read_profiles
 from gripscale.surface.resampling import resample
 from gripscale.surface.self_affine import SelfAffineFit, fit_self_affine
 from gripscale.surface.sine_ambiguity import SineAmbiguity, sine_ambiguity
 from gripscale.surface.sine_fit import fit_sines
 from gripscale.surface.sines import SineStack
-from gripscale.surface.slope import PowerLaw, SlopeByWavelength, slope_by_wavelength
-from gripscale.surface.spectrum import ArealSpectrum, ProfileSpectrum
+from gripscale.surface.spectrum import (
+    ArealSpectrum,
+    ProfileSpectrum,
+    areal_spectrum,
+    map_spectrum,
+    profile_spectrum,
+)
+from gripscale.surface.surface import Measured, PreparedSurface
 from gripscale.surface.synthetic import self_affine_profile, sine_profile
 
 __all__ = [

@@ -17,20 +17,252 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Literal
 
-from gripscale import checks
-from gripscale.errors import InputError
-from gripscale.surface.height_map import HeightMap
-from gripscale.surface.profile import Profile
-from gripscale.surface.slope import (
-    DEFINITIONS,
-    ROUNDING,
-    SlopeByWavelength,
-    slope_by_wavelength,
+import numpy as np
+
+from gripscale.core import checks
+from gripscale.core.errors import InputError
+from gripscale.core.units import parse_quantity
+from gripscale.surface.profile import CARRIED_STEPS, FloatArray, HeightMap, Profile
+from gripscale.surface.spectrum import (
+    ArealSpectrum,
+    ProfileSpectrum,
+    areal_spectrum,
+    map_spectrum,
+    profile_spectrum,
 )
-from gripscale.units import parse_quantity
+
+# The rms slope of a measured surface down to each wavelength, of its lines and of the surface.
+#
+#     h'_line(q)^2    = int_0^q k^2 C_1(k) dk                  waves along the lines
+#     h'_surface(q)^2 = 2 pi int_0^q k^3 C(k) dk               waves of any direction
+#
+# The slope of the surface is the root mean square of its gradient's length, that of a line the
+# slope along it. Both grow without bound as shorter waves are counted in, so each is a number only
+# together with a wavelength. Of a surface that ends at q the first is sqrt(2) times the second; of
+# a line measured further down it is less, because short waves are seen at an angle, too: profiles
+# are turned into their isotropic surface first (`gripscale.surface.spectrum`). A map needs no such
+# step.
+#
+# Beyond the shortest wave the measurement carries, q_m, the spectra may be continued as power laws
+# fitted to the last decade before it, as those of a self-affine surface are (h'^2 = m there):
+#
+#     h'(q)^2 = m + b q_m^(2-2H) ((q/q_m)^(2-2H) - 1)/(2 - 2H)
+
+DEFINITIONS = ("surface", "profile")
+"""Whose slope: the length of the surface's gradient, or the slope along its lines."""
+
+ROUNDING = 1e-9
+"""Relative difference below which two wavelengths are the same."""
+
+_FITTED = 10.0
+"""Range of wavenumbers up to the last one carried to which a power law is fitted, as a ratio."""
+
+_FEWEST = 4
+"""Points such a range must have."""
+
+
+@dataclass(frozen=True)
+class PowerLaw:
+    """How a mean square slope goes on below the wavelengths that were measured."""
+
+    hurst: float
+    """Exponent H of the surface that would go on so."""
+    growth: float
+    """Growth of the mean square slope per unit of log q at the last wavenumber measured."""
+
+    def added(self, ratio: float) -> float:
+        """Return the mean square slope down to the `ratio`-th part of the last wavelength."""
+        power, log = 2.0 - 2.0 * self.hurst, math.log(ratio)
+        return self.growth * (math.expm1(power * log) / power if power else log)
+
+    def ratio(self, wanted: float) -> float:
+        """Return the ratio at which `wanted` mean square slope was added; infinite if never."""
+        power, part = 2.0 - 2.0 * self.hurst, wanted / self.growth
+        if not power:
+            return math.exp(part)
+        reached = 1.0 + power * part
+        return reached ** (1.0 / power) if reached > 0.0 else math.inf
+
+
+@dataclass(frozen=True, eq=False)
+class SlopeByWavelength:
+    """Rms slope of a measured surface down to any wavelength, see `slope_by_wavelength`."""
+
+    line: ProfileSpectrum = field(repr=False)
+    """Of the lines along the way of sliding."""
+    areal: ArealSpectrum | None = field(repr=False)
+    """Of the surface; None where the lines do not determine it."""
+    carried: float
+    """Shortest wavelength the measurement carries [m]."""
+    isotropic: bool = True
+    """Whether the surface is the isotropic one of the lines, and not measured itself."""
+
+    @property
+    def wavelength(self) -> FloatArray:
+        """Wavelengths [m], ten a decade, from the longest measured to the shortest carried."""
+        longest = float(2.0 * np.pi / self.line.wavenumber[0])
+        count = max(2, math.ceil(10.0 * math.log10(max(longest / self.carried, 1.0))) + 1)
+        return np.asarray(np.geomspace(max(longest, self.carried), self.carried, count))
+
+    def down_to(self, wavelength: float, of: str = "surface") -> float:
+        """Return the rms slope [-] of the waves not shorter than `wavelength` [m].
+
+        Parameters
+        ----------
+        wavelength : float
+            Shorter than `carried`, the slope is continued as a power law.
+        of : str
+            "surface" for the rms length of the gradient, "profile" for the slope along lines.
+
+        Returns
+        -------
+        float
+            NaN where it is not known: of a surface whose spectrum the lines do not determine, or
+            beyond the measurement where that does not end as a power law.
+        """
+        length = checks.positive("wavelength", wavelength, unit="m")
+        checks.one_of("of", of, DEFINITIONS)
+        if length >= self.carried * (1.0 - ROUNDING):
+            return self._measured(length, of)
+        try:
+            law = self.power_law(of)
+        except InputError:
+            return math.nan
+        return math.sqrt(self._measured(self.carried, of) ** 2 + law.added(self.carried / length))
+
+    def reaches(self, slope: float, of: str = "surface") -> float:
+        """Return the longest wavelength [m] down to which the measured rms slope is `slope`.
+
+        NaN if it stays below down to the shortest wavelength that the measurement carries.
+        """
+        from scipy.optimize import brentq
+
+        checks.positive("slope", slope)
+        checks.one_of("of", of, DEFINITIONS)
+        if not self._measured(self.carried, of) >= slope * (1.0 - ROUNDING):
+            return math.nan
+        if of == "profile":
+            sums = np.cumsum(_mean_square(self.line))
+            first = int(np.searchsorted(sums, slope**2 * (1.0 - ROUNDING)))
+            return float(2.0 * np.pi / self.line.wavenumber[first])
+        assert self.areal is not None
+        if self._measured(self.carried, of) <= slope:
+            return self.carried
+        longest = math.log(2.0 * np.pi / self.areal.wavenumber[0])
+
+        def missing(log: float) -> float:
+            return self._measured(math.exp(log), of) - slope
+
+        return math.exp(brentq(missing, longest, math.log(self.carried), xtol=1e-12))
+
+    def power_law(self, of: str = "surface") -> PowerLaw:
+        """Return how the slope goes on beyond the measurement.
+
+        For the surface of profiles the exponent is that of their own spectrum, with the closed form
+        of `areal_spectrum`.
+
+        Raises `InputError` if the last decade that is carried has fewer than four points, or does
+        not fall as the spectrum of a self-affine surface (H above zero).
+        """
+        from scipy.special import gamma
+
+        checks.one_of("of", of, DEFINITIONS)
+        own = of == "surface" and not self.isotropic
+        if own and self.areal is not None:
+            q, growth = self.areal.wavenumber, 2.0 * np.pi * self.areal.wavenumber**4
+            law = self._fitted(q, growth * self.areal.density)
+        else:
+            mean = self.line.averaged()
+            law = self._fitted(mean.wavenumber, mean.wavenumber**3 * mean.density)
+        if own or of == "profile":
+            return law
+        seen = math.sqrt(math.pi) * gamma(law.hurst + 1.0) / gamma(law.hurst + 0.5)
+        return PowerLaw(law.hurst, float(seen) * law.growth)
+
+    def _fitted(self, q: FloatArray, growth: FloatArray) -> PowerLaw:
+        """Return the power law of what the mean square slope grows by per unit of log q."""
+        last = 2.0 * np.pi / self.carried
+        used = (q <= last * (1.0 + ROUNDING)) & (q >= last / _FITTED) & (growth > 0.0)
+        if used.sum() < _FEWEST:
+            raise InputError(
+                f"the spectrum must have {_FEWEST} points above zero in the decade above "
+                f"{self.carried:.4g} m to be continued; got {used.sum()}"
+            )
+        # bins evenly spaced in log q hold waves in proportion to q, and scatter by their root
+        logs, weight = np.log(q[used] / last), np.sqrt(q[used])
+        power, at_end = np.polyfit(logs, np.log(growth[used]), 1, w=weight)
+        hurst = 1.0 - 0.5 * float(power)
+        if hurst <= 0.0:
+            raise InputError(
+                f"the spectrum must fall as that of a self-affine surface to be continued; above "
+                f"{self.carried:.4g} m its exponent is H = {hurst:.2f}, as of noise"
+            )
+        return PowerLaw(hurst, math.exp(float(at_end)))
+
+    def _measured(self, length: float, of: str) -> float:
+        """Return the slope down to a length that is carried; zero above the longest wave."""
+        spectrum = self.line if of == "profile" else self.areal
+        if spectrum is None:
+            return math.nan
+        number = 2.0 * np.pi / length * (1.0 + ROUNDING)
+        if isinstance(spectrum, ProfileSpectrum):
+            counted = spectrum.wavenumber <= number
+            return float(np.sqrt(_mean_square(spectrum)[counted].sum()))
+        if number <= spectrum.wavenumber[0] * (1.0 + 2.0 * ROUNDING):
+            return 0.0
+        return spectrum.rms_gradient(length if number < spectrum.wavenumber[-1] else None)
+
+
+def slope_by_wavelength(
+    surface: Profile | Sequence[Profile] | HeightMap,
+) -> SlopeByWavelength:
+    """Return the rms slope of a measured surface down to each wavelength.
+
+    Parameters
+    ----------
+    surface : Profile, sequence of Profile or HeightMap
+        As cleaned. Several profiles must have the same step (within 0.1 %). Missing heights are
+        interpolated. Profiles are taken as lines on an isotropic surface; of a map the gradient is
+        measured, and its lines along x are the profiles.
+
+    Returns
+    -------
+    SlopeByWavelength
+        Down to four steps of the measurement, or to the shortest wavelength that the instrument
+        measures reliably, where it is known and longer.
+
+    Raises
+    ------
+    InputError
+        If `surface` is something else, or the steps of its profiles differ.
+    """
+    if isinstance(surface, HeightMap):
+        x_step, y_step = surface.step
+        # of many lines no windows are needed: the waves longer than a window have their slope, too
+        line = profile_spectrum(surface.lines(), window=x_step * surface.x.size)
+        areal = map_spectrum(surface.z, x_step=x_step, y_step=y_step)
+        carried = max(CARRIED_STEPS * max(surface.step), surface.reliable or 0.0)
+        return SlopeByWavelength(line, areal, carried, isotropic=False)
+    line = profile_spectrum(surface)
+    profiles = [surface] if isinstance(surface, Profile) else surface
+    return SlopeByWavelength(line, _isotropic(line), max(one.carried for one in profiles))
+
+
+def _isotropic(line: ProfileSpectrum) -> ArealSpectrum | None:
+    """Return the spectrum of the isotropic surface; None where there are too few waves for it."""
+    try:
+        return areal_spectrum(line)
+    except InputError:
+        return None
+
+
+def _mean_square(line: ProfileSpectrum) -> FloatArray:
+    """Return what each point of the spectrum adds to the mean square slope."""
+    return np.asarray(line.wavenumber**2 * line.density * line.width)
+
 
 INSTRUMENT = "instrument"
 """The word for the shortest wavelength that the measurement carries."""

@@ -15,10 +15,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale import checks
-from gripscale.errors import InputError
-from gripscale.surface.height_difference import HeightDifference, require_positive
-from gripscale.surface.plateau import find_plateau, log_weights
+from gripscale.core import checks
+from gripscale.core.errors import InputError
+from gripscale.surface.height_difference import (
+    HeightDifference,
+    find_plateau,
+    log_weights,
+    require_positive,
+)
 from gripscale.surface.profile import FloatArray
 
 FEWEST_LAGS = 4

@@ -20,11 +20,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gripscale.errors import InputError
-from gripscale.surface.height_difference import HeightDifference
-from gripscale.surface.plateau import log_weights
-from gripscale.surface.sine_fit import fit_sines
-from gripscale.surface.sine_search import FACTOR_RANGE
+from gripscale.core.errors import InputError
+from gripscale.surface.height_difference import HeightDifference, log_weights
+from gripscale.surface.sine_fit import FACTOR_RANGE, fit_sines
 from gripscale.surface.sines import SineStack
 
 NUMBERS = range(2, 13)

@@ -17,8 +17,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale import checks
-from gripscale.errors import InputError
+from gripscale.core import checks
+from gripscale.core.errors import InputError
 from gripscale.surface.profile import FloatArray
 
 GEOMETRIC_TOLERANCE = 0.01

@@ -2,7 +2,7 @@
 
 Modules: `full_contact`, `westergaard`, `hertz`, `slab`, `uniaxial` (closed forms) and `half_plane`
 (the small-strain model of one sliding wave, on `periodic_contact`). The material point under any
-history, `uniaxial_stress` and `simple_shear_stress`, is in `gripscale.rubber.material_point`.
+history, `uniaxial_stress` and `simple_shear_stress`, is in `gripscale.rubber.finite_strain`.
 """
 
 import lazy_loader

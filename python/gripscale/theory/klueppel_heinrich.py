@@ -31,19 +31,19 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from gripscale import checks
-from gripscale.errors import InputError
+from gripscale.core import checks
+from gripscale.core.errors import InputError
 from gripscale.model import NominalLoad
 from gripscale.rubber import Rubber
 from gripscale.surface.height_difference import HeightDifference, height_difference
 from gripscale.surface.profile import Profile
 from gripscale.surface.self_affine import SelfAffineFit, fit_self_affine
-from gripscale.theory.dataset import theory_dataset
-from gripscale.theory.quadrature import divided, refined, running_integral
-from gripscale.wave.status import Status
+from gripscale.theory.persson import divided, refined, running_integral, theory_dataset
+from gripscale.wave.problem import Status
 
 if TYPE_CHECKING:
     import xarray as xr
+
 
 Array = NDArray[np.float64]
 
@@ -200,7 +200,7 @@ def _self_affine(
         ):
             raise InputError(
                 "surface must be a SelfAffineFit, a HeightDifference or profiles; "
-                f"got {checks.shown(surface)}"
+                f"got {checks.short_repr(surface)}"
             )
         surface = height_difference(profiles, upper_share=UPPER_SHARE)
     return fit_self_affine(surface)

@@ -6,13 +6,13 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from gripscale import checks
-from gripscale.errors import InputError
+from gripscale.core import checks
+from gripscale.core.errors import InputError
 from gripscale.model import NominalLoad
 from gripscale.rubber import Rubber
-from gripscale.surface.periodogram import profile_spectrum
-from gripscale.surface.prepared import PreparedSurface
 from gripscale.surface.profile import Profile
+from gripscale.surface.spectrum import profile_spectrum
+from gripscale.surface.surface import PreparedSurface
 from gripscale.theory.klueppel_heinrich import klueppel_heinrich
 from gripscale.theory.persson import persson
 

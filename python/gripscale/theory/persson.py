@@ -17,26 +17,146 @@ G = (M h'/p_0)^2/8 and erf(x) = 2 x/sqrt(pi).
 
 from __future__ import annotations
 
+import json
+import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gripscale import checks
-from gripscale.errors import InputError
-from gripscale.model import NominalLoad
+from gripscale import model
+from gripscale.core import checks, provenance
+from gripscale.core.errors import InputError
+from gripscale.model import NOT_CONVERGED, NominalLoad, of_curve
 from gripscale.rubber import Rubber
-from gripscale.surface.isotropy import areal_spectrum
-from gripscale.surface.spectrum import ArealSpectrum, ProfileSpectrum, last_wavenumber
-from gripscale.theory.dataset import theory_dataset
-from gripscale.theory.quadrature import divided, filled_in, refined, running_integral
-from gripscale.wave.status import Status
+from gripscale.rubber.extrapolation import by_wavelength
+from gripscale.surface.spectrum import (
+    ArealSpectrum,
+    ProfileSpectrum,
+    areal_spectrum,
+    last_wavenumber,
+)
+from gripscale.wave.problem import Status
 
 if TYPE_CHECKING:
     import xarray as xr
 
+    from gripscale.model import NominalLoad
+    from gripscale.rubber import Rubber
+    from gripscale.wave.problem import Status
+
+
+# What a theory answers as a Dataset, with the names every model has.
+
+Variable = tuple[str, Any, str, str]
+"""Name, which is the attribute too, dimension, unit and meaning."""
+
+
+class TheoryResult(Protocol):
+    """What the results of all theories have."""
+
+    @property
+    def rubber(self) -> Rubber: ...  # noqa: D102
+    @property
+    def load(self) -> NominalLoad: ...  # noqa: D102
+    @property
+    def wavelength(self) -> NDArray[np.float64]: ...  # noqa: D102
+    @property
+    def running_friction(self) -> NDArray[np.float64]: ...  # noqa: D102
+    @property
+    def contact_fraction(self) -> float: ...  # noqa: D102
+    @property
+    def friction(self) -> float: ...  # noqa: D102
+    @property
+    def status(self) -> Status: ...  # noqa: D102
+    @property
+    def converged(self) -> bool: ...  # noqa: D102
+
+
+def theory_dataset(
+    result: TheoryResult, variables: Sequence[Variable], *, name: str, title: str, source: str
+) -> xr.Dataset:
+    """Return `variables` over `scale`, the wavelengths; totals are NaN unless it converged."""
+    import xarray as xr
+
+    from gripscale.wave.result import labelled
+
+    data = {
+        variable: labelled(dims, getattr(result, variable), unit, text, source)
+        for variable, dims, unit, text in variables
+    }
+    number = np.arange(1, result.wavelength.size + 1)
+    coordinate = labelled("scale", number, "1", "number of the wavelength", source)
+    totals = {
+        "total_contact_fraction": result.contact_fraction,
+        "total_friction": result.friction,
+        "total_friction_from_dissipation": result.friction,
+    }
+    if not result.converged:
+        totals = dict.fromkeys(totals, math.nan)
+    made = xr.Dataset(data, coords={"scale": coordinate}).assign_attrs(
+        title=title,
+        rubber=f"{result.rubber.name}; {result.rubber.source}".strip("; "),
+        rubber_parameters=json.dumps(result.rubber.to_dict()),
+        method=source,
+        **provenance.attributes(),
+    )
+    beyond = by_wavelength(
+        result.rubber, result.load.speed, result.wavelength, result.running_friction
+    )
+    area = getattr(result, "running_contact_fraction", np.full(number.size, math.nan))
+    exponents = NOT_CONVERGED
+    if result.converged:
+        moving = result.load.speed > 0.0
+        exponents = of_curve(result.wavelength, area, result.running_friction, moving=moving)
+    return model.answer(made, totals, str(result.status), name, result.load, beyond, exponents)
+
+
+# Running integrals by the trapezoidal rule, on grids refined until a tolerance is met.
+
 Array = NDArray[np.float64]
+Values = tuple[Array, ...]
+
+
+def divided(nodes: Array, intervals: int) -> Array:
+    """Return `nodes` with each step between them cut into so many equal intervals."""
+    inside = np.arange(intervals) / intervals
+    return np.append((nodes[:-1, None] + np.diff(nodes)[:, None] * inside).ravel(), nodes[-1])
+
+
+def filled_in(nodes: Array, widest: float) -> Array:
+    """Return `nodes` with wider steps than `widest` cut into equal ones."""
+    parts = np.ceil(np.diff(nodes) / widest).astype(int)
+    cut = [divided(nodes[at : at + 2], count)[:-1] for at, count in enumerate(parts)]
+    return np.concatenate([*cut, nodes[-1:]])
+
+
+def running_integral(values: Array, x: Array) -> Array:
+    """Return the integral of `values` from the first to each entry of `x`."""
+    steps = 0.5 * (values[1:] + values[:-1]) * np.diff(x)
+    return np.concatenate(([0.0], np.cumsum(steps)))
+
+
+def refined(
+    at: Callable[[int], Values], first: int, most: int, tolerance: float
+) -> tuple[Values, tuple[float, ...]]:
+    """Return `at(intervals)` on a grid fine enough, and what the last doubling changed.
+
+    Intervals are doubled from `first` until the last entry of every array changes by less than
+    `tolerance` of itself, or `most` is reached.
+    """
+    coarse = at(first)
+    while True:
+        first *= 2
+        fine = at(first)
+        errors = tuple(float(abs(b[-1] - a[-1])) for a, b in zip(coarse, fine, strict=True))
+        met = all(e <= tolerance * abs(b[-1]) for e, b in zip(errors, fine, strict=True))
+        if met or first >= most:
+            return fine, errors
+        coarse = fine
+
 
 SOURCE = "Persson 2001, J. Chem. Phys. 115, 3840"
 TOLERANCE = 1e-4
@@ -165,7 +285,8 @@ def persson(
         spectrum = areal_spectrum(spectrum)
     if not isinstance(spectrum, ArealSpectrum):
         raise InputError(
-            f"spectrum must be an ArealSpectrum or a ProfileSpectrum; got {checks.shown(spectrum)}"
+            f"spectrum must be an ArealSpectrum or a ProfileSpectrum; "
+            f"got {checks.short_repr(spectrum)}"
         )
     share = checks.not_negative("gamma", gamma)
     if share > 1.0:

@@ -9,15 +9,13 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from gripscale import checks
+from gripscale.core import checks
 from gripscale.rubber import Rubber
-from gripscale.rubber.carrying import require_solid
+from gripscale.rubber.material import require_solid
 from gripscale.wave import kernel
-from gripscale.wave.mesh import Mesh
-from gripscale.wave.problem import Load, Sine, WaveProblem
+from gripscale.wave.kernel import face_of
+from gripscale.wave.problem import Load, Mesh, Sine, Status, WaveProblem
 from gripscale.wave.result import WaveResult
-from gripscale.wave.solver import face_of
-from gripscale.wave.status import Status
 
 SOLVED = (
     Status.CONVERGED,

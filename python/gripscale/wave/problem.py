@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from enum import StrEnum
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gripscale import checks
-from gripscale.errors import InputError
+from gripscale.core import checks
+from gripscale.core.errors import InputError
 from gripscale.rubber import Rubber
 
 FEWEST_HEIGHTS = 8
@@ -149,3 +150,63 @@ def _set(owner: object, **values: float) -> None:
     """Keep checked values in a frozen dataclass."""
     for name, value in values.items():
         object.__setattr__(owner, name, value)
+
+
+# The mesh of the finite-strain block.
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Elements of the periodic block, one wavelength wide, graded towards the contact.
+
+    Parameters
+    ----------
+    columns, rows : int
+        Elements along the block and across it.
+    depth : float
+        Height of the block in wavelengths.
+    element_order : int
+        1: bilinear with one pressure; 2: biquadratic with linear discontinuous pressure.
+
+    Raises
+    ------
+    InputError
+        If a value is out of its range.
+    """
+
+    columns: int = 128
+    rows: int = 20
+    depth: float = 1.5
+    element_order: int = 1
+
+    def __post_init__(self) -> None:
+        checked = {
+            "columns": checks.whole("columns", self.columns, least=4, most=4096),
+            "rows": checks.whole("rows", self.rows, least=2, most=256),
+            "depth": checks.positive("depth", self.depth),
+            "element_order": checks.whole("element_order", self.element_order, least=1, most=2),
+        }
+        for name, value in checked.items():
+            object.__setattr__(self, name, value)
+
+
+# How a solution ended: `converged`, or why its numbers are not to be trusted.
+
+
+class Status(StrEnum):
+    """Every member is, and compares equal to, its word."""
+
+    CONVERGED = "converged"
+    ITERATION_LIMIT = "iteration limit"
+    ELEMENT_INVERTED = "element inverted"
+    NO_ACTIVE_SET = "no active set"
+    NOT_FINITE = "not finite"
+    FOLD = "fold in the load path"
+    MEAN_SHEAR = "mean shear too large"
+    TIME_LIMIT = "time limit"
+    TOLERANCE_NOT_MET = "tolerance not met"
+    FRICTIONS_DISAGREE = "frictions disagree"
+    ACTIVE_SET_NOT_SETTLED = "active set not settled"
+    CONTACT_TOO_NARROW = "contact too narrow"
+    PROFILE_TOO_ROUGH = "profile too rough"
+    CONDITIONS_NOT_SETTLED = "conditions not settled"

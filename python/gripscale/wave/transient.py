@@ -14,14 +14,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gripscale import checks
-from gripscale.errors import InputError
+from gripscale.core import checks
+from gripscale.core.errors import InputError
 from gripscale.rubber import Rubber
 from gripscale.wave import kernel
 from gripscale.wave.block import FiniteStrainBlock
-from gripscale.wave.problem import Sine
+from gripscale.wave.problem import Sine, Status
 from gripscale.wave.result import WaveResult
-from gripscale.wave.status import Status
 
 Array = NDArray[np.float64]
 
@@ -164,7 +163,7 @@ def solve_transient(
     if options.get("tolerance") is not None:
         raise InputError(
             f"tolerance cannot be kept in time, where the mesh stays as it is: give columns and "
-            f"rows; got {checks.shown(options['tolerance'])}"
+            f"rows; got {checks.short_repr(options['tolerance'])}"
         )
     first = None if start is None else kernel.solution_of(start)
     profile = Sine(wavelength, amplitude)

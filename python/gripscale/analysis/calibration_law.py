@@ -1,0 +1,387 @@
+"""The parameters of a law of the area term: on which scale, within which limits they are sought.
+
+Limits are far beyond what data can say, so that reaching one means: not determined.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, fields, replace
+from itertools import product
+from typing import Any
+
+import numpy as np
+import scipy.optimize
+from numpy.typing import NDArray
+
+from gripscale.analysis.measured_comparison import Predicted
+from gripscale.analysis.measured_friction import MeasuredFriction
+from gripscale.conditions.area_term import SHEAR_STRESSES, InterfacialShearStress
+from gripscale.core import checks
+from gripscale.core.errors import InputError
+from gripscale.core.units import ZERO_CELSIUS
+
+# What a law of the area term is fitted to: measured friction less the hysteresis, and its weight.
+#
+# mu_i - mu_hysteresis,i = tau_f(v_i, T_i) A_r,i / (A_0 p_i)
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False)
+class Points:
+    """Measured points with an answer of the model, arrays of shape (n,)."""
+
+    speed: Array
+    """[m/s]."""
+    temperature: Array | None
+    """In the contact [K]; None where nobody knows it."""
+    difference: Array
+    """Measured friction less that of the hysteresis [-]."""
+    leverage: Array
+    """A_r/(A_0 p) [1/Pa]."""
+    spread: Array | None
+    """Of the measured friction [-]; None where none is stated."""
+
+    @property
+    def temperature_range(self) -> float:
+        """Largest less smallest temperature in the contact [K]; zero where it is not known."""
+        return 0.0 if self.temperature is None else float(np.ptp(self.temperature))
+
+    @property
+    def stress(self) -> Array:
+        """The shear stress each point asks for by itself [Pa]."""
+        return self.difference / self.leverage
+
+    def only(self, chosen: Mask) -> Points:
+        """Return some of the points."""
+        return Points(
+            self.speed[chosen],
+            None if self.temperature is None else self.temperature[chosen],
+            self.difference[chosen],
+            self.leverage[chosen],
+            None if self.spread is None else self.spread[chosen],
+        )
+
+
+def points_of(measured: MeasuredFriction, predicted: Predicted) -> Points:
+    """Return the points that have an answer, in the order of the measurement.
+
+    Raises
+    ------
+    InputError
+        If no point has an answer, a prediction has another number of points, spreads or
+        temperatures are known of some points only, a spread is zero, or the hysteresis alone
+        exceeds what was measured at more than half of the points.
+    """
+    if predicted.friction.size != measured.speed.size:
+        raise InputError(
+            f"the {measured.speed.size} points measured need as many predictions; "
+            f"got {predicted.friction.size}"
+        )
+    known = predicted.known
+    if not known.any():
+        raise InputError(
+            f"no measured point has a prediction; the first ended with {predicted.status[0]}"
+        )
+    difference = (measured.friction - predicted.friction)[known]
+    _check_sign(difference)
+    return Points(
+        measured.speed[known],
+        _all_or_none("temperature", predicted.temperature[known]),
+        difference,
+        predicted.leverage[known],
+        _spread(measured.spread[known]),
+    )
+
+
+def _check_sign(difference: Array) -> None:
+    below = difference < 0.0
+    if 2 * below.sum() > difference.size:
+        raise InputError(
+            f"the hysteresis alone exceeds the measured friction at {below.sum()} of "
+            f"{difference.size} points, by up to {-difference.min():.3g}: the shear stress of an "
+            "area term would be negative; expected a hysteresis below what was measured"
+        )
+
+
+def _spread(spread: Array) -> Array | None:
+    if (spread == 0.0).any():
+        raise InputError(
+            "spread must be above zero to weigh a point; got 0: leave it empty if unknown"
+        )
+    return _all_or_none("spread", spread)
+
+
+def _all_or_none(name: str, values: Array) -> Array | None:
+    """Return values known of all points, None if of none; else raise `InputError`."""
+    missing = np.isnan(values)
+    if missing.any() and not missing.all():
+        raise InputError(
+            f"{name} must be known of all points or of none; got it of {(~missing).sum()} of "
+            f"{missing.size}"
+        )
+    return None if missing.all() else values
+
+
+KINDS = ("constant", "gaussian", "le_gal_klueppel")
+"""Laws that can be fitted."""
+
+LEAST_APART = 1.0
+"""Range of temperatures below which none decides an activation energy [K]."""
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A number of a law that is fitted.
+
+    Parameters
+    ----------
+    name, unit : str
+        As the law calls it.
+    low, high : float
+        Limits of the search.
+    starts : tuple of float
+        Where the search begins.
+    log : bool
+        Whether it is positive, and its logarithm is what is fitted.
+    """
+
+    name: str
+    unit: str
+    low: float
+    high: float
+    starts: tuple[float, ...]
+    log: bool = True
+
+    def scaled(self, value: float) -> float:
+        """Return the number the search works with."""
+        return math.log(value) if self.log else value
+
+    def value(self, scaled: float) -> float:
+        """Return the parameter of such a number."""
+        return math.exp(scaled) if self.log else scaled
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """Limits of the number the search works with."""
+        return self.scaled(self.low), self.scaled(self.high)
+
+
+@dataclass(frozen=True)
+class Family:
+    """A law with some parameters free and the others held."""
+
+    kind: str
+    free: tuple[Parameter, ...]
+    held: Mapping[str, float]
+
+    def law(self, theta: Array) -> InterfacialShearStress:
+        """Return the law of the numbers `theta`, shape (free parameters,)."""
+        values = {p.name: p.value(float(x)) for p, x in zip(self.free, theta, strict=True)}
+        made: InterfacialShearStress = SHEAR_STRESSES[self.kind](**values, **self.held)
+        return made
+
+
+def check_names(kind: str, fixed: Iterable[str]) -> None:
+    """Raise `InputError` unless a law can be fitted and names of what is fixed belong to it."""
+    checks.one_of("law", kind, KINDS)
+    names = [one.name for one in fields(SHEAR_STRESSES[kind])]
+    checks.known("parameter", fixed, names)
+
+
+def family_of(kind: str, points: Points, fixed: Mapping[str, float]) -> Family:
+    """Return the law of a kind with what is fixed held and all else free.
+
+    An activation energy is free only where temperatures differ; without one the law has none. Its
+    reference temperature is held: by default the median of the temperatures, a whole number of
+    degrees Celsius.
+
+    Raises
+    ------
+    InputError
+        If the kind is none of `KINDS`, a fixed name is no parameter of it, its value cannot be
+        used, nothing is left to be fitted, or there are not more points than free parameters.
+    """
+    check_names(kind, fixed)
+    every = _parameters(kind, points)
+    held: dict[str, Any] = {name: checks.number(name, value) for name, value in fixed.items()}
+    if kind == "gaussian":
+        held |= _temperature_of(points, held)
+    free = tuple(one for one in every if one.name not in held)
+    if not free:
+        raise InputError(f"fixed must leave a parameter of the law {kind} to be fitted; got all")
+    if points.speed.size <= len(free):
+        raise InputError(
+            f"fitting {', '.join(one.name for one in free)} needs more than {len(free)} measured "
+            f"point{'s' * (len(free) > 1)}; got {points.speed.size}"
+        )
+    family = Family(kind, free, held)
+    family.law(np.array([one.scaled(one.starts[0]) for one in free]))  # the law checks what is held
+    return family
+
+
+def _temperature_of(points: Points, held: Mapping[str, float]) -> dict[str, float]:
+    """Return what the Gaussian law holds beside `held`: no activation energy, or its reference."""
+    apart = points.temperature_range >= LEAST_APART
+    if held.get("activation_energy", math.inf if apart else 0.0) == 0.0:
+        if "reference_temperature" in held:
+            raise InputError(
+                "reference_temperature belongs to an activation_energy; got one without the other"
+            )
+        return {"activation_energy": 0.0}
+    if "reference_temperature" in held:
+        return {}
+    if points.temperature is None:
+        raise InputError("activation_energy needs the temperatures of the points; got none")
+    middle = float(np.median(points.temperature)) - ZERO_CELSIUS
+    return {"reference_temperature": round(middle) + ZERO_CELSIUS}
+
+
+def _parameters(kind: str, points: Points) -> tuple[Parameter, ...]:
+    """Return every parameter of a law, with limits and starts that suit the points."""
+    largest = float(np.abs(points.stress).max()) or 1.0
+    slow, fast = float(points.speed.min()), float(points.speed.max())
+    along = tuple(np.geomspace(0.1 * slow, 10.0 * fast, 7).tolist())
+    stress = Parameter("stress_0", "Pa", 1e-6 * largest, 1e6 * largest, (largest,))
+
+    def speed(name: str) -> Parameter:
+        return Parameter(name, "m/s", 1e-8 * slow, 1e8 * fast, along)
+
+    return {
+        "constant": (stress,),
+        "gaussian": (
+            stress,
+            Parameter("width", "", 1e-3, 1e2, (0.05, 0.3, 1.5)),
+            speed("speed_0"),
+            Parameter("activation_energy", "eV", 0.0, 10.0, (0.5, 1.2), log=False),
+        ),
+        "le_gal_klueppel": (
+            stress,
+            Parameter("ratio", "", 1e-3, 1e6, (3.0, 100.0)),
+            speed("critical_speed"),
+            Parameter("exponent", "", 0.02, 20.0, (0.3, 1.0, 3.0)),
+        ),
+    }[kind]
+
+
+# Weighted least squares of a law: the best parameters, and the best with one of them held.
+#
+#     S(theta) = sum_i ((mu_i - mu_hysteresis,i - tau_f(v_i, T_i; theta) A_r,i/(A_0 p_i)) / s_i)^2
+#
+# with the spreads s_i, or one where none is stated.
+
+BEST_STARTS = 3
+"""Starts, of all that are tried, from which the search goes on to its end."""
+TOLERANCE = 1e-8
+AT_LIMIT = 1e-3
+"""Share of the range of a parameter within which it is at a limit."""
+
+
+@dataclass(frozen=True, eq=False)
+class Optimum:
+    """The least sum of squares that was found."""
+
+    theta: Array
+    """Numbers of the free parameters, as the search works with them."""
+    sum_of_squares: float
+    jacobian: Array
+    """Of the residuals by them, shape (points, free parameters)."""
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """A law to be fitted to points."""
+
+    points: Points
+    family: Family
+
+    def friction(self, theta: Array) -> Array:
+        """Return the friction of the area term at the points [-]."""
+        law = self.family.law(theta)
+        return self.points.leverage * law.stress(self.points.speed, self.points.temperature)
+
+    def residuals(self, theta: Array) -> Array:
+        """Return modelled less measured friction over the spread, shape (points,)."""
+        apart = self.friction(theta) - self.points.difference
+        return apart if self.points.spread is None else apart / self.points.spread
+
+    def at_limit(self, theta: Array) -> bool:
+        """Return whether a parameter has gone as far as it is sought; zero itself is no limit."""
+        pairs = zip(self.family.free, theta, strict=True)
+        return any(
+            abs(x - end) < AT_LIMIT * (one.limits[1] - one.limits[0])
+            for one, x in pairs
+            for end, value in zip(one.limits, (one.low, one.high), strict=True)
+            if value != 0.0
+        )
+
+    def holding(self, place: int, scaled: float) -> Problem:
+        """Return the problem with the free parameter at `place` held."""
+        one = self.family.free[place]
+        free = self.family.free[:place] + self.family.free[place + 1 :]
+        held = {**self.family.held, one.name: one.value(scaled)}
+        return replace(self, family=replace(self.family, free=free, held=held))
+
+
+def best(problem: Problem) -> Optimum:
+    """Return the least sum of squares over a grid of starts."""
+    starts = sorted(map(tuple, _starts(problem)), key=lambda one: _cost(problem, np.array(one)))
+    found = [refined(problem, np.array(one)) for one in starts[:BEST_STARTS]]
+    return min(found, key=lambda one: one.sum_of_squares)
+
+
+def refined(problem: Problem, start: Array) -> Optimum:
+    """Return the least sum of squares near `start`."""
+    if not problem.family.free:
+        residuals = problem.residuals(start)
+        return Optimum(start, float(residuals @ residuals), np.empty((residuals.size, 0)))
+    low, high = _limits(problem.family.free)
+    inside = np.clip(start, low, high)
+    found = scipy.optimize.least_squares(
+        problem.residuals,
+        inside,
+        bounds=(low, high),
+        xtol=TOLERANCE,
+        ftol=TOLERANCE,
+        gtol=TOLERANCE,
+    )
+    return Optimum(found.x, 2.0 * float(found.cost), np.asarray(found.jac))
+
+
+def _starts(problem: Problem) -> list[Array]:
+    """Return every combination of starts; the stress, which is a factor, the best for each."""
+    free = problem.family.free
+    grid = [[one.scaled(value) for value in one.starts] for one in free]
+    return [_with_best_stress(problem, np.array(theta)) for theta in product(*grid)]
+
+
+def _with_best_stress(problem: Problem, theta: Array) -> Array:
+    names = [one.name for one in problem.family.free]
+    if "stress_0" not in names:
+        return theta
+    at = names.index("stress_0")
+    weight = 1.0 if problem.points.spread is None else 1.0 / problem.points.spread
+    shape, wanted = problem.friction(theta) * weight, problem.points.difference * weight
+    square = float(shape @ shape)
+    factor = float(shape @ wanted) / square if square > 0.0 else 0.0
+    if factor > 0.0:
+        theta[at] = np.clip(theta[at] + np.log(factor), *free_limits(problem, at))
+    return theta
+
+
+def free_limits(problem: Problem, place: int) -> tuple[float, float]:
+    """Return between which numbers a free parameter is sought."""
+    return problem.family.free[place].limits
+
+
+def _limits(free: tuple[Parameter, ...]) -> tuple[Array, Array]:
+    low, high = zip(*(one.limits for one in free), strict=True)
+    return np.array(low), np.array(high)
+
+
+def _cost(problem: Problem, theta: Array) -> float:
+    residuals = problem.residuals(theta)
+    return float(residuals @ residuals)

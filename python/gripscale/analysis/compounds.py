@@ -1,0 +1,281 @@
+"""Compounds on the same road under the same load, with their differences and what makes them.
+
+Differences are those to the first compound. What each DMA leaves open is the range of the totals
+over all series that fit it as well as the best one does (`Rubber.admissible_rubbers`),
+
+    low = X min(1, X_k/X_0),    high = X max(1, X_k/X_0)
+
+with X_k of series k and X_0 of the best one solved as half-planes, which cost less, and X of the
+best one by the model of the case. The DMAs are independent of each other, see
+`gripscale.analysis.compounds`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from gripscale.case.read import CaseFile, read_case
+from gripscale.chain.chain import Chain
+from gripscale.core.errors import InputError
+from gripscale.core.units import ZERO_CELSIUS
+from gripscale.experiment.inputs import rubber_of
+from gripscale.experiment.solve import OnTask, solve_all
+from gripscale.experiment.study import Study
+from gripscale.experiment.task import PREDICTIONS, Store, Task
+from gripscale.io import netcdf
+from gripscale.rubber import Rubber, temperature_doubts
+from gripscale.theory.half_plane import HalfPlane
+
+# Compounds brought to one temperature, as far as their shifts are known.
+
+_SAME = 0.5
+"""Temperatures that differ by less are one [K]: 20 °C and 293 K."""
+
+
+def at_one_temperature(
+    rubbers: Mapping[str, Rubber], temperature: float | None = None
+) -> tuple[dict[str, Rubber], tuple[str, ...]]:
+    """Return rubbers that hold for one temperature, and what is to be said of that.
+
+    Without a `temperature` it is that of the rubbers which cannot be shifted, or else of the first
+    that states one. A rubber whose temperature is not known stays as it is, which is said.
+
+    Parameters
+    ----------
+    rubbers
+        The rubbers by what they are called.
+    temperature : float, optional
+        Where they are wanted [K].
+
+    Returns
+    -------
+    tuple
+        The rubbers, and a sentence for each that was shifted and for what is doubtful (see
+        `gripscale.rubber.temperature_doubts`).
+
+    Raises
+    ------
+    InputError
+        If a rubber would have to be shifted and has no shift.
+    """
+    stated = {
+        name: rubber.reference_temperature
+        for name, rubber in rubbers.items()
+        if rubber.reference_temperature is not None
+    }
+    wanted = _common(rubbers, stated) if temperature is None else temperature
+    if wanted is None:
+        return dict(rubbers), temperature_doubts(rubbers)
+    together, shifted = {}, []
+    for name, rubber in rubbers.items():
+        own = stated.get(name)
+        if own is None or abs(own - wanted) <= _SAME:
+            together[name] = rubber
+            continue
+        if rubber.shift is None:
+            raise InputError(
+                f"{name} holds for {_celsius(own)} and cannot be brought to {_celsius(wanted)}: "
+                "give it a shift, or leave it out"
+            )
+        together[name] = rubber.at(wanted)
+        shifted.append(f"{name} shifted from {_celsius(own)} to {_celsius(wanted)}")
+    return together, (*shifted, *temperature_doubts(together))
+
+
+def _common(rubbers: Mapping[str, Rubber], stated: Mapping[str, float]) -> float | None:
+    """Return the temperature all can be brought to [K], or None where none is stated."""
+    fixed = {name: kelvin for name, kelvin in stated.items() if rubbers[name].shift is None}
+    if fixed and max(fixed.values()) - min(fixed.values()) > _SAME:
+        each = ", ".join(f"{name} for {_celsius(kelvin)}" for name, kelvin in fixed.items())
+        raise InputError(
+            "compounds must hold for one temperature, or have a shift to it; got "
+            f"{each} without one"
+        )
+    return next(iter((fixed or stated).values()), None)
+
+
+def _celsius(kelvin: float) -> str:
+    return f"{kelvin - ZERO_CELSIUS:.1f} °C"
+
+
+# Predictions side by side: what differs from the first of them, and the range of that.
+#
+# With the totals X of each between low and high, all independent of each other, a difference to the
+# first is between low - high of the first, and high - low of the first.
+
+FEWEST, MOST = 2, 6
+TOTALS = ("total_friction", "total_contact_fraction")
+
+
+def require_some(name: str, given: Mapping[str, Any], what: str) -> None:
+    """Raise `InputError` unless there are two to six things to be compared."""
+    if not FEWEST <= len(given) <= MOST:
+        raise InputError(
+            f"{name} must be {FEWEST} to {MOST} {what} to be compared; got {len(given)}"
+        )
+
+
+def total_differences(data: xr.Dataset, dim: str) -> dict[str, xr.DataArray]:
+    """Return `total_friction_difference` and so on to the first along `dim`.
+
+    With its `_low` and `_high` where `data` has those of the totals.
+    """
+    out = {}
+    for quantity in TOTALS:
+        what = f"difference to the first, {data[quantity].attrs['long_name']}"
+        out[f"{quantity}_difference"] = to_first(data[quantity], dim, what)
+        if f"{quantity}_low" not in data:
+            continue
+        low, high = (data[f"{quantity}_{end}"] for end in ("low", "high"))
+        first = xr.zeros_like(data[dim], dtype=bool)
+        first[0] = True
+        for end, ends in (("low", low - high.isel({dim: 0})), ("high", high - low.isel({dim: 0}))):
+            name = f"{quantity}_difference_{end}"
+            out[name] = ends.where(~first, 0.0).assign_attrs(attributes(f"{end}est {what}"))
+    return out
+
+
+def to_first(values: xr.DataArray, dim: str, long_name: str) -> xr.DataArray:
+    """Return the difference of `values` [-] to the first along `dim`."""
+    return (values - values.isel({dim: 0}, drop=True)).assign_attrs(attributes(long_name))
+
+
+def ranges(
+    data: xr.Dataset, dims: Sequence[str], ends: Mapping[str, Any], text: str
+) -> dict[str, Any]:
+    """Return `total_friction_low` and so on: totals times the `ends` of each, low and high."""
+    return {
+        f"{quantity}_{end}": (
+            tuple(dims),
+            data[quantity].values * factor,
+            attributes(f"{end}est {data[quantity].attrs['long_name']} {text}"),
+        )
+        for quantity, (low, high) in ends.items()
+        for end, factor in (("low", low), ("high", high))
+    }
+
+
+def attributes(long_name: str) -> dict[str, str]:
+    """Return the attributes of a number without unit."""
+    return {"units": "1", "long_name": long_name}
+
+
+RESULT = "compounds.nc"
+POINTS = 128
+"""Points of the half-planes that tell the range: only ratios of theirs count."""
+
+
+@dataclass(frozen=True)
+class Compounds:
+    """Compounds that were compared."""
+
+    rubbers: dict[str, Rubber]
+    """The rubbers as they were solved, at one temperature."""
+    notes: tuple[str, ...]
+    """What is to be said of their temperatures."""
+    data: xr.Dataset
+    """A study over `rubber`, with ranges and differences; kept in compounds.nc."""
+
+
+def compare_compounds(
+    case: CaseFile | str | Path,
+    rubbers: Mapping[str, Any],
+    folder: str | Path,
+    *,
+    temperature: float | None = None,
+    uncertainty: bool = True,
+    workers: int | None = None,
+    on_task: OnTask | None = None,
+) -> Compounds:
+    """Predict area and friction of several compounds on the road of a case, and compare them.
+
+    Parameters
+    ----------
+    case
+        The case, or its file: surface, load, solver and conditions are taken from it.
+    rubbers
+        Two to six compounds by what they are called; the others are compared with the first. Each
+        is a `Rubber`, "case", a rubber known by name, another case, or a file of moduli, read with
+        what the case says of its own where it does not say itself.
+    folder
+        Gets predictions and `compounds.nc`; what it has already is not solved again.
+    temperature : float, optional
+        Where they are compared [K]; by default the temperature of the case's conditions, or one
+        all of them have or can be shifted to.
+    uncertainty : bool
+        Whether the range that each DMA leaves open is predicted: some fifty half-planes each.
+    workers, on_task
+        As for `gripscale.experiment.solve_all`; `on_task` is not told of those half-planes.
+
+    Returns
+    -------
+    Compounds
+        Over `rubber`: the totals, `total_friction_low` and so on, `..._difference` to the first
+        with its `_low` and `_high`; by wave `friction_running`, from the largest wave down, and
+        `friction_difference`; by decade of relaxation time `friction_by_decade_difference`.
+
+    Raises
+    ------
+    InputError, FileError
+        If there are fewer than two or more than six compounds, one cannot be read, or they cannot
+        be brought to one temperature.
+    """
+    require_some("rubbers", rubbers, "compounds")
+    file = case if isinstance(case, CaseFile) else read_case(case)
+    given = {name: rubber_of(value, file) for name, value in rubbers.items()}
+    if temperature is None:
+        temperature = file.case.conditions.temperature
+    together, notes = at_one_temperature(given, temperature)
+    study = Study(file, {"rubber": together}, static=False)
+    data = study.run(folder, workers=workers, on_task=on_task)
+    if uncertainty:
+        data = data.assign(_ranges(study, data, Path(folder), workers))
+    data = data.assign(_differences(data)).assign_attrs(notes="\n".join(notes))
+    return Compounds(together, notes, netcdf.load(netcdf.save(data, Path(folder) / RESULT)))
+
+
+def _ranges(study: Study, data: xr.Dataset, folder: Path, workers: int | None) -> dict[str, Any]:
+    """Return the lowest and highest totals of each compound over its admissible series."""
+    assert isinstance(study.model, Chain)
+    load = study.file.case.load.nominal
+    model = replace(study.model, solver=HalfPlane(points=POINTS))
+    tasks = {
+        (name, i): Task(rubber, study.surfaces[0], load, model)
+        for name, best in zip(data.rubber.values.tolist(), study.rubbers, strict=True)
+        for i, rubber in enumerate([best, *best.admissible_rubbers()])
+    }
+    labels = {f"{name}, series {i}": task for (name, i), task in tasks.items()}
+    solved = solve_all(labels, Store(folder / PREDICTIONS), workers=workers)
+    found: dict[str, Any] = {}
+    for quantity in TOTALS:
+        ends = np.full((2, data.sizes["rubber"]), np.nan)
+        for at, name in enumerate(data.rubber.values.tolist()):
+            each = [float(solved[t.key][quantity]) for (n, _), t in tasks.items() if n == name]
+            ratio = np.array(each[1:]) / each[0]
+            if np.isfinite(ratio).any():
+                ends[:, at] = np.nanmin([*ratio, 1.0]), np.nanmax([*ratio, 1.0])
+        found[quantity] = ends
+    return ranges(data, ["rubber"], found, "that the measured moduli leave open")
+
+
+def _differences(data: xr.Dataset) -> dict[str, Any]:
+    """Return what differs from the first compound."""
+    out: dict[str, Any] = dict(total_differences(data, "rubber"))
+    if "scale" in data.dims:
+        friction = data.friction.transpose("rubber", "scale")
+        text = "friction coefficient of this and all larger waves"
+        running = friction.values.cumsum(axis=1)
+        out["friction_running"] = (("rubber", "scale"), running, attributes(text))
+        text = "difference to the first compound, friction coefficient of the wave"
+        out["friction_difference"] = to_first(friction, "rubber", text)
+    if "friction_by_decade" in data:
+        parts = data.friction_by_decade.transpose("rubber", "decade")
+        text = "difference to the first compound, friction coefficient by relaxation time"
+        out["friction_by_decade_difference"] = to_first(parts, "rubber", text)
+    return out

@@ -1,0 +1,235 @@
+"""The answer of a model under all its conditions, without each effect in turn, and without any.
+
+    change by an effect = answer with all effects / answer without it - 1
+
+The area term does nothing to the rubber: it needs no answer of its own, and stands beside each.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterable, Sequence
+from contextlib import nullcontext
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from gripscale.case.results import CaseResults
+from gripscale.core import provenance
+from gripscale.core.errors import FileError, InputError
+from gripscale.experiment.inputs import (
+    ALL,
+    NONE,
+    conditions_of,
+    effects_asked,
+    rubber_before,
+    with_effects,
+)
+from gripscale.experiment.solve import OnTask, solve_all
+from gripscale.experiment.task import Store, Task
+from gripscale.io import netcdf
+from gripscale.model import ADHESIVE_FRICTION, OUTSIDE_BAND, TOTALS, Model, NominalLoad
+from gripscale.rubber import Rubber
+from gripscale.surface import PreparedSurface
+
+WITH_AREA_TERM = "friction_with_area_term"
+CHANGES = {
+    "total_contact_fraction": "contact_fraction_change",
+    "total_friction": "friction_change",
+    WITH_AREA_TERM: "friction_with_area_term_change",
+}
+"""Names of what an effect changes, relative to the answer without it."""
+KEPT = (*TOTALS, ADHESIVE_FRICTION, *OUTSIDE_BAND)
+
+
+def effect_tasks(
+    model: Model, rubber: Rubber, surface: PreparedSurface, load: NominalLoad
+) -> dict[str, Task]:
+    """Return what has to be solved, by the effects that count: "all", "no heat", ..., "none".
+
+    Raises
+    ------
+    InputError
+        If the model has no conditions, its conditions do nothing to the rubber, or the rubber has
+        no shift to the temperature they state.
+    """
+    asked = effects_asked(model)
+    if not asked:
+        raise InputError(
+            "effects need conditions with a temperature, softening or heat; got none with the "
+            f"model {model.name}"
+        )
+    tasks = {}
+    for selection in (ALL, *(f"no {effect}" for effect in asked), NONE):
+        own = with_effects(model, selection)
+        rubber_before(rubber, own)  # nothing is solved if one of them is impossible
+        tasks[selection] = Task(rubber, surface, load, own)
+    return tasks
+
+
+def effects(
+    model: Model,
+    rubber: Rubber,
+    surface: PreparedSurface,
+    load: NominalLoad,
+    *,
+    folder: str | Path | None = None,
+    workers: int | None = None,
+    client: Any = None,
+    on_task: OnTask | None = None,
+) -> xr.Dataset:
+    """Return what each effect of the conditions of a model is worth.
+
+    Parameters
+    ----------
+    model : Model
+        With conditions, such as `Chain(conditions=...)` or `DirectContact(conditions=...)`.
+    rubber, surface, load
+        As for `Model.predict`.
+    folder : path, optional
+        Keeps the finished predictions: what was interrupted goes on where it stopped, and what was
+        solved by a study or a comparison that shares the folder is not solved again.
+    workers, client, on_task
+        As for `gripscale.experiment.solve_all`.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over `effect`: "all", "no" each effect that was asked for, "none": the totals of the model,
+        friction with the area term if there is one, `prediction_status`, and the changes by what
+        was left out [-], which are NaN for "all" and where one of both did not converge.
+
+    Raises
+    ------
+    InputError
+        As `effect_tasks`, and for an input that cannot be used.
+    FileError
+        If a result cannot be written.
+    """
+    tasks = effect_tasks(model, rubber, surface, load)
+    with nullcontext(folder) if folder is not None else TemporaryDirectory() as place:
+        solved = solve_all(tasks, Store(place), workers=workers, client=client, on_task=on_task)
+    found = [solved[task.key] for task in tasks.values()]
+    data = xr.Dataset(
+        {name: _over(found, name) for name in KEPT if name in found[0]},
+        coords={"effect": ("effect", list(tasks), _attrs("effects that count"))},
+        attrs=_provenance(model, rubber, surface, load),
+    )
+    for name in ("prediction_status", "prediction_key"):
+        texts = [str(one[name].item() if name in one else one.attrs[name]) for one in found]
+        data[name] = ("effect", np.array(texts, dtype=object), _attrs(name.replace("_", " ")))
+    return _with_changes(data)
+
+
+def _with_changes(data: xr.Dataset) -> xr.Dataset:
+    """Return `data` with the sum of both frictions, and what was changed by what is left out."""
+    if ADHESIVE_FRICTION in data:
+        both = data.total_friction + data[ADHESIVE_FRICTION]
+        words = "friction coefficient of hysteresis and area term together"
+        data = data.assign({WITH_AREA_TERM: both.assign_attrs(_attrs(words))})
+    for name, change in CHANGES.items():
+        if name in data:
+            relative = (data[name].sel(effect=ALL, drop=True) / data[name] - 1.0).transpose()
+            words = f"what the effects left out change in {data[name].attrs['long_name']}"
+            data[change] = relative.where(data.effect != ALL).assign_attrs(_attrs(words))
+    return data
+
+
+def _over(found: Sequence[xr.Dataset], name: str) -> xr.Variable:
+    values = [float(one[name]) if name in one else math.nan for one in found]
+    return xr.Variable("effect", values, _attrs(str(found[0][name].attrs["long_name"])))
+
+
+def _attrs(long_name: str) -> dict[str, str]:
+    return {"units": "1", "long_name": long_name}
+
+
+def _provenance(
+    model: Model, rubber: Rubber, surface: PreparedSurface, load: NominalLoad
+) -> dict[str, Any]:
+    return {
+        "title": "What each effect of the conditions is worth",
+        "model": model.name,
+        "conditions": json.dumps(conditions_of(model).to_dict()),
+        "rubber": f"{rubber.name}; {rubber.source}".strip("; "),
+        "surface": surface.source,
+        "nominal_pressure": load.pressure,
+        "nominal_speed": load.speed,
+        "footprint": load.footprint,
+        "load_time": str(load.load_time),
+        **provenance.attributes(),
+    }
+
+
+# What each effect is worth in a case: of its chain, and of the direct contact of its surface.
+
+FILE = "effects_{model}.nc"
+"""What they are kept in, beside the result."""
+
+
+def case_effects(
+    results: CaseResults,
+    model: Model,
+    folder: str | Path,
+    store: str | Path,
+    *,
+    workers: int | None = None,
+    client: Any = None,
+    on_task: OnTask | None = None,
+) -> xr.Dataset | None:
+    """Return what each effect is worth in a sliding case, and write it into `folder`.
+
+    Parameters
+    ----------
+    results : CaseResults
+        The case; a prediction it has already is not solved again.
+    model : Model
+        With the conditions of the case.
+    folder : path
+        Gets `effects_<model>.nc`.
+    store : path
+        Keeps the finished predictions.
+    workers, client, on_task
+        As for `gripscale.experiment.solve_all`.
+
+    Returns
+    -------
+    xarray.Dataset or None
+        As `effects`; None of a case at rest, or whose conditions do nothing to the rubber.
+
+    Raises
+    ------
+    FileError
+        If a result cannot be written.
+    """
+    asked, load = effects_asked(model), results.load
+    if not asked or load.speed == 0.0:
+        return None
+    given = (model, results.rubber.rubber, results.surface, load)
+    if model == results.chain and results.dynamic is not None and results.dynamic.converged:
+        key = effect_tasks(*given)[ALL].key
+        solved = results.dynamic.to_dataset().assign_attrs(prediction_key=key)
+        Store(store).put(key, solved)
+    found = effects(*given, folder=store, workers=workers, client=client, on_task=on_task)
+    found = found.assign_attrs(case=results.file.text)
+    netcdf.save(found, Path(folder) / FILE.format(model=model.name))
+    return found
+
+
+def stored_effects(folders: Iterable[Path], case: object) -> list[xr.Dataset]:
+    """Return what the first of `folders` that has effects of this text of a case keeps."""
+    for folder in folders:
+        found = []
+        for path in sorted(folder.glob(FILE.format(model="*"))):
+            try:
+                found.append(netcdf.load(path))
+            except FileError:
+                continue
+        same = [one for one in found if one.attrs.get("case") == case]
+        if same:
+            return same
+    return []

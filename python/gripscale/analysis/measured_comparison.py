@@ -1,0 +1,376 @@
+"""What a model predicts at the points of a measurement: its speeds, temperatures and pressures."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gripscale.analysis.measured_friction import (
+    MeasuredFriction,
+    TemperatureProbe,
+    probed_temperature,
+    read_measured_friction,
+)
+from gripscale.case.read import CaseFile
+from gripscale.conditions.area_term import InterfacialShearStress
+from gripscale.conditions.conditions import Conditions
+from gripscale.core import checks
+from gripscale.core.errors import InputError, about_keys
+from gripscale.core.units import ZERO_CELSIUS
+from gripscale.experiment.solve import OnTask, solve_all
+from gripscale.experiment.task import Store, Task
+from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, Model, NominalLoad
+from gripscale.rubber import Rubber
+from gripscale.wave.result import labelled
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from gripscale.surface import PreparedSurface
+
+
+Array = NDArray[np.float64]
+
+CONVERGED = "converged"
+
+
+@dataclass(frozen=True, init=False, eq=False)
+class Predicted:
+    """Contact and friction at the points of a measurement, arrays of shape (n,) in its order.
+
+    Parameters
+    ----------
+    friction : array_like
+        Of the hysteresis [-]; NaN where the model has no answer.
+    contact_fraction : array_like
+        A_r/A_0 [-].
+    pressure : array_like
+        Nominal [Pa], above zero.
+    temperature : array_like
+        In the contact [K], the mean over the real contact area; NaN where not known.
+    outside_band : array_like, optional
+        Share of the friction that rests on the rubber outside its measured frequencies [-].
+    status : sequence of str, optional
+        "converged", or why there is no answer.
+
+    Raises
+    ------
+    InputError
+        If the lengths differ, or a pressure is not above zero.
+    """
+
+    friction: Array = field(repr=False)
+    contact_fraction: Array = field(repr=False)
+    pressure: Array = field(repr=False)
+    temperature: Array = field(repr=False)
+    outside_band: Array = field(repr=False)
+    status: Sequence[str] = field(repr=False)
+
+    def __init__(
+        self,
+        friction: ArrayLike,
+        contact_fraction: ArrayLike,
+        pressure: ArrayLike,
+        temperature: ArrayLike,
+        outside_band: ArrayLike | None = None,
+        status: Sequence[str] | None = None,
+    ) -> None:
+        size = np.size(friction)
+        found: dict[str, Any] = {
+            "pressure": checks.positive_vector("pressure", pressure, unit="Pa")
+        }
+        numbers = {
+            "friction": friction,
+            "contact_fraction": contact_fraction,
+            "temperature": temperature,
+            "outside_band": np.full(size, np.nan) if outside_band is None else outside_band,
+        }
+        for name, given in numbers.items():
+            found[name] = checks.vector(name, given, missing=True)
+        found["status"] = [CONVERGED] * size if status is None else _words("status", status)
+        sizes = {name: len(values) for name, values in found.items()}
+        if len(set(sizes.values())) > 1:
+            told = ", ".join(f"{count} of {name}" for name, count in sizes.items())
+            raise InputError(f"a prediction needs as many values of each; got {told}")
+        for name, values in found.items():
+            object.__setattr__(self, name, values)
+
+    @property
+    def known(self) -> NDArray[np.bool_]:
+        """Where the model has an answer."""
+        return np.isfinite(self.friction) & (self.contact_fraction > 0.0)
+
+    @property
+    def leverage(self) -> Array:
+        """A_r/(A_0 p) [1/Pa]: the friction of the area term for each pascal of shear stress."""
+        return self.contact_fraction / self.pressure
+
+    def area_term(self, law: InterfacialShearStress, speed: Array) -> Array:
+        """Return the friction of the area term [-] under `law` at the speeds [m/s] of the points.
+
+        NaN where the model has no answer.
+        Raises `InputError` if it depends on a temperature that is not known.
+        """
+        out, known = np.full(self.friction.size, np.nan), self.known
+        kelvin = self.temperature[known]
+        at = None if np.isnan(kelvin).all() else kelvin
+        out[known] = self.leverage[known] * law.stress(speed[known], at)
+        return out
+
+
+def _words(name: str, given: Sequence[str]) -> list[str]:
+    return checks.instances(name, given, str)
+
+
+def averaged(parts: Sequence[Predicted]) -> Predicted:
+    """Return the mean of the predictions of several samples of one model at the same points.
+
+    A point at which one of them has no answer has none. Temperatures are weighted by the contact
+    area, which the area term is the sum over.
+
+    Raises `InputError` if there is none, or their points differ in number or pressure.
+    """
+    checks.instances("parts", parts, Predicted)
+    first = parts[0]
+    for one in parts:
+        if not np.array_equal(one.pressure, first.pressure):
+            raise InputError("parts must be predicted at the same pressures; got others")
+    area = np.array([one.contact_fraction for one in parts])
+    kelvin = np.array([one.temperature for one in parts])
+    statuses = zip(*(one.status for one in parts), strict=True)
+    return Predicted(
+        np.mean([one.friction for one in parts], axis=0),
+        area.mean(axis=0),
+        first.pressure,
+        (area * kelvin).sum(axis=0) / area.sum(axis=0),
+        np.mean([one.outside_band for one in parts], axis=0),
+        [next((one for one in each if one != CONVERGED), CONVERGED) for each in statuses],
+    )
+
+
+def predictions_at(
+    measured: MeasuredFriction,
+    model: Model,
+    rubber: Rubber,
+    surface: PreparedSurface,
+    load: NominalLoad,
+    store: Store,
+    *,
+    workers: int | None = None,
+    client: Any = None,
+    on_task: OnTask | None = None,
+) -> Predicted:
+    """Return what `model` predicts at each measured speed, temperature and pressure.
+
+    Parameters
+    ----------
+    measured : MeasuredFriction
+        The points. A missing temperature is that of the model's conditions or, without one, of the
+        rubber; a missing pressure is that of the load.
+    model : Model
+        What predicts. Where it has `conditions` they get the temperature and a shear stress that
+        tells the temperature in the contact; else the rubber is brought to the temperature.
+    rubber, surface, load
+        What slides on what, and the load of the case.
+    store : Store
+        Keeps each answer as soon as it is there; what it has is not solved again.
+    workers, client, on_task
+        As for `gripscale.experiment.solve_all`.
+
+    Raises
+    ------
+    InputError, FileError
+        As the model and `solve_all` do; a temperature other than that of the rubber needs a shift.
+    """
+    pressure = np.where(np.isnan(measured.pressure), load.pressure, measured.pressure)
+    own = _temperature(model, rubber)
+    kelvin = [own if math.isnan(one) else float(one) for one in measured.temperature]
+    tasks = [
+        _task(model, rubber, surface, replace(load, pressure=float(p), speed=float(v)), own, one)
+        for p, v, one in zip(pressure, measured.speed, kelvin, strict=True)
+    ]
+    named = {
+        f"point {at}, {_label(task.load, one)}": task
+        for at, (task, one) in enumerate(zip(tasks, kelvin, strict=True), start=1)
+    }
+    solved = solve_all(named, store, workers=workers, client=client, on_task=on_task)
+    answers = [solved[task.key] for task in tasks]
+    before = [math.nan if one is None else one for one in kelvin]
+    return Predicted(
+        np.array([_number(one, "total_friction") for one in answers]),
+        np.array([_number(one, "total_contact_fraction") for one in answers]),
+        pressure,
+        np.array([_contact_temperature(*both) for both in zip(answers, before, strict=True)]),
+        np.array([_number(one, FRICTION_OUTSIDE_BAND) for one in answers]),
+        [str(one.prediction_status.item()) for one in answers],
+    )
+
+
+def _temperature(model: Model, rubber: Rubber) -> float | None:
+    conditions: Conditions | None = getattr(model, "conditions", None)
+    return (conditions or Conditions()).temperature_of(rubber)
+
+
+def _task(
+    model: Model,
+    rubber: Rubber,
+    surface: PreparedSurface,
+    load: NominalLoad,
+    own: float | None,
+    kelvin: float | None,
+) -> Task:
+    """Return what is to be solved at one point; `own` is the temperature of the case."""
+    elsewhere = kelvin is not None and kelvin != own
+    if not hasattr(model, "conditions"):
+        return Task(rubber.at(kelvin) if elsewhere and kelvin else rubber, surface, load, model)
+    conditions = replace(model.conditions or Conditions(), shear_stress=TemperatureProbe())
+    if elsewhere:
+        conditions = replace(conditions, temperature=kelvin)
+    return Task(rubber, surface, load, replace(model, conditions=conditions))  # type: ignore[type-var]
+
+
+def _label(load: NominalLoad, kelvin: float | None) -> str:
+    at = "" if kelvin is None else f", {kelvin - ZERO_CELSIUS:.4g} C"
+    return f"speed {load.speed:.4g} m/s{at}, pressure {load.pressure / 1e5:.4g} bar"
+
+
+def _contact_temperature(answer: xr.Dataset, before: float) -> float:
+    """Return the temperature the probe tells [K], or that before the contact without one."""
+    if ADHESIVE_FRICTION not in answer:
+        return before
+    return probed_temperature(
+        _number(answer, ADHESIVE_FRICTION),
+        _number(answer, "total_contact_fraction"),
+        _number(answer, "nominal_pressure"),
+    )
+
+
+def _number(answer: xr.Dataset, name: str) -> float:
+    return float(answer[name]) if name in answer else math.nan
+
+
+# How far predictions are from measured friction, point by point and as a root mean square.
+
+SOURCE = "gripscale residuals"
+
+MEASURED = {
+    "speed": ("m/s", "speed of the measurement"),
+    "friction": ("1", "measured friction coefficient"),
+    "spread": ("1", "its standard deviation"),
+    "temperature": ("K", "temperature of the rubber before the contact"),
+    "pressure": ("Pa", "nominal pressure"),
+}
+"""Columns of a measurement as result files hold them, with unit and meaning."""
+
+
+def residuals(
+    measured: MeasuredFriction,
+    predicted: Mapping[str, Predicted],
+    shear_stress: InterfacialShearStress | None = None,
+) -> xr.Dataset:
+    """Return predicted friction beside measured friction, over `model` and `measurement`.
+
+    Parameters
+    ----------
+    measured : MeasuredFriction
+        What was measured.
+    predicted : mapping of str to Predicted
+        What each model says at its points, by the model's name.
+    shear_stress : InterfacialShearStress, optional
+        Law of an area term that the total friction has beside the hysteresis.
+
+    Returns
+    -------
+    xarray.Dataset
+        `hysteresis`, `area_term` where there is a law, `friction` (their sum), `difference`
+        (predicted less measured) and `difference_in_spread` (NaN where no spread is known) over
+        `model` and `measurement`; `rms_difference` and `rms_difference_in_spread` over `model`,
+        of the points that have an answer; and what was measured.
+
+    Raises
+    ------
+    InputError
+        If a prediction has another number of points, there is none, or the law needs a temperature
+        that is not known.
+    """
+    import xarray as xr
+
+    checks.instance("measured", measured, MeasuredFriction)
+    if not isinstance(predicted, Mapping) or not predicted:
+        found = checks.short_repr(predicted)
+        raise InputError(f"predicted must hold the prediction of at least one model; got {found}")
+    if shear_stress is not None and not isinstance(shear_stress, InterfacialShearStress):
+        raise InputError(
+            "shear_stress must be a law of gripscale.conditions; "
+            f"got {checks.short_repr(shear_stress)}"
+        )
+    for name, one in predicted.items():
+        checks.instance("each of predicted", one, Predicted)
+        if one.friction.size != measured.speed.size:
+            raise InputError(
+                f"{name} must be predicted at the {measured.speed.size} points measured; "
+                f"got {one.friction.size}"
+            )
+    grid = ("model", "measurement")
+    hysteresis = np.array([one.friction for one in predicted.values()])
+    data = {"hysteresis": labelled(grid, hysteresis, "1", "friction of the hysteresis", SOURCE)}
+    total = hysteresis
+    if shear_stress is not None:
+        terms = [one.area_term(shear_stress, measured.speed) for one in predicted.values()]
+        data["area_term"] = labelled(grid, terms, "1", "friction of the area term", SOURCE)
+        total = hysteresis + np.array(terms)
+    difference = total - measured.friction
+    relative = in_spread(difference, measured.spread)
+    about = "predicted less measured friction"
+    data |= {
+        "friction": labelled(grid, total, "1", "predicted friction coefficient", SOURCE),
+        "difference": labelled(grid, difference, "1", about, SOURCE),
+        "difference_in_spread": labelled(grid, relative, "1", f"{about}, over its spread", SOURCE),
+        "rms_difference": labelled("model", rms(difference), "1", f"rms of {about}", SOURCE),
+        "rms_difference_in_spread": labelled(
+            "model", rms(relative), "1", f"rms of {about}, over its spread", SOURCE
+        ),
+    }
+    data |= measured_variables(measured)
+    return xr.Dataset(data, coords={"model": list(predicted)})
+
+
+def measured_variables(measured: MeasuredFriction) -> dict[str, xr.Variable]:
+    """Return the columns of a measurement as variables over `measurement`."""
+    return {
+        f"measured_{name}": labelled(
+            "measurement", getattr(measured, name), unit, text, measured.source
+        )
+        for name, (unit, text) in MEASURED.items()
+    }
+
+
+def in_spread(difference: Array, spread: Array) -> Array:
+    """Return differences over the spread [-]; NaN where it is not known or zero."""
+    return difference / np.where(spread > 0.0, spread, np.nan)
+
+
+def rms(values: Array) -> Array:
+    """Return the root mean square over the last axis of what is known, NaN where nothing is."""
+    known = np.isfinite(values)
+    count = known.sum(axis=-1)
+    squares = np.where(known, values, 0.0) ** 2
+    return np.asarray(np.sqrt(squares.sum(axis=-1) / np.where(count > 0, count, np.nan)))
+
+
+# The measured friction a case names.
+
+
+@about_keys("measured")
+def friction_of_case(file: CaseFile) -> MeasuredFriction | None:
+    """Return what `[measured] friction` of a case names, None if it names nothing.
+
+    Raises `FileError` if it cannot be read.
+    """
+    name = file.case.measured.friction
+    return None if name is None else read_measured_friction(file.resolve(name))

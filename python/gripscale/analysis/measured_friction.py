@@ -1,0 +1,240 @@
+"""Friction measured elsewhere, to be drawn over what the models say: a table of speed and friction.
+
+A text or Excel file with columns named speed and friction, and if known spread (of the friction),
+temperature and pressure. Units stand in the titles, as in `speed [mm/s]` or `temperature (C)`;
+without one speeds are in m/s and pressures in Pa, while temperatures must have theirs. Otherwise
+the rules of `gripscale.io.text_table` hold.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gripscale.core import checks
+from gripscale.core.errors import FileError, InputError
+from gripscale.core.units import in_si, listed, spelled
+from gripscale.io.text_table import Column, TextTable, file_path, read_table
+
+Array = NDArray[np.float64]
+
+_WORDS = {
+    "speed": ("speed", "velocity", "v"),
+    "friction": ("friction", "friction coefficient", "mu", "µ", "μ", "cof"),
+    "spread": ("spread", "std", "standard deviation", "uncertainty", "error"),
+    "temperature": ("temperature", "temp", "t"),
+    "pressure": ("pressure", "nominal pressure", "p"),
+}
+"""What the titles of the columns may be called, in lower case; the first word is ours."""
+
+_UNITS: dict[str, tuple[str, str | None]] = {
+    "speed": ("speed", "m/s"),
+    "temperature": ("temperature", None),
+    "pressure": ("pressure", "Pa"),
+}
+"""Kind of unit of a column, and the unit it is in where the title names none, if that is clear."""
+
+_OPTIONAL = {"spread": "", "temperature": "K", "pressure": "Pa"}
+"""Columns that may be absent, and where values may be missing, with their units."""
+
+_MOST = {"friction": 100.0, "spread": 100.0, "temperature": 3000.0, "pressure": 1e11}
+"""Largest absolute values [-], [K], [Pa]: beyond any rubber's, below what marks missing ones."""
+
+_RATIO = ("1", "-", "–")
+"""Units of what has none."""
+
+
+@dataclass(frozen=True, init=False, eq=False)
+class MeasuredFriction:
+    """Measured friction coefficients over sliding speed.
+
+    Parameters
+    ----------
+    speed : array_like, shape (n,)
+        Sliding speeds [m/s], above zero, in any order.
+    friction : array_like, shape (n,)
+        Friction coefficients [-].
+    spread : array_like, shape (n,), optional
+        Standard deviations of the friction coefficients [-]; NaN where unknown, as by default.
+    temperature : array_like, shape (n,), optional
+        Temperatures of the rubber [K]; NaN where unknown, as by default.
+    pressure : array_like, shape (n,), optional
+        Nominal pressures [Pa]; NaN where unknown, as by default.
+    source : str
+        Where they come from.
+
+    Raises
+    ------
+    InputError
+        If the lengths differ or a value is out of its range.
+    """
+
+    speed: Array = field(repr=False)
+    friction: Array = field(repr=False)
+    spread: Array = field(repr=False)
+    temperature: Array = field(repr=False)
+    pressure: Array = field(repr=False)
+    source: str
+
+    def __init__(
+        self,
+        speed: ArrayLike,
+        friction: ArrayLike,
+        spread: ArrayLike | None = None,
+        temperature: ArrayLike | None = None,
+        source: str = "",
+        *,
+        pressure: ArrayLike | None = None,
+    ) -> None:
+        found = {
+            "speed": checks.positive_vector("speed", speed, unit="m/s"),
+            "friction": checks.vector("friction", friction),
+        }
+        optional = {"spread": spread, "temperature": temperature, "pressure": pressure}
+        for name, given in optional.items():
+            values = np.full(found["speed"].size, np.nan) if given is None else given
+            found[name] = _checked(name, values)
+        _check_most("friction", found["friction"])
+        sizes = {name: values.size for name, values in found.items()}
+        if len(set(sizes.values())) > 1 or not sizes["speed"]:
+            told = ", ".join(f"{count} of {name}" for name, count in sizes.items())
+            raise InputError(f"a measurement needs as many values of each, at least 1; got {told}")
+        order = np.argsort(found["speed"], kind="stable")
+        for name, values in found.items():
+            object.__setattr__(self, name, values[order])
+        object.__setattr__(self, "source", source)
+
+
+def _checked(name: str, given: ArrayLike) -> Array:
+    """Return an optional column; raise `InputError` if a value is out of its range."""
+    unit = _OPTIONAL[name]
+    values = checks.vector(name, given, unit=unit, missing=True)
+    _check_most(name, values)
+    low = values < 0.0 if name == "spread" else values <= 0.0
+    if low.any():
+        limit = "not be negative" if name == "spread" else f"be above zero [{unit}]"
+        at = int(np.argmax(low))
+        raise InputError(f"{name} must {limit}; got {values[at]:g} at index {at}")
+    return values
+
+
+def _check_most(name: str, values: Array) -> None:
+    beyond = np.abs(values) > _MOST[name]
+    if beyond.any():
+        at = int(np.argmax(beyond))
+        raise InputError(
+            f"{name} must be at most {_MOST[name]:g}; got {values[at]:g} at index {at}: a missing "
+            "value is nan or an empty cell"
+        )
+
+
+def read_measured_friction(path: str | Path, *, sheet: str | int | None = None) -> MeasuredFriction:
+    """Read measured friction from a text, CSV or Excel file.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file; Excel: .xlsx.
+    sheet : str or int, optional
+        Name of the Excel sheet or its number from 1, where several hold numbers.
+
+    Raises
+    ------
+    FileError
+        If the file is missing or unreadable, a column is missing or named twice, or a unit or a
+        value cannot be used.
+    InputError
+        If `sheet` is missing or none of the file.
+    """
+    path = file_path(path)
+    table = read_table(
+        path,
+        "rows of speed and friction, with titles above them",
+        kinds=tuple(kind for kind, _ in _UNITS.values()),
+        named=lambda title: _word(title) is not None,
+        sheet=sheet,
+    )
+    places = _places(table)
+    columns = {}
+    for word, place in places.items():
+        values = table.numbers(place, f"a {word}", missing=word in _OPTIONAL)
+        columns[word] = _in_si(path, word, table.columns[place], values)
+    try:
+        return MeasuredFriction(**columns, source=str(path))
+    except InputError as error:
+        raise FileError(f"{path}: {error}") from error
+
+
+def _word(title: str) -> str | None:
+    """Return which of our columns a title names, or None."""
+    plain = " ".join(title.lower().replace("_", " ").split())
+    return next((word for word, names in _WORDS.items() if plain in names), None)
+
+
+def _places(table: TextTable) -> dict[str, int]:
+    """Return the place of each of our columns."""
+    places: dict[str, int] = {}
+    for at, column in enumerate(table.columns):
+        word = _word(column.name)
+        if word in places:
+            raise FileError(f"{table.path}: expected one column of {word}; got two")
+        if word is not None:
+            places[word] = at
+    absent = [word for word in ("speed", "friction") if word not in places]
+    if absent:
+        found = table.titles or "no titles"
+        raise FileError(f"{table.path}: expected a column named {absent[0]}; got {found}")
+    return places
+
+
+def _in_si(path: Path, word: str, column: Column, values: Array) -> Array:
+    if word not in _UNITS:
+        if column.unit not in (None, *_RATIO):
+            raise FileError(
+                f"{path}: {word} has no unit; got {checks.short_repr(column.unit)} in its title"
+            )
+        return values
+    kind, own = _UNITS[word]
+    unit = column.unit or own
+    if unit is None:
+        raise FileError(
+            f"{path}: {word} must have its unit in its title ({listed(kind)}), such as "
+            f"'{word} [C]'; got '{column.name}'"
+        )
+    if spelled(unit, kind) is None:
+        raise FileError(
+            f"{path}: {word} must be in one of {listed(kind)}; got {checks.short_repr(unit)}"
+        )
+    return in_si(values, unit, kind)
+
+
+# A shear stress that tells the temperature in the contact of any model's answer.
+#
+# With tau_f = s T, s = 1 Pa/K, the area term is
+#
+#     mu = s T A_r/(A_0 p)        so that        T = mu p A_0/(s A_r)
+#
+# the mean over the real contact area. Laws are fitted to answers made with it: an answer then does
+# not depend on the law, and serves all of them.
+
+
+@dataclass(frozen=True)
+class TemperatureProbe:
+    """A shear stress of 1 Pa for each kelvin; none where the temperature is not known."""
+
+    kind: ClassVar[str] = "temperature_probe"
+
+    def stress(self, speed: ArrayLike, temperature: ArrayLike | None = None) -> Array:
+        """Return T in K as a stress [Pa], shape of the speeds [m/s] and temperatures [K]."""
+        kelvin = 0.0 if temperature is None else np.asarray(temperature, dtype=float)
+        return np.asarray(np.zeros(np.shape(speed)) + kelvin)
+
+
+def probed_temperature(friction: float, contact_fraction: float, pressure: float) -> float:
+    """Return the temperature in the contact [K] of the probe's friction [-], NaN if not known."""
+    kelvin = friction * pressure / contact_fraction if contact_fraction > 0.0 else 0.0
+    return kelvin if kelvin > 0.0 else float("nan")

@@ -1,0 +1,461 @@
+"""Profile likelihood: how far a parameter can go while all others do their best to follow.
+
+    E(x) = min over the others of S(x, others) - S_min
+
+An interval holds every x with E(x) below a threshold: chi^2_1 where the spreads are known, and
+F_(1, n - k) times S_min/(n - k) where the scatter of the residuals stands for them. Unlike the
+standard error it follows a curved valley, and finds an end that is not there.
+
+Source: S. M. Murphy & A. W. van der Vaart, J. Am. Stat. Assoc. 95 (2000) 449,
+doi:10.1080/01621459.2000.10474219; D. M. Bates & D. G. Watts, Nonlinear Regression Analysis and
+its Applications (1988), sec. 6.1, doi:10.1002/9780470316757.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import scipy.optimize
+import scipy.stats
+from numpy.typing import NDArray
+
+from gripscale.analysis.calibration_law import (
+    Optimum,
+    Parameter,
+    Points,
+    Problem,
+    best,
+    family_of,
+    free_limits,
+    refined,
+)
+from gripscale.analysis.measured_comparison import Predicted, rms
+from gripscale.analysis.measured_friction import MeasuredFriction
+from gripscale.conditions.area_term import InterfacialShearStress
+from gripscale.core import checks
+from gripscale.core.errors import InputError
+
+Array = NDArray[np.float64]
+
+LEVEL = 0.9
+"""Share of measurements like this one whose interval holds the true value."""
+REACH = 2.0
+"""How much further each step of a search for an end goes."""
+FINE = 1e-3
+"""Relative accuracy of the distance to an end."""
+LESS = 1e-6
+"""Relative decrease of the sum of squares beyond which another minimum has been met."""
+CURVE = 25
+"""Values of a parameter at which its profile is kept."""
+
+
+class Better(Exception):
+    """A profile has met a smaller sum of squares than the fit."""
+
+    def __init__(self, theta: Array) -> None:
+        super().__init__()
+        self.theta = theta
+
+
+@dataclass(frozen=True)
+class Profile:
+    """The profile of one parameter, in the numbers the search works with.
+
+    Parameters
+    ----------
+    problem, optimum
+        What is fitted, and its least sum of squares.
+    place : int
+        Which free parameter.
+    """
+
+    problem: Problem
+    optimum: Optimum
+    place: int
+
+    @property
+    def centre(self) -> float:
+        """Where the sum of squares is least."""
+        return float(self.optimum.theta[self.place])
+
+    def excess(self, scaled: float, start: Array | None = None) -> tuple[float, Array]:
+        """Return E at a value, and what the others are there.
+
+        Raises `Better` where E is below zero.
+        """
+        held = self.problem.holding(self.place, scaled)
+        others = np.delete(self.optimum.theta, self.place) if start is None else start
+        found = refined(held, others)
+        apart = found.sum_of_squares - self.optimum.sum_of_squares
+        if apart < -LESS * self.optimum.sum_of_squares - 1e-12:
+            raise Better(np.insert(found.theta, self.place, scaled))
+        return max(apart, 0.0), found.theta
+
+    def end(self, way: int, threshold: float) -> float:
+        """Return where E reaches `threshold` below (`way` -1) or above (1) the centre.
+
+        Infinite where it does not before the limit of the search, or only because another
+        parameter is held back by its own.
+        """
+        limit = free_limits(self.problem, self.place)[(way + 1) // 2]
+        near, others = self.centre, np.delete(self.optimum.theta, self.place)
+        below = 0.0
+        if way * (limit - near) <= 0.0:
+            return way * math.inf
+        step = self._first_step(threshold)
+        while True:
+            far = near + way * step
+            far = limit if way * (far - limit) >= 0.0 else far
+            excess, met = self.excess(far, others)
+            if excess >= threshold:
+                return self._crossing({near: (below, others), far: (excess, met)}, threshold)
+            if far == limit:
+                return way * math.inf
+            near, below, others, step = far, excess, met, REACH * step
+
+    def curve(self, low: float, high: float) -> tuple[Array, Array]:
+        """Return values from `low` to `high` and E there, each from its neighbour's others.
+
+        NaN where another parameter is held back by its own limit.
+        """
+        values = np.linspace(low, high, CURVE)
+        excess = np.empty(CURVE)
+        middle = int(np.argmin(np.abs(values - self.centre)))
+        for way in (range(middle, CURVE), range(middle - 1, -1, -1)):
+            others = None
+            for at in way:
+                rise, others = self.excess(float(values[at]), others)
+                held_back = self.problem.holding(self.place, values[at]).at_limit(others)
+                excess[at] = math.nan if held_back else rise
+        return values, excess
+
+    def _first_step(self, threshold: float) -> float:
+        """Return how far the end would be on a parabola, within reason."""
+        errors = scaled_errors(self.optimum.jacobian)
+        low, high = free_limits(self.problem, self.place)
+        return float(np.clip(errors[self.place] * math.sqrt(threshold), 1e-6, 0.02 * (high - low)))
+
+    def _crossing(self, known: dict[float, tuple[float, Array]], threshold: float) -> float:
+        """Return where E crosses the threshold between two values, before and behind it.
+
+        By its root, nearly a straight line; `known` holds E and the others at the two values.
+        """
+        near, far = known
+        start = known[near][1]
+
+        def above(scaled: float) -> float:
+            if scaled not in known:
+                known[scaled] = self.excess(scaled, start)
+            return math.sqrt(known[scaled][0]) - math.sqrt(threshold)
+
+        fine = FINE * abs(far - self.centre)
+        end = float(scipy.optimize.brentq(above, near, far, xtol=fine, rtol=1e-9))
+        above(end)
+        if self.problem.holding(self.place, end).at_limit(known[end][1]):
+            return math.copysign(math.inf, far - near)
+        return end
+
+
+def threshold_of(optimum: Optimum, *, known: bool) -> float:
+    """Return the excess that ends an interval, with spreads `known` or taken from the residuals."""
+    if known:
+        return float(scipy.stats.chi2.ppf(LEVEL, 1))
+    points, free = optimum.jacobian.shape
+    ratio = float(scipy.stats.f.ppf(LEVEL, 1, points - free))
+    return ratio * optimum.sum_of_squares / float(points - free)
+
+
+def scaled_errors(jacobian: Array) -> Array:
+    """Return the standard errors of the numbers for residuals of unit spread, shape (free,)."""
+    return np.asarray(np.sqrt(np.diag(covariance(jacobian))))
+
+
+def covariance(jacobian: Array) -> Array:
+    """Return (J^T J)^-1; directions without any influence count as hardly having one."""
+    _, sizes, rows = np.linalg.svd(jacobian, full_matrices=False)
+    least = np.finfo(float).eps * max(float(sizes.max()), np.finfo(float).tiny)
+    scaled = rows / np.maximum(sizes, least)[:, None]
+    return np.asarray(scaled.T @ scaled)
+
+
+def settled(
+    problem: Problem, optimum: Optimum, find: Callable[[Optimum], list[tuple[float, float]]]
+) -> tuple[Optimum, list[tuple[float, float]]]:
+    """Return the optimum and what `find` makes of it, begun again where a better one is met."""
+    while True:
+        try:
+            return optimum, find(optimum)
+        except Better as better:
+            optimum = refined(problem, better.theta)
+
+
+# What a law says of points it was not fitted to: one temperature or decade of speed left out.
+
+WAYS = ("temperature", "speed")
+"""What can be left out: a temperature to the kelvin, or a decade of speed."""
+
+
+@dataclass(frozen=True)
+class HeldOut:
+    """One group of points left out: the errors of the law fitted to the others.
+
+    All in friction [-]; NaN where the others cannot predict it.
+    """
+
+    value: float
+    """Temperature [K], or lower end of the decade of speed [m/s]."""
+    points: int
+    """How many were left out."""
+    rms_inside: float
+    """Root mean square residual of the points that were fitted."""
+    rms_outside: float
+    """Root mean square error at those that were left out."""
+    rms_outside_in_spread: float
+    """The same over the spread; NaN where none is stated."""
+    why_not: str = ""
+    """Why the others cannot predict it; empty where they can."""
+
+
+def held_out(
+    points: Points, groups: Array, kind: str, fixed: Mapping[str, float]
+) -> tuple[HeldOut, ...]:
+    """Return what each group of points is predicted to be by the others.
+
+    Parameters
+    ----------
+    points : Points
+        All of them.
+    groups : array, shape (points,)
+        The value by which each belongs to a group.
+    kind, fixed
+        Of the law, as for `family_of`.
+
+    Raises
+    ------
+    InputError
+        If there is only one group.
+    """
+    values = np.unique(groups)
+    if values.size < 2:
+        raise InputError(
+            f"hold_out needs at least two groups to leave one of them out; got {values.size}"
+        )
+    wanted = {one.name for one in family_of(kind, points, fixed).free}
+    return tuple(
+        _without(points, groups == value, float(value), kind, fixed, wanted) for value in values
+    )
+
+
+def groups_of(way: str, speed: Array, temperature: Array) -> Array:
+    """Return the group of each point: its temperature to the kelvin, or its decade of speed.
+
+    Raises `InputError` if `way` is none of `WAYS`, or a temperature is not known.
+    """
+    if checks.one_of("hold_out", way, WAYS) == "speed":
+        return np.asarray(10.0 ** np.floor(np.log10(speed) + 1e-9))
+    if np.isnan(temperature).any():
+        raise InputError(
+            "hold_out = temperature needs the temperature of every point; got "
+            f"{np.isnan(temperature).sum()} without one"
+        )
+    return np.asarray(np.round(temperature))
+
+
+def _without(
+    points: Points,
+    left_out: NDArray[np.bool_],
+    value: float,
+    kind: str,
+    fixed: Mapping[str, float],
+    wanted: set[str],
+) -> HeldOut:
+    count, rest = int(left_out.sum()), points.only(~left_out)
+    try:
+        family = family_of(kind, rest, fixed)
+    except InputError as error:
+        return HeldOut(value, count, math.nan, math.nan, math.nan, str(error))
+    missing = wanted - {one.name for one in family.free}
+    if missing:
+        why = f"the other points do not determine {', '.join(sorted(missing))}"
+        return HeldOut(value, count, math.nan, math.nan, math.nan, why)
+    theta = best(Problem(rest, family)).theta
+    inside, outside = (
+        _apart(Problem(some, family), theta) for some in (rest, points.only(left_out))
+    )
+    spread = points.spread
+    relative = np.full(count, np.nan) if spread is None else outside / spread[left_out]
+    return HeldOut(value, count, float(rms(inside)), float(rms(outside)), float(rms(relative)))
+
+
+def _apart(problem: Problem, theta: Array) -> Array:
+    return problem.friction(theta) - problem.points.difference
+
+
+# A fitted law of the area term: its parameters, how well each is known, what it says of points.
+
+FACTORS_SHOWN = 3.0
+"""How far the profile of an end that is not determined is kept, in the numbers of the search."""
+
+NO_INFLUENCE = 1e-12
+"""Relative size of a singular value below which its direction changes nothing."""
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A fitted parameter, in the unit of the law."""
+
+    name: str
+    unit: str
+    value: float
+    standard_error: float
+    """From the Jacobian: what a parabola would say."""
+    low: float
+    """Lower end of the interval by profile likelihood; NaN where the data do not determine it."""
+    high: float
+    """Upper end; NaN likewise."""
+
+    @property
+    def determined(self) -> bool:
+        """Whether both ends are."""
+        return math.isfinite(self.low) and math.isfinite(self.high)
+
+
+@dataclass(frozen=True, eq=False)
+class FittedLaw:
+    """A law of the area term fitted to measured friction beside a predicted hysteresis."""
+
+    measured: MeasuredFriction
+    predicted: Predicted
+    """The hysteresis and the contact at the measured points, which are not fitted."""
+    problem: Problem
+    """What was fitted: the points that have an answer, and the law with its free parameters."""
+    optimum: Optimum
+    """The least sum of squares."""
+    ends: tuple[tuple[float, float], ...]
+    """Of each interval in the numbers of the search; infinite where not determined."""
+    held_out: tuple[HeldOut, ...] = ()
+    """What the law says of points it was not fitted to, where asked for."""
+    held_out_by: str = ""
+    """Whether a temperature or a decade of speed was left out; empty for neither."""
+
+    @property
+    def law(self) -> InterfacialShearStress:
+        """The law with the best parameters."""
+        return self.problem.family.law(self.optimum.theta)
+
+    @property
+    def spread_known(self) -> bool:
+        """Whether the spread was stated, and not taken from the residuals."""
+        return self.problem.points.spread is not None
+
+    @property
+    def freedom(self) -> int:
+        """Degrees of freedom: points less parameters."""
+        return self.problem.points.speed.size - len(self.problem.family.free)
+
+    @property
+    def scatter(self) -> float:
+        """Root of the sum of squares over the degrees of freedom.
+
+        In units of the spread where it is stated, else the spread the residuals imply [-].
+        """
+        return math.sqrt(self.optimum.sum_of_squares / self.freedom)
+
+    @property
+    def chance(self) -> float:
+        """Probability of a sum of squares so large if law, hysteresis and spreads were right.
+
+        NaN where no spread is stated.
+        """
+        if not self.spread_known:
+            return math.nan
+        return float(scipy.stats.chi2.sf(self.optimum.sum_of_squares, self.freedom))
+
+    @property
+    def threshold(self) -> float:
+        """By how much the sum of squares rises at the ends of an interval, as in `profiles`."""
+        scale = 1.0 if self.spread_known else self.scatter**2
+        return threshold_of(self.optimum, known=self.spread_known) / scale
+
+    @property
+    def estimates(self) -> list[Estimate]:
+        """The free parameters."""
+        errors = np.sqrt(np.diag(self._covariance))
+        return list(self._estimates(errors))
+
+    @property
+    def correlation(self) -> Array:
+        """Of the estimates, shape (free, free), of logarithms where they are positive."""
+        errors = np.sqrt(np.diag(self._covariance))
+        return np.asarray(self._covariance / np.outer(errors, errors))
+
+    @property
+    def area_term(self) -> Array:
+        """Friction of the area term at the measured points [-], NaN without an answer."""
+        return self.predicted.area_term(self.law, self.measured.speed)
+
+    @property
+    def friction(self) -> Array:
+        """Hysteresis and area term at the measured points [-]."""
+        return self.predicted.friction + self.area_term
+
+    @property
+    def friction_error(self) -> Array:
+        """Standard error of that by the fit [-]: the root of the diagonal of the hat matrix."""
+        directions, sizes, _ = np.linalg.svd(self.optimum.jacobian, full_matrices=False)
+        felt = directions[:, sizes > NO_INFLUENCE * sizes.max()]
+        share = np.sqrt((felt**2).sum(axis=1))
+        spread = self.problem.points.spread
+        return self._at_measured(share * (self.scatter if spread is None else spread))
+
+    @property
+    def band(self) -> Array:
+        """Half of the interval of the friction at the measured points [-], at `LEVEL`."""
+        tail = 0.5 * (1.0 + LEVEL)
+        known = self.spread_known
+        return self.friction_error * float(
+            scipy.stats.norm.ppf(tail) if known else scipy.stats.t.ppf(tail, self.freedom)
+        )
+
+    @cached_property
+    def profiles(self) -> dict[str, tuple[Array, Array]]:
+        """Values of each free parameter and how much the sum of squares exceeds its least there.
+
+        In units of what one standard error adds: over the interval and a little beyond, and a
+        factor of 20 where an end is not determined.
+        """
+        scale = 1.0 if self.spread_known else self.scatter**2
+        return {
+            one.name: self._profile(place, one, scale)
+            for place, one in enumerate(self.problem.family.free)
+        }
+
+    @property
+    def _covariance(self) -> Array:
+        scale = 1.0 if self.spread_known else self.scatter**2
+        return scale * covariance(self.optimum.jacobian)
+
+    def _estimates(self, errors: Array) -> Iterator[Estimate]:
+        for at, one in enumerate(self.problem.family.free):
+            value = one.value(float(self.optimum.theta[at]))
+            error = float(errors[at]) * (value if one.log else 1.0)
+            low, high = (one.value(x) if math.isfinite(x) else math.nan for x in self.ends[at])
+            yield Estimate(one.name, one.unit, value, error, low, high)
+
+    def _profile(self, place: int, one: Parameter, scale: float) -> tuple[Array, Array]:
+        centre, limits = float(self.optimum.theta[place]), one.limits
+        shown = []
+        for way, end in zip((-1, 1), self.ends[place], strict=True):
+            away = 1.3 * abs(end - centre) if math.isfinite(end) else FACTORS_SHOWN
+            shown.append(float(np.clip(centre + way * away, *limits)))
+        values, excess = Profile(self.problem, self.optimum, place).curve(*shown)
+        return np.array([one.value(float(x)) for x in values]), excess / scale
+
+    def _at_measured(self, values: Array) -> Array:
+        out = np.full(self.measured.speed.size, np.nan)
+        out[self.predicted.known] = values
+        return out

@@ -1,0 +1,353 @@
+"""Roads under the same rubber and load, in chain and direct contact, with their differences.
+
+Differences are those to the first road. What another stretch of each road might have given is the
+range of 90 % of n block bootstraps of its profiles (`gripscale.analysis.ProfileBlocks`),
+
+    low = X min(1, q_5(X_k/X_0)),    high = X max(1, q_95(X_k/X_0))
+
+with X_k of the drawn blocks and X_0 of the road as measured; of the chain by half-planes, which
+cost less, of the direct contact by itself. The roads are independent of each other, see
+`gripscale.analysis.compounds`.
+"""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from itertools import product
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from gripscale.analysis.compounds import (
+    TOTALS,
+    attributes,
+    ranges,
+    require_some,
+    to_first,
+    total_differences,
+)
+from gripscale.analysis.propagation import quantiles
+from gripscale.analysis.sampled_inputs import Attempt, Inputs, Measurement
+from gripscale.analysis.sampling import draws
+from gripscale.analysis.sources import ProfileSource, Stated
+from gripscale.case.read import CaseFile, read_case
+from gripscale.chain.chain import Chain
+from gripscale.core import checks, provenance
+from gripscale.core.errors import InputError
+from gripscale.experiment.inputs import case_rubber, model_of, surface_of
+from gripscale.experiment.solve import OnTask, solve_all
+from gripscale.experiment.task import PREDICTIONS, Store, Task
+from gripscale.half_space.model import DirectContact
+from gripscale.io import netcdf
+from gripscale.model import TOTALS as OF_ALL
+from gripscale.model import Model, NominalLoad
+from gripscale.surface import PreparedSurface, profile_spectrum
+from gripscale.surface.synthetic import SYNTHETIC_SURFACES, with_profile
+from gripscale.theory.half_plane import HalfPlane
+
+# Friction by octaves of wavelength that are the same for every model and road.
+#
+# Between the waves of a chain, and within the octaves of a direct contact, the friction of all
+# longer waves is taken to be linear in the logarithm of the wavelength, as frictions add.
+
+Array = NDArray[np.float64]
+
+
+def octave_ends(longest: float, shortest: float) -> Array:
+    """Return the lower ends of octaves [m] from `longest` to `shortest`: powers of two of 1 mm."""
+    first, last = np.ceil(np.log2(longest / 1e-3)), np.floor(np.log2(shortest / 1e-3))
+    return np.asarray(1e-3 * 2.0 ** np.arange(first, last - 1.0, -1.0))
+
+
+def running_friction(answer: xr.Dataset, ends: Array) -> Array:
+    """Return the friction [-] of all waves longer than each of `ends` [m], which fall.
+
+    Of an answer of the chain, or of the direct contact; NaN without its parts by wavelength.
+    """
+    if "octave_friction" in answer:
+        parts = (answer["octave_friction"].fillna(0.0) * answer["weight"]).sum("profile")
+        ordered = parts.sortby("wavelength", ascending=False)
+        wavelength, friction = ordered["wavelength"].values, ordered.values
+    elif "friction" in answer and answer["friction"].dims == ("scale",):
+        wavelength, friction = answer["wavelength"].values, answer["friction"].values
+    else:
+        return np.full(ends.shape, np.nan)
+    running = np.cumsum(friction)
+    place = -np.log(wavelength)
+    return np.asarray(np.interp(-np.log(ends), place, running, left=0.0, right=running[-1]))
+
+
+# From the answers on all roads to one Dataset: totals, ranges, differences, and where they are.
+
+MODELS = ("chain", "direct")
+AS_MEASURED, TO_COMPARE = "as measured", "what its samples are compared with"
+PER_DECADE = 12
+"""Lags and wavenumbers at which roads are drawn together."""
+
+
+Answers = Mapping[tuple[str, str], xr.Dataset]
+"""Answers by model and road."""
+
+
+class Place(NamedTuple):
+    """One prediction: of which model on which road, and what of it."""
+
+    model: str
+    surface: str
+    part: str
+
+
+def roads_dataset(
+    surfaces: Mapping[str, PreparedSurface], solved: Mapping[Place, xr.Dataset]
+) -> xr.Dataset:
+    """Return what `gripscale.analysis.compare_surfaces` promises."""
+    own = {(p.model, p.surface): answer for p, answer in solved.items() if p.part == AS_MEASURED}
+    data = xr.Dataset(
+        {
+            **{name: _totals(own, list(surfaces), name) for name in OF_ALL},
+            "prediction_status": _status(own, list(surfaces)),
+        },
+        {"model": list(MODELS), "surface": list(surfaces)},
+        {"title": "Contact and friction of one rubber on several roads"},
+    )
+    factors = {name: _factors(solved, list(surfaces), name) for name in TOTALS}
+    if any(np.isfinite(found).any() for found in factors.values()):
+        text = "that another stretch of the road might give"
+        data = data.assign(ranges(data, ["model", "surface"], factors, text))
+    data = data.assign(total_differences(data, "surface"))
+    data = data.assign(_by_octave(own, list(surfaces)))
+    text = "difference to the first, friction of the octave"
+    parts = data.friction_running.diff("octave", label="upper")
+    first = data.friction_running.isel(octave=[0])
+    octaves = xr.concat([first, parts], dim="octave")
+    data = data.assign(friction_difference=to_first(octaves, "surface", text))
+    return data.assign(_measured(surfaces))
+
+
+def _totals(own: Answers, names: list[str], quantity: str) -> xr.Variable:
+    values = [
+        [float(own[m, name][quantity]) if (m, name) in own else np.nan for name in names]
+        for m in MODELS
+    ]
+    return xr.Variable(("model", "surface"), values, attributes(OF_ALL[quantity]))
+
+
+def _status(own: Answers, names: list[str]) -> xr.Variable:
+    values = [
+        [str(own[m, n].prediction_status.item()) if (m, n) in own else "" for n in names]
+        for m in MODELS
+    ]
+    told = attributes("converged, why not, or empty if it was not asked")
+    return xr.Variable(("model", "surface"), np.array(values, dtype=object), told)
+
+
+def _factors(
+    solved: Mapping[Place, xr.Dataset], names: list[str], quantity: str
+) -> NDArray[np.float64]:
+    """Return the ends of 90 % of the samples over what they are compared with.
+
+    Shape (2, models, roads), with 1 between the ends.
+    """
+    ends = np.full((2, len(MODELS), len(names)), np.nan)
+    for i, model in enumerate(MODELS):
+        for j, name in enumerate(names):
+            base = solved.get(Place(model, name, TO_COMPARE))
+            if base is None:
+                continue
+            samples = [
+                float(answer[quantity])
+                for place, answer in solved.items()
+                if place[:2] == (model, name) and place.part not in (AS_MEASURED, TO_COMPARE)
+            ]
+            found = quantiles(np.array(samples) / float(base[quantity]))
+            ends[:, i, j] = min(found[0], 1.0), max(found[-1], 1.0)
+    return ends
+
+
+def _by_octave(own: Answers, names: list[str]) -> dict[str, xr.DataArray]:
+    """Return the friction of all longer waves over octaves that all models and roads share."""
+    lengths = [one["wavelength"].values for one in own.values() if "wavelength" in one]
+    known = np.concatenate(lengths)
+    ends = octave_ends(2.0 * float(np.nanmax(known)), float(np.nanmin(known)) * (1.0 + 1e-9))
+    values = np.full((len(MODELS), len(names), ends.size), np.nan)
+    for (model, name), answer in own.items():
+        values[MODELS.index(model), names.index(name)] = running_friction(answer, ends)
+    octave = xr.Variable("octave", ends, {"units": "m", "long_name": "shortest wave of the octave"})
+    running = xr.DataArray(
+        values,
+        coords={"model": list(MODELS), "surface": names, "octave": octave},
+        dims=("model", "surface", "octave"),
+        attrs=attributes("friction coefficient of the octave and all longer waves"),
+    )
+    return {"friction_running": running}
+
+
+def _measured(surfaces: Mapping[str, PreparedSurface]) -> dict[str, Any]:
+    """Return height difference correlation and spectrum of the roads that were measured."""
+    correlations, spectra = {}, {}
+    for name, surface in surfaces.items():
+        if surface.correlation is not None:
+            correlations[name] = (surface.correlation.lag, surface.correlation.value)
+        if surface.measured is not None:
+            spectrum = profile_spectrum(surface.measured.cleaned).averaged()
+            spectra[name] = (spectrum.wavenumber, spectrum.density)
+    out: dict[str, Any] = {}
+    for name, axis, curves, unit, units, text in (
+        ("correlation", "lag", correlations, "m", "m2", "height difference correlation C_z"),
+        ("spectrum", "wavenumber", spectra, "rad/m", "m3", "one-sided power spectrum of lines"),
+    ):
+        if curves:
+            places, values = _together(curves, list(surfaces))
+            out[name] = (("surface", axis), values, {"units": units, "long_name": text})
+            out[axis] = (axis, places, {"units": unit, "long_name": axis})
+    return out
+
+
+def _together(
+    curves: Mapping[str, tuple[NDArray[np.float64], NDArray[np.float64]]], names: list[str]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return curves of positive numbers at common places, NaN beyond the ends of each."""
+    low, high = (pick(float(pick(x)) for x, _ in curves.values()) for pick in (min, max))
+    places = np.geomspace(low, high, max(2, int(PER_DECADE * np.log10(high / low)) + 1))
+    values = np.full((len(names), places.size), np.nan)
+    for name, (x, y) in curves.items():
+        good = (x > 0.0) & (y > 0.0)
+        logs = np.interp(np.log(places), np.log(x[good]), np.log(y[good]), np.nan, np.nan)
+        values[names.index(name)] = np.exp(logs)
+    return places, values
+
+
+RESULT = "surfaces.nc"
+POINTS = 128
+"""Points of the half-planes that tell the range: only ratios of theirs count."""
+FEWEST_SAMPLES, MOST_SAMPLES = 10, 10_000
+SAMPLES = 20
+SEED = 0
+
+
+@dataclass(frozen=True)
+class Roads:
+    """Roads that were compared."""
+
+    surfaces: dict[str, PreparedSurface]
+    """The roads as they were solved."""
+    notes: tuple[str, ...]
+    """Why a road has no range, or no direct contact."""
+    data: xr.Dataset
+    """Over `model` and `surface`; kept in surfaces.nc."""
+
+
+def compare_surfaces(
+    case: CaseFile | str | Path,
+    surfaces: Mapping[str, Any],
+    folder: str | Path,
+    *,
+    samples: int | None = SAMPLES,
+    workers: int | None = None,
+    on_task: OnTask | None = None,
+) -> Roads:
+    """Predict area and friction of a case's rubber on several roads, and compare them.
+
+    Parameters
+    ----------
+    case
+        The case, or its file: rubber, load, solver and conditions are taken from it.
+    surfaces
+        Two to six roads by what they are called; the others are compared with the first. Each is a
+        `PreparedSurface`, a `SineStack`, "case", a surface known by name, another case, or a
+        profile (of a case on a map, a map), read with all other settings of the case.
+    folder
+        Gets predictions and `surfaces.nc`; what it has already is not solved again.
+    samples : int or None
+        Block bootstraps of each road, 10 to 10 000, for the range of its totals; None: no ranges.
+    workers, on_task
+        As for `gripscale.experiment.solve_all`.
+
+    Returns
+    -------
+    Roads
+        Over `model` and `surface`: the totals, `total_friction_low` and so on, `..._difference` to
+        the first with its `_low` and `_high`; over `octave` of wavelength `friction_running`, from
+        the longest wave down, and `friction_difference`; `correlation` over `lag` and `spectrum`
+        over `wavenumber`.
+
+    Raises
+    ------
+    InputError, FileError
+        If there are fewer than two or more than six roads, or one cannot be read.
+    """
+    require_some("surfaces", surfaces, "roads")
+    if samples is not None:
+        checks.whole("samples", samples, least=FEWEST_SAMPLES, most=MOST_SAMPLES)
+    file = case if isinstance(case, CaseFile) else read_case(case)
+    given = {name: _surface(value, file) for name, value in surfaces.items()}
+    load = file.case.load.nominal
+    rubber, models = case_rubber(file), [_model(name, file) for name in MODELS]
+    tasks: dict[Place, Task] = {}
+    notes: list[str] = []
+    for model, (name, surface) in product(models, given.items()):
+        if isinstance(model, DirectContact) and surface.measured is None:
+            notes.append(f"{name} was not measured: no direct contact")
+            continue
+        tasks[Place(model.name, name, AS_MEASURED)] = Task(rubber, surface, load, Attempt(model))
+        if samples is None:
+            continue
+        known = Measurement(surface, rubber, speed=load.speed, load_time=load.load_time)
+        try:
+            drawn = _drawn(known, model, load, samples)
+        except InputError as why:
+            notes.append(f"{name}, {model.name}: no range; {why}")
+            continue
+        tasks |= {Place(model.name, name, part): task for part, task in drawn.items()}
+    labels = {", ".join(place): task for place, task in tasks.items()}
+    answers = solve_all(labels, Store(Path(folder) / PREDICTIONS), workers=workers, on_task=on_task)
+    solved = {place: answers[task.key] for place, task in tasks.items()}
+    words = [value if isinstance(value, str) else name for name, value in surfaces.items()]
+    data = roads_dataset(given, solved).assign_attrs(
+        notes="\n".join(notes),
+        surfaces=shlex.join(words),
+        case=file.text,
+        case_file=str(file.path),
+        **provenance.attributes(),
+    )
+    return Roads(given, tuple(notes), netcdf.load(netcdf.save(data, Path(folder) / RESULT)))
+
+
+def _surface(value: Any, file: CaseFile) -> PreparedSurface:
+    """Return a road; a synthetic one with its profile, for the direct contact."""
+    if isinstance(value, str) and value in SYNTHETIC_SURFACES:
+        return with_profile(value)
+    return surface_of(value, file)
+
+
+def _model(name: str, file: CaseFile) -> Model:
+    """Return a model under the conditions of the case; the direct contact on one full grid."""
+    model = model_of(name, file)
+    return replace(model, tolerance=None) if isinstance(model, DirectContact) else model
+
+
+def _drawn(known: Measurement, model: Model, load: NominalLoad, samples: int) -> dict[str, Task]:
+    """Return the tasks of a road's samples, and the one they are compared with, by their part.
+
+    Raises `InputError` if no samples can be drawn.
+    """
+    source = ProfileSource.of(known, Stated(models=(model.name,)))
+    case = Inputs.of(known)
+    if isinstance(model, Chain):
+        model = replace(model, solver=HalfPlane(points=POINTS))
+    else:  # no waves are fitted: the roughness ends where it does as measured, to the last bit
+        case = replace(case, fit={})
+    parts = {TO_COMPARE: case}
+    for number, one in enumerate(draws(case, [source], samples, SEED), start=1):
+        if one.inputs is not None:
+            parts[f"sample {number}"] = one.inputs
+    tasks = {}
+    for part, inputs in parts.items():
+        surface, own = inputs.for_model(model)
+        tasks[part] = Task(known.rubber, own.relevant(surface), load, Attempt(own))
+    return tasks

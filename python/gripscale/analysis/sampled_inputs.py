@@ -1,0 +1,350 @@
+"""What one sample is made of: the inputs of a case, as each source of uncertainty changes them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gripscale import model
+from gripscale.case.results import CaseResults
+from gripscale.chain.chain import Chain
+from gripscale.core import checks, provenance
+from gripscale.core.errors import InputError
+from gripscale.core.units import parse_quantity
+from gripscale.half_space.model import DirectContact
+from gripscale.model import LoadTime, Model, NominalLoad
+from gripscale.rubber import PronyFit, Rubber
+from gripscale.rubber.master_curve import MasterCurve
+from gripscale.surface import (
+    HeightDifference,
+    Measured,
+    PreparedSurface,
+    Profile,
+    SineStack,
+    fit_sines,
+)
+from gripscale.surface.sine_fit import MOST_WAVES
+from gripscale.wave.kernel import RefinableSolver, WaveSolver
+from gripscale.wave.problem import WaveProblem
+from gripscale.wave.result import WaveResult
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+# A solver of one wave that takes every wave to be loaded a factor longer.
+#
+#     t_i = factor A_(i-1) / v
+#
+# The load time is that of a mean contact; contacts are shorter and longer than their mean, and the
+# modulus of the mean state goes with it.
+
+
+def loaded_longer(solver: WaveSolver, factor: float) -> WaveSolver:
+    """Return the solver for waves loaded `factor` [-] times as long as it is told.
+
+    Raises `InputError` if the factor is not above zero.
+    """
+    times = checks.positive("factor", factor)
+    if isinstance(solver, RefinableSolver):
+        return RefinableLongerLoaded(solver, times)
+    return LongerLoaded(solver, times)
+
+
+@dataclass(frozen=True)
+class LongerLoaded:
+    """What `loaded_longer` makes of a solver that cannot be refined."""
+
+    solver: WaveSolver
+    factor: float
+
+    @property
+    def name(self) -> str:
+        """Word for the solver within."""
+        return self.solver.name
+
+    def solve(self, problem: WaveProblem, start: WaveResult | None = None) -> WaveResult:
+        """Return contact and friction of `problem`, loaded so much longer."""
+        load = replace(problem.load, load_time=self.factor * problem.load.load_time)
+        return self.solver.solve(replace(problem, load=load), start)
+
+
+@dataclass(frozen=True)
+class RefinableLongerLoaded(LongerLoaded):
+    """What `loaded_longer` makes of a `RefinableSolver`."""
+
+    solver: RefinableSolver
+
+    def coarser(self) -> WaveSolver:
+        """Return the coarser solver, loaded as long."""
+        return loaded_longer(self.solver.coarser(), self.factor)
+
+
+END_KEYS = ("cut_off", "smallest_wavelength")
+"""Arguments of `fit_sines` that say where the waves end."""
+
+
+@dataclass(frozen=True, eq=False)
+class Measurement:
+    """What a case is known from: prepared surface and rubber, and what they were fitted to."""
+
+    surface: PreparedSurface
+    rubber: Rubber
+    master: MasterCurve | None = None
+    fit: PronyFit | None = None
+    speed: float = 0.0
+    """Sliding speed of the case [m/s]."""
+    load_time: LoadTime = "passage"
+
+    @classmethod
+    def of(cls, case: CaseResults) -> Measurement:
+        """Return what a prepared case is known from."""
+        rubber, load = case.rubber, case.load
+        return cls(
+            case.surface, rubber.rubber, rubber.master, rubber.fit, load.speed, load.load_time
+        )
+
+    @property
+    def profiles(self) -> list[Profile]:
+        """The cleaned profiles or the lines of a map; none of waves stated by hand."""
+        return [] if self.surface.measured is None else self.surface.measured.cleaned
+
+    @property
+    def is_map(self) -> bool:
+        """Whether a map was measured."""
+        return self.surface.measured is not None and self.surface.measured.map is not None
+
+    @property
+    def fitted(self) -> bool:
+        """Whether the waves were fitted to a measured correlation."""
+        return self.surface.correlation is not None and bool(self.surface.fit)
+
+
+@dataclass(frozen=True, eq=False)
+class Inputs:
+    """The inputs of one sample, before any model is asked.
+
+    Attributes
+    ----------
+    surface, rubber
+        As prepared, or as a source drew them.
+    correlation
+        What the waves are fitted to; None for waves stated by hand.
+    fit
+        Arguments of `fit_sines`.
+    redrawn
+        Gives what the direct contact is solved on, where it is not what was measured.
+    load_time_factor
+        How much longer each wave is loaded than the model says [-].
+    """
+
+    surface: PreparedSurface
+    rubber: Rubber
+    correlation: HeightDifference | None = None
+    fit: Mapping[str, Any] = field(default_factory=dict)
+    redrawn: Callable[[], tuple[Profile, ...]] | None = None
+    load_time_factor: float = 1.0
+
+    @classmethod
+    def of(cls, known: Measurement) -> Inputs:
+        """Return the inputs of the case itself."""
+        surface = known.surface
+        return cls(surface, known.rubber, surface.correlation, surface.fit)
+
+    @property
+    def end(self) -> float:
+        """Where the waves end [m]: the cut-off or, without one, the last wave."""
+        stated = (self.fit.get(name) for name in END_KEYS)
+        return next((float(end) for end in stated if end), self.surface.sines.roughness_end)
+
+    def ended_at(self, wavelength: float) -> Inputs:
+        """Return the inputs with the end of the waves at a wavelength [m].
+
+        It is the cut-off where the case states one, else the last wave.
+        """
+        name = "cut_off" if self.fit.get("cut_off") is not None else "smallest_wavelength"
+        fit = {**self.fit, **dict.fromkeys(END_KEYS), name: wavelength}
+        if fit.get("s_wavelength") is not None:
+            fit["scales"] = None  # the factor and the end say how many
+        return replace(self, fit=fit)
+
+    def for_model(self, model: Model) -> tuple[PreparedSurface, Model]:
+        """Return surface and model as `model` takes this sample.
+
+        Raises `InputError` if no waves fit.
+        """
+        if isinstance(model, DirectContact):
+            return self._measured(), model
+        if isinstance(model, Chain) and self.load_time_factor != 1.0:
+            model = replace(model, solver=loaded_longer(model.solver, self.load_time_factor))
+        if self.correlation is None or self._as_prepared:
+            return self.surface, model
+        return replace(self.surface, sines=fit_sines(self.correlation, **self.fit)), model
+
+    @property
+    def _as_prepared(self) -> bool:
+        same = self.correlation is self.surface.correlation
+        return same and dict(self.fit) == dict(self.surface.fit)
+
+    def _measured(self) -> PreparedSurface:
+        """Return lines or map, and nothing of the waves but where they end."""
+        wave, measured = np.array([self.end]), self.surface.measured
+        if self.redrawn is not None:
+            measured = Measured.of(self.redrawn())
+        return PreparedSurface(SineStack(wave, wave), self.surface.source, measured=measured)
+
+
+# A number that is not known: anywhere between two ends, one of a few, or one.
+#
+# Between two ends it is spread evenly in its logarithm, as befits a factor that may be too large or
+# too small by as much: its reciprocal is then spread evenly, too.
+
+
+@dataclass(frozen=True)
+class Range:
+    """Values a number may have.
+
+    Parameters
+    ----------
+    values : tuple of float
+        Above zero, rising.
+    between : bool
+        Whether the two values are ends, with anything between them; otherwise each of the values
+        is as likely as the others.
+
+    Raises
+    ------
+    InputError
+        If there are no values, one is not above zero, they do not rise, or there are other than
+        two ends.
+    """
+
+    values: tuple[float, ...]
+    between: bool = True
+
+    def __post_init__(self) -> None:
+        found = tuple(checks.positive("each value of a range", value) for value in self.values)
+        if not found or any(b <= a for a, b in pairwise(found)):
+            raise InputError(f"a range must be rising values; got {checks.short_repr(self.values)}")
+        if self.between and len(found) != 2:
+            raise InputError(f"a range must have two ends; got {checks.short_repr(self.values)}")
+        object.__setattr__(self, "values", found)
+
+    @classmethod
+    def about(cls, value: float, factor: float) -> Range:
+        """Return the range from `value` / `factor` to `value` x `factor`."""
+        return cls((value / factor, value * factor))
+
+    @classmethod
+    def read(cls, name: str, given: Any, quantity: Callable[[Any], float]) -> Range:
+        """Return the range of a text such as `1 GPa:3 GPa` or `1 GPa,2 GPa`, a number or several.
+
+        Two numbers in a tuple or a list are ends. `quantity` turns an entry into SI units and
+        raises `InputError` for one that cannot be used.
+        """
+        if isinstance(given, Range):
+            return given
+        between = True
+        if isinstance(given, str) and ":" in given:
+            entries: list[Any] = given.split(":")
+        elif isinstance(given, str):
+            entries, between = given.split(","), False
+        elif isinstance(given, Iterable):
+            entries = list(given)
+            between = len(entries) == 2
+        else:
+            entries, between = [given], False
+        try:
+            return cls(tuple(quantity(entry) for entry in entries), between)
+        except InputError as error:
+            raise InputError(f"{name}: {error}") from error
+
+    def at(self, place: float) -> float:
+        """Return the value below which a share `place` [0 to 1] of all lie."""
+        if not self.between:
+            return self.values[min(int(place * len(self.values)), len(self.values) - 1)]
+        low, high = np.log(self.values)
+        return float(np.exp(low + place * (high - low)))
+
+
+# Numbers that a user states for a source: with a unit, in SI units without.
+
+
+def modulus(given: Any) -> float:
+    """Return a modulus [Pa]; raise `InputError` for what is none."""
+    return _quantity(given, "pressure", "Pa")
+
+
+def length(given: Any) -> float:
+    """Return a length [m]; raise `InputError` for what is none."""
+    return _quantity(given, "length", "m")
+
+
+def factor(given: Any) -> float:
+    """Return a factor [-]; raise `InputError` for what is none."""
+    return checks.positive("a factor", _bare(given))
+
+
+def count(given: Any) -> float:
+    """Return a number of waves; raise `InputError` for what is none."""
+    return float(checks.whole("waves", _bare(given), least=2, most=MOST_WAVES))
+
+
+def _quantity(given: Any, kind: str, unit: str) -> float:
+    value = _bare(given)
+    if isinstance(value, str):
+        try:
+            value = parse_quantity(value, kind)
+        except ValueError as error:
+            raise InputError(f"{given!r}: {error}") from error
+    return checks.positive(f"a {kind}", value, unit=unit)
+
+
+def _bare(given: Any) -> Any:
+    """Return the number a text spells, or what was given."""
+    try:
+        return float(given) if isinstance(given, str) else given
+    except ValueError:
+        return given
+
+
+# A model that answers where it would refuse, so that one sample of many does not end them all.
+
+
+@dataclass(frozen=True)
+class Attempt:
+    """Another model, whose refusal of an input is an answer without totals that says why."""
+
+    model: Model
+
+    @property
+    def name(self) -> str:
+        """Word for the model within."""
+        return self.model.name
+
+    def relevant(self, surface: PreparedSurface) -> PreparedSurface:
+        """Return what the model within depends on."""
+        return self.model.relevant(surface)
+
+    def predict(
+        self,
+        rubber: Rubber,
+        surface: PreparedSurface,
+        load: NominalLoad,
+        *,
+        on_progress: Callable[[Any], None] | None = None,
+    ) -> xr.Dataset:
+        """Return the answer of the model within, or why there is none as `prediction_status`."""
+        import xarray as xr
+
+        try:
+            return self.model.predict(rubber, surface, load, on_progress=on_progress)
+        except InputError as refusal:
+            nothing = xr.Dataset(attrs=provenance.attributes())
+            totals = dict.fromkeys(model.TOTALS, math.nan)
+            return model.answer(nothing, totals, str(refusal), self.name, load)

@@ -1,0 +1,149 @@
+"""What of a case is taken to be uncertain, and what the user knows of it."""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.stats import qmc
+
+from gripscale.analysis.sampled_inputs import Inputs, Measurement
+from gripscale.analysis.sources import SOURCES, NotHere, Source, Stated
+from gripscale.case.tables import UncertaintyTable
+from gripscale.core import checks
+from gripscale.core.errors import InputError
+
+
+class Chosen(NamedTuple):
+    """The sources that are drawn, and a sentence on each of the others."""
+
+    sources: list[Source]
+    left_out: list[str]
+
+
+@dataclass(frozen=True)
+class Uncertainty:
+    """What is taken to be uncertain: all sources that a case has, unless said otherwise.
+
+    Parameters
+    ----------
+    without : sequence of str
+        Sources to be left out: profile, modulus, bulk_modulus, equilibrium_modulus, load_time,
+        cut_off, waves.
+    given : mapping
+        Values of a source by its name, in place of its default: two ends as `"1 GPa:3 GPa"` or a
+        pair of numbers [SI], or several equally likely values as `"1 GPa,2 GPa"` or three numbers
+        and more. Of bulk_modulus, equilibrium_modulus (moduli), cut_off (lengths), load_time
+        (factors on that of the case) and waves (numbers of them).
+    block_length : float, optional
+        Length of the blocks of profiles [m]; by default four of the largest waves.
+
+    Raises
+    ------
+    InputError
+        If a source is unknown, both left out and given, or has no values to be given.
+    """
+
+    without: Sequence[str] = ()
+    given: Mapping[str, Any] = field(default_factory=dict)
+    block_length: float | None = None
+
+    def __post_init__(self) -> None:
+        checks.known("source", [*self.without, *self.given], SOURCES)
+        for name in self.given:
+            if name in self.without:
+                raise InputError(f"{name} must be left out or given; got both")
+            if name in ("profile", "modulus"):
+                raise InputError(f"{name} is drawn from what was measured; got values given for it")
+        if self.block_length is not None:
+            checks.positive("block_length", self.block_length, unit="m")
+
+    @classmethod
+    def of_case(
+        cls,
+        table: UncertaintyTable,
+        *,
+        without: Sequence[str] | None = None,
+        given: Mapping[str, Any] | None = None,
+        block_length: float | None = None,
+    ) -> Uncertainty:
+        """Return what a case states, or what is stated here in its place.
+
+        What is `given` of a source goes before that the case gives or leaves it out, and `without`
+        before all that the case leaves out and gives of the same.
+
+        Raises `InputError` as the constructor does.
+        """
+        stated = {} if table.given is None else table.given.model_dump(exclude_none=True)
+        now = dict(given or {})
+        kept = {name: value for name, value in stated.items() if name not in (without or ())}
+        left = [name for name in table.without if name not in now] if without is None else without
+        length = table.block_length if block_length is None else block_length
+        return cls(tuple(left), {**kept, **now}, length)
+
+    def of(self, known: Measurement, models: Sequence[str]) -> Chosen:
+        """Return the sources of a case that have an effect on one of `models`.
+
+        Raises `InputError` if a source that is given has nothing to draw, or none is left.
+        """
+        chosen = Chosen([], [])
+        for name, maker in SOURCES.items():
+            try:
+                if name in self.without:
+                    raise NotHere("left out as asked")
+                if not set(maker.models) & set(models):
+                    raise NotHere(f"no effect on the model {' or '.join(models)}")
+                stated = Stated(self.given.get(name), self.block_length, models)
+                chosen.sources.append(maker.of(known, stated))
+            except NotHere as why:
+                if name in self.given:
+                    raise InputError(f"{name} is given and has nothing to draw: {why}") from None
+                chosen.left_out.append(f"{maker.label}: {why}")
+        if not chosen.sources:
+            raise InputError(f"no source of uncertainty is left; {'; '.join(chosen.left_out)}")
+        return chosen
+
+
+# Where each sample lies: all sources at once, each spread evenly over its own values.
+#
+# A Latin hypercube (M. D. McKay, R. J. Beckman & W. J. Conover, Technometrics 21 (1979) 239,
+# doi:10.1080/00401706.1979.10489755): of N samples one lies in each N-th of every source. Columns
+# and random numbers are a source's own, by its name, so that leaving out one source changes no draw
+# of the others.
+
+
+class Drawn(NamedTuple):
+    """One sample: its inputs, or why there are none, and the coordinates of what was drawn."""
+
+    inputs: Inputs | None
+    coordinates: dict[str, float]
+    why_not: str = ""
+
+
+def draws(case: Inputs, sources: Sequence[Source], samples: int, seed: int) -> Iterator[Drawn]:
+    """Yield the samples of a case."""
+    columns = {source.name: _column(source.name, samples, seed) for source in sources}
+    for sample in range(samples):
+        inputs, why_not = case, ""
+        coordinates: dict[str, float] = {}
+        for source in sources:
+            random = np.random.default_rng([seed, _number(source.name), sample])
+            try:
+                inputs, told = source.draw(columns[source.name][sample], random, inputs)
+            except InputError as error:
+                told, why_not = dict.fromkeys(source.coordinates, np.nan), str(error)
+            coordinates |= told
+        yield Drawn(None if why_not else inputs, coordinates, why_not)
+
+
+def _column(name: str, samples: int, seed: int) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
+    """Return the places of a source in all samples, above 0 and below 1."""
+    random = np.random.default_rng([seed, _number(name)])
+    return qmc.LatinHypercube(1, rng=random).random(samples)[:, 0]
+
+
+def _number(name: str) -> int:
+    return zlib.crc32(name.encode())

@@ -1,0 +1,154 @@
+"""Prony series that a master curve leaves open: scatter of its rows, and what lies beyond its ends.
+
+The series is fitted anew to disturbed equations (randomise, then optimise; J. M. Bardsley, A.
+Solonen, H. Haario & M. Laine, SIAM J. Sci. Comput. 36 (2014) A1895, doi:10.1137/140964023: for
+linear equations with Gaussian errors an exact draw of what is known after the measurement, here up
+to the moduli not being negative). With the rows of `maxwell_fit` in units of the scatter,
+
+    minimise |A z - (b + e)|^2,    z >= 0,
+
+- e of the measured rows are the residuals of the best series, drawn in blocks along the frequency,
+  as long as errors go together, E' and E'' of a row together. They are scaled up by the degrees of
+  freedom the fit has taken, and to 2 % where they are less.
+- e of the rows that smooth and shrink the spectrum beyond the ends are standard normal: where there
+  are no data the spectrum wanders off as far as the weak smoothing allows. Within the band it is
+  for the data to say.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gripscale.rubber import MasterCurve, PronyFit, Rubber
+from gripscale.rubber.maxwell_fit import LEAST_SCATTER, Curve, Equations, Spectrum, non_negative
+from gripscale.rubber.prony import BEYOND, largest_modulus, open_equations
+
+Array = NDArray[np.float64]
+
+FEWEST_BLOCKS = 8
+"""Blocks there are at least to draw from."""
+PASSES = 3
+"""Fits after which the scatter, in whose units the equations are, is that about their solution."""
+MOST_TAKEN = 0.75
+"""Share of the degrees of freedom a fit is believed to take at most."""
+
+
+@dataclass(frozen=True, eq=False)
+class SeriesScatter:
+    """The equations of a fit in units of the scatter of its rows.
+
+    Parameters
+    ----------
+    problem : Equations
+        Of `open_equations`: first all rows of E', then those of E'', of the prior, and one limit.
+    omega : array, shape (rows,)
+        Angular frequency of the measured rows [rad/s], rising.
+    """
+
+    problem: Equations
+    omega: Array
+
+    @classmethod
+    def of(cls, master: MasterCurve, fit: PronyFit, bulk_modulus: float) -> SeriesScatter:
+        """Return what a master curve leaves open beside the fit that was made of it.
+
+        Parameters
+        ----------
+        master : MasterCurve
+            As measured; the rows the fit has left out do not count.
+        fit : PronyFit
+            The report of `fit_prony_report` on it.
+        bulk_modulus : float
+            Of the rubber [Pa]; it limits the sum of the moduli.
+        """
+        kept = ~np.isin(master.frequency, fit.outlier_frequency)
+        curve = Curve(master.angular_frequency, master.storage, master.loss).rows(kept)
+        limit = largest_modulus(float(curve.storage.max()), bulk_modulus)
+        scatter = fit.rms_storage, fit.rms_loss
+        for _ in range(PASSES):
+            found = cls(open_equations(curve, _believed(scatter), BEYOND, limit), curve.omega)
+            scatter = found._scatter(_believed(scatter))
+        return found
+
+    def _scatter(self, unit: tuple[float, float]) -> tuple[float, float]:
+        """Return the relative scatter of E' and E'' about the best series, in whose `unit` it is.
+
+        What the fit has taken of it is given back by its degrees of freedom.
+        """
+        rms = np.sqrt(np.mean(self._errors**2, axis=0)) / math.sqrt(1.0 - self._taken)
+        return float(rms[0] * unit[0]), float(rms[1] * unit[1])
+
+    @cached_property
+    def best(self) -> Array:
+        """The solution of the equations as they stand."""
+        return non_negative(self.problem.matrix, self.problem.right)
+
+    @cached_property
+    def _errors(self) -> Array:
+        """Errors of E' and E'' of each row about the best series, shape (rows, 2)."""
+        rows = 2 * len(self.omega)
+        error = (self.problem.right - self.problem.matrix @ self.best)[:rows]
+        return error.reshape(2, -1).T
+
+    @property
+    def _taken(self) -> float:
+        """Share of the degrees of freedom that the best series has taken."""
+        taken = np.count_nonzero(self.best) / (2 * len(self.omega))
+        return float(min(taken, MOST_TAKEN))
+
+    @cached_property
+    def _residuals(self) -> Array:
+        """Errors to be drawn from, shape (rows, 2), of mean zero and rms one."""
+        error = self._errors - self._errors.mean(axis=0)
+        rms = np.sqrt(np.mean(error**2, axis=0))
+        return np.asarray(error / np.where(rms > 0.0, rms, 1.0))
+
+    @cached_property
+    def _block(self) -> int:
+        """Rows in a block: as far as errors go together, (1 + r)/(1 - r) by their lag-one r.
+
+        Longer ones would be too quiet: the fit has taken from the errors what is slow in them.
+        """
+        error = self._residuals
+        together = float(np.mean(error[1:] * error[:-1]))
+        most = max(1, len(error) // FEWEST_BLOCKS)
+        together = min(max(together, 0.0), 1.0 - 2.0 / (most + 1.0))
+        return round((1.0 + together) / (1.0 - together))
+
+    @cached_property
+    def _beyond(self) -> Array:
+        """Return one for each row of the prior on relaxations beyond the ends, zero for others."""
+        rate = 1.0 / self.problem.times
+        outside = (rate < self.omega[0]) | (rate > self.omega[-1])
+        prior = self.problem.matrix[2 * len(self.omega) : -1, 1:-1]
+        return np.asarray((np.abs(prior) @ outside > 0.0).astype(float))
+
+    def draw(self, random: np.random.Generator) -> Spectrum:
+        """Return the spectrum of one disturbed fit."""
+        rows, block = len(self.omega), self._block
+        first = random.integers(rows, size=-(-rows // block))
+        order = ((first[:, None] + np.arange(block)) % rows).ravel()[:rows]
+        noise = random.standard_normal(len(self._beyond)) * self._beyond
+        errors = np.concatenate([self._residuals[order].T.ravel(), noise, [0.0]])
+        return self.problem.spectrum(non_negative(self.problem.matrix, self.problem.right + errors))
+
+
+def _believed(scatter: tuple[float, float]) -> tuple[float, float]:
+    return max(scatter[0], LEAST_SCATTER), max(scatter[1], LEAST_SCATTER)
+
+
+def with_series(rubber: Rubber, spectrum: Spectrum) -> Rubber:
+    """Return `rubber` with another series, and nothing said of what else fits."""
+    present = spectrum.moduli > 1e-9 * spectrum.moduli.sum()
+    return replace(
+        rubber,
+        equilibrium_modulus=spectrum.equilibrium,
+        moduli=spectrum.moduli[present],
+        relaxation_times=spectrum.times[present],
+        admissible=None,
+    )

@@ -1,0 +1,132 @@
+"""The examples and what each consists of: a case, files of the package, a road made up on the spot.
+
+The files are those of `examples/` in the source tree, linked into `data` and `cases`: a wheel
+holds them, and there is one of each.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib.resources import files
+from pathlib import Path
+
+from gripscale.core import checks
+from gripscale.core.errors import FileError
+from gripscale.io.netcdf import write_whole
+
+# A made-up road as the text file a profilometer would write.
+
+
+def road_text() -> str:
+    """Return distance and height [mm] of a self-affine profile, with their titles."""
+    from gripscale.surface import self_affine_profile
+
+    road = self_affine_profile(
+        hurst=0.8, xi_parallel=3e-3, xi_perpendicular=0.8e-3, length=0.4, step=0.05e-3, seed=3
+    )
+    rows = (f"{x * 1e3:.2f}\t{z * 1e3:.4f}" for x, z in zip(road.x, road.z, strict=True))
+    return "\n".join(["x [mm]\tz [mm]", *rows]) + "\n"
+
+
+CASE = "case.toml"
+
+
+@dataclass(frozen=True)
+class Example:
+    """A case with the files it names.
+
+    Attributes
+    ----------
+    about
+        What slides on what.
+    files
+        Files of the package, by the path they get; origin and licence among them.
+    made
+        Texts that are computed instead, by the path they get.
+    needs
+        Extra of the package without which its files cannot be read, or nothing.
+    """
+
+    about: str
+    files: tuple[str, ...] = ()
+    made: tuple[tuple[str, Callable[[], str]], ...] = ()
+    needs: str = ""
+
+
+_ROAD, _RUBBER, _SURFACES = "data/road", "data/rubber", "data/surfaces"
+
+EXAMPLES: dict[str, Example] = {
+    "road": Example(
+        "a filled tread rubber on a coarse road, both measured",
+        (
+            f"{_ROAD}/20211011_aylesbury_dec_station_0.dat",
+            f"{_ROAD}/20211011_aylesbury_dec_station_1.dat",
+            f"{_ROAD}/SOURCE.txt",
+            f"{_ROAD}/LICENSE",
+            f"{_RUBBER}/measured_dma.txt",
+            f"{_RUBBER}/SOURCE.txt",
+        ),
+    ),
+    "synthetic": Example(
+        "an unfilled rubber known by name on a made-up self-affine road",
+        made=(("road.txt", road_text),),
+    ),
+    "map": Example(
+        "an unfilled rubber known by name on a measured map of a ground surface",
+        (f"{_SURFACES}/al3d-1.al3d", f"{_SURFACES}/SOURCE.txt", f"{_SURFACES}/LICENSE.md"),
+        needs="formats",
+    ),
+}
+"""By name, the first being the usual one."""
+
+
+def write_example(folder: str | Path, name: str = "road") -> list[Path]:
+    """Write an example into `folder`; return the paths written, the case first.
+
+    Raises `InputError` for a name that is not in `EXAMPLES`; `FileError` if one of its files is
+    there already, nothing being written then, or cannot be written.
+    """
+    example = EXAMPLES[checks.one_of("example", name, tuple(EXAMPLES))]
+    target = Path(folder)
+    contents = {CASE: _case(name).encode("utf-8")}
+    contents |= {path: _packaged(path) for path in example.files}
+    contents |= {path: make().encode("utf-8") for path, make in example.made}
+    _require_free(target, contents)
+    return [_write(target / path, content) for path, content in contents.items()]
+
+
+def _case(name: str) -> str:
+    """Return the text of a case; that of the source tree seeks its data in the folder above."""
+    return _packaged(f"cases/{name}.toml").decode("utf-8").replace('"../data/', '"data/')
+
+
+def _packaged(path: str) -> bytes:
+    return files("gripscale.case").joinpath(*path.split("/")).read_bytes()
+
+
+def _require_free(target: Path, contents: dict[str, bytes]) -> None:
+    """Raise `FileError` if anything would be overwritten."""
+    there = target
+    while not there.exists() and there != there.parent:
+        there = there.parent
+    if not there.is_dir():
+        raise FileError(f"folder {target} cannot be made: {there} is not a folder")
+    taken = [path for path in contents if (target / path).exists()]
+    if taken:
+        raise FileError(
+            f"{target / taken[0]} is there already and is not overwritten; "
+            "expected a folder without it"
+        )
+
+
+def _write(path: Path, content: bytes) -> Path:
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise FileError(f"folder {path.parent} cannot be made: {error.strerror}") from error
+
+    def write(part: Path) -> None:
+        part.write_bytes(content)
+
+    return write_whole(path, write)

@@ -1,0 +1,352 @@
+"""What every table of a case file is, and tables that a `kind` tells apart."""
+
+from __future__ import annotations
+
+import difflib
+import json
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Annotated, Any, Literal, get_args, get_origin
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, GetCoreSchemaHandler, ValidationError
+from pydantic.fields import FieldInfo
+from pydantic_core import ErrorDetails, core_schema
+
+from gripscale.core.checks import short_repr
+from gripscale.core.units import listed, parse_quantity, spelled, such_as
+from gripscale.rubber.columns import columns_of
+
+# What a key of the case file takes, in words: for complaints and for the list of keys.
+
+_PLAIN = {bool: "true or false", int: "a whole number", float: "a number", str: "a text"}
+_LIMITS = {
+    "ge": "at least {:g}",
+    "gt": "above {:g}",
+    "le": "at most {:g}",
+    "lt": "below {:g}",
+    "multiple_of": "a multiple of {:g}",
+}
+"""What pydantic calls a limit, and what it is called here."""
+
+
+@dataclass(frozen=True)
+class Words:
+    """Beside a type whose values Python's names do not tell: what is expected, in words."""
+
+    words: str
+
+
+def expected(field: FieldInfo) -> str:
+    """Return what the value of `field` must be, such as "a whole number, at least 1"."""
+    return _of_type(field.annotation, field.metadata)
+
+
+def _of_type(annotation: Any, metadata: Iterable[Any] = ()) -> str:
+    stated = list(metadata)
+    for one in stated:
+        if isinstance(one, Words):
+            return one.words
+    if get_origin(annotation) is Annotated:
+        inner, *more = get_args(annotation)
+        return _of_type(inner, [*more, *_unpacked(more), *stated])
+    return ", ".join([_of_plain(annotation, stated), *_limits(stated)])
+
+
+def _unpacked(metadata: Iterable[Any]) -> list[Any]:
+    """Return what pydantic's `Field` inside an annotation states."""
+    return [part for one in metadata if isinstance(one, FieldInfo) for part in one.metadata]
+
+
+def _of_plain(annotation: Any, metadata: list[Any]) -> str:
+    origin, parts = get_origin(annotation), get_args(annotation)
+    if origin is Literal:
+        return " or ".join(json.dumps(part) for part in parts)
+    if origin is list:
+        least = max((getattr(one, "min_length", 1) for one in metadata), default=1)
+        count = f" of {least}" if least > 1 else ""
+        return f"a list{count}, each {_of_type(parts[0])}"
+    if parts:
+        return " or ".join(_of_type(part) for part in parts if part is not type(None))
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return f"a table with {', '.join(annotation.model_fields)}"
+    return _PLAIN.get(annotation, "a value")
+
+
+def _limits(metadata: list[Any]) -> list[str]:
+    found = (
+        (words, getattr(one, name, None)) for one in metadata for name, words in _LIMITS.items()
+    )
+    return [words.format(value) for words, value in found if value is not None]
+
+
+# What pydantic finds wrong with a table, as one sentence: key, value, expectation.
+
+_EXPECTED = {
+    "bool_type": "true or false",
+    "finite_number": "a finite number",
+    "float_type": "a number",
+    "greater_than": "greater than {gt:g}",
+    "greater_than_equal": "at least {ge:g}",
+    "int_parsing_size": "a whole number of fewer digits",
+    "int_type": "a whole number",
+    "less_than": "less than {lt:g}",
+    "less_than_equal": "at most {le:g}",
+    "list_type": "a list",
+    "literal_error": "{expected}",
+    "model_type": "a table",
+    "multiple_of": "a multiple of {multiple_of:g}",
+    "string_type": "a string",
+    "too_long": "at most {max_length} items",
+    "too_short": "at least {min_length} items",
+}
+"""What was expected instead of a value that pydantic refused with an error of this type."""
+
+
+def sentence(error: ValidationError, model: type[BaseModel], *, in_table: bool = False) -> str:
+    """Return the first complaint as one sentence; an unknown key goes before its consequences.
+
+    `in_table`: the model is a whole file, whose first names are those of tables.
+    """
+    first = first_complaint(error)
+    owner = _model_at(model, first["loc"])
+    where = _place(first["loc"], in_table=in_table)
+    kind, given = first["type"], first["input"]
+    if kind == "extra_forbidden":
+        return f"unknown key {where}; {_suggestion(owner, first['loc'])}"
+    if kind == "missing":
+        return f"{where} is missing; expected {_wanted(owner, first['loc'])}"
+    expected = _expected(first)
+    if isinstance(given, dict):
+        return f"{where}: {expected}" if where else expected
+    return f"{where} = {_short(given)}: {expected}"
+
+
+def first_complaint(error: ValidationError) -> ErrorDetails:
+    """Return what is said of a table: an unknown key before the rest."""
+    complaints = error.errors(include_url=False)
+    unknown = [c for c in complaints if c["type"] == "extra_forbidden"]
+    return (unknown or complaints)[0]
+
+
+def _place(loc: tuple[int | str, ...], *, in_table: bool) -> str:
+    """Return `[table] key[index]` or `[table.table] key` for pydantic's location."""
+    if in_table and loc and all(isinstance(part, str) for part in loc):
+        *tables, key = map(str, loc) if len(loc) > 1 else (*loc, "")
+        return f"[{'.'.join(map(str, tables))}] {key}".strip()
+    words = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in loc)
+    words = words.removeprefix(".")
+    if not (in_table and words):
+        return words
+    table, _, key = words.partition(".")
+    return f"[{table}] {key}".strip()
+
+
+def _model_at(model: type[BaseModel], loc: tuple[int | str, ...]) -> type[BaseModel]:
+    """Return the model inside `model` that owns the last part of `loc`."""
+    for part in loc[:-1]:
+        if isinstance(part, str):
+            model = _model_in(model.model_fields[part].annotation) or model
+    return model
+
+
+def _wanted(owner: type[BaseModel], loc: tuple[int | str, ...]) -> str:
+    """Return what a missing key should have held."""
+    field = owner.model_fields[str(loc[-1])]
+    return expected(field)
+
+
+def _suggestion(owner: type[BaseModel], loc: tuple[int | str, ...]) -> str:
+    """Return the nearest valid name to the last part of `loc`, or all of them."""
+    names = list(owner.model_fields)
+    near = difflib.get_close_matches(str(loc[-1]), names, n=1)
+    return f"did you mean {near[0]}?" if near else f"expected one of {', '.join(names)}"
+
+
+def _model_in(annotation: Any) -> type[BaseModel] | None:
+    """Return the model inside `annotation`, such as Wave in `list[Wave] | None`."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return annotation
+    return next((m for part in get_args(annotation) if (m := _model_in(part))), None)
+
+
+def _expected(complaint: Any) -> str:
+    """Return what was expected instead, in the words of this package."""
+    context = complaint.get("ctx", {})
+    if complaint["type"] == "value_error":
+        return str(context["error"])
+    words = _EXPECTED[complaint["type"]].format(**context)
+    return f"expected {words.removesuffix('s') if words.endswith(' 1 items') else words}"
+
+
+def _short(value: Any) -> str:
+    text = repr(value)
+    return text if len(text) <= 60 else f"{text[:57]}..."
+
+
+# Reading a value of the case file as a person writes it, before pydantic looks at its type.
+
+
+@dataclass(frozen=True)
+class Reading(Words, ABC):
+    """Beside a type: reads its value, and says in words what is expected."""
+
+    @abstractmethod
+    def read(self, value: Any) -> Any:
+        """Return what the type asks for; raise `ValueError` with one sentence."""
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> core_schema.CoreSchema:
+        """Read the value before pydantic looks at it."""
+        return core_schema.no_info_before_validator_function(self.read, handler(source))
+
+
+class Table(BaseModel):
+    """One table of the case file: unknown keys are refused, values are not bent into shape.
+
+    The text below a key is its description, in the list of keys and in the documentation.
+    """
+
+    model_config = ConfigDict(
+        extra="forbid", strict=True, frozen=True, use_attribute_docstrings=True
+    )
+
+
+@dataclass(frozen=True)
+class ByKind(Reading):
+    """Reads tables such as { kind = "wlf", c1 = 8.0, c2 = "120 K" }."""
+
+    tables: Mapping[str, type[Table]] = field(hash=False)
+
+    def read(self, value: Any) -> Any:
+        """Return the table of the kind that `value` names."""
+        kinds = ", ".join(self.tables)
+        if isinstance(value, Table):
+            return value
+        if not isinstance(value, Mapping):
+            raise ValueError(f"expected {self.words}")
+        if "kind" not in value:
+            raise ValueError(f"kind is missing; expected one of {kinds}")
+        kind = value["kind"]
+        if not isinstance(kind, str) or kind not in self.tables:
+            raise ValueError(f"kind = {short_repr(kind)}: expected one of {kinds}")
+        return checked(self.tables[kind], value)
+
+
+def by_kind(tables: Mapping[str, type[Table]]) -> ByKind:
+    """Return what reads one of `tables` by its kind."""
+    return ByKind(a_table(tables), tables)
+
+
+def a_table(tables: Mapping[str, type[Table]]) -> str:
+    """Return what is expected where one of `tables` is to be stated."""
+    return f"a table with kind (one of {', '.join(tables)}) and its keys"
+
+
+def checked(table: type[Table], value: Any) -> Table:
+    """Return `value` as a `table`; a `ValueError` is one sentence."""
+    try:
+        return table.model_validate(dict(value))
+    except ValidationError as error:
+        raise ValueError(sentence(error, table)) from error
+
+
+# Quantities a case file states with their unit, "3 bar" or "100 mm", or as plain SI numbers.
+
+
+def _positive(value: float) -> float:
+    if value <= 0.0:
+        raise ValueError("expected a value greater than zero")
+    return value
+
+
+def _not_negative(value: float) -> float:
+    if value < 0.0:
+        raise ValueError("expected zero or a positive value")
+    return value
+
+
+@dataclass(frozen=True)
+class Quantity(Reading):
+    """Read with its unit, then checked."""
+
+    kind: str
+    check: Callable[[float], float]
+
+    def read(self, value: Any) -> float:
+        """Return a number in SI units."""
+        return self.check(parse_quantity(value, self.kind))
+
+
+def _quantity(kind: str, check: Callable[[float], float] = float) -> Quantity:
+    return Quantity(f"a {kind} {such_as(kind)}", kind, check)
+
+
+@dataclass(frozen=True)
+class Unit(Words):
+    """A unit of one kind of quantity."""
+
+    kind: str
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> core_schema.CoreSchema:
+        """Look at the text once pydantic knows that it is one."""
+        return core_schema.no_info_after_validator_function(self._check, handler(source))
+
+    def _check(self, value: str) -> str:
+        if spelled(value, self.kind) is None:
+            raise ValueError(f"expected {self.words}")
+        return value
+
+
+def unit_of_file(kind: str) -> Unit:
+    """Return the type of a key that names the unit of a file."""
+    return Unit(f"one of {listed(kind)}", kind)
+
+
+Pressure = Annotated[float, _quantity("pressure", _positive)]
+Stress = Annotated[float, _quantity("pressure", _not_negative)]
+Length = Annotated[float, _quantity("length", _positive)]
+Position = Annotated[float, _quantity("length")]
+Duration = Annotated[float, _quantity("time", _positive)]
+Speed = Annotated[float, _quantity("speed", _not_negative)]
+MovingSpeed = Annotated[float, _quantity("speed", _positive)]
+Temperature = Annotated[float, _quantity("temperature", _positive)]
+TemperatureDifference = Annotated[float, _quantity("temperature difference", _positive)]
+Strain = Annotated[float, _quantity("strain", _positive)]
+Conductivity = Annotated[float, _quantity("conductivity", _positive)]
+Density = Annotated[float, _quantity("density", _positive)]
+SpecificHeat = Annotated[float, _quantity("specific heat", _positive)]
+MolarEnergy = Annotated[float, _quantity("molar energy", _positive)]
+BondEnergy = Annotated[float, _quantity("bond energy", _not_negative)]
+
+
+# Columns, channels and sheets of a file, as a case names or counts them.
+
+COLUMN = "its name or its number from 1"
+COLUMNS = (
+    "three names or numbers from 1, of frequency, storage and loss modulus, or a table such as "
+    "{ frequency = 1, storage = 2, loss_factor = 4 }"
+)
+
+
+def _column(value: Any) -> str | int:
+    """Accept the name or the number of a column, a channel or a sheet."""
+    if isinstance(value, bool) or not isinstance(value, str | int):
+        raise ValueError(f"expected {COLUMN}")
+    if isinstance(value, int) and value < 1:
+        raise ValueError("columns, channels and sheets are counted from 1")
+    return value
+
+
+def _columns(value: Any) -> dict[str, str | int]:
+    """Accept three columns, or a table of them by quantity."""
+    if not isinstance(value, dict | list):
+        raise ValueError(f"expected {COLUMNS}")
+    return {name: _column(column) for name, column in columns_of(value).items()}
+
+
+Column = Annotated[str | int, BeforeValidator(_column), Words(COLUMN)]
+Columns = Annotated[dict[str, str | int], BeforeValidator(_columns), Words(COLUMNS)]

@@ -1,0 +1,16 @@
+from .blocks import block_figure as block_figure
+from .blocks import blocks_figure as blocks_figure
+from .print_inputs import correlation_figure as correlation_figure
+from .print_inputs import finite_strain_figure as finite_strain_figure
+from .print_inputs import master_curve_figure as master_curve_figure
+from .print_inputs import profile_figure as profile_figure
+from .print_inputs import shift_figure as shift_figure
+from .print_inputs import superposition_figure as superposition_figure
+from .print_inputs import superposition_tests_figure as superposition_tests_figure
+from .print_run import contact_figure as contact_figure
+from .print_run import direct_heat_figure as direct_heat_figure
+from .print_run import effects_figure as effects_figure
+from .print_run import heat_figure as heat_figure
+from .print_study import friction_master_figure as friction_master_figure
+from .print_study import map_figure as map_figure
+from .style import save_figure as save_figure

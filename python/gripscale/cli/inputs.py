@@ -1,0 +1,338 @@
+"""`gripscale init FOLDER`: an example to start from, with its data."""
+
+from __future__ import annotations
+
+import json
+import re
+import shlex
+from collections.abc import Iterator
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from gripscale.cli.terminal import command, say, screen
+from gripscale.core.errors import InputError
+
+if TYPE_CHECKING:
+    from rich.console import Console
+    from rich.table import Table
+
+    from gripscale.case.keys import Section
+    from gripscale.case.prepare import PreparedRubber
+    from gripscale.surface import PreparedSurface
+
+
+class Choice(StrEnum):
+    """Names of the examples."""
+
+    road = "road"
+    synthetic = "synthetic"
+    map = "map"
+
+
+@command
+def init(
+    folder: Annotated[
+        Path,
+        typer.Argument(help="Where to write; made if needed.", metavar="FOLDER", readable=False),
+    ],
+    example: Annotated[
+        Choice,
+        typer.Option(
+            help="road: a measured road and a measured tread rubber; synthetic: a made-up road "
+            "and a named rubber; map: a measured map, which needs gripscale[formats] to be read."
+        ),
+    ] = Choice.road,
+) -> None:
+    """Write a commented case and example data to start from; nothing is overwritten."""
+    from gripscale.case.examples import EXAMPLES, write_example
+
+    written = write_example(folder, example)
+    console = screen()
+    say(console, f"{folder}: {EXAMPLES[example].about}")
+    for path in written:
+        say(console, f"  {path.relative_to(folder)}")
+    console.print()
+    say(console, "Next:")
+    if EXAMPLES[example].needs:
+        say(console, f'  pip install "gripscale[{EXAMPLES[example].needs}]"')
+    for words in (("run", written[0]), ("report", folder / "results"), ("compare", written[0])):
+        say(console, f"  {shlex.join(['gripscale', *map(str, words)])}")
+
+
+# `gripscale keys [SECTION]`: what a case file may say.
+
+
+@command
+def keys(
+    section: Annotated[
+        str | None,
+        typer.Argument(
+            help="A table of the case, such as rubber or conditions.heat; all by default.",
+            metavar="SECTION",
+            show_default=False,
+        ),
+    ] = None,
+) -> None:
+    """List every key of a case file: what it takes, its default, its meaning."""
+    from gripscale.case.keys import sections
+    from gripscale.core import checks
+
+    known = sections()
+    if section is not None:
+        checks.one_of("section", section, dict.fromkeys(one.name for one in known))
+    console = screen()
+    for one in known:
+        if section in (None, one.name, one.name.partition(".")[0]):
+            console.print()
+            console.print(_table(one))
+            pages = dict.fromkeys(f"docs/{key.chapter}" for key in one.keys)
+            say(console, f"More in {', '.join(pages)}.")
+
+
+def _table(section: Section) -> Table:
+    from rich import box
+    from rich.table import Table
+
+    table = Table(
+        title=f"{section.title}: {section.about}",
+        title_justify="left",
+        box=box.SIMPLE_HEAD,
+        expand=True,
+    )
+    table.add_column("key", no_wrap=True)
+    for heading, ratio in (("takes", 3), ("default", 1), ("meaning", 4)):
+        table.add_column(heading, ratio=ratio, overflow="fold")
+    for key in section.keys:
+        table.add_row(key.name, key.takes, key.default, key.meaning)
+    return table
+
+
+# `gripscale fit-surface FILES`: the surface half of a run, from profiles to sine waves.
+
+
+def _surface_option(text: str) -> Any:
+    return typer.Option(help=text, show_default=False)
+
+
+@command
+def fit_surface(
+    files: Annotated[list[str], typer.Argument(help="Profiles.", show_default=False)],
+    scales: Annotated[int | None, _surface_option("Number of sine waves.")] = None,
+    smallest_wavelength: Annotated[
+        str | None, _surface_option('The last wave, such as "0.1 mm".')
+    ] = None,
+    cut_off: Annotated[
+        str | None,
+        _surface_option(
+            'Where the roughness ends, in its place: "0.1 mm", "instrument", "rms_slope 1.3" (of '
+            'the surface), "rms_slope 1.3 of profile", either with "extrapolate" at its end.'
+        ),
+    ] = None,
+    slopes: Annotated[
+        bool, _surface_option("Print the rms slope down to each wavelength.")
+    ] = False,
+    upper_share: Annotated[float, typer.Option(help="Share of the heights that counts.")] = 1.0,
+    s_wavelength: Annotated[float | None, _surface_option("Given instead of fitted.")] = None,
+    s_amplitude: Annotated[float | None, _surface_option("Given instead of fitted.")] = None,
+    single_factor: Annotated[bool, _surface_option("One factor for both lengths.")] = False,
+    crop: Annotated[tuple[str, str] | None, _surface_option('Such as "120 mm" "1780 mm".')] = None,
+    x_unit: Annotated[str | None, _surface_option("Where the file does not state it.")] = None,
+    z_unit: Annotated[str | None, _surface_option("Where the file does not state it.")] = None,
+    keep_spikes: Annotated[bool, _surface_option("Leave spikes in.")] = False,
+    detrend: Annotated[str, typer.Option(help="linear, mean or none.")] = "linear",
+    output: Annotated[
+        Path | None, typer.Option(help="Folder for figures.", metavar="DIR", readable=False)
+    ] = None,
+) -> None:
+    """Clean profiles, find their height difference correlation and fit sine waves to it."""
+    from gripscale.case import Surface, folder, prepare_surface, validate
+    from gripscale.report.inputs_text import surface_lines, waves_table
+    from gripscale.report.notices import slope_table
+
+    stated = {
+        "files": files,
+        "scales": scales,
+        "smallest_wavelength": smallest_wavelength,
+        "cut_off": cut_off,
+        "upper_share": upper_share,
+        "s_wavelength": s_wavelength,
+        "s_amplitude": s_amplitude,
+        "crop": None if crop is None else list(crop),
+        "x_unit": x_unit,
+        "z_unit": z_unit,
+    }
+    values = {key: value for key, value in stated.items() if value is not None}
+    if scales is None and smallest_wavelength is None and cut_off is None:
+        values["scales"] = 8
+    flags = {"remove_spikes": not keep_spikes, "detrend": detrend, "single_factor": single_factor}
+    surface = validate(Surface, values | flags, "options")
+    if output is not None:
+        folder.require_writable(output)
+    prepared = prepare_surface(surface)
+    console = screen()
+    lines = [*surface_lines(prepared), *waves_table(prepared.sines), *_ambiguity(prepared)]
+    if slopes and prepared.measured is not None:
+        lines += slope_table(prepared.measured.slopes)
+    for line in lines:
+        say(console, line)
+    if output is not None:
+        from gripscale.charts.print_run import surface_figures
+
+        folder.make(output)
+        surface_figures(prepared, output)
+        say(console, f"Figures are in {output}")
+
+
+def _ambiguity(prepared: PreparedSurface) -> Iterator[str]:
+    """Yield how far the correlation determines the waves, where there are several."""
+    from gripscale.surface import sine_ambiguity
+
+    if prepared.correlation is None or len(prepared.sines) < 2:
+        return
+    found = sine_ambiguity(prepared.correlation, prepared.sines)
+    low, high = (length * 1e3 for length in found.first_wavelength)
+    yield (
+        f"C_z is known to {found.band:.2g} decades; {len(found.stacks)} of {found.tried} stacks "
+        f"tried follow it as well: {found.waves.low:.0f} to {found.waves.high:.0f} waves, "
+        f"s_wavelength {found.s_wavelength.low:.2g} to {found.s_wavelength.high:.2g}, "
+        f"first wave {low:.3g} to {high:.3g} mm, "
+        f"rms slope {found.rms_slope.low:.2f} to {found.rms_slope.high:.2f}"
+    )
+
+
+# `gripscale fit-rubber FILE`: the rubber half of a run, from a measurement to a Prony series.
+
+
+def _rubber_option(text: str) -> Any:
+    return typer.Option(help=text, show_default=False)
+
+
+@command
+def fit_rubber(
+    file: Annotated[
+        str, typer.Argument(help="A master curve, or sweeps to make one of.", show_default=False)
+    ],
+    terms: Annotated[int | None, _rubber_option("Relaxation times; chosen if not given.")] = None,
+    frequency_unit: Annotated[
+        str | None, _rubber_option("Where the header does not state it.")
+    ] = None,
+    modulus_unit: Annotated[
+        str | None, _rubber_option("Where the header does not state it.")
+    ] = None,
+    modulus: Annotated[str | None, _rubber_option("E (Young) or G (shear).")] = None,
+    bulk_modulus: Annotated[str | None, _rubber_option('Such as "2 GPa".')] = None,
+    reference_temperature: Annotated[
+        str | None, _rubber_option('Such as "20 C": where sweeps are shifted to.')
+    ] = None,
+    temperature_unit: Annotated[str | None, _rubber_option("K, C or F, if not stated.")] = None,
+    columns: Annotated[
+        str | None,
+        _rubber_option(
+            "Columns of frequency, storage and loss by name or number from 1, such as 1,3,4, or "
+            "frequency=1,storage=3,loss_factor=5."
+        ),
+    ] = None,
+    sheet: Annotated[
+        str | None,
+        _rubber_option("Excel sheet, by name or number from 1, if several hold numbers."),
+    ] = None,
+    header: Annotated[
+        int | None, _rubber_option("Lines above the rows, if there are numbers among them.")
+    ] = None,
+    outlier_threshold: Annotated[
+        float | None,
+        _rubber_option("Times the typical scatter beyond which a row is left out; inf keeps all."),
+    ] = None,
+    shift: Annotated[
+        str | None, _rubber_option("Table of shift factors to be taken; sweeps.")
+    ] = None,
+    vertical: Annotated[
+        bool, typer.Option("--vertical", help="Find vertical shifts as well; sweeps.")
+    ] = False,
+    output: Annotated[
+        Path | None,
+        typer.Option(help="Folder for figures and files.", metavar="DIR", readable=False),
+    ] = None,
+) -> None:
+    """Fit a Prony series to a master curve, or to sweeps at several temperatures."""
+    from gripscale.case import RubberSource, folder, prepare_rubber, validate
+    from gripscale.report.inputs_text import band_table, prony_table, rubber_lines
+
+    stated = {
+        "file": file,
+        "terms": terms,
+        "frequency_unit": frequency_unit,
+        "modulus_unit": modulus_unit,
+        "modulus": modulus,
+        "bulk_modulus": bulk_modulus,
+        "reference_temperature": reference_temperature,
+        "temperature_unit": temperature_unit,
+        "columns": None if columns is None else _columns(columns),
+        "sheet": None if sheet is None else _column(sheet),
+        "header": header,
+        "outlier_threshold": outlier_threshold,
+        "shift": shift,
+        "vertical": vertical or None,
+    }
+    values = {key: value for key, value in stated.items() if value is not None}
+    source = validate(RubberSource, values, "options")
+    if output is not None:
+        folder.require_writable(output)
+    console = screen()
+    try:
+        prepared = prepare_rubber(source)
+    except InputError as error:
+        raise InputError(_with_options(str(error))) from error
+    rubber = prepared.rubber
+    for line in (*rubber_lines(prepared), *band_table(rubber), *prony_table(rubber)):
+        say(console, line)
+    if output is not None:
+        _write(console, prepared, output)
+
+
+def _with_options(message: str) -> str:
+    """Return a complaint that names a key of a case with the option of that name."""
+    return re.sub(
+        r"\b([a-z_]+)(?= must (be given|name|give|say)\b)",
+        lambda key: f"--{key[1].replace('_', '-')}",
+        message,
+    )
+
+
+def _column(text: str) -> str | int:
+    """Return the number or the name of a column as it was typed."""
+    text = text.strip()
+    return int(text) if text.isdecimal() else text
+
+
+def _columns(text: str) -> dict[str, str | int] | list[str | int]:
+    """Return columns typed as 1,3,4 or as frequency=1,storage=3,loss_factor=4."""
+    parts = text.split(",")
+    if not all("=" in part for part in parts):
+        return [_column(part) for part in parts]
+    pairs = [part.split("=", 1) for part in parts]
+    return {quantity.strip(): _column(column) for quantity, column in pairs}
+
+
+def _write(console: Console, prepared: PreparedRubber, output: Path) -> None:
+    """Write the figures, and of sweeps the shift table, the master curve and the rubber."""
+    from gripscale.case import folder
+    from gripscale.charts.print_run import rubber_figures
+
+    folder.make(output)
+    rubber_figures(prepared, (), output)
+    master, sweeps = prepared.master, prepared.sweeps
+    if master is None or sweeps is None:
+        say(console, f"The figure is in {output}")
+        return
+    from gripscale.rubber import ShiftTable, write_master_curve, write_shift_table
+
+    write_master_curve(output / "master_curve.csv", master)
+    folder.write_text(output / "rubber.json", json.dumps(prepared.rubber.to_dict(), indent=1))
+    if len(sweeps) > 1 and isinstance(master.shift, ShiftTable):
+        write_shift_table(output / "shift_table.csv", master.shift)
+    what = "Figures, shift table, master curve" if len(sweeps) > 1 else "The figure, master curve"
+    say(console, f"{what} and rubber are in {output}")

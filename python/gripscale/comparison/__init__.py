@@ -1,5 +1,0 @@
-"""Models side by side over one case: the ladder of assumptions, its steps, a best estimate."""
-
-import lazy_loader
-
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

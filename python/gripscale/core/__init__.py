@@ -1,0 +1,1 @@
+"""Ground floor: errors, checks, units, versions and threads."""

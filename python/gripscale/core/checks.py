@@ -1,0 +1,305 @@
+"""Argument checks shared by every room: one clear sentence for each way a value can be wrong."""
+
+from __future__ import annotations
+
+import difflib
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import MISSING, dataclass, field, fields
+from functools import partial
+from typing import Any, TypeVar, dataclass_transform
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gripscale.core.errors import InputError
+
+T = TypeVar("T")
+
+LEAST, MOST = 1e-100, 1e100
+"""Quantities beyond these are mistakes; within them no square or product of two overflows."""
+
+
+def number(name: str, value: Any, *, unit: str = "", infinite: bool = False) -> float:
+    """Return `value` as a float, zero or from `LEAST` to `MOST` in size; else raise `InputError`.
+
+    NaN is none; infinity is one only where it may be `infinite`.
+    """
+    expected = f"{name} must be a finite number{_in(unit)}"
+    if not _is_one_real(value):
+        raise InputError(f"{expected}; got {short_repr(value)}")
+    try:
+        result = float(value)
+    except (TypeError, ValueError, OverflowError) as error:  # an int may be beyond any float
+        raise InputError(f"{expected}; got {short_repr(value)}") from error
+    if math.isnan(result) or (math.isinf(result) and not infinite):
+        raise InputError(f"{expected}; got {result}")
+    if abs(result) > MOST and math.isfinite(result):
+        raise InputError(f"{expected} of at most {MOST:g}; got {result:g}")
+    if 0.0 < abs(result) < LEAST:
+        raise InputError(f"{expected} of at least {LEAST:g} in size; got {result:g}")
+    return result
+
+
+def positive(name: str, value: Any, *, unit: str = "", infinite: bool = False) -> float:
+    """Return `value` as a float; raise `InputError` unless it is above zero."""
+    result = number(name, value, unit=unit, infinite=infinite)
+    if result <= 0.0:
+        raise InputError(f"{name} must be greater than zero{_in(unit)}; got {result:g}")
+    return result
+
+
+def not_negative(name: str, value: Any, *, unit: str = "", infinite: bool = False) -> float:
+    """Return `value` as a float; raise `InputError` if it is below zero."""
+    result = number(name, value, unit=unit, infinite=infinite)
+    if result < 0.0:
+        raise InputError(f"{name} must not be negative{_in(unit)}; got {result:g}")
+    return result
+
+
+def complex_number(name: str, value: Any, *, unit: str = "") -> complex:
+    """Return `value` as a complex number of parts of at most `MOST`, real or complex as given."""
+    if not np.iscomplexobj(value):
+        return complex(number(name, value, unit=unit))
+    parts = np.real(value), np.imag(value)
+    return complex(*(number(name, part, unit=unit) for part in parts))
+
+
+def whole(name: str, value: Any, *, least: int, most: int) -> int:
+    """Return `value` as an int; raise `InputError` unless it is whole and within its limits."""
+    result = int(value) if _is_whole_number(value) else number(name, value)
+    if result != math.floor(result) or not least <= result <= most:
+        raise InputError(
+            f"{name} must be a whole number from {least} to {most}; got {short_repr(value)}"
+        )
+    return int(result)
+
+
+def counted(name: str, value: Any, most: int) -> int:
+    """Return the position, from 0, of what people count from 1 to `most`; else `InputError`."""
+    if _is_whole_number(value) and value == 0:
+        raise InputError(f"{name} is counted from 1, up to {most}; got 0")
+    return whole(name, value, least=1, most=most) - 1
+
+
+def vector(name: str, value: ArrayLike, *, unit: str = "", missing: bool = False) -> NDArray[Any]:
+    """Return `value` as a 1-D float array of entries of at most `MOST`.
+
+    NaN passes only where values may be `missing`; what is masked is NaN.
+    """
+    result = _finite(name, value, unit, missing=missing)
+    if (np.abs(result) > MOST).any():
+        at = int(np.nanargmax(np.abs(result)))
+        raise InputError(
+            f"{name} must be numbers of at most {MOST:g}{_in(unit)}; got {result[at]:g} at "
+            f"index {at}"
+        )
+    return result
+
+
+def _finite(name: str, value: ArrayLike, unit: str, *, missing: bool = False) -> NDArray[Any]:
+    """Return `value` as a 1-D float array without infinity."""
+    expected = f"{name} must be a list of finite numbers{' or NaN' * missing}{_in(unit)}"
+    result = array(value, expected)
+    if result.ndim != 1:
+        raise InputError(f"{expected} with one dimension; got {result.ndim} dimensions")
+    bad = np.isinf(result) if missing else ~np.isfinite(result)
+    if bad.any():
+        at = int(np.argmax(bad))
+        raise InputError(f"{expected}; got {result[at]} at index {at}")
+    return result
+
+
+def array(value: ArrayLike, expected: str) -> NDArray[Any]:
+    """Return a copy of `value` as a float array, NaN where it is masked.
+
+    Raises `InputError`, which begins with what was `expected`, if it holds something else than real
+    numbers: texts that spell numbers are none, nor are complex numbers without imaginary part.
+    """
+    try:
+        given = np.asarray(value)
+        if not _may_be_real(given):
+            raise InputError(f"{expected}; got {short_repr(value)}")
+        result = np.array(given, dtype=float)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise InputError(f"{expected}; got {short_repr(value)}") from error
+    if isinstance(value, np.ma.MaskedArray):
+        result[np.ma.getmaskarray(value)] = np.nan
+    return result
+
+
+def positive_vector(name: str, value: ArrayLike, *, unit: str = "") -> NDArray[Any]:
+    """Return `value` as a 1-D float array; raise `InputError` unless all entries are above zero."""
+    result = _above_zero(name, vector(name, value, unit=unit), unit)
+    if (result < LEAST).any():
+        at = int(np.argmax(result < LEAST))
+        raise InputError(
+            f"{name} must be at least {LEAST:g}{_in(unit)}; got {result[at]:g} at index {at}"
+        )
+    return result
+
+
+def _above_zero(name: str, result: NDArray[Any], unit: str) -> NDArray[Any]:
+    if (result <= 0.0).any():
+        at = int(np.argmax(result <= 0.0))
+        raise InputError(
+            f"{name} must be greater than zero{_in(unit)}; got {result[at]:g} at index {at}"
+        )
+    return result
+
+
+def flag(name: str, value: Any) -> bool:
+    """Return `value`; raise `InputError` unless it is True or False."""
+    if not isinstance(value, bool | np.bool_):
+        raise InputError(f"{name} must be True or False; got {short_repr(value)}")
+    return bool(value)
+
+
+def instance(name: str, value: Any, kind: type[T]) -> T:
+    """Return `value`; raise `InputError` unless it is one of `kind`."""
+    if not isinstance(value, kind):
+        article = "an" if kind.__name__[0] in "AEIOU" else "a"
+        raise InputError(f"{name} must be {article} {kind.__name__}; got {type(value).__name__}")
+    return value
+
+
+def instances(name: str, values: Any, kind: type[T]) -> list[T]:
+    """Return `values` as a list; raise `InputError` unless it holds `kind`, one at least."""
+    if not isinstance(values, Sequence) or isinstance(values, str | bytes) or not values:
+        raise InputError(
+            f"{name} must be a list of at least one {kind.__name__}; got {short_repr(values)}"
+        )
+    return [instance(f"each of {name}", value, kind) for value in values]
+
+
+def real(name: str, value: ArrayLike, *, unit: str = "") -> NDArray[Any]:
+    """Return `value`, of any shape, as a float array of entries of at most `MOST`."""
+    expected = f"{name} must be finite numbers of at most {MOST:g}{_in(unit)}"
+    result = array(value, expected)
+    bad = ~(np.abs(result) <= MOST)
+    if bad.any():
+        raise InputError(f"{expected}; got {result[bad][0]:g}")
+    return result
+
+
+def text(name: str, value: Any) -> str:
+    """Return `value`; raise `InputError` unless it is a text."""
+    if not isinstance(value, str):
+        raise InputError(f"{name} must be a text; got {short_repr(value)}")
+    return value
+
+
+def in_reason(name: str, value: ArrayLike, *, unit: str = "") -> NDArray[Any]:
+    """Return `value` as a 1-D float array; raise `InputError` unless from `LEAST` to `MOST`."""
+    result = _above_zero(name, _finite(name, value, unit), unit)
+    bad = (result < LEAST) | (result > MOST)
+    if bad.any():
+        at = int(np.argmax(bad))
+        raise InputError(
+            f"{name} must lie between {LEAST:g} and {MOST:g}{_in(unit)}; "
+            f"got {result[at]:g} at index {at}"
+        )
+    return result
+
+
+def one_of(name: str, value: Any, choices: Iterable[str]) -> str:
+    """Return `value`; raise `InputError` unless it is one of the named `choices`."""
+    known = list(choices)
+    if not isinstance(value, str) or value not in known:
+        raise InputError(f"{name} must be one of {', '.join(known)}; got {short_repr(value)}")
+    return str(value)
+
+
+def known(kind: str, given: Iterable[str], allowed: Iterable[str]) -> None:
+    """Raise `InputError`, with the nearest name, unless all names `given` are among `allowed`."""
+    names = list(allowed)
+    for name in given:
+        if name not in names:
+            near = difflib.get_close_matches(name, names, n=1)
+            hint = f"did you mean {near[0]}?" if near else f"expected one of {', '.join(names)}"
+            raise InputError(f"unknown {kind} {name}; {hint}")
+
+
+def short_repr(value: Any) -> str:
+    """Return how a value is written in a message: on one line, not longer than it is read."""
+    if isinstance(value, int) and abs(value) >= 10**80:
+        return "a whole number of more than 80 digits"
+    if isinstance(value, np.ndarray) and value.ndim > 0:
+        return f"an array of shape {value.shape}"
+    try:
+        return shortened(" ".join(repr(value).split()), 80)
+    except ValueError:
+        return "whole numbers too long to print"
+
+
+def shortened(text: str, most: int = 120) -> str:
+    """Return text of a file as a message quotes it: printable, and not longer than it is read."""
+    plain = "".join(letter if letter.isprintable() else "?" for letter in text)
+    return plain if len(plain) <= most else f"{plain[: most - 3]}..."
+
+
+def _may_be_real(value: Any) -> bool:
+    """Return whether `value` is no truth, text, complex number, date or mask, by type or dtype."""
+    if value is np.ma.masked or isinstance(value, bool | str | bytes | complex):
+        return False
+    return getattr(getattr(value, "dtype", None), "kind", "f") in "iufO"
+
+
+def _is_one_real(value: Any) -> bool:
+    """Return whether `value` is a number of Python or numpy, or an array of one without a shape."""
+    numeric = isinstance(value, int | float) or hasattr(value, "dtype")
+    return numeric and _may_be_real(value) and np.ndim(value) == 0
+
+
+def _is_whole_number(value: Any) -> bool:
+    return isinstance(value, int | np.integer) and not isinstance(value, bool)
+
+
+def _in(unit: str) -> str:
+    return f" [{unit}]" if unit else ""
+
+
+def made(law: type[T], kind: str, given: Mapping[str, Any]) -> T:
+    """Return the dataclass `law` of its `given` parameters, those with a default left out or not.
+
+    Raises `InputError` that names what is missing or unknown.
+    """
+    known = {one.name: one for one in fields(law) if one.init}  # type: ignore[arg-type]
+    wanted = [n for n, one in known.items() if one.default is one.default_factory is MISSING]
+    if set(given) - set(known) or set(wanted) - set(given):
+        raise InputError(
+            f"{kind} takes {', '.join(known) or 'no parameters'}"
+            f", of which {', '.join(wanted) or 'none'} must be given; got "
+            f"{', '.join(map(str, given)) or 'none'}"
+        )
+    return law(**given)
+
+
+def checked(check: Callable[..., Any], *, default: Any = MISSING, **options: Any) -> Any:
+    """Declare a field of a `Checked` class: it holds ``check(name, value, **options)``.
+
+    A value of None passes unchecked where None is the default.
+    """
+    return field(default=default, metadata={"check": partial(check, **options)})
+
+
+@dataclass_transform(frozen_default=True, field_specifiers=(checked, field))
+class Checked:
+    """Base of frozen dataclasses whose fields declare their checks once, with `checked`.
+
+        class Sphere(Checked):
+            radius: float = checked(positive, unit="m")
+
+    A subclass is a frozen dataclass; keywords such as ``eq=False`` go to `dataclasses.dataclass`.
+    One with conditions between fields extends `__post_init__` and calls that of this class first.
+    """
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__()
+        dataclass(frozen=True, **options)(cls)
+
+    def __post_init__(self) -> None:
+        for item in fields(self):  # type: ignore[arg-type]
+            value, check = getattr(self, item.name), item.metadata.get("check")
+            if check is not None and not (value is None and item.default is None):
+                object.__setattr__(self, item.name, check(item.name, value))

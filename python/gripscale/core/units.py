@@ -1,0 +1,300 @@
+"""Units that files, case files and callers may name, each with its size in SI units."""
+
+from __future__ import annotations
+
+import math
+import re
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gripscale.core.checks import MOST, short_repr
+from gripscale.core.errors import InputError
+
+Value = TypeVar("Value", float, NDArray[np.float64])
+
+_PSI = 0.45359237 * 9.80665 / 0.0254**2
+"""A pound-force per square inch [Pa]: pound, standard gravity and inch are exact."""
+
+_PASCALS = {
+    "Pa": 1.0,
+    "kPa": 1e3,
+    "psi": _PSI,
+    "bar": 1e5,
+    "MPa": 1e6,
+    "N/mm^2": 1e6,
+    "GPa": 1e9,
+}
+
+_JOULES_PER_MOLE_IN_EV = 1.602176634e-19 * 6.02214076e23
+"""Elementary charge times Avogadro's number: both exact in the SI."""
+
+UNITS: dict[str, dict[str, float]] = {
+    "length": {
+        "m": 1.0,
+        "cm": 1e-2,
+        "mm": 1e-3,
+        "um": 1e-6,
+        "nm": 1e-9,
+        "pm": 1e-12,
+        "in": 0.0254,
+    },
+    "pressure": _PASCALS,
+    "modulus": {unit: size for unit, size in _PASCALS.items() if unit != "bar"} | {"dyn/cm^2": 0.1},
+    "speed": {"m/s": 1.0, "mm/s": 1e-3, "km/h": 1.0 / 3.6},
+    "time": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0, "h": 3600.0},
+    "frequency": {"Hz": 1.0, "kHz": 1e3, "MHz": 1e6, "GHz": 1e9, "rad/s": 0.5 / math.pi},
+    "temperature": {"K": 1.0, "C": 1.0, "F": 5.0 / 9.0},
+    "temperature difference": {"K": 1.0, "C": 1.0, "F": 5.0 / 9.0},
+    "conductivity": {"W/(m K)": 1.0, "mW/(m K)": 1e-3},
+    "density": {"kg/m^3": 1.0, "g/cm^3": 1e3},
+    "specific heat": {"J/(kg K)": 1.0, "kJ/(kg K)": 1e3},
+    "molar energy": {"J/mol": 1.0, "kJ/mol": 1e3, "kcal/mol": 4184.0},
+    "bond energy": {"eV": 1.0, "meV": 1e-3, "kJ/mol": 1e3 / _JOULES_PER_MOLE_IN_EV},
+    "strain": {"1": 1.0, "%": 1e-2},
+}
+"""The units of each kind of quantity by their usual spelling; the first is the one used inside, the
+SI unit but for the energy of a bond."""
+
+MILLI, MEGA, SQUARE_MM = 1e-3, 1e6, 1e-6
+"""What SI values are divided by to be read in mm, MPa and mm^2."""
+
+ZERO_CELSIUS = 273.15
+"""0 C [K]."""
+
+_ZERO = {"C": ZERO_CELSIUS, "F": 459.67 * 5.0 / 9.0}
+"""Where a scale of temperature does not begin at the zero of the SI unit."""
+
+_UNIT_NEEDED = ("temperature",)
+"""Kinds whose plain numbers mean one thing to a program and another to whoever writes them."""
+
+_SPELLINGS = {
+    "micron": "um",
+    "microns": "um",
+    "micrometer": "um",
+    "micrometre": "um",
+    "meter": "m",
+    "metre": "m",
+    "meters": "m",
+    "metres": "m",
+    "millimeter": "mm",
+    "millimetre": "mm",
+    "inch": "in",
+    "w/mk": "W/(m K)",
+    "w/(mk)": "W/(m K)",
+    "w/(m*k)": "W/(m K)",
+    "w/m/k": "W/(m K)",
+    "j/kgk": "J/(kg K)",
+    "j/(kgk)": "J/(kg K)",
+    "j/(kg*k)": "J/(kg K)",
+    "j/kg/k": "J/(kg K)",
+    "kj/(kgk)": "kJ/(kg K)",
+    "kg/m3": "kg/m^3",
+    "kg/m³": "kg/m^3",
+    "g/cm3": "g/cm^3",
+    "g/cm³": "g/cm^3",
+    "n/mm2": "N/mm^2",
+    "n/mm²": "N/mm^2",
+    "n/m2": "Pa",
+    "n/m^2": "Pa",
+    "dyn/cm2": "dyn/cm^2",
+    "dyn/cm²": "dyn/cm^2",
+    "dyne/cm2": "dyn/cm^2",
+    "dyne/cm^2": "dyn/cm^2",
+    "lbf/in2": "psi",
+    "lbf/in^2": "psi",
+    "hz": "Hz",
+    "°c": "C",
+    "degc": "C",
+    "deg c": "C",
+    "celsius": "C",
+    "°f": "F",
+    "degf": "F",
+    "deg f": "F",
+    "fahrenheit": "F",
+    "kelvin": "K",
+}
+
+_EXAMPLES = {
+    "length": "100 mm",
+    "pressure": "3 bar",
+    "speed": "0.3 m/s",
+    "time": "0.1 s",
+    "temperature": "20 C",
+    "temperature difference": "100 K",
+    "strain": "2 %",
+    "conductivity": "0.25 W/(m K)",
+    "density": "1150 kg/m^3",
+    "specific heat": "1500 J/(kg K)",
+    "molar energy": "80 kJ/mol",
+    "bond energy": "0.9 eV",
+}
+_QUANTITY = re.compile(
+    r"\s*+([-+]?(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][-+]?\d++)?|[-+]?inf|nan)"
+    r"\s*+(\S*+(?: [^\s\d]\S*+)*+)\s*+",
+    re.ASCII,
+)
+
+
+def spelled(unit: object, kind: str) -> str | None:
+    """Return the usual spelling of a unit of `kind` ("length", ...), or None if it is not one."""
+    if not isinstance(unit, str):
+        return None
+    word = unit.strip()
+    word = _SPELLINGS.get(word.lower(), _SPELLINGS.get(word.lower().replace(" ", ""), word))
+    # Two characters look like this: the micro sign and the Greek letter.
+    word = re.sub("^[µμ]", "u", word)
+    return word if word in UNITS[kind] else None
+
+
+def in_si(value: Value, unit: str, kind: str, name: str = "unit") -> Value:
+    """Return a number or array given in a `unit` of `kind` in the SI unit.
+
+    Raises `InputError`, which says that `name` must be one of the units of `kind`.
+    """
+    known = spelled(unit, kind)
+    if known is None:
+        raise InputError(f"{name} must be one of {listed(kind)}; got {short_repr(unit)}")
+    zero = _ZERO.get(known, 0.0) if kind == "temperature" else 0.0
+    return value * UNITS[kind][known] + zero
+
+
+def in_mm(length: float) -> str:
+    """Return a length [m] as a note says it."""
+    return f"{1e3 * length:.6g} mm"
+
+
+def listed(kind: str) -> str:
+    """Return the units of `kind` as a sentence lists them."""
+    return ", ".join(UNITS[kind])
+
+
+def parse_quantity(value: Any, kind: str) -> float:
+    """Return `value`, such as "3 bar" or a plain number in the SI unit, in the SI unit of `kind`.
+
+    Temperatures must have their unit. Raises `ValueError` with what was expected; the caller adds
+    the place.
+    """
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        if kind in _UNIT_NEEDED:
+            raise ValueError(f"the unit is missing; expected a {kind} {such_as(kind)}")
+        return _finite(value, kind)
+    match = _QUANTITY.fullmatch(value) if isinstance(value, str) else None
+    if match is None:
+        raise ValueError(f"expected a {kind} {such_as(kind)}")
+    number, unit = match.groups()
+    if unit == "":
+        raise ValueError(f"the unit is missing; expected one of {listed(kind)}")
+    if spelled(unit, kind) is None:
+        raise ValueError(f"unknown unit {short_repr(unit)}; expected one of {listed(kind)}")
+    return _finite(in_si(float(number), unit, kind), kind)
+
+
+def unit_of(value: object, kind: str) -> str:
+    """Return the unit of a quantity such as "3 bar" by its usual spelling, empty without one."""
+    match = _QUANTITY.fullmatch(value) if isinstance(value, str) else None
+    return "" if match is None else spelled(match[2], kind) or ""
+
+
+def _finite(value: float, kind: str) -> float:
+    if not abs(value) <= MOST:
+        raise ValueError(f"expected a finite {kind} {such_as(kind)}")
+    return float(value)
+
+
+def such_as(kind: str) -> str:
+    """Return an example of a quantity of `kind`, as what was expected goes on after its name."""
+    if kind in _UNIT_NEEDED:
+        return f'such as "{_EXAMPLES[kind]}"'
+    own = next(iter(UNITS[kind]))
+    plain = "a plain number" if own == "1" else f"a plain number in {own}"
+    return f'such as "{_EXAMPLES[kind]}", or {plain}'
+
+
+# The units in which results are shown: those the case gives its load and its lengths in.
+#
+# Inside, and in result files, all is in SI units. A result carries the text of its case, and an
+# axis of a study the unit its values were given in (`GIVEN`); what was a plain number is shown in
+# the usual unit.
+
+GIVEN = "given_unit"
+"""Attribute of a coordinate: the unit its values were given in, where they had one."""
+
+USUAL = {"pressure": "MPa", "speed": "m/s", "length": "mm"}
+"""The unit of each kind of quantity where none was given."""
+
+KEYS = {
+    "pressure": ("load", "pressure"),
+    "speed": ("load", "speed"),
+    "footprint": ("load", "length"),
+    "smallest_wavelength": ("surface", "length"),
+    "cut_off": ("surface", "length"),
+}
+"""Keys of a case that are shown as they are given, with their table and kind of quantity."""
+
+
+@dataclass(frozen=True)
+class DisplayUnit:
+    """How numbers in SI units are shown."""
+
+    unit: str
+    divisor: float = 1.0
+    """Size of the unit in SI units."""
+    zero: float = 0.0
+    """Where the unit begins to count, in SI units."""
+
+    def of(self, values: ArrayLike) -> NDArray[np.float64]:
+        """Return values in SI units as they are shown."""
+        return (np.asarray(values, dtype=float) - self.zero) / self.divisor
+
+    def text(self, value: float, digits: int = 6) -> str:
+        """Return a value in SI units as it is shown, with its unit."""
+        return f"{float(self.of(value)):.{digits}g} {self.unit}"
+
+
+def display_unit(name: str, case: str = "", unit: str = "") -> DisplayUnit:
+    """Return how one of `KEYS` is shown.
+
+    Parameters
+    ----------
+    name
+        The key.
+    case
+        Text of the case, whose unit is taken where `unit` is empty.
+    unit
+        The unit it was given in.
+    """
+    kind = KEYS[name][1]
+    chosen = unit or given_units(case).get(name) or USUAL[kind]
+    return DisplayUnit(chosen, UNITS[kind][chosen])
+
+
+@lru_cache(maxsize=64)
+def given_units(case: str) -> Mapping[str, str]:
+    """Return the unit of each of `KEYS` that has one in the text of a case."""
+    try:
+        tables = tomllib.loads(case)
+    except tomllib.TOMLDecodeError:
+        return {}
+    found = {}
+    for name, (table, kind) in KEYS.items():
+        keys = tables.get(table)
+        unit = unit_of(keys.get(name), kind) if isinstance(keys, dict) else ""
+        if unit:
+            found[name] = unit
+    return found
+
+
+def significant(value: float, digits: int = 3) -> str:
+    """Return `value` with so many significant digits, without an exponent where it stays short."""
+    if not math.isfinite(value):
+        return "-" if math.isnan(value) else "inf"
+    if value == 0.0 or 1e-4 <= abs(value) < 1e6:
+        decimals = max(digits - 1 - math.floor(math.log10(abs(value))), 0) if value else 0
+        return f"{value:.{decimals}f}"
+    return f"{value:.{digits - 1}e}"

@@ -1,0 +1,410 @@
+"""What a study can vary: the inputs with their units, and one of them with its values."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from gripscale.core import checks
+from gripscale.core.errors import InputError
+from gripscale.core.units import (
+    GIVEN,
+    KEYS,
+    ZERO_CELSIUS,
+    DisplayUnit,
+    display_unit,
+    parse_quantity,
+    unit_of,
+)
+from gripscale.experiment.inputs import SELECTIONS
+from gripscale.model import MOST_CLASSES
+from gripscale.surface.cut_off import CutOffRule, RmsSlope, cut_off_rule
+from gripscale.surface.sine_fit import MOST_WAVES
+
+QUANTITIES = {
+    "speed": "speed",
+    "pressure": "pressure",
+    "temperature": "temperature",
+    "smallest_wavelength": "length",
+    "cut_off": "length",
+}
+"""Axes of numbers, with the kind of quantity."""
+
+COUNTS = {"waves": MOST_WAVES, "pressure_classes": MOST_CLASSES}
+"""Axes of whole numbers, with the largest."""
+
+NUMBERS = (*QUANTITIES, *COUNTS, "upper_share")
+"""Axes whose values are numbers."""
+
+UNITS = {
+    "speed": "m/s",
+    "pressure": "Pa",
+    "temperature": "K",
+    "smallest_wavelength": "m",
+    "cut_off": "m",
+    "upper_share": "1",
+    "waves": "1",
+    "pressure_classes": "1",
+    "factors": "1",
+    "effects": "1",
+    "rubber": "1",
+    "surface": "1",
+}
+"""All axes, with the units of their values."""
+
+LONG_NAMES = {
+    "speed": "sliding speed",
+    "pressure": "nominal pressure",
+    "temperature": "temperature of the rubber before the contact",
+    "smallest_wavelength": "smallest wavelength",
+    "cut_off": "shortest wavelength of the roughness",
+    "upper_share": "share of the heights that counts",
+    "waves": "number of waves",
+    "pressure_classes": "number of pressure classes",
+    "factors": "magnification factors of wavelength and amplitude",
+    "effects": "effects of the conditions on the rubber",
+    "rubber": "rubber",
+    "surface": "surface",
+}
+
+
+@dataclass(frozen=True)
+class Axis:
+    """One varied input: its values as the study uses them, and what they are called."""
+
+    name: str
+    values: tuple[Any, ...]
+    labels: tuple[str, ...]
+    unit: str = ""
+    """The unit the values were given in; empty for plain numbers."""
+
+    @property
+    def numeric(self) -> bool:
+        """Whether the values are numbers, in the unit of `UNITS`."""
+        return self.name in NUMBERS and not any(
+            isinstance(value, str | RmsSlope) for value in self.values
+        )
+
+    @property
+    def coordinate(self) -> list[Any]:
+        """Values along the axis of a Dataset: numbers, or labels."""
+        return list(self.values) if self.numeric else list(self.labels)
+
+    def shown(self, case: str) -> DisplayUnit | None:
+        """Return how its values are shown, in a study of this text of a case; None of no length."""
+        if not self.numeric or self.name not in KEYS:
+            return None
+        return display_unit(self.name, case, self.unit)
+
+    def called(self, i: int, case: str) -> str:
+        """Return what value `i` is called in a study of this text of a case."""
+        how = self.shown(case)
+        return self.labels[i] if how is None else how.text(self.values[i])
+
+
+# One value of a varied input, from Python or from a text, and what it is called.
+
+
+def axis_value(name: str, given: Any) -> Any:
+    """Return a value of an input, other than rubber and surface, in SI units.
+
+    Raises `InputError` if it cannot be used.
+    """
+    return _READERS[name](name, given)
+
+
+def value_label(name: str, value: Any) -> str:
+    """Return what a value is called: a temperature in degrees C, other numbers without unit."""
+    if isinstance(value, str | RmsSlope):
+        return str(value)
+    if isinstance(value, tuple):
+        return "/".join(f"{part:g}" for part in value)
+    return f"{value - ZERO_CELSIUS:.6g} C" if name == "temperature" else f"{value:.6g}"
+
+
+def bare(text: str) -> bool:
+    """Return whether `text` is a number without a unit."""
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def _quantity(name: str, value: Any) -> float:
+    """Read a number in SI units or a text with a unit."""
+    if isinstance(value, str) and not bare(value):
+        try:
+            value = parse_quantity(value, QUANTITIES[name])
+        except ValueError as error:
+            raise InputError(f"{name} = {value!r}: {error}") from error
+    if isinstance(value, str) and name == "temperature":
+        raise InputError(f'temperature must have a unit, such as "20 C"; got {value!r}')
+    check = checks.not_negative if name == "speed" else checks.positive
+    return check(name, float(value) if isinstance(value, str) else value, unit=UNITS[name])
+
+
+def _cut_off(name: str, value: Any) -> CutOffRule:
+    """Read a length, or one of the other rules."""
+    if not isinstance(value, str | dict | RmsSlope) or (isinstance(value, str) and bare(value)):
+        return _quantity(name, value)
+    try:
+        return cut_off_rule(value)
+    except ValueError as error:
+        raise InputError(f"{name} = {value!r}: {error}") from error
+
+
+def _count(name: str, value: Any) -> int:
+    if isinstance(value, str) and bare(value):
+        value = float(value)
+    return checks.whole(name, value, least=1, most=COUNTS[name])
+
+
+def _share(name: str, value: Any) -> float:
+    share = checks.positive(name, float(value) if isinstance(value, str) and bare(value) else value)
+    if share > 1.0:
+        raise InputError(f"{name} must be at most 1; got {share:g}")
+    return share
+
+
+def _pair(name: str, value: Any) -> tuple[float, float]:
+    """Read `3.5/2.4`, or a pair of numbers."""
+    parts = value.split("/") if isinstance(value, str) else value
+    try:
+        first, second = (float(part) for part in parts)
+    except (TypeError, ValueError) as error:
+        raise InputError(f'factors must be pairs such as "3.5/2.4"; got {value!r}') from error
+    for part in (first, second):
+        if checks.number(name, part) <= 1.0:
+            raise InputError(f"factors must be greater than 1; got {part:g}")
+    return first, second
+
+
+def _selection(name: str, value: Any) -> str:
+    text = value.replace("_", " ") if isinstance(value, str) else value
+    return checks.one_of(name, text, SELECTIONS)
+
+
+_READERS: dict[str, Callable[[str, Any], Any]] = {
+    **dict.fromkeys(QUANTITIES, _quantity),
+    **dict.fromkeys(COUNTS, _count),
+    "upper_share": _share,
+    "factors": _pair,
+    "cut_off": _cut_off,
+    "effects": _selection,
+}
+
+
+# What the axes of a study are called in tables and figures, in readable units.
+
+LABELS = {
+    "speed": "sliding speed $v$",
+    "pressure": "nominal pressure $p$",
+    "temperature": "temperature $T$",
+    "smallest_wavelength": "smallest wavelength",
+    "cut_off": "shortest wavelength of the roughness",
+    "upper_share": "share of the heights that counts",
+    "pressure_classes": "number of pressure classes",
+    "waves": "number of waves",
+}
+"""Numeric axes by name, and what they are called."""
+
+FIXED = {
+    "temperature": DisplayUnit("°C", zero=ZERO_CELSIUS),
+    "upper_share": DisplayUnit("of the heights"),
+    "pressure_classes": DisplayUnit("pressure classes"),
+    "waves": DisplayUnit("waves"),
+}
+"""Numeric axes that are shown in one way whatever was given, and their units in words."""
+
+WORDS = {
+    "cut_off": "where the roughness ends",
+    "effects": "effects",
+    "factors": "magnification factors $s_\\lambda/s_A$",
+    "rubber": "rubber",
+    "surface": "surface",
+}
+"""Axes that may have names for values."""
+
+MODELS = {"chain": "chain", "direct": "direct contact"}
+"""What models that know effects are called."""
+
+EFFECTS = {"all": "all effects", "none": "no effects"}
+"""What selections of effects are called where nothing else says what they are of."""
+
+
+def axis_shown(result: xr.Dataset | xr.DataArray, axis: str) -> DisplayUnit:
+    """Return how the values of a numeric axis are shown: in the unit they were given in."""
+    return FIXED[axis] if axis in FIXED else display_unit(axis, unit=_given(result, axis))
+
+
+def axis_label(result: xr.Dataset, axis: str) -> str:
+    """Return what a figure calls a numeric axis, with its unit."""
+    unit = axis_shown(result, axis).unit if axis in (*KEYS, "temperature") else "-"
+    return f"{LABELS[axis]} [{unit}]"
+
+
+def _given(result: xr.Dataset | xr.DataArray, axis: str) -> str:
+    """Return the unit of an axis; of one that was not varied, that of the case."""
+    return str(result[axis].attrs.get(GIVEN, "")) if axis in result.coords else ""
+
+
+def dimensions(result: xr.Dataset) -> list[str]:
+    """Return the axes that were varied, in order."""
+    return [str(name) for name in result.total_friction.dims]
+
+
+def numeric(result: xr.Dataset) -> list[str]:
+    """Return the varied axes of numbers with at least two values, longest first."""
+    found = [n for n in dimensions(result) if result.sizes[n] > 1 and of_numbers(result, n)]
+    return sorted(found, key=lambda name: -result.sizes[name])
+
+
+def of_numbers(result: xr.Dataset, axis: str) -> bool:
+    """Return whether an axis has numbers for values; a cut-off may be a rule in words."""
+    return axis in LABELS and bool(np.issubdtype(result[axis].dtype, np.number))
+
+
+def name_of(result: xr.Dataset, axis: str, i: int) -> str:
+    """Return what value `i` of an axis is called, with its unit."""
+    value = result[axis].values[i]
+    if axis == "effects":
+        return EFFECTS.get(str(value), str(value))
+    if not of_numbers(result, axis):
+        return str(value).replace("_", " ")
+    return axis_shown(result, axis).text(value, digits=3)
+
+
+# What a study varies: axes with their values, from Python or from a text such as one of these.
+#
+# - speed=0.003:30:log9: nine speeds [m/s], evenly spaced in their logarithm (lin9: evenly)
+# - pressure=1 bar,3 bar: a list, with units
+# - cut_off=0.5 mm,instrument,rms_slope 1.3: lengths and the other rules of a case file
+# - upper_share=0.3:1:lin8, pressure_classes=1,2,4,8: numbers and whole numbers
+# - factors=3.5/2.4,3/2.2,6/3: magnification factors of wavelength and amplitude
+# - temperature=0 C:60 C:lin7, 20 C,40 C: always with a unit; effects=all,no heat,none: what of the
+#   conditions of the model counts
+# - rubber=case,dma.txt: the case's own, a master curve, a rubber known by name
+
+MOST_VALUES = 1000
+MOST_AXES = 2
+
+_RANGE = re.compile(r"\s*([^:]+?)\s*:\s*([^:]+?)\s*:\s*(lin|log)(\d+)\s*")
+
+
+def axes_of(vary: Mapping[str, Any]) -> tuple[Axis, ...]:
+    """Return the axes of `vary`: values, or a text as on the command line, by name.
+
+    Raises `InputError` if there are none or more than two, or a value cannot be used.
+    """
+    if not 1 <= len(vary) <= MOST_AXES:
+        raise InputError(f"a study varies one or two of {', '.join(UNITS)}; got {len(vary)}")
+    return tuple(_axis(name, values) for name, values in vary.items())
+
+
+def parse_vary(text: str) -> tuple[str, str]:
+    """Return name and values of `name=values`; raise `InputError` if it is not that."""
+    name, separator, values = text.partition("=")
+    if not separator or not values.strip():
+        raise InputError(f'vary must be such as "speed=0.003:30:log9"; got {text!r}')
+    return checks.one_of("vary", name.strip(), UNITS), values
+
+
+def _axis(name: str, given: Any) -> Axis:
+    checks.one_of("vary", name, UNITS)
+    if name in ("rubber", "surface"):
+        values, labels = _named(name, given)
+    else:
+        values = tuple(axis_value(name, entry) for entry in _entries(name, given))
+        worded = any(isinstance(value, RmsSlope | str) for value in values)
+        unit = f" {UNITS[name]}" if worded else ""
+        labels = tuple(
+            f"{value_label(name, v)}{unit if isinstance(v, float) else ''}" for v in values
+        )
+    if not 1 <= len(values) <= MOST_VALUES:
+        raise InputError(f"{name} must have 1 to {MOST_VALUES} values; got {len(values)}")
+    twice = {label for label in labels if labels.count(label) > 1}
+    if twice:
+        raise InputError(f"{name} must have different values; got {min(twice)} more than once")
+    return Axis(name, values, labels, _unit_given(name, given))
+
+
+def _unit_given(name: str, given: Any) -> str:
+    """Return the first unit among the values of an axis; empty where all are plain numbers."""
+    if name not in KEYS:
+        return ""
+    texts = re.split("[,:]", given) if isinstance(given, str) else _entries(name, given)
+    units = (unit_of(text, QUANTITIES[name]) for text in texts)
+    return next(filter(None, units), "")
+
+
+def _entries(name: str, given: Any) -> Iterable[Any]:
+    """Return single values of a list, a text `a,b,c`, a text `a:b:log5`, or a single value."""
+    if isinstance(given, str):
+        found = _RANGE.fullmatch(given)
+        if found is not None:
+            return _spaced(name, *found.groups())
+        if ":" in given:
+            raise InputError(_no_range(name, given))
+        return [part.strip() for part in given.split(",")]
+    return given if isinstance(given, Iterable) else [given]
+
+
+def _no_range(name: str, given: str) -> str:
+    """Return a sentence on a text with colons that is no range: which of its parts is wrong."""
+    example = {"speed": "0.01 m/s:10 m/s:log7", "pressure": "1 bar:5 bar:lin5"}
+    example |= {"temperature": "0 C:60 C:lin7"}
+    example |= dict.fromkeys(("smallest_wavelength", "cut_off"), "0.1 mm:1 mm:log4")
+    parts = given.split(":")
+    wrong = (
+        "the third part is missing"
+        if len(parts) == 2
+        else f"{parts[2].strip()!r} is neither lin nor log with a number"
+        if len(parts) == 3 and parts[0].strip() and parts[1].strip()
+        else f"it has {len(parts)} parts, or an empty one"
+    )
+    return (
+        f"{name} must be a range of first value, last value and spacing with the number of values, "
+        f'such as "{example.get(name, "1:10:log5")}"; {wrong} in {given!r}'
+    )
+
+
+def _spaced(name: str, first: str, last: str, spacing: str, count: str) -> list[float]:
+    """Return evenly spaced values between two ends in SI units, the ends exactly."""
+    if name not in NUMBERS:
+        raise InputError(f"{name} must be a list, not a range; got {first}:{last}")
+    if bare(first) != bare(last):
+        raise InputError(f"{name} must have a unit at both ends or none; got {first}:{last}")
+    number = checks.whole(f"{name}: number of values", int(count), least=2, most=MOST_VALUES)
+    low, high = axis_value(name, first), axis_value(name, last)
+    if low >= high:
+        raise InputError(f"{name} must go from low to high; got {first}:{last}")
+    if spacing == "lin":
+        values = np.linspace(low, high, number)
+    else:
+        checks.positive(f"{name} of a log range", low)
+        values = np.geomspace(low, high, number)
+    if name in COUNTS:
+        return [float(value) for value in np.unique(np.rint(values))]
+    return [low, *(float(f"{value:.12g}") for value in values[1:-1]), high]
+
+
+def _named(name: str, given: Any) -> tuple[tuple[Any, ...], tuple[str, ...]]:
+    """Return values and labels of rubbers or surfaces: a mapping, or texts and paths."""
+    if isinstance(given, Mapping):
+        return tuple(given.values()), tuple(str(label) for label in given)
+    entries = given.split(",") if isinstance(given, str) else list(given)
+    for entry in entries:
+        if not isinstance(entry, str | Path):
+            raise InputError(
+                f"{name} must be names and files, or a mapping from names; got {entry!r:.60}"
+            )
+    texts = [str(entry).strip() for entry in entries]
+    stems = tuple(Path(text).stem for text in texts)
+    return tuple(texts), stems if len(set(stems)) == len(stems) else tuple(texts)

@@ -1,0 +1,235 @@
+"""Surfaces and rubbers of a study: read and fitted once, then varied without reading again."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import is_dataclass, replace
+from pathlib import Path
+from typing import Any, TypeVar
+
+from gripscale.case.prepare import case_chain, prepare_rubber, prepare_surface
+from gripscale.case.read import CaseFile, read_case, validate
+from gripscale.case.rubber_tables import NAMED_RUBBERS, RubberSource
+from gripscale.case.tables import Surface
+from gripscale.chain.chain import Chain
+from gripscale.conditions import Conditions
+from gripscale.core import checks
+from gripscale.core.errors import FileError, InputError
+from gripscale.experiment.task import exact
+from gripscale.half_space.model import DirectContact
+from gripscale.io.text_table import is_excel, read_bytes
+from gripscale.model import Model
+from gripscale.rubber import Rubber
+from gripscale.surface import PreparedSurface, SineStack
+from gripscale.surface.synthetic import SYNTHETIC_SURFACES, synthetic_surface
+
+OF_A_FILE = (
+    "frequency_unit",
+    "modulus_unit",
+    "temperature_unit",
+    "modulus",
+    "columns",
+    "reference_temperature",
+)
+"""Keys of the case's [rubber] that a varied file is read with where it does not state them."""
+
+
+def case_surface(file: CaseFile) -> PreparedSurface:
+    """Return the surface of a case."""
+    return prepare_surface(file.case.surface, file.resolve)
+
+
+def case_rubber(file: CaseFile) -> Rubber:
+    """Return the rubber of a case."""
+    return prepare_rubber(file.case.rubber, file.resolve).rubber
+
+
+def surface_of(value: Any, file: CaseFile) -> PreparedSurface:
+    """Return the surface an axis names.
+
+    `value` is "case" (the case's own), a synthetic surface known by name, another case (its
+    [surface] is taken), a profile or, of a case on a map, a map (read with all other settings of
+    the case), a `SineStack` or a `PreparedSurface`.
+    """
+    if isinstance(value, PreparedSurface):
+        return value
+    if isinstance(value, SineStack):
+        return PreparedSurface(value, "sine waves given by the caller")
+    if value == "case":
+        return case_surface(file)
+    if value in SYNTHETIC_SURFACES:
+        return synthetic_surface(value)
+    path = _found("surface", value, file, ("case", *SYNTHETIC_SURFACES))
+    if path.suffix == ".toml":
+        return case_surface(read_case(path))
+    own = file.case.surface.model_dump(exclude_none=True, exclude={"files", "map", "sines"})
+    if file.case.surface.sines is not None:
+        own["scales"] = len(file.case.surface.sines)
+    source = {"files": [str(path)]} if file.case.surface.map is None else {"map": str(path)}
+    return prepare_surface(validate(Surface, own | source, "vary surface"))
+
+
+def rubber_of(value: Any, file: CaseFile) -> Rubber:
+    """Return the rubber an axis names.
+
+    `value` is "case", a rubber known by name, another case (its [rubber] is taken), a file of
+    moduli, or a `Rubber`. A file is read with what the case's [rubber] says of its own file (units,
+    kind of modulus, columns, reference temperature) where it does not say so itself; its rubber has
+    the bulk modulus, the strain energy and the limit of outliers of the case.
+    """
+    if isinstance(value, Rubber):
+        return value
+    if value == "case":
+        return case_rubber(file)
+    case = file.case.rubber
+    own: dict[str, Any] = {"strain_energy": case.strain_energy}
+    if case.bulk_modulus is not None:
+        own["bulk_modulus"] = case.bulk_modulus
+    if value in NAMED_RUBBERS:
+        return _rubber({"name": value, **own})
+    path = _found("rubber", value, file, ("case", *NAMED_RUBBERS))
+    if path.suffix == ".toml":
+        return case_rubber(read_case(path))
+    taken = _taken(case, path)
+    source = f"{path}, read like the rubber of the case where it does not say: {', '.join(taken)}"
+    said = {"source": source} if taken else {}
+    if case.outlier_threshold is not None:
+        own["outlier_threshold"] = case.outlier_threshold
+    return _rubber({"file": str(path), **own, **taken, **said}, titles_first=True)
+
+
+def _taken(case: RubberSource, path: Path) -> dict[str, Any]:
+    """Return what the case says of its own file that may hold for the file `path`, too."""
+    names = (*OF_A_FILE, "sheet") if is_excel(path) else OF_A_FILE
+    stated = {name: getattr(case, name) for name in names}
+    kelvin = stated["reference_temperature"]
+    if kelvin is not None:
+        stated["reference_temperature"] = f"{kelvin!r} K"
+    return {name: value for name, value in stated.items() if value is not None}
+
+
+def stated_by(value: Any, file: CaseFile) -> Any:
+    """Return what decides a varied surface or rubber: its name, the bytes behind it, itself."""
+    if not isinstance(value, str | Path):
+        return exact(value)
+    if value in ("case", *SYNTHETIC_SURFACES, *NAMED_RUBBERS):
+        return str(value)
+    path = _found("input", value, file, ())
+    return contents(read_case(path)) if path.suffix == ".toml" else [str(path), digest(path)]
+
+
+def contents(file: CaseFile) -> list[str]:
+    """Return the text of a case and the digests of the files it names.
+
+    Raises `FileError` if one cannot be read.
+    """
+    named = file.case.named_files()
+    return [str(file.path), file.text, *(digest(file.resolve(name)) for _, name in named)]
+
+
+def digest(path: Path) -> str:
+    """Return the SHA-256 of a file; raise `FileError` if it cannot be read."""
+    return hashlib.sha256(read_bytes(path)).hexdigest()
+
+
+def _found(name: str, value: Any, file: CaseFile, known: tuple[str, ...]) -> Path:
+    """Return the file `value`, looked for here and beside the case."""
+    here = Path(str(value)).expanduser()
+    for path in (here, file.resolve(str(value))):
+        if path.is_file():
+            return path
+    raise FileError(
+        f"{name} {value} is neither a file here or beside the case nor one of {', '.join(known)}"
+    )
+
+
+def _rubber(stated: dict[str, Any], *, titles_first: bool = False) -> Rubber:
+    source = validate(RubberSource, stated, "vary rubber")
+    return prepare_rubber(source, titles_first=titles_first).rubber
+
+
+# A model in other conditions: at another temperature, or without some of what was asked for.
+
+M = TypeVar("M", bound=Model)
+
+EFFECTS = ("temperature", "softening", "heat")
+"""What conditions do to the rubber; the area term does nothing to it."""
+
+ALL, NONE = "all", "none"
+WITHOUT = {f"no {effect}": effect for effect in EFFECTS}
+"""Words for everything but one effect."""
+SELECTIONS = (ALL, *WITHOUT, NONE)
+
+
+def conditions_of(model: Model) -> Conditions:
+    """Return the conditions of a model, empty ones if it has none.
+
+    Raises `InputError` if the model does not know conditions.
+    """
+    if not (is_dataclass(model) and hasattr(model, "conditions")):
+        raise InputError(
+            f"temperature and effects belong to a model with conditions, such as chain and direct; "
+            f"got the model {model.name}"
+        )
+    return model.conditions or Conditions()
+
+
+def at_temperature(model: M, kelvin: float) -> M:
+    """Return `model` with another temperature before the contact [K]."""
+    return _with(model, replace(conditions_of(model), temperature=kelvin))
+
+
+def effects_asked(model: Model) -> list[str]:
+    """Return which of `EFFECTS` the conditions of a model have."""
+    conditions = conditions_of(model)
+    return [effect for effect in EFFECTS if getattr(conditions, effect) is not None]
+
+
+def with_effects(model: M, selection: str) -> M:
+    """Return `model` with one of `SELECTIONS` of its effects; its area term stays.
+
+    Raises `InputError` if the effect to be left out is not one that the model has.
+    """
+    left_out = effects_asked(model) if selection == NONE else []
+    if selection in WITHOUT:
+        left_out = [WITHOUT[selection]]
+        asked = effects_asked(model)
+        if left_out[0] not in asked:
+            raise InputError(
+                f"effects must be left out of those the conditions have, "
+                f"{', '.join(asked) or 'none'}; got {selection!r}"
+            )
+    nothing: dict[str, Any] = dict.fromkeys(left_out)
+    return _with(model, replace(conditions_of(model), **nothing))
+
+
+def rubber_before(rubber: Rubber, model: Model) -> Rubber:
+    """Return `rubber` at the temperature it has before the contact of `model`.
+
+    Raises `InputError` if it has no shift, or none to this temperature.
+    """
+    conditions: Conditions | None = getattr(model, "conditions", None)
+    return rubber if conditions is None else conditions.before(rubber)
+
+
+def _with(model: M, conditions: Conditions) -> M:
+    changed: Any = replace(model, conditions=conditions)  # type: ignore[type-var]
+    return changed  # type: ignore[no-any-return]
+
+
+# The models a study can be made of by name, as a case asks for them.
+
+NAMED_MODELS = (Chain.name, DirectContact.name)
+
+
+def model_of(model: Model | str, file: CaseFile) -> Model:
+    """Return a model, or the one of this name with the conditions of the case.
+
+    Raises `InputError` if the name is another.
+    """
+    if not isinstance(model, str):
+        return model
+    chain = case_chain(file)
+    if checks.one_of("model", model, NAMED_MODELS) == Chain.name:
+        return chain
+    return DirectContact(conditions=chain.conditions)

@@ -1,0 +1,171 @@
+"""One prediction to make: everything its result depends on, its key, and its solution.
+
+The key is a hash of all inputs, to the last bit, and of the software that solves them. Equal keys
+mean equal results, so a result stored under its key never has to be found again and can never be a
+stale one.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import threading
+import time
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, field, fields, is_dataclass
+from functools import cached_property
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from gripscale.chain.chain import Chain
+from gripscale.core.errors import FileError, InputError
+from gripscale.core.parallel import Stopped
+from gripscale.core.provenance import software
+from gripscale.io import netcdf
+from gripscale.model import Model, NominalLoad
+from gripscale.rubber import Rubber
+from gripscale.surface import PreparedSurface
+
+KEY_LENGTH = 32
+"""Hexadecimal digits of a key (128 bits)."""
+
+MOST_WRITTEN = 10_000
+"""Numbers of an array that are written out; of a larger one its bytes are hashed at once."""
+
+Solved = tuple[str, xr.Dataset, float]
+"""Key, result and seconds of a task."""
+
+
+@dataclass(frozen=True, eq=False)
+class Task:
+    """One prediction to make: what slides on what, under which load, by which model."""
+
+    rubber: Rubber
+    surface: PreparedSurface
+    load: NominalLoad
+    model: Model = field(default_factory=Chain)
+
+    @cached_property
+    def key(self) -> str:
+        """Name of the result: a hash of all inputs and of the software.
+
+        Raises `InputError` if the model holds something that cannot be written down exactly.
+        """
+        inputs = {
+            "software": software(),
+            "rubber": exact(self.rubber),
+            "surface": exact(self.model.relevant(self.surface)),
+            "load": exact(self.load),
+            "model": exact(self.model),
+        }
+        return hashlib.sha256(json.dumps(inputs, sort_keys=True).encode()).hexdigest()[:KEY_LENGTH]
+
+    def reduced(self) -> Task:
+        """Return the same task with nothing in it that its result does not depend on."""
+        return Task(self.rubber, self.model.relevant(self.surface), self.load, self.model)
+
+    def solve(self, stop: threading.Event | None = None) -> Solved:
+        """Return key, result and seconds; give up between two steps once `stop` is set."""
+
+        def look(_: object) -> None:
+            if stop is not None and stop.is_set():
+                raise Stopped
+
+        start = time.perf_counter()
+        found = self.model.predict(self.rubber, self.surface, self.load, on_progress=look)
+        seconds = time.perf_counter() - start
+        return self.key, found.assign_attrs(prediction_key=self.key), seconds
+
+
+def exact(value: Any) -> Any:
+    """Return `value` for JSON without losing a bit: floats in hexadecimal, objects by field."""
+    if isinstance(value, float):
+        return float(value).hex()
+    if isinstance(value, np.ndarray):
+        if value.size > MOST_WRITTEN:
+            content = hashlib.sha256(np.ascontiguousarray(value).tobytes()).hexdigest()
+            return {"array": str(value.dtype), "shape": list(value.shape), "sha256": content}
+        return [exact(entry) for entry in value.tolist()]
+    if isinstance(value, Mapping):
+        return {str(name): exact(entry) for name, entry in value.items()}
+    if isinstance(value, list | tuple):
+        return [exact(entry) for entry in value]
+    if is_dataclass(value):
+        kind = type(value) if not isinstance(value, type) else value
+        named = {f.name: exact(getattr(value, f.name)) for f in fields(value)}
+        return {"class": f"{kind.__module__}.{kind.__qualname__}", **named}
+    if value is None or isinstance(value, str | bool | int):
+        return value
+    raise InputError(
+        "a study keeps its results by everything they depend on: models and conditions must be "
+        f"dataclasses of numbers, texts and such; got {value!r:.80}"
+    )
+
+
+# Finished predictions on disk: one small netCDF file each, named by the key of its task.
+#
+# A file is written beside its place and renamed into it, so a file that is there is whole. One that
+# cannot be read back all the same (a disk that was full, a power cut) counts as not there.
+
+PREDICTIONS = "predictions"
+"""Folder of the finished predictions, in the folder of a result."""
+
+
+class Store:
+    """A folder of finished predictions.
+
+    Parameters
+    ----------
+    folder
+        Made if it is not there.
+
+    Raises
+    ------
+    FileError
+        If the folder cannot be made.
+    """
+
+    def __init__(self, folder: str | Path) -> None:
+        self.folder = Path(folder)
+        try:
+            self.folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            reason = error.strerror or error
+            raise FileError(f"folder {self.folder} cannot be made: {reason}") from error
+
+    def path(self, key: str) -> Path:
+        """Return where the prediction of `key` is, or would be."""
+        return self.folder / f"{key}.nc"
+
+    def get(self, key: str) -> xr.Dataset | None:
+        """Return the prediction of `key`, or None if it is not there whole."""
+        try:
+            found = netcdf.load(self.path(key))
+        except FileError:
+            return None
+        return found if found.attrs.get("prediction_key") == key else None
+
+    def put(self, key: str, solved: xr.Dataset) -> xr.Dataset:
+        """Write the prediction of `key` and return it as read back.
+
+        Raises `FileError` if it cannot be written.
+        """
+        return netcdf.load(netcdf.save(solved, self.path(key)))
+
+
+@contextmanager
+def store_in(folder: str | Path | None) -> Iterator[Store]:
+    """Give the store in the folder of a result or, without one, one that is forgotten afterwards.
+
+    Raises `FileError` if it cannot be made.
+    """
+    if folder is not None:
+        yield Store(Path(folder) / PREDICTIONS)
+        return
+    with TemporaryDirectory(prefix="gripscale-") as forgotten:
+        yield Store(forgotten)

@@ -1,0 +1,393 @@
+"""A rubber into the file of a finite element program."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Sequence
+from inspect import signature
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree as ET
+
+from gripscale.core import checks
+from gripscale.core.errors import InputError
+from gripscale.export.rubber import (
+    Coefficients,
+    ProgramFile,
+    Units,
+    coefficients,
+    comment,
+    heading,
+    label,
+    material_number,
+    shares,
+    with_one_series,
+    wlf,
+)
+from gripscale.rubber import Rubber
+
+# A rubber as an Abaqus material: *HYPERELASTIC, *VISCOELASTIC, *TRS.
+#
+#     U     = sum C_ij (I1 - 3)^i (I2 - 3)^j + (J - 1)^2 / D1,   K = 2/D1
+#     G(t)  = G_0 (1 - sum g_i (1 - exp(-t/tau_i))),   k_i = 0
+#     log10 A = -c1 (T - T_0) / (c2 + T - T_0),   time runs at 1/A
+#
+# With MODULI=LONG TERM the C_ij are those of the relaxed rubber, C_ij(0) = C_ij / (1 - sum g_i).
+# Source: Abaqus Keywords Reference Guide (2016), *HYPERELASTIC, *VISCOELASTIC, *TRS; Analysis
+# User's Guide, sections 22.5.1 and 22.7.1.
+
+FORMS: dict[str, tuple[str, tuple[tuple[int, int], ...], int]] = {
+    "neo_hookean": ("NEO HOOKE", ((1, 0),), 1),
+    "mooney_rivlin": ("MOONEY-RIVLIN", ((1, 0), (0, 1)), 1),
+    "yeoh": ("YEOH", ((1, 0), (2, 0), (3, 0)), 3),
+    "isihara": ("POLYNOMIAL, N=2", ((1, 0), (0, 1), (2, 0), (1, 1), (0, 2)), 2),
+}
+"""Keyword, order of the C_ij and number of the D_k of each strain energy; D_2 and on are zero,
+which leaves their terms out."""
+
+
+def abaqus_rubber(
+    rubber: Rubber,
+    *,
+    name: str | None = None,
+    modulus_unit: str = "Pa",
+    temperature_unit: str = "K",
+) -> ProgramFile:
+    """Return a rubber as an Abaqus material, to be included in an input file.
+
+    Parameters
+    ----------
+    rubber : Rubber
+        Any strain energy; Isihara's becomes a polynomial. Its times and moduli are those at its
+        reference temperature; a shift becomes *TRS if it is, or can be fitted by, WLF.
+    name : str, optional
+        Of the material; made of the rubber's by default.
+    modulus_unit : str
+        Pa, kPa, MPa, N/mm^2 or GPa, of all stresses in the file.
+    temperature_unit : str
+        K or C, of the reference temperature of *TRS.
+
+    Returns
+    -------
+    ProgramFile
+        Numbers have 15 digits, what fits into the 20 characters Abaqus reads of each.
+
+    Raises
+    ------
+    InputError
+        If a unit or the name cannot be used, or E_inf is below 1e-7 of E_inf + sum E_i.
+    """
+    checks.instance("rubber", rubber, Rubber)
+    units = Units(modulus_unit, temperature_unit)
+    remarks, law = with_one_series(
+        rubber,
+        units,
+        "Abaqus",
+        "hybrid elements",
+        "MODULI=LONG TERM: the constants of *HYPERELASTIC are those of the relaxed rubber.",
+    )
+    lines = [
+        *comment(remarks, "**"),
+        f"*MATERIAL, NAME={label(rubber, name)}",
+        *_abaqus_hyperelastic(rubber, coefficients(rubber), units),
+    ]
+    if len(rubber.moduli):
+        lines.append("*VISCOELASTIC, TIME=PRONY")
+        pairs = zip(shares(rubber), rubber.relaxation_times, strict=True)
+        lines += [_row((share, 0.0, time)) for share, time in pairs]
+        if law is not None and law.reference_temperature is not None:
+            reference = units.temperature_of(law.reference_temperature)
+            lines += ["*TRS, DEFINITION=WLF", _row((reference, law.c1, law.c2))]
+    return ProgramFile("\n".join(lines) + "\n", tuple(remarks))
+
+
+def _abaqus_hyperelastic(rubber: Rubber, found: Coefficients, units: Units) -> list[str]:
+    form, order, volumetric = FORMS[rubber.strain_energy.kind]
+    constants = [units.stress(found.get(powers, 0.0)) for powers in order]
+    compliances = [2.0 / units.stress(rubber.bulk_modulus), *[0.0] * (volumetric - 1)]
+    moduli = ", MODULI=LONG TERM" if len(rubber.moduli) else ""
+    return [f"*HYPERELASTIC, {form}{moduli}", _row([*constants, *compliances])]
+
+
+def _row(numbers: Iterable[float]) -> str:
+    return ", ".join(_abaqus_number(float(number)) for number in numbers)
+
+
+def _abaqus_number(value: float) -> str:
+    """Return a number in the 20 characters that Abaqus reads: 15 digits, fewer with more signs."""
+    return next(text for digits in (14, 13, 12) if len(text := f"{value:.{digits}E}") <= 20)
+
+
+# A rubber as an Ansys MAPDL material: TB,HYPER, TB,PRONY, TB,SHIFT.
+#
+#     W    = sum C_ij (I1 - 3)^i (I2 - 3)^j + (J - 1)^2 / d,   K = 2/d
+#     G(t) = G_0 (alpha_inf + sum alpha_i exp(-t/tau_i)),   alpha_inf = 1 - sum alpha_i
+#     log10 A = C1 (T - T_r) / (C2 + T - T_r),   tau_i(T) = tau_i(T_r) / A
+#
+# The constants of TB,HYPER are those of the fast limit: C_ij of the relaxed rubber over alpha_inf.
+# Source: Ansys Mechanical APDL, Material Reference, "Hyperelasticity" and "Viscoelasticity".
+
+_ON_A_LINE = 6
+"""Constants that TBDATA takes."""
+
+
+def ansys_rubber(
+    rubber: Rubber,
+    *,
+    material: int = 1,
+    modulus_unit: str = "Pa",
+    temperature_unit: str = "K",
+) -> ProgramFile:
+    """Return a rubber as commands for Ansys MAPDL, to be read with /INPUT in PREP7.
+
+    Parameters
+    ----------
+    rubber : Rubber
+        Any strain energy; Isihara's becomes a polynomial. Its times and moduli are those at its
+        reference temperature; a shift becomes TB,SHIFT if it is, or can be fitted by, WLF.
+    material : int
+        Number of the material, 1 to 99999.
+    modulus_unit : str
+        Pa, kPa, MPa, N/mm^2 or GPa, of all stresses in the file.
+    temperature_unit : str
+        K or C, of the reference temperature of TB,SHIFT.
+
+    Returns
+    -------
+    ProgramFile
+        The commands.
+
+    Raises
+    ------
+    InputError
+        If a unit or the number cannot be used, or E_inf is below 1e-7 of E_inf + sum E_i.
+    """
+    checks.instance("rubber", rubber, Rubber)
+    number = material_number(material)
+    units = Units(modulus_unit, temperature_unit)
+    remarks, law = with_one_series(
+        rubber,
+        units,
+        "Ansys MAPDL",
+        "elements with mixed u-P",
+        "The constants of TB,HYPER are those of the fast limit, as TB,PRONY wants them.",
+    )
+    lines = [*comment(remarks, "!"), *_ansys_hyperelastic(rubber, number, units)]
+    if len(rubber.moduli):
+        pairs = [
+            value
+            for pair in zip(shares(rubber), rubber.relaxation_times, strict=True)
+            for value in pair
+        ]
+        lines += [f"TB,PRONY,{number},1,{len(rubber.moduli)},SHEAR", *_data(pairs)]
+        if law is not None and law.reference_temperature is not None:
+            reference = units.temperature_of(law.reference_temperature)
+            constants = [reference, law.c1, law.c2]
+            lines += ["! T_r, C1, C2", f"TB,SHIFT,{number},1,3,WLF", *_data(constants)]
+    return ProgramFile("\n".join(lines) + "\n", tuple(remarks))
+
+
+def _ansys_hyperelastic(rubber: Rubber, number: int, units: Units) -> list[str]:
+    """Return TB,HYPER with its data, at once after a step."""
+    fast = rubber.glassy_modulus / rubber.equilibrium_modulus
+    found = {at: units.stress(value) * fast for at, value in coefficients(rubber).items()}
+    compliance = 2.0 / units.stress(rubber.bulk_modulus)
+
+    def c(i: int, j: int) -> float:
+        return found.get((i, j), 0.0)
+
+    match rubber.strain_energy.kind:
+        case "neo_hookean":
+            option, count, data = "NEO", 2, [2.0 * c(1, 0), compliance]
+        case "mooney_rivlin":
+            option, count, data = "MOONEY", 2, [c(1, 0), c(0, 1), compliance]
+        case "yeoh":
+            parts = [c(1, 0), c(2, 0), c(3, 0)]
+            option, count, data = "YEOH", 3, [*parts, compliance, 0.0, 0.0]
+        case _:
+            parts = [c(1, 0), c(0, 1), c(2, 0), c(1, 1), c(0, 2)]
+            option, count, data = "POLY", 2, [*parts, compliance, 0.0]
+    return [f"TB,HYPER,{number},1,{count},{option}", *_data(data)]
+
+
+def _data(values: Sequence[float]) -> list[str]:
+    starts = range(0, len(values), _ON_A_LINE)
+    return [
+        ",".join(
+            ["TBDATA", str(start + 1), *map(_ansys_number, values[start : start + _ON_A_LINE])]
+        )
+        for start in starts
+    ]
+
+
+def _ansys_number(value: float) -> str:
+    return repr(float(value))
+
+
+# A rubber as an FEBio material: a mixture of the permanent network and temporary networks.
+#
+#     S_dev = sum over solids of g_0 S_e + sum g_i int exp(-(t - s)/t_i) dS_e/ds ds
+#     U     = K/2 (ln J)^2,   S_e of W = c1 (I1 - 3) + c2 (I2 - 3)
+#
+# "uncoupled viscoelastic" has six terms. A mixture of uncoupled solids adds their deviatoric
+# stresses, so that any number of terms is carried as it is: the permanent network is one solid, and
+# each six Maxwell elements are another, neo-Hookean as in gripscale, with g_0 = 0. The bulk modulus
+# stands on the mixture, and in equal parts on its solids: versions that add those get the same sum.
+# Source: FEBio User Manual 4, "Uncoupled Viscoelastic Materials" and "Uncoupled Solid Mixture".
+
+TERMS = 6
+"""Terms of one "uncoupled viscoelastic"."""
+
+
+def febio_rubber(
+    rubber: Rubber,
+    *,
+    name: str | None = None,
+    material: int = 1,
+    modulus_unit: str = "Pa",
+) -> ProgramFile:
+    """Return a rubber as the Material section of an FEBio file.
+
+    Parameters
+    ----------
+    rubber : Rubber
+        Neo-Hookean, Mooney-Rivlin with a share below one, or Yeoh. FEBio has no time-temperature
+        shift: the file holds for the reference temperature of the rubber alone.
+    name : str, optional
+        Of the material; made of the rubber's by default.
+    material : int
+        Its id, 1 to 99999.
+    modulus_unit : str
+        Pa, kPa, MPa, N/mm^2 or GPa, of all stresses in the file.
+
+    Returns
+    -------
+    ProgramFile
+        A file of version 4.0 with the Material section alone, to be copied or included.
+
+    Raises
+    ------
+    InputError
+        If a unit, the name or the id cannot be used, or FEBio has no material with the strain
+        energy.
+    """
+    checks.instance("rubber", rubber, Rubber)
+    number = material_number(material)
+    units = Units(modulus_unit)
+    root = ET.Element("febio_spec", version="4.0")
+    section = ET.SubElement(root, "Material")
+    attributes = {"id": str(number), "name": label(rubber, name)}
+    solids = 1 + -(-len(rubber.moduli) // TERMS)
+    bulk = units.stress(rubber.bulk_modulus)
+    if solids == 1:
+        _permanent(ET.SubElement(section, "material", attributes), rubber, bulk, units)
+    else:
+        mixture = ET.SubElement(
+            section, "material", attributes | {"type": "uncoupled solid mixture"}
+        )
+        _value(mixture, "k", bulk)
+        _permanent(ET.SubElement(mixture, "solid"), rubber, bulk / solids, units)
+        for first in range(0, len(rubber.moduli), TERMS):
+            _temporary(mixture, rubber, slice(first, first + TERMS), bulk / solids, units)
+    remarks = _remarks(rubber, units, solids)
+    ET.indent(root)
+    body = ET.tostring(root, encoding="unicode")
+    # XML allows no two hyphens in a comment.
+    said = [re.sub("-(?=-)", "- ", line) for line in comment(remarks, " ")]
+    head = ['<?xml version="1.0" encoding="UTF-8"?>', "<!--", *said, "-->"]
+    return ProgramFile("\n".join([*head, body]) + "\n", tuple(remarks))
+
+
+def _remarks(rubber: Rubber, units: Units, solids: int) -> list[str]:
+    remarks = [
+        *heading(rubber, units, "FEBio"),
+        "FEBio's volume energy is K/2 (ln J)^2, gripscale's K/2 (J-1)^2: equal at small changes of "
+        "volume.",
+    ]
+    if solids == 1:
+        return remarks
+    law, said = wlf(rubber)
+    return [
+        *remarks,
+        f"{solids - 1} solids of at most {TERMS} Maxwell elements and the permanent network: the "
+        "whole series, not a fit of it.",
+        "At finite strain FEBio relaxes the second Piola-Kirchhoff stress of each solid by a "
+        "hereditary integral, gripscale has temporary networks that are born free of stress "
+        "(Lubliner 1985): equal at small strain and relaxed, different in between.",
+        said
+        if law is None
+        else "FEBio has no time-temperature shift: for another temperature, export the rubber "
+        "there.",
+    ]
+
+
+def _permanent(into: ET.Element, rubber: Rubber, bulk: float, units: Units) -> None:
+    """Fill a material with the strain energy of the permanent network."""
+    found = coefficients(rubber)
+    kind = rubber.strain_energy.kind
+    if kind == "isihara" or found[1, 0] <= 0.0:
+        raise InputError(
+            "strain_energy must be neo_hookean, yeoh, or mooney_rivlin with a share below 1 for "
+            f"FEBio; got {kind} with {rubber.strain_energy.parameters()}"
+        )
+    into.set("type", "Yeoh" if kind == "yeoh" else "Mooney-Rivlin")
+    _value(into, "k", bulk)
+    powers = [(1, 0), (2, 0), (3, 0)] if kind == "yeoh" else [(1, 0), (0, 1)]
+    for place, at in enumerate(powers, start=1):
+        _value(into, f"c{place}", units.stress(found.get(at, 0.0)))
+
+
+def _temporary(into: ET.Element, rubber: Rubber, terms: slice, bulk: float, units: Units) -> None:
+    """Add a solid of at most six Maxwell elements and no permanent part."""
+    moduli, times = rubber.shear_moduli[terms], rubber.relaxation_times[terms]
+    total = float(moduli.sum())
+    solid = ET.SubElement(into, "solid", {"type": "uncoupled viscoelastic"})
+    _value(solid, "g0", 0.0)
+    for place, (modulus, time) in enumerate(zip(moduli, times, strict=True), start=1):
+        _value(solid, f"g{place}", modulus / total)
+        _value(solid, f"t{place}", time)
+    elastic = ET.SubElement(solid, "elastic", {"type": "Mooney-Rivlin"})
+    _value(elastic, "k", bulk)
+    _value(elastic, "c1", units.stress(0.5 * total))
+    _value(elastic, "c2", 0.0)
+
+
+def _value(into: ET.Element, name: str, value: float) -> None:
+    ET.SubElement(into, name).text = repr(float(value))
+
+
+PROGRAMS: dict[str, Callable[..., ProgramFile]] = {
+    "abaqus": abaqus_rubber,
+    "ansys": ansys_rubber,
+    "febio": febio_rubber,
+}
+"""Functions that turn a rubber into the input of a program."""
+
+
+def write_rubber(rubber: Rubber, path: str | Path, *, to: str, **options: Any) -> ProgramFile:
+    """Write a rubber for a finite element program; return what was written.
+
+    Parameters
+    ----------
+    rubber : Rubber
+        The rubber, at the temperature wanted (`Rubber.at`).
+    path : str or Path
+        The file.
+    to : str
+        abaqus, ansys or febio.
+    options
+        Those of `abaqus_rubber`, `ansys_rubber` and `febio_rubber`.
+
+    Raises
+    ------
+    InputError
+        If the program is unknown, does not take an option, or cannot carry the rubber.
+    FileError
+        If the file cannot be written.
+    """
+    made = PROGRAMS[checks.one_of("to", to, PROGRAMS)]
+    taken = [name for name in signature(made).parameters if name != "rubber"]
+    checks.known(f"option of {to}", options, taken)
+    found = made(rubber, **options)
+    found.write(path)
+    return found

@@ -1,0 +1,267 @@
+"""A rubber as the input of a finite element program, and what of it the program cannot carry."""
+
+from __future__ import annotations
+
+import textwrap
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gripscale.core import checks
+from gripscale.core.errors import InputError
+from gripscale.core.provenance import version_of
+from gripscale.core.units import UNITS, ZERO_CELSIUS
+from gripscale.io.netcdf import write_whole
+from gripscale.io.text_table import file_path
+from gripscale.rubber import (
+    WLF,
+    Isihara,
+    MooneyRivlin,
+    NeoHookean,
+    Rubber,
+    ShiftTable,
+    WLFArrhenius,
+    Yeoh,
+    fit_wlf,
+)
+
+WIDTH = 76
+"""Characters of a comment: Abaqus reads 256 a line, people read fewer."""
+
+
+@dataclass(frozen=True)
+class ProgramFile:
+    """A text for a finite element program."""
+
+    text: str = field(repr=False)
+    """The whole file."""
+    remarks: tuple[str, ...]
+    """What it says of itself in comments: units, what holds where, what is not carried."""
+
+    def write(self, path: str | Path) -> Path:
+        """Write the file, completely or not at all; return its path.
+
+        Raises `FileError` if it cannot be written.
+        """
+        return write_whole(file_path(path), self._write)
+
+    def _write(self, part: Path) -> None:
+        part.write_text(self.text, encoding="utf-8")
+
+
+@dataclass(frozen=True)
+class Units:
+    """Units of a file: of moduli and of temperatures; times are in s.
+
+    Raises `InputError` if a unit is unknown.
+    """
+
+    modulus: str = "Pa"
+    temperature: str = "K"
+
+    def __post_init__(self) -> None:
+        checks.one_of("modulus_unit", self.modulus, UNITS["modulus"])
+        checks.one_of("temperature_unit", self.temperature, ["K", "C"])
+
+    def stress(self, pascal: float) -> float:
+        """Return a stress or modulus [Pa] in the unit of the file."""
+        return pascal / UNITS["modulus"][self.modulus]
+
+    def temperature_of(self, kelvin: float) -> float:
+        """Return a temperature [K] in the unit of the file."""
+        return kelvin - ZERO_CELSIUS if self.temperature == "C" else kelvin
+
+
+def heading(rubber: Rubber, units: Units, program: str) -> list[str]:
+    """Return what a file says of the rubber before what it says of the program."""
+    named = "; ".join(text for text in (rubber.name, rubber.source) if text) or "a rubber"
+    lines = [
+        f"Written by gripscale {version_of('gripscale')} for {program}: {' '.join(named.split())}.",
+        f"Units: stresses and moduli in {units.modulus}, times in s, temperatures in "
+        f"{units.temperature}.",
+        f"Young's modulus {units.stress(rubber.equilibrium_modulus):.6g} relaxed, "
+        f"{units.stress(rubber.glassy_modulus):.6g} at once; {len(rubber.moduli)} Maxwell "
+        f"elements; bulk modulus {units.stress(rubber.bulk_modulus):.6g}, which does not relax.",
+    ]
+    if rubber.valid_band is not None:
+        low, high = rubber.valid_band
+        lines.append(
+            f"The series rests on a measurement from {low:.4g} to {high:.4g} rad/s; beyond, it is "
+            "an extrapolation."
+        )
+    if rubber.reference_temperature is not None:
+        kelvin = rubber.reference_temperature
+        lines.append(
+            f"Moduli and times are those at {units.temperature_of(kelvin):.6g} {units.temperature}."
+        )
+    return lines
+
+
+def comment(remarks: list[str], mark: str) -> list[str]:
+    """Return remarks as lines of comment, each begun with `mark`; letters beyond ASCII are "?"."""
+    return [
+        f"{mark} {line}"
+        for remark in remarks
+        for line in textwrap.wrap(
+            "".join(letter if " " <= letter <= "~" else "?" for letter in remark),
+            WIDTH,
+            subsequent_indent="  ",
+            break_on_hyphens=False,
+        )
+    ]
+
+
+def label(rubber: Rubber, name: str | None) -> str:
+    """Return a name that all programs take: letters, digits, underscores; 38 at most.
+
+    Raises `InputError` if it is stated and is none.
+    """
+    if name is None:
+        plain = "".join(c if c.isascii() and c.isalnum() else "_" for c in rubber.name).strip("_")
+        return f"rubber_{plain}"[:38].strip("_")
+    checks.text("name", name)
+    letters = name.isascii() and name.replace("_", "").isalnum() and name[:1].isalpha()
+    if not letters or len(name) > 38:
+        raise InputError(
+            "name must be at most 38 letters, digits and underscores, a letter first; "
+            f"got {checks.short_repr(name)}"
+        )
+    return name
+
+
+# What of a rubber finite element programs carry alike: its polynomial energy and its WLF law.
+#
+#     W = sum C_ij (I1 - 3)^i (I2 - 3)^j + K/2 (J - 1)^2
+#
+# with the invariants of the isochoric C, as in `gripscale.rubber.strain_energy`.
+
+Coefficients = dict[tuple[int, int], float]
+
+LEAST_SHARE = 1e-7
+"""Relaxed over instantaneous modulus below which 1 - sum g_i has lost its digits."""
+
+
+def coefficients(rubber: Rubber) -> Coefficients:
+    """Return C_ij [Pa] of the permanent network by (i, j).
+
+    Raises `InputError` if its strain energy is of a kind that is not known here.
+    """
+    half, energy = 0.5 * rubber.equilibrium_shear_modulus, rubber.strain_energy
+    match energy:
+        case NeoHookean():
+            return {(1, 0): half}
+        case MooneyRivlin(share=share):
+            return {(1, 0): half * (1.0 - share), (0, 1): half * share}
+        case Yeoh(second=second, third=third):
+            return {(1, 0): half, (2, 0): half * second, (3, 0): half * third}
+        case Isihara(share=share, second=second):
+            return {(1, 0): half * (1.0 - share), (0, 1): half * share, (2, 0): half * second}
+        case _:
+            raise InputError(
+                "strain_energy must be neo_hookean, mooney_rivlin, yeoh or isihara to be "
+                f"exported; got {energy.kind}"
+            )
+
+
+def shares(rubber: Rubber) -> NDArray[np.float64]:
+    """Return g_i = E_i / (E_inf + sum E_j) [-], shape (terms,).
+
+    Raises `InputError` if E_inf is lost in 1 - sum g_i: less than `LEAST_SHARE` of the sum.
+    """
+    if rubber.equilibrium_modulus < LEAST_SHARE * rubber.glassy_modulus:
+        raise InputError(
+            f"equilibrium_modulus must be at least {LEAST_SHARE:g} of E_inf + sum E_i where the "
+            "program takes it as 1 - sum g_i; got "
+            f"{rubber.equilibrium_modulus / rubber.glassy_modulus:.3g} of it"
+        )
+    return np.asarray(rubber.moduli / rubber.glassy_modulus)
+
+
+def wlf(rubber: Rubber) -> tuple[WLF | None, str]:
+    """Return the WLF law of a rubber at its reference temperature, or None, and what to say of it.
+
+    A shift table is fitted, and the sentence tells the misfit; of WLF with Arrhenius below the
+    glass transition the upper part is taken.
+    """
+    shift, reference = rubber.shift, rubber.reference_temperature
+    if shift is None or reference is None:
+        return None, "The rubber has no shift: its numbers hold for one temperature."
+    match shift:
+        case WLF():
+            return shift.referred_to(reference), "WLF shift, log10 a_T = -c1 (T-T0)/(c2+T-T0)."
+        case WLFArrhenius():
+            upper = WLF(shift.c1, shift.c2, shift.reference_temperature).referred_to(reference)
+            return upper, (
+                f"WLF shift above the glass transition at {shift.glass_temperature:.2f} K; the "
+                "Arrhenius law below it is not carried."
+            )
+        case ShiftTable():
+            return _of_table(shift, reference)
+    return None, (
+        f"The shift ({shift.kind}) is not carried: the numbers hold for {reference:.2f} K; export "
+        "the rubber at the temperature of the analysis."
+    )
+
+
+def _of_table(table: ShiftTable, reference: float) -> tuple[WLF | None, str]:
+    vertical = float(np.abs(table.log_b(table.temperature, reference)).max())
+    lost = (
+        f" The vertical shift, up to a factor of {10.0**vertical:.3g}, is not carried."
+        if vertical > 0.0
+        else ""
+    )
+    try:
+        found = fit_wlf(table, reference_temperature=reference)
+    except InputError as error:
+        return None, (
+            f"The shift table is not carried ({error}): the numbers hold for {reference:.2f} K."
+        )
+    assert isinstance(found.shift, WLF)
+    worst = float(np.abs(found.residual).max())
+    low, high = table.limits
+    return found.shift, (
+        f"WLF fitted to the shift table from {low:.2f} to {high:.2f} K: misses it by "
+        f"{found.misfit:.2g} decades rms, {worst:.2g} at most.{lost}"
+    )
+
+
+def with_one_series(
+    rubber: Rubber, units: Units, program: str, elements: str, constants: str
+) -> tuple[list[str], WLF | None]:
+    """Return what is said where a program relaxes the whole strain energy by one Prony series.
+
+    Parameters
+    ----------
+    elements, constants
+        What the program calls elements for rubber, and which moduli its constants are.
+
+    Returns
+    -------
+    list of str, WLF or None
+        The remarks, and the shift that is carried; none of an elastic rubber.
+    """
+    remarks = [
+        *heading(rubber, units, program),
+        f"Use {elements}: the rubber is nearly incompressible.",
+    ]
+    if not len(rubber.moduli):
+        return remarks, None
+    law, said = wlf(rubber)
+    form = (
+        f"At finite strain {program} relaxes the whole stress by a hereditary integral, gripscale "
+        "by temporary networks that are born free of stress (Lubliner 1985): equal at small "
+        "strain and relaxed, different in between."
+    )
+    if not isinstance(rubber.strain_energy, NeoHookean):
+        form += (
+            f" Here the relaxing part has the {rubber.strain_energy.kind} energy as well; in "
+            "gripscale it is neo-Hookean."
+        )
+    return [*remarks, constants, form, said], law
+
+
+def material_number(material: int) -> int:
+    """Return the number of a material, 1 to 99999; raise `InputError` if it is none."""
+    return checks.whole("material", material, least=1, most=99999)

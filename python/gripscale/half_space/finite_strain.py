@@ -1,0 +1,220 @@
+"""What finite strain changes: the same lines in the block and in the half-space, pair by pair.
+
+The half-space takes a whole profile at small strain, the block a short window of it, cut off at
+some millimetres, at finite strain. Over such windows both can be had, and their ratio is what
+finite strain changes.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from contextlib import closing
+from dataclasses import dataclass
+from functools import partial
+from threading import Event
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy import stats
+
+from gripscale.core import checks
+from gripscale.core.parallel import Stopped, in_threads, worker_count
+from gripscale.half_space.result import RoughContact
+from gripscale.half_space.solve import solve_rough_contact
+from gripscale.half_space.windows import one_period, windows
+from gripscale.rubber import Rubber
+from gripscale.surface import Profile
+from gripscale.wave.profile import solve_profile
+from gripscale.wave.result import WaveResult
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+ANSWERS = ("contact_fraction", "friction_from_dissipation")
+"""What a correction is for. Where crests are as narrow as columns the friction from dissipation is
+the better of the two: traction hangs on the flank a single node happens to sit on."""
+RESAMPLES = 9999
+
+
+@dataclass(frozen=True)
+class Pair:
+    """One line in the block and in the half-space."""
+
+    line: Profile
+    block: WaveResult
+    half_space: RoughContact
+
+    @property
+    def status(self) -> str:
+        """`converged`, or why this pair does not count."""
+        if not self.block.converged:
+            return self.block.why
+        if not self.half_space.converged:
+            return f"half-space: {self.half_space.status}"
+        return "converged"
+
+    @property
+    def converged(self) -> bool:
+        """Whether both may be used."""
+        return self.status == "converged"
+
+
+@dataclass(frozen=True)
+class Correction:
+    """A factor on the small-strain answer, with the 68 % interval of its bootstrap."""
+
+    factor: float
+    low: float
+    high: float
+
+    @property
+    def log_error(self) -> float:
+        """Standard error of the factor's logarithm [-]."""
+        return 0.5 * math.log(self.high / self.low)
+
+
+@dataclass(frozen=True)
+class FiniteStrainPairs:
+    """Lines solved both ways."""
+
+    pairs: list[Pair]
+
+    @property
+    def converged(self) -> list[Pair]:
+        """The pairs that count."""
+        return [pair for pair in self.pairs if pair.converged]
+
+    def mean(self, name: str, which: str = "block") -> float:
+        """Return the mean of one of `ANSWERS` of the `block` or `half_space`."""
+        values = [getattr(getattr(pair, which), name) for pair in self.converged]
+        return float(np.mean(values)) if values else math.nan
+
+    def correction(self, name: str, *, seed: int = 0) -> Correction:
+        """Return the mean in the block over the mean in the half-space.
+
+        Percentiles of 9999 resamples of the pairs (B. Efron & R. Tibshirani, An Introduction to
+        the Bootstrap, 1993, ch. 13); NaN limits for fewer than three pairs.
+        """
+        factor = self.mean(name) / self.mean(name, "half_space") if self.converged else math.nan
+        if len(self.converged) < 3:
+            return Correction(factor, math.nan, math.nan)
+        both = [[getattr(p.block, name), getattr(p.half_space, name)] for p in self.converged]
+        block, half_space = np.array(both, dtype=float).T
+        found = stats.bootstrap(
+            (block, half_space),
+            lambda a, b, axis: a.mean(axis=axis) / b.mean(axis=axis),
+            paired=True,
+            confidence_level=0.6827,
+            n_resamples=RESAMPLES,
+            method="percentile",
+            rng=np.random.default_rng(seed),
+        ).confidence_interval
+        return Correction(factor, float(found.low), float(found.high))
+
+    def to_dataset(self) -> xr.Dataset:
+        """Return both answers of each line, over `line`, and the corrections."""
+        import xarray as xr
+
+        def along(values: Sequence[object], unit: str, long_name: str) -> xr.Variable:
+            return xr.Variable("line", np.array(values), {"units": unit, "long_name": long_name})
+
+        data: dict[str, xr.Variable] = {}
+        for name in (*ANSWERS, "friction"):
+            words = name.replace("_", " ")
+            for which in ("block", "half_space"):
+                values = [getattr(getattr(pair, which), name) for pair in self.pairs]
+                data[f"{which}_{name}"] = along(values, "1", f"{words}, {which.replace('_', '-')}")
+        data["status"] = along([p.status for p in self.pairs], "1", "converged, or why not")
+        data["start"] = along([p.line.x[0] for p in self.pairs], "m", "first point of the line")
+        data["length"] = along([p.line.length for p in self.pairs], "m", "length of the line")
+        out = xr.Dataset(data, {"line": np.arange(len(self.pairs))})
+        for name in ANSWERS:
+            found = self.correction(name)
+            out.attrs |= {
+                f"{name}_correction": found.factor,
+                f"{name}_correction_interval": [found.low, found.high],
+            }
+        return out
+
+
+def solve_both_ways(
+    rubber: Rubber,
+    lines: Sequence[Profile],
+    *,
+    pressure: float,
+    speed: float,
+    load_time: float = math.inf,
+    workers: int | None = None,
+    on_pair: Callable[[Pair], None] | None = None,
+) -> FiniteStrainPairs:
+    """Return contact and friction of each line at finite strain, and at small strain beside it.
+
+    Parameters
+    ----------
+    rubber : Rubber
+        The viscoelastic solid of both.
+    lines : sequence of Profile
+        Periods as they stand, such as `one_period` makes of the `windows` of a profile; of at most
+        a hundred waves or so.
+    pressure, speed, load_time
+        As for `gripscale.solve_profile` [Pa], [m/s], [s]; the half-space knows no load time.
+    workers : int, optional
+        Lines solved at a time, in threads; one per core by default.
+    on_pair : callable, optional
+        Called with each `Pair` as it is solved, in whatever order they come.
+
+    Returns
+    -------
+    FiniteStrainPairs
+        In the order of `lines`. A line that did not converge, or whose mesh is too coarse for it,
+        does not count in means and corrections and says why.
+
+    Raises
+    ------
+    InputError
+        As `gripscale.solve_profile` and `gripscale.solve_rough_contact` do.
+    """
+    lines = checks.instances("lines", lines, Profile)
+
+    in_block = partial(solve_profile, rubber, pressure=pressure, speed=speed, load_time=load_time)
+    in_half_space = partial(solve_rough_contact, rubber, pressure=pressure, speed=speed)
+
+    def solve(line: Profile, stop: Event) -> Pair:
+        if stop.is_set():
+            raise Stopped
+        return Pair(line, in_block(line, periodic=True), in_half_space(line, periodic=True))
+
+    found: dict[int, Pair] = {}
+    jobs = [partial(solve, line) for line in lines]
+    with closing(in_threads(jobs, worker_count(workers))) as stream:
+        for place, pair in stream:
+            found[place] = pair
+            if on_pair is not None:
+                on_pair(pair)
+    return FiniteStrainPairs([found[place] for place in range(len(lines))])
+
+
+def spread_windows(
+    profiles: Sequence[Profile], length: float, most: int, smallest_wavelength: float
+) -> list[Profile]:
+    """Return at most `most` windows of the profiles, each made `one_period`.
+
+    Parameters
+    ----------
+    profiles : sequence of Profile
+        Cut into `windows` of `length` [m], of which those taken are spread evenly.
+    smallest_wavelength : float
+        Shorter waves are left out [m].
+
+    Raises
+    ------
+    InputError
+        As `windows` does, or if `most` is not a whole number from 1.
+    """
+    number = checks.whole("most", most, least=1, most=100_000)
+    given = checks.instances("profiles", profiles, Profile)
+    every = [window for profile in given for window in windows(profile, length)]
+    taken = np.linspace(0, len(every) - 1, min(number, len(every))).round().astype(int)
+    return [one_period(every[place], smallest_wavelength) for place in taken]

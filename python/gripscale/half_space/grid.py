@@ -1,0 +1,299 @@
+"""A periodic grid of points along a line or over a map, the waves it carries, and other grids."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from functools import cached_property, lru_cache
+
+import numpy as np
+import scipy.fft
+from numpy.typing import NDArray
+
+from gripscale.core import checks
+from gripscale.core.errors import InputError
+from gripscale.surface import HeightMap, Profile
+from gripscale.surface.resampling import filled
+
+Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+Mask = NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Equal steps along x, the way of sliding, and for a map along y.
+
+    Attributes
+    ----------
+    shape
+        Points along x, or along x and y.
+    lengths
+        Period along each [m].
+    """
+
+    shape: tuple[int, ...]
+    lengths: tuple[float, ...]
+
+    @property
+    def points(self) -> int:
+        """Number of points."""
+        return math.prod(self.shape)
+
+    @property
+    def spacing(self) -> tuple[float, ...]:
+        """Distance between points along each direction [m]."""
+        return tuple(length / n for length, n in zip(self.lengths, self.shape, strict=True))
+
+    @property
+    def spectrum_shape(self) -> tuple[int, ...]:
+        """Shape of a spectrum of `scipy.fft.rfftn`."""
+        return (*self.shape[:-1], self.shape[-1] // 2 + 1)
+
+    @property
+    def along(self) -> Array:
+        """Wavenumbers along x [rad/m], broadcastable to a spectrum."""
+        return self._numbers(0)
+
+    @cached_property
+    def wavenumber(self) -> Array:
+        """|q| over a spectrum [rad/m]."""
+        if len(self.shape) == 1:
+            return np.abs(self.along)
+        return np.hypot(self.along, self._numbers(1))
+
+    @property
+    def own_opposite(self) -> Mask:
+        """Where a wavenumber along x is its own opposite: zero, and the highest of an even grid."""
+        index = np.rint(np.abs(self.along) * self.lengths[0] / (2.0 * np.pi))
+        return np.asarray((index == 0) | (2 * index == self.shape[0]))
+
+    @property
+    def weight(self) -> Array:
+        """How often each wave of the half spectrum counts in a sum over all waves, 1 or 2."""
+        last = self.shape[-1]
+        weight = np.full(last // 2 + 1, 2.0)
+        weight[0] = 1.0
+        if last % 2 == 0:
+            weight[-1] = 1.0
+        return weight
+
+    def slope(self, height: Array) -> Array:
+        """Return dh/dx [-] of `height` [m] on the grid."""
+        spectrum = scipy.fft.rfftn(height) * np.where(self.own_opposite, 0.0, 1j * self.along)
+        return np.asarray(scipy.fft.irfftn(spectrum, s=self.shape))
+
+    def _numbers(self, axis: int) -> Array:
+        points, length = self.shape[axis], self.lengths[axis]
+        last = axis == len(self.shape) - 1
+        numbers = (scipy.fft.rfftfreq if last else scipy.fft.fftfreq)(points, length / points)
+        values = 2.0 * np.pi * np.asarray(numbers)
+        return values if last else values[:, None]
+
+
+def resampled(spectrum: ComplexArray, shape: tuple[int, ...], onto: tuple[int, ...]) -> Array:
+    """Return the values at the points of another grid, exact for the waves both carry.
+
+    Parameters
+    ----------
+    spectrum : array
+        `scipy.fft.rfftn` of values on a grid of `shape`.
+    onto : tuple of int
+        Points wanted; waves at or beyond its own highest are left out where it is coarser.
+    """
+    kept = [min(old, new) for old, new in zip(shape, onto, strict=True)]
+    out = np.zeros((*onto[:-1], onto[-1] // 2 + 1), dtype=np.complex128)
+    half = (kept[-1] + 1) // 2  # below the highest wave of an even grid, which has no phase
+    if len(onto) == 1:
+        out[:half] = spectrum[:half]
+    else:
+        side = (kept[0] + 1) // 2
+        out[:side, :half] = spectrum[:side, :half]
+        if side > 1:
+            out[1 - side :, :half] = spectrum[1 - side :, :half]
+    scale = math.prod(onto) / math.prod(shape)
+    return np.asarray(scipy.fft.irfftn(out, s=onto, overwrite_x=True)) * scale
+
+
+def doubled(values: Array) -> Array:
+    """Return `values` on the grid with half the spacing each way, linear between points."""
+    for axis in range(values.ndim):
+        before = (slice(None),) * axis
+        shape = [n * (1 + (along == axis)) for along, n in enumerate(values.shape)]
+        new = np.empty(shape)
+        new[(*before, slice(None, None, 2))] = values
+        new[(*before, slice(1, None, 2))] = 0.5 * (values + np.roll(values, -1, axis))
+        values = new
+    return values
+
+
+# Makes measured heights fit for a periodic contact: opposite ends joined.
+#
+# The periodic component of L. Moisan, "Periodic plus smooth image decomposition", J. Math. Imaging
+# Vis. 39 (2011) 161, doi:10.1007/s10851-010-0227-1: with v the jumps between opposite borders, the
+# smooth part s solves the discrete Laplace equation with them,
+#
+#     s(q) (2 cos q_x - 2 + 2 cos q_y - 2) = v(q),    s(0) = 0,
+#
+# and is subtracted. For a line it is the straight line through the two end points; for a map it
+# takes the tilt away and bends the rest gently near the borders, where a window would flatten it.
+
+
+def joined(z: Array) -> Array:
+    """Return the periodic component of `z` [m], its mean zero."""
+    jumps = np.zeros(z.shape)
+    symbol = np.zeros((1,) * z.ndim)
+    for axis, points in enumerate(z.shape):
+        values, jump = np.moveaxis(z, axis, 0), np.moveaxis(jumps, axis, 0)
+        jump[0] += values[-1] - values[0]
+        jump[-1] += values[0] - values[-1]
+        angle = 2.0 * np.pi * np.arange(points) / points
+        shape = [1] * z.ndim
+        shape[axis] = points
+        symbol = symbol + (2.0 * np.cos(angle) - 2.0).reshape(shape)
+    half = symbol[..., : z.shape[-1] // 2 + 1].copy()
+    half.flat[0] = np.inf
+    smooth = scipy.fft.irfftn(scipy.fft.rfftn(jumps) / half, s=z.shape)
+    return np.asarray(z - z.mean() - smooth)
+
+
+# A long line multiplied in Fourier space, as many short transforms side by side.
+#
+# With n = n_1 + N_1 n_2 and k = k_2 + N_2 k_1 for the N = N_1 N_2 points and waves of a line,
+#
+#     X[k] = sum_n1 e^(-2 pi i n_1 k_1/N_1) e^(-2 pi i n_1 k_2/N)
+#                sum_n2 x[n] e^(-2 pi i n_2 k_2/N_2)
+#
+# (J. W. Cooley & J. W. Tukey, Math. Comput. 19 (1965) 297, doi:10.1090/S0025-5718-1965-0178586-1).
+# Both sums are transforms of many rows at once, which the processor's vectors take four and more at
+# a time; one long transform uses none of them. The waves need no order, as they only are multiplied
+# and transformed back: 0.6 of the time of `rfft` and `irfft` on lines of 35,000 to 92,000 points.
+
+Single = NDArray[np.float32]
+SingleComplex = NDArray[np.complex64]
+
+COLUMNS = (128, 64)
+"""N_1, the first that divides the points."""
+SHORTEST = 4096
+"""Points of a line from which it pays."""
+
+
+@dataclass(frozen=True)
+class LineFilter:
+    """What the waves of a line are multiplied with, in the order its transform has them."""
+
+    transfer: SingleComplex = field(repr=False)
+    """Shape (N_2 // 2 + 1, N_1)."""
+    points: int
+
+    @classmethod
+    def of(cls, transfer: SingleComplex, points: int) -> LineFilter | None:
+        """Return the filter of a line's `rfft`, shape (points // 2 + 1,); None where none pays."""
+        columns = next((n for n in COLUMNS if points % n == 0), 0)
+        if points < SHORTEST or not columns:
+            return None
+        rows = points // columns
+        wave = np.arange(rows // 2 + 1)[:, None] + rows * np.arange(columns)
+        mirrored = wave > points // 2
+        found = transfer[np.where(mirrored, points - wave, wave)]
+        return cls(np.where(mirrored, found.conj(), found), points)
+
+    def __call__(self, values: Single) -> Single:
+        """Return the filtered line, shape (points,)."""
+        columns = self.transfer.shape[1]
+        rows = self.points // columns
+        turn, back = _turns(rows, columns)
+        waves = scipy.fft.rfft(values.reshape(rows, columns), axis=0)
+        waves *= turn
+        waves = scipy.fft.fft(waves, axis=1, overwrite_x=True)
+        waves *= self.transfer
+        waves = scipy.fft.ifft(waves, axis=1, overwrite_x=True)
+        waves *= back
+        return np.asarray(scipy.fft.irfft(waves, rows, axis=0, overwrite_x=True)).reshape(-1)
+
+
+@lru_cache(maxsize=16)
+def _turns(rows: int, columns: int) -> tuple[SingleComplex, SingleComplex]:
+    """Return e^(-2 pi i n_1 k_2/N), shape (rows // 2 + 1, columns), and its conjugate."""
+    phase = np.outer(np.arange(rows // 2 + 1), np.arange(columns)) / (rows * columns)
+    turn = np.exp(-2j * np.pi * phase).astype(np.complex64)
+    return turn, turn.conj()
+
+
+# The surface as the contact sees it: periodic, without the waves that are too short.
+
+DEFAULT_STEPS = 4
+"""Steps of the surface in the smallest wave kept by default."""
+FEWEST_STEPS = 2
+
+
+@dataclass(frozen=True)
+class PeriodicHeights:
+    """A line or a map of heights that repeats, on its own grid."""
+
+    grid: Grid
+    origin: tuple[float, ...]
+    """Position of the first point [m]."""
+    spectrum: ComplexArray = field(repr=False)
+    """`scipy.fft.rfftn` of the heights [m]."""
+    measured: Mask = field(repr=False)
+    smallest_wavelength: float
+    """Where it is cut off [m]."""
+
+    def on(self, shape: tuple[int, ...], cut_off: float | None = None) -> Array:
+        """Return the heights [m] at the points of another grid.
+
+        `cut_off` leaves out all waves shorter than it [m], whatever their direction.
+        """
+        shortest = max(cut_off or 0.0, self.smallest_wavelength)
+        kept = self.grid.wavenumber <= 2.0 * np.pi / shortest * (1.0 + 1e-9)
+        return resampled(np.where(kept, self.spectrum, 0.0), self.grid.shape, shape)
+
+    def measured_on(self, shape: tuple[int, ...]) -> Mask:
+        """Return where the nearest height was measured."""
+        mask = self.measured
+        for axis, (old, new) in enumerate(zip(self.grid.shape, shape, strict=True)):
+            nearest = np.rint(np.arange(new) * (old / new)).astype(int) % old
+            mask = np.take(mask, nearest, axis=axis)
+        return mask
+
+
+def periodic_heights(
+    surface: Profile | HeightMap, *, smallest_wavelength: float | None, periodic: bool
+) -> PeriodicHeights:
+    """Return what `solve_rough_contact` solves for, see there."""
+    if isinstance(surface, Profile):
+        axes = [surface.x]
+    elif isinstance(surface, HeightMap):
+        axes = [surface.x, surface.y]
+    else:
+        raise InputError(f"surface must be a Profile or a HeightMap; got {type(surface).__name__}")
+    steps = [float((a[-1] - a[0]) / (a.size - 1)) for a in axes]
+    grid = Grid(surface.z.shape, tuple(d * a.size for d, a in zip(steps, axes, strict=True)))
+    z = filled(surface.z, tuple(steps), periodic=periodic)
+    if not periodic:
+        z = joined(z)
+    return PeriodicHeights(
+        grid,
+        tuple(float(a[0]) for a in axes),
+        np.asarray(scipy.fft.rfftn(z - z.mean())),
+        ~np.isnan(surface.z),
+        _smallest(smallest_wavelength, max(steps), min(grid.lengths)),
+    )
+
+
+def _smallest(given: float | None, step: float, length: float) -> float:
+    if FEWEST_STEPS * step > length:
+        raise InputError(
+            f"surface must be longer each way than {FEWEST_STEPS} of its steps, of which the "
+            f"largest is {step:.4g} m; got {length:.4g} m"
+        )
+    if given is None:
+        return min(DEFAULT_STEPS * step, length)
+    smallest = checks.positive("smallest_wavelength", given, unit="m")
+    if not FEWEST_STEPS * step * (1.0 - 1e-9) <= smallest <= length * (1.0 + 1e-9):
+        raise InputError(
+            f"smallest_wavelength must be from {FEWEST_STEPS * step:.4g} m, two steps of the "
+            f"surface, to {length:.4g} m, its length; got {smallest:.4g} m"
+        )
+    return smallest

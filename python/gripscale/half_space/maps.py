@@ -1,0 +1,441 @@
+"""Synthetic maps of a measured surface, and their lines, as models that can be compared."""
+
+from __future__ import annotations
+
+import math
+import threading
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+
+import numpy as np
+
+from gripscale import model
+from gripscale.core import checks, provenance
+from gripscale.core.errors import InputError
+from gripscale.half_space.grid import Array
+from gripscale.half_space.result import RoughContact
+from gripscale.half_space.solve import solve_rough_contact
+from gripscale.half_space.windows import WindowContacts, solve_windows
+from gripscale.model import NOT_CONVERGED, CutOffExponents, of_mean
+from gripscale.rubber import Rubber
+from gripscale.rubber.extrapolation import Extrapolation, of_sum
+from gripscale.surface import HeightMap, Measured, PreparedSurface, Profile, isotropic_maps
+from gripscale.surface.isotropic_maps import seed_numbers
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from gripscale.model import NominalLoad
+    from gripscale.rubber import Rubber
+
+
+# What an isotropic map has in place of its lines: the factor from a measured line to a surface.
+#
+# A line is solved in plane strain, as if the surface were grooves across the way of sliding. The
+# maps are synthetic (`gripscale.surface.isotropic_maps`); each is solved whole, sliding along x and
+# along y, and so are single lines of it:
+#
+#     factor = mean over maps (map) / mean over maps (lines of the map)
+
+QUANTITIES = ("contact_fraction", "friction_from_dissipation")
+"""Of a contact; the friction that is right to some per cent with four points in a wave."""
+
+
+@dataclass(frozen=True)
+class MapContact:
+    """Contact of one periodic map and of its lines, each the mean of sliding along x and y."""
+
+    whole: dict[str, float]
+    """`QUANTITIES` of the map; NaN if a contact did not converge."""
+    lines: dict[str, float]
+    """The same, mean over its lines."""
+    between_directions: dict[str, float]
+    """Of the map: sliding along x over sliding along y; NaN over zero."""
+
+
+@dataclass(frozen=True)
+class MapOverLines:
+    """Contact of synthetic maps, of their lines, and of measured windows as long as a line."""
+
+    construction: str
+    length: float
+    """Of a map each way, and of a window [m]."""
+    smallest_wavelength: float
+    """Of every surface that was solved [m]."""
+    measured: WindowContacts = field(repr=False)
+    seeds: list[int]
+    maps: list[MapContact] = field(repr=False)
+    """One for each seed."""
+
+    def factor(self, name: str) -> float:
+        """Return mean over maps by mean over their lines of one of `QUANTITIES`; NaN over zero."""
+        return _ratio(self._mean("whole", name), self._mean("lines", name))
+
+    def scatter(self, name: str) -> float:
+        """Return the standard deviation of map by lines from map to map; NaN for a single one."""
+        if len(self.maps) < 2:
+            return math.nan
+        ratios = [_ratio(one.whole[name], one.lines[name]) for one in self.maps]
+        return float(np.std(ratios, ddof=1))
+
+    def match(self, name: str) -> float:
+        """Return mean over the maps' lines by mean over the measured windows: one if they match."""
+        return _ratio(self._mean("lines", name), self.measured.mean(name))
+
+    def uncertainty(self, name: str) -> float:
+        """Return the standard error of `match`, of the windows' and the maps' scatter."""
+        windows = self.measured.values(name)
+        lines = np.array([one.lines[name] for one in self.maps])
+        if min(windows.size, lines.size) < 2:
+            return math.nan
+        relative = [
+            _ratio(float(v.std(ddof=1)), float(v.mean())) / math.sqrt(v.size)
+            for v in (windows, lines)
+        ]
+        return self.match(name) * math.hypot(*relative)
+
+    def to_dataset(self) -> xr.Dataset:
+        """Return all numbers over `seed`, labelled as those of synthetic maps."""
+        import xarray as xr
+
+        def over(values: Sequence[float] | Array, text: str) -> xr.Variable:
+            return xr.Variable("seed", np.asarray(values), {"units": "1", "long_name": text})
+
+        data = {}
+        for name in QUANTITIES:
+            words = name.replace("_", " ")
+            data[f"map_{name}"] = over([m.whole[name] for m in self.maps], f"{words} of the map")
+            data[f"lines_{name}"] = over(
+                [m.lines[name] for m in self.maps], f"{words}, mean over lines of the map"
+            )
+            windows = self.measured.values(name)
+            attrs = {"units": "1", "long_name": f"{words} of measured windows of equal length"}
+            data[f"measured_{name}"] = xr.Variable("window", windows, attrs)
+        return xr.Dataset(data, coords={"seed": self.seeds}).assign_attrs(
+            title="Contact of synthetic isotropic maps and of their lines",
+            synthetic=f"isotropic maps, construction {self.construction}; no map was measured",
+            length_m=self.length,
+            smallest_wavelength_m=self.smallest_wavelength,
+            **provenance.attributes(),
+        )
+
+    def _mean(self, part: str, name: str) -> float:
+        return float(np.mean([getattr(one, part)[name] for one in self.maps]))
+
+
+def map_over_lines(
+    rubber: Rubber,
+    profile: Profile | Sequence[Profile],
+    *,
+    pressure: float,
+    speed: float,
+    smallest_wavelength: float,
+    construction: str = "lines",
+    points: int = 512,
+    seeds: Iterable[int] = range(6),
+    lines: int = 10,
+    tolerance: float = 0.05,
+    workers: int | None = None,
+    on_batch: Callable[[int, float], None] | None = None,
+    on_map: Callable[[MapContact], None] | None = None,
+) -> MapOverLines:
+    """Return what synthetic isotropic maps of a measured surface have in place of their lines.
+
+    Multiply contact and friction of the measured line by the factors for a best estimate of the
+    surface, if the maps' lines match the measured ones.
+
+    Parameters
+    ----------
+    rubber, pressure, speed
+        As for `solve_rough_contact`.
+    profile, smallest_wavelength, construction, points, seeds, on_batch
+        As for `gripscale.surface.isotropic_maps`.
+    lines : int
+        Lines solved of each map in each of two directions, evenly spaced.
+    tolerance : float
+        Estimated relative error of the lines and windows. Maps have four points in the smallest
+        wave, whatever the errors.
+    workers : int, optional
+        As for `solve_rough_contact`.
+    on_map : callable, optional
+        Called with the `MapContact` of each map as it is done.
+
+    Raises
+    ------
+    InputError
+        If an argument is out of its range.
+    """
+    load: dict[str, Any] = {
+        "pressure": pressure,
+        "speed": speed,
+        "smallest_wavelength": smallest_wavelength,
+    }
+    chosen = seed_numbers(seeds)
+    drawn = isotropic_maps(
+        profile,
+        smallest_wavelength=smallest_wavelength,
+        construction=construction,
+        points=points,
+        seeds=chosen,
+        on_batch=on_batch,
+    )
+    contacts = []
+    for surface in drawn:
+        contacts.append(
+            solve_map_and_lines(
+                rubber, surface, lines=lines, tolerance=tolerance, workers=workers, **load
+            )
+        )
+        if on_map is not None:
+            on_map(contacts[-1])
+    if not contacts:
+        raise InputError("seeds must be one whole number at least; got none")
+    length = points * surface.step[0]
+    measured = _measured(rubber, profile, length, tolerance, load)
+    return MapOverLines(construction, length, smallest_wavelength, measured, chosen, contacts)
+
+
+def solve_map_and_lines(
+    rubber: Rubber,
+    surface: HeightMap,
+    *,
+    lines: int = 10,
+    tolerance: float = 0.05,
+    workers: int | None = None,
+    **load: Any,
+) -> MapContact:
+    """Return the contact of a map and of single lines of it, sliding along x and along y.
+
+    Parameters
+    ----------
+    rubber, **load
+        As for `solve_rough_contact`.
+    surface : HeightMap
+        One period, of equal points and steps each way.
+    lines, tolerance, workers
+        As for `map_over_lines`.
+
+    Raises
+    ------
+    InputError
+        If an argument is out of its range.
+    """
+    checks.instance("surface", surface, HeightMap)
+    whole = solve_whole(rubber, surface, workers=workers, **load)
+    of_lines = solve_lines_of(rubber, surface, lines=lines, tolerance=tolerance, **load)
+    return MapContact(whole.values, of_lines.values, whole.between_directions)
+
+
+class Solved(NamedTuple):
+    """Contact along x and along y."""
+
+    values: dict[str, float]
+    """Means of the two; NaN if a contact did not converge."""
+    between_directions: dict[str, float]
+    """Along x over along y; NaN over zero."""
+    status: str
+    extrapolation: Extrapolation
+    cut_off_exponents: CutOffExponents
+
+
+def solve_whole(
+    rubber: Rubber, surface: HeightMap, *, workers: int | None = None, **load: Any
+) -> Solved:
+    """Return the contact of a square, periodic map with four points in the smallest wave.
+
+    Raises `InputError` as `solve_rough_contact`, and if the map is no square.
+    """
+    options = {"periodic": True, "tolerance": None, "workers": workers, **load}
+    return _both_ways(
+        [[solve_rough_contact(rubber, one, **options)] for one in _directions(surface)]
+    )
+
+
+def solve_lines_of(
+    rubber: Rubber, surface: HeightMap, *, lines: int, tolerance: float, **load: Any
+) -> Solved:
+    """Return the mean contact of lines of a square, periodic map, evenly spaced.
+
+    Raises `InputError` as `solve_rough_contact`, and if the map is no square.
+    """
+    number = checks.whole("lines", lines, least=1, most=surface.z.shape[0])
+    places = np.linspace(0, surface.z.shape[0], number, endpoint=False).astype(int)
+    options = {"periodic": True, "tolerance": tolerance, **load}
+    return _both_ways(
+        [
+            [solve_rough_contact(rubber, Profile(one.x, one.z[:, at]), **options) for at in places]
+            for one in _directions(surface)
+        ]
+    )
+
+
+def _directions(surface: HeightMap) -> list[HeightMap]:
+    if surface.z.shape[0] != surface.z.shape[1]:
+        raise InputError(f"surface must have equal points each way; got {surface.z.shape}")
+    return [surface, HeightMap(surface.x, surface.y, surface.z.T)]
+
+
+def _both_ways(contacts: list[list[RoughContact]]) -> Solved:
+    along, across = (
+        {name: WindowContacts(group).mean(name) for name in (*QUANTITIES, "friction")}
+        for group in contacts
+    )
+    every = [one for group in contacts for one in group]
+    bad = [str(one.status) for one in every if not one.converged]
+    return Solved(
+        {name: 0.5 * (along[name] + across[name]) for name in along},
+        {name: _ratio(along[name], across[name]) for name in along},
+        bad[0] if bad else "converged",
+        of_sum(
+            [one.extrapolation for one in every],
+            [one.friction_from_dissipation for one in every],
+        ),
+        NOT_CONVERGED
+        if bad
+        else of_mean(
+            [one.cut_off_exponents for one in every],
+            *([getattr(one, name) for one in every] for name in QUANTITIES),
+        ),
+    )
+
+
+def _ratio(above: float, below: float) -> float:
+    """Return NaN where there is nothing to compare with: friction at rest, or of a flat line."""
+    return above / below if below else math.nan
+
+
+def _measured(
+    rubber: Rubber,
+    profile: Profile | Sequence[Profile],
+    length: float,
+    tolerance: float,
+    load: dict[str, Any],
+) -> WindowContacts:
+    profiles = [profile] if isinstance(profile, Profile) else profile
+    parts = [solve_windows(rubber, one, length, tolerance=tolerance, **load) for one in profiles]
+    return WindowContacts([contact for part in parts for contact in part.contacts])
+
+
+KEPT = 16
+"""Maps kept in memory for whoever asks next: the map and its lines, another speed."""
+
+
+@dataclass(frozen=True)
+class SyntheticMap:
+    """An isotropic map made from all cleaned profiles, see `gripscale.surface.isotropic_maps`.
+
+    The mean of sliding along x and along y.
+
+    Parameters
+    ----------
+    seed : int
+        Which map.
+    smallest_wavelength : float
+        Smallest wave of the map [m]; its length is `points / 4` of them.
+    lines : int
+        How many of its lines are solved each way; 0 for the map itself.
+    points, construction
+        See `gripscale.surface.isotropic_maps`.
+    tolerance : float
+        Estimated relative error of the lines; the map has four points in its smallest wave.
+    """
+
+    name: ClassVar[str] = "synthetic_map"
+
+    seed: int
+    smallest_wavelength: float
+    lines: int = 0
+    points: int = 512
+    construction: str = "lines"
+    tolerance: float = 0.05
+
+    def relevant(self, surface: PreparedSurface) -> PreparedSurface:
+        """Return nothing of `surface` but its profiles (and its waves, which it must have)."""
+        return PreparedSurface(surface.sines, "", measured=Measured.of(_profiles(surface)))
+
+    def predict(
+        self,
+        rubber: Rubber,
+        surface: PreparedSurface,
+        load: NominalLoad,
+        *,
+        on_progress: Callable[[Any], None] | None = None,
+    ) -> xr.Dataset:
+        """Return the answer; `on_progress` is called while the map is drawn.
+
+        Raises
+        ------
+        InputError
+            If the surface has no profiles a map can be made from.
+        """
+        import xarray as xr
+
+        key = (*_profiles(surface),), self.seed, self.smallest_wavelength
+        heights = _drawing(*key, self.points, self.construction).map(on_progress)
+        arguments: dict[str, Any] = {
+            "pressure": load.pressure,
+            "speed": load.speed,
+            "smallest_wavelength": self.smallest_wavelength,
+        }
+        found: Solved = (
+            solve_lines_of(rubber, heights, lines=self.lines, tolerance=self.tolerance, **arguments)
+            if self.lines
+            else solve_whole(rubber, heights, workers=1, **arguments)
+        )
+        totals = {name: found.values[name.removeprefix("total_")] for name in model.TOTALS}
+        data = xr.Dataset().assign_attrs(
+            title="Contact of a synthetic isotropic map",
+            synthetic=heights.source,
+            **provenance.attributes(),
+        )
+        return model.answer(
+            data,
+            totals,
+            found.status,
+            self.name,
+            load,
+            found.extrapolation,
+            found.cut_off_exponents,
+        )
+
+
+@dataclass(eq=False)
+class _Drawing:
+    """A map that is drawn once, by whoever asks first; the others wait."""
+
+    profiles: tuple[Profile, ...]
+    options: dict[str, Any]
+    lock: threading.Lock = field(default_factory=threading.Lock)
+    drawn: HeightMap | None = None
+
+    def map(self, on_progress: Callable[[Any], None] | None) -> HeightMap:
+        def tell(seed: int, share: float) -> None:
+            if on_progress is not None:
+                on_progress(share)
+
+        with self.lock:
+            if self.drawn is None:
+                maps = isotropic_maps(list(self.profiles), on_batch=tell, **self.options)
+                self.drawn = next(iter(maps))
+            return self.drawn
+
+
+@lru_cache(maxsize=KEPT)
+def _drawing(
+    profiles: tuple[Profile, ...], seed: int, smallest: float, points: int, construction: str
+) -> _Drawing:
+    options = {
+        "smallest_wavelength": smallest,
+        "points": points,
+        "construction": construction,
+        "seeds": [seed],
+    }
+    return _Drawing(profiles, options)
+
+
+def _profiles(surface: PreparedSurface) -> list[Profile]:
+    if surface.measured is None or surface.measured.map is not None:
+        raise InputError("a synthetic map is made from measured profiles; the surface has none")
+    return surface.measured.cleaned

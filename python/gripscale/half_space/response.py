@@ -1,0 +1,202 @@
+"""A sliding viscoelastic half-space on a periodic grid: from pressure to displacement, and back.
+
+Geometry: small strain, no friction in the contact; the rubber lies above and slides towards +x with
+speed v over a rigid surface at rest. A harmonic exp(i q . r) that stands still on the surface is
+met by the rubber at the angular frequency q_x v, so
+
+    u(q) = K(q) p(q),    K = 2 / (|q| M(q_x v)),    M = E*/(1 - nu^2),    M(-w) = conj M(w),
+
+with u positive where the pressure lifts the rubber: K. L. Johnson, Contact Mechanics (1985), sec.
+13.2, doi:10.1017/CBO9781139171731, with the complex modulus in place of the elastic one. A line is
+plane strain, a map three-dimensional: the same equation. The mean displacement is left open (it is
+the rigid approach). A wavenumber along x that is its own opposite on the grid has a real M.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+import scipy.fft
+from numpy.typing import NDArray
+
+from gripscale.conditions.conditions import RubberByScale
+from gripscale.core import checks
+from gripscale.core.errors import InputError
+from gripscale.half_space.grid import Array, Grid, LineFilter, PeriodicHeights
+from gripscale.rubber import Rubber
+
+AnyArray = NDArray[np.floating]
+ComplexArray = NDArray[np.complex128]
+SingleComplexArray = NDArray[np.complex64]
+AnyComplexArray = NDArray[np.complexfloating]
+
+
+@dataclass(frozen=True)
+class HalfSpace:
+    """Rubber at a speed, seen from the surface it slides over.
+
+    Parameters
+    ----------
+    rubber : Rubber
+        The half-space.
+    speed : float
+        Sliding speed [m/s]; zero is the relaxed rubber.
+    loss : float
+        Share of the loss angle that is kept at unchanged |M|, 0 to 1; 1 is the rubber itself.
+    by_scale : RubberByScale, optional
+        What conditions have made of the rubber at each scale.
+    """
+
+    rubber: Rubber
+    speed: float
+    loss: float = 1.0
+    by_scale: RubberByScale | None = None
+
+    def modulus(self, grid: Grid) -> ComplexArray:
+        """Return M [Pa] at the wavenumbers of `grid`, broadcastable to its spectrum."""
+        omega = self.speed * grid.along
+        if self.by_scale is None:
+            value = self.rubber.plane_strain_modulus(omega)
+        else:
+            value = self.by_scale.plane_strain_modulus(omega, grid.wavenumber)
+        if self.loss != 1.0:
+            value = np.abs(value) * np.exp(1j * self.loss * np.angle(value))
+        return np.where(grid.own_opposite, np.abs(value), value)
+
+    def compliance(self, grid: Grid) -> ComplexArray:
+        """Return K(q) [m/Pa] over the spectrum of `grid`, zero for the mean."""
+        number = grid.wavenumber.copy()
+        number.flat[0] = 1.0
+        compliance = np.asarray(2.0 / (number * self.modulus(grid)))
+        compliance.flat[0] = 0.0
+        return compliance
+
+
+@dataclass(frozen=True)
+class Response:
+    """The half-space on one grid, ready to be multiplied with.
+
+    Displacements are exact in the precision of the pressure they are asked for; pressures only
+    condition and start iterations and are in single precision.
+    """
+
+    grid: Grid
+    workers: int
+    compliance: ComplexArray = field(repr=False)
+    compliance_single: SingleComplexArray = field(repr=False)
+    stiffness: SingleComplexArray = field(repr=False)
+
+    @classmethod
+    def of(cls, body: HalfSpace, grid: Grid, workers: int) -> Response:
+        """Return the response of `body` on `grid`.
+
+        The mean, which has no stiffness, is given that of the softest wave.
+        """
+        compliance = body.compliance(grid)
+        softest = compliance.copy()
+        softest.flat[0] = np.abs(compliance).max()
+        stiffness = (1.0 / softest).astype(np.complex64)
+        return cls(grid, workers, compliance, compliance.astype(np.complex64), stiffness)
+
+    @cached_property
+    def influence(self) -> Array:
+        """Displacement under unit pressure at the first point [m/Pa], shape of the grid."""
+        return np.asarray(scipy.fft.irfftn(self.compliance, s=self.grid.shape))
+
+    @property
+    def smallest_compliance(self) -> float:
+        """|K| of the stiffest wave of the grid [m/Pa]."""
+        return float(1.0 / np.abs(self.stiffness).max())
+
+    def displacement(self, pressure: AnyArray) -> AnyArray:
+        """Return the displacement [m] under `pressure` [Pa], of zero mean, shape of the grid."""
+        if pressure.dtype != np.float32:
+            return self._filtered(pressure, self.compliance)
+        if self._line_displacement is not None:
+            return self._line_displacement(pressure)
+        return self._filtered(pressure, self.compliance_single)
+
+    def full_contact(self, height: Array, mean: float) -> Array:
+        """Return the pressure [Pa] of `mean` that follows `height` [m] everywhere, tension too."""
+        spectrum = scipy.fft.rfftn(height, workers=self.workers)
+        spectrum.flat[0] = 0.0
+        np.divide(spectrum, self.compliance, out=spectrum, where=self.compliance != 0.0)
+        spectrum.flat[0] = mean * height.size
+        return np.asarray(self._from_waves(spectrum), dtype=np.float64)
+
+    def pressure(self, displacement: AnyArray) -> AnyArray:
+        """Return the pressure [Pa] that gives `displacement` [m] everywhere, shape of the grid."""
+        single = displacement.astype(np.float32, copy=False)
+        if self._line_pressure is not None:
+            return self._line_pressure(single)
+        return self._filtered(single, self.stiffness)
+
+    @cached_property
+    def _line_displacement(self) -> LineFilter | None:
+        return self._line_filter(self.compliance_single)
+
+    @cached_property
+    def _line_pressure(self) -> LineFilter | None:
+        return self._line_filter(self.stiffness)
+
+    def _line_filter(self, transfer: SingleComplexArray) -> LineFilter | None:
+        shape = self.grid.shape
+        return LineFilter.of(transfer, shape[0]) if len(shape) == 1 else None
+
+    def _filtered(self, values: AnyArray, transfer: AnyComplexArray) -> AnyArray:
+        spectrum = scipy.fft.rfftn(values, workers=self.workers)
+        spectrum *= transfer
+        return self._from_waves(spectrum)
+
+    def _from_waves(self, spectrum: AnyComplexArray) -> AnyArray:
+        """Return the values of a spectrum, which is overwritten (`irfftn` would copy it)."""
+        for axis in range(spectrum.ndim - 1):
+            spectrum = scipy.fft.ifft(spectrum, axis=axis, overwrite_x=True, workers=self.workers)
+        points = self.grid.shape[-1]
+        return np.asarray(scipy.fft.irfft(spectrum, points, overwrite_x=True, workers=self.workers))
+
+
+# What the solver can hold: sizes whose products stay within single precision, 1e-38 to 1e38.
+#
+# Its iterations are started and conditioned in single precision. The limits are far from any rubber
+# and any surface; beyond them a number has the wrong unit.
+
+LEAST, MOST = 1e-12, 1e15
+"""Of pressures [Pa] and lengths [m]."""
+
+
+def half_space(rubber: Rubber, speed: float) -> HalfSpace:
+    """Return the rubber at a speed [m/s], or raise `InputError`."""
+    if not isinstance(rubber, Rubber):
+        raise InputError(f"rubber must be a Rubber; got {type(rubber).__name__}")
+    return HalfSpace(rubber, checks.not_negative("speed", speed, unit="m/s"))
+
+
+def check_magnitudes(body: HalfSpace, heights: PeriodicHeights, pressure: float) -> None:
+    """Raise `InputError` for what is too large or too small to be calculated with."""
+    grid = heights.grid
+    _within("the step of the surface", min(grid.spacing), "m")
+    _within("the length of the surface", max(grid.lengths), "m")
+    tallest = float(np.abs(heights.on(grid.shape)).max())
+    if not tallest <= max(grid.lengths):
+        raise InputError(
+            "the heights of the surface must stay below its length, "
+            f"{max(grid.lengths):.4g} m; got {tallest:.4g} m over the mean"
+        )
+    _within("pressure", pressure, "Pa")
+    frequency = body.speed * float(grid.along.max())
+    if frequency > MOST:
+        raise InputError(
+            f"speed must be at most {MOST / grid.along.max():.3g} m/s, {MOST:g} rad/s on the "
+            f"smallest wave of this surface; got {body.speed:g} m/s"
+        )
+    modulus = np.abs(body.modulus(grid))
+    for extreme in (modulus.min(), modulus.max()):
+        _within("the modulus of the rubber", float(extreme), "Pa")
+
+
+def _within(name: str, value: float, unit: str) -> None:
+    if not LEAST <= value <= MOST:
+        raise InputError(f"{name} must be from {LEAST:g} to {MOST:g} {unit}; got {value:g}")

@@ -1,5 +1,0 @@
-"""Examples to start from: a commented case with its data, written into a folder."""
-
-import lazy_loader
-
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -1,0 +1,1 @@
+"""Text tables, spreadsheets and netCDF files."""

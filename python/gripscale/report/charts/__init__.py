@@ -1,1 +1,0 @@
-"""Interactive figures, as Bokeh models."""

@@ -1,0 +1,410 @@
+"""Measured uniaxial tests: stretch and nominal stress against time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gripscale.core import checks
+from gripscale.core.errors import FileError, InputError
+from gripscale.core.units import in_si
+from gripscale.io.text_table import file_path, read_sheets
+from gripscale.rubber.material import Rubber
+from gripscale.rubber.strain_energy import STRAIN_ENERGIES, StrainEnergy
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, init=False, eq=False)
+class UniaxialTest:
+    """A measured history of stretch with its nominal stress.
+
+    Parameters
+    ----------
+    name : str
+        What the test is called in messages and figures.
+    time : array_like, shape (samples,)
+        Rising [s], at least two samples.
+    stretch : array_like, shape (samples,)
+        Deformed over undeformed length [-], above zero; 1 at rest before the first sample.
+    stress : array_like, shape (samples,)
+        Nominal stress [Pa], somewhere above zero.
+
+    Raises
+    ------
+    InputError
+        If the lengths differ or a value is out of range.
+    """
+
+    name: str
+    time: Array = field(repr=False)
+    stretch: Array = field(repr=False)
+    stress: Array = field(repr=False)
+
+    def __init__(self, name: str, time: ArrayLike, stretch: ArrayLike, stress: ArrayLike) -> None:
+        object.__setattr__(self, "name", checks.text("name", name))
+        object.__setattr__(self, "time", checks.vector("time", time, unit="s"))
+        object.__setattr__(self, "stretch", checks.positive_vector("stretch", stretch))
+        object.__setattr__(self, "stress", checks.vector("stress", stress, unit="Pa"))
+        lengths = len(self.time), len(self.stretch), len(self.stress)
+        if len(set(lengths)) != 1 or lengths[0] < 2:
+            raise InputError(
+                f"{name}: time, stretch and stress must have the same length, at least 2; "
+                f"got {lengths[0]}, {lengths[1]} and {lengths[2]}"
+            )
+        if (np.diff(self.time) <= 0.0).any():
+            at = int(np.argmax(np.diff(self.time) <= 0.0)) + 1
+            raise InputError(f"{name}: time must rise [s]; got {self.time[at]:g} at index {at}")
+        if self.peak <= 0.0:
+            raise InputError(f"{name}: stress must be above zero [Pa] somewhere")
+
+    @property
+    def peak(self) -> float:
+        """Largest nominal stress [Pa]."""
+        return float(self.stress.max())
+
+    @property
+    def duration(self) -> float:
+        """From the first sample to the last [s]."""
+        return float(self.time[-1] - self.time[0])
+
+
+def read_uniaxial_test(path: str | Path, *, stress_unit: str = "Pa") -> UniaxialTest:
+    """Read a test from the first sheet of an Excel file: time [s], stretch [-], nominal stress.
+
+    Parameters
+    ----------
+    path : str or Path
+        An xlsx file whose first three columns hold numbers in every row; no header.
+    stress_unit : str
+        Unit of the third column, e.g. "kPa".
+
+    Raises
+    ------
+    FileError
+        If openpyxl is missing (`pip install gripscale[formats]`) or the file is not as expected.
+    InputError
+        If the unit is unknown.
+    """
+    pascal = in_si(1.0, stress_unit, "modulus", "stress_unit")
+    path = file_path(path)
+    rows = next(iter(read_sheets(path).values()))
+    try:
+        if any(len(row) < 3 for row in rows):
+            raise InputError("a row has fewer than three cells")
+        table = np.array([row[:3] for row in rows], dtype=float).reshape(len(rows), 3)
+        return UniaxialTest(path.stem, table[:, 0], table[:, 1], table[:, 2] * pascal)
+    except (TypeError, ValueError) as error:
+        raise FileError(f"{path}: expected rows of time, stretch, stress ({error})") from error
+
+
+# One incompressible material point of a rubber, driven through a history of stretch or shear.
+#
+# The permanent network with its strain energy W and one temporary network per Maxwell element:
+#
+#     tau_i dA_i/dt = C^-1 - A_i,   A_i = 1 before the first sample
+#     S = G_inf b + sum_i G_i A_i - p C^-1,   b = 2/G_inf dW/dC,   p from the free side faces
+#
+# Source: J. Lubliner, Mech. Res. Commun. 12 (1985) 93, doi:10.1016/0093-6413(85)90075-8.
+# The memory integral is exact for C^-1 linear in time between samples (R. L. Taylor, K. S. Pister &
+# G. L. Goudreau, Int. J. Numer. Methods Eng. 2 (1970) 45, doi:10.1002/nme.1620020106):
+#
+#     A <- e^-x A + ((1 - e^-x)/x - e^-x) Y_old + (1 - (1 - e^-x)/x) Y_new,   Y = C^-1,  x = dt/tau
+#
+# Uniaxial stretch s:  P = dW/ds + sum_i G_i (s A_11 - s^-2 A_22),   Y_11 = s^-2,  Y_22 = s.
+# Simple shear g:      T = dW/dg + sum_i G_i (g + A_12),             Y_12 = -g,  Y_22 = A_22 = 1.
+#
+# In simple shear the temporary networks are linear at any amplitude: T is then that of small
+# strain.
+
+_SMALL_STEP = 1e-3
+"""Below this x = dt/tau the weights are taken from their power series (next term below 1e-14)."""
+
+
+def uniaxial_stress(rubber: Rubber, time: ArrayLike, stretch: ArrayLike) -> Array:
+    """Return the nominal stress [Pa] of a bar in uniaxial tension or compression.
+
+    Parameters
+    ----------
+    rubber : Rubber
+        Its bulk modulus is taken as infinite.
+    time : array_like, shape (samples,)
+        Times of the samples [s], not falling; two equal times make a step.
+    stretch : array_like, shape (samples,)
+        Deformed over undeformed length [-], above zero. Before the first sample the bar is at rest
+        and undeformed: a first stretch other than 1 is a step.
+
+    Returns
+    -------
+    ndarray, shape (samples,)
+        Force over the undeformed cross-section.
+
+    Raises
+    ------
+    InputError
+        If a time falls, a stretch is not positive, or the lengths differ.
+    """
+    checks.instance("rubber", rubber, Rubber)
+    ratio = checks.positive_vector("stretch", stretch)
+    elapsed = _times(time, ratio, "stretch")
+    permanent = rubber.strain_energy.uniaxial_factor(ratio) * (ratio - ratio**-2)
+    temporary = uniaxial_network_stresses(rubber.relaxation_times, elapsed, ratio)
+    equilibrium = rubber.equilibrium_shear_modulus
+    return np.asarray(equilibrium * permanent + temporary @ rubber.shear_moduli)
+
+
+def simple_shear_stress(rubber: Rubber, time: ArrayLike, shear: ArrayLike) -> Array:
+    """Return the shear stress [Pa] of a block in simple shear; nominal and true stress agree.
+
+    Parameters
+    ----------
+    rubber : Rubber
+        Volume does not change, so its bulk modulus does not matter.
+    time : array_like, shape (samples,)
+        Times of the samples [s], not falling; two equal times make a step.
+    shear : array_like, shape (samples,)
+        Displacement over height [-]. Before the first sample the block is at rest and undeformed.
+
+    Returns
+    -------
+    ndarray, shape (samples,)
+
+    Raises
+    ------
+    InputError
+        If a time falls, a value is not finite, or the lengths differ.
+    """
+    checks.instance("rubber", rubber, Rubber)
+    amount = checks.vector("shear", shear)
+    elapsed = _times(time, amount, "shear")
+    permanent = rubber.strain_energy.shear_factor(amount) * amount
+    states = network_states(rubber.relaxation_times, elapsed, -amount[:, None], rest=(0.0,))
+    temporary = (amount[:, None] + states[..., 0]) @ rubber.shear_moduli
+    return np.asarray(rubber.equilibrium_shear_modulus * permanent + temporary)
+
+
+def uniaxial_network_stresses(relaxation_times: Array, time: Array, stretch: Array) -> Array:
+    """Return s A_11 - s^-2 A_22, each temporary network's nominal stress over its shear modulus.
+
+    `relaxation_times` [s] has shape (terms,), `time` [s] and `stretch` [-] have shape (samples,);
+    the result [-] has shape (samples, terms).
+    """
+    inverse = np.column_stack([stretch**-2, stretch])
+    states = network_states(relaxation_times, time, inverse, rest=(1.0, 1.0))
+    return np.asarray(
+        stretch[:, None] * states[..., 0] - (stretch**-2)[:, None] * states[..., 1], dtype=float
+    )
+
+
+def network_states(
+    relaxation_times: Array, time: Array, inverse: Array, rest: tuple[float, ...]
+) -> Array:
+    """Return the states A_i of the temporary networks along a history, by the recurrence above.
+
+    Parameters
+    ----------
+    relaxation_times : ndarray, shape (terms,)
+        tau_i [s].
+    time : ndarray, shape (samples,)
+        Not falling [s].
+    inverse : ndarray, shape (samples, components)
+        Y, components of C^-1 [-].
+    rest : tuple of float, length components
+        The same components of the unit tensor: the state at the first time.
+
+    Returns
+    -------
+    ndarray, shape (samples, terms, components)
+    """
+    step = np.diff(time)[:, None] / relaxation_times
+    kept, (left, arrived) = np.exp(-step), _weights(step)
+    states = np.empty((len(time), len(relaxation_times), inverse.shape[1]))
+    states[0] = rest
+    new = left[..., None] * inverse[:-1, None, :] + arrived[..., None] * inverse[1:, None, :]
+    for sample in range(len(step)):
+        states[sample + 1] = kept[sample, :, None] * states[sample] + new[sample]
+    return states
+
+
+def _weights(step: Array) -> tuple[Array, Array]:
+    """Return the weights of Y at the start and at the end of steps x = dt/tau."""
+    x = np.maximum(step, _SMALL_STEP)
+    mean = -np.expm1(-x) / x
+    small = step < _SMALL_STEP
+    left = np.where(small, step * (0.5 - step * (1 / 3 - step / 8)), mean - np.exp(-x))
+    arrived = np.where(small, step * (0.5 - step * (1 / 6 - step / 24)), 1.0 - mean)
+    return left, arrived
+
+
+def _times(time: ArrayLike, driven: Array, name: str) -> Array:
+    elapsed = checks.vector("time", time, unit="s")
+    if len(elapsed) != len(driven) or len(elapsed) == 0:
+        raise InputError(
+            f"time and {name} must have the same length, at least 1; "
+            f"got {len(elapsed)} and {len(driven)}"
+        )
+    falls = np.diff(elapsed) < 0.0
+    if falls.any():
+        at = int(np.argmax(falls)) + 1
+        raise InputError(f"time must not fall [s]; got {elapsed[at]:g} at index {at}")
+    return elapsed
+
+
+# One finite-strain rubber fitted to several uniaxial tests together.
+#
+# On given relaxation times the nominal stress of a material point is linear in its moduli,
+#
+#     P(t) = sum_k c_k P_k(s) + sum_i G_i (s A_i,11 - s^-2 A_i,22)
+#
+# (P_k and c_k are the strain energy's: `StrainEnergy.basis`), so that the least squares of P over
+# the peak stress of each test, each test counting alike, is a convex problem with bounds and one
+# minimum: no start values, no local minima. Bounded-variable least squares: P. B. Stark & R. L.
+# Parker, Comput. Stat. 10 (1995) 129.
+
+_LEAST_EQUILIBRIUM = 1e-3
+"""The fitted G_inf is at least this share of the smallest peak stress: a rubber must have one."""
+
+_FASTEST = 0.01
+"""Shortest fitted relaxation time, as a share of the shortest test."""
+
+
+@dataclass(frozen=True)
+class FiniteStrainFit:
+    """The rubber found, and how well it carries each test.
+
+    Attributes
+    ----------
+    rubber : Rubber
+        Elements whose fitted modulus is zero are left out.
+    tests : tuple of UniaxialTest
+        What it was fitted to.
+    """
+
+    rubber: Rubber
+    tests: tuple[UniaxialTest, ...]
+
+    @property
+    def rms_errors(self) -> Array:
+        """Root mean square error of the stress over the peak stress [-], shape (tests,)."""
+        return np.array([rms_error(self.rubber, test) for test in self.tests])
+
+    @property
+    def work_errors(self) -> Array:
+        """Predicted over measured work lost in the loop, less one [-], shape (tests,)."""
+        return np.array([work_error(self.rubber, test) for test in self.tests])
+
+
+def rms_error(rubber: Rubber, test: UniaxialTest) -> float:
+    """Return the root mean square error of the predicted stress over the measured peak [-].
+
+    Of all samples of the test, each counting alike. Raises `InputError` if `test` is no
+    `UniaxialTest` or `rubber` no `Rubber`.
+    """
+    checks.instance("test", test, UniaxialTest)
+    error = uniaxial_stress(rubber, test.time, test.stretch) - test.stress
+    return float(np.sqrt(np.mean(error**2)) / test.peak)
+
+
+def work_error(rubber: Rubber, test: UniaxialTest) -> float:
+    """Return the predicted over the measured work int P ds of the test, less one [-].
+
+    For a loop that ends free of stress this is the work lost, as heat or in networks still
+    stretched. Trapezoidal rule on the samples, the same for both.
+    """
+    from scipy.integrate import trapezoid
+
+    checks.instance("test", test, UniaxialTest)
+    predicted = uniaxial_stress(rubber, test.time, test.stretch)
+    return float(trapezoid(predicted, test.stretch) / trapezoid(test.stress, test.stretch)) - 1
+
+
+def fit_finite_strain(
+    tests: Sequence[UniaxialTest],
+    *,
+    energy: str = "neo_hookean",
+    terms: int = 6,
+    band: tuple[float, float] | None = None,
+) -> FiniteStrainFit:
+    """Fit one rubber to all `tests` together.
+
+    Parameters
+    ----------
+    tests : sequence of UniaxialTest
+        At least one. Each counts by its error relative to its own peak stress.
+    energy : str
+        Kind of strain energy of the permanent network, one of `STRAIN_ENERGIES`.
+    terms : int
+        Number of temporary networks, 1 to 40, their relaxation times log-spaced over `band`.
+    band : tuple of two floats, optional
+        Shortest and longest relaxation time [s]. Default: a hundredth of the shortest test to the
+        longest test. Beyond the longest test nothing tells a slow network from a permanent one.
+
+    Returns
+    -------
+    FiniteStrainFit
+
+    Raises
+    ------
+    InputError
+        If there is no test, or an argument is out of range.
+    """
+    tests = checks.instances("tests", tests, UniaxialTest)
+    law = STRAIN_ENERGIES[checks.one_of("energy", energy, STRAIN_ENERGIES)]
+    times = _relaxation_times(tests, checks.whole("terms", terms, least=1, most=40), band)
+    left = np.vstack([_columns(law, times, test) * _weight(test) for test in tests])
+    right = np.concatenate([test.stress * _weight(test) for test in tests])
+    lower = np.zeros(left.shape[1])
+    lower[: len(law.least_coefficients)] = law.least_coefficients
+    lower[0] = _LEAST_EQUILIBRIUM * min(test.peak for test in tests)
+    return FiniteStrainFit(_rubber(law, _solve(left, right, lower), times), tuple(tests))
+
+
+def _relaxation_times(
+    tests: Sequence[UniaxialTest], terms: int, band: tuple[float, float] | None
+) -> Array:
+    if band is None:
+        durations = [test.duration for test in tests]
+        band = _FASTEST * min(durations), max(durations)
+    ends = checks.positive_vector("band", band, unit="s")
+    if len(ends) != 2 or ends[0] >= ends[1]:
+        raise InputError(
+            f"band [s] must be a shorter and a longer time; got {checks.short_repr(band)}"
+        )
+    low, high = ends
+    return np.geomspace(low, high, terms) if terms > 1 else np.array([np.sqrt(low * high)])
+
+
+def _weight(test: UniaxialTest) -> float:
+    """Return what a sample counts [1/Pa]: the squares of a test then sum to its rms_error^2."""
+    return float(1.0 / (test.peak * np.sqrt(len(test.time))))
+
+
+def _columns(law: type[StrainEnergy], times: Array, test: UniaxialTest) -> Array:
+    """Return the nominal stress per unit of each fitted coefficient [-], shape (samples, all)."""
+    stretch = test.stretch
+    networks = uniaxial_network_stresses(times, test.time, stretch)
+    hooke = stretch - stretch**-2
+    return np.column_stack([*(hooke * factor for factor in law.basis(stretch)), networks])
+
+
+def _solve(left: Array, right: Array, lower: Array) -> Array:
+    """Return the bounded least-squares solution, columns scaled to unit length."""
+    from scipy.optimize import lsq_linear
+
+    scale = np.linalg.norm(left, axis=0)
+    bounds = (lower * scale, np.full(len(scale), np.inf))
+    found = lsq_linear(left / scale, right, bounds, method="bvls", tol=1e-14)
+    return np.asarray(found.x / scale, dtype=float)
+
+
+def _rubber(law: type[StrainEnergy], found: Array, times: Array) -> Rubber:
+    """Return the rubber of the fitted coefficients, without elements of zero modulus."""
+    count = len(found) - len(times)
+    shear, energy = law.from_coefficients(found[:count].tolist())
+    moduli = found[count:]
+    used = moduli > 1e-9 * (shear + moduli.sum())
+    return Rubber(3.0 * shear, 3.0 * moduli[used], times[used], strain_energy=energy)

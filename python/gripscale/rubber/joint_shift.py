@@ -1,0 +1,303 @@
+"""All sweeps onto one smooth curve at once, with the uncertainty of every shift.
+
+Rows of sweep g are y_k + v_g = F_k(x + s_g) + scatter, with s = log10 a_T, v = log10 b_T and one
+spline F_k a modulus. s, v and the splines are the penalised least squares of all rows together:
+Gauss-Newton in s and v, the splines eliminated (L. Kaufman, BIT 15 (1975) 49,
+doi:10.1007/BF01932995). A row counts by the scatter of its modulus in its sweep and the two beside
+it, so that where only one modulus superposes that one decides, and less if it is far off (P. J.
+Huber, Ann. Math. Stat. 35 (1964) 73, doi:10.1214/aoms/1177703732).
+
+The covariance of s and v is that of the least squares, times (1 + r)/(1 - r) where r is the
+correlation of neighbouring residuals: where a sweep as a whole does not follow the curve, its rows
+are no independent evidence.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gripscale.rubber.sweeps import Sweeps
+
+# Smooth curves through scattered points: cubic B-splines with penalised second differences.
+#
+# Source: P. H. C. Eilers & B. D. Marx, Stat. Sci. 11 (1996) 89, doi:10.1214/ss/1038425655. The
+# weight of the penalty is that of least generalised cross-validation.
+
+Array = NDArray[np.float64]
+
+_DEGREE = 3
+_PENALTIES = tuple(10.0 ** np.arange(-2.0, 5.0))
+"""Tried, over the mean trust of a row."""
+_RIDGE = 1e-9
+"""Penalty of the coefficients themselves, over the same: one row determines no straight line."""
+
+
+@dataclass(frozen=True)
+class Basis:
+    """B-splines on evenly spaced knots that reach from below `low` to above `high`."""
+
+    knots: Array
+
+    @classmethod
+    def over(cls, low: float, high: float, spacing: float) -> Basis:
+        """Return the basis over an interval, its knots at multiples of `spacing`."""
+        first, last = np.floor(low / spacing), np.ceil(high / spacing)
+        if last - first < 1.0:
+            last = first + 1.0
+        return cls(spacing * np.arange(first - _DEGREE, last + _DEGREE + 1.0))
+
+    def at(self, x: Array, derivative: bool = False) -> Array:
+        """Return the value, or the slope, of each function at `x`, shape (rows, functions)."""
+        from scipy.interpolate import BSpline
+
+        splines = BSpline(self.knots, np.eye(len(self.knots) - _DEGREE - 1), _DEGREE)
+        return np.asarray(splines(x, nu=int(derivative), extrapolate=True))
+
+    def penalty(self) -> Array:
+        """Return second differences of the coefficients, shape (functions - 2, functions)."""
+        return np.diff(np.eye(len(self.knots) - _DEGREE - 1), n=2, axis=0)
+
+
+@dataclass(frozen=True)
+class Smooth:
+    """Coefficients of a fitted curve, its penalty weight and its effective number of freedoms."""
+
+    coefficients: Array
+    matrix: Array
+    """Of the normal equations, with the penalty."""
+    weight: float
+    freedoms: float
+
+
+def smooth(
+    functions: Array, penalty: Array, values: Array, trust: Array, weight: float | None = None
+) -> Smooth:
+    """Return the curve through `values` of shape (rows,), each counted `trust` times.
+
+    `weight` is that of the penalty, the best one if not given.
+    """
+    normal = functions.T @ (trust[:, None] * functions)
+    right = functions.T @ (trust * values)
+    best: Smooth | None = None
+    least = np.inf
+    unit = float(trust.mean())
+    ridge = _RIDGE * unit * np.eye(len(normal))
+    for tried in [unit * one for one in _PENALTIES] if weight is None else [weight]:
+        matrix = np.asarray(normal + tried * penalty.T @ penalty + ridge, dtype=np.float64)
+        both = np.column_stack([right, normal])
+        solved = np.asarray(np.linalg.solve(matrix, both), dtype=np.float64)
+        freedoms = float(np.trace(solved[:, 1:]))
+        error = values - functions @ solved[:, 0]
+        left = max(float(trust.sum()) - freedoms, 1e-6)
+        score = float(trust @ error**2) / left**2
+        if score < least:
+            least, best = score, Smooth(solved[:, 0], matrix, float(tried), freedoms)
+    assert best is not None
+    return best
+
+
+# Rows of sweeps in decades: what is shifted along log f until it is one curve.
+
+MODULI = {
+    "both": ("storage", "loss"),
+    "storage": ("storage",),
+    "loss": ("loss",),
+    "loss_factor": ("loss_factor",),
+}
+"""What a shift may rest on. E''/E' is no third measurement beside E' and E''; alone it is what the
+shape of a specimen, a factor of both, does not change."""
+
+
+@dataclass(frozen=True)
+class Rows:
+    """Decades of frequency and of each modulus, and the sweep of each row from the coldest."""
+
+    x: Array
+    """log10 of the frequency over 1 Hz, shape (rows,)."""
+    y: Array
+    """log10 of the moduli over 1 Pa, or of the loss factor, shape (moduli, rows)."""
+    sweep: NDArray[np.intp]
+    lifts: Array
+    """1 for each modulus that b_T multiplies, 0 for the loss factor, shape (moduli,)."""
+
+    @property
+    def sweeps(self) -> int:
+        """Number of sweeps."""
+        return int(self.sweep[-1]) + 1
+
+    def of(self, sweep: int) -> tuple[Array, Array]:
+        """Return x and y of one sweep."""
+        chosen = self.sweep == sweep
+        return self.x[chosen], self.y[:, chosen]
+
+
+def rows_of(sweeps: Sweeps, moduli: str) -> Rows:
+    """Return the rows of `sweeps`, for the choice of `moduli` among `MODULI`."""
+    names = MODULI[moduli]
+    x = np.log10(sweeps.frequency)
+    y = np.array([np.log10(getattr(sweeps, name)) for name in names])
+    counts = [len(one) for one in sweeps]
+    lifts = np.array([0.0 if name == "loss_factor" else 1.0 for name in names])
+    return Rows(x, y, np.repeat(np.arange(len(counts)), counts), lifts)
+
+
+_SPACING = 0.5
+"""Of the knots [decades]."""
+_PASSES = 60
+_SETTLING = 8
+"""Passes after which the weight of the penalty stays as it is."""
+_LARGEST_STEP = 0.3
+"""By which a shift may change in a pass [decades]."""
+_CONVERGED = 1e-4
+_FAR = 2.0
+"""Standard deviations from which a row counts less."""
+_LEAST_SCATTER = 1e-5
+_MOST_CORRELATED = 0.9
+_LIFT = 0.02
+"""How far log10 b_T of neighbours is expected apart [decades]; entropy and density say 0.01."""
+_LEAST_SHARE = 0.1
+"""Least overlap of neighbours, over the shorter of them."""
+_SOFT = 1e-6
+"""Weight that keeps a shift no row determines from being infinite: its error is 1000 decades."""
+
+
+@dataclass(frozen=True)
+class Joint:
+    """Shifts of all sweeps against the middle one."""
+
+    log_a: Array
+    log_b: Array
+    covariance: Array
+    """Of log_a, then log_b, shape (2 sweeps, 2 sweeps); zero for what is held."""
+    scatter: Array
+    """Of each modulus about the curve, in the median sweep [decades], shape (moduli,)."""
+    correlation: float
+    """Of neighbouring residuals of one sweep."""
+
+
+def align(rows: Rows, log_a: Array, log_b: Array, lifted: bool) -> Joint:
+    """Return the best shifts near a start against the middle sweep; log_b only if `lifted`."""
+    held = rows.sweeps // 2
+    shifts = np.concatenate([log_a - log_a[held], log_b - log_b[held]])
+    free = _free(rows.sweeps, held, lifted)
+    trust = np.ones_like(rows.y)
+    scatter = np.ones_like(rows.y)
+    weights: tuple[float | None, ...] = (None,) * len(rows.y)
+    for at in range(_PASSES):
+        last = _pass(rows, shifts, free, trust / scatter**2, weights)
+        largest = float(np.abs(last.step).max(initial=0.0))
+        shifts[free] += last.step * min(1.0, _LARGEST_STEP / max(largest, 1e-300))
+        shifts[: rows.sweeps] = _overlapping(rows, shifts[: rows.sweeps], held)
+        scatter, trust = _scatter(rows, last, trust)
+        if at >= _SETTLING:
+            weights = last.weights
+            if largest < _CONVERGED:
+                break
+    r = _neighbour_correlation(rows, np.sqrt(trust) * last.residual / scatter)
+    r = min(max(r, 0.0), _MOST_CORRELATED)
+    covariance = np.zeros((2 * rows.sweeps, 2 * rows.sweeps))
+    covariance[np.ix_(free, free)] = last.covariance * (1.0 + r) / (1.0 - r)
+    middle = np.median(scatter, axis=1)
+    return Joint(shifts[: rows.sweeps], shifts[rows.sweeps :], covariance, middle, r)
+
+
+@dataclass(frozen=True)
+class _Pass:
+    """Changes of the free shifts with their covariance, and the residuals before them."""
+
+    step: Array
+    covariance: Array
+    residual: Array
+    freedoms: Array
+    """Of each spline, and a share of the shifts, shape (moduli,)."""
+    weights: tuple[float, ...]
+    """Of the penalty of each spline over the scatter."""
+
+
+def _free(sweeps: int, held: int, lifted: bool) -> NDArray[np.intp]:
+    """Return the places of the shifts that are sought among log_a, then log_b."""
+    others = np.delete(np.arange(sweeps, dtype=np.intp), held)
+    return np.concatenate([others, others + sweeps]) if lifted else others
+
+
+def _pass(
+    rows: Rows,
+    shifts: Array,
+    free: NDArray[np.intp],
+    trust: Array,
+    weights: tuple[float | None, ...],
+) -> _Pass:
+    s, v = np.split(shifts, 2)
+    x = rows.x + s[rows.sweep]
+    basis = Basis.over(float(x.min()), float(x.max()), _SPACING)
+    functions, slopes, penalty = basis.at(x), basis.at(x, derivative=True), basis.penalty()
+    expected = _expected(rows.sweeps)
+    normal = _SOFT * np.eye(len(free)) + expected[np.ix_(free, free)]
+    right = -(expected @ shifts)[free]
+    residuals, curves = [], []
+    for at, lift in enumerate(rows.lifts):
+        y, count = rows.y[at] + lift * v[rows.sweep], trust[at]
+        curve = smooth(functions, penalty, y, count, weights[at])
+        residual = y - functions @ curve.coefficients
+        by_shift = _by_shift(rows, slopes @ curve.coefficients, lift)[:, free]
+        cross = functions.T @ (count[:, None] * by_shift)
+        solved = np.linalg.solve(curve.matrix, cross)
+        normal += by_shift.T @ (count[:, None] * by_shift) - cross.T @ solved
+        right += by_shift.T @ (count * residual) - solved.T @ (functions.T @ (count * residual))
+        residuals.append(residual)
+        curves.append(curve)
+    inverse = np.asarray(np.linalg.pinv(normal, hermitian=True, rcond=1e-14), dtype=np.float64)
+    freedoms = np.array([curve.freedoms for curve in curves]) + len(free) / len(curves)
+    weight = tuple(curve.weight for curve in curves)
+    return _Pass(inverse @ right, inverse, np.array(residuals), freedoms, weight)
+
+
+def _overlapping(rows: Rows, log_a: Array, held: int) -> Array:
+    """Return the shifts, no neighbours farther apart than where they hardly overlap."""
+    ends = np.array([rows.of(one)[0][[0, -1]] for one in range(rows.sweeps)])
+    least = _LEAST_SHARE * np.minimum(np.ptp(ends[1:], axis=1), np.ptp(ends[:-1], axis=1))
+    # Of the colder less the warmer: neither may begin where the other ends.
+    low = ends[1:, 0] - ends[:-1, 1] + least
+    high = ends[1:, 1] - ends[:-1, 0] - least
+    total = np.append(np.cumsum(np.clip(-np.diff(log_a), low, high)[::-1])[::-1], 0.0)
+    return np.asarray(total - total[held])
+
+
+def _expected(sweeps: int) -> Array:
+    """Return the weight of the expectation that neighbours have nearly the same log_b."""
+    apart = np.diff(np.eye(sweeps), axis=0) / _LIFT
+    weight = np.zeros((2 * sweeps, 2 * sweeps))
+    weight[sweeps:, sweeps:] = apart.T @ apart
+    return weight
+
+
+def _by_shift(rows: Rows, slope: Array, lift: float) -> Array:
+    """Return the change of F_k - v with log_a and log_b of each sweep, shape (rows, 2 sweeps)."""
+    change = np.zeros((len(rows.x), 2 * rows.sweeps))
+    each = np.arange(len(rows.x))
+    change[each, rows.sweep] = slope
+    change[each, rows.sweep + rows.sweeps] = -lift
+    return change
+
+
+def _scatter(rows: Rows, last: _Pass, trust: Array) -> tuple[Array, Array]:
+    """Return the scatter about each row and how far the row is trusted, both like the residuals."""
+    member = np.equal.outer(np.arange(rows.sweeps), rows.sweep).astype(float)
+    beside = np.abs(np.subtract.outer(np.arange(rows.sweeps), np.arange(rows.sweeps))) <= 1
+    left = np.maximum(1.0 - last.freedoms / len(rows.x), 0.1)
+    square = (trust * last.residual**2) @ member.T @ beside / (trust @ member.T @ beside)
+    scatter = np.sqrt(square / left[:, None])[:, rows.sweep]
+    scatter = np.maximum(scatter, _LEAST_SCATTER)
+    return scatter, 1.0 / np.maximum(np.abs(last.residual) / (_FAR * scatter), 1.0)
+
+
+def _neighbour_correlation(rows: Rows, residual: Array) -> float:
+    """Return the correlation of the residuals of neighbouring rows of a sweep."""
+    same = np.diff(rows.sweep) == 0
+    if not same.any():
+        return 0.0
+    product = (residual[:, 1:] * residual[:, :-1])[:, same].mean(axis=1)
+    return float(np.mean(product / np.maximum((residual**2).mean(axis=1), 1e-30)))

@@ -1,0 +1,358 @@
+"""Formulas fitted to shift tables, with standard errors.
+
+    WLF        log10 a_T = -c1 (T - T_0) / (c2 + T - T_0)
+    Arrhenius  log10 a_T = H / (R ln 10) (1/T - 1/T_0)
+
+Rows count by their standard errors, but none as more certain than a hundredth of a decade. Where
+the formula misses the rows by more than their errors, the errors of its constants grow in
+proportion.
+Sources: M. L. Williams, R. F. Landel & J. D. Ferry, J. Am. Chem. Soc. 77 (1955) 3701,
+doi:10.1021/ja01619a008; J. D. Ferry, Viscoelastic Properties of Polymers, 3rd ed. (1980), ch. 11.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from gripscale.core import checks
+from gripscale.core.errors import FileError, InputError
+from gripscale.core.units import ZERO_CELSIUS, in_si, listed, spelled
+from gripscale.io.netcdf import write_whole
+from gripscale.io.text_table import TextTable, file_path, read_table, read_text
+from gripscale.rubber.shift import EDGE, GAS_CONSTANT, WLF, Array, Arrhenius, ShiftTable
+
+_LEAST_ERROR = 0.01
+"""Standard error of log10 a_T below which none is believed [decades]."""
+_SECOND = 51.6
+"""Universal c2 of WLF [K], to begin with."""
+
+
+@dataclass(frozen=True)
+class ShiftFit:
+    """A formula fitted to a shift table."""
+
+    shift: WLF | Arrhenius
+    """With the temperatures fitted as its `valid_range`."""
+    errors: dict[str, float]
+    """Standard error of each constant by its name: c1 [-], c2 [K], activation_energy [J/mol]."""
+    temperature: Array = field(repr=False)
+    """Temperatures fitted [K], shape (rows,)."""
+    residual: Array = field(repr=False)
+    """Table less formula, in log10 a_T [-], shape (rows,)."""
+
+    @property
+    def misfit(self) -> float:
+        """Root mean square of the residual [decades]."""
+        return float(np.sqrt(np.mean(self.residual**2)))
+
+    def summary(self) -> str:
+        """Return the constants with their errors in a line of text."""
+        units = {"c2": " K", "activation_energy": " J/mol"}
+        constants = ", ".join(
+            f"{name} = {getattr(self.shift, name):.4g} +- {error:.2g}{units.get(name, '')}"
+            for name, error in self.errors.items()
+        )
+        low, high = self.temperature[[0, -1]] - ZERO_CELSIUS
+        return (
+            f"{self.shift.kind}: {constants}; {low:.1f} to {high:.1f} °C, "
+            f"misfit {self.misfit:.3f} decades"
+        )
+
+
+def fit_wlf(
+    table: ShiftTable, *, reference_temperature: float | None = None, lowest: float | None = None
+) -> ShiftFit:
+    """Return the WLF law of a shift table.
+
+    Parameters
+    ----------
+    table : ShiftTable
+        At least three rows that count.
+    reference_temperature : float, optional
+        T_0 [K], within the table; its own by default.
+    lowest : float, optional
+        Rows colder than this [K], such as those of the glass, do not count.
+
+    Returns
+    -------
+    ShiftFit
+        The law at T_0, valid between the temperatures that count, with its errors.
+
+    Raises
+    ------
+    InputError
+        If T_0 is missing or outside the table, too few rows count, or they do not follow the law:
+        log10 a_T must fall ever more slowly.
+    """
+    reference = _reference(table, reference_temperature)
+    kelvin, log_a, error = _rows(table, reference, lowest, None, 3)
+
+    def law(constants: Array) -> Array:
+        above = kelvin - reference
+        return np.asarray(-constants[0] * above / (constants[1] + above))
+
+    from scipy.optimize import least_squares
+
+    coldest = max(float(reference - kelvin.min()), 0.0)
+    begin = max(_SECOND, 1.5 * coldest)
+    slope = law(np.array([1.0, begin]))
+    first = max(float(slope @ log_a) / max(float(slope @ slope), 1e-30), 1e-3)
+
+    def weighted(constants: Array) -> Array:
+        return np.asarray((law(constants) - log_a) / error)
+
+    found = least_squares(
+        weighted,
+        [first, begin],
+        bounds=([0.0, coldest * (1.0 + 1e-6) + 1e-6], [np.inf, 1e4]),
+        x_scale=[10.0, 50.0],
+    )
+    c1, c2 = map(float, found.x)
+    if not (found.success and c1 > 0.0 and c2 < 0.99e4 and c2 > coldest + 0.01):
+        raise InputError(
+            "table must follow WLF, log10 a_T falling ever more slowly with temperature; the best "
+            f"constants found are c1 = {c1:.3g}, c2 = {c2:.3g} K"
+        )
+    shift = WLF(c1, c2, reference, _span(kelvin))
+    residual = log_a - law(found.x)
+    errors = _errors(np.asarray(found.jac), residual / error)
+    return ShiftFit(shift, dict(zip(("c1", "c2"), errors, strict=True)), kelvin, residual)
+
+
+def fit_arrhenius(
+    table: ShiftTable,
+    *,
+    reference_temperature: float | None = None,
+    lowest: float | None = None,
+    highest: float | None = None,
+) -> ShiftFit:
+    """Return the Arrhenius law of a shift table.
+
+    Parameters
+    ----------
+    table : ShiftTable
+        At least two rows that count.
+    reference_temperature : float, optional
+        T_0 [K], within the table; its own by default. A constant between rows that count and T_0 is
+        found as well if T_0 is not among them, so that the rows of the glass can be fitted alone.
+    lowest, highest : float, optional
+        Only rows between these [K] count.
+
+    Returns
+    -------
+    ShiftFit
+        The law, valid between the temperatures that count, with its error.
+
+    Raises
+    ------
+    InputError
+        If T_0 is missing or outside the table, too few rows count, or log10 a_T does not fall with
+        temperature.
+    """
+    reference = _reference(table, reference_temperature)
+    kelvin, log_a, error = _rows(table, reference, lowest, highest, 2)
+    matrix = 1.0 / (GAS_CONSTANT * math.log(10.0)) * (1.0 / kelvin - 1.0 / reference)[:, None]
+    if not kelvin[0] - EDGE <= reference <= kelvin[-1] + EDGE:
+        matrix = np.column_stack([matrix, np.ones(len(kelvin))])
+    weighted = matrix / error[:, None]
+    solution, *_ = np.linalg.lstsq(weighted, log_a / error, rcond=None)
+    energy = float(solution[0])
+    if energy <= 0.0:
+        raise InputError(
+            f"table must fall with temperature for Arrhenius; the activation energy found is "
+            f"{energy:.3g} J/mol"
+        )
+    residual = log_a - matrix @ solution
+    errors = _errors(weighted, residual / error)
+    return ShiftFit(
+        Arrhenius(energy, _span(kelvin)), {"activation_energy": errors[0]}, kelvin, residual
+    )
+
+
+def _reference(table: ShiftTable, given: float | None) -> float:
+    checks.instance("table", table, ShiftTable)
+    reference = table.reference_temperature if given is None else given
+    if reference is None:
+        raise InputError("reference_temperature [K] must be given, because the table states none")
+    reference = checks.positive("reference_temperature", reference, unit="K")
+    table.log_a(reference, reference)
+    return reference
+
+
+def _rows(
+    table: ShiftTable, reference: float, lowest: float | None, highest: float | None, least: int
+) -> tuple[Array, Array, Array]:
+    """Return temperature, log10 a against the reference and its error, of the rows that count."""
+    kelvin = table.temperature
+    low = 0.0 if lowest is None else checks.not_negative("lowest", lowest, unit="K")
+    high = math.inf if highest is None else checks.positive("highest", highest, unit="K")
+    chosen = (kelvin >= low - EDGE) & (kelvin <= high + EDGE)
+    if chosen.sum() < least:
+        raise InputError(
+            f"table must have at least {least} rows between the temperatures fitted; got "
+            f"{chosen.sum()}"
+        )
+    error = np.maximum(np.nan_to_num(table.horizontal_error, nan=_LEAST_ERROR), _LEAST_ERROR)
+    return kelvin[chosen], table.log_a(kelvin, reference)[chosen], error[chosen]
+
+
+def _span(kelvin: Array) -> tuple[float, float] | None:
+    return (float(kelvin[0]), float(kelvin[-1])) if len(kelvin) > 1 else None
+
+
+def _errors(matrix: Array, residual: Array) -> list[float]:
+    """Return standard errors from the weighted Jacobian and residuals."""
+    left = len(residual) - matrix.shape[1]
+    excess = float(residual @ residual) / left if left > 0 else 1.0
+    covariance = np.linalg.pinv(matrix.T @ matrix)
+    return [float(v) for v in np.sqrt(np.diag(covariance) * max(excess, 1.0))]
+
+
+# Shift tables as CSV files, to be looked at, edited and given back.
+#
+#     # reference temperature (C): 20
+#     temperature (C),log10 a_T,standard error of log10 a_T,b_T,standard error of log10 b_T
+#
+# Only the first two columns are needed; the sign is that of E*(w, T) = E*(a_T w, T_ref)/b_T.
+
+_TITLES = (
+    "temperature (C)",
+    "log10 a_T",
+    "standard error of log10 a_T",
+    "b_T",
+    "standard error of log10 b_T",
+)
+_REFERENCE = re.compile(r"^\s*[#%!].*reference temperature \((\w)\):\s*([-+.\deE]+)", re.MULTILINE)
+_DECIMALS = 6
+"""Of a temperature in degrees Celsius: 20.1, not 20.100000000000023."""
+
+
+def write_shift_table(path: str | Path, table: ShiftTable) -> Path:
+    """Write a shift table as CSV, in degrees Celsius; return the path.
+
+    Raises `FileError` if it cannot be written.
+    """
+    checks.instance("table", table, ShiftTable)
+    columns = (
+        np.round(table.temperature - ZERO_CELSIUS, _DECIMALS),
+        table.horizontal,
+        table.horizontal_error,
+        10.0**table.vertical,
+        table.vertical_error,
+    )
+    lines = ["# E*(w, T) = E*(a_T w, T_ref) / b_T"]
+    if table.reference_temperature is not None:
+        celsius = round(table.reference_temperature - ZERO_CELSIUS, _DECIMALS)
+        lines.append(f"# reference temperature (C): {celsius!r}")
+    lines.append(",".join(_TITLES))
+    lines += [",".join(repr(float(v)) for v in row) for row in zip(*columns, strict=True)]
+    text = "\n".join(lines) + "\n"
+    return write_whole(file_path(path), lambda part: _write(part, text))
+
+
+def _write(path: Path, text: str) -> None:
+    path.write_text(text, encoding="utf-8")
+
+
+def read_shift_table(path: str | Path, *, temperature_unit: str | None = None) -> ShiftTable:
+    """Read a shift table from CSV or text, such as `write_shift_table` writes.
+
+    Titles that say temperature and log a (log10 a_T, log_aT, log aT) name the columns; b, log b and
+    errors are read where they are.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file.
+    temperature_unit : {"K", "C", "F"}, optional
+        Unit of the temperatures, if the header does not state it.
+
+    Returns
+    -------
+    ShiftTable
+        In K, log10 a_T and log10 b_T, with the reference temperature the file states, if any.
+
+    Raises
+    ------
+    FileError
+        If the file cannot be read or has no such columns.
+    InputError
+        If the unit of the temperatures is neither stated nor given, or the numbers are no table.
+    """
+    place = file_path(path)
+    table = read_table(
+        place,
+        "rows of temperature and log10 a_T",
+        kinds=("temperature",),
+        named=lambda name: _meaning(name) is not None,
+    )
+    found = {_meaning(name): at for at, name in enumerate(table.names)}
+    if not {"temperature", "log_a"} <= set(found):
+        raise FileError(
+            f"{place}: expected columns of temperature and log10 a_T; the header has "
+            f"{', '.join(table.names) or 'no names'}"
+        )
+    columns = {str(name): table.numbers(at, "a number", missing=True) for name, at in found.items()}
+    kelvin = in_si(
+        columns["temperature"], _unit(table, found["temperature"], temperature_unit), "temperature"
+    )
+    vertical = columns.get("log_b")
+    if vertical is None and "b" in columns:
+        vertical = _logarithm(place, columns["b"])
+    try:
+        return ShiftTable(
+            kelvin,
+            columns["log_a"],
+            columns.get("log_a_error"),
+            vertical,
+            columns.get("log_b_error"),
+            _read_reference(place),
+        )
+    except InputError as error:
+        raise InputError(f"{place}: {error}") from error
+
+
+def _meaning(name: str) -> str | None:
+    """Return which column of a shift table a title means."""
+    low = re.sub(r"[\s_]+", "", name.lower())
+    if low.startswith("t") and (low == "t" or low.startswith("temp")):
+        return "temperature"
+    factor = next((one for one in "ab" if re.search(rf"(^|log(10)?|of|error){one}t?$", low)), None)
+    if factor is None:
+        return None
+    if "error" in low or "uncertainty" in low:
+        return f"log_{factor}_error"
+    return f"log_{factor}" if "log" in low else (factor if factor == "b" else None)
+
+
+def _unit(table: TextTable, column: int, given: str | None) -> str:
+    written = given or table.columns[column].unit
+    if written is None or spelled(written, "temperature") is None:
+        raise InputError(
+            f"{table.path}: temperature_unit must be given ({listed('temperature')}), because the "
+            f"header states {'none' if written is None else repr(written)}"
+        )
+    return written
+
+
+def _logarithm(path: Path, b: Array) -> Array:
+    if not (b > 0.0).all():
+        raise FileError(f"{path}: expected b_T above zero; got {np.nanmin(b):g}")
+    return np.asarray(np.log10(b))
+
+
+def _read_reference(path: Path) -> float | None:
+    found = _REFERENCE.search(read_text(path))
+    if found is None:
+        return None
+    try:
+        return float(in_si(float(found[2]), found[1], "temperature"))
+    except ValueError as error:
+        raise FileError(
+            f"{path}: expected a number as reference temperature; got {found[2]}"
+        ) from error

@@ -1,0 +1,249 @@
+"""A strain energy W(I1, I2) of the permanent network, with small-strain shear modulus G.
+
+A law states the slopes of 2 W/G, w1 by I1 and w2 by I2, with w1 + w2 = 1 at rest. Incompressible:
+
+    uniaxial stretch s   P = dW/ds = G (s - s^-2) (w1 + w2/s),   I1 = s^2 + 2/s, I2 = 2 s + s^-2
+    simple shear g       T = dW/dg = G g (w1 + w2),              I1 = I2 = 3 + g^2
+
+Source: R. S. Rivlin, Phil. Trans. R. Soc. A 241 (1948) 379, doi:10.1098/rsta.1948.0024.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, fields
+from typing import Any, ClassVar, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gripscale.core import checks
+from gripscale.core.errors import InputError
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class StrainEnergy(ABC):
+    """A law of the permanent network; its dataclass fields are its parameters, all numbers.
+
+    A fit takes G times the law as linear in coefficients c_k [Pa]. Here they are G and G times each
+    parameter; a law for which that is not so replaces `basis` and `from_coefficients`.
+    """
+
+    kind: ClassVar[str]
+    """What case files, fits and the kernel call the law."""
+
+    least_coefficients: ClassVar[tuple[float, ...]]
+    """Lower bounds of c_k [Pa]; the first is raised to where a rubber begins."""
+
+    def __post_init__(self) -> None:
+        for name, value in self.parameters().items():
+            object.__setattr__(self, name, checks.number(name, value))
+
+    @abstractmethod
+    def slopes(self, first: Array, second: Array) -> tuple[Array, Array]:
+        """Return w1 and w2 [-] at I1 - 3 and I2 - 3, all of one shape."""
+
+    @classmethod
+    def basis(cls, stretch: Array) -> list[Array]:
+        """Return the uniaxial factor per unit of each c_k over G [-], each like `stretch` [-]."""
+        units = np.eye(len(fields(cls)) + 1)[:, 1:]
+        plain, *others = (cls._of(unit).uniaxial_factor(stretch) for unit in units)
+        return [plain, *(other - plain for other in others)]
+
+    @classmethod
+    def from_coefficients(cls, found: Sequence[float]) -> tuple[float, Self]:
+        """Return G [Pa] and the law of coefficients c_k [Pa]."""
+        shear, *others = found
+        return shear, cls._of(other / shear for other in others)
+
+    @classmethod
+    def _of(cls, values: Iterable[float]) -> Self:
+        names = (field.name for field in fields(cls))
+        return cls(**dict(zip(names, values, strict=True)))
+
+    def parameters(self) -> dict[str, float]:
+        """Return the parameters by name."""
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
+    def uniaxial_factor(self, stretch: ArrayLike) -> Array:
+        """Return the nominal stress over G (s - s^-2), incompressible, at `stretch` [-]."""
+        s = np.asarray(stretch, dtype=float)
+        w1, w2 = self.slopes(s**2 + 2.0 / s - 3.0, 2.0 * s + s**-2 - 3.0)
+        return np.asarray(w1 + w2 / s)
+
+    def shear_factor(self, shear: ArrayLike) -> Array:
+        """Return the stress over G g in simple shear `shear` [-]."""
+        strain = np.asarray(shear, dtype=float) ** 2
+        w1, w2 = self.slopes(strain, strain)
+        return np.asarray(w1 + w2)
+
+
+# The Gaussian network, W = G/2 (I1 - 3).
+
+
+@dataclass(frozen=True)
+class NeoHookean(StrainEnergy):
+    """Gaussian network: energy in the first invariant alone."""
+
+    kind: ClassVar[str] = "neo_hookean"
+    least_coefficients: ClassVar[tuple[float, ...]] = (0.0,)
+
+    def slopes(self, first: Array, second: Array) -> tuple[Array, Array]:
+        """Return w1 = 1 and w2 = 0."""
+        return np.ones_like(first), np.zeros_like(second)
+
+
+# Mooney and Rivlin's network, W = G/2 ((1 - s) (I1 - 3) + s (I2 - 3)).
+#
+# Sources: M. Mooney, J. Appl. Phys. 11 (1940) 582, doi:10.1063/1.1712836; R. S. Rivlin, Phil.
+# Trans. R. Soc. A 241 (1948) 379, doi:10.1098/rsta.1948.0024.
+
+
+@dataclass(frozen=True)
+class MooneyRivlin(StrainEnergy):
+    """Energy linear in both invariants.
+
+    Parameters
+    ----------
+    share : float
+        Share s of the second invariant in the shear modulus, 0 to 1 [-].
+    """
+
+    share: float
+
+    kind: ClassVar[str] = "mooney_rivlin"
+    least_coefficients: ClassVar[tuple[float, ...]] = (0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not 0.0 <= self.share <= 1.0:
+            raise InputError(f"share must be from 0 to 1; got {self.share:g}")
+
+    def slopes(self, first: Array, second: Array) -> tuple[Array, Array]:
+        """Return w1 = 1 - s and w2 = s."""
+        return np.full_like(first, 1.0 - self.share), np.full_like(second, self.share)
+
+    @classmethod
+    def basis(cls, stretch: Array) -> list[Array]:
+        """Return the factors of c = G (1 - s), G s."""
+        return [cls(share).uniaxial_factor(stretch) for share in (0.0, 1.0)]
+
+    @classmethod
+    def from_coefficients(cls, found: Sequence[float]) -> tuple[float, MooneyRivlin]:
+        """Return G = c1 + c2 and the law of s = c2/G."""
+        shear = sum(found)
+        return shear, cls(found[1] / shear)
+
+
+# Yeoh's network, W = G/2 ((I1 - 3) + c2 (I1 - 3)^2 + c3 (I1 - 3)^3).
+#
+# Source: O. H. Yeoh, Rubber Chem. Technol. 66 (1993) 754, doi:10.5254/1.3538343.
+
+
+@dataclass(frozen=True)
+class Yeoh(StrainEnergy):
+    """Cubic in the first invariant; `second` softens (negative) and `third` stiffens (positive).
+
+    Parameters
+    ----------
+    second, third : float
+        c2 and c3, the coefficients of (I1 - 3)^2 and (I1 - 3)^3 over G/2 [-].
+
+    Raises
+    ------
+    InputError
+        If one is not a finite number.
+    """
+
+    second: float
+    third: float
+
+    kind: ClassVar[str] = "yeoh"
+    least_coefficients: ClassVar[tuple[float, ...]] = (0.0, -np.inf, 0.0)
+
+    def slopes(self, first: Array, second: Array) -> tuple[Array, Array]:
+        """Return w1 = 1 + 2 c2 (I1 - 3) + 3 c3 (I1 - 3)^2 and w2 = 0 [-] at I1 - 3 and I2 - 3."""
+        w1 = 1.0 + 2.0 * self.second * first + 3.0 * self.third * first**2
+        return w1, np.zeros_like(second)
+
+
+# Isihara's network, W = G/2 ((1 - s) (I1 - 3) + s (I2 - 3) + c2 (I1 - 3)^2).
+#
+# Source: A. Isihara, N. Hashitsume & M. Tatibana, J. Chem. Phys. 19 (1951) 1508.
+
+
+@dataclass(frozen=True)
+class Isihara(StrainEnergy):
+    """Linear in both invariants, with a quadratic term in the first.
+
+    Parameters
+    ----------
+    share : float
+        Share s of the second invariant in the shear modulus, 0 to 1 [-].
+    second : float
+        c2, the coefficient of (I1 - 3)^2 over G/2 [-].
+    """
+
+    share: float
+    second: float
+
+    kind: ClassVar[str] = "isihara"
+    least_coefficients: ClassVar[tuple[float, ...]] = (0.0, 0.0, -np.inf)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not 0.0 <= self.share <= 1.0:
+            raise InputError(f"share must be from 0 to 1; got {self.share:g}")
+
+    def slopes(self, first: Array, second: Array) -> tuple[Array, Array]:
+        """Return w1 = 1 - s + 2 c2 (I1 - 3) and w2 = s."""
+        w1 = 1.0 - self.share + 2.0 * self.second * first
+        return w1, np.full_like(second, self.share)
+
+    @classmethod
+    def basis(cls, stretch: Array) -> list[Array]:
+        """Return the factors of c = G (1 - s), G s, G c2."""
+        one, other = (cls(share, 0.0).uniaxial_factor(stretch) for share in (0.0, 1.0))
+        return [one, other, cls(0.0, 1.0).uniaxial_factor(stretch) - one]
+
+    @classmethod
+    def from_coefficients(cls, found: Sequence[float]) -> tuple[float, Isihara]:
+        """Return G = c1 + c2 and the law of s = c2/G and c3/G."""
+        shear = found[0] + found[1]
+        return shear, cls(found[1] / shear, found[2] / shear)
+
+
+# Strain energies of the permanent network; the temporary networks stay neo-Hookean.
+
+STRAIN_ENERGIES: dict[str, type[StrainEnergy]] = {
+    law.kind: law for law in (NeoHookean, MooneyRivlin, Yeoh, Isihara)
+}
+"""Every strain energy by its kind."""
+
+
+def strain_energy(kind: str, **parameters: float) -> StrainEnergy:
+    """Return the strain energy of a `kind`, such as `strain_energy("yeoh", second=..., third=...)`.
+
+    Raises `InputError` if the kind is unknown, or has other parameters.
+    """
+    law = STRAIN_ENERGIES[checks.one_of("kind", kind, STRAIN_ENERGIES)]
+    wanted = [field.name for field in fields(law)]
+    if set(parameters) != set(wanted):
+        takes = f"the parameters {', '.join(wanted)}" if wanted else "no parameters"
+        raise InputError(f"{kind} takes {takes}; got {', '.join(parameters) or 'none'}")
+    return law(**parameters)
+
+
+def strain_energy_from_dict(values: Mapping[str, Any]) -> StrainEnergy:
+    """Return the strain energy of {"kind": "yeoh", "second": ..., "third": ...}.
+
+    Raises `InputError` as `strain_energy` does, or if `values` is no such mapping.
+    """
+    if not isinstance(values, Mapping):
+        raise InputError(
+            f"strain_energy must be a mapping with its kind; got {checks.short_repr(values)}"
+        )
+    return strain_energy(**{"kind": None, **values})

@@ -1,0 +1,430 @@
+"""From sweeps at several temperatures to one master curve.
+
+    E*(w, T) = E*(a_T w, T_ref) / b_T
+
+A start pair by pair from E' (`neighbours`), then all sweeps at once with their uncertainty
+(`joint`), then the reference temperature, and a report on how they meet (`report`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from gripscale.core import checks
+from gripscale.core.errors import InputError
+from gripscale.core.units import ZERO_CELSIUS
+from gripscale.rubber.joint_shift import MODULI, Array, Joint, Rows, align, rows_of
+from gripscale.rubber.master_curve import MasterCurve
+from gripscale.rubber.shift import Shift, ShiftTable
+from gripscale.rubber.sweeps import Sweeps
+
+# How far two neighbouring sweeps are apart on log f: a start for all of them, and how they meet.
+#
+# Each sweep is taken as straight lines between its rows in log-log axes, and the difference of the
+# two is read at the rows of both within the overlap. The start is the largest likelihood of the
+# difference where the scatter of each modulus is unknown: the least sum of the logarithms of its
+# mean squares.
+
+_STEP = 0.02
+"""Steps of the shifts that are tried [decades]."""
+_BACK = 0.5
+"""How far a colder sweep may seem to be faster [decades]: by scatter on a plateau."""
+_LEAST_SHARE = 0.1
+"""Least overlap that is tried, over the shorter of the two sweeps."""
+
+Points = tuple[Array, Array]
+"""x of shape (rows,) rising, y of shape (moduli, rows)."""
+
+
+@dataclass(frozen=True)
+class Overlap:
+    """How two neighbouring sweeps meet, once shifted."""
+
+    colder: float
+    """Temperature of the colder sweep [K]."""
+    warmer: float
+    """Temperature of the warmer one [K]."""
+    decades: float
+    """Width of the overlap [decades of frequency]; below zero the width of the gap."""
+    rows: int
+    """Rows of both within the overlap."""
+    storage: float
+    """Root mean square distance of log10 E' in the overlap [decades]; NaN without one."""
+    loss: float
+    """The same of log10 E''."""
+    loss_factor: float
+    """The same of log10 E''/E'."""
+
+    def __str__(self) -> str:
+        """Return the overlap in words."""
+        pair = f"{self.colder - ZERO_CELSIUS:.1f} and {self.warmer - ZERO_CELSIUS:.1f} °C"
+        return f"{pair}: {self.decades:.2f} decades"
+
+
+def start(rows: Rows, lifted: bool) -> tuple[Array, Array]:
+    """Return log10 a and log10 b of each sweep against the warmest, pair by pair."""
+    noise = np.array([_roughness(rows, at) for at in range(len(rows.y))])
+    steps = [
+        _apart(rows.of(colder), rows.of(colder + 1), noise, rows.lifts if lifted else None)
+        for colder in range(rows.sweeps - 1)
+    ]
+    pairs = np.array([*steps, (0.0, 0.0)])
+    total = np.cumsum(pairs[::-1], axis=0)[::-1]
+    return total[:, 0], total[:, 1]
+
+
+def no_common_modulus(cold: Points, warm: Points, noise: float) -> bool:
+    """Return whether E' of two sweeps, their first modulus, has no value in common."""
+    return bool(warm[1][0].max() + 3.0 * noise < cold[1][0].min())
+
+
+def difference(cold: Points, warm: Points) -> Array:
+    """Return y of the colder sweep less the warmer at the rows of both in the overlap.
+
+    Shape (moduli, rows).
+    """
+    low, high = max(cold[0][0], warm[0][0]), min(cold[0][-1], warm[0][-1])
+    x = np.concatenate([cold[0], warm[0]])
+    x = x[(x >= low - 1e-12) & (x <= high + 1e-12)]
+    return np.array(
+        [
+            np.interp(x, cold[0], one) - np.interp(x, warm[0], other)
+            for one, other in zip(cold[1], warm[1], strict=True)
+        ]
+    )
+
+
+def overlap_width(cold: Array, warm: Array) -> float:
+    """Return the width of the overlap of two rising x [decades]; below zero that of the gap."""
+    return float(min(cold[-1], warm[-1]) - max(cold[0], warm[0]))
+
+
+def _apart(cold: Points, warm: Points, noise: Array, lifts: Array | None) -> tuple[float, float]:
+    """Return by how much the colder sweep is to be shifted against the warmer one."""
+    spans = np.ptp(cold[0]), np.ptp(warm[0])
+    furthest = cold[0][-1] - warm[0][0]
+    least = _LEAST_SHARE * min(spans)
+    shifts = np.arange(-_BACK, max(warm[0][-1] - cold[0][0] - least, 0.0) + _STEP, _STEP)
+    best, least_cost = (0.0, 0.0), math.inf
+    for shift in shifts[shifts > -furthest]:
+        apart = difference((cold[0] + shift, cold[1]), warm)
+        if apart.shape[1] < 2:
+            continue
+        lift = 0.0 if lifts is None else _lift(apart, noise, lifts)
+        left = apart + (0.0 if lifts is None else lift * lifts[:, None])
+        cost = float(np.log((left**2).mean(axis=1) + noise**2).sum())
+        if cost < least_cost:
+            best, least_cost = (float(shift), lift), cost
+    return best
+
+
+def _lift(apart: Array, noise: Array, lifts: Array) -> float:
+    weight = lifts / noise**2
+    return -float(weight @ apart.mean(axis=1) / weight.sum()) if weight.any() else 0.0
+
+
+def _roughness(rows: Rows, modulus: int) -> float:
+    """Return the scatter of a modulus from row to row [decades], at least 0.002 (half a per cent).
+
+    From the distance of each row to the straight line between its neighbours.
+    """
+    found = []
+    for sweep in range(rows.sweeps):
+        x, y = rows.of(sweep)
+        if len(x) < 3:
+            continue
+        run = np.maximum(x[2:] - x[:-2], 1e-12)
+        share = (x[1:-1] - x[:-2]) / run
+        middle = y[modulus, 1:-1] - (1.0 - share) * y[modulus, :-2] - share * y[modulus, 2:]
+        found.append(middle / np.sqrt(1.0 + share**2 + (1.0 - share) ** 2))
+    return max(float(1.4826 * np.median(np.abs(np.concatenate(found)))), 2e-3) if found else 2e-3
+
+
+# How well sweeps superpose: where neighbours meet, how they differ, and what is doubtful.
+
+_LITTLE = 0.5
+"""Overlap below which a shift rests on a few rows [decades]."""
+_LARGE = 0.3
+"""Standard error of log10 a_T that is worth a sentence [decades]."""
+_MISFIT = 0.04
+"""Distance of a modulus between neighbours that no scatter explains: a tenth of it [decades]."""
+
+
+@dataclass(frozen=True)
+class Superposition:
+    """How the sweeps of a master curve meet, and what is doubtful about it."""
+
+    temperatures: Array = field(repr=False)
+    """Of the sweeps, the coldest first [K]."""
+    overlaps: tuple[Overlap, ...] = field(repr=False)
+    """One for each pair of neighbours, the coldest first."""
+    fitted: bool
+    """Whether the shift was found from the sweeps, or given."""
+    scatter: dict[str, float]
+    """Of each modulus the shift rests on, about the smooth curve [decades]; empty if given."""
+    findings: tuple[str, ...]
+    """What is doubtful, a sentence each."""
+
+    def summary(self) -> str:
+        """Return the report as a few lines of text."""
+        if len(self.temperatures) == 1:
+            return "one sweep: there is nothing to superpose"
+        how = "found from the sweeps" if self.fitted else "as given"
+        lines = [f"{len(self.temperatures)} sweeps superposed, shift {how}"]
+        if self.overlaps:
+            width = [one.decades for one in self.overlaps]
+            lines.append(
+                f"neighbours overlap by {min(width):.2f} to {max(width):.2f} decades and differ in "
+                f"the median by E' {_median(self, 'storage'):.1%}, E'' {_median(self, 'loss'):.1%}"
+            )
+        return "\n".join([*lines, *self.findings])
+
+
+def report(
+    sweeps: Sweeps, shift: Shift, reference: float, joint: dict[str, float]
+) -> Superposition:
+    """Return how the sweeps meet under a shift to a reference temperature [K].
+
+    `joint` is the scatter of each modulus about the smooth curve, empty if the shift was given.
+    """
+    places = temperatures_in(shift, sweeps.temperatures, sweeps.tolerance)
+    a, b = shift.log_a(places, reference), shift.log_b(places, reference)
+    shifted = [
+        _points(one.frequency, one.storage, one.loss, along, up)
+        for one, along, up in zip(sweeps, a, b, strict=True)
+    ]
+    pairs = zip(places, places[1:], shifted, shifted[1:], strict=False)
+    overlaps = tuple(overlap(float(t), float(u), cold, warm) for t, u, cold, warm in pairs)
+    found = (*_findings(overlaps, shift), *_lifted(shift, bool(joint)))
+    return Superposition(sweeps.temperatures, overlaps, bool(joint), joint, found)
+
+
+def temperatures_in(shift: Shift, temperatures: Array, tolerance: float) -> Array:
+    """Return where a shift is to be read for sweeps at `temperatures` [K].
+
+    A table is read at its own temperature where that lies within the tolerance [K] of a sweep's.
+    """
+    if not isinstance(shift, ShiftTable):
+        return temperatures
+    own = shift.temperature
+    nearest = own[np.abs(np.subtract.outer(temperatures, own)).argmin(axis=1)]
+    return np.where(np.abs(nearest - temperatures) <= tolerance, nearest, temperatures)
+
+
+def overlap(colder: float, warmer: float, cold: Points, warm: Points) -> Overlap:
+    """Return how two shifted sweeps at two temperatures [K] meet; their y are E', E'', E''/E'."""
+    width = overlap_width(cold[0], warm[0])
+    apart = difference(cold, warm) if width >= 0.0 else np.empty((3, 0))
+    rms = np.sqrt((apart**2).mean(axis=1)) if apart.size else np.full(3, np.nan)
+    return Overlap(colder, warmer, width, apart.shape[1], *map(float, rms))
+
+
+def _points(frequency: Array, storage: Array, loss: Array, along: float, up: float) -> Points:
+    y = np.log10([storage, loss, loss / storage])
+    y[:2] += up
+    return np.log10(frequency) + along, y
+
+
+def _median(superposition: Superposition, name: str) -> float:
+    values = np.array([getattr(one, name) for one in superposition.overlaps])
+    known = values[np.isfinite(values)]
+    return float(10.0 ** np.median(known) - 1.0) if known.size else float("nan")
+
+
+def _findings(overlaps: tuple[Overlap, ...], shift: Shift) -> Iterator[str]:
+    little = [one for one in overlaps if one.decades < _LITTLE]
+    if little:
+        yield "neighbours hardly overlap, so that their shift is uncertain: " + _listed(little)
+    for name, words in (("storage", "E'"), ("loss", "E''")):
+        apart = [one for one in overlaps if getattr(one, name) > _MISFIT]
+        if apart:
+            worst = max(getattr(one, name) for one in apart)
+            yield (
+                f"{words} of {len(apart)} of {len(overlaps)} neighbours does not superpose (apart "
+                f"by up to {10.0**worst - 1.0:.0%} in the root mean square), from "
+                f"{apart[0].colder - ZERO_CELSIUS:.1f} to {apart[-1].warmer - ZERO_CELSIUS:.1f} "
+                "°C: vertical shifts, another strain amplitude or a second relaxation are the "
+                "usual causes"
+            )
+    if isinstance(shift, ShiftTable) and np.nanmax(shift.horizontal_error, initial=0.0) > _LARGE:
+        at = int(np.nanargmax(shift.horizontal_error))
+        yield (
+            f"the standard error of log10 a_T reaches {shift.horizontal_error[at]:.2f}, at "
+            f"{shift.temperature[at] - ZERO_CELSIUS:.1f} °C"
+        )
+
+
+def _lifted(shift: Shift, fitted: bool) -> Iterator[str]:
+    if fitted and isinstance(shift, ShiftTable) and (shift.vertical != 0.0).any():
+        yield (
+            "a_T and b_T were found together: where E' and E'' are nearly one power law, as on a "
+            "rubbery plateau, one stands for the other, and both may be worse than their "
+            "standard errors"
+        )
+
+
+def _listed(overlaps: list[Overlap]) -> str:
+    return "; ".join(map(str, overlaps))
+
+
+_NOISE = 0.01
+"""Scatter of a good laboratory [decades], for whether two sweeps have a value in common."""
+_NOMINAL = 0.5
+"""How far beyond the first or the last sweep a reference temperature still is that sweep's [K]."""
+
+
+def superpose(
+    sweeps: Sweeps,
+    *,
+    reference_temperature: float,
+    vertical: bool = False,
+    shift: Shift | None = None,
+    moduli: str = "both",
+) -> MasterCurve:
+    """Return the master curve of sweeps at several temperatures, with its shift.
+
+    Parameters
+    ----------
+    sweeps : Sweeps
+        At least two sweeps that overlap, unless the shift is given.
+    reference_temperature : float
+        Temperature the curve holds for [K], within those measured. Between two sweeps it is reached
+        by interpolation of the shift.
+    vertical : bool
+        Whether b_T is found as well; 1 otherwise. Where both moduli are one power law, a_T and b_T
+        cannot be told apart, which their errors say.
+    shift : Shift, optional
+        Taken as it is: nothing is fitted.
+    moduli : {"both", "storage", "loss", "loss_factor"}
+        What the shift is found from.
+
+    Returns
+    -------
+    MasterCurve
+        All rows, shifted. Its `shift` is a `ShiftTable` with standard errors, or the one given.
+
+    Raises
+    ------
+    InputError
+        If an argument is out of range, neighbouring sweeps have nothing in common, or a given shift
+        has no value at a temperature.
+    """
+    master, _ = superpose_report(
+        sweeps,
+        reference_temperature=reference_temperature,
+        vertical=vertical,
+        shift=shift,
+        moduli=moduli,
+    )
+    return master
+
+
+def superpose_report(
+    sweeps: Sweeps,
+    *,
+    reference_temperature: float,
+    vertical: bool = False,
+    shift: Shift | None = None,
+    moduli: str = "both",
+) -> tuple[MasterCurve, Superposition]:
+    """Return the master curve and the report on how the sweeps meet.
+
+    Arguments and errors are those of `superpose`.
+    """
+    checks.instance("sweeps", sweeps, Sweeps)
+    reference = checks.positive("reference_temperature", reference_temperature, unit="K")
+    lifted = checks.flag("vertical", vertical)
+    checks.one_of("moduli", moduli, MODULI)
+    scatter: dict[str, float] = {}
+    if shift is None:
+        shift, scatter = _found(sweeps, reference, lifted, moduli)
+    else:
+        shift = _given(shift, reference, lifted)
+    return _master(sweeps, shift, reference), report(sweeps, shift, reference, scatter)
+
+
+def _given(shift: Shift, reference: float, lifted: bool) -> Shift:
+    if not isinstance(shift, Shift):
+        raise InputError(f"shift must be a Shift, such as WLF; got {checks.short_repr(shift)}")
+    if lifted:
+        raise InputError("vertical must be False with a shift that is given; got True")
+    return shift.bound(reference)
+
+
+def _found(
+    sweeps: Sweeps, reference: float, lifted: bool, moduli: str
+) -> tuple[ShiftTable, dict[str, float]]:
+    """Return the shift of the sweeps, and the scatter of each modulus."""
+    kelvin = sweeps.temperatures.copy()
+    for end in (0, -1):  # 20 °C, where the last sweep was measured at 19.97
+        outside = reference < kelvin[0] if end == 0 else reference > kelvin[-1]
+        if outside and abs(kelvin[end] - reference) <= _NOMINAL:
+            kelvin[end] = reference
+    if not kelvin[0] <= reference <= kelvin[-1]:
+        raise InputError(
+            f"reference_temperature must lie within the temperatures measured, {kelvin[0]:.2f} to "
+            f"{kelvin[-1]:.2f} K; got {reference:g}"
+        )
+    if len(kelvin) == 1:
+        return ShiftTable(kelvin, [0.0], [0.0], reference_temperature=reference), {}
+    _require_common(sweeps, rows_of(sweeps, "both"))
+    rows = rows_of(sweeps, moduli)
+    first = "storage" if "storage" in MODULI[moduli] and not lifted else moduli
+    joint = align(rows, *start(rows_of(sweeps, first), lifted), lifted)
+    scatter = dict(zip(MODULI[moduli], joint.scatter.tolist(), strict=True))
+    return _table(kelvin, reference, joint, lifted), scatter
+
+
+def _require_common(sweeps: Sweeps, rows: Rows) -> None:
+    """Raise `InputError` unless E' of neighbouring sweeps has values in common."""
+    for colder in range(rows.sweeps - 1):
+        cold, warm = rows.of(colder), rows.of(colder + 1)
+        if min(len(cold[0]), len(warm[0])) < 2 or no_common_modulus(cold, warm, _NOISE):
+            raise _nothing_common(sweeps, colder)
+
+
+def _nothing_common(sweeps: Sweeps, colder: int) -> InputError:
+    low, high = sweeps.temperatures[colder : colder + 2] - ZERO_CELSIUS
+    return InputError(
+        f"sweeps at neighbouring temperatures must overlap for a shift to be found; those at "
+        f"{low:.2f} and {high:.2f} °C do not: give the shift, or superpose either side alone"
+    )
+
+
+def _table(kelvin: Array, reference: float, joint: Joint, lifted: bool) -> ShiftTable:
+    """Return the shifts against the reference temperature, with their errors."""
+    count = len(kelvin)
+    share = np.array([np.interp(reference, kelvin, one) for one in np.eye(count)])
+    against = np.eye(count) - share
+    error = [
+        np.sqrt(np.maximum(np.diag(against @ block @ against.T), 0.0))
+        for block in (joint.covariance[:count, :count], joint.covariance[count:, count:])
+    ]
+    held = ShiftTable(kelvin, joint.log_a, vertical=joint.log_b)
+    return ShiftTable(
+        kelvin,
+        held.log_a(kelvin, reference),
+        error[0],
+        held.log_b(kelvin, reference) if lifted else None,
+        error[1] if lifted else None,
+        reference_temperature=reference,
+    )
+
+
+def _master(sweeps: Sweeps, shift: Shift, reference: float) -> MasterCurve:
+    kelvin = temperatures_in(shift, sweeps.temperatures, sweeps.tolerance)
+    rows = [len(one) for one in sweeps]
+    a, b = (np.repeat(part(kelvin, reference), rows) for part in (shift.a, shift.b))
+    return MasterCurve(
+        sweeps.frequency * a,
+        sweeps.storage * b,
+        sweeps.loss * b,
+        reference_temperature=reference,
+        name=sweeps.name,
+        source=sweeps.source,
+        shift=shift,
+    )

@@ -1,0 +1,299 @@
+"""A surface ready for any model: its sine waves and, where it was measured, the way to them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from gripscale.core.errors import InputError
+from gripscale.surface.cleaning import CleaningReport
+from gripscale.surface.cut_off import (
+    CutOff,
+    CutOffRule,
+    SlopeByWavelength,
+    find_cut_off,
+    slope_by_wavelength,
+)
+from gripscale.surface.height_difference import HeightDifference, height_difference
+from gripscale.surface.plausibility import profile_doubts, stack_notes
+from gripscale.surface.profile import HeightMap, Profile
+from gripscale.surface.self_affine import SelfAffineFit
+from gripscale.surface.sine_fit import fit_sines
+from gripscale.surface.sines import SineStack
+
+
+@dataclass(frozen=True)
+class Measured:
+    """Profiles as read and cleaned, what cleaning did, and the fit to their correlation.
+
+    Of a map the profiles are one line to be shown; its lines and itself are as cleaned.
+    """
+
+    profiles: list[tuple[Profile, Profile]]
+    cleaning: list[CleaningReport]
+    self_affine: SelfAffineFit | None
+    no_self_affine: str
+    """Why there is no self-affine fit, or empty."""
+    map: HeightMap | None = None
+    """The map, x along the way of sliding, or None for profiles."""
+
+    @classmethod
+    def of(cls, measured: Sequence[Profile] | HeightMap) -> Measured:
+        """Return profiles or a map as they stand: nothing cleaned, nothing fitted."""
+        if isinstance(measured, HeightMap):
+            return cls([], [], None, "", measured)
+        return cls([(line, line) for line in measured], [], None, "")
+
+    @property
+    def cleaned(self) -> list[Profile]:
+        """The profiles as cleaned, or all lines of the map along the way of sliding."""
+        if self.map is not None:
+            return self.map.lines()
+        return [cleaned for _, cleaned in self.profiles]
+
+    @property
+    def surfaces(self) -> list[Profile] | list[HeightMap]:
+        """What a contact can be solved on: the profiles as cleaned, or the map."""
+        return self.cleaned if self.map is None else [self.map]
+
+    @cached_property
+    def slopes(self) -> SlopeByWavelength:
+        """Rms slope of what was measured, down to each wavelength."""
+        return slope_by_wavelength(self.cleaned if self.map is None else self.map)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What reading changed and what is implausible, a sentence each."""
+        found = []
+        for raw, cleaned in self.profiles:
+            about = f"{raw.name}: " if raw.name else ""
+            doubts = profile_doubts(raw, cleaned, steep=self.map is None)
+            found += [f"{about}{note}" for note in (*raw.notes, *doubts)]
+        return tuple(found)
+
+    def bare(self) -> Measured:
+        """Return what was measured, without how it was cleaned and what was fitted to it."""
+        return Measured.of(self.cleaned if self.map is None else self.map)
+
+
+@dataclass(frozen=True)
+class PreparedSurface:
+    """Sine waves, and what they were fitted to, if anything.
+
+    Attributes
+    ----------
+    sines, source
+        The waves, and where they come from.
+    correlation
+        What they were fitted to, or None for waves stated by hand.
+    fit
+        Arguments of `fit_sines` they were fitted with.
+    measured
+        The measurement behind the correlation, or None for a synthetic surface.
+    counted
+        Arguments of `height_difference` the correlation was found with: which heights and lags
+        count.
+    rule
+        By which the waves end where they do, or None for the last wave.
+    """
+
+    sines: SineStack
+    source: str
+    correlation: HeightDifference | None = None
+    fit: Mapping[str, Any] = field(default_factory=dict)
+    measured: Measured | None = None
+    counted: Mapping[str, Any] = field(default_factory=dict)
+    rule: CutOffRule | None = None
+
+    @property
+    def cut_off(self) -> CutOff | None:
+        """Where the roughness ends and by which rule, or None if nothing was measured."""
+        if self.measured is None:
+            return None
+        end = self.sines.roughness_end
+        if self.rule is None:
+            return replace(find_cut_off(self.measured.slopes, end), rule="the last wave")
+        found = find_cut_off(self.measured.slopes, self.rule)
+        # with s_wavelength given, whole waves end above the cut-off that was asked for
+        return (
+            found
+            if np.isclose(found.wavelength, end, rtol=1e-6)
+            else replace(
+                find_cut_off(self.measured.slopes, end), rule=f"whole waves down to {found.rule}"
+            )
+        )
+
+    def as_measured(self) -> PreparedSurface:
+        """Return nothing but what was measured and where the waves end."""
+        end = np.array([self.sines.roughness_end])
+        measured = self.measured and self.measured.bare()
+        return PreparedSurface(SineStack(end, end), source="", measured=measured)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What is to be known of the measurement and of where the waves end, a sentence each."""
+        found = () if self.measured is None else self.measured.notes
+        if self.correlation is None:
+            return found
+        notes = [*found, *stack_notes(self.sines, self.correlation, self.fit)]
+        end, carried = self.sines.cut_off, self.correlation.carried
+        if end is not None and carried is not None and end < carried * (1.0 - 1e-6):
+            notes.append(
+                f"the cut-off, {end * 1e3:.3g} mm, lies beyond what the measurement carries, "
+                f"{carried * 1e3:.3g} mm: the roughness between them is extrapolated"
+            )
+        return tuple(notes)
+
+    def varied(
+        self,
+        *,
+        factors: tuple[float, float] | None = None,
+        waves: int | None = None,
+        smallest_wavelength: float | None = None,
+        cut_off: CutOffRule | None = None,
+        upper_share: float | None = None,
+    ) -> PreparedSurface:
+        """Return the surface with other waves.
+
+        Parameters
+        ----------
+        factors
+            Magnification factors of wavelength and amplitude, from the same first wave down to
+            the same smallest wavelength or cut-off as far as whole waves go.
+        waves
+            Their number: fitted anew to a measured surface, the first ones of waves by hand.
+        smallest_wavelength
+            The last wave [m], in place of a cut-off: fitted anew, or cut off.
+        cut_off
+            Where the roughness ends that they stand for, in place of a smallest wavelength: a
+            length [m] or another rule of `find_cut_off`; of fitted waves only.
+        upper_share
+            Share of the heights that counts, see `height_difference`; of a measured surface only.
+
+        Raises
+        ------
+        InputError
+            If there are no such waves.
+        """
+        if upper_share is not None:
+            return self._of_upper(upper_share).varied(
+                factors=factors,
+                waves=waves,
+                smallest_wavelength=smallest_wavelength,
+                cut_off=cut_off,
+            )
+        if factors is None and waves is None and smallest_wavelength is None and cut_off is None:
+            return self
+        if smallest_wavelength is not None and cut_off is not None:
+            raise InputError(
+                "vary smallest_wavelength (the last wave) or cut_off (where the roughness ends), "
+                "not both"
+            )
+        if cut_off is not None and (self.correlation is None or not self.fit):
+            raise InputError(f"cut_off varies waves that were fitted; got {self.source}")
+        end = None if cut_off is None else self._length_of(cut_off)
+        if factors is not None:
+            stack = self._magnified(factors, waves, smallest_wavelength, end)
+        elif self.correlation is None or not self.fit:
+            stack = self._shortened(waves, smallest_wavelength)
+        else:
+            stack = self._fitted(self.correlation, waves, smallest_wavelength, end)
+        kept = self.rule if stack.cut_off is not None else None
+        return replace(self, sines=stack, rule=kept if cut_off is None else cut_off)
+
+    def _length_of(self, rule: CutOffRule) -> float:
+        """Return where the roughness ends by a rule [m]."""
+        if isinstance(rule, int | float):
+            return rule
+        if self.measured is None:
+            raise InputError(f"cut_off = {rule} needs a measured surface; got {self.source}")
+        return find_cut_off(self.measured.slopes, rule).wavelength
+
+    def _of_upper(self, share: float) -> PreparedSurface:
+        """Return the surface with waves fitted to the correlation of the upper part."""
+        if self.measured is None or not self.fit:
+            raise InputError(f"upper_share varies a measured surface; got {self.source}")
+        counted = {**self.counted, "upper_share": share}
+        correlation = height_difference(self.measured.cleaned, **counted)
+        sines = fit_sines(correlation, **self.fit)
+        return replace(self, sines=sines, correlation=correlation, counted=counted)
+
+    def _fitted(
+        self,
+        correlation: HeightDifference,
+        waves: int | None,
+        smallest: float | None,
+        cut_off: float | None,
+    ) -> SineStack:
+        options = dict(self.fit)
+        fixed = options.get("s_wavelength") is not None
+        if waves is not None:
+            no_end = {"smallest_wavelength": None, "cut_off": None}
+            options |= {"scales": waves} | (no_end if fixed else {})
+        if smallest is not None or cut_off is not None:
+            options |= {"smallest_wavelength": smallest, "cut_off": cut_off}
+            options |= {"scales": None} if fixed and waves is None else {}
+        return fit_sines(correlation, **options)
+
+    def _magnified(
+        self,
+        factors: tuple[float, float],
+        waves: int | None,
+        smallest: float | None,
+        cut_off: float | None,
+    ) -> SineStack:
+        first, last = self.sines.wavelength[0], smallest or self.sines.wavelength[-1]
+        half = np.sqrt(factors[0])
+        if smallest is None:
+            cut_off = cut_off or self.sines.cut_off
+            last = last if cut_off is None else cut_off * half
+        if waves is None:
+            if last > first:
+                raise InputError(_beyond_the_largest(first, last))
+            waves = 1 + int(np.log(first / last) / np.log(factors[0]) + 1e-9)
+        order = np.arange(waves)
+        stack = SineStack(
+            wavelength=first / factors[0] ** order,
+            amplitude=self.sines.amplitude[0] / factors[1] ** order,
+            s_wavelength=factors[0],
+            s_amplitude=factors[1],
+        )
+        if cut_off is not None:
+            stack = replace(stack, cut_off=float(stack.wavelength[-1] / half))
+        return stack if self.correlation is None else _judged(self.correlation, stack)
+
+    def _shortened(self, waves: int | None, smallest: float | None) -> SineStack:
+        count = len(self.sines) if waves is None else waves
+        if count > len(self.sines):
+            raise InputError(
+                f"waves must be at most {len(self.sines)}, as many as there are; got {count}"
+            )
+        keep = np.arange(len(self.sines)) < count
+        if smallest is not None:
+            keep &= self.sines.wavelength >= smallest
+        if not keep.any():
+            raise InputError(_beyond_the_largest(self.sines.wavelength[0], smallest))
+        return SineStack(self.sines.wavelength[keep], self.sines.amplitude[keep])
+
+
+def _judged(correlation: HeightDifference, stack: SineStack) -> SineStack:
+    """Return `stack` with its residual from the measured curve."""
+    return fit_sines(
+        correlation,
+        scales=len(stack) if stack.cut_off is None else None,
+        cut_off=stack.cut_off,
+        s_wavelength=stack.s_wavelength,
+        s_amplitude=stack.s_amplitude,
+        first_wavelength=float(stack.wavelength[0]),
+        first_amplitude=float(stack.amplitude[0]),
+    )
+
+
+def _beyond_the_largest(largest: float, smallest: float | None) -> str:
+    return (
+        f"smallest_wavelength must not exceed the largest wave, {largest:g} m; got {smallest:g} m"
+    )
