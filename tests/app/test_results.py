@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gripscale.analysis.comparison import judge_run
+from gripscale.analysis.comparison import save_reference
 from gripscale.app.tabs import results_elements
 from gripscale.case import read_case, run_case
 from gripscale.charts.page_elements import Chart, Text
@@ -33,7 +33,7 @@ def ran(small: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     text = CASE.replace("../elsewhere/", "") + '[measured]\nfriction = "friction.csv"\n'
     (place / "case.toml").write_text(text)
     results = run_case(read_case(place / "case.toml"), output=place / "out")
-    judge_run(results, place / "out")
+    save_reference(results, place / "out")
     return place / "out"
 
 

@@ -11,8 +11,8 @@ import xarray as xr
 from typer.testing import Result
 
 import gripscale as gs
-from gripscale.analysis import Comparison, Sample, SolvedRung, compare_case, judged
-from gripscale.analysis.comparison import FILE, judged_totals
+from gripscale.analysis import Comparison, Sample, SolvedRung, compare_case, solve_reference
+from gripscale.analysis.comparison import FILE, reference_totals
 from gripscale.case import prepare_case
 from gripscale.charts.print_comparison import comparison_axis_figure, comparison_figure
 from gripscale.charts.view import PredictionView
@@ -123,7 +123,7 @@ def test_rungs_are_the_models_themselves(inputs: Path) -> None:
         **load,
     )
     assert rungs["chain_half_plane"].mean("friction") == chain.friction
-    quick = judged(results)
+    quick = solve_reference(results)
     assert quick is not None
     # Estimated errors of 10 % and 2 %.
     assert quick.mean("friction") == pytest.approx(rungs["direct"].mean("friction"), rel=0.12)
@@ -243,7 +243,7 @@ def test_waves_by_hand_have_no_profile_to_judge_by(tmp_path: Path) -> None:
     case = tmp_path / "case.toml"
     case.write_text(WAVES_BY_HAND)
     results = prepare_case(case)
-    assert judged(results) is None
+    assert solve_reference(results) is None
     assert list(compare_case(results, seeds=1).by_name) == ["chain_half_plane", "sines"]
 
 
@@ -282,7 +282,7 @@ def test_a_run_says_what_its_chain_is_worth(shell: Shell, inputs: Path, tmp_path
     result = shell("run", inputs / "case.toml", "--output", tmp_path)
     assert result.exit_code == 0, result.output
     results = prepare_case(inputs / "case.toml")
-    direct = judged(results)
+    direct = solve_reference(results)
     assert direct is not None
     chain = gs.predict(
         results.rubber.rubber,
@@ -294,7 +294,7 @@ def test_a_run_says_what_its_chain_is_worth(shell: Shell, inputs: Path, tmp_path
         points=128,
     )
     stored = netcdf.load(tmp_path / FILE)
-    xr.testing.assert_identical(stored, judged_totals(direct, results))
+    xr.testing.assert_identical(stored, reference_totals(direct, results))
     first, second = judgement(PredictionView(chain.to_dataset()), stored)
     words = " ".join(result.stdout.split())
     assert first in words

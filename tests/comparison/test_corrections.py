@@ -10,7 +10,7 @@ import pytest
 
 import gripscale as gs
 from gripscale.analysis.best_estimate import sample_of
-from gripscale.analysis.ladder import LADDER, Subject, chosen
+from gripscale.analysis.ladder import LADDER, ComparisonSetup, chosen
 from gripscale.half_space import solve_both_ways, surface_of_sines
 from gripscale.half_space.model import DirectContact
 from gripscale.model import NominalLoad
@@ -26,7 +26,7 @@ SURFACE = PreparedSurface(STACK, "", measured=Measured.of([LINE]))
 LOAD = NominalLoad(5e4, 0.1, 0.1, math.inf)
 ROAD = self_affine_profile(0.8, 5e-3, 1e-3, 0.3, 1e-4, seed=4)
 MEASURED = Measured.of([ROAD])
-SUBJECT = Subject(RUBBER, PreparedSurface(STACK, "", measured=MEASURED), LOAD, HalfPlane())
+SUBJECT = ComparisonSetup(RUBBER, PreparedSurface(STACK, "", measured=MEASURED), LOAD, HalfPlane())
 
 
 def test_both_models_answer_as_the_pair_does() -> None:

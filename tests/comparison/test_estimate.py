@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import pytest
 
-from gripscale.analysis import Factor, Sample, SolvedRung, Uncertain
+from gripscale.analysis import Factor, LogNormalValue, Sample, SolvedRung
 from gripscale.analysis.best_estimate import FACTORS, best_estimate
 
 Make = Callable[..., SolvedRung]
@@ -29,7 +29,7 @@ def test_factors_of_rungs_and_from_elsewhere(solved: Make) -> None:
         "windows_finite_strain": solved("windows_finite_strain", (0.102, 0.98), (0.206, 0.97)),
         "windows_half_plane": solved("windows_half_plane", (0.1, 1.0), (0.2, 1.0)),
     }
-    supplied = Factor("isotropic_map", "map", Uncertain(0.5, 0.2), Uncertain(1.3, 0.1))
+    supplied = Factor("isotropic_map", "map", LogNormalValue(0.5, 0.2), LogNormalValue(1.3, 0.1))
     made = best_estimate({"direct": direct, **windows}, [supplied])
     assert made is not None
     assert made.missing == []

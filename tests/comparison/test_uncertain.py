@@ -7,13 +7,13 @@ import math
 import numpy as np
 import pytest
 
-from gripscale.analysis import Uncertain
-from gripscale.analysis.best_estimate import of_mean, together
+from gripscale.analysis import LogNormalValue
+from gripscale.analysis.best_estimate import add_in_quadrature, of_mean
 
 
 def test_products_and_quotients_of_drawn_numbers() -> None:
     random = np.random.default_rng(1)
-    first, second = Uncertain(0.04, 0.1), Uncertain(0.5, 0.25)
+    first, second = LogNormalValue(0.04, 0.1), LogNormalValue(0.5, 0.25)
     draws = [
         one.value * np.exp(one.uncertainty * random.standard_normal(400_000))
         for one in (first, second)
@@ -38,9 +38,9 @@ def test_mean_of_a_sample_scatters_by_its_uncertainty() -> None:
 
 
 def test_unknown_parts_add_nothing() -> None:
-    assert together([0.3, math.nan, 0.4]) == pytest.approx(0.5)
-    assert math.isnan(together([math.nan]))
-    assert Uncertain(2.0).times(Uncertain(3.0, 0.1)) == Uncertain(6.0, 0.1)
-    assert math.isnan(Uncertain(1.0, 0.1).over(Uncertain(0.0, 0.1)).value)
+    assert add_in_quadrature([0.3, math.nan, 0.4]) == pytest.approx(0.5)
+    assert math.isnan(add_in_quadrature([math.nan]))
+    assert LogNormalValue(2.0).times(LogNormalValue(3.0, 0.1)) == LogNormalValue(6.0, 0.1)
+    assert math.isnan(LogNormalValue(1.0, 0.1).over(LogNormalValue(0.0, 0.1)).value)
     assert math.isnan(of_mean([0.3]))
     assert math.isnan(of_mean([0.0, 0.0]))

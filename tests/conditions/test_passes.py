@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from gripscale.conditions.fixed_point import MOST_PASSES, SETTLED, Pass, settle
+from gripscale.conditions.fixed_point import MOST_PASSES, SETTLED, Iteration, solve_coupled
 from gripscale.core.errors import ConvergenceError
 
 X = np.array([0.3, -1.2, 0.8])
@@ -22,7 +22,7 @@ class Mesh:
         self.solved += 1
         x = np.zeros(3) if assumed is None else assumed
         found = self.at + self.slope @ (x - self.at) + self.bend * (x - self.at) ** 2
-        return Pass(self.solved, assumed, found, np.exp(x[:2]))
+        return Iteration(self.solved, assumed, found, np.exp(x[:2]))
 
 
 def results(at):
@@ -33,7 +33,7 @@ def test_the_fixed_point_is_that_of_the_fine_mesh():
     """Another fixed point and another slope on the coarse mesh: four fine solutions, 1e-3."""
     fine = Mesh()
     coarse = Mesh(X + np.array([0.05, -0.1, 0.2]), 0.9 * SLOPE)
-    passes = settle(fine, coarse)
+    passes = solve_coupled(fine, coarse)
     assert passes.settled
     assert passes.last.results == pytest.approx(results(X), rel=1e-3)
     assert passes.last.results != pytest.approx(results(coarse.at), rel=1e-2)
@@ -43,7 +43,7 @@ def test_the_fixed_point_is_that_of_the_fine_mesh():
 
 def test_without_a_coarse_mesh_it_takes_more_passes():
     fine = Mesh()
-    passes = settle(fine, None)
+    passes = solve_coupled(fine, None)
     assert passes.settled
     assert passes.last.results == pytest.approx(results(X), rel=1e-3)
     assert (passes.fine, passes.coarse) == (fine.solved, 0)
@@ -52,7 +52,7 @@ def test_without_a_coarse_mesh_it_takes_more_passes():
 
 def test_a_coarse_mesh_that_says_the_opposite_does_not_decide():
     fine, coarse = Mesh(), Mesh(X + 0.5, -0.8 * SLOPE)
-    passes = settle(fine, coarse)
+    passes = solve_coupled(fine, coarse)
     assert passes.fine <= MOST_PASSES
     if passes.settled:
         assert passes.last.results == pytest.approx(results(X), rel=1e-2)
@@ -67,7 +67,7 @@ def test_a_coarse_mesh_that_fails_is_given_up(fails_at):
             raise ConvergenceError("no solution")
         return coarse(assumed, last)
 
-    passes = settle(fine, failing)
+    passes = solve_coupled(fine, failing)
     assert passes.settled
     assert passes.last.results == pytest.approx(results(X), rel=1e-3)
     assert passes.fine == fine.solved
@@ -79,21 +79,21 @@ def test_what_never_settles_ends():
 
     def jumping(assumed, last):
         found = fine(assumed, last)
-        return Pass(0, assumed, found.found + 0.1 * (-1) ** fine.solved, found.results)
+        return Iteration(0, assumed, found.found + 0.1 * (-1) ** fine.solved, found.results)
 
     for coarse in (None, Mesh(X + 0.1)):
         fine.solved = 0
-        passes = settle(jumping, coarse)
+        passes = solve_coupled(jumping, coarse)
         assert not passes.settled
         assert passes.fine == fine.solved == MOST_PASSES
 
 
 def test_a_fine_solution_that_fails_is_the_answer():
     def failed(assumed, last):
-        return Pass("failed", assumed, X, results(X), usable=False)
+        return Iteration("failed", assumed, X, results(X), usable=False)
 
     for coarse in (None, Mesh()):
-        passes = settle(failed, coarse)
+        passes = solve_coupled(failed, coarse)
         assert (passes.last.solved, passes.fine, passes.settled) == ("failed", 1, False)
 
 

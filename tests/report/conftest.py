@@ -17,10 +17,10 @@ from gripscale.analysis import (
     Comparison,
     ComparisonOverAxis,
     Factor,
+    LogNormalValue,
     MeasuredFriction,
     Sample,
     SolvedRung,
-    Uncertain,
     compare_case,
 )
 from gripscale.case import prepare_case, run_case
@@ -165,7 +165,9 @@ def compared(run_folder: Path) -> list[xr.Dataset]:
     bad = Sample(math.nan, math.nan, math.nan, "tolerance not met", "<i>lane</i>")
     failed = SolvedRung(direct.rung, [direct.samples[0], bad])
     factors = [
-        Factor("finite_strain", "finite strain", Uncertain(1.02, 0.01), Uncertain(0.98, 0.1))
+        Factor(
+            "finite_strain", "finite strain", LogNormalValue(1.02, 0.01), LogNormalValue(0.98, 0.1)
+        )
     ]
     alone, fast = (
         Comparison(

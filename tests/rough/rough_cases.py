@@ -9,7 +9,7 @@ import scipy.fft
 
 import gripscale as gs
 from gripscale.half_space.grid import Grid, periodic_heights
-from gripscale.half_space.grid_sequence import Climb, Level, finer, levels
+from gripscale.half_space.grid_sequence import GridSequence, Level, finer, levels
 from gripscale.half_space.response import HalfSpace
 from gripscale.surface import HeightMap, Profile
 
@@ -56,7 +56,7 @@ def solve(surface, **arguments):
 def on_grid(rubber, surface, *, pressure, speed, shape, shortest):
     """Solve on one grid alone, from nothing; `speed` may be negative."""
     heights = periodic_heights(surface, smallest_wavelength=shortest, periodic=True)
-    climb = Climb(HalfSpace(rubber, speed), heights, pressure, 1, 60)
+    climb = GridSequence(HalfSpace(rubber, speed), heights, pressure, 1, 60)
     return climb.solve(Level(Grid(shape, heights.grid.lengths), shortest))
 
 
@@ -88,7 +88,7 @@ class RandomCase:
         heights = periodic_heights(
             self.surface, smallest_wavelength=self.smallest_wavelength, periodic=True
         )
-        climb = Climb(HalfSpace(self.rubber, self.speed), heights, self.pressure, 1, 60)
+        climb = GridSequence(HalfSpace(self.rubber, self.speed), heights, self.pressure, 1, 60)
         points = contact.grid.points * 2 ** (halvings * len(contact.grid.shape))
         for level in levels(heights):
             found = climb.solve(level)

@@ -221,7 +221,7 @@ def _error(answer: xr.Dataset, name: str) -> float:
 # exp(-sigma) and y exp(sigma) is within one standard uncertainty.
 
 
-class Uncertain(NamedTuple):
+class LogNormalValue(NamedTuple):
     """A number and the standard deviation of its logarithm; NaN where that is not known."""
 
     value: float
@@ -237,21 +237,23 @@ class Uncertain(NamedTuple):
         """The number plus one standard uncertainty."""
         return self.value * math.exp(self.uncertainty)
 
-    def times(self, other: Uncertain) -> Uncertain:
+    def times(self, other: LogNormalValue) -> LogNormalValue:
         """Return the product with an independent number."""
-        return Uncertain(self.value * other.value, together([self.uncertainty, other.uncertainty]))
+        return LogNormalValue(
+            self.value * other.value, add_in_quadrature([self.uncertainty, other.uncertainty])
+        )
 
-    def over(self, other: Uncertain) -> Uncertain:
+    def over(self, other: LogNormalValue) -> LogNormalValue:
         """Return the quotient by an independent number; NaN if that is zero."""
         value = self.value / other.value if other.value else math.nan
-        return Uncertain(value, together([self.uncertainty, other.uncertainty]))
+        return LogNormalValue(value, add_in_quadrature([self.uncertainty, other.uncertainty]))
 
 
-UNKNOWN_VALUE = Uncertain(math.nan)
+UNKNOWN_VALUE = LogNormalValue(math.nan)
 """Nothing known."""
 
 
-def together(uncertainties: Iterable[float]) -> float:
+def add_in_quadrature(uncertainties: Iterable[float]) -> float:
     """Return the root of the sum of squares of those known; NaN if none is."""
     known = [one for one in uncertainties if not math.isnan(one)]
     return math.hypot(*known) if known else math.nan
@@ -335,16 +337,16 @@ class SolvedRung:
         """Return a number of each sample that converged."""
         return np.array([getattr(sample, name) for sample in self.converged], dtype=float)
 
-    def uncertain(self, name: str) -> Uncertain:
+    def uncertain(self, name: str) -> LogNormalValue:
         """Return the mean with its uncertainty: scatter of the samples and estimated errors.
 
         Of several things sampled (profiles) the scatter is that of their means: what is drawn of
         one of them again and again tells nothing of the others.
         """
         scatter = of_mean(self._independent(name))
-        return Uncertain(self.mean(name), together([scatter, self._error(name)]))
+        return LogNormalValue(self.mean(name), add_in_quadrature([scatter, self._error(name)]))
 
-    def over(self, other: SolvedRung, name: str) -> Uncertain:
+    def over(self, other: SolvedRung, name: str) -> LogNormalValue:
         """Return the factor from `other` to this rung.
 
         Where both have one sample each of the same things, only what those have in both counts and
@@ -358,11 +360,13 @@ class SolvedRung:
             if own.converged and its.converged
         ]
         if not both:
-            return Uncertain(math.nan)
+            return LogNormalValue(math.nan)
         own, its = np.array(both).T
         ratio = own.mean() / its.mean() if its.mean() else math.nan
         scatter = of_mean(own / its) if (its > 0.0).all() else math.nan
-        return Uncertain(ratio, together([scatter, self._error(name), other._error(name)]))
+        return LogNormalValue(
+            ratio, add_in_quadrature([scatter, self._error(name), other._error(name)])
+        )
 
     def pairs_with(self, other: SolvedRung) -> bool:
         """Return whether both rungs have one sample each of the same two things or more."""
@@ -410,8 +414,8 @@ class Factor:
 
     name: str
     label: str
-    contact_fraction: Uncertain = UNKNOWN_VALUE
-    friction: Uncertain = UNKNOWN_VALUE
+    contact_fraction: LogNormalValue = UNKNOWN_VALUE
+    friction: LogNormalValue = UNKNOWN_VALUE
 
     @property
     def included(self) -> bool:
@@ -436,16 +440,16 @@ class BestEstimate:
     factors: Sequence[Factor]
 
     @property
-    def contact_fraction(self) -> Uncertain:
+    def contact_fraction(self) -> LogNormalValue:
         """Real over nominal contact area [-], the product of what is included."""
         parts = [factor.contact_fraction for factor in self.included]
-        return reduce(Uncertain.times, parts, self.base.contact_fraction)
+        return reduce(LogNormalValue.times, parts, self.base.contact_fraction)
 
     @property
-    def friction(self) -> Uncertain:
+    def friction(self) -> LogNormalValue:
         """Friction coefficient [-], the product of what is included."""
         parts = [factor.friction for factor in self.included]
-        return reduce(Uncertain.times, parts, self.base.friction)
+        return reduce(LogNormalValue.times, parts, self.base.friction)
 
     @property
     def included(self) -> list[Factor]:

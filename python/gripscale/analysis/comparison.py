@@ -9,7 +9,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gripscale.analysis.best_estimate import Factor, Sample, SolvedRung, sample_of
 from gripscale.analysis.comparison_dataset import Comparison, ComparisonOverAxis
-from gripscale.analysis.ladder import DIRECT, LADDER, Draw, Rung, Subject, chosen, each_measured
+from gripscale.analysis.ladder import (
+    DIRECT,
+    LADDER,
+    ComparisonSetup,
+    Rung,
+    SampleSpec,
+    chosen,
+    each_measured,
+)
 from gripscale.analysis.measured_comparison import (
     Predicted,
     averaged,
@@ -207,10 +215,10 @@ def _compared(
     return out
 
 
-def _subject(file: CaseFile, task: Task, choice: Choice) -> Subject:
+def _subject(file: CaseFile, task: Task, choice: Choice) -> ComparisonSetup:
     theory = file.case.compare
     chain = checks.instance("model", task.model, Chain)
-    return Subject(
+    return ComparisonSetup(
         task.rubber,
         task.surface,
         task.load,
@@ -225,11 +233,11 @@ def _subject(file: CaseFile, task: Task, choice: Choice) -> Subject:
     )
 
 
-def _task(subject: Subject, draw: Draw) -> Task:
+def _task(subject: ComparisonSetup, draw: SampleSpec) -> Task:
     return Task(subject.rubber_for(draw.model), draw.surface, subject.load, draw.model)
 
 
-def _label(place: str, label: str, draws: Sequence[Draw], at: int) -> str:
+def _label(place: str, label: str, draws: Sequence[SampleSpec], at: int) -> str:
     """Return what one sample is called while it is solved."""
     number = f" {at + 1} of {len(draws)}" if len(draws) > 1 else ""
     return ": ".join(filter(None, [place, f"{label}{number}"]))
@@ -299,7 +307,7 @@ def at_measured(
 
 
 def _told(
-    measured: MeasuredFriction, subject: Subject, predicted: dict[str, Predicted], case: str
+    measured: MeasuredFriction, subject: ComparisonSetup, predicted: dict[str, Predicted], case: str
 ) -> xr.Dataset:
     law = None if subject.conditions is None else subject.conditions.shear_stress
     data = residuals(measured, predicted, law)
@@ -314,7 +322,7 @@ FILE = "direct.nc"
 """What it is kept in, beside the result."""
 
 
-def judged(results: CaseResults) -> SolvedRung | None:
+def solve_reference(results: CaseResults) -> SolvedRung | None:
     """Return the direct contact of the measured profiles, at the speed of the case.
 
     Parameters
@@ -345,21 +353,21 @@ def judged(results: CaseResults) -> SolvedRung | None:
     return SolvedRung(rung, samples) if samples else None
 
 
-def judge_run(results: CaseResults, folder: str | Path) -> xr.Dataset | None:
-    """Return what `judged` finds as totals of a model; keep it in `results` and in `folder`.
+def save_reference(results: CaseResults, folder: str | Path) -> xr.Dataset | None:
+    """Solve the reference contact of a case; keep its totals in `results` and in `folder`.
 
     Raises `FileError` if it cannot be written.
     """
-    direct = judged(results)
+    direct = solve_reference(results)
     if direct is None:
         return None
-    data = judged_totals(direct, results)
+    data = reference_totals(direct, results)
     netcdf.save(data, Path(folder) / FILE)
     results.direct = data
     return data
 
 
-def judged_totals(direct: SolvedRung, results: CaseResults) -> xr.Dataset:
+def reference_totals(direct: SolvedRung, results: CaseResults) -> xr.Dataset:
     """Return the means of `direct` over the profiles as a model answers with its totals."""
     import xarray as xr
 

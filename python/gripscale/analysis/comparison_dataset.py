@@ -18,12 +18,12 @@ from gripscale.analysis.best_estimate import (
     UNKNOWN_VALUE,
     BestEstimate,
     Factor,
+    LogNormalValue,
     SolvedRung,
-    Uncertain,
     best_estimate,
     octaves,
 )
-from gripscale.analysis.ladder import Subject
+from gripscale.analysis.ladder import ComparisonSetup
 from gripscale.analysis.measured_comparison import measured_variables
 from gripscale.analysis.measured_friction import MeasuredFriction
 from gripscale.case.read import CaseFile
@@ -51,7 +51,7 @@ class SolvedLadder:
     """The rungs of one case under one load, in order."""
 
     file: CaseFile
-    subject: Subject
+    subject: ComparisonSetup
     rungs: Sequence[SolvedRung]
     measured: MeasuredFriction | None = None
     """Friction measured elsewhere, to be put beside the models."""
@@ -75,7 +75,7 @@ class SolvedLadder:
         of_map = measured is not None and measured.map is not None
         return best_estimate(self.by_name, self.factors, of_map=of_map)
 
-    def factor(self, rung: SolvedRung, name: str) -> Uncertain:
+    def factor(self, rung: SolvedRung, name: str) -> LogNormalValue:
         """Return the factor on `name` from the rung that `rung` follows; NaN if it is not there."""
         before = self.by_name.get(rung.rung.follows)
         return UNKNOWN_VALUE if before is None else rung.over(before, name)

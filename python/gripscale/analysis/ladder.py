@@ -43,7 +43,7 @@ from gripscale.wave.profile import BlockOnProfile
 
 
 @dataclass(frozen=True, eq=False)
-class Subject:
+class ComparisonSetup:
     """What the models are compared over, and how finely.
 
     Parameters
@@ -86,7 +86,7 @@ class Subject:
         return self.rubber if knows else self.rubber_before
 
 
-class Draw(NamedTuple):
+class SampleSpec(NamedTuple):
     """One sample of a rung: a model to ask, and on which surface."""
 
     model: Model
@@ -112,7 +112,7 @@ class Rung:
     follows : str
         Name of the rung it is compared with; empty for none.
     draws : callable
-        From a `Subject` to its samples; none where the model has nothing to say of it.
+        From a `ComparisonSetup` to its samples; none where the model has nothing to say of it.
     """
 
     name: str
@@ -120,10 +120,12 @@ class Rung:
     group: str
     change: str
     follows: str
-    draws: Callable[[Subject], Sequence[Draw]] = field(repr=False)
+    draws: Callable[[ComparisonSetup], Sequence[SampleSpec]] = field(repr=False)
 
 
-def only(surface: PreparedSurface, measured: Profile | HeightMap) -> PreparedSurface:
+def with_single_measurement(
+    surface: PreparedSurface, measured: Profile | HeightMap
+) -> PreparedSurface:
     """Return the waves of `surface` with nothing else measured."""
     whole = measured if isinstance(measured, HeightMap) else [measured]
     return PreparedSurface(surface.sines, measured.name, measured=Measured.of(whole))
@@ -143,34 +145,34 @@ MAP, WAVES_IN_MAP, MAPS, LINES = 1.8, 128, 2, 10
 kept, how many, and how many lines of each are solved each way."""
 
 
-def windows_half_plane(subject: Subject) -> Sequence[Draw]:
+def windows_half_plane(subject: ComparisonSetup) -> Sequence[SampleSpec]:
     """Return windows of the profiles for the half-space."""
     return _on_windows(subject, DirectContact(tolerance=subject.tolerance, periodic=True))
 
 
-def windows_finite_strain(subject: Subject) -> Sequence[Draw]:
+def windows_finite_strain(subject: ComparisonSetup) -> Sequence[SampleSpec]:
     """Return the same windows for the block."""
     return _on_windows(subject, BlockOnProfile(periodic=True))
 
 
-def maps(subject: Subject) -> Sequence[Draw]:
+def maps(subject: ComparisonSetup) -> Sequence[SampleSpec]:
     """Return synthetic isotropic maps of the profiles."""
     return _on_maps(subject, 0)
 
 
-def lines_of_maps(subject: Subject) -> Sequence[Draw]:
+def lines_of_maps(subject: ComparisonSetup) -> Sequence[SampleSpec]:
     """Return lines of the same maps."""
     return _on_maps(subject, LINES)
 
 
-def _on_windows(subject: Subject, model: Model) -> Sequence[Draw]:
+def _on_windows(subject: ComparisonSetup, model: Model) -> Sequence[SampleSpec]:
     measured, sines = subject.surface.measured, subject.surface.sines
     lines = () if measured is None else tuple(measured.cleaned)
     length = WINDOW * float(sines.wavelength[0])
     return [
-        Draw(
+        SampleSpec(
             model,
-            only(subject.surface, line),
+            with_single_measurement(subject.surface, line),
             f"{line.name} from {line.x[0]:.4g} m",
         )
         for line in _windows(lines, length, float(sines.roughness_end))
@@ -191,7 +193,7 @@ def _windows(lines: tuple[Profile, ...], length: float, end: float) -> list[Prof
     return spread_windows(enough, length, WINDOWS, smallest)
 
 
-def _on_maps(subject: Subject, lines: int) -> Sequence[Draw]:
+def _on_maps(subject: ComparisonSetup, lines: int) -> Sequence[SampleSpec]:
     """Return the maps; none of a surface that is a map, or whose profiles are too short."""
     from gripscale.half_space.maps import SyntheticMap
 
@@ -206,7 +208,7 @@ def _on_maps(subject: Subject, lines: int) -> Sequence[Draw]:
     if sum(line.length for line in cleaned) < FEWEST_PERIODS * WAVES_IN_MAP * smallest:
         return []
     return [
-        Draw(
+        SampleSpec(
             SyntheticMap(seed, float(smallest), lines, tolerance=subject.tolerance),
             surface,
             f"map {seed}",
@@ -245,30 +247,33 @@ def chosen(names: Iterable[str]) -> list[Rung]:
 def each_measured(surface: PreparedSurface) -> list[tuple[str, PreparedSurface]]:
     """Return `surface` with one profile after the other, or its map, and what it is called."""
     measured: Sequence[Profile | HeightMap] = surface.measured.surfaces if surface.measured else []
-    return [(one.name or f"profile {i}", only(surface, one)) for i, one in enumerate(measured, 1)]
+    return [
+        (one.name or f"profile {i}", with_single_measurement(surface, one))
+        for i, one in enumerate(measured, 1)
+    ]
 
 
-def _chain(subject: Subject) -> Sequence[Draw]:
+def _chain(subject: ComparisonSetup) -> Sequence[SampleSpec]:
     small_strain = isinstance(subject.solver, HalfPlane)
     if small_strain:
         return []
-    return [Draw(_chain_of(subject, subject.solver), subject.surface)]
+    return [SampleSpec(_chain_of(subject, subject.solver), subject.surface)]
 
 
-def _chain_of(subject: Subject, solver: WaveSolver) -> Chain:
+def _chain_of(subject: ComparisonSetup, solver: WaveSolver) -> Chain:
     return Chain(solver, pressure_classes=subject.pressure_classes, conditions=subject.conditions)
 
 
-def _direct_of(subject: Subject) -> DirectContact:
+def _direct_of(subject: ComparisonSetup) -> DirectContact:
     return DirectContact(tolerance=subject.tolerance, conditions=subject.conditions)
 
 
-def _chain_half_plane(subject: Subject) -> Sequence[Draw]:
+def _chain_half_plane(subject: ComparisonSetup) -> Sequence[SampleSpec]:
     solver = subject.solver if isinstance(subject.solver, HalfPlane) else HalfPlane()
-    return [Draw(_chain_of(subject, solver), subject.surface)]
+    return [SampleSpec(_chain_of(subject, solver), subject.surface)]
 
 
-def _chain_upper(subject: Subject) -> Sequence[Draw]:
+def _chain_upper(subject: ComparisonSetup) -> Sequence[SampleSpec]:
     surface = subject.surface
     upper_already = surface.counted.get("upper_share", 1.0) < 1.0
     cut_off_already = surface.sines.cut_off is not None
@@ -281,7 +286,7 @@ def _chain_upper(subject: Subject) -> Sequence[Draw]:
         return []
     solver = HalfPlane(points=POINTS_OF_A_CLASS)
     chain = Chain(solver, pressure_classes=CLASSES, conditions=subject.conditions)
-    return [Draw(chain, PreparedSurface(sines, "waves of the upper half"))]
+    return [SampleSpec(chain, PreparedSurface(sines, "waves of the upper half"))]
 
 
 @lru_cache(maxsize=4)
@@ -296,30 +301,30 @@ def _of_upper_half(
         return None
 
 
-def _sines(subject: Subject) -> Sequence[Draw]:
+def _sines(subject: ComparisonSetup) -> Sequence[SampleSpec]:
     model, surface = _direct_of(subject), subject.surface
     lines = (_of_sines(surface.sines, seed) for seed in range(subject.seeds))
-    return [Draw(model, only(surface, line)) for line in lines]
+    return [SampleSpec(model, with_single_measurement(surface, line)) for line in lines]
 
 
-def _random_phases(subject: Subject) -> Sequence[Draw]:
+def _random_phases(subject: ComparisonSetup) -> Sequence[SampleSpec]:
     model, surface = _direct_of(subject), subject.surface
     measured = [] if surface.measured is None else surface.measured.surfaces
     return [
-        Draw(model, only(surface, _shuffled(one, seed)), one.name)
+        SampleSpec(model, with_single_measurement(surface, _shuffled(one, seed)), one.name)
         for one in measured
         for seed in range(subject.seeds)
     ]
 
 
-def _direct(subject: Subject) -> Sequence[Draw]:
+def _direct(subject: ComparisonSetup) -> Sequence[SampleSpec]:
     model = _direct_of(subject)
-    return [Draw(model, one, name) for name, one in each_measured(subject.surface)]
+    return [SampleSpec(model, one, name) for name, one in each_measured(subject.surface)]
 
 
-def _persson(subject: Subject) -> Sequence[Draw]:
+def _persson(subject: ComparisonSetup) -> Sequence[SampleSpec]:
     return [
-        Draw(Persson(smallest_wavelength=_last_known(one)), one, name)
+        SampleSpec(Persson(smallest_wavelength=_last_known(one)), one, name)
         for name, one in each_measured(subject.surface)
     ]
 
@@ -331,11 +336,11 @@ def _last_known(surface: PreparedSurface) -> float:
     return max(surface.sines.roughness_end, *ends)
 
 
-def _klueppel_heinrich(subject: Subject) -> Sequence[Draw]:
+def _klueppel_heinrich(subject: ComparisonSetup) -> Sequence[SampleSpec]:
     theory = subject.klueppel_heinrich
     if theory is None:
         return []
-    return [Draw(theory, one, name) for name, one in each_measured(subject.surface)]
+    return [SampleSpec(theory, one, name) for name, one in each_measured(subject.surface)]
 
 
 @lru_cache(maxsize=16)

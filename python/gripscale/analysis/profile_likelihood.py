@@ -53,7 +53,7 @@ CURVE = 25
 """Values of a parameter at which its profile is kept."""
 
 
-class Better(Exception):
+class BetterMinimumFound(Exception):
     """A profile has met a smaller sum of squares than the fit."""
 
     def __init__(self, theta: Array) -> None:
@@ -85,14 +85,14 @@ class Profile:
     def excess(self, scaled: float, start: Array | None = None) -> tuple[float, Array]:
         """Return E at a value, and what the others are there.
 
-        Raises `Better` where E is below zero.
+        Raises `BetterMinimumFound` where E is below zero.
         """
         held = self.problem.holding(self.place, scaled)
         others = np.delete(self.optimum.theta, self.place) if start is None else start
         found = refined(held, others)
         apart = found.sum_of_squares - self.optimum.sum_of_squares
         if apart < -LESS * self.optimum.sum_of_squares - 1e-12:
-            raise Better(np.insert(found.theta, self.place, scaled))
+            raise BetterMinimumFound(np.insert(found.theta, self.place, scaled))
         return max(apart, 0.0), found.theta
 
     def end(self, way: int, threshold: float) -> float:
@@ -189,7 +189,7 @@ def settled(
     while True:
         try:
             return optimum, find(optimum)
-        except Better as better:
+        except BetterMinimumFound as better:
             optimum = refined(problem, better.theta)
 
 

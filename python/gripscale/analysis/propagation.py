@@ -24,8 +24,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from gripscale.analysis.sampled_inputs import Attempt, Inputs, Measurement
-from gripscale.analysis.sampling import Chosen, Drawn, Uncertainty, draws
+from gripscale.analysis.sampled_inputs import FailSafeModel, Inputs, Measurement
+from gripscale.analysis.sampling import Chosen, SampledInputs, Uncertainty, draws
 from gripscale.analysis.sources import Source
 from gripscale.analysis.variance_shares import shares
 from gripscale.case.read import CaseFile, read_case
@@ -39,7 +39,7 @@ from gripscale.core.units import GIVEN
 from gripscale.experiment.axis import LONG_NAMES, UNITS, Axis, axes_of
 from gripscale.experiment.inputs import contents, digest
 from gripscale.experiment.solve import OnTask, solve_all
-from gripscale.experiment.task import Store, Task, exact, store_in
+from gripscale.experiment.task import Store, Task, canonical_json, store_in
 from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
 from gripscale.model import FRICTION_OUTSIDE_BAND, Model, NominalLoad
@@ -117,7 +117,7 @@ NUMBERS = {
 """What is kept of each answer: its name there, unit and meaning."""
 
 
-class Place(NamedTuple):
+class TaskKey(NamedTuple):
     """One prediction: of which model, at which value of the axis, of which sample.
 
     The case itself is sample -1.
@@ -131,10 +131,10 @@ class Place(NamedTuple):
 def dataset(
     models: Sequence[str],
     axis: Axis | None,
-    drawn: Sequence[Drawn],
+    drawn: Sequence[SampledInputs],
     chosen: Chosen,
-    solved: Mapping[Place, xr.Dataset],
-    refused: Mapping[Place, str],
+    solved: Mapping[TaskKey, xr.Dataset],
+    refused: Mapping[TaskKey, str],
 ) -> xr.Dataset:
     """Return all samples over model, axis and sample, with quantiles and shares.
 
@@ -153,7 +153,7 @@ def dataset(
     kept = {name: np.full(shape, np.nan) for name in (*NUMBERS, *errors, "seconds")}
     status = np.full(shape, "", dtype=object)
     for at in np.ndindex(shape):
-        place = Place(models[at[0]], at[1], at[2] - 1)
+        place = TaskKey(models[at[0]], at[1], at[2] - 1)
         status[at] = refused.get(place, "")
         if place in solved:
             answer = solved[place]
@@ -229,7 +229,7 @@ class _Named:
         return xr.Variable(("model", self.axis.name, *dims), values, attrs)
 
 
-def _drawn(drawn: Sequence[Drawn], sources: Sequence[Source]) -> dict[str, Any]:
+def _drawn(drawn: Sequence[SampledInputs], sources: Sequence[Source]) -> dict[str, Any]:
     """Return the coordinates of the draws over `sample`, each with its source."""
     return {
         name: (
@@ -242,7 +242,7 @@ def _drawn(drawn: Sequence[Drawn], sources: Sequence[Source]) -> dict[str, Any]:
     }
 
 
-def _coordinates(drawn: Sequence[Drawn], sources: Sequence[Source]) -> dict[str, Array]:
+def _coordinates(drawn: Sequence[SampledInputs], sources: Sequence[Source]) -> dict[str, Array]:
     """Return the logarithms that describe the draws of each source, shape (samples, numbers)."""
     found = {}
     for source in sources:
@@ -369,11 +369,13 @@ class Plan:
         stated = {
             "software": software(),
             "case": contents(self.file),
-            "uncertainty": exact(self.uncertainty),
+            "uncertainty": canonical_json(self.uncertainty),
             "samples": [self.samples, self.seed],
             "models": list(self.models),
-            "tolerance": exact(self.tolerance),
-            "axis": None if self.axis is None else [self.axis.name, exact(self.axis.values)],
+            "tolerance": canonical_json(self.tolerance),
+            "axis": None
+            if self.axis is None
+            else [self.axis.name, canonical_json(self.axis.values)],
         }
         return hashlib.sha256(json.dumps(stated, sort_keys=True).encode()).hexdigest()
 
@@ -499,12 +501,12 @@ def _solved(
     case = Inputs.of(Measurement.of(results))
     drawn = list(draws(case, chosen.sources, plan.samples, plan.seed))
     loads = _loads(results.load, plan.axis)
-    tasks: dict[Place, Task] = {}
-    status: dict[Place, str] = {}
+    tasks: dict[TaskKey, Task] = {}
+    status: dict[TaskKey, str] = {}
     for name in plan.models:
         model = results.chain if name == "chain" else _direct(results, plan.tolerance)
-        for sample, one in enumerate([Drawn(case, {}), *drawn], start=-1):
-            places = [Place(name, value, sample) for value in range(len(loads))]
+        for sample, one in enumerate([SampledInputs(case, {}), *drawn], start=-1):
+            places = [TaskKey(name, value, sample) for value in range(len(loads))]
             try:
                 tasks |= dict(zip(places, _tasks(one, model, loads), strict=True))
             except InputError as refusal:
@@ -532,16 +534,16 @@ def _direct(results: CaseResults, tolerance: float | None) -> DirectContact:
     return DirectContact(tolerance=tolerance, conditions=results.conditions)
 
 
-def _tasks(one: Drawn, model: Model, loads: Sequence[NominalLoad]) -> list[Task]:
+def _tasks(one: SampledInputs, model: Model, loads: Sequence[NominalLoad]) -> list[Task]:
     """Return the tasks of a sample; raise `InputError` if it cannot be made."""
     if one.inputs is None:
         raise InputError(one.why_not)
     surface, own = one.inputs.for_model(model)
     relevant = own.relevant(surface)
-    return [Task(one.inputs.rubber, relevant, load, Attempt(own)) for load in loads]
+    return [Task(one.inputs.rubber, relevant, load, FailSafeModel(own)) for load in loads]
 
 
-def _label(place: Place, axis: Axis | None) -> str:
+def _label(place: TaskKey, axis: Axis | None) -> str:
     where = "" if axis is None else f", {axis.name} {axis.labels[place.value]}"
     what = "the case itself" if place.sample < 0 else f"sample {place.sample + 1}"
     return f"{place.model}{where}, {what}"

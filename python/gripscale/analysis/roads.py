@@ -32,9 +32,9 @@ from gripscale.analysis.compounds import (
     total_differences,
 )
 from gripscale.analysis.propagation import quantiles
-from gripscale.analysis.sampled_inputs import Attempt, Inputs, Measurement
+from gripscale.analysis.sampled_inputs import FailSafeModel, Inputs, Measurement
 from gripscale.analysis.sampling import draws
-from gripscale.analysis.sources import ProfileSource, Stated
+from gripscale.analysis.sources import ProfileSource, SourceOptions
 from gripscale.case.read import CaseFile, read_case
 from gripscale.chain.chain import Chain
 from gripscale.core import checks, provenance
@@ -94,7 +94,7 @@ Answers = Mapping[tuple[str, str], xr.Dataset]
 """Answers by model and road."""
 
 
-class Place(NamedTuple):
+class RoadTaskKey(NamedTuple):
     """One prediction: of which model on which road, and what of it."""
 
     model: str
@@ -103,7 +103,7 @@ class Place(NamedTuple):
 
 
 def roads_dataset(
-    surfaces: Mapping[str, PreparedSurface], solved: Mapping[Place, xr.Dataset]
+    surfaces: Mapping[str, PreparedSurface], solved: Mapping[RoadTaskKey, xr.Dataset]
 ) -> xr.Dataset:
     """Return what `gripscale.analysis.compare_surfaces` promises."""
     own = {(p.model, p.surface): answer for p, answer in solved.items() if p.part == AS_MEASURED}
@@ -147,7 +147,7 @@ def _status(own: Answers, names: list[str]) -> xr.Variable:
 
 
 def _factors(
-    solved: Mapping[Place, xr.Dataset], names: list[str], quantity: str
+    solved: Mapping[RoadTaskKey, xr.Dataset], names: list[str], quantity: str
 ) -> NDArray[np.float64]:
     """Return the ends of 90 % of the samples over what they are compared with.
 
@@ -156,7 +156,7 @@ def _factors(
     ends = np.full((2, len(MODELS), len(names)), np.nan)
     for i, model in enumerate(MODELS):
         for j, name in enumerate(names):
-            base = solved.get(Place(model, name, TO_COMPARE))
+            base = solved.get(RoadTaskKey(model, name, TO_COMPARE))
             if base is None:
                 continue
             samples = [
@@ -288,13 +288,15 @@ def compare_surfaces(
     given = {name: _surface(value, file) for name, value in surfaces.items()}
     load = file.case.load.nominal
     rubber, models = case_rubber(file), [_model(name, file) for name in MODELS]
-    tasks: dict[Place, Task] = {}
+    tasks: dict[RoadTaskKey, Task] = {}
     notes: list[str] = []
     for model, (name, surface) in product(models, given.items()):
         if isinstance(model, DirectContact) and surface.measured is None:
             notes.append(f"{name} was not measured: no direct contact")
             continue
-        tasks[Place(model.name, name, AS_MEASURED)] = Task(rubber, surface, load, Attempt(model))
+        tasks[RoadTaskKey(model.name, name, AS_MEASURED)] = Task(
+            rubber, surface, load, FailSafeModel(model)
+        )
         if samples is None:
             continue
         known = Measurement(surface, rubber, speed=load.speed, load_time=load.load_time)
@@ -303,7 +305,7 @@ def compare_surfaces(
         except InputError as why:
             notes.append(f"{name}, {model.name}: no range; {why}")
             continue
-        tasks |= {Place(model.name, name, part): task for part, task in drawn.items()}
+        tasks |= {RoadTaskKey(model.name, name, part): task for part, task in drawn.items()}
     labels = {", ".join(place): task for place, task in tasks.items()}
     answers = solve_all(labels, Store(Path(folder) / PREDICTIONS), workers=workers, on_task=on_task)
     solved = {place: answers[task.key] for place, task in tasks.items()}
@@ -336,7 +338,7 @@ def _drawn(known: Measurement, model: Model, load: NominalLoad, samples: int) ->
 
     Raises `InputError` if no samples can be drawn.
     """
-    source = ProfileSource.of(known, Stated(models=(model.name,)))
+    source = ProfileSource.of(known, SourceOptions(models=(model.name,)))
     case = Inputs.of(known)
     if isinstance(model, Chain):
         model = replace(model, solver=HalfPlane(points=POINTS))
@@ -349,5 +351,5 @@ def _drawn(known: Measurement, model: Model, load: NominalLoad, samples: int) ->
     tasks = {}
     for part, inputs in parts.items():
         surface, own = inputs.for_model(model)
-        tasks[part] = Task(known.rubber, own.relevant(surface), load, Attempt(own))
+        tasks[part] = Task(known.rubber, own.relevant(surface), load, FailSafeModel(own))
     return tasks

@@ -317,7 +317,7 @@ def _bare(given: Any) -> Any:
 
 
 @dataclass(frozen=True)
-class Attempt:
+class FailSafeModel:
     """Another model, whose refusal of an input is an answer without totals that says why."""
 
     model: Model

@@ -11,7 +11,7 @@ import numpy as np
 from scipy.stats import qmc
 
 from gripscale.analysis.sampled_inputs import Inputs, Measurement
-from gripscale.analysis.sources import SOURCES, NotHere, Source, Stated
+from gripscale.analysis.sources import SOURCES, Source, SourceNotApplicable, SourceOptions
 from gripscale.case.tables import UncertaintyTable
 from gripscale.core import checks
 from gripscale.core.errors import InputError
@@ -93,12 +93,12 @@ class Uncertainty:
         for name, maker in SOURCES.items():
             try:
                 if name in self.without:
-                    raise NotHere("left out as asked")
+                    raise SourceNotApplicable("left out as asked")
                 if not set(maker.models) & set(models):
-                    raise NotHere(f"no effect on the model {' or '.join(models)}")
-                stated = Stated(self.given.get(name), self.block_length, models)
+                    raise SourceNotApplicable(f"no effect on the model {' or '.join(models)}")
+                stated = SourceOptions(self.given.get(name), self.block_length, models)
                 chosen.sources.append(maker.of(known, stated))
-            except NotHere as why:
+            except SourceNotApplicable as why:
                 if name in self.given:
                     raise InputError(f"{name} is given and has nothing to draw: {why}") from None
                 chosen.left_out.append(f"{maker.label}: {why}")
@@ -115,7 +115,7 @@ class Uncertainty:
 # of the others.
 
 
-class Drawn(NamedTuple):
+class SampledInputs(NamedTuple):
     """One sample: its inputs, or why there are none, and the coordinates of what was drawn."""
 
     inputs: Inputs | None
@@ -123,7 +123,9 @@ class Drawn(NamedTuple):
     why_not: str = ""
 
 
-def draws(case: Inputs, sources: Sequence[Source], samples: int, seed: int) -> Iterator[Drawn]:
+def draws(
+    case: Inputs, sources: Sequence[Source], samples: int, seed: int
+) -> Iterator[SampledInputs]:
     """Yield the samples of a case."""
     columns = {source.name: _column(source.name, samples, seed) for source in sources}
     for sample in range(samples):
@@ -136,7 +138,7 @@ def draws(case: Inputs, sources: Sequence[Source], samples: int, seed: int) -> I
             except InputError as error:
                 told, why_not = dict.fromkeys(source.coordinates, np.nan), str(error)
             coordinates |= told
-        yield Drawn(None if why_not else inputs, coordinates, why_not)
+        yield SampledInputs(None if why_not else inputs, coordinates, why_not)
 
 
 def _column(name: str, samples: int, seed: int) -> np.ndarray[tuple[int], np.dtype[np.float64]]:

@@ -64,7 +64,7 @@ class Source(Protocol):
 
 
 @dataclass(frozen=True)
-class Stated:
+class SourceOptions:
     """What the user says: the values of one source, the length of a block, what predicts."""
 
     values: Any = None
@@ -72,7 +72,7 @@ class Stated:
     models: Sequence[str] = ()
 
 
-class NotHere(InputError):
+class SourceNotApplicable(InputError):
     """A source has nothing to draw in a case; the message says why."""
 
 
@@ -96,14 +96,14 @@ class ProfileSource:
     blocks: ProfileBlocks
 
     @classmethod
-    def of(cls, known: Measurement, stated: Stated) -> ProfileSource:
+    def of(cls, known: Measurement, stated: SourceOptions) -> ProfileSource:
         """Return the source of a case.
 
-        Raises `NotHere` without a measured profile, `InputError` if its profiles are too short, or
-        the direct contact of a map is asked for.
+        Raises `SourceNotApplicable` without a measured profile, `InputError` if its profiles are too
+        short, or if the direct contact of a map is asked for.
         """
         if not known.fitted or not known.profiles:
-            raise NotHere("no profile was measured")
+            raise SourceNotApplicable("no profile was measured")
         if "direct" in stated.models and known.is_map:
             raise InputError(
                 "the direct contact of a map has no blocks of profiles to draw; leave out the "
@@ -156,10 +156,10 @@ class ModulusSource:
     """Where the draws are told apart [rad/s]: excitation by the largest and the smallest wave."""
 
     @classmethod
-    def of(cls, known: Measurement, stated: Stated) -> ModulusSource:
-        """Return the source of a case; raise `NotHere` without a measured master curve."""
+    def of(cls, known: Measurement, stated: SourceOptions) -> ModulusSource:
+        """Return the source; raise `SourceNotApplicable` without a measured master curve."""
         if known.master is None or known.fit is None:
-            raise NotHere("no moduli were measured")
+            raise SourceNotApplicable("no moduli were measured")
         sines, band = known.surface.sines, known.fit.measured_band
         excited = 2.0 * np.pi * known.speed / sines.wavelength[[0, -1]]
         return cls(
@@ -207,7 +207,7 @@ class BulkModulusSource:
     range: Range
 
     @classmethod
-    def of(cls, known: Measurement, stated: Stated) -> BulkModulusSource:
+    def of(cls, known: Measurement, stated: SourceOptions) -> BulkModulusSource:
         """Return the source of a case."""
         if stated.values is None:
             return cls(Range.about(known.rubber.bulk_modulus, BULK_MODULUS_FACTOR))
@@ -242,10 +242,12 @@ class EquilibriumModulusSource:
     range: Range
 
     @classmethod
-    def of(cls, known: Measurement, stated: Stated) -> EquilibriumModulusSource:
-        """Return the source of a case; raise `NotHere` where nobody states it."""
+    def of(cls, known: Measurement, stated: SourceOptions) -> EquilibriumModulusSource:
+        """Return the source of a case; raise `SourceNotApplicable` where nobody states it."""
         if stated.values is None:
-            raise NotHere("no range is given; modulus varies it as far as the data leave it open")
+            raise SourceNotApplicable(
+                "no range is given; modulus varies it as far as the data leave it open"
+            )
         return cls(Range.read(cls.name, stated.values, modulus))
 
     def draw(
@@ -279,14 +281,14 @@ class LoadTimeSource:
     range: Range
 
     @classmethod
-    def of(cls, known: Measurement, stated: Stated) -> LoadTimeSource:
-        """Return the source of a case; raise `NotHere` at rest or if the case states a time."""
+    def of(cls, known: Measurement, stated: SourceOptions) -> LoadTimeSource:
+        """Return the source; raise `SourceNotApplicable` at rest or with a stated load time."""
         if known.speed == 0.0:
-            raise NotHere("at rest it is infinite")
+            raise SourceNotApplicable("at rest it is infinite")
         if stated.values is not None:
             return cls(Range.read(cls.name, stated.values, factor))
         if known.load_time != "passage":
-            raise NotHere("the case states it")
+            raise SourceNotApplicable("the case states it")
         return cls(Range.about(1.0, LOAD_TIME_FACTOR))
 
     def draw(
@@ -317,10 +319,10 @@ class CutOffSource:
     range: Range
 
     @classmethod
-    def of(cls, known: Measurement, stated: Stated) -> CutOffSource:
-        """Return the source of a case; raise `NotHere` where its waves are stated by hand."""
+    def of(cls, known: Measurement, stated: SourceOptions) -> CutOffSource:
+        """Return the source; raise `SourceNotApplicable` if the waves are stated by hand."""
         if not known.fitted:
-            raise NotHere("the waves are stated by hand")
+            raise SourceNotApplicable("the waves are stated by hand")
         if stated.values is not None:
             return cls(Range.read(cls.name, stated.values, length))
         return cls(Range.about(known.surface.sines.roughness_end, math.sqrt(2.0)))
@@ -357,18 +359,20 @@ class WavesSource:
     choices: tuple[tuple[int, float], ...]
 
     @classmethod
-    def of(cls, known: Measurement, stated: Stated) -> WavesSource:
+    def of(cls, known: Measurement, stated: SourceOptions) -> WavesSource:
         """Return the source of a case.
 
-        Raises `NotHere` where the case leaves no choice, `InputError` if none of the numbers of
-        waves that are given follows C_z.
+        Raises `SourceNotApplicable` if the case leaves no choice, `InputError` if none of the
+        stated numbers of waves follows C_z.
         """
         surface = known.surface
         if surface.correlation is None or not surface.fit:
-            raise NotHere("the waves are stated by hand")
+            raise SourceNotApplicable("the waves are stated by hand")
         fixed = [key for key in CHOSEN if surface.fit.get(key) is not None]
         if fixed or surface.fit.get("single_factor") or len(surface.sines) < 2:
-            raise NotHere(f"the case states {fixed[0] if fixed else 'one factor or one wave'}")
+            raise SourceNotApplicable(
+                f"the case states {fixed[0] if fixed else 'one factor or one wave'}"
+            )
         stacks = sine_ambiguity(surface.correlation, surface.sines).stacks
         wanted = _numbers(stated)
         good = [stack for stack in stacks if wanted is None or len(stack) in wanted]
@@ -396,7 +400,7 @@ class WavesSource:
         return replace(inputs, fit=fit), told
 
 
-def _numbers(stated: Stated) -> Sequence[int] | None:
+def _numbers(stated: SourceOptions) -> Sequence[int] | None:
     if stated.values is None:
         return None
     given = Range.read(WavesSource.name, stated.values, count)

@@ -19,7 +19,7 @@ from gripscale.core.errors import GripscaleError
 Taken = Callable[[Mapping[str, bytes]], None]
 
 
-def dropper(label: str, taken: Taken, *, several: bool = False) -> pn.Column:
+def file_upload(label: str, taken: Taken, *, several: bool = False) -> pn.Column:
     """Return a place to drop files, which `taken` gets by name; what it raises is shown there."""
     place = pn.widgets.FileDropper(
         multiple=several,
@@ -86,7 +86,7 @@ def case_side(state: CaseState) -> pn.Column:
         text,
         verdict,
         save,
-        dropper("Open a case: drop it together with the files it names.", opened, several=True),
+        file_upload("Open a case: drop it together with the files it names.", opened, several=True),
         sizing_mode="stretch_width",
     )
 
@@ -116,7 +116,7 @@ def _examples(state: CaseState, verdict: pn.Column) -> pn.FlexBox:
 # What is wrong with the case, said in the part of the page where it can be mended.
 
 
-def complaint_of(state: CaseState, *tables: str) -> pn.Column:
+def validation_message(state: CaseState, *tables: str) -> pn.Column:
     """Return a place that shows the complaint about the case if it is about one of `tables`."""
     place = pn.Column(sizing_mode="stretch_width")
 

@@ -214,7 +214,7 @@ async def fill(body: pn.Column, make: Callable[[], Shown], state: CaseState) -> 
         body.loading = False
 
 
-class LookedAt:
+class PreviewPanel:
     """A button and what `make` finds in the case as it is at the click."""
 
     def __init__(

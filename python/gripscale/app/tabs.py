@@ -14,9 +14,9 @@ import panel as pn
 
 from gripscale.analysis.measured_comparison import friction_of_case
 from gripscale.app.case import CaseState, tables, words_of
-from gripscale.app.case_panel import complaint_of, dropper
+from gripscale.app.case_panel import file_upload, validation_message
 from gripscale.app.elements import Cards, beside, code, error, html, in_turn, raw
-from gripscale.app.forms import LookedAt, Shown, fill, table_form
+from gripscale.app.forms import PreviewPanel, Shown, fill, table_form
 from gripscale.app.runs import Run, Runs
 from gripscale.case import (
     CaseFile,
@@ -107,7 +107,7 @@ def road_tab(state: CaseState) -> pn.Column:
     kind = pn.widgets.RadioButtonGroup(
         options={"Profiles along a line": "files", "A map": "map"}, margin=(4, 8)
     )
-    shown = LookedAt(state, "Read, clean and fit", surface_elements)
+    shown = PreviewPanel(state, "Read, clean and fit", surface_elements)
 
     def taken(dropped: Mapping[str, bytes]) -> None:
         names = [state.place.store(name, content) for name, content in dropped.items()]
@@ -116,9 +116,9 @@ def road_tab(state: CaseState) -> pn.Column:
         pn.state.execute(shown.look)
 
     return pn.Column(
-        complaint_of(state, "surface"),
+        validation_message(state, "surface"),
         kind,
-        dropper(
+        file_upload(
             "Drop profiles or a map; they replace the surface of the case.", taken, several=True
         ),
         table_form(state, "surface", ROAD_FIELDS),
@@ -135,7 +135,7 @@ RUBBER_FIELDS = ("name", "reference_temperature", "bulk_modulus", "terms", "extr
 
 def rubber_tab(state: CaseState) -> pn.Column:
     """Return the part of the page about the rubber."""
-    shown = LookedAt(state, "Read and fit", rubber_elements)
+    shown = PreviewPanel(state, "Read and fit", rubber_elements)
 
     def taken(dropped: Mapping[str, bytes]) -> None:
         state.set(("rubber",), {"file": _stored(state, dropped)})
@@ -145,14 +145,14 @@ def rubber_tab(state: CaseState) -> pn.Column:
         state.set(("rubber", "shift"), _stored(state, dropped))
 
     return pn.Column(
-        complaint_of(state, "rubber"),
-        dropper(
+        validation_message(state, "rubber"),
+        file_upload(
             "Drop a master curve, or sweeps at several temperatures; it replaces the rubber "
             "of the case.",
             taken,
         ),
         table_form(state, "rubber", RUBBER_FIELDS),
-        dropper("A table of shift factors, in place of a law of the shift.", shift_taken),
+        file_upload("A table of shift factors, in place of a law of the shift.", shift_taken),
         shown.button,
         shown.body,
         sizing_mode="stretch_width",
@@ -193,12 +193,12 @@ def load_tab(state: CaseState) -> pn.Column:
         parts += [pn.pane.Markdown(f"### {title}", margin=(4, 8)), table_form(state, name, first)]
         if name == "conditions":
             words = "Strain sweeps of the softening; they replace that of the case."
-            parts.append(dropper(words, softening_taken, several=True))
+            parts.append(file_upload(words, softening_taken, several=True))
     return pn.Column(
-        complaint_of(state, *TABLES, "measured"),
+        validation_message(state, *TABLES, "measured"),
         *parts,
         pn.pane.Markdown("### Measured friction", margin=(4, 8)),
-        dropper("A table of speed and friction, drawn over what is predicted.", friction_taken),
+        file_upload("A table of speed and friction, drawn over what is predicted.", friction_taken),
         sizing_mode="stretch_width",
     )
 

@@ -35,7 +35,7 @@ KEY, FINISHED = "prediction_key", "prediction_finished"
 
 
 @dataclass(frozen=True)
-class Earlier:
+class StoredPrediction:
     """A prediction of an earlier run: all of it, or as many waves as converged."""
 
     prediction: Prediction
@@ -43,11 +43,11 @@ class Earlier:
 
     def solver(self, solver: WaveSolver) -> WaveSolver:
         """Return `solver`, which need not solve what is known."""
-        return TakenUp(solver, tuple(self.prediction.scales))
+        return ReplayedWaves(solver, tuple(self.prediction.scales))
 
 
 @dataclass(frozen=True)
-class TakenUp:
+class ReplayedWaves:
     """Answers known waves with their stored results, and solves the others."""
 
     inner: WaveSolver
@@ -67,7 +67,7 @@ class TakenUp:
         return self.inner.solve(problem, start)
 
 
-def earlier(path: Path, key: str, chain: Chain) -> Earlier | None:
+def earlier(path: Path, key: str, chain: Chain) -> StoredPrediction | None:
     """Return the prediction stored at `path`, or None if it is not of `key` or of no use."""
     try:
         data = netcdf.load(path)
@@ -78,12 +78,12 @@ def earlier(path: Path, key: str, chain: Chain) -> Earlier | None:
         return None
     finished = bool(data.attrs.get(FINISHED, 0))
     if finished and found.converged:
-        return Earlier(found, finished=True)
+        return StoredPrediction(found, finished=True)
     iterated = chain.conditions is not None and chain.conditions.iterated
     if iterated or chain.pressure_classes > 1:
         return None
     kept = [wave for wave in found.scales if wave.converged]
-    return Earlier(replace(found, scales=kept), finished=False) if kept else None
+    return StoredPrediction(replace(found, scales=kept), finished=False) if kept else None
 
 
 @dataclass(frozen=True)
@@ -165,7 +165,7 @@ def run_case(
     return results
 
 
-def _known(results: CaseResults) -> dict[str, Earlier]:
+def _known(results: CaseResults) -> dict[str, StoredPrediction]:
     """Return what an earlier run left of the predictions of exactly this case, by name."""
     if results.folder is None:
         return {}
@@ -205,7 +205,7 @@ def _solve(
     name: str,
     speed: float,
     on_wave: Callable[[WaveSolved], None] | None,
-    known: Earlier | None,
+    known: StoredPrediction | None,
 ) -> None:
     """Add one prediction to `results`, on disk after each wave; the inputs follow at the end."""
     load, chain = results.file.case.load, results.chain

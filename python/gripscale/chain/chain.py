@@ -17,7 +17,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from gripscale import model
-from gripscale.chain.conditions import settle, unsettled
+from gripscale.chain.conditions import solve_coupled_chain, unsettled
 from gripscale.chain.prediction import Prediction, PressureClasses, RubberAt, usable
 from gripscale.conditions.conditions import Conditions
 from gripscale.core import checks, provenance
@@ -180,15 +180,15 @@ def predict(
     if checks.one_of("extrapolate", extrapolate, CHOICES) == "refuse":
         require_measured(before, [wave.wavelength for wave in waves], load.speed)
     nothing = Prediction(rubber, sines, load, [], len(waves), conditions)
-    walk = Walk(nothing, waves, one, count, on_scale)
+    walk = ChainSolve(nothing, waves, one, count, on_scale)
     if conditions is None:
         return walk(rubber_at, start)
     if not conditions.iterated:
         return walk(lambda wave, so_far: before, start)
     if on_scale is None:
-        return settle(walk, rubber, conditions)
+        return solve_coupled_chain(walk, rubber, conditions)
     passing = replace(walk, on_scale=lambda so_far: on_scale(unsettled(so_far)))
-    settled = settle(passing, rubber, conditions)
+    settled = solve_coupled_chain(passing, rubber, conditions)
     on_scale(settled)
     return settled
 
@@ -220,7 +220,7 @@ def select_waves(
 
 
 @dataclass(frozen=True)
-class Walk:
+class ChainSolve:
     """All waves solved one after the other, added to `nothing`."""
 
     nothing: Prediction
@@ -249,7 +249,7 @@ class Walk:
             classes = classes.handed_down(solved, self.count)
         return result
 
-    def coarser(self) -> Walk | None:
+    def coarser(self) -> ChainSolve | None:
         """Return the same in a fraction of the time, if the solver knows how."""
         if not isinstance(self.solver, RefinableSolver):
             return None

@@ -17,21 +17,21 @@ from numpy.typing import NDArray
 from gripscale.chain.prediction import Prediction, RubberAt
 from gripscale.conditions.chain_heat import Warming, WaveHeat, strains, warming
 from gripscale.conditions.conditions import Conditions, RubberState, rubber_under
-from gripscale.conditions.fixed_point import Pass, Passes, mixed, separate
-from gripscale.conditions.fixed_point import settle as settle_passes
+from gripscale.conditions.fixed_point import Iteration, Passes, mixed, separate
+from gripscale.conditions.fixed_point import solve_coupled as settle_passes
 from gripscale.rubber import Rubber
 from gripscale.wave.problem import Sine, Status
 
 Array = NDArray[np.float64]
 
 
-class Walk(Protocol):
+class ChainSolver(Protocol):
     """Solves all waves of a chain."""
 
     def __call__(self, rubber_at: RubberAt | None, start: Prediction | None) -> Prediction:
         """Return the prediction with the rubber of each wave, each from its wave of `start`."""
 
-    def coarser(self) -> Walk | None:
+    def coarser(self) -> ChainSolver | None:
         """Return the same in a fraction of the time, if there is such a way."""
 
     @property
@@ -90,7 +90,7 @@ class _Assumed:
         }
 
 
-def settle(walk: Walk, rubber: Rubber, conditions: Conditions) -> Prediction:
+def solve_coupled_chain(walk: ChainSolver, rubber: Rubber, conditions: Conditions) -> Prediction:
     """Return the prediction in which rubber, strains and heat agree.
 
     Parameters
@@ -141,16 +141,16 @@ class _Spent:
 class _Waves:
     """Solves all waves with the rubber that assumed temperatures and strains make."""
 
-    walk: Walk
+    walk: ChainSolver
     rubber: Rubber
     conditions: Conditions
     spent: _Spent
 
-    def __call__(self, assumed: Array | None, last: Prediction | None) -> Pass[Prediction]:
+    def __call__(self, assumed: Array | None, last: Prediction | None) -> Iteration[Prediction]:
         """Return the pass for what is assumed, each wave from its last solution."""
         now = self.walk(self.rubber_at(assumed), last if self.walk.warm else None)
         self.spent.add(now)
-        return Pass(now, assumed, _found(self.conditions, now), _results(now))
+        return Iteration(now, assumed, _found(self.conditions, now), _results(now))
 
     def rubber_at(self, assumed: Array | None) -> RubberAt:
         """Return the rubber of each wave; with nothing assumed as it is before the contact."""

@@ -419,7 +419,7 @@ def rubber_figures(rubber: PreparedRubber, omega: ArrayLike, folder: Path) -> No
 
 
 @contextmanager
-def drawn_beside(results: CaseResults, folder: Path) -> Iterator[Callable[[str], None]]:
+def background_figures(results: CaseResults, folder: Path) -> Iterator[Callable[[str], None]]:
     """Draw all figures of a case into `folder` while it is being solved.
 
     Gives a function to be called with the name of the prediction that a wave was just solved for:

@@ -16,12 +16,12 @@ from gripscale.cli.terminal import (
     OwnFolder,
     Workers,
     command,
-    complain,
-    pointed,
-    say,
-    say_all,
+    print_error,
+    print_parts,
+    print_wrapped,
+    progress_printer,
     screen,
-    teller,
+    with_doc_link,
 )
 from gripscale.core.errors import InputError
 
@@ -83,7 +83,7 @@ def compare(
     target = output or file.resolve(file.case.output.folder) / "comparison"
     folder.require_writable(target)
     console = screen()
-    say(console, f"Comparison of models for {file.path}")
+    print_wrapped(console, f"Comparison of models for {file.path}")
     folder.make(target)
     options: dict[str, Any] = {
         "seeds": seeds,
@@ -93,7 +93,7 @@ def compare(
         "folder": target,
         "workers": workers,
         "client": cluster,
-        "on_task": teller(console),
+        "on_task": progress_printer(console),
     }
     made: Made
     worth: list[xr.Dataset] = []
@@ -110,7 +110,9 @@ def compare(
     sampled = uncertainty_lines(stored_uncertainty(results_folder), file.text, input_digests(file))
     failed = _conclude_comparison(console, made.to_dataset(), target, worth, beside, sampled)
     if failed:
-        complain(f"{len(failed)} of the rungs have failed samples; the first: {pointed(failed[0])}")
+        print_error(
+            f"{len(failed)} of the rungs have failed samples; the first: {with_doc_link(failed[0])}"
+        )
         raise typer.Exit(NOT_CONVERGED)
 
 
@@ -179,11 +181,11 @@ def _conclude_comparison(
         labels = dict(zip(data.rung.values.tolist(), data.label.values.tolist(), strict=True))
         save_figure(at_measured_figure(beside, labels), target, "at_measured")
     parts += sampled
-    say_all(console, parts)
+    print_parts(console, parts)
     folder.write_text(target / f"{name}.txt", tables_run.as_text(*parts))
     draw(data, target)
     console.print()
-    say(console, f"Tables, figures and result ({name}.nc) are in {target}")
+    print_wrapped(console, f"Tables, figures and result ({name}.nc) are in {target}")
     return list(_failures(data, axis))
 
 
@@ -225,20 +227,20 @@ def names_of(given: Sequence[str]) -> list[str]:
     return names
 
 
-def keep(console: Console, path: Path, told: Sequence[Table], below: Sequence[str]) -> None:
+def save_tables(console: Console, path: Path, told: Sequence[Table], below: Sequence[str]) -> None:
     """Print tables with the sentences below them, and write both to `path`."""
     from gripscale.case import folder
     from gripscale.report import tables_run
 
     parts = [*told, *below]
-    say_all(console, parts)
+    print_parts(console, parts)
     folder.write_text(path, tables_run.as_text(*parts))
 
 
 def fail_if_any(failed: Sequence[str], what: str) -> None:
     """Complain of what has no totals, with the reason of the first, and end the command."""
     if failed:
-        complain(f"{len(failed)} of the {what} have no totals; the first: {failed[0]}")
+        print_error(f"{len(failed)} of the {what} have no totals; the first: {failed[0]}")
         raise typer.Exit(NOT_CONVERGED)
 
 
@@ -287,7 +289,7 @@ def compare_surfaces(
         target,
         samples=samples or None,
         workers=workers,
-        on_task=teller(console),
+        on_task=progress_printer(console),
     )
     _conclude_surfaces(console, made, target)
 
@@ -300,15 +302,15 @@ def _conclude_surfaces(console: Console, made: Roads, target: Path) -> None:
     from gripscale.report.tables_comparison import roads_failures, roads_sentences, roads_tables
 
     below = [*roads_sentences(made.data), *(f"note: {note}" for note in made.notes)]
-    keep(console, target / "surfaces.txt", roads_tables(made.data), below)
+    save_tables(console, target / "surfaces.txt", roads_tables(made.data), below)
     save_figure(roads_statistics_figure(made.data), target, "roads_statistics")
     save_figure(roads_friction_figure(made.data), target, "roads_friction")
     console.print()
-    say(console, f"Result (surfaces.nc), table and figures are in {target}")
+    print_wrapped(console, f"Result (surfaces.nc), table and figures are in {target}")
     try:
-        say(console, f"Page: {write_report(target / 'surfaces.nc')}")
+        print_wrapped(console, f"Page: {write_report(target / 'surfaces.nc')}")
     except InputError as error:  # the extra is not installed
-        say(console, f"note: no page; {error}")
+        print_wrapped(console, f"note: no page; {error}")
     fail_if_any(roads_failures(made.data), "predictions")
 
 
@@ -364,7 +366,9 @@ def compare_rubbers(
     console = screen()
     folder.make(target)
     if uncertainty:
-        say(console, "The compounds; then, for what their measurements leave open, half-planes.")
+        print_wrapped(
+            console, "The compounds; then, for what their measurements leave open, half-planes."
+        )
     made = compare_compounds(
         file,
         dict(zip(names_of(rubbers), rubbers, strict=True)),
@@ -372,7 +376,7 @@ def compare_rubbers(
         temperature=kelvin,
         uncertainty=uncertainty,
         workers=workers,
-        on_task=teller(console),
+        on_task=progress_printer(console),
     )
     _conclude_rubbers(console, made, target)
 
@@ -385,11 +389,11 @@ def _conclude_rubbers(console: Console, made: Compounds, target: Path) -> None:
 
     table = compounds_table(made.data)
     below = [*compounds_sentences(made.data), *(f"note: {note}" for note in made.notes)]
-    keep(console, target / "compounds.txt", [table], below)
+    save_tables(console, target / "compounds.txt", [table], below)
     save_figure(compound_moduli_figure(made.rubbers), target, "compound_moduli")
     if "friction_running" in made.data:
         save_figure(compound_friction_figure(made.data), target, "compound_friction")
     console.print()
-    say(console, f"Result (compounds.nc), table and figures are in {target}")
+    print_wrapped(console, f"Result (compounds.nc), table and figures are in {target}")
     statuses = made.data.prediction_status.values.tolist()
     fail_if_any([one for one in statuses if one != "converged"], "compounds")

@@ -17,12 +17,12 @@ from gripscale.cli.terminal import (
     OwnFolder,
     Workers,
     command,
-    complain,
-    pointed,
-    say,
-    say_all,
+    print_error,
+    print_parts,
+    print_wrapped,
+    progress_printer,
     screen,
-    teller,
+    with_doc_link,
 )
 from gripscale.core.errors import InputError
 
@@ -81,10 +81,10 @@ def study(
         "",
     ]
     for line in opening:
-        say(console, line)
+        print_wrapped(console, line)
     folder.make(target / "figures")
     folder.save_case(made.file, target)
-    result = made.run(target, workers=workers, client=cluster, on_task=teller(console))
+    result = made.run(target, workers=workers, client=cluster, on_task=progress_printer(console))
     _conclude_study(console, opening, result, target, drawn=known is not None)
 
 
@@ -97,7 +97,7 @@ def _conclude_study(
     from gripscale.report.tables_study import study_table
 
     parts = [study_table(result), *_below(result)]
-    say_all(console, parts)
+    print_parts(console, parts)
     folder.write_text(target / "study.txt", tables_run.as_text(*opening, *parts))
     figures = target / "figures"
     if not (drawn and any(figures.iterdir())):
@@ -105,15 +105,15 @@ def _conclude_study(
 
         draw(result, figures)
     console.print()
-    say(console, f"Result (study.nc), table and figures are in {target}")
+    print_wrapped(console, f"Result (study.nc), table and figures are in {target}")
     statuses = result.prediction_status.values.ravel().tolist()
     if "static_prediction_status" in result:
         statuses += result.static_prediction_status.values.ravel().tolist()
     failed = [status for status in statuses if status != "converged"]
     if failed:
-        complain(
+        print_error(
             f"{len(failed)} of {len(statuses)} predictions have no totals; the first: "
-            f"{pointed(failed[0])}"
+            f"{with_doc_link(failed[0])}"
         )
         raise typer.Exit(NOT_CONVERGED)
 
@@ -221,7 +221,7 @@ def uncertainty(
     target = output or file.resolve(file.case.output.folder) / "uncertainty"
     folder.require_writable(target)
     console = screen()
-    say(console, f"Uncertainty of {file.path}")
+    print_wrapped(console, f"Uncertainty of {file.path}")
     folder.make(target / "figures")
     data = propagate(
         file,
@@ -234,7 +234,7 @@ def uncertainty(
         folder=target,
         workers=workers,
         client=cluster,
-        on_task=teller(console),
+        on_task=progress_printer(console),
     )
     _conclude_uncertainty(console, data, target)
 
@@ -263,16 +263,16 @@ def _conclude_uncertainty(console: Console, data: xr.Dataset, target: Path) -> N
     console.print()
     for part in told:
         if isinstance(part, str):
-            say(console, part)
+            print_wrapped(console, part)
         else:
             console.print(part)
     folder.write_text(target / "uncertainty.txt", tables_run.as_text(*told))
     draw_uncertainty(data, target / "figures")
     console.print()
-    say(console, f"Result (uncertainty.nc), table and figures are in {target}")
+    print_wrapped(console, f"Result (uncertainty.nc), table and figures are in {target}")
     sentence = failures(data)
     if sentence:
-        complain(sentence)
+        print_error(sentence)
         raise typer.Exit(NOT_CONVERGED)
 
 
@@ -321,7 +321,7 @@ def calibrate(
     target = output or file.resolve(file.case.output.folder) / "calibration"
     folder.require_writable(target)
     console = screen()
-    say(console, f"Area term of {file.path} from {friction.source}")
+    print_wrapped(console, f"Area term of {file.path} from {friction.source}")
     folder.make(target)
     made = calibrate_case(
         file,
@@ -333,16 +333,16 @@ def calibrate(
         folder=target,
         workers=workers,
         client=cluster,
-        on_task=teller(console),
+        on_task=progress_printer(console),
     )
     parts = list(_parts(made, model, file.text))
-    say_all(console, parts)
+    print_parts(console, parts)
     _keep(made, file, parts, target)
     console.print()
-    say(console, f"Table, figures, result and [conditions.shear_stress] are in {target}")
+    print_wrapped(console, f"Table, figures, result and [conditions.shear_stress] are in {target}")
     failed = [status for status in made.predicted.status if status != "converged"]
     if failed:
-        complain(
+        print_error(
             f"{len(failed)} of {len(made.predicted.status)} measured points have no prediction; "
             f"the first: {failed[0]}"
         )

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from gripscale.cli.terminal import command, say, screen
+from gripscale.cli.terminal import command, print_wrapped, screen
 from gripscale.core.errors import FileError, InputError
 
 if TYPE_CHECKING:
@@ -77,8 +77,8 @@ def rubber(
     written = write_rubber(found, output, to=to, **options)
     console = screen()
     for remark in written.remarks:
-        say(console, remark)
-    say(console, f"The material is {output}")
+        print_wrapped(console, remark)
+    print_wrapped(console, f"The material is {output}")
 
 
 @export.command("tables")
@@ -94,7 +94,7 @@ def tables(
     from gripscale.export import write_tables
 
     written = write_tables(result, output, format=format)
-    say(screen(), f"{', '.join(path.name for path in written)}: in {output}")
+    print_wrapped(screen(), f"{', '.join(path.name for path in written)}: in {output}")
 
 
 @export.command("mesh")
@@ -112,7 +112,7 @@ def mesh(
 
     found = wave_of(netcdf.load(result), wave)
     write_mesh(found, output)
-    say(screen(), f"Wave {wave}, {found.wavelength:.4g} m long, {found.why}, is {output}")
+    print_wrapped(screen(), f"Wave {wave}, {found.wavelength:.4g} m long, {found.why}, is {output}")
 
 
 def _rubber_of(source: Path) -> Rubber:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from gripscale.cli.terminal import command, say, screen
+from gripscale.cli.terminal import command, print_wrapped, screen
 from gripscale.core.errors import InputError
 
 if TYPE_CHECKING:
@@ -51,15 +51,15 @@ def init(
 
     written = write_example(folder, example)
     console = screen()
-    say(console, f"{folder}: {EXAMPLES[example].about}")
+    print_wrapped(console, f"{folder}: {EXAMPLES[example].about}")
     for path in written:
-        say(console, f"  {path.relative_to(folder)}")
+        print_wrapped(console, f"  {path.relative_to(folder)}")
     console.print()
-    say(console, "Next:")
+    print_wrapped(console, "Next:")
     if EXAMPLES[example].needs:
-        say(console, f'  pip install "gripscale[{EXAMPLES[example].needs}]"')
+        print_wrapped(console, f'  pip install "gripscale[{EXAMPLES[example].needs}]"')
     for words in (("run", written[0]), ("report", folder / "results"), ("compare", written[0])):
-        say(console, f"  {shlex.join(['gripscale', *map(str, words)])}")
+        print_wrapped(console, f"  {shlex.join(['gripscale', *map(str, words)])}")
 
 
 # `gripscale keys [SECTION]`: what a case file may say.
@@ -89,7 +89,7 @@ def keys(
             console.print()
             console.print(_table(one))
             pages = dict.fromkeys(f"docs/{key.chapter}" for key in one.keys)
-            say(console, f"More in {', '.join(pages)}.")
+            print_wrapped(console, f"More in {', '.join(pages)}.")
 
 
 def _table(section: Section) -> Table:
@@ -177,13 +177,13 @@ def fit_surface(
     if slopes and prepared.measured is not None:
         lines += slope_table(prepared.measured.slopes)
     for line in lines:
-        say(console, line)
+        print_wrapped(console, line)
     if output is not None:
         from gripscale.charts.print_run import surface_figures
 
         folder.make(output)
         surface_figures(prepared, output)
-        say(console, f"Figures are in {output}")
+        print_wrapped(console, f"Figures are in {output}")
 
 
 def _ambiguity(prepared: PreparedSurface) -> Iterator[str]:
@@ -288,7 +288,7 @@ def fit_rubber(
         raise InputError(_with_options(str(error))) from error
     rubber = prepared.rubber
     for line in (*rubber_lines(prepared), *band_table(rubber), *prony_table(rubber)):
-        say(console, line)
+        print_wrapped(console, line)
     if output is not None:
         _write(console, prepared, output)
 
@@ -326,7 +326,7 @@ def _write(console: Console, prepared: PreparedRubber, output: Path) -> None:
     rubber_figures(prepared, (), output)
     master, sweeps = prepared.master, prepared.sweeps
     if master is None or sweeps is None:
-        say(console, f"The figure is in {output}")
+        print_wrapped(console, f"The figure is in {output}")
         return
     from gripscale.rubber import ShiftTable, write_master_curve, write_shift_table
 
@@ -335,4 +335,4 @@ def _write(console: Console, prepared: PreparedRubber, output: Path) -> None:
     if len(sweeps) > 1 and isinstance(master.shift, ShiftTable):
         write_shift_table(output / "shift_table.csv", master.shift)
     what = "Figures, shift table, master curve" if len(sweeps) > 1 else "The figure, master curve"
-    say(console, f"{what} and rubber are in {output}")
+    print_wrapped(console, f"{what} and rubber are in {output}")

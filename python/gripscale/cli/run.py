@@ -15,7 +15,14 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 import typer
 
 import gripscale
-from gripscale.cli.terminal import CasePath, command, complain, pointed, say, screen
+from gripscale.cli.terminal import (
+    CasePath,
+    command,
+    print_error,
+    print_wrapped,
+    screen,
+    with_doc_link,
+)
 from gripscale.core.errors import FileError
 
 if TYPE_CHECKING:
@@ -30,7 +37,7 @@ if TYPE_CHECKING:
 REPORT_WIDTH = 110
 
 
-class Known(NamedTuple):
+class RunExtras(NamedTuple):
     """What stands beside the chain: direct contact, worth of the effects, measured friction."""
 
     direct: xr.Dataset | None
@@ -55,11 +62,11 @@ def run(
     ] = False,
 ) -> None:
     """Predict contact area and friction of a case; goes on where it was stopped."""
-    from gripscale.analysis.comparison import judge_run
+    from gripscale.analysis.comparison import save_reference
     from gripscale.analysis.effects import case_effects
     from gripscale.analysis.measured_comparison import friction_of_case
     from gripscale.case import folder, prepare_case, read_case, run_case
-    from gripscale.charts.print_run import drawn_beside
+    from gripscale.charts.print_run import background_figures
 
     console = screen()
     file = read_case(case)
@@ -69,9 +76,9 @@ def run(
     results = prepare_case(file)
     opening = _opening(results)
     for line in opening:
-        say(console, line)
+        print_wrapped(console, line)
     tell = _teller(console, len(results.surface.sines), results.shown("speed"))
-    with drawn_beside(results, target / "figures") as solving:
+    with background_figures(results, target / "figures") as solving:
 
         def look(solved: WaveSolved) -> None:
             tell(solved)
@@ -82,14 +89,14 @@ def run(
                 results,
                 output=target,
                 on_wave=look,
-                on_folder=lambda words: say(console, words),
+                on_folder=lambda words: print_wrapped(console, words),
                 fresh=fresh,
             )
-            direct = judge_run(results, target)
+            direct = save_reference(results, target)
             worth = case_effects(results, results.chain, target, target / "effects")
-        _conclude_run(console, target, opening, results, Known(direct, worth, friction))
+        _conclude_run(console, target, opening, results, RunExtras(direct, worth, friction))
     console.print()
-    say(console, f"Results, report and figures are in {target}")
+    print_wrapped(console, f"Results, report and figures are in {target}")
     _tell_old_page(console, target, results)
     _fail_if_any(results)
 
@@ -140,15 +147,17 @@ def _teller(console: Console, waves: int, how: DisplayUnit) -> Callable[[WaveSol
         if "passes" in scale.details:
             count = int(scale.details["passes"])
             agree = "agree" if scale.converged else f"do not agree ({scale.why})"
-            say(console, f"  rubber and contact {agree} after {count} passes on these meshes")
+            print_wrapped(
+                console, f"  rubber and contact {agree} after {count} passes on these meshes"
+            )
             return
         if len(so_far.scales) == 1:
             passes[solved.name] += 1
             if passes[solved.name] == 1:
                 console.print()
-                say(console, title(so_far.load.speed, how))
+                print_wrapped(console, title(so_far.load.speed, how))
             else:
-                say(console, f"  pass {passes[solved.name]}")
+                print_wrapped(console, f"  pass {passes[solved.name]}")
         text = (
             f"wave {len(so_far.scales)} of {waves}: {scale.wavelength * 1e3:.3g} mm, "
             f"contact {scale.contact_fraction:.3f}"
@@ -158,7 +167,7 @@ def _teller(console: Console, waves: int, how: DisplayUnit) -> Callable[[WaveSol
         seconds, clock = time.perf_counter() - clock, time.perf_counter()
         why = "" if scale.status == "conditions not settled" else f"{scale.why}, "
         took = "already solved" if solved.taken_up else f"{seconds:.1f} s"
-        say(console, f"  {text}, {why}{took}")
+        print_wrapped(console, f"  {text}, {why}{took}")
 
     return tell
 
@@ -168,7 +177,7 @@ def _conclude_run(
     target: Path,
     opening: list[str],
     results: CaseResults,
-    known: Known,
+    known: RunExtras,
 ) -> None:
     """Print the tables and what chain and effects are worth, and write them down."""
     from gripscale.analysis.propagation import input_digests, stored_uncertainty
@@ -189,7 +198,7 @@ def _conclude_run(
         console.print(table)
     if solved:
         console.print()
-        say(console, tables_run.LEGEND)
+        print_wrapped(console, tables_run.LEGEND)
     views = [PredictionView(data, name) for name, data in solved.items()]
     last = list(judgement(views[0], known.direct)) if views and known.direct is not None else []
     if known.friction is not None and results.load.speed > 0.0:
@@ -199,7 +208,7 @@ def _conclude_run(
     if last:
         console.print()
     for line in last:
-        say(console, line)
+        print_wrapped(console, line)
     written = [
         tables_run.prediction_table(data, name, REPORT_WIDTH) for name, data in solved.items()
     ]
@@ -234,14 +243,16 @@ def _tell_old_page(console: Console, target: Path, results: CaseResults) -> None
         return
     if results.key(first) not in page.read_text(encoding="utf-8", errors="replace"):
         words = shlex.join(["gripscale", "report", str(target)])
-        say(console, f"{page.name} in it is older and shows another result; `{words}` renews it")
+        print_wrapped(
+            console, f"{page.name} in it is older and shows another result; `{words}` renews it"
+        )
 
 
 def _fail_if_any(results: CaseResults) -> None:
     """Raise the last failure, which sets the exit code, after a sentence for the others."""
     failures = list(results.failures.values())
     for failure in failures[:-1]:
-        complain(pointed(failure))
+        print_error(with_doc_link(failure))
     if failures:
         raise failures[-1]
 
@@ -273,7 +284,7 @@ def report(
     from gripscale.report import write_report
 
     page = write_report(result, output)
-    say(screen(), f"Report, {page.stat().st_size / 1e6:.1f} MB, is {page}")
+    print_wrapped(screen(), f"Report, {page.stat().st_size / 1e6:.1f} MB, is {page}")
 
 
 # `gripscale reproduce`: hands over to the paper's figures beside the package, in a clone.

@@ -38,7 +38,7 @@ def screen(stderr: bool = False) -> Console:
     return Console(stderr=stderr, width=wide, highlight=False, markup=False)
 
 
-def complain(message: str) -> None:
+def print_error(message: str) -> None:
     """Print one sentence to stderr, unwrapped."""
     from rich.text import Text
 
@@ -46,14 +46,14 @@ def complain(message: str) -> None:
     screen(stderr=True).print(text, soft_wrap=True)
 
 
-def pointed(failure: object) -> str:
+def with_doc_link(failure: object) -> str:
     """Return a failure in words, with the chapter of the documentation that says more."""
     from gripscale.report.notices import pointer
 
     return f"{failure}{pointer(failure)}"
 
 
-def say(console: Console, message: str) -> None:
+def print_wrapped(console: Console, message: str) -> None:
     """Print a line, continued with its own indent where too long; words and paths stay whole."""
     from rich.text import Text
 
@@ -69,11 +69,11 @@ def say(console: Console, message: str) -> None:
     console.print(Text("\n".join(lines)), soft_wrap=True)
 
 
-def say_all(console: Console, parts: Iterable[Any]) -> None:
+def print_parts(console: Console, parts: Iterable[Any]) -> None:
     """Print sentences as lines, and each table after an empty one."""
     for part in parts:
         if isinstance(part, str):
-            say(console, part)
+            print_wrapped(console, part)
         else:
             console.print()
             console.print(part)
@@ -87,13 +87,13 @@ def command(body: Callable[P, None]) -> Callable[P, None]:
         try:
             body(*args, **kwargs)
         except ConvergenceError as error:
-            complain(pointed(error))
+            print_error(with_doc_link(error))
             raise typer.Exit(NOT_CONVERGED) from None
         except GripscaleError as error:
-            complain(pointed(error))
+            print_error(with_doc_link(error))
             raise typer.Exit(BAD_INPUT) from None
         except KeyboardInterrupt:
-            complain(
+            print_error(
                 "stopped; what is finished is kept in the output folder, "
                 "and the same command goes on from it"
             )
@@ -105,7 +105,7 @@ def command(body: Callable[P, None]) -> Callable[P, None]:
 # A line of the terminal for each prediction of many as it is done.
 
 
-def teller(console: Console) -> Callable[[Progress], None]:
+def progress_printer(console: Console) -> Callable[[Progress], None]:
     """Return what prints a line for each prediction."""
 
     def tell(progress: Progress) -> None:
@@ -119,7 +119,7 @@ def teller(console: Console) -> Callable[[Progress], None]:
             if found.nominal_speed > 0.0:
                 text += f", friction {float(found.total_friction):.3f}"
         how = "already solved" if progress.stored else f"{progress.seconds:.1f} s"
-        say(console, f"{text}, {how}")
+        print_wrapped(console, f"{text}, {how}")
 
     return tell
 

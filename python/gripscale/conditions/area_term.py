@@ -214,7 +214,7 @@ def shear_stress_from_dict(values: Mapping[str, Any]) -> InterfacialShearStress:
     """
     given = dict(values)
     kind = checks.one_of("kind", given.pop("kind", None), SHEAR_STRESSES)
-    law: InterfacialShearStress = checks.made(SHEAR_STRESSES[kind], kind, given)
+    law: InterfacialShearStress = checks.from_mapping(SHEAR_STRESSES[kind], kind, given)
     return law
 
 

@@ -95,13 +95,13 @@ class Conditions:
         given = dict(values)
         made = {
             "softening": softening_from_dict,
-            "heat": lambda heat: checks.made(ThermalProperties, "heat", heat),
+            "heat": lambda heat: checks.from_mapping(ThermalProperties, "heat", heat),
             "shear_stress": shear_stress_from_dict,
         }
         for name, make in made.items():
             if given.get(name) is not None:
                 given[name] = make(given[name])
-        return checks.made(cls, "conditions", given)
+        return checks.from_mapping(cls, "conditions", given)
 
     def adhesive_friction(
         self, contact_fraction: float, pressure: float, speed: float, temperature: float | None

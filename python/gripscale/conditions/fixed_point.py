@@ -97,7 +97,7 @@ S = TypeVar("S")
 
 
 @dataclass(frozen=True)
-class Pass(Generic[S]):
+class Iteration(Generic[S]):
     """A solution for what was assumed, and what it finds instead."""
 
     solved: S
@@ -110,7 +110,7 @@ class Pass(Generic[S]):
     """Whether the solution converged."""
 
 
-Solve = Callable[[Array | None, S | None], Pass[S]]
+Solve = Callable[[Array | None, S | None], Iteration[S]]
 """Solves for what is assumed, from the last solution if there is one."""
 
 
@@ -118,14 +118,14 @@ Solve = Callable[[Array | None, S | None], Pass[S]]
 class Passes(Generic[S]):
     """The last pass, and how many it took."""
 
-    last: Pass[S]
+    last: Iteration[S]
     fine: int
     """On the mesh asked for."""
     coarse: int
     settled: bool
 
 
-def settle(fine: Solve[S], coarse: Solve[S] | None) -> Passes[S]:
+def solve_coupled(fine: Solve[S], coarse: Solve[S] | None) -> Passes[S]:
     """Return the passes until solution and assumption agree.
 
     Parameters
@@ -139,7 +139,7 @@ def settle(fine: Solve[S], coarse: Solve[S] | None) -> Passes[S]:
         start = fine(None, None)
         return _alone(fine, FixedPoint(start.found), start, (1, 0))
     stand_in = _StandIn(coarse, start)
-    last: Pass[S] | None = None
+    last: Iteration[S] | None = None
     number, trusted = 0, stand_in.agrees(ROUGH)
     while trusted and number < MOST_PASSES:
         here = stand_in.last
@@ -154,7 +154,9 @@ def settle(fine: Solve[S], coarse: Solve[S] | None) -> Passes[S]:
     return _alone(fine, FixedPoint(so_far.found), so_far, (number, stand_in.passes))
 
 
-def _alone(fine: Solve[S], point: FixedPoint, last: Pass[S], before: tuple[int, int]) -> Passes[S]:
+def _alone(
+    fine: Solve[S], point: FixedPoint, last: Iteration[S], before: tuple[int, int]
+) -> Passes[S]:
     """Return the passes without a coarse mesh, after so many fine and coarse ones."""
     number, coarse = before
     if not last.usable:
@@ -172,7 +174,7 @@ def _alone(fine: Solve[S], point: FixedPoint, last: Pass[S], before: tuple[int, 
 class _StandIn(Generic[S]):
     """The coarse mesh, moved to where the fine one is."""
 
-    def __init__(self, solve: Solve[S], start: Pass[S]) -> None:
+    def __init__(self, solve: Solve[S], start: Iteration[S]) -> None:
         self.solve, self.point, self.last = solve, FixedPoint(start.found), start
         self.offset = _Offset.nothing(start.found)
         self.passes = 1
@@ -190,7 +192,7 @@ class _StandIn(Generic[S]):
             self.point.found(now.found + self.offset(assumed))
         return self.point.missed < enough
 
-    def corrected_by(self, fine: Pass[S]) -> _StandIn[S]:
+    def corrected_by(self, fine: Iteration[S]) -> _StandIn[S]:
         """Move to where the fine mesh finds what it does for the same assumption."""
         last, here = self.offset, self.last
         assert here.assumed is not None
@@ -229,7 +231,7 @@ class _Offset:
         return _Offset(at, value, at - self.at, value - self.value)
 
 
-def _tried(solve: Solve[S], assumed: Array | None, last: S | None) -> Pass[S] | None:
+def _tried(solve: Solve[S], assumed: Array | None, last: S | None) -> Iteration[S] | None:
     """Return the pass, None if there is no solution."""
     try:
         now = solve(assumed, last)
@@ -238,7 +240,7 @@ def _tried(solve: Solve[S], assumed: Array | None, last: S | None) -> Pass[S] | 
     return now if now.usable else None
 
 
-def _change(now: Pass[S], last: Pass[S]) -> float:
+def _change(now: Iteration[S], last: Iteration[S]) -> float:
     """Return the largest relative change of the results."""
     pairs = zip(now.results, last.results, strict=True)
     return max(abs(a - b) / max(abs(b), 1e-300) for a, b in pairs)

@@ -189,7 +189,7 @@ def text(name: str, value: Any) -> str:
     return value
 
 
-def in_reason(name: str, value: ArrayLike, *, unit: str = "") -> NDArray[Any]:
+def in_limits(name: str, value: ArrayLike, *, unit: str = "") -> NDArray[Any]:
     """Return `value` as a 1-D float array; raise `InputError` unless from `LEAST` to `MOST`."""
     result = _above_zero(name, _finite(name, value, unit), unit)
     bad = (result < LEAST) | (result > MOST)
@@ -259,7 +259,7 @@ def _in(unit: str) -> str:
     return f" [{unit}]" if unit else ""
 
 
-def made(law: type[T], kind: str, given: Mapping[str, Any]) -> T:
+def from_mapping(law: type[T], kind: str, given: Mapping[str, Any]) -> T:
     """Return the dataclass `law` of its `given` parameters, those with a default left out or not.
 
     Raises `InputError` that names what is missing or unknown.

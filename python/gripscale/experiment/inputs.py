@@ -15,7 +15,7 @@ from gripscale.chain.chain import Chain
 from gripscale.conditions import Conditions
 from gripscale.core import checks
 from gripscale.core.errors import FileError, InputError
-from gripscale.experiment.task import exact
+from gripscale.experiment.task import canonical_json
 from gripscale.half_space.model import DirectContact
 from gripscale.io.text_table import is_excel, read_bytes
 from gripscale.model import Model
@@ -111,7 +111,7 @@ def _taken(case: RubberSource, path: Path) -> dict[str, Any]:
 def stated_by(value: Any, file: CaseFile) -> Any:
     """Return what decides a varied surface or rubber: its name, the bytes behind it, itself."""
     if not isinstance(value, str | Path):
-        return exact(value)
+        return canonical_json(value)
     if value in ("case", *SYNTHETIC_SURFACES, *NAMED_RUBBERS):
         return str(value)
     path = _found("input", value, file, ())

@@ -46,7 +46,7 @@ from gripscale.experiment.speed_and_temperature import (
     friction_by_decade,
     with_master_curve,
 )
-from gripscale.experiment.task import PREDICTIONS, Store, Task, exact
+from gripscale.experiment.task import PREDICTIONS, Store, Task, canonical_json
 from gripscale.io import netcdf
 from gripscale.model import (
     ADHESIVE_FRICTION,
@@ -250,11 +250,13 @@ class Study:
             "case": contents(self.file),
             "axes": {axis.name: axis.labels for axis in self.axes},
             "values": {
-                axis.name: exact(axis.values) for axis in self.axes if axis.name not in named
+                axis.name: canonical_json(axis.values)
+                for axis in self.axes
+                if axis.name not in named
             },
             "named": {n: [stated_by(v, self.file) for v in vs] for n, vs in named.items()},
             "static": self.static,
-            "model": exact(self.model),
+            "model": canonical_json(self.model),
         }
         return hashlib.sha256(json.dumps(stated, sort_keys=True).encode()).hexdigest()
 
@@ -423,7 +425,7 @@ class Study:
             "varied": json.dumps({axis.name: list(axis.labels) for axis in self.axes}),
             "surfaces": "; ".join(surface.source for surface in self.surfaces),
             "rubbers": "; ".join(f"{rubber.name}: {rubber.source}" for rubber in self.rubbers),
-            "rubber_parameters": json.dumps(exact(self.rubbers)),
+            "rubber_parameters": json.dumps(canonical_json(self.rubbers)),
             "notes": "\n".join(dict.fromkeys(n for one in self.surfaces for n in one.notes)),
             "software": software(),
             "study_key": self.key,

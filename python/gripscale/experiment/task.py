@@ -58,10 +58,10 @@ class Task:
         """
         inputs = {
             "software": software(),
-            "rubber": exact(self.rubber),
-            "surface": exact(self.model.relevant(self.surface)),
-            "load": exact(self.load),
-            "model": exact(self.model),
+            "rubber": canonical_json(self.rubber),
+            "surface": canonical_json(self.model.relevant(self.surface)),
+            "load": canonical_json(self.load),
+            "model": canonical_json(self.model),
         }
         return hashlib.sha256(json.dumps(inputs, sort_keys=True).encode()).hexdigest()[:KEY_LENGTH]
 
@@ -82,7 +82,7 @@ class Task:
         return self.key, found.assign_attrs(prediction_key=self.key), seconds
 
 
-def exact(value: Any) -> Any:
+def canonical_json(value: Any) -> Any:
     """Return `value` for JSON without losing a bit: floats in hexadecimal, objects by field."""
     if isinstance(value, float):
         return float(value).hex()
@@ -90,14 +90,14 @@ def exact(value: Any) -> Any:
         if value.size > MOST_WRITTEN:
             content = hashlib.sha256(np.ascontiguousarray(value).tobytes()).hexdigest()
             return {"array": str(value.dtype), "shape": list(value.shape), "sha256": content}
-        return [exact(entry) for entry in value.tolist()]
+        return [canonical_json(entry) for entry in value.tolist()]
     if isinstance(value, Mapping):
-        return {str(name): exact(entry) for name, entry in value.items()}
+        return {str(name): canonical_json(entry) for name, entry in value.items()}
     if isinstance(value, list | tuple):
-        return [exact(entry) for entry in value]
+        return [canonical_json(entry) for entry in value]
     if is_dataclass(value):
         kind = type(value) if not isinstance(value, type) else value
-        named = {f.name: exact(getattr(value, f.name)) for f in fields(value)}
+        named = {f.name: canonical_json(getattr(value, f.name)) for f in fields(value)}
         return {"class": f"{kind.__module__}.{kind.__qualname__}", **named}
     if value is None or isinstance(value, str | bool | int):
         return value

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from gripscale.conditions import flash_temperature as rise
 from gripscale.conditions.conditions import Conditions, RubberByScale, StateByScale, state_by_scale
-from gripscale.conditions.fixed_point import Pass, Passes, mixed, separate
-from gripscale.conditions.fixed_point import settle as settle_passes
+from gripscale.conditions.fixed_point import Iteration, Passes, mixed, separate
+from gripscale.conditions.fixed_point import solve_coupled as settle_passes
 from gripscale.conditions.flash_temperature import (
     LossDepth,
     ThermalProperties,
@@ -195,17 +195,17 @@ def _mean_product(grid: Grid, one: ComplexArray, other: ComplexArray) -> float:
 
 
 @dataclass(frozen=True)
-class Climbed:
+class GridSequenceResult:
     """A contact, and what was found on the levels on the way to it."""
 
     contact: RoughContact
     levels: KnownLevels
 
 
-Solve = Callable[[RubberByScale | None, KnownLevels], Climbed]
+Solve = Callable[[RubberByScale | None, KnownLevels], GridSequenceResult]
 
 
-def settle(
+def solve_coupled_contact(
     solve: Solve, quick: Solve, rubber: Rubber, conditions: Conditions, time: float
 ) -> RoughContact:
     """Return the contact in which rubber, strains and heat agree.
@@ -243,7 +243,9 @@ class _Contacts:
     grids: list[GridRecord] = field(repr=False)
     """Of all passes."""
 
-    def __call__(self, assumed: Array | None, last: Climbed | None) -> Pass[Climbed]:
+    def __call__(
+        self, assumed: Array | None, last: GridSequenceResult | None
+    ) -> Iteration[GridSequenceResult]:
         """Return the pass for what is assumed, from the last contact."""
         state = None if assumed is None or last is None else self.state(assumed, last.contact)
         known = {} if last is None or last.contact.by_scale is None else last.levels
@@ -251,7 +253,7 @@ class _Contacts:
         self.grids.extend(now.contact.grids)
         found, surface = self._found(now.contact)
         warmed = replace(now, contact=replace(now.contact, surface_warming=surface))
-        return Pass(warmed, assumed, found, _results(now.contact), now.contact.converged)
+        return Iteration(warmed, assumed, found, _results(now.contact), now.contact.converged)
 
     def state(self, assumed: Array, contact: RoughContact) -> StateByScale:
         """Return what is assumed at every scale of a contact."""
@@ -305,7 +307,7 @@ def _results(now: RoughContact) -> list[float]:
     return [now.contact_fraction, *([now.friction_from_dissipation] if now.speed > 0.0 else [])]
 
 
-def _told(passes: Passes[Climbed], contacts: _Contacts) -> RoughContact:
+def _told(passes: Passes[GridSequenceResult], contacts: _Contacts) -> RoughContact:
     """Return the last pass with what became of the rubber."""
     contact, assumed = passes.last.solved.contact, passes.last.assumed
     state = None if assumed is None else contacts.state(assumed, contact)

@@ -194,7 +194,7 @@ KnownLevels = Mapping[LevelKey, LevelContact]
 
 
 @dataclass
-class Climb:
+class GridSequence:
     """Solves level after level; keeps what the next one starts from."""
 
     body: HalfSpace

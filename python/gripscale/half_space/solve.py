@@ -18,12 +18,12 @@ from gripscale.core import checks
 from gripscale.core.errors import InputError
 from gripscale.core.parallel import worker_count
 from gripscale.half_space.active_set import START_TOLERANCE, TOLERANCE
-from gripscale.half_space.conditions import Climbed, settle
+from gripscale.half_space.conditions import GridSequenceResult, solve_coupled_contact
 from gripscale.half_space.grid import PeriodicHeights, periodic_heights
 from gripscale.half_space.grid_sequence import (
     JUDGED_BY,
-    Climb,
     GridRecord,
+    GridSequence,
     KnownLevels,
     Level,
     LevelContact,
@@ -141,20 +141,24 @@ def solve_rough_contact(
     if on_grid is not None and not callable(on_grid):
         raise InputError(f"on_grid must be a function or None; got {checks.short_repr(on_grid)}")
 
-    def solve(by_scale: RubberByScale | None, known: KnownLevels, reach: float) -> Climbed:
-        climb = Climb(replace(body, by_scale=by_scale), heights, load, threads, iterations, known)
+    def solve(
+        by_scale: RubberByScale | None, known: KnownLevels, reach: float
+    ) -> GridSequenceResult:
+        climb = GridSequence(
+            replace(body, by_scale=by_scale), heights, load, threads, iterations, known
+        )
         return _climbed(climb, most, reach, on_grid)
 
     if not under.iterated:
         return replace(solve(None, {}, goal).contact, conditions=conditions)
     time = _passage(under, speed, footprint)
     quick, whole = partial(solve, reach=math.inf), partial(solve, reach=goal)
-    return replace(settle(whole, quick, rubber, under, time), conditions=conditions)
+    return replace(solve_coupled_contact(whole, quick, rubber, under, time), conditions=conditions)
 
 
 def _climbed(
-    climb: Climb, most: int, goal: float, on_grid: Callable[[GridRecord], None] | None
-) -> Climbed:
+    climb: GridSequence, most: int, goal: float, on_grid: Callable[[GridRecord], None] | None
+) -> GridSequenceResult:
     """Return the contact with one rubber, on finer and finer grids."""
     plan, grids = _planned(climb, goal), list[GridRecord]()
     while plan:
@@ -167,10 +171,10 @@ def _climbed(
         if not plan and not _met(_same_surface(grids), goal):
             plan += [following] if following.grid.points <= most else []
     contact = _result(climb.body, climb.heights, climb.pressure, solved, grids, goal)
-    return Climbed(contact, {**climb.known, **climb.solved})
+    return GridSequenceResult(contact, {**climb.known, **climb.solved})
 
 
-def _planned(climb: Climb, goal: float) -> list[Level]:
+def _planned(climb: GridSequence, goal: float) -> list[Level]:
     """Return the levels to the first that may do.
 
     Of those known the last, with those before it that tell its errors if they are asked for.

@@ -20,7 +20,7 @@ from gripscale.charts.page_elements import Page
 from gripscale.core.errors import FileError
 from gripscale.io.netcdf import write_whole
 from gripscale.report.pages import comparison_page, roads_page, run_page, study_page, told_page
-from gripscale.report.source import RoadsBeside, Run, Source, Study, Told, read_result
+from gripscale.report.source import Run, Source, Study, SurfaceComparison, TextReport, read_result
 
 REPORT = "report.html"
 
@@ -43,9 +43,9 @@ def build(result: Path, output: Path | None) -> Path:
 def _page(source: Source) -> Page:
     if isinstance(source, Run):
         return run_page(source)
-    if isinstance(source, Told):
+    if isinstance(source, TextReport):
         return told_page(source)
-    if isinstance(source, RoadsBeside):
+    if isinstance(source, SurfaceComparison):
         return roads_page(source.data)
     return study_page(source) if isinstance(source, Study) else comparison_page(source)
 

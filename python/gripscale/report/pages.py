@@ -49,7 +49,7 @@ from gripscale.report import tables_inputs as inputs
 from gripscale.report.comparison_chapters import STALE, comparison_elements, effects_elements
 from gripscale.report.equations import equations
 from gripscale.report.notices import cards, exponent_sentence, notices, pointer, study_sentence
-from gripscale.report.source import Compared, Run, Study, Told
+from gripscale.report.source import Compared, Run, Study, TextReport
 from gripscale.report.tables_comparison import (
     judgement,
     roads_failures,
@@ -553,7 +553,7 @@ CAPTIONS = {
 """Captions of figures by their file."""
 
 
-def told_page(told: Told) -> Page:
+def told_page(told: TextReport) -> Page:
     """Return the report of `told`."""
     attrs = told.data.attrs
     case = PurePath(str(attrs.get("case_file", ""))).name

@@ -100,14 +100,14 @@ class Study:
 
 
 @dataclass(frozen=True)
-class RoadsBeside:
+class SurfaceComparison:
     """Roads side by side."""
 
     data: xr.Dataset
 
 
 @dataclass(frozen=True)
-class Told:
+class TextReport:
     """A result whose command said in text and figures what there is to say."""
 
     name: str
@@ -119,7 +119,7 @@ class Told:
 TOLD = {"calibration": "profile_excess", "uncertainty": "friction_quantile"}
 """Results of that kind, by the name of their file, with a variable only they have."""
 
-Source = Run | Study | Compared | RoadsBeside | Told
+Source = Run | Study | Compared | SurfaceComparison | TextReport
 
 
 def read_result(path: Path) -> Source:
@@ -139,7 +139,7 @@ def read_result(path: Path) -> Source:
     if "rung" in tree.dims:
         return Compared.holding([tree.to_dataset()])
     if {"model", "surface"} <= set(tree.dims):
-        return RoadsBeside(tree.to_dataset())
+        return SurfaceComparison(tree.to_dataset())
     if tree["total_friction"].ndim:
         return Study(path.stem, tree.to_dataset())
     return _run({path.stem: tree}, Compared())
@@ -172,12 +172,12 @@ def _read_folder(folder: Path) -> Source:
     return read_result(others[0])
 
 
-def _told(name: str, path: Path, data: xr.Dataset) -> Told:
+def _told(name: str, path: Path, data: xr.Dataset) -> TextReport:
     """Return what its command wrote beside a result."""
     text = path.with_name(f"{name}.txt")
     pictures = [*path.parent.glob("*.png"), *(path.parent / "figures").glob("*.png")]
     said = text.read_text(encoding="utf-8") if text.is_file() else ""
-    return Told(name, data, said, sorted(pictures))
+    return TextReport(name, data, said, sorted(pictures))
 
 
 def _direct(folder: Path, found: Run) -> xr.Dataset | None:

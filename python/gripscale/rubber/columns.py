@@ -153,7 +153,7 @@ Columns = Mapping[str, str | int] | Sequence[str | int]
 
 
 @dataclass(frozen=True)
-class Stated:
+class ColumnLayout:
     """What is stated of a file; it goes before its titles, or after them if those come first."""
 
     columns: Mapping[str, str | int] = field(default_factory=dict)
@@ -170,11 +170,11 @@ class Stated:
         """The titles to look for."""
         return [column for column in self.columns.values() if isinstance(column, str)]
 
-    def in_order(self) -> Stated:
+    def in_order(self) -> ColumnLayout:
         """Return the same with frequency, storage and loss in the first three columns."""
         return replace(self, columns={name: at for at, name in enumerate(THREE, start=1)})
 
-    def of(self, table: TextTable) -> Stated:
+    def of(self, table: TextTable) -> ColumnLayout:
         """Return what counts for a table: no columns where its titles come first and name them."""
         if not (self.titles_first and self.columns):
             return self
@@ -292,7 +292,9 @@ _ROUNDING = 0.05
 
 
 def young_moduli(
-    table: TextTable, stated: Stated, numbers: Callable[[TextTable, int, str], Array] | None = None
+    table: TextTable,
+    stated: ColumnLayout,
+    numbers: Callable[[TextTable, int, str], Array] | None = None,
 ) -> tuple[Array, Array]:
     """Return E' and E'' [Pa] of each row.
 

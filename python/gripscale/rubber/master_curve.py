@@ -16,8 +16,8 @@ from gripscale.io.text_table import TextTable, file_path
 from gripscale.rubber.columns import (
     THREE,
     Block,
+    ColumnLayout,
     Columns,
-    Stated,
     columns_of,
     missing,
     quantity,
@@ -73,9 +73,9 @@ class MasterCurve:
         shift: Shift | None = None,
     ) -> None:
         columns = {
-            "frequency": checks.in_reason("frequency", frequency, unit="Hz"),
-            "storage": checks.in_reason("storage", storage, unit="Pa"),
-            "loss": checks.in_reason("loss", loss, unit="Pa"),
+            "frequency": checks.in_limits("frequency", frequency, unit="Hz"),
+            "storage": checks.in_limits("storage", storage, unit="Pa"),
+            "loss": checks.in_limits("loss", loss, unit="Pa"),
         }
         lengths = [len(column) for column in columns.values()]
         if len(set(lengths)) != 1 or lengths[0] < 2:
@@ -215,7 +215,7 @@ def read_master_curve(
     """
     place = file_path(path)
     units = {"frequency": frequency_unit, "modulus": modulus_unit}
-    stated = Stated(columns_of(columns), units, modulus, titles_first)
+    stated = ColumnLayout(columns_of(columns), units, modulus, titles_first)
     unit = temperature_unit
     if reference_temperature is not None and unit is None:
         unit = "K"  # a temperature is given: that of the file decides nothing
@@ -262,7 +262,7 @@ def _one(blocks: list[Block]) -> TextTable:
     return table
 
 
-def _reference(block: Block, given: float | None, stated: Stated) -> float | None:
+def _reference(block: Block, given: float | None, stated: ColumnLayout) -> float | None:
     """Return the temperature the curve holds for [K], if it is known."""
     if given is None or (stated.titles_first and block.temperature is not None):
         return block.temperature

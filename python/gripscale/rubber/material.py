@@ -120,8 +120,8 @@ class AdmissibleSeries:
         moduli: ArrayLike,
         belongs_to: str = "",
     ) -> None:
-        times = checks.in_reason("relaxation_times", relaxation_times, unit="s")
-        equilibrium = checks.in_reason("equilibrium_moduli", equilibrium_moduli, unit="Pa")
+        times = checks.in_limits("relaxation_times", relaxation_times, unit="s")
+        equilibrium = checks.in_limits("equilibrium_moduli", equilibrium_moduli, unit="Pa")
         shape = (len(equilibrium), len(times))
         expected = f"moduli must be {shape[0]} rows of {shape[1]} numbers [Pa]"
         elements = checks.array(moduli, expected)
@@ -252,7 +252,7 @@ def finite(name: str, value: ArrayLike, unit: str) -> Array:
 
 def check_modulus(name: str, value: float) -> float:
     """Return one modulus [Pa] within reason."""
-    return float(checks.in_reason(name, [checks.number(name, value, unit="Pa")], unit="Pa")[0])
+    return float(checks.in_limits(name, [checks.number(name, value, unit="Pa")], unit="Pa")[0])
 
 
 def check_admissible(value: AdmissibleSeries | None) -> AdmissibleSeries | None:
@@ -282,7 +282,7 @@ def check_band(value: tuple[float, float] | None) -> tuple[float, float] | None:
     """Return a band of angular frequencies [rad/s]; raise `InputError` if it is none."""
     if value is None:
         return None
-    band = checks.in_reason("valid_band", value, unit="rad/s")
+    band = checks.in_limits("valid_band", value, unit="rad/s")
     if len(band) != 2 or band[0] >= band[1]:
         raise InputError(
             f"valid_band [rad/s] must be a lower and a higher frequency; "
@@ -365,9 +365,9 @@ class Rubber:
     ) -> None:
         values = {
             "equilibrium_modulus": check_modulus("equilibrium_modulus", equilibrium_modulus),
-            "moduli": read_only(checks.in_reason("moduli", moduli, unit="Pa")),
+            "moduli": read_only(checks.in_limits("moduli", moduli, unit="Pa")),
             "relaxation_times": read_only(
-                checks.in_reason("relaxation_times", relaxation_times, unit="s")
+                checks.in_limits("relaxation_times", relaxation_times, unit="s")
             ),
             "bulk_modulus": check_modulus("bulk_modulus", bulk_modulus),
             "name": checks.text("name", name),

@@ -412,7 +412,7 @@ class ShiftTable(Shift):
         vertical_error: ArrayLike | None = None,
         reference_temperature: float | None = None,
     ) -> None:
-        kelvin = checks.in_reason("temperature", temperature, unit="K")
+        kelvin = checks.in_limits("temperature", temperature, unit="K")
         rows = len(kelvin)
         none = np.zeros(rows)
         unknown = np.full(rows, np.nan)

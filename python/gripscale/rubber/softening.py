@@ -424,5 +424,5 @@ def softening_from_dict(values: Mapping[str, Any]) -> SofteningLaw:
     """
     given = dict(values)
     kind = checks.one_of("kind", given.pop("kind", None), SOFTENING_LAWS)
-    law: SofteningLaw = checks.made(SOFTENING_LAWS[kind], kind, given)
+    law: SofteningLaw = checks.from_mapping(SOFTENING_LAWS[kind], kind, given)
     return law

@@ -21,8 +21,8 @@ from gripscale.rubber.columns import (
     MODULI,
     QUANTITIES,
     Block,
+    ColumnLayout,
     Columns,
-    Stated,
     above_zero,
     columns_of,
     missing,
@@ -88,9 +88,9 @@ class StrainSweep:
         source: str = "",
     ) -> None:
         columns = {
-            "strain": checks.in_reason("strain", strain),
-            "storage": checks.in_reason("storage", storage, unit="Pa"),
-            "loss": checks.in_reason("loss", loss, unit="Pa"),
+            "strain": checks.in_limits("strain", strain),
+            "storage": checks.in_limits("storage", storage, unit="Pa"),
+            "loss": checks.in_limits("loss", loss, unit="Pa"),
         }
         lengths = [len(column) for column in columns.values()]
         if len(set(lengths)) != 1 or lengths[0] == 0:
@@ -180,7 +180,7 @@ def read_strain_sweep(
         "temperature": temperature_unit,
         "frequency": frequency_unit,
     }
-    stated = Stated(columns_of(columns, _QUANTITIES), units, modulus)
+    stated = ColumnLayout(columns_of(columns, _QUANTITIES), units, modulus)
     blocks = read_blocks(
         place,
         sheet=sheet,
@@ -208,7 +208,7 @@ def read_strain_sweep(
     )
 
 
-def _strain(table: TextTable, stated: Stated, amplitude: str | None) -> Array:
+def _strain(table: TextTable, stated: ColumnLayout, amplitude: str | None) -> Array:
     """Return the single amplitude of strain [-]."""
     column = stated.column(table, "strain")
     if column is None:
@@ -228,7 +228,7 @@ def _strain(table: TextTable, stated: Stated, amplitude: str | None) -> Array:
     return np.asarray(size * in_si(above_zero(table, column, "strain"), written, "strain"))
 
 
-def _temperature(block: Block, stated: Stated, given: float | None) -> float | None:
+def _temperature(block: Block, stated: ColumnLayout, given: float | None) -> float | None:
     known = block.temperature is not None or stated.column(block.table, "temperature") is not None
     if given is not None or not known:
         return given
@@ -242,7 +242,7 @@ def _temperature(block: Block, stated: Stated, given: float | None) -> float | N
     return float(kelvin.mean()) if kelvin.size else None
 
 
-def _frequency(table: TextTable, stated: Stated, given: float | None) -> float | None:
+def _frequency(table: TextTable, stated: ColumnLayout, given: float | None) -> float | None:
     column = stated.column(table, "frequency")
     if given is not None or column is None:
         return given

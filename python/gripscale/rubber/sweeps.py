@@ -16,8 +16,8 @@ from gripscale.core.units import ZERO_CELSIUS, in_si
 from gripscale.io.text_table import file_paths
 from gripscale.rubber.columns import (
     Block,
+    ColumnLayout,
     Columns,
-    Stated,
     above_zero,
     check_rows,
     columns_of,
@@ -192,10 +192,10 @@ def checked_rows(
 ) -> dict[str, Array]:
     """Return the four columns of measured rows; raise `InputError` as `Sweeps` does."""
     columns = {
-        "temperature": checks.in_reason("temperature", temperature, unit="K"),
-        "frequency": checks.in_reason("frequency", frequency, unit="Hz"),
-        "storage": checks.in_reason("storage", storage, unit="Pa"),
-        "loss": checks.in_reason("loss", loss, unit="Pa"),
+        "temperature": checks.in_limits("temperature", temperature, unit="K"),
+        "frequency": checks.in_limits("frequency", frequency, unit="Hz"),
+        "storage": checks.in_limits("storage", storage, unit="Pa"),
+        "loss": checks.in_limits("loss", loss, unit="Pa"),
     }
     lengths = [len(column) for column in columns.values()]
     if len(set(lengths)) != 1 or lengths[0] == 0:
@@ -232,7 +232,7 @@ def holds_sweeps(
     are those of `read_sweeps`.
     """
     try:
-        stated = Stated(columns_of(columns))
+        stated = ColumnLayout(columns_of(columns))
         blocks = read_blocks(
             path, sheet=sheet, header=header, expected=stated.expected, temperature_unit="C"
         )
@@ -245,11 +245,11 @@ def holds_sweeps(
         return False
 
 
-def _tells(block: Block, stated: Stated) -> bool:
+def _tells(block: Block, stated: ColumnLayout) -> bool:
     return stated.column(block.table, "temperature") is not None
 
 
-def _repeats(block: Block, stated: Stated) -> bool:
+def _repeats(block: Block, stated: ColumnLayout) -> bool:
     table = block.table
     temperature, frequency = (stated.column(table, one) for one in ("temperature", "frequency"))
     if temperature is None or frequency is None:
@@ -421,7 +421,7 @@ def read_sweeps(
     if temperature is not None:
         temperature = checks.positive("temperature", temperature, unit="K")
     units = {"frequency": frequency_unit, "modulus": modulus_unit, "temperature": temperature_unit}
-    stated = Stated(columns_of(columns), units, modulus, titles_first)
+    stated = ColumnLayout(columns_of(columns), units, modulus, titles_first)
     parts = [
         _rows(block, stated, temperature)
         for place in paths
@@ -454,7 +454,7 @@ def read_sweeps(
         raise InputError(f"{paths[0]}: {error}") from error
 
 
-def _rows(block: Block, stated: Stated, temperature: float | None) -> Array:
+def _rows(block: Block, stated: ColumnLayout, temperature: float | None) -> Array:
     """Return temperature, frequency, E' and E'' of the complete rows of a table, in SI units."""
     table, stated = block.table, stated.of(block.table)
     frequency = stated.column(table, "frequency")
@@ -470,7 +470,7 @@ def _rows(block: Block, stated: Stated, temperature: float | None) -> Array:
     return np.array(rows)[:, complete]
 
 
-def row_temperatures(block: Block, stated: Stated, given: float | None) -> Array:
+def row_temperatures(block: Block, stated: ColumnLayout, given: float | None) -> Array:
     """Return the temperature of each row [K]: the caller's, of the lines above, of a column."""
     table = block.table
     if given is None and block.temperature is not None and "temperature" not in stated.columns:

@@ -138,11 +138,13 @@ def mark_dropouts(
     profile: Profile, valid_range: tuple[float, float] | None = None
 ) -> tuple[Profile, StepReport]:
     """Count the heights already missing; mark those outside `valid_range` [m] as missing."""
-    z, note = believed(profile.z, valid_range)
+    z, note = mask_out_of_range(profile.z, valid_range)
     return _changed(profile, "dropouts", z=z, note=note)
 
 
-def believed(z: FloatArray, valid_range: tuple[float, float] | None) -> tuple[FloatArray, str]:
+def mask_out_of_range(
+    z: FloatArray, valid_range: tuple[float, float] | None
+) -> tuple[FloatArray, str]:
     """Return heights with those outside `valid_range` [m] missing, and a note of both."""
     note = f"{int(np.isnan(z).sum())} missing as measured"
     if valid_range is None:
@@ -319,7 +321,7 @@ def clean_map(
     if crop is not None:
         surface, report = crop_map(surface, crop)
         reports.append(report)
-    z, note = believed(surface.z, valid_range)
+    z, note = mask_out_of_range(surface.z, valid_range)
     surface, report = _changed_map(surface, "dropouts", z=z, note=note)
     reports.append(report)
     if trim is not None:
