@@ -235,6 +235,12 @@ WRONG = [
         "shear_stress: kind = 'gauss': expected one of constant,",
     ),
     (
+        SOFTENING,
+        '[conditions.softening]\nkind = "table"\nfiles = ["a.csv"]\nmeasured_at = "0.2 %"\n'
+        'modulus_unit = "Mpa"\n',
+        "[conditions] softening: modulus_unit = 'Mpa': expected one of Pa, kPa,",
+    ),
+    (
         "[conditions.heat]",
         "[conditions.heating]",
         "unknown key [conditions] heating; did you mean heat?",

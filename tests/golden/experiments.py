@@ -1,4 +1,4 @@
-"""Small cases through the command line: what every command prints and writes, for the pins.
+"""Small cases through the command line: what every command prints and writes.
 
 The shipped road is cut short and thinned, and its meshes are coarse: the numbers pin the code, they
 say nothing of a road. Figures are not rendered, which would take most of the time.
@@ -193,6 +193,25 @@ COMMANDS: dict[str, tuple[str, ...]] = {
         "fit-rubber", "sweeps.csv", "--reference-temperature", "20 C", "--bulk-modulus", "20 GPa",
         "--output", "fit_rubber_sweeps",
     ),
+    "refused_axis": ("study", "plain.toml", "--vary", "colour=red,blue"),
+    "refused_axis_of_models": ("compare", "plain.toml", "--vary", "colour=red,blue"),
+    "refused_model": ("study", "plain.toml", "--vary", "speed=0.1,1", "--model", "zebra"),
+    "refused_effects": ("study", "warm.toml", "--vary", "effects=all,zebra"),
+    "refused_rung": ("compare", "plain.toml", "--rungs", "zebra"),
+    "refused_source": ("uncertainty", "plain.toml", "--without", "zebra"),
+    "refused_given": ("uncertainty", "plain.toml", "--given", "zebra=1:2"),
+    "refused_uncertain_model": ("uncertainty", "plain.toml", "--model", "zebra"),
+    "refused_uncertain_axis": ("uncertainty", "plain.toml", "--vary", "colour=red,blue"),
+    "refused_law": ("calibrate", "measured/case.toml", "--law", "zebra"),
+    "refused_calibrated_model": ("calibrate", "measured/case.toml", "--model", "zebra"),
+    "refused_hold_out": ("calibrate", "measured/case.toml", "--hold-out", "zebra"),
+    "refused_fixed": ("calibrate", "measured/case.toml", "--fixed", "zebra=1"),
+    "refused_program": ("export", "rubber", "plain.toml", "--to", "zebra", "--output", "no.inp"),
+    "refused_format": (
+        "export", "tables", "study/study.nc", "--format", "zebra", "--output", "no",
+    ),
+    "refused_example": ("init", "no", "--example", "zebra"),
+    "refused_section": ("keys", "zebra"),
     "export_rubber": (
         "export", "rubber", "plain.toml", "--to", "abaqus", "--output", "rubber.inp",
     ),

@@ -7,9 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
+from .abilities import write_abilities
 from .experiment_numbers import experiment_numbers
 from .experiments import run_experiments
 from .instruction_set import instruction_set
+from .texts import write_texts
 
 HERE = Path(__file__).parent
 
@@ -17,5 +19,7 @@ if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as folder:
         made = run_experiments(Path(folder))
         numbers = experiment_numbers(made)
+        write_texts(made, HERE / "texts")
+        write_abilities(made, HERE / "abilities.txt")
     kept = {"instruction_set": np.array(instruction_set()), **numbers}
     np.savez_compressed(HERE / "experiments.npz", allow_pickle=False, **kept)

@@ -164,7 +164,7 @@ def test_codes_of_missing_values(read: Any, code: str, row: int) -> None:
 
 def test_a_height_among_heights_is_no_code(read: Any) -> None:
     """Heights of thousands of nanometres, one of them 9999."""
-    text = sound.text("x [mm]\tz [nm]", sound.STEPS, 1e4 * sound.LINE).replace(b"[nm]", b"[nm]")
+    text = sound.text("x [mm]\tz [nm]", sound.STEPS, 1e4 * sound.LINE)
     _, z = read("profile", changed(text.decode(), 3, 1, "9999"))
     assert z[3] == pytest.approx(9.999e-6)
     assert not np.isnan(z).any()

@@ -13,6 +13,7 @@ import xarray as xr
 from typer.testing import Result
 
 import gripscale as gs
+from gripscale.analysis import compare_case
 from gripscale.chain import Chain
 from gripscale.conditions import Conditions, ConstantStress, ThermalProperties
 from gripscale.core.errors import InputError
@@ -102,6 +103,15 @@ def test_heat_makes_them_several(case: Path, model: Any) -> None:
     result = over(case, model, COMMON[1:], "0.1:10:log5")
     assert float(result.friction_collapse) > 5e-3
     assert all(not text.startswith("one curve") for _, text in collapse_sentences(result))
+
+
+def test_a_theory_takes_the_rubber_at_the_temperature_of_the_case(case: Path) -> None:
+    """As a comparison does: a model that knows no conditions is given the shifted rubber."""
+    case.write_text(f'{CASE}\n[conditions]\ntemperature = "40 C"\n')
+    result = Study(case, {"speed": [0.1]}, model=Persson()).run(case.parent / "study")
+    compared = compare_case(case, rungs=["persson"]).to_dataset()
+    friction = float(compared.total_friction.sel(rung="persson"))
+    assert float(result.total_friction[0]) == pytest.approx(friction, rel=1e-12)
 
 
 def test_a_vertical_shift_makes_them_several(case: Path) -> None:

@@ -251,7 +251,7 @@ class StrainSweeps(SofteningSource):
     """What the strain column holds, where its title does not say."""
     strain_unit: Literal["1", "%"] | None = None
     """Unit of strains where the file does not name it."""
-    modulus_unit: str | None = None
+    modulus_unit: Annotated[str, unit_of_file("modulus")] | None = None
     """Unit of moduli where the file does not name it."""
     modulus: Literal["E", "G"] | None = None
     """Young's or shear moduli, where the file does not say."""

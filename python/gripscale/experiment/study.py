@@ -21,8 +21,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from gripscale.case.prepare import prepare_conditions
 from gripscale.case.read import CaseFile, read_case
 from gripscale.chain.chain import Chain
+from gripscale.conditions import Conditions
 from gripscale.core import provenance
 from gripscale.core.errors import FileError, InputError
 from gripscale.core.provenance import software
@@ -196,7 +198,7 @@ class Study:
         Whether the relaxed rubber at rest is solved, too; as the case says by default.
     model
         What predicts: "chain" with the solver of the case, "direct", both under its conditions, or
-        a model.
+        a model. One that takes no conditions gets the rubber at the temperature of the case.
 
     Raises
     ------
@@ -237,6 +239,10 @@ class Study:
         """The varied rubbers, or the one of the case, read and fitted."""
         given = self._values("rubber")
         return [rubber_of(value, self.file) for value in given] or [case_rubber(self.file)]
+
+    @cached_property
+    def _case_conditions(self) -> Conditions | None:
+        return prepare_conditions(self.file.case.conditions, self.file.resolve)
 
     def _values(self, name: str) -> tuple[Any, ...]:
         return next((axis.values for axis in self.axes if axis.name == name), ())
@@ -384,6 +390,8 @@ class Study:
         load = self.file.case.load.nominal
         speed = 0.0 if static else chosen.get("speed", load.speed)
         model, rubber = self._model(chosen), self.rubbers[place.get("rubber", 0)]
+        if not hasattr(model, "conditions") and self._case_conditions is not None:
+            rubber = self._case_conditions.before(rubber)
         rubber_before(rubber, model)  # nothing is solved if one point of the study is impossible
         return Task(
             rubber=rubber,

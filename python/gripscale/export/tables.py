@@ -23,9 +23,10 @@ from numpy.typing import NDArray
 
 from gripscale.case import folder as folders
 from gripscale.core import checks
-from gripscale.core.errors import FileError, InputError
+from gripscale.core.errors import InputError
 from gripscale.io import netcdf
 from gripscale.io.netcdf import write_whole
+from gripscale.io.text_table import import_openpyxl
 
 # Tables into CSV files and Excel workbooks.
 
@@ -80,13 +81,10 @@ def write_workbook(tables: Sequence[Rows], path: Path) -> Path:
     InputError
         If a table has more rows than a sheet.
     FileError
-        If openpyxl is missing (`pip install gripscale[export]`) or the file cannot be written.
+        If openpyxl is missing (`pip install 'gripscale[export]'`) or the file cannot be written.
     """
-    try:
-        openpyxl = import_module("openpyxl")
-        cell_of = import_module("openpyxl.cell").WriteOnlyCell
-    except ImportError as error:
-        raise FileError(f"{path}: xlsx needs openpyxl: pip install gripscale[export]") from error
+    openpyxl = import_openpyxl(path)
+    cell_of = import_module("openpyxl.cell").WriteOnlyCell
     titles = _titles([table.name for table in tables])
     filled = {
         title: [table.titles, *table.rows()] for title, table in zip(titles, tables, strict=True)

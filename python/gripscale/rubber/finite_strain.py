@@ -86,7 +86,7 @@ def read_uniaxial_test(path: str | Path, *, stress_unit: str = "Pa") -> Uniaxial
     Raises
     ------
     FileError
-        If openpyxl is missing (`pip install gripscale[formats]`) or the file is not as expected.
+        If openpyxl is missing (`pip install 'gripscale[export]'`) or the file is not as expected.
     InputError
         If the unit is unknown.
     """

@@ -1,0 +1,58 @@
+"""What commands print, what pages show and what can be done: as kept here, for people to compare.
+
+Where texts or abilities are meant to change, `python -m tests.golden.make_experiments` writes them
+anew, and the change is read before it is committed.
+"""
+
+from __future__ import annotations
+
+import difflib
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from .abilities import abilities
+from .experiments import Experiments
+from .instruction_set import instruction_set
+from .texts import kept_texts, texts
+
+HERE = Path(__file__).parent
+KEPT = kept_texts(HERE / "texts")
+
+
+@pytest.fixture(scope="module")
+def now(experiments: Experiments) -> dict[str, str]:
+    return texts(experiments)
+
+
+@pytest.fixture(scope="module")
+def same() -> bool:
+    """Whether the texts were written on these instructions; elsewhere last digits differ."""
+    with np.load(HERE / "experiments.npz") as file:
+        return str(file["instruction_set"]) == instruction_set()
+
+
+def test_every_text_is_there(now: dict[str, str]) -> None:
+    assert now.keys() == KEPT.keys()
+
+
+@pytest.mark.parametrize("name", sorted(KEPT))
+def test_text_is_as_it_was(name: str, now: dict[str, str], same: bool) -> None:
+    before, after = KEPT[name], now[name]
+    if not same:
+        before, after = _without_numbers(before), _without_numbers(after)
+    changes = difflib.unified_diff(before.splitlines(), after.splitlines(), lineterm="", n=0)
+    assert before == after, "\n".join(changes)
+
+
+def test_all_that_could_be_done_can_be_done(experiments: Experiments) -> None:
+    before = (HERE / "abilities.txt").read_text(encoding="utf-8").splitlines()
+    changes = list(difflib.unified_diff(before, abilities(experiments), lineterm="", n=0))
+    assert not changes, "\n".join(changes)
+
+
+def _without_numbers(text: str) -> str:
+    """Return the words of a text: a number of another length moves the columns of a table."""
+    return re.sub(r"[\s─]+", " ", re.sub(r"[-+−]?\d[\d.]*(e[-+−]?\d+)?|\bnan\b", "#", text))
