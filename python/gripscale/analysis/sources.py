@@ -99,8 +99,8 @@ class ProfileSource:
     def of(cls, known: Measurement, stated: SourceOptions) -> ProfileSource:
         """Return the source of a case.
 
-        Raises `SourceNotApplicable` without a measured profile, `InputError` if its profiles are too
-        short, or if the direct contact of a map is asked for.
+        Raises `SourceNotApplicable` without a measured profile, `InputError` if its profiles
+        are too short, or if the direct contact of a map is asked for.
         """
         if not known.fitted or not known.profiles:
             raise SourceNotApplicable("no profile was measured")
