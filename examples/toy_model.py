@@ -23,24 +23,21 @@ from rich.console import Console
 
 import gripscale as gs
 from gripscale.experiment import Study
-from gripscale.model import NominalLoad, answer
+from gripscale.model import Model, NominalLoad, answer
 from gripscale.report.tables_study import study_table
-from gripscale.surface import PreparedSurface
+from gripscale.surface.surface import PreparedSurface, SurfacePart
 
 CASE = Path(__file__).parent / "three_waves" / "case.toml"
 
 
 @dataclass(frozen=True)
-class Proportional:
+class Proportional(Model):
     """Real contact in proportion to the load, on the slopes of all waves together."""
 
     name: ClassVar[str] = "proportional"
+    needs: ClassVar[frozenset[SurfacePart]] = frozenset({"waves"})
 
     kappa: float = 2.0
-
-    def relevant(self, surface: PreparedSurface) -> PreparedSurface:
-        """Return nothing of `surface` but its waves."""
-        return PreparedSurface(gs.SineStack(surface.sines.wavelength, surface.sines.amplitude), "")
 
     def predict(
         self,

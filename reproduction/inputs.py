@@ -65,7 +65,7 @@ class Inputs:
         whole = self.surfaces[surface]
         return Task(
             self.rubbers[rubber],
-            whole if sines is None else replace(whole, sines=sines),
+            whole if sines is None else replace(whole, waves=sines),
             NominalLoad(PRESSURE, speed, FOOTPRINT),
         )
 

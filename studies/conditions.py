@@ -13,8 +13,8 @@ from dataclasses import replace
 from typing import Any
 
 import gripscale as gs
+from gripscale.chain.heat import WaveHeat
 from gripscale.conditions import Conditions, ThermalProperties
-from gripscale.conditions.chain_heat import WaveHeat
 from gripscale.rubber import WLF
 from gripscale.rubber.softening import Kraus
 from studies.shipped import road, tread

@@ -16,13 +16,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gripscale.core import checks
+from gripscale.core.errors import InputError
 from gripscale.rubber.extrapolation import UNKNOWN, Extrapolation, of_sum
 
 if TYPE_CHECKING:
     import xarray as xr
 
+    from gripscale.conditions import Conditions
     from gripscale.rubber import Rubber
-    from gripscale.surface.surface import PreparedSurface
+    from gripscale.surface.surface import PreparedSurface, SurfacePart
 
 
 # How much a prediction changes with the smallest wavelength that counts.
@@ -200,16 +202,35 @@ class NominalLoad:
 class Model(Protocol):
     """Predicts contact and friction.
 
-    A frozen dataclass whose fields decide its answers together with the inputs: studies name their
-    results by them.
+    A model is a frozen dataclass that derives from this class. Its fields and the inputs decide its
+    answers: stored results are named by them.
     """
 
     @property
     def name(self) -> str:
-        """Word for it in results, tables and case files."""
+        """Word for the model in results, tables and case files."""
 
-    def relevant(self, surface: PreparedSurface) -> PreparedSurface:
-        """Return `surface` with nothing in it that the answer does not depend on."""
+    @property
+    def needs(self) -> frozenset[SurfacePart]:
+        """Parts of a surface that the answer depends on; all of them by default."""
+        return frozenset({"waves", "measurement", "cut_off"})
+
+    @property
+    def takes_conditions(self) -> bool:
+        """Whether the model knows conditions; without them it takes the rubber as it is."""
+        return False
+
+    @property
+    def conditions(self) -> Conditions | None:
+        """What changes the rubber."""
+        return None
+
+    def with_conditions(self, conditions: Conditions | None) -> Model:
+        """Return the model under other conditions; `InputError` if it takes none."""
+        raise InputError(
+            "temperature and effects belong to a model with conditions, such as chain and direct; "
+            f"got the model {self.name}"
+        )
 
     def predict(
         self,

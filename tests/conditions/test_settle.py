@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import gripscale as gs
+from gripscale.chain.heat import WaveHeat, strains, warming
 from gripscale.conditions import Conditions, ThermalProperties
-from gripscale.conditions.chain_heat import WaveHeat, strains, warming
 from gripscale.conditions.conditions import rubber_under
 from gripscale.half_space.conditions import strain_by_scale, temperature
 from gripscale.rubber.softening import Kraus

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import gripscale as gs
+from gripscale.chain.heat import WaveHeat
 from gripscale.conditions import (
     LossDepth,
     ThermalProperties,
@@ -13,7 +14,6 @@ from gripscale.conditions import (
     uniform_at_surface,
     uniform_where_lost,
 )
-from gripscale.conditions.chain_heat import WaveHeat
 from gripscale.conditions.flash_temperature import LossLayers
 
 THERMAL = ThermalProperties(conductivity=0.25, density=1150.0, specific_heat=1500.0)

@@ -88,13 +88,10 @@ def test_what_was_solved_is_not_solved_again(tmp_path: Path) -> None:
 
 
 @dataclass(frozen=True)
-class Thermometer:
+class Thermometer(model.Model):
     """A model without conditions: friction is the reference temperature of its rubber."""
 
     name: ClassVar[str] = "thermometer"
-
-    def relevant(self, surface: PreparedSurface) -> PreparedSurface:
-        return surface
 
     def predict(
         self, rubber: gs.Rubber, surface: PreparedSurface, load: NominalLoad, **_: Any

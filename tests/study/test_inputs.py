@@ -77,7 +77,7 @@ def test_cut_off_and_upper_share_are_fitted_anew(measured: Path) -> None:
     assert half.counted["upper_share"] == 0.5
     # back from a cut-off to a last wave, and other factors down to the same cut-off
     back = replace(
-        road, sines=cut, fit={**road.fit, "smallest_wavelength": None, "cut_off": 0.2e-3}
+        road, waves=cut, fit={**road.fit, "smallest_wavelength": None, "cut_off": 0.2e-3}
     )
     assert back.varied(smallest_wavelength=0.3e-3).sines.wavelength[-1] == pytest.approx(0.3e-3)
     for factor in (2.2, 3.5, 6.5):

@@ -171,7 +171,7 @@ def test_as_a_model_of_a_measured_surface():
     assert float(data.footprint) == 0.1
     assert data.attrs["model"] == "klueppel_heinrich"
     assert all({"units", "long_name", "source"} <= set(data[name].attrs) for name in data.data_vars)
-    assert model.predict(ZENER, model.relevant(prepared), load).identical(data)
+    assert model.predict(ZENER, prepared.only(model.needs), load).identical(data)
 
 
 def test_waves_by_hand_are_refused():

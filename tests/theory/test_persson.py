@@ -276,7 +276,7 @@ def test_as_a_model_of_a_measured_surface():
     assert float(data.footprint) == 0.1
     assert data.attrs["model"] == "persson"
     assert all({"units", "long_name", "source"} <= set(data[name].attrs) for name in data.data_vars)
-    reduced = model.relevant(surface)
+    reduced = surface.only(model.needs)
     assert model.predict(ZENER, reduced, load).identical(data)
     assert reduced.measured.self_affine is None
     smaller = Persson(smallest_wavelength=5e-4).predict(ZENER, surface, load)

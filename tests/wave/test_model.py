@@ -63,6 +63,10 @@ def test_waves_by_hand_have_no_profile():
 
 
 def test_only_the_profiles_matter():
-    relevant = BlockOnProfile().relevant(surface_of(line(0.0)))
-    assert relevant.correlation is None
-    assert len(relevant.sines) == 1
+    surface = surface_of(line(0.0))
+    part = surface.only(BlockOnProfile().needs)
+    assert (part.waves, part.end, part.correlation) == (None, None, None)
+    alone = BlockOnProfile().predict(RUBBER, part, LOAD)
+    assert float(alone.total_friction) == float(
+        BlockOnProfile().predict(RUBBER, surface, LOAD).total_friction
+    )

@@ -82,8 +82,7 @@ class ComparisonSetup:
 
     def rubber_for(self, model: Model) -> Rubber:
         """Return the rubber as measured for a model with conditions, else `rubber_before`."""
-        knows = getattr(model, "conditions", None) is not None
-        return self.rubber if knows else self.rubber_before
+        return self.rubber_before if model.conditions is None else self.rubber
 
 
 class SampleSpec(NamedTuple):
@@ -280,7 +279,7 @@ def _chain_upper(subject: ComparisonSetup) -> Sequence[SampleSpec]:
     if upper_already and cut_off_already and subject.pressure_classes > 1:
         return []
     lines = () if surface.measured is None else tuple(surface.measured.cleaned)
-    end = surface.sines.roughness_end
+    end = surface.roughness_end
     sines = _of_upper_half(lines, surface.counted.get("max_lag"), end) if lines else None
     if sines is None:
         return []
@@ -333,7 +332,7 @@ def _last_known(surface: PreparedSurface) -> float:
     """Return where the sine waves end [m], or the spectrum of the profile before them."""
     spectra = [_spectrum(line) for line in surface.measured.cleaned] if surface.measured else []
     ends = [float(2.0 * np.pi / spectrum.wavenumber[-1]) for spectrum in spectra]
-    return max(surface.sines.roughness_end, *ends)
+    return max(surface.roughness_end, *ends)
 
 
 def _klueppel_heinrich(subject: ComparisonSetup) -> Sequence[SampleSpec]:

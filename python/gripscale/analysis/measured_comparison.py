@@ -212,8 +212,7 @@ def predictions_at(
 
 
 def _temperature(model: Model, rubber: Rubber) -> float | None:
-    conditions: Conditions | None = getattr(model, "conditions", None)
-    return (conditions or Conditions()).temperature_of(rubber)
+    return (model.conditions or Conditions()).temperature_of(rubber)
 
 
 def _task(
@@ -226,12 +225,12 @@ def _task(
 ) -> Task:
     """Return what is to be solved at one point; `own` is the temperature of the case."""
     elsewhere = kelvin is not None and kelvin != own
-    if not hasattr(model, "conditions"):
+    if not model.takes_conditions:
         return Task(rubber.at(kelvin) if elsewhere and kelvin else rubber, surface, load, model)
     conditions = replace(model.conditions or Conditions(), shear_stress=TemperatureProbe())
     if elsewhere:
         conditions = replace(conditions, temperature=kelvin)
-    return Task(rubber, surface, load, replace(model, conditions=conditions))  # type: ignore[type-var]
+    return Task(rubber, surface, load, model.with_conditions(conditions))
 
 
 def _label(load: NominalLoad, kelvin: float | None) -> str:

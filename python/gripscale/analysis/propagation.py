@@ -539,7 +539,7 @@ def _tasks(one: SampledInputs, model: Model, loads: Sequence[NominalLoad]) -> li
     if one.inputs is None:
         raise InputError(one.why_not)
     surface, own = one.inputs.for_model(model)
-    relevant = own.relevant(surface)
+    relevant = surface.only(own.needs)
     return [Task(one.inputs.rubber, relevant, load, FailSafeModel(own)) for load in loads]
 
 

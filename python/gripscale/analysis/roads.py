@@ -351,5 +351,5 @@ def _drawn(known: Measurement, model: Model, load: NominalLoad, samples: int) ->
     tasks = {}
     for part, inputs in parts.items():
         surface, own = inputs.for_model(model)
-        tasks[part] = Task(known.rubber, own.relevant(surface), load, FailSafeModel(own))
+        tasks[part] = Task(known.rubber, surface.only(own.needs), load, FailSafeModel(own))
     return tasks

@@ -13,10 +13,10 @@ import numpy as np
 from gripscale import model
 from gripscale.case.results import CaseResults
 from gripscale.chain.chain import Chain
+from gripscale.conditions import Conditions
 from gripscale.core import checks, provenance
 from gripscale.core.errors import InputError
 from gripscale.core.units import parse_quantity
-from gripscale.half_space.model import DirectContact
 from gripscale.model import LoadTime, Model, NominalLoad
 from gripscale.rubber import PronyFit, Rubber
 from gripscale.rubber.master_curve import MasterCurve
@@ -25,7 +25,7 @@ from gripscale.surface import (
     Measured,
     PreparedSurface,
     Profile,
-    SineStack,
+    SurfacePart,
     fit_sines,
 )
 from gripscale.surface.sine_fit import MOST_WAVES
@@ -160,7 +160,7 @@ class Inputs:
     def end(self) -> float:
         """Where the waves end [m]: the cut-off or, without one, the last wave."""
         stated = (self.fit.get(name) for name in END_KEYS)
-        return next((float(end) for end in stated if end), self.surface.sines.roughness_end)
+        return next((float(end) for end in stated if end), self.surface.roughness_end)
 
     def ended_at(self, wavelength: float) -> Inputs:
         """Return the inputs with the end of the waves at a wavelength [m].
@@ -178,13 +178,13 @@ class Inputs:
 
         Raises `InputError` if no waves fit.
         """
-        if isinstance(model, DirectContact):
+        if "waves" not in model.needs:
             return self._measured(), model
         if isinstance(model, Chain) and self.load_time_factor != 1.0:
             model = replace(model, solver=loaded_longer(model.solver, self.load_time_factor))
         if self.correlation is None or self._as_prepared:
             return self.surface, model
-        return replace(self.surface, sines=fit_sines(self.correlation, **self.fit)), model
+        return replace(self.surface, waves=fit_sines(self.correlation, **self.fit)), model
 
     @property
     def _as_prepared(self) -> bool:
@@ -193,10 +193,10 @@ class Inputs:
 
     def _measured(self) -> PreparedSurface:
         """Return lines or map, and nothing of the waves but where they end."""
-        wave, measured = np.array([self.end]), self.surface.measured
+        measured = self.surface.measured
         if self.redrawn is not None:
             measured = Measured.of(self.redrawn())
-        return PreparedSurface(SineStack(wave, wave), self.surface.source, measured=measured)
+        return PreparedSurface(None, self.surface.source, measured=measured, end=self.end)
 
 
 # A number that is not known: anywhere between two ends, one of a few, or one.
@@ -317,7 +317,7 @@ def _bare(given: Any) -> Any:
 
 
 @dataclass(frozen=True)
-class FailSafeModel:
+class FailSafeModel(Model):
     """Another model, whose refusal of an input is an answer without totals that says why."""
 
     model: Model
@@ -327,9 +327,24 @@ class FailSafeModel:
         """Word for the model within."""
         return self.model.name
 
-    def relevant(self, surface: PreparedSurface) -> PreparedSurface:
-        """Return what the model within depends on."""
-        return self.model.relevant(surface)
+    @property
+    def needs(self) -> frozenset[SurfacePart]:
+        """Parts of a surface that the model within depends on."""
+        return self.model.needs
+
+    @property
+    def takes_conditions(self) -> bool:
+        """Whether the model within takes conditions."""
+        return self.model.takes_conditions
+
+    @property
+    def conditions(self) -> Conditions | None:
+        """Conditions of the model within."""
+        return self.model.conditions
+
+    def with_conditions(self, conditions: Conditions | None) -> FailSafeModel:
+        """Return the model within under other conditions."""
+        return FailSafeModel(self.model.with_conditions(conditions))
 
     def predict(
         self,

@@ -26,7 +26,7 @@ from gripscale.model import MOST_CLASSES, LoadTime, NominalLoad
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import CHOICES, require_measured
 from gripscale.rubber.material import require_solid
-from gripscale.surface import PreparedSurface, SineStack
+from gripscale.surface import PreparedSurface, SineStack, SurfacePart
 from gripscale.theory.half_plane import HalfPlane
 from gripscale.wave.block import FiniteStrainBlock
 from gripscale.wave.kernel import RefinableSolver, WaveSolver, solver_of
@@ -278,7 +278,7 @@ def _require_contact(so_far: Prediction) -> None:
 
 
 @dataclass(frozen=True)
-class Chain:
+class Chain(model.Model):
     """Waves solved one after the other, each with the pressure that leaves the one above.
 
     Parameters
@@ -301,6 +301,8 @@ class Chain:
     """
 
     name: ClassVar[str] = "chain"
+    needs: ClassVar[frozenset[SurfacePart]] = frozenset({"waves"})
+    takes_conditions: ClassVar[bool] = True
 
     solver: WaveSolver = field(default_factory=FiniteStrainBlock)
     rubber_at: RubberAt | None = None
@@ -312,10 +314,9 @@ class Chain:
         checks.one_of("extrapolate", self.extrapolate, CHOICES)
         checks.whole("pressure_classes", self.pressure_classes, least=1, most=MOST_CLASSES)
 
-    def relevant(self, surface: PreparedSurface) -> PreparedSurface:
-        """Return nothing of `surface` but its waves."""
-        sines = SineStack(surface.sines.wavelength, surface.sines.amplitude)
-        return PreparedSurface(sines, source="")
+    def with_conditions(self, conditions: Conditions | None) -> Chain:
+        """Return the chain under other conditions."""
+        return replace(self, conditions=conditions)
 
     def predict(
         self,

@@ -14,8 +14,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from gripscale.chain.heat import Warming, WaveHeat, strains, warming
 from gripscale.chain.prediction import Prediction, RubberAt
-from gripscale.conditions.chain_heat import Warming, WaveHeat, strains, warming
 from gripscale.conditions.conditions import Conditions, RubberState, rubber_under
 from gripscale.conditions.fixed_point import Iteration, Passes, mixed, separate
 from gripscale.conditions.fixed_point import solve_coupled as settle_passes

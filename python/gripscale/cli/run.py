@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
-import gripscale
 from gripscale.cli.terminal import (
     CasePath,
     command,
@@ -296,7 +295,7 @@ PASS_ON = {"allow_extra_args": True, "ignore_unknown_options": True, "help_optio
 @command
 def reproduce(context: typer.Context) -> None:
     """Reproduce figures of Lind & Wangenheim 2014 and judge the paper's statements."""
-    root = Path(gripscale.__file__).resolve().parents[2]
+    root = Path(__file__).resolve().parents[3]
     if not (root / "reproduction" / "__main__.py").is_file():
         raise FileError(
             "the reproduction is in the source of gripscale, not in the package: "

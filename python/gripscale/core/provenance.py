@@ -8,7 +8,6 @@ from functools import lru_cache
 from importlib import metadata
 from pathlib import Path
 
-import gripscale
 from gripscale import _kernel
 
 
@@ -34,14 +33,14 @@ def version_of(name: str) -> str:
 
 # The fingerprint of what turns inputs into results: compiled kernel and numeric modules.
 
-FACES = ("cli", "figures", "init", "report")
-"""Rooms that start cases or show results; all others are taken to make them."""
+FACES = ("app", "charts", "cli", "report")
+"""Rooms that only show results; every other room is taken to make them."""
 
 
 @lru_cache(maxsize=1)
 def software() -> str:
     """Return version and fingerprint of the software that solves."""
-    home = Path(gripscale.__file__).parent
+    home = Path(__file__).parents[1]
     digest = fingerprint(home, Path(str(_kernel.__file__)))
     return f"gripscale {version_of('gripscale')} {digest[:16]}"
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from dataclasses import is_dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -164,19 +164,14 @@ SELECTIONS = (ALL, *WITHOUT, NONE)
 def conditions_of(model: Model) -> Conditions:
     """Return the conditions of a model, empty ones if it has none.
 
-    Raises `InputError` if the model does not know conditions.
+    Raises `InputError` if the model takes none.
     """
-    if not (is_dataclass(model) and hasattr(model, "conditions")):
-        raise InputError(
-            f"temperature and effects belong to a model with conditions, such as chain and direct; "
-            f"got the model {model.name}"
-        )
-    return model.conditions or Conditions()
+    return model.with_conditions(model.conditions).conditions or Conditions()
 
 
-def at_temperature(model: M, kelvin: float) -> M:
+def at_temperature(model: Model, kelvin: float) -> Model:
     """Return `model` with another temperature before the contact [K]."""
-    return _with(model, replace(conditions_of(model), temperature=kelvin))
+    return model.with_conditions(replace(conditions_of(model), temperature=kelvin))
 
 
 def effects_asked(model: Model) -> list[str]:
@@ -185,7 +180,7 @@ def effects_asked(model: Model) -> list[str]:
     return [effect for effect in EFFECTS if getattr(conditions, effect) is not None]
 
 
-def with_effects(model: M, selection: str) -> M:
+def with_effects(model: Model, selection: str) -> Model:
     """Return `model` with one of `SELECTIONS` of its effects; its area term stays.
 
     Raises `InputError` if the effect to be left out is not one that the model has.
@@ -200,7 +195,7 @@ def with_effects(model: M, selection: str) -> M:
                 f"{', '.join(asked) or 'none'}; got {selection!r}"
             )
     nothing: dict[str, Any] = dict.fromkeys(left_out)
-    return _with(model, replace(conditions_of(model), **nothing))
+    return model.with_conditions(replace(conditions_of(model), **nothing))
 
 
 def rubber_before(rubber: Rubber, model: Model) -> Rubber:
@@ -208,13 +203,7 @@ def rubber_before(rubber: Rubber, model: Model) -> Rubber:
 
     Raises `InputError` if it has no shift, or none to this temperature.
     """
-    conditions: Conditions | None = getattr(model, "conditions", None)
-    return rubber if conditions is None else conditions.before(rubber)
-
-
-def _with(model: M, conditions: Conditions) -> M:
-    changed: Any = replace(model, conditions=conditions)  # type: ignore[type-var]
-    return changed  # type: ignore[no-any-return]
+    return rubber if model.conditions is None else model.conditions.before(rubber)
 
 
 # The models a study can be made of by name, as a case asks for them.

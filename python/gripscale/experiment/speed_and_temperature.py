@@ -198,7 +198,7 @@ def _collapsed(result: xr.Dataset, name: str) -> xr.DataArray:
 
 
 def _states_temperature(task: Task) -> bool:
-    conditions = getattr(task.model, "conditions", None)
+    conditions = task.model.conditions
     return conditions is not None and conditions.temperature is not None
 
 

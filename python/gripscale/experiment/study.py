@@ -390,7 +390,7 @@ class Study:
         load = self.file.case.load.nominal
         speed = 0.0 if static else chosen.get("speed", load.speed)
         model, rubber = self._model(chosen), self.rubbers[place.get("rubber", 0)]
-        if not hasattr(model, "conditions") and self._case_conditions is not None:
+        if not model.takes_conditions and self._case_conditions is not None:
             rubber = self._case_conditions.before(rubber)
         rubber_before(rubber, model)  # nothing is solved if one point of the study is impossible
         return Task(

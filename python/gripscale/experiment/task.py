@@ -59,7 +59,7 @@ class Task:
         inputs = {
             "software": software(),
             "rubber": canonical_json(self.rubber),
-            "surface": canonical_json(self.model.relevant(self.surface)),
+            "surface": canonical_json(self.surface.only(self.model.needs)),
             "load": canonical_json(self.load),
             "model": canonical_json(self.model),
         }
@@ -67,7 +67,7 @@ class Task:
 
     def reduced(self) -> Task:
         """Return the same task with nothing in it that its result does not depend on."""
-        return Task(self.rubber, self.model.relevant(self.surface), self.load, self.model)
+        return Task(self.rubber, self.surface.only(self.model.needs), self.load, self.model)
 
     def solve(self, stop: threading.Event | None = None) -> Solved:
         """Return key, result and seconds; give up between two steps once `stop` is set."""

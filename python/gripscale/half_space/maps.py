@@ -21,7 +21,7 @@ from gripscale.half_space.windows import WindowContacts, solve_windows
 from gripscale.model import NOT_CONVERGED, CutOffExponents, of_mean
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import Extrapolation, of_sum
-from gripscale.surface import HeightMap, Measured, PreparedSurface, Profile, isotropic_maps
+from gripscale.surface import HeightMap, PreparedSurface, Profile, SurfacePart, isotropic_maps
 from gripscale.surface.isotropic_maps import seed_numbers
 
 if TYPE_CHECKING:
@@ -323,7 +323,7 @@ KEPT = 16
 
 
 @dataclass(frozen=True)
-class SyntheticMap:
+class SyntheticMap(model.Model):
     """An isotropic map made from all cleaned profiles, see `gripscale.surface.isotropic_maps`.
 
     The mean of sliding along x and along y.
@@ -343,6 +343,7 @@ class SyntheticMap:
     """
 
     name: ClassVar[str] = "synthetic_map"
+    needs: ClassVar[frozenset[SurfacePart]] = frozenset({"measurement"})
 
     seed: int
     smallest_wavelength: float
@@ -350,10 +351,6 @@ class SyntheticMap:
     points: int = 512
     construction: str = "lines"
     tolerance: float = 0.05
-
-    def relevant(self, surface: PreparedSurface) -> PreparedSurface:
-        """Return nothing of `surface` but its profiles (and its waves, which it must have)."""
-        return PreparedSurface(surface.sines, "", measured=Measured.of(_profiles(surface)))
 
     def predict(
         self,

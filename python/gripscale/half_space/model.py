@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -14,7 +14,7 @@ from gripscale.core import checks
 from gripscale.core.errors import InputError
 from gripscale.half_space.result import RoughContact
 from gripscale.half_space.solve import solve_rough_contact
-from gripscale.surface import HeightMap, PreparedSurface, Profile
+from gripscale.surface import HeightMap, PreparedSurface, Profile, SurfacePart
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class DirectContact:
+class DirectContact(model.Model):
     """Every cleaned profile solved whole, averaged by length; of a map, the map.
 
     In small strain the mean state does nothing: the load time has no part in it, and the footprint
@@ -41,6 +41,8 @@ class DirectContact:
     """
 
     name: ClassVar[str] = "direct"
+    needs: ClassVar[frozenset[SurfacePart]] = frozenset({"measurement", "cut_off"})
+    takes_conditions: ClassVar[bool] = True
 
     smallest_wavelength: float | None = None
     tolerance: float | None = 0.02
@@ -56,9 +58,9 @@ class DirectContact:
         checks.positive("most_points", self.most_points)
         checks.flag("periodic", self.periodic)
 
-    def relevant(self, surface: PreparedSurface) -> PreparedSurface:
-        """Return nothing of `surface` but what was measured and where its waves end."""
-        return surface.as_measured()
+    def with_conditions(self, conditions: Conditions | None) -> DirectContact:
+        """Return the direct contact under other conditions."""
+        return replace(self, conditions=conditions)
 
     def predict(
         self,
@@ -98,7 +100,7 @@ class DirectContact:
         """Return the length given, or where the waves say it ends [m], two steps at least."""
         if self.smallest_wavelength is not None:
             return self.smallest_wavelength
-        return max(surface.sines.roughness_end, 2.0 * float(np.max(measured.step)))
+        return max(surface.roughness_end, 2.0 * float(np.max(measured.step)))
 
     def _answer(self, contacts: list[RoughContact], load: NominalLoad) -> xr.Dataset:
         import xarray as xr

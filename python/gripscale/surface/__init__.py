@@ -27,7 +27,7 @@ from gripscale.surface.spectrum import (
     map_spectrum,
     profile_spectrum,
 )
-from gripscale.surface.surface import Measured, PreparedSurface
+from gripscale.surface.surface import Measured, PreparedSurface, SurfacePart
 from gripscale.surface.synthetic import self_affine_profile, sine_profile
 
 __all__ = [
@@ -48,6 +48,7 @@ __all__ = [
     "SineStack",
     "SlopeByWavelength",
     "StepReport",
+    "SurfacePart",
     "areal_spectrum",
     "clean",
     "clean_map",

@@ -1,11 +1,11 @@
-"""A surface ready for any model: its sine waves and, where it was measured, the way to them."""
+"""A surface as models take it: sine waves, a measurement or both, and where its roughness ends."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -80,14 +80,18 @@ class Measured:
         return Measured.of(self.cleaned if self.map is None else self.map)
 
 
+SurfacePart = Literal["waves", "measurement", "cut_off"]
+"""A part of a surface that a model may need."""
+
+
 @dataclass(frozen=True)
 class PreparedSurface:
-    """Sine waves, and what they were fitted to, if anything.
+    """Sine waves, a measurement, or both.
 
     Attributes
     ----------
-    sines, source
-        The waves, and where they come from.
+    waves, source
+        The waves, None for a measurement without them, and where the surface comes from.
     correlation
         What they were fitted to, or None for waves stated by hand.
     fit
@@ -99,22 +103,37 @@ class PreparedSurface:
         count.
     rule
         By which the waves end where they do, or None for the last wave.
+    end
+        Shortest wavelength of the roughness [m]; None: where the waves end.
     """
 
-    sines: SineStack
+    waves: SineStack | None
     source: str
     correlation: HeightDifference | None = None
     fit: Mapping[str, Any] = field(default_factory=dict)
     measured: Measured | None = None
     counted: Mapping[str, Any] = field(default_factory=dict)
     rule: CutOffRule | None = None
+    end: float | None = None
+
+    @property
+    def sines(self) -> SineStack:
+        """The sine waves; `InputError` without them."""
+        if self.waves is None:
+            raise InputError("the model needs sine waves; got a surface with a measurement only")
+        return self.waves
+
+    @property
+    def roughness_end(self) -> float:
+        """Shortest wavelength of the roughness [m]; `InputError` if nothing says where it ends."""
+        return self.sines.roughness_end if self.end is None else self.end
 
     @property
     def cut_off(self) -> CutOff | None:
         """Where the roughness ends and by which rule, or None if nothing was measured."""
         if self.measured is None:
             return None
-        end = self.sines.roughness_end
+        end = self.roughness_end
         if self.rule is None:
             return replace(find_cut_off(self.measured.slopes, end), rule="the last wave")
         found = find_cut_off(self.measured.slopes, self.rule)
@@ -127,11 +146,15 @@ class PreparedSurface:
             )
         )
 
-    def as_measured(self) -> PreparedSurface:
-        """Return nothing but what was measured and where the waves end."""
-        end = np.array([self.sines.roughness_end])
-        measured = self.measured and self.measured.bare()
-        return PreparedSurface(SineStack(end, end), source="", measured=measured)
+    def only(self, parts: Collection[SurfacePart]) -> PreparedSurface:
+        """Return these parts of the surface, without the way to them."""
+        waves = self.waves if "waves" in parts else None
+        return PreparedSurface(
+            waves and SineStack(waves.wavelength, waves.amplitude),
+            source="",
+            measured=self.measured and self.measured.bare() if "measurement" in parts else None,
+            end=self.roughness_end if "cut_off" in parts else None,
+        )
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -203,7 +226,7 @@ class PreparedSurface:
         else:
             stack = self._fitted(self.correlation, waves, smallest_wavelength, end)
         kept = self.rule if stack.cut_off is not None else None
-        return replace(self, sines=stack, rule=kept if cut_off is None else cut_off)
+        return replace(self, waves=stack, rule=kept if cut_off is None else cut_off)
 
     def _length_of(self, rule: CutOffRule) -> float:
         """Return where the roughness ends by a rule [m]."""
@@ -220,7 +243,7 @@ class PreparedSurface:
         counted = {**self.counted, "upper_share": share}
         correlation = height_difference(self.measured.cleaned, **counted)
         sines = fit_sines(correlation, **self.fit)
-        return replace(self, sines=sines, correlation=correlation, counted=counted)
+        return replace(self, waves=sines, correlation=correlation, counted=counted)
 
     def _fitted(
         self,

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from gripscale.core import checks
 from gripscale.core.errors import InputError
-from gripscale.model import NominalLoad
+from gripscale.model import Model, NominalLoad
 from gripscale.rubber import Rubber
 from gripscale.surface.profile import Profile
 from gripscale.surface.spectrum import profile_spectrum
-from gripscale.surface.surface import PreparedSurface
+from gripscale.surface.surface import PreparedSurface, SurfacePart
 from gripscale.theory.klueppel_heinrich import klueppel_heinrich
 from gripscale.theory.persson import persson
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Persson:
+class Persson(Model):
     """Persson's theory, with the profiles as lines on an isotropic surface.
 
     Parameters
@@ -36,6 +36,7 @@ class Persson:
     """
 
     name: ClassVar[str] = "persson"
+    needs: ClassVar[frozenset[SurfacePart]] = frozenset({"measurement", "cut_off"})
 
     smallest_wavelength: float | None = None
     gamma: float = 0.5
@@ -44,10 +45,6 @@ class Persson:
     def __post_init__(self) -> None:
         _check_lengths(self, "smallest_wavelength", "window")
         checks.not_negative("gamma", self.gamma)
-
-    def relevant(self, surface: PreparedSurface) -> PreparedSurface:
-        """Return the cleaned profiles of `surface` and where its waves end."""
-        return surface.as_measured()
 
     def predict(
         self,
@@ -73,7 +70,7 @@ class Persson:
 
 
 @dataclass(frozen=True)
-class KlueppelHeinrich:
+class KlueppelHeinrich(Model):
     """The theory of Klueppel and Heinrich, of the upper part of the profiles.
 
     Parameters
@@ -86,6 +83,7 @@ class KlueppelHeinrich:
     """
 
     name: ClassVar[str] = "klueppel_heinrich"
+    needs: ClassVar[frozenset[SurfacePart]] = frozenset({"measurement", "cut_off"})
 
     layer_ratio: float
     penetration_depth: float
@@ -95,10 +93,6 @@ class KlueppelHeinrich:
         checks.positive("layer_ratio", self.layer_ratio)
         checks.positive("penetration_depth", self.penetration_depth, unit="m")
         _check_lengths(self, "smallest_wavelength")
-
-    def relevant(self, surface: PreparedSurface) -> PreparedSurface:
-        """Return the cleaned profiles of `surface` and where its waves end."""
-        return surface.as_measured()
 
     def predict(
         self,
@@ -132,7 +126,7 @@ def _answered(result: Any, on_progress: Callable[[Any], None] | None) -> xr.Data
 
 
 def _smallest(stated: float | None, surface: PreparedSurface) -> float:
-    return surface.sines.roughness_end if stated is None else stated
+    return surface.roughness_end if stated is None else stated
 
 
 def _cleaned(surface: PreparedSurface, name: str) -> list[Profile]:

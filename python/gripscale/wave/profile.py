@@ -19,7 +19,7 @@ from gripscale.core import checks, provenance
 from gripscale.core.errors import InputError
 from gripscale.rubber import Rubber
 from gripscale.rubber.material import require_solid
-from gripscale.surface import Measured, PreparedSurface, Profile, SineStack
+from gripscale.surface import PreparedSurface, Profile, SurfacePart
 from gripscale.surface.resampling import filled
 from gripscale.wave import kernel
 from gripscale.wave.block import FiniteStrainBlock
@@ -206,7 +206,7 @@ def _columns(heights: SampledProfile) -> int:
 
 
 @dataclass(frozen=True)
-class BlockOnProfile:
+class BlockOnProfile(model.Model):
     """Every cleaned profile in one finite-strain block, averaged by length.
 
     The profiles must be short: a block carries a hundred waves or so (see
@@ -220,6 +220,7 @@ class BlockOnProfile:
     """
 
     name: ClassVar[str] = "block_on_profile"
+    needs: ClassVar[frozenset[SurfacePart]] = frozenset({"measurement"})
 
     smallest_wavelength: float | None = None
     periodic: bool = False
@@ -231,11 +232,6 @@ class BlockOnProfile:
         checks.flag("periodic", self.periodic)
         if self.tolerance is not None:
             checks.positive("tolerance", self.tolerance)
-
-    def relevant(self, surface: PreparedSurface) -> PreparedSurface:
-        """Return nothing of `surface` but its profiles (and a wave, which a surface must have)."""
-        measured = surface.measured and Measured.of(surface.measured.cleaned)
-        return PreparedSurface(SineStack(np.ones(1), np.ones(1)), source="", measured=measured)
 
     def predict(
         self,
