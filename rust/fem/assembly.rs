@@ -1,4 +1,4 @@
-//! Element rows: what is out of balance of forces and volumes,
+//! Residual forces and volumes of an element row,
 //!     R_u = int P : grad(N) dV,   R_p = int m (J - 1) dV - M p / K   (m: pressure modes, M: their mass)
 //! with the pressure an independent unknown, updated linearly.
 

@@ -1,10 +1,10 @@
 //! The energy lost in the block per sliding distance.
 
 use super::block::{Block, Memory, RowState};
-use super::circular::Correlations;
+use crate::executor::Executor;
 use crate::material::kinematics::{isochoric, remembered, Symmetric, UNIT};
+use crate::spectral::Correlations;
 use crate::status::Status;
-use crate::watch::Watch;
 
 /// Integral of Y(x - m columns) : Cbar(x) - 3, for every number m of columns.
 pub struct StrainSince {
@@ -22,13 +22,13 @@ pub struct Loss {
 }
 
 impl Block<'_> {
-    /// Energy lost in steady sliding; what is at rest loses none.
-    pub fn dissipation(&self, rows: &[RowState], watch: &Watch<'_>) -> Result<Loss, Status> {
+    /// Energy lost in steady sliding; zero at rest.
+    pub fn dissipation(&self, rows: &[RowState], executor: &Executor<'_>) -> Result<Loss, Status> {
         let Memory::Sliding(history) = self.memory else {
             let rows = vec![0.0; rows.len()];
             return Ok(Loss { whole: 0.0, rows });
         };
-        let since = self.strain_since(rows, watch)?;
+        let since = self.strain_since(rows, executor)?;
         let curve = history.dissipation.curve(&since.whole);
         let lost = |part: &Vec<f64>| history.dissipation.lost_on(&curve, part);
         Ok(Loss {
@@ -42,7 +42,7 @@ impl Block<'_> {
     pub fn strain_since(
         &self,
         rows: &[RowState],
-        watch: &Watch<'_>,
+        executor: &Executor<'_>,
     ) -> Result<StrainSince, Status> {
         let mut whole = vec![0.0; self.mesh.columns];
         let correlations = Correlations::new(self.mesh.columns);
@@ -51,7 +51,7 @@ impl Block<'_> {
             self.add_pairs(row, &rows[row], &mut correlations);
             correlations.take()
         };
-        let mut parts = watch.map(100 * self.mesh.points(), rows.len(), of_row)?;
+        let mut parts = executor.map(100 * self.mesh.points(), rows.len(), of_row)?;
         for part in &mut parts {
             whole
                 .iter_mut()

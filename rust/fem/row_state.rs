@@ -1,8 +1,8 @@
-//! Deformation gradients and remembered state at the Gauss points of one element row.
+//! Deformation gradients and memory at the Gauss points of one element row.
 
 use super::block::{Block, Memory, RowState};
-use super::circular::convolve;
 use crate::material::kinematics::{remembered, Deformation, Gradient, Symmetric, UNIT};
+use crate::spectral::convolve_points;
 
 impl RowState {
     /// What the temporary networks remember of the row's deformation, `[line][column * points + point]`.
@@ -44,13 +44,13 @@ impl Block<'_> {
             .map(|line| line.iter().map(Deformation::from).collect())
             .collect();
         let h = (0..deformation.len())
-            .map(|line| self.remember(row, line, &deformation[line]))
+            .map(|line| self.network_stress(row, line, &deformation[line]))
             .collect();
         RowState { deformation, h }
     }
 
     /// H along one line: permanent network and memory.
-    fn remember(&self, row: usize, line: usize, along: &[Deformation]) -> Vec<Symmetric> {
+    fn network_stress(&self, row: usize, line: usize, along: &[Deformation]) -> Vec<Symmetric> {
         let mut h: Vec<Symmetric> = along
             .iter()
             .map(|f| self.energy.network(f).map(|b| self.equilibrium * b))
@@ -59,14 +59,15 @@ impl Block<'_> {
             Memory::Relaxed => {}
             Memory::Sliding(history) => {
                 let y: Vec<Symmetric> = along.iter().map(remembered).collect();
-                for (h, past) in h.iter_mut().zip(convolve(history, &y)) {
+                let past = convolve_points(&history.lines, &history.spectrum, &y);
+                for (h, past) in h.iter_mut().zip(past) {
                     for k in 0..4 {
                         h[k] += past[k] + history.frozen_modulus * UNIT[k];
                     }
                 }
             }
-            Memory::Given(state) => {
-                for (h, given) in h.iter_mut().zip(&state[row][line]) {
+            Memory::Given(contribution) => {
+                for (h, given) in h.iter_mut().zip(&contribution[row][line]) {
                     for k in 0..4 {
                         h[k] += given[k];
                     }

@@ -43,18 +43,14 @@ impl Dissipation {
         Self { weights }
     }
 
-    /// The loss for f, integrated over the block, m columns ago in `strain_since[m]`.
-    pub fn lost(&self, strain_since: &[f64]) -> f64 {
-        self.lost_on(&self.curve(strain_since), strain_since)
-    }
-
-    /// How f runs between columns. On one curve the loss is linear: parts that add up to f lose what
-    /// f loses.
+    /// How f, integrated over the block, runs between columns, with its value m columns ago in
+    /// `strain_since[m]`. On one curve the loss is linear: the losses of parts that add up to f add up to
+    /// the loss of f.
     pub fn curve(&self, strain_since: &[f64]) -> Curve {
         Curve::through(strain_since)
     }
 
-    /// What a `part` of the f that the curve was made for loses.
+    /// The loss of a `part` of the f that the curve was made for.
     pub fn lost_on(&self, curve: &Curve, part: &[f64]) -> f64 {
         let polynomials = (0..part.len()).map(|m| curve.polynomial(part, m));
         let lost = |(polynomial, weight): (Polynomial, &Polynomial)| -> f64 {

@@ -1,4 +1,4 @@
-//! Stepping in time with the recurrence's own memory lands on the steady state of the same memory.
+//! Sliding in time ends in the steady state, and a kept factor gives the same run as GMRES.
 
 use std::f64::consts::TAU;
 
@@ -6,7 +6,7 @@ use gripscale_kernel::settings::Settings;
 use gripscale_kernel::status::Status;
 use gripscale_kernel::transient::{Run, Stage};
 
-use crate::Case;
+use crate::case::Case;
 
 /// Friction and contact fraction of a long run against the steady solution of the same mesh.
 #[test]

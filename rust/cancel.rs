@@ -1,0 +1,78 @@
+//! Cancellation of a solve: by its caller, or by a limit of time.
+//!
+//! Long work calls `check` between parts of some ten milliseconds. The caller is asked only every
+//! `INTERVAL`, because its answer may cost more than reading the clock.
+
+use std::cell::Cell;
+use std::time::{Duration, Instant};
+
+use crate::error::{positive, KernelError};
+use crate::status::Status;
+
+const INTERVAL: Duration = Duration::from_millis(50);
+
+/// Longest time limit [s], some thirty years: a clock can add it to the present time.
+const LONGEST_LIMIT: f64 = 1e9;
+
+/// A caller who may want to stop, and a deadline.
+pub struct Cancel<'a> {
+    stop_requested: &'a dyn Fn() -> bool,
+    deadline: Option<Instant>,
+    next_request: Cell<Instant>,
+    stopped: Cell<bool>,
+}
+
+impl<'a> Cancel<'a> {
+    /// Stop where `stop_requested` returns true, or `time_limit` [s] from now.
+    pub fn new(
+        stop_requested: &'a dyn Fn() -> bool,
+        time_limit: Option<f64>,
+    ) -> Result<Self, KernelError> {
+        let now = Instant::now();
+        let limit = positive("time_limit", time_limit.unwrap_or(1.0))?.min(LONGEST_LIMIT);
+        Ok(Self {
+            deadline: time_limit.map(|_| now + Duration::from_secs_f64(limit)),
+            ..Self::without_limit(stop_requested)
+        })
+    }
+
+    /// Never cancel.
+    pub fn never() -> Cancel<'static> {
+        Cancel::without_limit(&|| false)
+    }
+
+    /// The same caller without a deadline, for the work that remains after it.
+    pub(crate) fn without_deadline(&self) -> Self {
+        Self {
+            stopped: self.stopped.clone(),
+            ..Self::without_limit(self.stop_requested)
+        }
+    }
+
+    fn without_limit(stop_requested: &'a dyn Fn() -> bool) -> Self {
+        Self {
+            stop_requested,
+            deadline: None,
+            next_request: Cell::new(Instant::now() + INTERVAL),
+            stopped: Cell::new(false),
+        }
+    }
+
+    /// `Stopped` once the caller has asked to stop, `TimeLimit` after the deadline.
+    pub(crate) fn check(&self) -> Result<(), Status> {
+        let now = Instant::now();
+        if now >= self.next_request.get() {
+            self.next_request.set(now + INTERVAL);
+            // A caller who has asked once is not asked again.
+            self.stopped
+                .set(self.stopped.get() || (self.stop_requested)());
+        }
+        if self.stopped.get() {
+            return Err(Status::Stopped);
+        }
+        match self.deadline {
+            Some(deadline) if now >= deadline => Err(Status::TimeLimit),
+            _ => Ok(()),
+        }
+    }
+}
