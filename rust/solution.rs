@@ -92,6 +92,12 @@ impl MeshSolution {
         self.state.approach
     }
 
+    /// Mesh and state, and those of the coarser mesh, for `benchmarks/sparse_kernel`.
+    #[cfg(feature = "internals")]
+    pub fn into_parts(self) -> (Mesh, State, Option<(Mesh, State)>) {
+        (self.mesh, self.state, self.coarser)
+    }
+
     /// This solution, as the result of a solve whose time ran out on a finer mesh.
     pub(crate) fn out_of_time(&self) -> Self {
         let mut solution = self.clone();

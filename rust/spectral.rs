@@ -11,7 +11,7 @@ pub use realfft::num_complex::Complex64;
 
 impl fmt::Debug for Lines {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "transforms of lines of {} values", self.len())
+        write!(f, "transforms of lines of {} values", self.length())
     }
 }
 
@@ -41,7 +41,7 @@ impl Lines {
     }
 
     /// Values on a line.
-    pub fn len(&self) -> usize {
+    pub fn length(&self) -> usize {
         self.line.len()
     }
 
@@ -52,7 +52,7 @@ impl Lines {
 
     /// exp(2 pi i k / N): the factor of harmonic k from one value to the next.
     pub fn phase_step(&self, harmonic: usize) -> Complex64 {
-        Complex64::cis(TAU * harmonic as f64 / self.len() as f64)
+        Complex64::cis(TAU * harmonic as f64 / self.length() as f64)
     }
 
     /// The harmonics of `line`.
@@ -119,7 +119,7 @@ impl Lines {
 /// `[column * points + point]`.
 pub fn convolve_points(lines: &Lines, spectrum: &[Complex64], values: &[[f64; 4]]) -> Vec<[f64; 4]> {
     let mut lines = lines.clone();
-    let (columns, mut out) = (lines.len(), vec![[0.0; 4]; values.len()]);
+    let (columns, mut out) = (lines.length(), vec![[0.0; 4]; values.len()]);
     let points = values.len() / columns;
     let mut line = vec![0.0; columns];
     for point in 0..points {
@@ -167,7 +167,7 @@ impl Correlations {
 
     /// The sums of all pairs, to begin anew.
     pub fn take(&mut self) -> Vec<f64> {
-        let mut sums = vec![0.0; self.lines.len()];
+        let mut sums = vec![0.0; self.lines.length()];
         self.lines.inverse(&self.sum, &mut sums);
         self.sum.fill(Complex64::default());
         sums

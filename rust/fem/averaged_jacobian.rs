@@ -173,7 +173,7 @@ impl<'a> AveragedJacobian<'a> {
 /// Convolution round the period of the lines in `values` with the lines whose harmonics are `blocks`,
 /// `[(to, from)][harmonic]`.
 pub fn convolve(blocks: &[Complex64], values: &[f64], lines: &mut Lines) -> Vec<f64> {
-    let (columns, count) = (lines.len(), lines.harmonics());
+    let (columns, count) = (lines.length(), lines.harmonics());
     let mut spectra = vec![Complex64::default(); values.len() / columns * count];
     for (line, spectrum) in values
         .chunks_exact(columns)
@@ -186,7 +186,7 @@ pub fn convolve(blocks: &[Complex64], values: &[f64], lines: &mut Lines) -> Vec<
 
 /// The lines with the harmonics `blocks` times `spectra`.
 fn multiply(blocks: &[Complex64], spectra: &[Complex64], lines: &mut Lines) -> Vec<f64> {
-    let (columns, count) = (lines.len(), lines.harmonics());
+    let (columns, count) = (lines.length(), lines.harmonics());
     let mut products = vec![Complex64::default(); spectra.len()];
     product(&mut products, blocks, spectra, 1.0, count);
     let mut values = vec![0.0; spectra.len() / count * columns];
