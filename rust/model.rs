@@ -16,7 +16,7 @@ use crate::problem::{Profile, Rubber};
 
 #[derive(Clone)]
 pub struct Model {
-    /// [Pa].
+    /// Unit of stress [Pa].
     pub stress_unit: f64,
     /// Moduli in stress units, times in time units.
     pub maxwell: Maxwell,

@@ -1,4 +1,4 @@
-//! Fourier transforms of real lines that go round the period, the one file with realfft:
+//! Fourier transforms of periodic real lines, the one file with realfft:
 //!     f_k = sum_j f_j exp(-2 pi i j k / N),   k = 0 ... N/2,   f_j = 1/N sum_k f_k exp(2 pi i j k / N)
 
 use std::f64::consts::TAU;
@@ -136,7 +136,7 @@ pub fn convolve_points(lines: &Lines, spectrum: &[Complex64], values: &[[f64; 4]
     out
 }
 
-/// Sums over columns e of y(e - m) c(e), for every m, of many pairs of lines together.
+/// Sums over columns e of y(e - m) c(e), for every m, over many pairs of lines.
 #[derive(Clone)]
 pub struct Correlations {
     lines: Lines,
@@ -147,11 +147,11 @@ pub struct Correlations {
 impl Correlations {
     pub fn new(columns: usize) -> Self {
         let lines = Lines::new(columns);
-        let nothing = vec![Complex64::default(); lines.harmonics()];
+        let zeros = vec![Complex64::default(); lines.harmonics()];
         Self {
             lines,
-            harmonics: [nothing.clone(), nothing.clone()],
-            sum: nothing,
+            harmonics: [zeros.clone(), zeros.clone()],
+            sum: zeros,
         }
     }
 
@@ -165,7 +165,7 @@ impl Correlations {
         }
     }
 
-    /// The sums of all pairs, to begin anew.
+    /// The sums of all pairs since the last call.
     pub fn take(&mut self) -> Vec<f64> {
         let mut sums = vec![0.0; self.lines.length()];
         self.lines.inverse(&self.sum, &mut sums);

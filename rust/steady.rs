@@ -107,8 +107,8 @@ impl Ending {
     }
 }
 
-/// A way to a solution on one mesh, given the solution on a coarser mesh; None if the next attempt is to
-/// be made.
+/// A way to a solution on one mesh, given the solution on a coarser mesh; None if it does not apply or
+/// fails, so that the next attempt is made.
 type Attempt<'w> = fn(&mut Wave<'w>, &PressedBlock<'_>, Option<&MeshSolution>) -> Option<Ending>;
 
 impl<'w> Wave<'w> {

@@ -1,4 +1,5 @@
-//! Sliding in time: the frame of the wave, one column per step, the networks carried exactly.
+//! Sliding in time, in the frame of the wave: every step moves the rubber by one column, which carries the
+//! states of the networks exactly.
 //!
 //! The speed is that of the rubber's surface over the wave: the profile follows the mean horizontal
 //! displacement of the surface, as in the steady state, which is the limit of a long run. Times are
@@ -27,7 +28,7 @@ use crate::status::Status;
 #[derive(Debug, Clone, Copy)]
 pub struct Stage {
     pub duration: f64,
-    /// Negative slides backwards; zero dwells.
+    /// Negative for sliding backwards, zero for a dwell.
     pub speed: f64,
     pub pressure: f64,
 }
@@ -208,7 +209,7 @@ impl<'a> Integration<'a> {
         Ok(())
     }
 
-    /// Lengths of the time steps of a stage: one column each, or growing in a dwell.
+    /// Lengths of the time steps of a stage: one column each in sliding, growing in a dwell.
     fn steps(&self, stage: &Stage) -> Vec<f64> {
         if stage.speed == 0.0 {
             let (count, first) = (self.settings.dwell_steps, self.settings.dwell_first);

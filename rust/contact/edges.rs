@@ -87,7 +87,7 @@ pub fn contacts(
 struct Edge {
     last: isize,
     outward: isize,
-    /// Nodes in a row that are closed inside and open outside.
+    /// Consecutive closed nodes inside and open nodes outside.
     closed: usize,
     open: usize,
     exponents: (f64, f64, f64),
@@ -96,8 +96,8 @@ struct Edge {
 impl Edge {
     /// Where pressure inside and gap outside, raised to be linear in the distance, vanish.
     ///
-    /// The two estimates err to opposite sides with the edge's place between the nodes; their mean
-    /// is right to about a tenth of the node spacing. Too few nodes on one side leave the other.
+    /// The errors of the two estimates have opposite signs; their mean is right to about a tenth of the node
+    /// spacing. With too few nodes on one side only the other estimate is used.
     fn place(&self, at: impl Fn(isize) -> (f64, usize), pressure: &[f64], gap: &[f64]) -> f64 {
         let (x0, inside) = at(self.last);
         let (x1, outside) = at(self.last + self.outward);

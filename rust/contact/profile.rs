@@ -127,7 +127,7 @@ impl Heights {
         }
     }
 
-    /// Nodes along the period below which a mesh cannot follow the smallest wave.
+    /// Fewest nodes along the period that resolve the smallest wave.
     pub fn fewest_nodes(&self) -> usize {
         match self {
             Self::Sine { .. } => 0,

@@ -1,4 +1,4 @@
-//! The rubber block: its unknowns, what it is made of, and where unknowns stand in an element row.
+//! The rubber block: its unknowns, its material, and the positions of unknowns in an element row.
 
 use super::element::MOST_NODES;
 use super::mesh::Mesh;
@@ -30,7 +30,7 @@ pub enum Memory {
     Relaxed,
     /// Steady sliding: every point of a line depends on all others.
     Sliding(SlidingHistory),
-    /// A given contribution of the networks.
+    /// A contribution that is known before the step.
     Given(Points),
 }
 

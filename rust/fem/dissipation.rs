@@ -17,7 +17,8 @@ pub struct StrainSince {
 /// Energy lost per sliding distance.
 pub struct Loss {
     pub whole: f64,
-    /// In each element row. Rows exchange energy: one alone may be below zero, all together cannot.
+    /// Energy lost in each element row. Rows exchange energy, so that a single row may be below zero, but not
+    /// their sum.
     pub rows: Vec<f64>,
 }
 
@@ -37,8 +38,8 @@ impl Block<'_> {
         })
     }
 
-    /// As sum y(x - m) : c(x) - y(x) : c(x) with y = Y - I and c = Cbar - I, which leaves the
-    /// squares of small strains their digits.
+    /// The sums of y(x - m) : c(x) - y(x) : c(x) with y = Y - I and c = Cbar - I, which keep the digits of
+    /// the squares of small strains.
     pub fn strain_since(
         &self,
         rows: &[RowState],
@@ -56,18 +57,19 @@ impl Block<'_> {
             whole
                 .iter_mut()
                 .zip(part.iter())
-                .for_each(|(sum, own)| *sum += own);
-            let own = part[0];
-            part.iter_mut().for_each(|product| *product -= own);
+                .for_each(|(sum, product)| *sum += product);
+            let undelayed = part[0];
+            part.iter_mut()
+                .for_each(|product| *product -= undelayed);
         }
-        let own = whole[0];
+        let undelayed = whole[0];
         for (m, product) in whole.iter_mut().enumerate() {
-            // Below zero is round-off; NaN must stay.
-            if *product < own {
+            // A negative difference is round-off; NaN must stay.
+            if *product < undelayed {
                 parts.iter_mut().for_each(|part| part[m] = 0.0);
                 *product = 0.0;
             } else {
-                *product -= own;
+                *product -= undelayed;
             }
         }
         let rows = parts;

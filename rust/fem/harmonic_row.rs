@@ -24,11 +24,11 @@ impl HarmonicRow {
         let element = &mesh.elements[row];
         let order = mesh.order;
         let size = 2 * order * (order + 1);
-        let nothing = || std::array::from_fn(|_| vec![0.0; size * size]);
+        let zeros = || std::array::from_fn(|_| vec![0.0; size * size]);
         let mut out = Self {
             size,
-            stiffness: nothing(),
-            memory: nothing(),
+            stiffness: zeros(),
+            memory: zeros(),
             pressing: std::array::from_fn(|_| vec![0.0; size * mesh.modes()]),
         };
         for (at, average) in averages.iter().enumerate() {
@@ -65,14 +65,14 @@ impl HarmonicRow {
     /// Add K / M (b + b' / t) (b + t b')^T of one pressure mode.
     fn condense(&mut self, mode: usize, stiffness: f64) {
         let size = self.size;
-        let [own, next] = [0, 1].map(|side| &self.pressing[side][mode * size..][..size]);
+        let [this, next] = [0, 1].map(|side| &self.pressing[side][mode * size..][..size]);
         let [by_one, by_t, by_back] = &mut self.stiffness;
         for j in 0..size {
             for i in 0..size {
                 let at = j * size + i;
-                by_one[at] += stiffness * (own[i] * own[j] + next[i] * next[j]);
-                by_t[at] += stiffness * own[i] * next[j];
-                by_back[at] += stiffness * next[i] * own[j];
+                by_one[at] += stiffness * (this[i] * this[j] + next[i] * next[j]);
+                by_t[at] += stiffness * this[i] * next[j];
+                by_back[at] += stiffness * next[i] * this[j];
             }
         }
     }
@@ -92,9 +92,9 @@ impl HarmonicRow {
 
     /// Forces per unit pressure modes in a harmonic, `[mode][unknown]`.
     pub fn pressing(&self, phase: Complex64) -> impl Iterator<Item = Complex64> + '_ {
-        let [own, next] = &self.pressing;
-        let pairs = own.iter().zip(next);
-        pairs.map(move |(own, next)| own + phase.conj() * next)
+        let [this, next] = &self.pressing;
+        let pairs = this.iter().zip(next);
+        pairs.map(move |(this, next)| this + phase.conj() * next)
     }
 }
 

@@ -1,22 +1,22 @@
-//! Where the entries of the assembled tangent stand, its unknowns in the order of elimination.
+//! The sparsity pattern of the assembled tangent, with the unknowns in the order of elimination.
 //!
-//! Nested dissection (George, SIAM J. Numer. Anal. 10 (1973) 345) of the periodic strip: two cuts
-//! from surface to lid, then the longer side halved, along lines of element edges.
+//! Nested dissection (George, SIAM J. Numer. Anal. 10 (1973) 345) of the periodic strip: two cuts from
+//! surface to lid, then every part is halved along its longer side. All cuts follow element edges.
 
 use super::block::Block;
 use super::mesh::Mesh;
 
-/// Instead of the number of what is not eliminated.
+/// In place of a number, for displacements that are no unknowns.
 const NONE: usize = usize::MAX;
 
-/// Parts of no more nodes are not cut further.
+/// Parts with at most this number of nodes are not cut further.
 const LEAF: usize = 6;
 
-/// The lower triangle in compressed columns, and where the entries of every element go.
+/// The lower triangle in compressed columns, and the places of the entries of every element.
 pub struct Pattern {
     pub column_starts: Vec<usize>,
     pub rows: Vec<usize>,
-    /// Entry of the diagonal, unknown by unknown.
+    /// Entry of the diagonal of every unknown.
     pub diagonal: Vec<usize>,
     /// Place in a field of every unknown.
     pub unknowns: Vec<usize>,
@@ -80,14 +80,14 @@ impl Pattern {
     }
 
     /// Numbers of an element's unknowns.
-    fn numbers<'a>(number: &'a [usize], own: &'a [usize]) -> impl Iterator<Item = usize> + 'a {
-        own.iter().map(|&place| number[place])
+    fn numbers<'a>(number: &'a [usize], places: &'a [usize]) -> impl Iterator<Item = usize> + 'a {
+        places.iter().map(|&place| number[place])
     }
 
     fn compress(&mut self) {
         let mut of_column: Vec<Vec<usize>> = vec![Vec::new(); self.unknowns.len()];
-        for own in self.places.chunks_exact(self.size) {
-            let free = || Self::numbers(&self.number, own).filter(|&i| i != NONE);
+        for places in self.places.chunks_exact(self.size) {
+            let free = || Self::numbers(&self.number, places).filter(|&i| i != NONE);
             for j in free() {
                 of_column[j].extend(free().filter(|&i| i >= j));
             }
@@ -110,9 +110,9 @@ impl Pattern {
             (from + self.rows[from..to].partition_point(|&row| row < i)) as u32
         };
         let mut entries = Vec::with_capacity(self.places.len() * self.size);
-        for own in self.places.chunks_exact(self.size) {
-            for i in Self::numbers(&self.number, own) {
-                entries.extend(Self::numbers(&self.number, own).map(|j| entry(i, j)));
+        for places in self.places.chunks_exact(self.size) {
+            for i in Self::numbers(&self.number, places) {
+                entries.extend(Self::numbers(&self.number, places).map(|j| entry(i, j)));
             }
         }
         self.entries = entries;
@@ -126,10 +126,10 @@ fn places_of_elements(block: &Block<'_>) -> Vec<usize> {
         let from = block.row_offset(row);
         for column in 0..mesh.columns {
             let unknowns = block.local_unknowns(column);
-            let own = unknowns[..block.mesh.elements[row].nodes()]
+            let of_element = unknowns[..block.mesh.elements[row].nodes()]
                 .iter()
                 .flatten();
-            places.extend(own.map(|at| from + at));
+            places.extend(of_element.map(|at| from + at));
         }
     }
     places

@@ -67,9 +67,9 @@ impl Block<'_> {
                 }
             }
             Memory::Given(contribution) => {
-                for (h, given) in h.iter_mut().zip(&contribution[row][line]) {
+                for (h, memory) in h.iter_mut().zip(&contribution[row][line]) {
                     for k in 0..4 {
-                        h[k] += given[k];
+                        h[k] += memory[k];
                     }
                 }
             }

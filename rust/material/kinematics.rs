@@ -8,7 +8,7 @@ pub type Symmetric = [f64; 4];
 /// The symmetric unit tensor.
 pub const UNIT: Symmetric = [1.0, 1.0, 0.0, 1.0];
 
-/// F with J and J^(-2/3), which all that follows needs: the power costs as much as the rest together.
+/// F with J and J^(-2/3). They are computed once, because the power costs as much as all the rest.
 #[derive(Debug, Clone, Copy)]
 pub struct Deformation {
     pub f: Gradient,
