@@ -53,22 +53,27 @@ fn checked<T: Display>(
     })
 }
 
-pub fn positive(name: &str, value: f64) -> Result<f64, KernelError> {
+pub(crate) fn positive(name: &str, value: f64) -> Result<f64, KernelError> {
     let valid = value.is_finite() && value > 0.0;
     checked(valid, name, value, "greater than zero and finite")
 }
 
-pub fn finite(name: &str, value: f64) -> Result<f64, KernelError> {
+pub(crate) fn finite(name: &str, value: f64) -> Result<f64, KernelError> {
     checked(value.is_finite(), name, value, "a finite number")
 }
 
 /// From zero to `most`; `allowed` says in words what that means.
-pub fn not_negative(name: &str, value: f64, most: f64, allowed: &str) -> Result<f64, KernelError> {
+pub(crate) fn not_negative(
+    name: &str,
+    value: f64,
+    most: f64,
+    allowed: &str,
+) -> Result<f64, KernelError> {
     let valid = (0.0..=most).contains(&value);
     checked(valid, name, value, format_args!("zero or more{allowed}"))
 }
 
-pub fn between(name: &str, value: f64, least: f64, most: f64) -> Result<f64, KernelError> {
+pub(crate) fn between(name: &str, value: f64, least: f64, most: f64) -> Result<f64, KernelError> {
     let valid = (least..=most).contains(&value);
     checked(
         valid,
@@ -78,14 +83,19 @@ pub fn between(name: &str, value: f64, least: f64, most: f64) -> Result<f64, Ker
     )
 }
 
-pub fn whole(name: &str, value: f64, least: usize, most: usize) -> Result<usize, KernelError> {
+pub(crate) fn whole(
+    name: &str,
+    value: f64,
+    least: usize,
+    most: usize,
+) -> Result<usize, KernelError> {
     let valid = value.fract() == 0.0 && (least as f64..=most as f64).contains(&value);
     let expected = format_args!("a whole number from {least} to {most}");
     checked(valid, name, value, expected).map(|value| value as usize)
 }
 
 /// The refusal of a name that is not among `known`.
-pub fn unknown(name: &str, value: &str, known: &[&str]) -> KernelError {
+pub(crate) fn unknown(name: &str, value: &str, known: &[&str]) -> KernelError {
     KernelError::Refused {
         name: name.to_owned(),
         expected: match known {

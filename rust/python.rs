@@ -146,8 +146,8 @@ impl ProfileItems {
             "sine" => Heights::sine(needed("a sine", "amplitude", self.amplitude)?)?,
             "sampled" => Heights::sampled(&needed("a sampled profile", "heights", self.heights)?)?,
             other => {
-                let known = ["sine", "sampled"];
-                return Err(unknown("the kind of a profile", other, &known));
+                let kinds = ["sine", "sampled"];
+                return Err(unknown("the kind of a profile", other, &kinds));
             }
         };
         Profile::new(self.wavelength, heights)

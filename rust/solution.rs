@@ -31,8 +31,9 @@ impl Solution {
         let position = |layer: usize, z: f64, node: usize| {
             let at = layer * mesh.layer_size();
             (
-                node as f64 * mesh.node_spacing() + state.field.u[at + mesh.place(node, 0)] - shift,
-                z - state.approach + state.field.u[at + mesh.place(node, 1)],
+                node as f64 * mesh.node_spacing() + state.field.u[at + mesh.position(node, 0)]
+                    - shift,
+                z - state.approach + state.field.u[at + mesh.position(node, 1)],
             )
         };
         let heights = mesh.layer_heights().into_iter().enumerate();
@@ -108,8 +109,9 @@ impl MeshSolution {
     /// The state on exactly this `mesh`, if it was solved.
     pub(crate) fn state_on(&self, mesh: &Mesh) -> Option<&State> {
         let coarser = self.coarser.iter().map(|(mesh, state)| (mesh, state));
-        let mut all = std::iter::once((&self.mesh, &self.state)).chain(coarser);
-        all.find(|(solved, _)| solved.same(mesh))
+        let mut solved = std::iter::once((&self.mesh, &self.state)).chain(coarser);
+        solved
+            .find(|(other, _)| other.same(mesh))
             .map(|(_, state)| state)
     }
 }

@@ -127,21 +127,15 @@ impl<'w> Wave<'w> {
     ) -> Result<MeshSolution, KernelError> {
         let memory = self.memory(&mesh);
         let pressed = self.model.pressed(&mesh, &memory, self.executor);
-        let attempts = Self::ATTEMPTS
+        let ending = Self::ATTEMPTS
             .into_iter()
-            .take(self.attempts_worth_making(&mesh, coarse));
-        let mut decided = None;
-        for attempt in attempts {
-            decided = attempt(self, &pressed, coarse);
-            if decided.is_some() {
-                break;
-            }
-        }
-        let ending = decided.unwrap_or_else(|| Ending::unsolved(&mesh, Status::IterationLimit));
+            .take(self.attempts_worth_making(&mesh, coarse))
+            .find_map(|attempt| attempt(self, &pressed, coarse))
+            .unwrap_or_else(|| Ending::unsolved(&mesh, Status::IterationLimit));
         match (ending.report.status, coarse) {
             (Status::Stopped, _) => Err(KernelError::Stopped),
             (Status::TimeLimit, Some(coarse)) => Ok(coarse.out_of_time()),
-            _ => self.evaluated(mesh, &memory, ending),
+            _ => self.evaluate(mesh, &memory, ending),
         }
     }
 
@@ -256,7 +250,7 @@ impl<'w> Wave<'w> {
         let finer = size.with_columns(columns, self.settings.row_exponent);
         let finer = self.on_mesh(Mesh::new(&finer), None)?;
         Ok(if finer.converged() {
-            estimator.concluded(estimator.with_errors(finer, None))
+            estimator.conclude(estimator.with_errors(finer, None))
         } else {
             finest
         })
@@ -281,12 +275,12 @@ impl<'w> Wave<'w> {
         let mesh = Mesh::new(&self.problem.mesh);
         let memory = self.memory(&mesh);
         let ending = Ending::unsolved(&mesh, status);
-        self.evaluated(mesh, &memory, ending)
+        self.evaluate(mesh, &memory, ending)
     }
 
     /// Contact and friction of an ending. `MeanShear` replaces the status of a load path that ended under
     /// a large mean shear of the block.
-    fn evaluated(
+    fn evaluate(
         &self,
         mesh: Mesh,
         memory: &Memory,

@@ -86,7 +86,7 @@ pub fn table(meshes: &[(usize, usize)]) {
                     jacobian.product(&y, out, &mut work);
                     let shift = solved.mesh.mean_shift(&y);
                     for (a, force) in change.force.iter().enumerate() {
-                        let [x, z] = [0, 1].map(|d| solved.mesh.place(a, d));
+                        let [x, z] = [0, 1].map(|d| solved.mesh.position(a, d));
                         out[x] += bend[a] * (y[x] - shift) + residual.slope[a] * force;
                         out[z] -= force;
                     }

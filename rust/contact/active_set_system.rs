@@ -122,8 +122,8 @@ impl<'a> ActiveSetSystem<'a> {
         opening: &[f64],
         load: f64,
     ) -> (Vec<f64>, f64) {
-        let all = (preconditioner.inverse)(&self.extend(opening));
-        let mut force = restrict(&all, &self.active_nodes);
+        let forces = (preconditioner.inverse)(&self.extend(opening));
+        let mut force = restrict(&forces, &self.active_nodes);
         let missing = load - force.iter().sum::<f64>();
         let approach = missing / preconditioner.force_by_approach.iter().sum::<f64>();
         add(&mut force, approach, &preconditioner.force_by_approach);
@@ -139,11 +139,11 @@ impl<'a> ActiveSetSystem<'a> {
 
     /// Values of the active set at all nodes, zero elsewhere.
     fn extend(&self, values: &[f64]) -> Vec<f64> {
-        let mut all = vec![0.0; self.nodes];
+        let mut extended = vec![0.0; self.nodes];
         for (&a, value) in self.active_nodes.iter().zip(values) {
-            all[a] = *value;
+            extended[a] = *value;
         }
-        all
+        extended
     }
 }
 

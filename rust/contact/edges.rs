@@ -75,8 +75,8 @@ pub fn contacts(
                 open: open(last + outward, outward),
                 exponents: law.exponents(outward),
             };
-            let from = end(0, -1).place(at, pressure, gap);
-            let to = end(last, 1).place(at, pressure, gap);
+            let from = end(0, -1).locate(at, pressure, gap);
+            let to = end(last, 1).locate(at, pressure, gap);
             out.push((from, to));
         }
     }
@@ -98,7 +98,7 @@ impl Edge {
     ///
     /// The errors of the two estimates have opposite signs; their mean is right to about a tenth of the node
     /// spacing. With too few nodes on one side only the other estimate is used.
-    fn place(&self, at: impl Fn(isize) -> (f64, usize), pressure: &[f64], gap: &[f64]) -> f64 {
+    fn locate(&self, at: impl Fn(isize) -> (f64, usize), pressure: &[f64], gap: &[f64]) -> f64 {
         let (x0, inside) = at(self.last);
         let (x1, outside) = at(self.last + self.outward);
         let (inner, outer) = (1.0 / self.exponents.0, 1.0 / self.exponents.1);

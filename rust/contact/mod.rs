@@ -65,13 +65,13 @@ impl PressedBlock<'_> {
         let mesh = self.mesh();
         let shift = mesh.mean_shift(&field.u);
         (0..mesh.layer_nodes())
-            .map(|a| a as f64 * mesh.node_spacing() + field.u[mesh.place(a, 0)] - shift)
+            .map(|a| a as f64 * mesh.node_spacing() + field.u[mesh.position(a, 0)] - shift)
             .collect()
     }
 
     /// Gaps of the surface nodes at the abscissae `x`.
     pub fn gaps(&self, state: &State, x: &[f64]) -> Vec<f64> {
-        let height = |a: usize| state.field.u[self.mesh().place(a, 1)] - state.approach;
+        let height = |a: usize| state.field.u[self.mesh().position(a, 1)] - state.approach;
         (0..x.len())
             .map(|a| height(a) - self.heights.height(x[a]))
             .collect()

@@ -52,8 +52,8 @@ impl<'a> SurfaceCompliance<'a> {
     pub fn nodal_forces(&self, contact: &[f64]) -> Vec<f64> {
         let mut forces = vec![0.0; self.mesh.layer_size()];
         for (a, force) in contact.iter().enumerate() {
-            forces[self.mesh.place(a, 0)] = -self.slope[a] * force;
-            forces[self.mesh.place(a, 1)] = *force;
+            forces[self.mesh.position(a, 0)] = -self.slope[a] * force;
+            forces[self.mesh.position(a, 1)] = *force;
         }
         forces
     }
@@ -68,7 +68,7 @@ impl<'a> SurfaceCompliance<'a> {
     pub fn opening(&self, u: &[f64]) -> Vec<f64> {
         let shift = self.mesh.mean_shift(u);
         let opening = |(a, slope): (usize, &f64)| {
-            u[self.mesh.place(a, 1)] - slope * (u[self.mesh.place(a, 0)] - shift)
+            u[self.mesh.position(a, 1)] - slope * (u[self.mesh.position(a, 0)] - shift)
         };
         self.slope.iter().enumerate().map(opening).collect()
     }
@@ -113,10 +113,10 @@ impl<'a> SurfaceCompliance<'a> {
         let size = |a: usize| self.slope[a].hypot(1.0);
         let mut lines = vec![0.0; opening.len()];
         for (a, opening) in opening.iter().enumerate() {
-            lines[self.mesh.place(a, 0)] = opening / size(a);
+            lines[self.mesh.position(a, 0)] = opening / size(a);
         }
         let forces = convolve(inverse_harmonics, &lines, &mut self.lines.clone());
-        let force = |a: usize| forces[self.mesh.place(a, 0)] / size(a);
+        let force = |a: usize| forces[self.mesh.position(a, 0)] / size(a);
         (0..opening.len()).map(force).collect()
     }
 }

@@ -74,7 +74,7 @@ impl Block<'_> {
             for sub in 0..=order {
                 let at = layer * self.mesh.layer_size();
                 let node = order * column + sub;
-                out[layer * (order + 1) + sub] = [0, 1].map(|to| at + self.mesh.place(node, to));
+                out[layer * (order + 1) + sub] = [0, 1].map(|to| at + self.mesh.position(node, to));
             }
         }
         out

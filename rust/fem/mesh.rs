@@ -35,7 +35,7 @@ impl MeshSize {
     }
 
     /// The size with other columns; the rows change with the power `row_exponent` of the columns.
-    pub fn with_columns(&self, columns: usize, row_exponent: f64) -> Self {
+    pub(crate) fn with_columns(&self, columns: usize, row_exponent: f64) -> Self {
         if columns == self.columns {
             return *self;
         }
@@ -114,7 +114,7 @@ impl Mesh {
     ///
     /// Nodes with the same place in their elements stand together, so that loops over the elements of a
     /// row run over contiguous vectors.
-    pub fn place(&self, node: usize, direction: usize) -> usize {
+    pub fn position(&self, node: usize, direction: usize) -> usize {
         let (column, sub) = (node / self.order % self.columns, node % self.order);
         (direction * self.order + sub) * self.columns + column
     }
@@ -122,7 +122,7 @@ impl Mesh {
     /// Mean horizontal displacement of the contact surface.
     pub fn mean_shift(&self, u: &[f64]) -> f64 {
         let nodes = self.layer_nodes();
-        (0..nodes).map(|a| u[self.place(a, 0)]).sum::<f64>() / nodes as f64
+        (0..nodes).map(|a| u[self.position(a, 0)]).sum::<f64>() / nodes as f64
     }
 
     pub fn node_spacing(&self) -> f64 {
@@ -177,8 +177,8 @@ impl Mesh {
             for (sub, &shape_x) in nx.iter().enumerate() {
                 let node = self.order * column + sub;
                 let at = (self.order * row + layer) * self.layer_size();
-                value[0] += shape_x * shape_z * u[at + self.place(node, 0)];
-                value[1] += shape_x * shape_z * u[at + self.place(node, 1)];
+                value[0] += shape_x * shape_z * u[at + self.position(node, 0)];
+                value[1] += shape_x * shape_z * u[at + self.position(node, 1)];
             }
         }
         value

@@ -183,8 +183,8 @@ impl<'t> KrylovSpace<'t> {
         let size = self.size();
         let mut weights = self.rotated[..size].to_vec();
         for i in (0..size).rev() {
-            let known: f64 = (i + 1..size).map(|j| self.columns[j][i] * weights[j]).sum();
-            weights[i] = (weights[i] - known) / self.columns[i][i];
+            let solved: f64 = (i + 1..size).map(|j| self.columns[j][i] * weights[j]).sum();
+            weights[i] = (weights[i] - solved) / self.columns[i][i];
         }
         let mut x = vec![0.0; self.basis[0].len()];
         self.combine(&mut x, &weights);

@@ -37,8 +37,8 @@ fn a_block_times_its_inverse_is_one() {
                 let sum: Complex64 = (0..size)
                     .map(|k| block[k * size + i] * inverse[j * size + k])
                     .sum();
-                let one = if i == j { 1.0 } else { 0.0 };
-                assert!((sum - one).norm() < 1e-12, "{size}: {sum}");
+                let expected = if i == j { 1.0 } else { 0.0 };
+                assert!((sum - expected).norm() < 1e-12, "{size}: {sum}");
             }
         }
     }
@@ -60,15 +60,15 @@ fn gmres_leaves_the_residual_it_says() {
         }
     };
     for (basis, most, target) in [(12, 500, 1e-10), (100, 500, 1e-12), (100, 5, 1e-12)] {
-        let found = gmres(apply, &right, target, (basis, most), &serial()).unwrap();
+        let solution = gmres(apply, &right, target, (basis, most), &serial()).unwrap();
         let mut product = vec![0.0; size];
-        apply(&found.y, &mut product);
-        let mut left = 0.0;
+        apply(&solution.y, &mut product);
+        let mut square = 0.0;
         for i in 0..size {
-            assert!((right[i] - product[i] - found.residual[i]).abs() < 1e-14);
-            left += (right[i] - product[i]).powi(2);
+            assert!((right[i] - product[i] - solution.residual[i]).abs() < 1e-14);
+            square += (right[i] - product[i]).powi(2);
         }
-        assert!(found.iterations <= most && (left.sqrt() <= 1.01 * target || most == 5));
-        assert!(basis < size || found.iterations <= size);
+        assert!(solution.iterations <= most && (square.sqrt() <= 1.01 * target || most == 5));
+        assert!(basis < size || solution.iterations <= size);
     }
 }

@@ -65,7 +65,7 @@ struct Mode<'a> {
     pressure: usize,
     volume: usize,
     stiffness: f64,
-    places: &'a [usize],
+    positions: &'a [usize],
     change: &'a [f64],
 }
 
@@ -89,7 +89,7 @@ impl Bordered {
         let mut assembled = self.assemble(pressed, state, rows, residual)?;
         let curvature = residual.curvature_stiffness(pressed, state);
         for (a, stiffness) in curvature.iter().enumerate() {
-            let [x, z] = [0, 1].map(|d| self.pattern.diagonal_of(mesh.place(a, d)));
+            let [x, z] = [0, 1].map(|d| self.pattern.diagonal_of(mesh.position(a, d)));
             assembled.values[x] += stiffness;
             if state.active_set[a] {
                 assembled.values[z] = 1.0;
@@ -149,7 +149,7 @@ impl Bordered {
         let no_forces = vec![0.0; mesh.layers() * mesh.layer_size()];
         let mut turning_forces = no_forces.clone();
         for (a, stiffness) in curvature.iter().enumerate() {
-            turning_forces[mesh.place(a, 0)] = *stiffness;
+            turning_forces[mesh.position(a, 0)] = *stiffness;
         }
         let by_approach = self.respond(mesh, tangent, no_forces, |_| 1.0);
         let by_shift = self.respond(mesh, tangent, turning_forces, |a| -tangent.slope[a]);
@@ -175,8 +175,8 @@ impl Bordered {
             if tangent.active_set[a] {
                 return force[a] >= 0.0;
             }
-            let along = u[mesh.place(a, 0)] - solution.shift;
-            let opening = u[mesh.place(a, 1)] - residual.slope[a] * along - solution.approach;
+            let along = u[mesh.position(a, 0)] - solution.shift;
+            let opening = u[mesh.position(a, 1)] - residual.slope[a] * along - solution.approach;
             residual.gap[a] + opening < 0.0
         };
         let active_set: Vec<bool> = (0..force.len()).map(in_contact).collect();
@@ -209,8 +209,8 @@ impl Bordered {
         let mut right: Vec<f64> = residual.forces.iter().map(|force| -force).collect();
         self.each_mode(block, tangent, |mode| {
             let pressure = -mode.stiffness * residual.volumes[mode.volume];
-            for (&place, change) in mode.places.iter().zip(mode.change) {
-                right[place] += pressure * change;
+            for (&position, change) in mode.positions.iter().zip(mode.change) {
+                right[position] += pressure * change;
             }
         });
         let response = self.respond(block.mesh, tangent, right, |a| -residual.gap[a]);
@@ -222,8 +222,8 @@ impl Bordered {
         }
         let mut pressure = vec![0.0; residual.volumes.len()];
         self.each_mode(block, tangent, |mode| {
-            let changes = mode.places.iter().zip(mode.change);
-            let volume: f64 = changes.map(|(&place, change)| change * u[place]).sum();
+            let changes = mode.positions.iter().zip(mode.change);
+            let volume: f64 = changes.map(|(&position, change)| change * u[position]).sum();
             pressure[mode.pressure] = mode.stiffness * (volume + residual.volumes[mode.volume]);
         });
         LinearSolution {
@@ -245,27 +245,27 @@ impl Bordered {
     ) -> Response {
         let active_nodes = || (0..tangent.active_set.len()).filter(|&a| tangent.active_set[a]);
         let mut u = vec![0.0; forces.len()];
-        active_nodes().for_each(|a| u[mesh.place(a, 1)] = lift(a));
+        active_nodes().for_each(|a| u[mesh.position(a, 1)] = lift(a));
         let mut right = forces.clone();
         self.add_surface(mesh, tangent, &u, -1.0, &mut right);
         for a in active_nodes() {
-            let up = std::mem::take(&mut right[mesh.place(a, 1)]);
-            right[mesh.place(a, 0)] += tangent.slope[a] * up;
+            let up = std::mem::take(&mut right[mesh.position(a, 1)]);
+            right[mesh.position(a, 0)] += tangent.slope[a] * up;
         }
         let unknowns = &self.pattern.unknowns;
-        let mut solution: Vec<f64> = unknowns.iter().map(|&place| right[place]).collect();
+        let mut solution: Vec<f64> = unknowns.iter().map(|&position| right[position]).collect();
         self.ldl.solve(&tangent.factor, &mut solution);
-        for (&place, solution) in unknowns.iter().zip(&solution) {
-            u[place] += solution;
+        for (&position, solution) in unknowns.iter().zip(&solution) {
+            u[position] += solution;
         }
         for a in active_nodes() {
-            u[mesh.place(a, 1)] += tangent.slope[a] * u[mesh.place(a, 0)];
+            u[mesh.position(a, 1)] += tangent.slope[a] * u[mesh.position(a, 0)];
         }
         let mut reaction: Vec<f64> = forces[..mesh.layer_size()].iter().map(|f| -f).collect();
         reaction.resize(forces.len(), 0.0);
         self.add_surface(mesh, tangent, &u, 1.0, &mut reaction);
         let mut force = vec![0.0; tangent.active_set.len()];
-        active_nodes().for_each(|a| force[a] = reaction[mesh.place(a, 1)]);
+        active_nodes().for_each(|a| force[a] = reaction[mesh.position(a, 1)]);
         Response { u, force }
     }
 
@@ -275,10 +275,10 @@ impl Bordered {
             .surface
             .chunks_exact(tangent.surface.len() / mesh.columns);
         for (element, stiffness) in elements.enumerate() {
-            let places = self.pattern.places(element);
-            for (line, &place) in stiffness.chunks_exact(places.len()).zip(places) {
-                let force: f64 = line.iter().zip(places).map(|(k, &p)| k * u[p]).sum();
-                to[place] += factor * force;
+            let positions = self.pattern.positions(element);
+            for (line, &position) in stiffness.chunks_exact(positions.len()).zip(positions) {
+                let force: f64 = line.iter().zip(positions).map(|(k, &p)| k * u[p]).sum();
+                to[position] += factor * force;
             }
         }
     }
@@ -294,7 +294,7 @@ impl Bordered {
                 pressure,
                 volume: (row * modes + mode) * columns + column,
                 stiffness: block.bulk_modulus / mesh.elements[row].mode_mass[mode],
-                places: self.pattern.places(element),
+                positions: self.pattern.positions(element),
                 change,
             });
         }

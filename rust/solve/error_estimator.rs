@@ -133,7 +133,7 @@ impl ErrorEstimator {
     }
 
     /// The last solution, with its verdict as its status.
-    pub fn concluded(&self, mut last: MeshSolution) -> MeshSolution {
+    pub fn conclude(&self, mut last: MeshSolution) -> MeshSolution {
         if last.converged() {
             last.report.status = self.verdict(&last);
         }
@@ -173,8 +173,8 @@ impl ErrorEstimator {
             (FRAC_PI_2 * fraction).sin().powi(2)
         };
         let error = self.second_order(solution, self.settings.closing_error);
-        let (less, more) = (full(share * (1.0 - error)), full(share * (1.0 + error)));
-        (fraction - less).max(more - fraction)
+        let (lower, upper) = (full(share * (1.0 - error)), full(share * (1.0 + error)));
+        (fraction - lower).max(upper - fraction)
     }
 
     /// Error of friction on which meshes may agree by chance.

@@ -63,19 +63,19 @@ impl KeptFactor {
         };
         let bordered = &self.bordered;
         let tangent = &mut self.tangent;
-        newton::iterate(pressed, state, load, settings, LongStep::GiveUp, |now| {
-            let last = std::mem::replace(&mut before, now.residual_norm);
+        newton::iterate(pressed, state, load, settings, LongStep::GiveUp, |iterate| {
+            let last = std::mem::replace(&mut before, iterate.residual_norm);
             let serves = tangent.as_ref().is_some_and(|tangent| {
-                tangent.active_set == now.state.active_set
-                    && now.residual_norm < WORTH_KEEPING * last
+                tangent.active_set == iterate.state.active_set
+                    && iterate.residual_norm < WORTH_KEEPING * last
             });
             if !serves {
                 *tangent = None;
-                *tangent = Some(bordered.factor(pressed, now.state, now.rows, now.residual)?);
+                *tangent = Some(bordered.factor(pressed, iterate.state, iterate.rows, iterate.residual)?);
             }
             let tangent = tangent.as_ref().ok_or(Status::NotFinite)?;
-            let increment = bordered.increment(pressed, tangent, now.state, now.residual, load);
-            if increment.contact.active_set != now.state.active_set {
+            let increment = bordered.increment(pressed, tangent, iterate.state, iterate.residual, load);
+            if increment.contact.active_set != iterate.state.active_set {
                 before = f64::INFINITY;
             }
             Ok(increment)
@@ -87,11 +87,11 @@ impl KeptFactor {
 fn extrapolate(state: &mut State, last: &State) {
     let (field, from) = (&mut state.field, &last.field);
     let unknowns = field.u.iter_mut().chain(&mut field.pressure);
-    for (now, last) in unknowns.zip(from.u.iter().chain(&from.pressure)) {
-        *now += *now - last;
+    for (value, last) in unknowns.zip(from.u.iter().chain(&from.pressure)) {
+        *value += *value - last;
     }
-    for (now, last) in state.force.iter_mut().zip(&last.force) {
-        *now = (2.0 * *now - last).max(0.0);
+    for (value, last) in state.force.iter_mut().zip(&last.force) {
+        *value = (2.0 * *value - last).max(0.0);
     }
     state.approach += state.approach - last.approach;
 }

@@ -29,11 +29,11 @@ pub struct Accuracy {
     pub least: f64,
 }
 
-/// The increment of a Newton step from `now` under `load`, with the nodes of `active_set` in contact; if
+/// The increment of a Newton step from `iterate` under `load`, with the nodes of `active_set` in contact; if
 /// no set is given, the averaged compliance predicts it.
 pub fn increment(
     pressed: &PressedBlock<'_>,
-    now: Iterate<'_>,
+    iterate: Iterate<'_>,
     active_set: Option<&[bool]>,
     load: f64,
     accuracy: Accuracy,
@@ -44,7 +44,7 @@ pub fn increment(
         rows,
         residual,
         ..
-    } = now;
+    } = iterate;
     let executor = pressed.executor;
     let jacobian = Jacobian::new(&pressed.block, &state.field, rows, executor)?;
     let average = AveragedJacobian::new(&jacobian, executor)?;
@@ -104,7 +104,7 @@ impl Step<'_> {
             average: self.average.workspace(threads),
             solution: vec![0.0; self.right.len()],
         };
-        let mut now = Approximation {
+        let mut approximation = Approximation {
             y: vec![0.0; self.right.len()],
             contact: Contact {
                 force: self.state.force.clone(),
@@ -113,19 +113,19 @@ impl Step<'_> {
             },
             residual: self.right.clone(),
         };
-        let surface = self.average.reduce(&now.residual, &mut work.average);
-        let (contact, system) = self.predict_contact(&now, &surface, settings)?;
-        self.apply_contact(&mut now, contact, surface, &mut work);
-        let largest = norm(&self.right).max(norm(&now.residual));
+        let surface = self.average.reduce(&approximation.residual, &mut work.average);
+        let (contact, system) = self.predict_contact(&approximation, &surface, settings)?;
+        self.apply_contact(&mut approximation, contact, surface, &mut work);
+        let largest = norm(&self.right).max(norm(&approximation.residual));
         let target = (accuracy.share * largest).max(accuracy.least);
-        let products = self.solve_on_active_set(&mut now, &system, target, &mut work, settings)?;
+        let products = self.solve_on_active_set(&mut approximation, &system, target, &mut work, settings)?;
         let displacements = self.jacobian.displacements();
-        let mut u = now.y[..displacements].to_vec();
+        let mut u = approximation.y[..displacements].to_vec();
         u.resize(self.state.field.u.len(), 0.0);
         Ok(Increment {
             u,
-            pressure: self.by_element(&now.y[displacements..]),
-            contact: now.contact,
+            pressure: self.by_element(&approximation.y[displacements..]),
+            contact: approximation.contact,
             products,
         })
     }
@@ -134,13 +134,13 @@ impl Step<'_> {
     /// the surface by `surface`.
     fn predict_contact(
         &self,
-        now: &Approximation,
+        approximation: &Approximation,
         surface: &[f64],
         settings: &Settings,
     ) -> Result<(Contact, ActiveSetSystem<'_>), Status> {
-        let forces = self.compliance.nodal_forces(&now.contact.force);
+        let forces = self.compliance.nodal_forces(&approximation.contact.force);
         let by_forces = self.compliance.displacements(&forces);
-        let free_u: Vec<f64> = (now.y.iter().zip(surface).zip(by_forces))
+        let free_u: Vec<f64> = (approximation.y.iter().zip(surface).zip(by_forces))
             .map(|((y, surface), by_forces)| y + surface - by_forces)
             .collect();
         let mut free_gap = self.compliance.opening(&free_u);
@@ -158,7 +158,7 @@ impl Step<'_> {
         let executor = self.executor;
         match self.active_set {
             None => {
-                let start = &now.contact.active_set;
+                let start = &approximation.contact.active_set;
                 linear_complementarity::solve(&problem, start, settings, executor)
             }
             Some(active_set) => linear_complementarity::solve_on_active_set(
@@ -171,22 +171,22 @@ impl Step<'_> {
     /// the forces of `contact`; then compute the new residual.
     fn apply_contact(
         &self,
-        now: &mut Approximation,
+        approximation: &mut Approximation,
         contact: Contact,
         surface: Vec<f64>,
         work: &mut StepWorkspace<'_>,
     ) {
         let mut correction = std::mem::take(&mut work.solution);
-        let force_change = difference(&contact.force, &now.contact.force);
+        let force_change = difference(&contact.force, &approximation.contact.force);
         self.averaged_solution(surface, &force_change, &mut correction, work);
-        for (y, change) in now.y.iter_mut().zip(&correction) {
+        for (y, change) in approximation.y.iter_mut().zip(&correction) {
             *y += change;
         }
         work.solution = correction;
-        now.contact = contact;
-        let force_change = difference(&now.contact.force, &self.state.force);
-        self.product(&now.y, &force_change, &mut now.residual, work);
-        for (residual, right) in now.residual.iter_mut().zip(&self.right) {
+        approximation.contact = contact;
+        let force_change = difference(&approximation.contact.force, &self.state.force);
+        self.product(&approximation.y, &force_change, &mut approximation.residual, work);
+        for (residual, right) in approximation.residual.iter_mut().zip(&self.right) {
             *residual = right - *residual;
         }
     }
@@ -213,7 +213,7 @@ impl Step<'_> {
         self.jacobian.product(y, out, &mut work.product);
         let shift = self.mesh.mean_shift(y);
         for (a, stiffness) in self.curvature_stiffness.iter().enumerate() {
-            let at = self.mesh.place(a, 0);
+            let at = self.mesh.position(a, 0);
             out[at] += stiffness * (y[at] - shift);
         }
         for (out, force) in out.iter_mut().zip(self.compliance.nodal_forces(forces)) {
@@ -224,7 +224,7 @@ impl Step<'_> {
     /// Reduce the residual to `target` by GMRES, with the active set of `system` in contact.
     fn solve_on_active_set(
         &self,
-        now: &mut Approximation,
+        approximation: &mut Approximation,
         system: &ActiveSetSystem<'_>,
         target: f64,
         work: &mut StepWorkspace<'_>,
@@ -240,19 +240,19 @@ impl Step<'_> {
             work.solution = solution;
         };
         let limits = (settings.krylov_basis, settings.krylov_iterations);
-        let solution = gmres(apply, &now.residual, target, limits, self.executor)?;
+        let solution = gmres(apply, &approximation.residual, target, limits, self.executor)?;
         failure?;
         let mut correction = std::mem::take(&mut work.solution);
         let (force, approach) = self.precondition(&solution.y, system, &mut correction, work)?;
-        for (y, change) in now.y.iter_mut().zip(&correction) {
+        for (y, change) in approximation.y.iter_mut().zip(&correction) {
             *y += change;
         }
         work.solution = correction;
-        for (total, force) in now.contact.force.iter_mut().zip(&force) {
+        for (total, force) in approximation.contact.force.iter_mut().zip(&force) {
             *total += force;
         }
-        now.contact.approach += approach;
-        now.residual = solution.residual;
+        approximation.contact.approach += approach;
+        approximation.residual = solution.residual;
         Ok(solution.iterations)
     }
 

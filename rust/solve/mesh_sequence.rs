@@ -116,6 +116,6 @@ impl MeshSequence {
             }
         }
         let finest = last.ok_or(KernelError::Internal("a sequence without a mesh"))?;
-        Ok(estimator.concluded(finest))
+        Ok(estimator.conclude(finest))
     }
 }

@@ -63,17 +63,17 @@ pub fn solve(
     settings: &Settings,
 ) -> Report {
     let (mut share, mut before) = (settings.krylov_share, f64::INFINITY);
-    iterate(pressed, state, load, settings, LongStep::Shorten, |now| {
-        share = forcing_share(share, now.residual_norm / before, settings);
-        before = now.residual_norm;
+    iterate(pressed, state, load, settings, LongStep::Shorten, |iterate| {
+        share = forcing_share(share, iterate.residual_norm / before, settings);
+        before = iterate.residual_norm;
         let least = LEAST_SHARE_OF_TOLERANCE * settings.residual_tolerance * load.min(1.0);
         let accuracy = Accuracy { share, least };
-        let active_set = if now.residual_norm > settings.signs_below {
+        let active_set = if iterate.residual_norm > settings.signs_below {
             None
         } else {
-            active_set_by_signs(now, settings)
+            active_set_by_signs(iterate, settings)
         };
-        krylov::increment(pressed, now, active_set.as_deref(), load, accuracy, settings)
+        krylov::increment(pressed, iterate, active_set.as_deref(), load, accuracy, settings)
     })
 }
 
@@ -142,8 +142,8 @@ fn forcing_share(last: f64, ratio: f64, settings: &Settings) -> f64 {
 }
 
 /// The active set by the signs of forces and gaps; None if it would be empty.
-fn active_set_by_signs(now: Iterate<'_>, settings: &Settings) -> Option<Vec<bool>> {
-    let (state, gap) = (now.state, &now.residual.gap);
+fn active_set_by_signs(iterate: Iterate<'_>, settings: &Settings) -> Option<Vec<bool>> {
+    let (state, gap) = (iterate.state, &iterate.residual.gap);
     let tolerance = settings.active_set_tolerance;
     let count = state.active_set.iter().filter(|&&active| active).count();
     let force_scale = state.force.iter().sum::<f64>() / count as f64;

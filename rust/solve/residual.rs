@@ -43,8 +43,8 @@ impl Residual {
         let x = pressed.abscissae(field);
         let slope: Vec<f64> = x.iter().map(|&x| pressed.heights.slope(x)).collect();
         for (a, force) in state.force.iter().enumerate() {
-            forces[mesh.place(a, 0)] += slope[a] * force;
-            forces[mesh.place(a, 1)] -= force;
+            forces[mesh.position(a, 0)] += slope[a] * force;
+            forces[mesh.position(a, 1)] -= force;
         }
         Ok(Self {
             forces,
@@ -65,11 +65,11 @@ impl Residual {
         let wrong = self.gap.iter().zip(&state.active_set).map(wrong);
         let gaps = wrong.fold(0.0, f64::max) / pressed.heights.half_range();
         // f64::max would drop a NaN.
-        let all = [forces, missing, tension, norm(&self.volumes), gaps];
-        if all.iter().any(|v| v.is_nan()) {
+        let parts = [forces, missing, tension, norm(&self.volumes), gaps];
+        if parts.iter().any(|v| v.is_nan()) {
             return f64::NAN;
         }
-        all.into_iter().fold(0.0, f64::max)
+        parts.into_iter().fold(0.0, f64::max)
     }
 
     /// The right-hand side of a Newton step: minus the free forces, then minus the volumes.

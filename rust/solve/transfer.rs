@@ -17,8 +17,8 @@ pub fn transfer(from: &Mesh, state: &State, to: &Mesh, stress_ratio: f64) -> Sta
         for node in 0..nodes {
             let u = from.interpolate(&state.field.u, node as f64 * to.node_spacing(), z);
             let at = layer * to.layer_size();
-            out.field.u[at + to.place(node, 0)] = u[0];
-            out.field.u[at + to.place(node, 1)] = u[1];
+            out.field.u[at + to.position(node, 0)] = u[0];
+            out.field.u[at + to.position(node, 1)] = u[1];
         }
     }
     out.approach = state.approach;

@@ -77,13 +77,13 @@ fn figures(number: usize, factored_contacts: f64) -> [f64; 4] {
 fn waves_are_those_of_dense_elimination() {
     for factored_contacts in [512.0, 0.0] {
         for (number, line) in ELIMINATED.lines().enumerate() {
-            let found = figures(number, factored_contacts);
-            for (figure, text) in found.into_iter().zip(line.split(' ')) {
+            let values = figures(number, factored_contacts);
+            for (figure, text) in values.into_iter().zip(line.split(' ')) {
                 let expected: f64 = text.parse().unwrap();
                 let error = (figure - expected).abs();
                 assert!(
                     error < 1e-8 * expected.abs().max(0.01),
-                    "wave {number}: {found:?}, {line}, contacts factored to {factored_contacts}"
+                    "wave {number}: {values:?}, {line}, contacts factored to {factored_contacts}"
                 );
             }
         }

@@ -111,9 +111,9 @@ fn a_start_of_another_rubber_or_profile_is_refused_by_name() {
     let run = other_mesh.run(&[stage], Some(&start)).unwrap();
     assert_eq!(run.status, Status::Converged);
     let refusal = |change: fn(&mut Case)| {
-        let mut other = case.clone();
-        change(&mut other);
-        other.run(&[stage], Some(&start)).unwrap_err().to_string()
+        let mut changed = case.clone();
+        change(&mut changed);
+        changed.run(&[stage], Some(&start)).unwrap_err().to_string()
     };
     let same = "start must be of the same rubber and profile; its";
     assert_eq!(

@@ -104,7 +104,7 @@ fn fulfils(c: &Matrix<f64>, free: &[f64], load: f64, contact: &Contact) -> bool 
 /// Every active set by brute force: how many fulfil the conditions, and the approach of the first.
 fn brute_force(c: &Matrix<f64>, free: &[f64], load: f64) -> Vec<f64> {
     let n = free.len();
-    let mut found = Vec::new();
+    let mut approaches = Vec::new();
     for mask in 1u32..1 << n {
         let set: Vec<usize> = (0..n).filter(|i| mask >> i & 1 == 1).collect();
         let m = set.len();
@@ -134,10 +134,10 @@ fn brute_force(c: &Matrix<f64>, free: &[f64], load: f64) -> Vec<f64> {
             contact.active_set[i] = true;
         }
         if fulfils(c, free, load, &contact) {
-            found.push(contact.approach);
+            approaches.push(contact.approach);
         }
     }
-    found
+    approaches
 }
 
 /// Inputs that failed once stand beside the other tests of the kernel.

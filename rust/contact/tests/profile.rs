@@ -97,12 +97,12 @@ fn units_and_full_contact_follow_the_amplitude() {
 /// the function sum n h_n is -0.1 - 0.1 and 0.1 - 0.1.
 #[test]
 fn full_contact_of_sampled_heights() {
-    let one = sampled(64, |x| 0.1 * (3.0 * TAU * x + 0.4).cos());
-    let full = one.full_contact_pressure() / (4.0 * PI * 0.3);
+    let single = sampled(64, |x| 0.1 * (3.0 * TAU * x + 0.4).cos());
+    let full = single.full_contact_pressure() / (4.0 * PI * 0.3);
     // One of 32 points a wave is within half a step of the valley: cos(pi / 32) = 0.995.
     assert!((0.995..=1.0 + 1e-12).contains(&full));
-    let two = sampled(64, |x| 0.1 * (TAU * x).cos() - 0.05 * (2.0 * TAU * x).cos());
-    assert!((two.full_contact_pressure() / (4.0 * PI * 0.2) - 1.0).abs() < 1e-12);
+    let double = sampled(64, |x| 0.1 * (TAU * x).cos() - 0.05 * (2.0 * TAU * x).cos());
+    assert!((double.full_contact_pressure() / (4.0 * PI * 0.2) - 1.0).abs() < 1e-12);
 }
 
 /// Everything a block finds on a sampled sine is what it finds on the sine, to round-off that the
@@ -119,9 +119,9 @@ fn a_sampled_sine_is_the_sine() {
                 .map(|i| 0.12 * (TAU * i as f64 / 12.0).cos())
                 .collect(),
         );
-        let same = case.solve(None).unwrap().finest.outcome;
-        assert!((same.contact_fraction - sine.contact_fraction).abs() < 1e-9);
-        assert!((same.friction - sine.friction).abs() < 1e-9);
+        let sampled = case.solve(None).unwrap().finest.outcome;
+        assert!((sampled.contact_fraction - sine.contact_fraction).abs() < 1e-9);
+        assert!((sampled.friction - sine.friction).abs() < 1e-9);
     }
 }
 

@@ -88,8 +88,8 @@ fn an_affine_deformation_is_in_equilibrium() {
         for (layer, z) in mesh.layer_heights().into_iter().enumerate() {
             for node in 0..mesh.layer_nodes() {
                 let at = layer * mesh.layer_size();
-                field.u[at + mesh.place(node, 0)] = 0.4 * z;
-                field.u[at + mesh.place(node, 1)] = -0.2 * z;
+                field.u[at + mesh.position(node, 0)] = 0.4 * z;
+                field.u[at + mesh.position(node, 1)] = -0.2 * z;
             }
         }
         let mut total = vec![0.0; field.u.len()];

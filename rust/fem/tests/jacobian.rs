@@ -103,9 +103,9 @@ fn expected(block: &Block<'_>, field: &Field, x: &[f64]) -> Vec<f64> {
                 let level = |p: &dyn Fn(usize) -> f64| -> f64 {
                     (0..modes).map(|m| element.mode[at][m] * p(m)).sum()
                 };
-                let place = |m: usize| (row * modes + m) * columns + column;
+                let position = |m: usize| (row * modes + m) * columns + column;
                 let pressure = level(&|m| field.pressure[(row * columns + column) * modes + m]);
-                let more = level(&|m| x[free + place(m)]);
+                let pressure_change = level(&|m| x[free + position(m)]);
                 let mut dp = times(&tangent(f, h, pressure), &df[q]);
                 if let Some(slope) = block.energy.network_slope(f) {
                     let dh = times(&slope, &df[q]).map(|b| block.equilibrium * b);
@@ -124,15 +124,15 @@ fn expected(block: &Block<'_>, field: &Field, x: &[f64]) -> Vec<f64> {
                 let cof = cofactor(&f.f);
                 let volume: f64 = (0..4).map(|k| cof[k] * df[q][k]).sum();
                 for m in 0..modes {
-                    volumes[place(m)] += element.weight[at] * element.mode[at][m] * volume;
+                    volumes[position(m)] += element.weight[at] * element.mode[at][m] * volume;
                 }
                 for (node, slope) in element.gradient[at].iter().enumerate() {
                     let (layer, sub) = (node / points, node % points);
                     let base = (row * mesh.order + layer) * mesh.layer_size();
                     for i in 0..2 {
-                        let p = [0, 1].map(|k| dp[2 * i + k] + more * cof[2 * i + k]);
+                        let p = [0, 1].map(|k| dp[2 * i + k] + pressure_change * cof[2 * i + k]);
                         let force = p[0] * slope[0] + p[1] * slope[1];
-                        let unknown = mesh.place(mesh.order * column + sub, i);
+                        let unknown = mesh.position(mesh.order * column + sub, i);
                         forces[base + unknown] += element.weight[at] * force;
                     }
                 }
@@ -161,12 +161,12 @@ fn the_product_is_the_sum_over_points_and_pairs() {
             let field = bent(&mesh);
             let jacobian = jacobian(&block, &field);
             let x: Vec<f64> = (0..unknowns(&jacobian)).map(|i| noise(1000 + i)).collect();
-            let mut found = vec![0.0; x.len()];
-            jacobian.product(&x, &mut found, &mut jacobian.workspace(serial().threads));
+            let mut product = vec![0.0; x.len()];
+            jacobian.product(&x, &mut product, &mut jacobian.workspace(serial().threads));
             let expected = expected(&block, &field, &x);
             let scale = expected.iter().fold(0.0_f64, |most, f| most.max(f.abs()));
-            for (found, expected) in found.iter().zip(&expected) {
-                let error = (found - expected).abs() / scale;
+            for (product, expected) in product.iter().zip(&expected) {
+                let error = (product - expected).abs() / scale;
                 assert!(error < 1e-13, "order {order}, sliding {slides}: {error}");
             }
         }
@@ -215,11 +215,11 @@ fn the_product_is_the_slope_of_forces_and_volumes() {
                 residual(&block, &moved)
             };
             let (high, low) = (moved(1e-6), moved(-1e-6));
-            let mut found = vec![0.0; x.len()];
-            jacobian.product(&x, &mut found, &mut jacobian.workspace(serial().threads));
-            let scale = found.iter().fold(0.0_f64, |most, f| most.max(f.abs()));
+            let mut product = vec![0.0; x.len()];
+            jacobian.product(&x, &mut product, &mut jacobian.workspace(serial().threads));
+            let scale = product.iter().fold(0.0_f64, |most, f| most.max(f.abs()));
             for i in 0..x.len() {
-                let error = (found[i] - (high[i] - low[i]) / 2e-6).abs() / scale;
+                let error = (product[i] - (high[i] - low[i]) / 2e-6).abs() / scale;
                 assert!(error < 1e-7, "order {order}, sliding {slides}: {error}");
             }
         }
@@ -238,8 +238,8 @@ fn a_uniform_state_is_solved_at_once() {
         for (layer, z) in mesh.layer_heights().into_iter().enumerate() {
             for node in 0..mesh.layer_nodes() {
                 let at = layer * mesh.layer_size();
-                field.u[at + mesh.place(node, 0)] = 0.3 * (0.8 - z) + 0.1 * (z * 7.0).sin();
-                field.u[at + mesh.place(node, 1)] = 0.02 * (0.8 - z) * (0.8 - z);
+                field.u[at + mesh.position(node, 0)] = 0.3 * (0.8 - z) + 0.1 * (z * 7.0).sin();
+                field.u[at + mesh.position(node, 1)] = 0.02 * (0.8 - z) * (0.8 - z);
             }
         }
         for (i, p) in field.pressure.iter_mut().enumerate() {

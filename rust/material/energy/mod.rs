@@ -84,14 +84,14 @@ macro_rules! energies {
             }
 
             /// b = 2 dW/dCbar at F.
-            pub fn network(&self, f: impl Into<Deformation>) -> Symmetric {
+            pub(crate) fn network(&self, f: impl Into<Deformation>) -> Symmetric {
                 match self {
                     $(Self::$kind(energy) => network(energy, &f.into()),)+
                 }
             }
 
             /// db/dF, `[component of b][component of F]`; None where b is constant.
-            pub fn network_slope(&self, f: impl Into<Deformation>) -> Option<[Gradient; 4]> {
+            pub(crate) fn network_slope(&self, f: impl Into<Deformation>) -> Option<[Gradient; 4]> {
                 match self {
                     $(Self::$kind(energy) => network_slope(energy, &f.into()),)+
                 }

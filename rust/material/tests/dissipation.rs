@@ -163,7 +163,7 @@ fn small_strains_keep_their_digits() {
     let mut u = vec![0.0; mesh.layers() * mesh.layer_size()];
     for layer in 0..mesh.layers() {
         for node in 0..columns {
-            let at = layer * mesh.layer_size() + mesh.place(node, 1);
+            let at = layer * mesh.layer_size() + mesh.position(node, 1);
             u[at] = strain * angle(node).sin() / TAU;
         }
     }

@@ -97,8 +97,8 @@ fn a_start_needs_two_meshes() {
     (case.columns, case.rows) = (32, 8);
     let start = case.solve(None).unwrap();
     for columns in [65, 127, 128] {
-        let found = visited(columns, None, Some(&start));
-        assert_eq!(found, [columns.div_ceil(2), columns]);
+        let sizes = visited(columns, None, Some(&start));
+        assert_eq!(sizes, [columns.div_ceil(2), columns]);
     }
     assert_eq!(sequence(128, None, Some(&start)).sizes.len(), 3);
 }
@@ -179,12 +179,12 @@ fn frictions_further_apart_than_the_bound_are_a_status() {
 fn a_gap_of_few_nodes_is_within_the_error() {
     let amplitude = 1e-3;
     let case = Case::elastic(amplitude, 0.995 * 4.0 * std::f64::consts::PI * amplitude);
-    let found = case.solve(None).unwrap().finest;
+    let solution = case.solve(None).unwrap().finest;
     let exact = 0.95495;
-    let error = (found.outcome.contact_fraction - exact).abs();
+    let error = (solution.outcome.contact_fraction - exact).abs();
     assert!(
-        error > 0.02 && error <= found.contact_fraction_error,
+        error > 0.02 && error <= solution.contact_fraction_error,
         "{error} {}",
-        found.contact_fraction_error
+        solution.contact_fraction_error
     );
 }

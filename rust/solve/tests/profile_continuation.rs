@@ -76,10 +76,10 @@ fn the_way_to_the_solution_does_not_matter() {
 #[test]
 fn a_profile_too_rough_for_the_mesh_says_so() {
     let case = rough_case(20, 3.0, 1.0);
-    let found = case.solve(None).unwrap();
-    assert_eq!(found.finest.report.status, Status::ProfileTooRough);
-    assert!((1..20).contains(&found.waves_carried.unwrap()));
-    assert_eq!(found.finest.load_reached, 0.0);
+    let solution = case.solve(None).unwrap();
+    assert_eq!(solution.finest.report.status, Status::ProfileTooRough);
+    assert!((1..20).contains(&solution.waves_carried.unwrap()));
+    assert_eq!(solution.finest.load_reached, 0.0);
     let smooth = rough_case(16, 0.15, 1.0).solve(None).unwrap();
     assert_eq!(smooth.waves_carried, None);
 }

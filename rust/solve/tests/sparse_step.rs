@@ -40,14 +40,14 @@ impl System {
 }
 
 /// Places of an element's unknowns (2 node + direction) in a field; the lid's are the last.
-fn element_places(block: &Block<'_>, (row, column): (usize, usize)) -> Vec<usize> {
+fn element_positions(block: &Block<'_>, (row, column): (usize, usize)) -> Vec<usize> {
     let mesh = block.mesh;
     let order = mesh.order;
     let nodes = (0..=order).flat_map(|layer| (0..=order).map(move |sub| (layer, sub)));
     nodes
         .flat_map(|(layer, sub)| {
             let from = (order * row + layer) * mesh.layer_size();
-            [0, 1].map(|direction| from + mesh.place(order * column + sub, direction))
+            [0, 1].map(|direction| from + mesh.position(order * column + sub, direction))
         })
         .collect()
 }
@@ -70,19 +70,19 @@ fn add_elements(system: &mut System, pressed: &PressedBlock<'_>, state: &State) 
         for column in 0..mesh.columns {
             element.assemble_lower(block, &state.field, &of_row, (row, column));
             element.mirror();
-            let places = element_places(block, (row, column));
-            for (i, &to) in places.iter().enumerate().filter(|(_, &to)| to < free) {
-                for (j, &by) in places.iter().enumerate().filter(|(_, &by)| by < free) {
-                    system.add(to, by, element.stiffness[i * places.len() + j]);
+            let positions = element_positions(block, (row, column));
+            for (i, &to) in positions.iter().enumerate().filter(|(_, &to)| to < free) {
+                for (j, &by) in positions.iter().enumerate().filter(|(_, &by)| by < free) {
+                    system.add(to, by, element.stiffness[i * positions.len() + j]);
                 }
             }
             for (m, mass) in mesh.elements[row].mode_mass.iter().enumerate() {
-                let own = (row * mesh.columns + column) * mesh.modes() + m;
-                let pressure = displacements + own;
-                for (i, &place) in places.iter().enumerate().filter(|(_, &p)| p < free) {
-                    let volume = element.volume[m * places.len() + i];
-                    system.add(place, pressure, volume);
-                    system.add(pressure, place, volume);
+                let index = (row * mesh.columns + column) * mesh.modes() + m;
+                let pressure = displacements + index;
+                for (i, &position) in positions.iter().enumerate().filter(|(_, &p)| p < free) {
+                    let volume = element.volume[m * positions.len() + i];
+                    system.add(position, pressure, volume);
+                    system.add(pressure, position, volume);
                 }
                 system.add(pressure, pressure, -mass / block.bulk_modulus);
                 system.right[pressure] = -volumes[m * mesh.columns + column];
@@ -108,11 +108,11 @@ fn add_contact(
     let gap = pressed.gaps(state, &x);
     let share = 1.0 / nodes as f64;
     for a in 0..nodes {
-        let (along, up) = (mesh.place(a, 0), mesh.place(a, 1));
+        let (along, up) = (mesh.position(a, 0), mesh.position(a, 1));
         let slope = pressed.heights.slope(x[a]);
         let bend = state.force[a] * pressed.heights.curvature(x[a]);
         system.add(along, along, bend);
-        (0..nodes).for_each(|b| system.add(along, mesh.place(b, 0), -bend * share));
+        (0..nodes).for_each(|b| system.add(along, mesh.position(b, 0), -bend * share));
         let Some(k) = active_nodes.iter().position(|&node| node == a) else {
             continue;
         };
@@ -123,7 +123,7 @@ fn add_contact(
         system.add(up, force, -1.0);
         system.add(force, up, 1.0);
         system.add(force, along, -slope);
-        (0..nodes).for_each(|b| system.add(force, mesh.place(b, 0), slope * share));
+        (0..nodes).for_each(|b| system.add(force, mesh.position(b, 0), slope * share));
         system.add(force, approach, -1.0);
         system.right[force] = -gap[a];
         system.add(approach, force, 1.0);
@@ -179,15 +179,15 @@ fn compare(
             let (memory, executor) = (Memory::Relaxed, serial());
             let pressed = model.pressed(&mesh, &memory, &executor);
             let rows = pressed.row_states(&state.field).unwrap();
-            let (found, active_set) = increment(&pressed, state, &rows, load);
+            let (step, active_set) = increment(&pressed, state, &rows, load);
             let expected = eliminated(&pressed, state, load, &active_set);
-            let change = |a: usize| found.contact.force[a] - state.force[a];
+            let change = |a: usize| step.contact.force[a] - state.force[a];
             let active_nodes = (0..state.force.len()).filter(|&a| active_set[a]);
             let parts: [Vec<f64>; 4] = [
-                found.u.clone(),
-                found.pressure.clone(),
+                step.u.clone(),
+                step.pressure.clone(),
                 active_nodes.map(change).collect(),
-                vec![found.contact.approach - state.approach],
+                vec![step.contact.approach - state.approach],
             ];
             let mut at = 0;
             for (which, part) in parts.iter().enumerate() {
@@ -195,8 +195,8 @@ fn compare(
                 at += part.len();
                 let scale = expected.iter().fold(0.0_f64, |most, e| most.max(e.abs()));
                 assert!(scale > 0.0);
-                for (found, expected) in part.iter().zip(expected) {
-                    let error = (found - expected).abs() / scale;
+                for (step, expected) in part.iter().zip(expected) {
+                    let error = (step - expected).abs() / scale;
                     assert!(error < 1e-8, "{order} {energy:?} part {which}: {error}");
                 }
             }
@@ -212,17 +212,17 @@ fn a_step_by_iteration_is_that_of_sparse_elimination() {
     compare(1.5, |pressed, state, rows, load| {
         let settings = Settings::default();
         let residual = Residual::new(pressed, state, rows).unwrap();
-        let now = Iterate {
+        let iterate = Iterate {
             state,
             rows,
             residual: &residual,
             residual_norm: residual.norm(pressed, state, load),
         };
         let accuracy = Accuracy { share, least };
-        let found = krylov::increment(pressed, now, None, load, accuracy, &settings).unwrap();
-        assert_ne!(found.contact.active_set, state.active_set);
-        let active_set = found.contact.active_set.clone();
-        (found, active_set)
+        let step = krylov::increment(pressed, iterate, None, load, accuracy, &settings).unwrap();
+        assert_ne!(step.contact.active_set, state.active_set);
+        let active_set = step.contact.active_set.clone();
+        (step, active_set)
     });
 }
 
@@ -234,7 +234,7 @@ fn a_step_by_the_bordered_factor_is_that_of_sparse_elimination() {
         let residual = Residual::new(pressed, state, rows).unwrap();
         let bordered = Bordered::new(&pressed.block).unwrap();
         let tangent = bordered.factor(pressed, state, rows, &residual).unwrap();
-        let found = bordered.increment(pressed, &tangent, state, &residual, load);
-        (found, state.active_set.clone())
+        let step = bordered.increment(pressed, &tangent, state, &residual, load);
+        (step, state.active_set.clone())
     });
 }
