@@ -79,35 +79,41 @@ impl<'a> Cancel<'a> {
 
 #[cfg(test)]
 mod tests {
-    use std::thread::sleep;
-
     use super::*;
 
     #[test]
     fn a_stop_by_the_caller_is_not_a_time_limit() {
+        let (now, hour) = (Instant::now(), Duration::from_secs(3600));
         let calls = Cell::new(0);
         let stop_requested = || {
             calls.set(calls.get() + 1);
             true
         };
-        let cancel = Cancel::new(&stop_requested, Some(0.5 * INTERVAL.as_secs_f64())).unwrap();
+        let mut cancel = Cancel::new(&stop_requested, Some(3600.0)).unwrap();
+        // Not yet time to ask the caller.
+        cancel.next_request.set(now + hour);
         assert_eq!(cancel.check(), Ok(()));
-        sleep(INTERVAL.mul_f64(0.75));
+        cancel.deadline = Some(now);
         assert_eq!(cancel.check(), Err(Status::TimeLimit));
-        assert_eq!(cancel.without_deadline().check(), Ok(()));
-        sleep(INTERVAL.mul_f64(0.5));
-        // Both apply now: the caller has precedence, and is asked once.
-        assert_eq!(cancel.check(), Err(Status::Stopped));
-        assert_eq!(cancel.check(), Err(Status::Stopped));
+        // Both apply: the caller has precedence, and is asked once.
+        cancel.next_request.set(now);
+        for _ in 0..2 {
+            assert_eq!(cancel.check(), Err(Status::Stopped));
+            cancel.next_request.set(now);
+        }
         assert_eq!(cancel.without_deadline().check(), Err(Status::Stopped));
         assert_eq!(calls.get(), 1);
     }
 
     #[test]
-    fn a_time_limit_must_be_positive() {
+    fn a_time_limit_must_be_positive_and_may_be_lifted() {
         let refusal = Cancel::new(&|| false, Some(0.0)).map(|_| ()).unwrap_err();
         assert!(refusal
             .to_string()
             .starts_with("time_limit must be greater than zero"));
+        let mut cancel = Cancel::never();
+        cancel.deadline = Some(Instant::now());
+        assert_eq!(cancel.check(), Err(Status::TimeLimit));
+        assert_eq!(cancel.without_deadline().check(), Ok(()));
     }
 }

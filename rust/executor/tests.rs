@@ -25,7 +25,7 @@ fn wave(order: usize, speed: f64) -> Case {
     case
 }
 
-/// Every bit of what is said of a wave and of the state behind it.
+/// Every bit of the results of a wave and of its state.
 fn bits(solution: &Solution) -> Vec<u64> {
     let (finest, outcome) = (&solution.finest, &solution.finest.outcome);
     let said = [

@@ -1,10 +1,10 @@
 //! The block in finite elements: element rows with memory along x, mixed in displacement and pressure.
 
-pub mod assembly;
 pub mod averaged_jacobian;
 pub mod block;
 pub mod dissipation;
 pub mod element;
+mod element_row;
 pub mod element_tangent;
 pub mod harmonic_block;
 mod harmonic_row;
@@ -13,6 +13,5 @@ pub mod jacobian_product;
 pub mod mesh;
 pub mod pattern;
 mod point_slopes;
-mod row_state;
 #[cfg(test)]
 mod tests;

@@ -26,7 +26,7 @@ fn an_empty_sequence_is_an_internal_error() {
     assert!(text.starts_with("internal error: ") && text.ends_with("please report it"));
 }
 
-/// A start on a mesh beyond the finest that the tolerance may refine to: two meshes are left, which
+/// A start on a mesh beyond the finest that the tolerance may refine to: two meshes remain, which
 /// tell the error.
 #[test]
 fn a_start_on_a_much_finer_mesh_leaves_two() {
@@ -104,7 +104,7 @@ fn a_start_needs_two_meshes() {
 }
 
 /// Errors fall to a quarter at most where columns are doubled, so a start that is good to 0.9 of the
-/// tolerance tells nothing of coarser meshes, one good to a fifth that half of its columns will do.
+/// tolerance says nothing about coarser meshes; one good to a fifth says that half of its columns suffice.
 #[test]
 fn a_start_much_better_than_the_tolerance_is_not_refined_to() {
     let mut case = Case::elastic(0.05, 0.2);
@@ -132,7 +132,7 @@ fn zener(amplitude: f64, pressure: f64, time: f64) -> Case {
     case
 }
 
-/// Two nodes of 32 touch, with frictions a third apart: refined until both are to be trusted.
+/// Two nodes of 32 are in contact, with frictions a third apart: refined until both can be trusted.
 #[test]
 fn a_contact_of_few_nodes_is_refined() {
     let narrow = zener(1e-3, 4e-4, 0.02);
