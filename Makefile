@@ -19,7 +19,7 @@ build: $(BUILT)
 
 test: build
 	cargo fmt --check
-	cargo clippy --locked --all-targets -- -D warnings
+	cargo clippy --locked --features internals --all-targets -- -D warnings
 	cargo clippy --locked --features python -- -D warnings
 	cargo test --locked
 	$(BIN)/ruff check .

@@ -1,4 +1,4 @@
-//! Every input the kernel refuses, with the value and what was expected.
+//! Errors: inputs that the kernel refuses, with the value and what was expected.
 
 use std::fmt::Display;
 
@@ -31,19 +31,19 @@ pub enum KernelError {
     UnsolvedStart(&'static str),
     #[error("stopped by the caller")]
     Stopped,
-    /// A state that no input can lead to.
+    /// A state that no input should reach.
     #[error("internal error: {0}; please report it")]
     Internal(&'static str),
 }
 
-/// `value` if it is `fine`, else a refusal that says what was `expected`.
+/// `value` if it is `valid`, else a refusal that says what was `expected`.
 fn checked<T: Display>(
-    fine: bool,
+    valid: bool,
     name: &str,
     value: T,
     expected: impl Display,
 ) -> Result<T, KernelError> {
-    if fine {
+    if valid {
         return Ok(value);
     }
     Err(KernelError::Refused {
@@ -53,39 +53,49 @@ fn checked<T: Display>(
     })
 }
 
-pub fn positive(name: &str, value: f64) -> Result<f64, KernelError> {
-    let fine = value.is_finite() && value > 0.0;
-    checked(fine, name, value, "greater than zero and finite")
+pub(crate) fn positive(name: &str, value: f64) -> Result<f64, KernelError> {
+    let valid = value.is_finite() && value > 0.0;
+    checked(valid, name, value, "greater than zero and finite")
 }
 
-pub fn finite(name: &str, value: f64) -> Result<f64, KernelError> {
+pub(crate) fn finite(name: &str, value: f64) -> Result<f64, KernelError> {
     checked(value.is_finite(), name, value, "a finite number")
 }
 
 /// From zero to `most`; `allowed` says in words what that means.
-pub fn not_negative(name: &str, value: f64, most: f64, allowed: &str) -> Result<f64, KernelError> {
-    let fine = (0.0..=most).contains(&value);
-    checked(fine, name, value, format_args!("zero or more{allowed}"))
+pub(crate) fn not_negative(
+    name: &str,
+    value: f64,
+    most: f64,
+    allowed: &str,
+) -> Result<f64, KernelError> {
+    let valid = (0.0..=most).contains(&value);
+    checked(valid, name, value, format_args!("zero or more{allowed}"))
 }
 
-pub fn between(name: &str, value: f64, least: f64, most: f64) -> Result<f64, KernelError> {
-    let fine = (least..=most).contains(&value);
+pub(crate) fn between(name: &str, value: f64, least: f64, most: f64) -> Result<f64, KernelError> {
+    let valid = (least..=most).contains(&value);
     checked(
-        fine,
+        valid,
         name,
         value,
         format_args!("from {least:?} to {most:?}"),
     )
 }
 
-pub fn whole(name: &str, value: f64, least: usize, most: usize) -> Result<usize, KernelError> {
-    let fine = value.fract() == 0.0 && (least as f64..=most as f64).contains(&value);
+pub(crate) fn whole(
+    name: &str,
+    value: f64,
+    least: usize,
+    most: usize,
+) -> Result<usize, KernelError> {
+    let valid = value.fract() == 0.0 && (least as f64..=most as f64).contains(&value);
     let expected = format_args!("a whole number from {least} to {most}");
-    checked(fine, name, value, expected).map(|value| value as usize)
+    checked(valid, name, value, expected).map(|value| value as usize)
 }
 
 /// The refusal of a name that is not among `known`.
-pub fn unknown(name: &str, value: &str, known: &[&str]) -> KernelError {
+pub(crate) fn unknown(name: &str, value: &str, known: &[&str]) -> KernelError {
     KernelError::Refused {
         name: name.to_owned(),
         expected: match known {

@@ -1,45 +1,67 @@
 //! Contact of a finite-strain viscoelastic rubber block with one period of a rigid profile.
 //!
-//! A user needs `problem` (what is solved), `settings` (how), `steady::solve` and
-//! `transient::solve`, and `solution`, `status` and `error` (what comes back). The other rooms are
-//! public for the tests alone. Each uses only what stands before it:
+//! The public modules are `problem` (what is solved), `settings` (how), `steady` and `transient` (the two
+//! entry points), `solution` and `status` (the result), `error`, and `cancel` and `executor` (when to stop,
+//! and with how many threads). All other modules are internal; tests stand beside the code. Each module
+//! uses only what stands before it:
 //!
-//! | room | what |
+//! | module | contents |
 //! |---|---|
 //! | `error`, `status`, `settings` | refusals, endings, every constant of the solver |
-//! | `threads` | the one file with rayon: work shared between threads, in parts that do not depend on them |
-//! | `watch` | whether to go on: a caller that stops, a limit of time; who does the work |
-//! | `spectral` | the one file with realfft: transforms of lines |
-//! | `linear` | the one room with faer: dense LU, sparse L D L^T, small complex blocks, GMRES |
-//! | `material` | kinematics, stress, strain energies, Maxwell elements and what they remember |
-//! | `fem` | element, mesh, block, element rows, their Jacobian applied or assembled |
-//! | `contact` | profile, answer of the averaged surface, complementarity, edges between nodes |
+//! | `cancel` | whether to go on: a caller who stops, a time limit |
+//! | `executor` | the one file with rayon: work shared between threads, in parts that do not depend on them |
+//! | `spectral` | the one file with realfft: transforms, convolutions and correlations of lines |
+//! | `linear` | the one room with faer: dense LU, small complex blocks, sparse L D L^T, GMRES |
+//! | `material` | kinematics, stress, strain energies, Maxwell elements and their memory |
+//! | `fem` | element, mesh, block, element rows, their Jacobian applied, averaged or assembled |
+//! | `contact` | profile, compliance of the averaged surface, linear complementarity, edges between nodes |
 //! | `outcome` | contact, friction and stretches of a state |
 //! | `problem`, `model` | one wave in SI units, checked; the same in kernel units |
+//! | `solution` | a solved wave, with reports and counts |
 //! | `solve` | Newton, its linear problem by GMRES or a kept factor, load stepping, meshes, transfer |
-//! | `solution`, `steady`, `transient` | one wave solved; steady sliding; sliding in time |
+//! | `steady`, `transient` | steady sliding; sliding in time |
 //! | `python` | bindings, no numerics |
+//!
+//! `KernelError` means that there is no result: an input was refused, the caller stopped, or the kernel has a
+//! bug; `Status` is part of every result and says whether it converged or why it did not, so internal
+//! functions also return it as their error.
 //!
 //! Conventions: inside, lengths are in wavelengths and stresses in units of |G*(2 pi v / lambda)|;
 //! x along sliding (the rubber moves in +x over the profile, whose frame is used), z up, rubber
 //! above, pressure positive in compression, friction positive when it opposes the sliding.
 
-pub mod contact;
+/// Internal modules, public with the feature `internals` for `benchmarks/sparse_kernel` alone.
+macro_rules! internal_modules {
+    ($($name:ident),+ $(,)?) => {
+        $(
+            #[cfg(not(feature = "internals"))]
+            mod $name;
+            #[cfg(feature = "internals")]
+            pub mod $name;
+        )+
+    };
+}
+
+pub mod cancel;
 pub mod error;
-pub mod fem;
-pub mod linear;
-pub mod material;
-pub mod model;
-pub mod outcome;
+pub mod executor;
 pub mod problem;
-#[cfg(feature = "python")]
-mod python;
 pub mod settings;
 pub mod solution;
-pub mod solve;
-pub mod spectral;
 pub mod status;
 pub mod steady;
-pub mod threads;
 pub mod transient;
-pub mod watch;
+
+internal_modules!(contact, fem, linear, material, model, outcome, solve, spectral);
+
+#[cfg(feature = "python")]
+mod python;
+
+// Tests inside the crate share `tests/case.rs` with those outside, which names the crate.
+#[cfg(test)]
+extern crate self as gripscale_kernel;
+#[cfg(test)]
+#[path = "tests/case.rs"]
+mod case;
+#[cfg(test)]
+mod test_fields;

@@ -1,23 +1,22 @@
 //! Rubber and profile in kernel units: lengths in wavelengths, stresses in |G*(w)| at one frequency.
 //!
-//! Steady sliding and sliding in time share it; they differ in the unit of time.
+//! Steady sliding and sliding in time share this model; they differ in the unit of time.
 
 use std::f64::consts::TAU;
 
 use crate::contact::edges::EdgeLaw;
-use crate::contact::hertz;
-use crate::contact::profile::Heights;
+use crate::contact::profile::{hertz_contact_width, Heights};
 use crate::contact::PressedBlock;
+use crate::executor::Executor;
 use crate::fem::block::{Block, Memory};
 use crate::fem::mesh::Mesh;
 use crate::material::energy::Energy;
 use crate::material::maxwell::Maxwell;
 use crate::problem::{Profile, Rubber};
-use crate::watch::Watch;
 
 #[derive(Clone)]
 pub struct Model {
-    /// [Pa].
+    /// Unit of stress [Pa].
     pub stress_unit: f64,
     /// Moduli in stress units, times in time units.
     pub maxwell: Maxwell,
@@ -52,12 +51,12 @@ impl Model {
         }
     }
 
-    /// The block on its profile, worked on as long as `watch` lets it.
+    /// The block on its profile, whose work `executor` does.
     pub fn pressed<'a>(
         &'a self,
         mesh: &'a Mesh,
         memory: &'a Memory,
-        watch: &'a Watch<'a>,
+        executor: &'a Executor<'a>,
     ) -> PressedBlock<'a> {
         PressedBlock {
             block: Block {
@@ -68,26 +67,26 @@ impl Model {
                 bulk_modulus: self.bulk_modulus,
             },
             heights: &self.heights,
-            watch,
+            executor,
         }
     }
 
     /// The same rubber on other heights.
-    pub fn on(&self, heights: Heights) -> Self {
+    pub fn with_heights(&self, heights: Heights) -> Self {
         Self {
             heights,
             ..self.clone()
         }
     }
 
-    /// Contact width in wavelengths that a small `load` will have, after Hertz.
+    /// Contact width in wavelengths under a small `load`, by Hertz.
     pub fn expected_contact(&self, load: f64) -> f64 {
-        hertz::width(load, self.heights.crest_curvature(), |omega| {
+        hertz_contact_width(load, self.heights.crest_curvature(), |omega| {
             self.maxwell.magnitude(omega)
         })
     }
 
-    /// Of the modulus that a wave of four node spacings meets at `speed` [wavelengths / time unit].
+    /// The edge law for the modulus at a wave of four node spacings and `speed` [wavelengths / time unit].
     pub fn edge_law(&self, mesh: &Mesh, speed: f64) -> EdgeLaw {
         let omega = TAU * mesh.layer_nodes() as f64 / 4.0 * speed.abs();
         let (storage, loss) = self.maxwell.complex_modulus(omega);

@@ -1,4 +1,5 @@
-//! What one solved wave tells: contact length with sub-element edges, friction both ways, stretches.
+//! Contact, friction and stretches of a state: contact length with edges located between the nodes, and
+//! friction from traction and from dissipation.
 
 use crate::contact::edges::{contacts, EdgeLaw};
 use crate::contact::{PressedBlock, State};
@@ -13,18 +14,18 @@ pub struct Outcome {
     pub contacts: Vec<(f64, f64)>,
     pub friction: f64,
     pub friction_from_dissipation: f64,
-    /// Of it what each row of elements loses.
+    /// Contribution of each row of elements to it.
     pub lost_by_row: Vec<f64>,
     pub min_stretch: f64,
     pub max_stretch: f64,
-    /// Deformed abscissa and pressure of the surface nodes.
+    /// Deformed abscissae of the surface nodes in wavelengths, and the pressure on them in stress units.
     pub x: Vec<f64>,
     pub pressure: Vec<f64>,
 }
 
 impl Outcome {
-    /// Of a state; refused only by the watch of `pressed`.
-    pub fn of(pressed: &PressedBlock<'_>, state: &State, law: EdgeLaw) -> Result<Self, Status> {
+    /// The outcome of a state; fails only if the executor of `pressed` is cancelled.
+    pub(crate) fn of(pressed: &PressedBlock<'_>, state: &State, law: EdgeLaw) -> Result<Self, Status> {
         let nodes = state.force.len();
         let load: f64 = state.force.iter().sum();
         let rows = pressed.row_states(&state.field)?;
@@ -33,7 +34,7 @@ impl Outcome {
         let drag: f64 = (0..nodes)
             .map(|a| state.force[a] * pressed.heights.slope(x[a]))
             .sum();
-        let lost = pressed.block.dissipation(&rows, pressed.watch)?;
+        let lost = pressed.block.dissipation(&rows, pressed.executor)?;
         let (mut low, mut high) = (f64::INFINITY, 0.0_f64);
         for point in rows.iter().flat_map(|row| row.deformation.iter().flatten()) {
             let (least, most) = principal_stretches(&point.f);
@@ -41,7 +42,7 @@ impl Outcome {
             high = high.max(most);
         }
         let gap = pressed.gaps(state, &x);
-        let contacts = contacts(&x, &pressure, &gap, &state.active, law);
+        let contacts = contacts(&x, &pressure, &gap, &state.active_set, law);
         let length = contacts
             .iter()
             .fold(0.0, |sum, (from, to)| sum + (to - from));

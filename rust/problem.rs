@@ -1,10 +1,10 @@
 //! The problem of one wave in SI units, checked where its parts are made.
 
-use crate::contact::profile::Heights;
 use crate::error::{not_negative, positive, KernelError};
-use crate::material::energy::Energy;
 
+pub use crate::contact::profile::Heights;
 pub use crate::fem::mesh::MeshSize;
+pub use crate::material::energy::{Energy, Parameters};
 
 /// A rubber of shear moduli [Pa] and relaxation times [s]; its small-strain limit is a Prony series.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,8 +60,8 @@ impl Profile {
         })
     }
 
-    /// Refuse a mesh that cannot follow the smallest wave of the heights.
-    pub fn check_resolved(&self, mesh: &MeshSize) -> Result<(), KernelError> {
+    /// Refuse a mesh that does not resolve the smallest wave of the heights.
+    pub(crate) fn check_resolved(&self, mesh: &MeshSize) -> Result<(), KernelError> {
         let fewest = self.heights.fewest_nodes().div_ceil(mesh.order);
         if mesh.columns >= fewest {
             return Ok(());
@@ -104,8 +104,8 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// Refuse to go on with another rubber or profile than this problem's, naming what differs.
-    pub fn check_same(&self, rubber: &Rubber, profile: &Profile) -> Result<(), KernelError> {
+    /// Refuse another rubber or profile than this problem's, naming the difference.
+    pub(crate) fn check_same(&self, rubber: &Rubber, profile: &Profile) -> Result<(), KernelError> {
         let (start, here) = (parts(&self.rubber, &self.profile), parts(rubber, profile));
         for ((name, start), (_, here)) in start.into_iter().zip(here) {
             if start != here {

@@ -8,17 +8,15 @@ use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyMapping;
 
-use crate::contact::profile::Heights;
+use crate::cancel::Cancel;
 use crate::error::{unknown, KernelError};
-use crate::material::energy::{Energy, Parameters};
-use crate::problem::{Load, MeshSize, Problem, Profile, Rubber};
+use crate::executor::{Executor, Threads};
+use crate::problem::{Energy, Heights, Load, MeshSize, Parameters, Problem, Profile, Rubber};
 use crate::settings::Settings;
 use crate::solution::Solution;
 use crate::status::Status;
 use crate::steady;
-use crate::threads::Threads;
-use crate::transient::{self, Moment, Stage};
-use crate::watch::Watch;
+use crate::transient::{self, Moment, Run, Stage};
 
 impl From<KernelError> for PyErr {
     fn from(error: KernelError) -> Self {
@@ -31,14 +29,14 @@ impl From<KernelError> for PyErr {
     }
 }
 
-/// One `#[pymethods]` block of getters, `name: type = value of the Solution`.
+/// One `#[pymethods]` block of getters of a Python class, `name: type = value of what the class wraps`.
 macro_rules! getters {
-    ($($name:ident: $kind:ty = $value:expr;)+) => {
+    ($class:ident of $wrapped:ty; $($name:ident: $kind:ty = $value:expr;)+) => {
         #[pymethods]
-        impl PySolution {
+        impl $class {
             $(#[getter]
             fn $name<'py>(&self, py: Python<'py>) -> PyResult<$kind> {
-                let value: fn(&Solution, Python<'py>) -> PyResult<$kind> = $value;
+                let value: fn(&$wrapped, Python<'py>) -> PyResult<$kind> = $value;
                 value(&self.0, py)
             })+
         }
@@ -49,29 +47,34 @@ macro_rules! getters {
 #[pyclass(frozen, name = "Solution")]
 struct PySolution(Solution);
 
+/// Moments of sliding in time, in SI units but for the approach, which is in wavelengths.
+#[pyclass(frozen, name = "Run")]
+struct PyRun(Run);
+
 type Vector<'py> = Bound<'py, PyArray1<f64>>;
 type Table<'py> = Bound<'py, PyArray2<f64>>;
 
 getters! {
+    PySolution of Solution;
     status: &'static str = |s, _| Ok(s.finest.report.status.word());
     residual: f64 = |s, _| Ok(s.finest.report.residual);
     newton_iterations: usize = |s, _| Ok(s.counts.iterations);
     jacobian_products: usize = |s, _| Ok(s.counts.products);
     load_steps: usize = |s, _| Ok(s.counts.load_steps);
     load_reached: f64 = |s, _| Ok(s.finest.load_reached);
-    approach: f64 = |s, _| Ok(s.finest.state.approach);
+    approach: f64 = |s, _| Ok(s.finest.approach());
     contact_fraction: f64 = |s, _| Ok(s.finest.outcome.contact_fraction);
     contacts: Vec<(f64, f64)> = |s, _| Ok(s.finest.outcome.contacts.clone());
     friction: f64 = |s, _| Ok(s.finest.outcome.friction);
     friction_from_dissipation: f64 = |s, _| Ok(s.finest.outcome.friction_from_dissipation);
     lost_by_row: Vector<'py> = |s, py| Ok(PyArray1::from_slice(py, &s.finest.outcome.lost_by_row));
-    row_heights: Vector<'py> = |s, py| Ok(PyArray1::from_slice(py, &s.finest.mesh.row_height));
+    row_heights: Vector<'py> = |s, py| Ok(PyArray1::from_slice(py, s.finest.row_heights()));
     contact_fraction_error: f64 = |s, _| Ok(s.finest.contact_fraction_error);
     friction_error: f64 = |s, _| Ok(s.finest.friction_error);
     friction_bound: Option<f64> = |s, _| Ok(s.finest.friction_bound);
-    judged_by: Option<usize> = |s, _| Ok(s.finest.judged_by.as_ref().map(|(mesh, _)| mesh.columns));
-    columns: usize = |s, _| Ok(s.finest.mesh.columns);
-    rows: usize = |s, _| Ok(s.finest.mesh.rows);
+    judged_by: Option<usize> = |s, _| Ok(s.finest.coarser_columns());
+    columns: usize = |s, _| Ok(s.finest.columns());
+    rows: usize = |s, _| Ok(s.finest.rows());
     too_narrow: Option<(f64, f64)> = |s, _| Ok(s.too_narrow);
     waves_carried: Option<usize> = |s, _| Ok(s.waves_carried);
     min_stretch: f64 = |s, _| Ok(s.finest.outcome.min_stretch);
@@ -83,6 +86,23 @@ getters! {
     };
     mesh_x: Table<'py> = |s, py| mesh(s, py, |point| point.0);
     mesh_z: Table<'py> = |s, py| mesh(s, py, |point| point.1);
+}
+
+getters! {
+    PyRun of Run;
+    status: &'static str = |run, _| Ok(run.status.word());
+    newton_iterations: usize = |run, _| Ok(run.counts.iterations);
+    time: Vector<'py> = |run, py| moments(run, py, |moment| moment.time);
+    distance: Vector<'py> = |run, py| moments(run, py, |moment| moment.distance);
+    speed: Vector<'py> = |run, py| moments(run, py, |moment| moment.speed);
+    pressure: Vector<'py> = |run, py| moments(run, py, |moment| moment.pressure);
+    friction: Vector<'py> = |run, py| moments(run, py, |moment| moment.friction);
+    contact_fraction: Vector<'py> = |run, py| moments(run, py, |moment| moment.contact_fraction);
+    approach: Vector<'py> = |run, py| moments(run, py, |moment| moment.approach);
+}
+
+fn moments<'py>(run: &Run, py: Python<'py>, value: fn(&Moment) -> f64) -> PyResult<Vector<'py>> {
+    Ok(PyArray1::from_iter(py, run.moments.iter().map(value)))
 }
 
 fn mesh<'py>(
@@ -126,8 +146,8 @@ impl ProfileItems {
             "sine" => Heights::sine(needed("a sine", "amplitude", self.amplitude)?)?,
             "sampled" => Heights::sampled(&needed("a sampled profile", "heights", self.heights)?)?,
             other => {
-                let known = ["sine", "sampled"];
-                return Err(unknown("the kind of a profile", other, &known));
+                let kinds = ["sine", "sampled"];
+                return Err(unknown("the kind of a profile", other, &kinds));
             }
         };
         Profile::new(self.wavelength, heights)
@@ -180,8 +200,8 @@ impl BodyItems {
     }
 }
 
-/// Threads to work with at most, seconds to work for, and what is called every 50 ms, by the calling
-/// thread alone: it raises to stop.
+/// Largest number of threads, time limit [s], and a function that the calling thread calls every 50 ms: it
+/// raises to stop.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 struct WorkItems {
@@ -197,32 +217,35 @@ fn settings(changes: &Bound<'_, PyMapping>) -> PyResult<Settings> {
     Ok(Settings::new(changes)?)
 }
 
-/// Run `solve` without the interpreter, which is asked now and then whether to go on: by a signal
-/// such as Ctrl-C, and by `look`, which raises to stop. What was raised is what comes out.
-fn watched<T: Send>(
+/// Run `solve` with the interpreter released. Every now and then the interpreter is asked whether to go on:
+/// a signal such as Ctrl-C or an exception of `look` stops the work, and is raised in the end.
+fn run_cancellable<T: Send>(
     py: Python<'_>,
     work: WorkItems,
-    solve: impl FnOnce(&Watch<'_>) -> Result<T, KernelError> + Send,
+    solve: impl FnOnce(&Executor<'_>) -> Result<T, KernelError> + Send,
 ) -> PyResult<T> {
     let raised: OnceLock<PyErr> = OnceLock::new();
-    let stopped = || {
+    let stop_requested = || {
         let ask = |py: Python<'_>| py.check_signals().and_then(|()| work.look.call0(py));
         if let Err(error) = Python::attach(ask) {
-            // The first is kept.
+            // The first exception is kept.
             raised.get_or_init(|| error);
         }
         raised.get().is_some()
     };
     let threads = Threads::new(work.workers);
-    let found = py.detach(|| solve(&Watch::new(&stopped, work.time_limit)?.with(&threads)));
+    let result = py.detach(|| {
+        let cancel = Cancel::new(&stop_requested, work.time_limit)?;
+        solve(&Executor::new(&threads, cancel))
+    });
     match raised.into_inner() {
         Some(error) => Err(error),
-        None => Ok(found?),
+        None => Ok(result?),
     }
 }
 
-/// Solve one wave at rest or in steady sliding; `start`, any other solution, is a first guess.
-/// What `work` leaves time for is solved.
+/// Solve one wave at rest or in steady sliding, as far as the time limit of `work` allows; `start`, any other
+/// solution, is a first guess.
 #[pyfunction]
 fn solve_steady(
     py: Python<'_>,
@@ -242,13 +265,13 @@ fn solve_steady(
     };
     let settings = self::settings(settings)?;
     let start = start.as_ref().map(|solution| &solution.get().0);
-    let solve = |watch: &Watch<'_>| steady::solve(&problem, &settings, tolerance, start, watch);
-    Ok(PySolution(watched(py, work, solve)?))
+    let solve =
+        |executor: &Executor<'_>| steady::solve(&problem, &settings, tolerance, start, executor);
+    Ok(PySolution(run_cancellable(py, work, solve)?))
 }
 
-/// Slide through stages (duration, speed, pressure), from rest or from a `start` of the same rubber
-/// and profile. Returns status, iterations and one row per moment: time, distance, speed, pressure,
-/// friction, contact fraction, approach.
+/// Slide through stages (duration, speed, pressure), from rest or from a `start` of the same rubber and
+/// profile.
 #[pyfunction]
 fn solve_transient<'py>(
     py: Python<'py>,
@@ -257,7 +280,7 @@ fn solve_transient<'py>(
     stages: Vec<(f64, f64, f64)>,
     start: Option<Bound<'py, PySolution>>,
     work: WorkItems,
-) -> PyResult<(&'static str, usize, Table<'py>)> {
+) -> PyResult<PyRun> {
     let (rubber, profile, mesh) = problem.checked()?;
     let settings = self::settings(settings)?;
     let start = start.as_ref().map(|solution| &solution.get().0);
@@ -267,24 +290,12 @@ fn solve_transient<'py>(
         pressure,
     };
     let stages: Vec<Stage> = stages.into_iter().map(stage).collect();
-    let solve = |watch: &Watch<'_>| {
-        transient::solve(&rubber, &profile, &mesh, &settings, &stages, start, watch)
+    let solve = |executor: &Executor<'_>| {
+        transient::solve(
+            &rubber, &profile, &mesh, &settings, &stages, start, executor,
+        )
     };
-    let run = watched(py, work, solve)?;
-    let row = |m: &Moment| {
-        vec![
-            m.time,
-            m.distance,
-            m.speed,
-            m.pressure,
-            m.friction,
-            m.contact_fraction,
-            m.approach,
-        ]
-    };
-    let rows: Vec<Vec<f64>> = run.moments.iter().map(row).collect();
-    let table = PyArray2::from_vec2(py, &rows)?;
-    Ok((run.status.word(), run.counts.iterations, table))
+    Ok(PyRun(run_cancellable(py, work, solve)?))
 }
 
 /// Name, default and one sentence of every setting.
@@ -293,10 +304,11 @@ fn default_settings() -> Vec<(&'static str, f64, &'static str)> {
     Settings::default().list()
 }
 
-/// Every word that `Solution.status` can be.
+/// Word, sentence and advice of every status that a result can have.
 #[pyfunction]
-fn statuses() -> Vec<&'static str> {
-    Status::ALL.iter().map(|status| status.word()).collect()
+fn statuses() -> Vec<(&'static str, &'static str, &'static str)> {
+    let texts = |status: &Status| (status.word(), status.sentence(), status.advice());
+    Status::ALL.iter().map(texts).collect()
 }
 
 /// Parameters of every strain energy by its name.
@@ -310,6 +322,7 @@ fn strain_energies() -> BTreeMap<&'static str, Vec<&'static str>> {
 mod kernel {
     #[pymodule_export]
     use super::{
-        default_settings, solve_steady, solve_transient, statuses, strain_energies, PySolution,
+        default_settings, solve_steady, solve_transient, statuses, strain_energies, PyRun,
+        PySolution,
     };
 }

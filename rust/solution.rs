@@ -1,10 +1,13 @@
-//! A solved wave: the problem, what was found on the finest mesh, and the work it took.
+//! A solved wave: the problem, the solution on the finest mesh, and the work it took.
 
+use crate::contact::State;
+use crate::fem::mesh::Mesh;
 use crate::problem::Problem;
-use crate::solve::load_stepping::Counts;
-use crate::solve::mesh_solution::MeshSolution;
+use crate::status::Status;
 
-/// Contact and friction of one wave; also the start of another.
+pub use crate::outcome::Outcome;
+
+/// Contact and friction of one wave; also a start for another solve.
 #[derive(Debug, Clone)]
 pub struct Solution {
     pub problem: Problem,
@@ -12,10 +15,11 @@ pub struct Solution {
     pub stress_unit: f64,
     pub finest: MeshSolution,
     pub counts: Counts,
-    /// Contact widths in wavelengths, of Hertz and the smallest that can be followed, where there
-    /// was nothing to solve for that reason.
+    /// Contact widths in wavelengths, Hertz's and the smallest that a mesh resolves, if nothing was
+    /// solved because the first is the smaller.
     pub too_narrow: Option<(f64, f64)>,
-    /// Waves, from the longest, with which the profile carried the load, where all are too rough.
+    /// Number of waves, from the longest, with which the profile carried the load, if all waves together
+    /// are too rough.
     pub waves_carried: Option<usize>,
 }
 
@@ -24,20 +28,137 @@ impl Solution {
     pub fn node_positions(&self) -> Vec<Vec<(f64, f64)>> {
         let (mesh, state) = (&self.finest.mesh, &self.finest.state);
         let shift = mesh.mean_shift(&state.field.u);
-        let place = |layer: usize, z: f64, node: usize| {
+        let position = |layer: usize, z: f64, node: usize| {
             let at = layer * mesh.layer_size();
             (
-                node as f64 * mesh.node_spacing() + state.field.u[at + mesh.place(node, 0)] - shift,
-                z - state.approach + state.field.u[at + mesh.place(node, 1)],
+                node as f64 * mesh.node_spacing() + state.field.u[at + mesh.position(node, 0)]
+                    - shift,
+                z - state.approach + state.field.u[at + mesh.position(node, 1)],
             )
         };
         let heights = mesh.layer_heights().into_iter().enumerate();
         heights
             .map(|(layer, z)| {
                 (0..=mesh.layer_nodes())
-                    .map(|node| place(layer, z, node))
+                    .map(|node| position(layer, z, node))
                     .collect()
             })
             .collect()
+    }
+}
+
+/// The solution on one mesh of a sequence.
+#[derive(Debug, Clone)]
+pub struct MeshSolution {
+    pub(crate) mesh: Mesh,
+    pub(crate) state: State,
+    pub report: Report,
+    /// Pressure that was reached over the pressure of the problem.
+    pub load_reached: f64,
+    pub outcome: Outcome,
+    /// The coarser mesh from which the errors are estimated, with its solution.
+    pub(crate) coarser: Option<(Mesh, State)>,
+    /// Estimated discretisation errors, NaN without a coarser mesh.
+    pub contact_fraction_error: f64,
+    pub friction_error: f64,
+    /// Largest difference of the two frictions that is allowed; None at rest.
+    pub friction_bound: Option<f64>,
+}
+
+impl MeshSolution {
+    pub fn converged(&self) -> bool {
+        self.report.status == Status::Converged
+    }
+
+    pub fn columns(&self) -> usize {
+        self.mesh.columns
+    }
+
+    pub fn rows(&self) -> usize {
+        self.mesh.rows
+    }
+
+    /// Height of every element row in wavelengths, contact surface first.
+    pub fn row_heights(&self) -> &[f64] {
+        &self.mesh.row_height
+    }
+
+    /// Columns of the coarser mesh from which the errors are estimated.
+    pub fn coarser_columns(&self) -> Option<usize> {
+        self.coarser.as_ref().map(|(mesh, _)| mesh.columns)
+    }
+
+    /// Approach of profile and block in wavelengths.
+    pub fn approach(&self) -> f64 {
+        self.state.approach
+    }
+
+    /// Mesh and state, and those of the coarser mesh, for `benchmarks/sparse_kernel`.
+    #[cfg(feature = "internals")]
+    pub fn into_parts(self) -> (Mesh, State, Option<(Mesh, State)>) {
+        (self.mesh, self.state, self.coarser)
+    }
+
+    /// This solution, as the result of a solve whose time ran out on a finer mesh.
+    pub(crate) fn out_of_time(&self) -> Self {
+        let mut solution = self.clone();
+        solution.report.status = Status::TimeLimit;
+        solution
+    }
+
+    /// The state on exactly this `mesh`, if it was solved.
+    pub(crate) fn state_on(&self, mesh: &Mesh) -> Option<&State> {
+        let coarser = self.coarser.iter().map(|(mesh, state)| (mesh, state));
+        let mut solved = std::iter::once((&self.mesh, &self.state)).chain(coarser);
+        solved
+            .find(|(other, _)| other.same(mesh))
+            .map(|(_, state)| state)
+    }
+}
+
+/// How one Newton iteration, or the last of several, ended.
+#[derive(Debug, Clone, Copy)]
+pub struct Report {
+    pub status: Status,
+    pub iterations: usize,
+    /// Products with the Jacobian in the linearised problems.
+    pub products: usize,
+    /// The larger of residual force over the load and gap over half the range of heights.
+    pub residual: f64,
+}
+
+impl Report {
+    /// The report of a solve without iterations.
+    pub(crate) fn unsolved(status: Status) -> Self {
+        Self {
+            status,
+            iterations: 0,
+            products: 0,
+            residual: f64::NAN,
+        }
+    }
+
+    /// The status as an error, unless it is `Converged`.
+    pub(crate) fn converged(&self) -> Result<(), Status> {
+        match self.status {
+            Status::Converged => Ok(()),
+            other => Err(other),
+        }
+    }
+}
+
+/// The work of a solve.
+#[derive(Debug, Default, Clone, Copy)]
+pub struct Counts {
+    pub load_steps: usize,
+    pub iterations: usize,
+    /// Products with the Jacobian in the linearised problems.
+    pub products: usize,
+}
+
+impl Counts {
+    pub(crate) fn add(&mut self, report: &Report) {
+        self.iterations += report.iterations;
+        self.products += report.products;
     }
 }

@@ -1,4 +1,4 @@
-//! Fourier transforms of real lines that go round the period, the one file with realfft:
+//! Fourier transforms of periodic real lines, the one file with realfft:
 //!     f_k = sum_j f_j exp(-2 pi i j k / N),   k = 0 ... N/2,   f_j = 1/N sum_k f_k exp(2 pi i j k / N)
 
 use std::f64::consts::TAU;
@@ -11,18 +11,18 @@ pub use realfft::num_complex::Complex64;
 
 impl fmt::Debug for Lines {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "transforms of lines of {} values", self.len())
+        write!(f, "transforms of lines of {} values", self.length())
     }
 }
 
-/// Both transforms of lines of one length, with the room they work in.
+/// Both transforms of lines of one length, with their workspace.
 #[derive(Clone)]
 pub struct Lines {
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,
     line: Vec<f64>,
     spectrum: Vec<Complex64>,
-    work: Vec<Complex64>,
+    scratch: Vec<Complex64>,
 }
 
 impl Lines {
@@ -30,23 +30,19 @@ impl Lines {
         let mut planner = RealFftPlanner::new();
         let forward = planner.plan_fft_forward(length);
         let inverse = planner.plan_fft_inverse(length);
-        let work = forward.get_scratch_len().max(inverse.get_scratch_len());
+        let scratch = forward.get_scratch_len().max(inverse.get_scratch_len());
         Self {
             line: forward.make_input_vec(),
             spectrum: forward.make_output_vec(),
-            work: vec![Complex64::default(); work],
+            scratch: vec![Complex64::default(); scratch],
             forward,
             inverse,
         }
     }
 
     /// Values on a line.
-    pub fn len(&self) -> usize {
+    pub fn length(&self) -> usize {
         self.line.len()
-    }
-
-    pub fn is_empty(&self) -> bool {
-        self.line.is_empty()
     }
 
     /// Harmonics of a line, 0 to N/2.
@@ -54,9 +50,9 @@ impl Lines {
         self.spectrum.len()
     }
 
-    /// exp(2 pi i k / N): what harmonic k turns by from one value to the next.
-    pub fn turn(&self, harmonic: usize) -> Complex64 {
-        Complex64::cis(TAU * harmonic as f64 / self.len() as f64)
+    /// exp(2 pi i k / N): the factor of harmonic k from one value to the next.
+    pub fn phase_step(&self, harmonic: usize) -> Complex64 {
+        Complex64::cis(TAU * harmonic as f64 / self.length() as f64)
     }
 
     /// The harmonics of `line`.
@@ -64,18 +60,19 @@ impl Lines {
         self.line.copy_from_slice(line);
         let done = self
             .forward
-            .process_with_scratch(&mut self.line, spectrum, &mut self.work);
+            .process_with_scratch(&mut self.line, spectrum, &mut self.scratch);
         debug_assert!(done.is_ok());
     }
 
-    /// The line of the harmonics in `spectrum`; what the mean and the last may not have is left out.
+    /// The line of the harmonics in `spectrum`; imaginary parts of the mean and of the last are ignored,
+    /// because a real line has none.
     pub fn inverse(&mut self, spectrum: &[Complex64], line: &mut [f64]) {
         self.spectrum.copy_from_slice(spectrum);
-        self.inverse_own(line);
+        self.invert_spectrum(line);
     }
 
-    /// The same of harmonics that stand in pieces.
-    pub fn inverse_of<'s>(
+    /// The same for harmonics that are stored in pieces.
+    pub fn inverse_of_pieces<'s>(
         &mut self,
         pieces: impl Iterator<Item = &'s [Complex64]>,
         line: &mut [f64],
@@ -85,7 +82,7 @@ impl Lines {
             self.spectrum[at..at + piece.len()].copy_from_slice(piece);
             at += piece.len();
         }
-        self.inverse_own(line);
+        self.invert_spectrum(line);
     }
 
     /// `line` convolved round the period with a line of these harmonics.
@@ -93,15 +90,15 @@ impl Lines {
         self.line.copy_from_slice(line);
         let done =
             self.forward
-                .process_with_scratch(&mut self.line, &mut self.spectrum, &mut self.work);
+                .process_with_scratch(&mut self.line, &mut self.spectrum, &mut self.scratch);
         debug_assert!(done.is_ok());
         for (value, factor) in self.spectrum.iter_mut().zip(with) {
             *value *= factor;
         }
-        self.inverse_own(line);
+        self.invert_spectrum(line);
     }
 
-    fn inverse_own(&mut self, line: &mut [f64]) {
+    fn invert_spectrum(&mut self, line: &mut [f64]) {
         self.spectrum[0].im = 0.0;
         if self.line.len() % 2 == 0 {
             if let Some(last) = self.spectrum.last_mut() {
@@ -110,9 +107,69 @@ impl Lines {
         }
         let done = self
             .inverse
-            .process_with_scratch(&mut self.spectrum, line, &mut self.work);
+            .process_with_scratch(&mut self.spectrum, line, &mut self.scratch);
         debug_assert!(done.is_ok());
         let share = 1.0 / line.len() as f64;
         line.iter_mut().for_each(|value| *value *= share);
+    }
+}
+
+/// Convolution round the period of every component of tensors at the points of a line, for every point
+/// of a column separately; `spectrum` are the harmonics of the weights by columns, and `values` stand
+/// `[column * points + point]`.
+pub fn convolve_points(lines: &Lines, spectrum: &[Complex64], values: &[[f64; 4]]) -> Vec<[f64; 4]> {
+    let mut lines = lines.clone();
+    let (columns, mut out) = (lines.length(), vec![[0.0; 4]; values.len()]);
+    let points = values.len() / columns;
+    let mut line = vec![0.0; columns];
+    for point in 0..points {
+        for k in 0..4 {
+            let from = values.iter().skip(point).step_by(points);
+            line.iter_mut()
+                .zip(from)
+                .for_each(|(to, value)| *to = value[k]);
+            lines.convolve(spectrum, &mut line);
+            let to = out.iter_mut().skip(point).step_by(points);
+            to.zip(&line).for_each(|(to, value)| to[k] = *value);
+        }
+    }
+    out
+}
+
+/// Sums over columns e of y(e - m) c(e), for every m, over many pairs of lines.
+#[derive(Clone)]
+pub struct Correlations {
+    lines: Lines,
+    harmonics: [Vec<Complex64>; 2],
+    sum: Vec<Complex64>,
+}
+
+impl Correlations {
+    pub fn new(columns: usize) -> Self {
+        let lines = Lines::new(columns);
+        let zeros = vec![Complex64::default(); lines.harmonics()];
+        Self {
+            lines,
+            harmonics: [zeros.clone(), zeros.clone()],
+            sum: zeros,
+        }
+    }
+
+    /// Add `weight` times the sums of one pair.
+    pub fn add(&mut self, weight: f64, y: &[f64], c: &[f64]) {
+        let [of_y, of_c] = &mut self.harmonics;
+        self.lines.forward(y, of_y);
+        self.lines.forward(c, of_c);
+        for (sum, (y, c)) in self.sum.iter_mut().zip(of_y.iter().zip(of_c)) {
+            *sum += weight * y.conj() * *c;
+        }
+    }
+
+    /// The sums of all pairs since the last call.
+    pub fn take(&mut self) -> Vec<f64> {
+        let mut sums = vec![0.0; self.lines.length()];
+        self.lines.inverse(&self.sum, &mut sums);
+        self.sum.fill(Complex64::default());
+        sums
     }
 }

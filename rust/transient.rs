@@ -1,4 +1,5 @@
-//! Sliding in time: the frame of the wave, one column per step, the networks carried exactly.
+//! Sliding in time, in the frame of the wave: every step moves the rubber by one column, which carries the
+//! states of the networks exactly.
 //!
 //! The speed is that of the rubber's surface over the wave: the profile follows the mean horizontal
 //! displacement of the surface, as in the steady state, which is the limit of a long run. Times are
@@ -8,6 +9,7 @@ use std::f64::consts::TAU;
 
 use crate::contact::{PressedBlock, State};
 use crate::error::{finite, positive, KernelError};
+use crate::executor::Executor;
 use crate::fem::block::Memory;
 use crate::fem::mesh::Mesh;
 use crate::material::carried_history::{CarriedHistory, Points};
@@ -15,19 +17,18 @@ use crate::model::Model;
 use crate::outcome::Outcome;
 use crate::problem::{MeshSize, Profile, Rubber};
 use crate::settings::Settings;
-use crate::solution::Solution;
+use crate::solution::{Counts, Report, Solution};
 use crate::solve::kept_factor::KeptFactor;
-use crate::solve::load_stepping::{raise, Counts};
-use crate::solve::newton::{self, Report};
+use crate::solve::load_stepping::raise;
+use crate::solve::newton;
 use crate::solve::transfer::transfer;
 use crate::status::Status;
-use crate::watch::Watch;
 
 /// A stretch of time with constant speed [m/s] and pressure [Pa].
 #[derive(Debug, Clone, Copy)]
 pub struct Stage {
     pub duration: f64,
-    /// Negative slides backwards; zero dwells.
+    /// Negative for sliding backwards, zero for a dwell.
     pub speed: f64,
     pub pressure: f64,
 }
@@ -46,7 +47,7 @@ pub struct Moment {
     pub approach: f64,
 }
 
-/// What a programme of stages gave; if it ended early, the moments before are valid.
+/// The result of a programme of stages; if it ended early, the moments before are valid.
 #[derive(Debug, Clone)]
 pub struct Run {
     pub moments: Vec<Moment>,
@@ -54,9 +55,9 @@ pub struct Run {
     pub counts: Counts,
 }
 
-/// Slide through `stages`, from rest or from a steady or static `start` of the same rubber and
-/// profile; its load and mesh may be others. `watch` may end it early: with the moments before if its
-/// time is over, with a refusal if the caller stopped.
+/// Slide through `stages`, from rest or from a steady or static `start` of the same rubber and profile,
+/// whose load and mesh may differ. `executor` may end the work early: at its time limit with the moments
+/// before, or with `KernelError::Stopped` if the caller stopped.
 pub fn solve(
     rubber: &Rubber,
     profile: &Profile,
@@ -64,7 +65,7 @@ pub fn solve(
     settings: &Settings,
     stages: &[Stage],
     start: Option<&Solution>,
-    watch: &Watch<'_>,
+    executor: &Executor<'_>,
 ) -> Result<Run, KernelError> {
     profile.check_resolved(mesh)?;
     for stage in stages {
@@ -73,7 +74,7 @@ pub fn solve(
     if let Some(start) = start {
         check_start(start, rubber, profile)?;
     }
-    // Stresses in units of the modulus that the start's motion meets, or the fastest stage's.
+    // Stresses are in units of the modulus at the speed of the start, or of the fastest stage.
     let fastest = stages
         .iter()
         .fold(0.0_f64, |v, stage| v.max(stage.speed.abs()));
@@ -86,10 +87,12 @@ pub fn solve(
     let model = Model::new(rubber, profile, 1.0, TAU * speed / profile.wavelength);
     let mesh = Mesh::new(mesh);
     let mut integration =
-        Integration::new(&model, &mesh, settings, profile.wavelength, start, watch);
-    let status = integration.through(stages, start.is_some());
-    watch.unless_stopped()?;
-    let status = status.map_or_else(|early| early, |()| Status::Converged);
+        Integration::new(&model, &mesh, settings, profile.wavelength, start, executor);
+    let status = match integration.run(stages, start.is_some()) {
+        Ok(()) => Status::Converged,
+        Err(Status::Stopped) => return Err(KernelError::Stopped),
+        Err(status) => status,
+    };
     Ok(Run {
         moments: integration.moments,
         status,
@@ -131,9 +134,9 @@ struct Integration<'a> {
     mesh: &'a Mesh,
     settings: &'a Settings,
     wavelength: f64,
-    watch: &'a Watch<'a>,
+    executor: &'a Executor<'a>,
     state: State,
-    kept: Option<KeptFactor>,
+    kept_factor: Option<KeptFactor>,
     networks: CarriedHistory,
     counts: Counts,
     moments: Vec<Moment>,
@@ -148,25 +151,25 @@ impl<'a> Integration<'a> {
         settings: &'a Settings,
         wavelength: f64,
         start: Option<&Solution>,
-        watch: &'a Watch<'a>,
+        executor: &'a Executor<'a>,
     ) -> Self {
         let state = start.map_or_else(
             || State::at_rest(mesh),
             |start| {
-                let (from, stress) = (&start.finest, start.stress_unit / model.stress_unit);
-                transfer(&from.mesh, &from.state, mesh, stress)
+                let (from, ratio) = (&start.finest, start.stress_unit / model.stress_unit);
+                transfer(&from.mesh, &from.state, mesh, ratio)
             },
         );
-        let pressed = model.pressed(mesh, &Memory::Relaxed, watch);
+        let pressed = model.pressed(mesh, &Memory::Relaxed, executor);
         let y = remembered(&pressed, &state);
         Self {
-            kept: KeptFactor::new(&pressed, settings),
+            kept_factor: KeptFactor::new(&pressed, settings),
             networks: networks(model, mesh, wavelength, y, start),
             model,
             mesh,
             settings,
             wavelength,
-            watch,
+            executor,
             state,
             counts: Counts::default(),
             moments: Vec::new(),
@@ -175,14 +178,16 @@ impl<'a> Integration<'a> {
         }
     }
 
-    fn through(&mut self, stages: &[Stage], mut pressed: bool) -> Result<(), Status> {
+    fn run(&mut self, stages: &[Stage], mut pressed: bool) -> Result<(), Status> {
         for stage in stages {
             if !pressed {
                 self.press(stage.pressure)?;
                 self.record(stage)?;
                 pressed = true;
             }
-            self.kept.iter_mut().for_each(KeptFactor::turn);
+            self.kept_factor
+                .iter_mut()
+                .for_each(KeptFactor::forget_last_step);
             for dt in self.steps(stage) {
                 self.step(stage, dt)?;
                 self.record(stage)?;
@@ -191,10 +196,10 @@ impl<'a> Integration<'a> {
         Ok(())
     }
 
-    /// Put the load on at once: the networks answer as springs.
+    /// Apply the load at once: the networks respond as springs.
     fn press(&mut self, pressure: f64) -> Result<(), Status> {
         let memory = Memory::Given(self.networks.known_part(&self.model.maxwell, 0.0));
-        let pressed = self.model.pressed(self.mesh, &memory, self.watch);
+        let pressed = self.model.pressed(self.mesh, &memory, self.executor);
         let load = pressure / self.model.stress_unit;
         let counts = &mut self.counts;
         let (report, _) = raise(&pressed, &mut self.state, load, self.settings, counts);
@@ -204,7 +209,7 @@ impl<'a> Integration<'a> {
         Ok(())
     }
 
-    /// Lengths of the time steps of a stage: one column each, or growing in a dwell.
+    /// Lengths of the time steps of a stage: one column each in sliding, growing in a dwell.
     fn steps(&self, stage: &Stage) -> Vec<f64> {
         if stage.speed == 0.0 {
             let (count, first) = (self.settings.dwell_steps, self.settings.dwell_first);
@@ -229,23 +234,23 @@ impl<'a> Integration<'a> {
         self.time += dt;
         self.distance += stage.speed * dt;
         let memory = Memory::Given(self.networks.known_part(&self.model.maxwell, dt));
-        let pressed = self.model.pressed(self.mesh, &memory, self.watch);
+        let pressed = self.model.pressed(self.mesh, &memory, self.executor);
         let load = stage.pressure / self.model.stress_unit;
-        self.follow(&pressed, load).converged()?;
+        self.solve_step(&pressed, load).converged()?;
         let y = remembered(&pressed, &self.state);
         self.networks.advance(y, &self.model.maxwell, dt);
         Ok(())
     }
 
-    /// Newton from the last step's state, first by the factor kept; if that fails, the load is led to
-    /// its new value in parts, and at last raised anew.
-    fn follow(&mut self, pressed: &PressedBlock<'_>, load: f64) -> Report {
+    /// Newton's method from the state of the last step, first with the kept factor. If that fails, the load
+    /// changes to its new value in parts; if that fails too, it is raised from rest.
+    fn solve_step(&mut self, pressed: &PressedBlock<'_>, load: f64) -> Report {
         let (settings, counts) = (self.settings, &mut self.counts);
         let from: f64 = self.state.force.iter().sum();
         let mut trial = self.state.clone();
         counts.load_steps += 1;
-        if let Some(kept) = &mut self.kept {
-            let report = kept.solve(pressed, &mut trial, load, settings);
+        if let Some(kept_factor) = &mut self.kept_factor {
+            let report = kept_factor.solve(pressed, &mut trial, load, settings);
             counts.add(&report);
             if report.status == Status::Converged {
                 self.state = trial;
@@ -275,7 +280,9 @@ impl<'a> Integration<'a> {
     }
 
     fn record(&mut self, stage: &Stage) -> Result<(), Status> {
-        let pressed = self.model.pressed(self.mesh, &Memory::Relaxed, self.watch);
+        let pressed = self
+            .model
+            .pressed(self.mesh, &Memory::Relaxed, self.executor);
         let law = self
             .model
             .edge_law(self.mesh, stage.speed / self.wavelength);
@@ -293,8 +300,8 @@ impl<'a> Integration<'a> {
     }
 }
 
-/// States of the networks at the beginning: relaxed at rest and in static contact, else those of
-/// the steady state.
+/// States of the networks at the beginning: relaxed at rest and in static contact, otherwise those of the
+/// steady state.
 fn networks(
     model: &Model,
     mesh: &Mesh,
@@ -312,7 +319,7 @@ fn networks(
     CarriedHistory::steady(y, mesh.columns, &maxwell, load.load_time / passage)
 }
 
-/// What the temporary networks remember of the deformation in `state`.
+/// Y at all Gauss points in `state`, which the temporary networks remember.
 fn remembered(pressed: &PressedBlock<'_>, state: &State) -> Points {
     let block = &pressed.block;
     (0..block.mesh.rows)

@@ -33,7 +33,7 @@ impl Compressed {
         let mut element = ElementTangent::new(block);
         for at in 0..mesh.rows * mesh.columns {
             let (row, column) = (at / mesh.columns, at % mesh.columns);
-            element.fill(block, &state.field, &rows[row], (row, column));
+            element.assemble_condensed(block, &state.field, &rows[row], (row, column));
             pattern.add(at, &element.stiffness, &mut values);
         }
         Self {

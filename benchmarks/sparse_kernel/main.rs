@@ -1,7 +1,7 @@
 //! Sparse factors of the assembled tangent (faer) against the iteration that the solver uses:
 //! what they cost, static contact, time steps, and as preconditioner of steady sliding.
 //!
-//! cargo bench --bench sparse_factor -- [MOST NODES ALONG THE WAVE, by default 256]
+//! cargo bench --features internals --bench sparse_factor -- [MOST NODES ALONG THE WAVE, by default 256]
 
 mod clock;
 mod factor;
@@ -12,20 +12,19 @@ mod time_steps;
 use std::f64::consts::TAU;
 
 use faer::Mat;
-use gripscale_kernel::contact::profile::Heights;
+use gripscale_kernel::cancel::Cancel;
 use gripscale_kernel::contact::State;
+use gripscale_kernel::executor::Executor;
 use gripscale_kernel::fem::block::Memory;
 use gripscale_kernel::fem::mesh::Mesh;
 use gripscale_kernel::fem::pattern::Pattern;
-use gripscale_kernel::material::energy::Energy;
 use gripscale_kernel::model::Model;
-use gripscale_kernel::problem::{Load, MeshSize, Problem, Profile, Rubber};
+use gripscale_kernel::problem::{Energy, Heights, Load, MeshSize, Problem, Profile, Rubber};
 use gripscale_kernel::settings::Settings;
 use gripscale_kernel::solve::newton;
 use gripscale_kernel::solve::transfer::transfer;
 use gripscale_kernel::status::Status;
 use gripscale_kernel::steady;
-use gripscale_kernel::watch::Watch;
 
 use clock::timed;
 use factor::{Compressed, Ldl, Lu};
@@ -60,6 +59,11 @@ fn main() {
     sliding::table(&small);
 }
 
+/// The calling thread alone, never cancelled.
+pub fn serial() -> Executor<'static> {
+    Executor::serial(Cancel::never())
+}
+
 /// A block of unit modulus when relaxed, pressed on a sine; two Maxwell elements where it slides.
 pub fn problem((amplitude, pressure): (f64, f64), slides: bool, mesh: (usize, usize)) -> Problem {
     let (nodes, order) = mesh;
@@ -90,17 +94,18 @@ impl Solved {
     /// None if there is no solution on just this mesh.
     pub fn new(case: (f64, f64), slides: bool, mesh: (usize, usize)) -> Option<Self> {
         let (problem, settings) = (problem(case, slides, mesh), Settings::default());
-        let solution = steady::solve(&problem, &settings, None, None, &Watch::endless()).ok()?;
-        let finest = solution.finest;
-        let (coarse, state) = finest.judged_by?;
+        let solution = steady::solve(&problem, &settings, None, None, &serial()).ok()?;
+        let converged = solution.finest.report.status == Status::Converged;
+        let (mesh, state, coarser) = solution.finest.into_parts();
+        let (coarse, coarse_state) = coarser?;
         let wanted = Mesh::new(&problem.mesh);
-        let solved = finest.report.status == Status::Converged && finest.mesh.same(&wanted);
+        let solved = converged && mesh.same(&wanted);
         let passage = if slides { 1.0 } else { f64::INFINITY };
         solved.then(|| Self {
             model: Model::new(&problem.rubber, &problem.profile, passage, TAU),
-            start: transfer(&coarse, &state, &wanted, 1.0),
+            start: transfer(&coarse, &coarse_state, &wanted, 1.0),
             mesh: wanted,
-            state: finest.state,
+            state,
             load: case.1 / solution.stress_unit,
         })
     }
@@ -119,11 +124,11 @@ fn factors(meshes: &[(usize, usize)]) {
         let Some(solved) = Solved::new(STATIC[1], false, mesh) else {
             continue;
         };
-        let (memory, watch) = (Memory::Relaxed, Watch::endless());
-        let pressed = solved.model.pressed(&solved.mesh, &memory, &watch);
+        let (memory, executor) = (Memory::Relaxed, serial());
+        let pressed = solved.model.pressed(&solved.mesh, &memory, &executor);
         let rows = pressed
             .row_states(&solved.state.field)
-            .expect("an endless watch");
+            .expect("never cancelled");
         let block = &pressed.block;
         let (patterned, pattern) = timed(|| Pattern::new(block));
         let assemble = || Compressed::lower(block, &pattern, &solved.state, &rows);
@@ -174,8 +179,8 @@ fn static_contact(meshes: &[(usize, usize)]) {
             let Some(solved) = Solved::new(case, false, mesh) else {
                 continue;
             };
-            let (memory, watch) = (Memory::Relaxed, Watch::endless());
-            let pressed = solved.model.pressed(&solved.mesh, &memory, &watch);
+            let (memory, executor) = (Memory::Relaxed, serial());
+            let pressed = solved.model.pressed(&solved.mesh, &memory, &executor);
             let (iterated, report) = timed(|| {
                 let settings = Settings::default();
                 newton::solve(&pressed, &mut solved.start.clone(), solved.load, &settings)

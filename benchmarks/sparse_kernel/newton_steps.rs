@@ -2,8 +2,8 @@
 //! elimination can take.
 
 use gripscale_kernel::contact::{PressedBlock, State};
-use gripscale_kernel::solve::balance::Balance;
 use gripscale_kernel::solve::bordered::Bordered;
+use gripscale_kernel::solve::residual::Residual;
 
 /// What the residuals of both ways end below.
 const TOLERANCE: f64 = 1e-8;
@@ -18,12 +18,12 @@ pub fn eliminate(
 ) -> Option<usize> {
     for iteration in 0..MOST_ITERATIONS {
         let rows = pressed.row_states(&state.field).ok()?;
-        let balance = Balance::new(pressed, state, &rows).ok()?;
-        if balance.residual(pressed, state, load) < TOLERANCE {
+        let residual = Residual::new(pressed, state, &rows).ok()?;
+        if residual.norm(pressed, state, load) < TOLERANCE {
             return Some(iteration);
         }
-        let tangent = bordered.factor(pressed, state, &rows, &balance).ok()?;
-        let step = bordered.increment(pressed, &tangent, state, &balance, load);
+        let tangent = bordered.factor(pressed, state, &rows, &residual).ok()?;
+        let step = bordered.increment(pressed, &tangent, state, &residual, load);
         let unknowns = state.field.u.iter_mut().chain(&mut state.field.pressure);
         let changes = step.u.iter().chain(&step.pressure);
         unknowns
@@ -31,7 +31,7 @@ pub fn eliminate(
             .for_each(|(value, change)| *value += change);
         state.force = step.contact.force;
         state.approach = step.contact.approach;
-        state.active = step.contact.active;
+        state.active_set = step.contact.active_set;
     }
     None
 }

@@ -1,20 +1,20 @@
 //! Steady sliding: the first Newton step on a mesh, preconditioned by the average along the rows
 //! and by a sparse factor of the tangent at fixed memory, the contact of the first kept by both.
 
+use gripscale_kernel::executor::Threads;
 use gripscale_kernel::fem::block::Memory;
 use gripscale_kernel::fem::jacobian::Jacobian;
 use gripscale_kernel::fem::mesh::Mesh;
 use gripscale_kernel::linear::gmres;
 use gripscale_kernel::material::sliding_history::SlidingHistory;
 use gripscale_kernel::settings::Settings;
-use gripscale_kernel::solve::balance::Balance;
-use gripscale_kernel::solve::bordered::{Bordered, Change};
-use gripscale_kernel::solve::increment::Now;
+use gripscale_kernel::solve::bordered::{Bordered, LinearSolution};
 use gripscale_kernel::solve::krylov::{self, Accuracy};
-use gripscale_kernel::watch::Watch;
+use gripscale_kernel::solve::newton::Iterate;
+use gripscale_kernel::solve::residual::Residual;
 
 use crate::clock::timed;
-use crate::{name, Solved};
+use crate::{name, serial, Solved};
 
 /// A / lambda and pressure over the relaxed modulus.
 const CASES: [(f64, f64); 3] = [(0.05, 0.5), (0.1, 2.0), (0.16, 5.0)];
@@ -31,22 +31,22 @@ pub fn table(meshes: &[(usize, usize)]) {
             };
             let model = &solved.model;
             let history = SlidingHistory::new(solved.mesh.columns, &model.maxwell, 5.0);
-            let (memory, watch) = (Memory::Sliding(history), Watch::endless());
-            let pressed = model.pressed(&solved.mesh, &memory, &watch);
+            let (memory, executor) = (Memory::Sliding(history), serial());
+            let pressed = model.pressed(&solved.mesh, &memory, &executor);
             let start = &solved.start;
             let (averaged, found) = timed(|| {
-                let rows = pressed.row_states(&start.field).expect("an endless watch");
+                let rows = pressed.row_states(&start.field).expect("never cancelled");
                 let accuracy = Accuracy {
                     share: SHARE,
                     least: 0.0,
                 };
                 let settings = Settings::default();
-                let balance = Balance::new(&pressed, start, &rows).expect("an endless watch");
-                let now = Now {
+                let residual = Residual::new(&pressed, start, &rows).expect("never cancelled");
+                let now = Iterate {
                     state: start,
                     rows: &rows,
-                    balance: &balance,
-                    residual: balance.residual(&pressed, start, solved.load),
+                    residual: &residual,
+                    residual_norm: residual.norm(&pressed, start, solved.load),
                 };
                 krylov::increment(&pressed, now, None, solved.load, accuracy, &settings)
                     .expect("a step")
@@ -54,51 +54,53 @@ pub fn table(meshes: &[(usize, usize)]) {
             let bordered = Bordered::new(&pressed.block).expect("memory");
             let (factored, products) = timed(|| {
                 let mut state = start.clone();
-                state.active = found.contact.active.clone();
-                for (force, active) in state.force.iter_mut().zip(&state.active) {
+                state.active_set = found.contact.active_set.clone();
+                for (force, active) in state.force.iter_mut().zip(&state.active_set) {
                     *force *= f64::from(u8::from(*active));
                 }
-                let rows = pressed.row_states(&state.field).expect("an endless watch");
-                let balance = Balance::new(&pressed, &state, &rows).expect("an endless watch");
-                let jacobian = Jacobian::new(&pressed.block, &state.field, &rows, &watch).unwrap();
+                let rows = pressed.row_states(&state.field).expect("never cancelled");
+                let residual = Residual::new(&pressed, &state, &rows).expect("never cancelled");
+                let jacobian =
+                    Jacobian::new(&pressed.block, &state.field, &rows, &executor).unwrap();
                 let more = solved.load - state.force.iter().sum::<f64>();
-                let tangent = bordered.factor(&pressed, &state, &rows, &balance);
+                let tangent = bordered.factor(&pressed, &state, &rows, &residual);
                 let tangent = tangent.expect("a factor");
-                let bend = balance.bend(&pressed, &state);
+                let bend = residual.curvature_stiffness(&pressed, &state);
                 let solve = |v: &[f64], gap: &[f64], more: f64| {
                     let (forces, volumes) = v.split_at(jacobian.displacements());
                     let mut forces: Vec<f64> = forces.iter().map(|force| -force).collect();
                     forces.resize(state.field.u.len(), 0.0);
-                    let wrong = Balance {
+                    let wrong = Residual {
                         forces,
                         volumes: volumes.iter().map(|volume| -volume).collect(),
                         x: Vec::new(),
                         slope: Vec::new(),
                         gap: gap.to_vec(),
                     };
-                    bordered.change(&pressed.block, &tangent, &wrong, more)
+                    bordered.solve(&pressed.block, &tangent, &wrong, more)
                 };
-                let mut room = jacobian.room(watch.threads);
-                let mut product = |change: &Change, out: &mut [f64]| {
+                let threads = Threads::new(1);
+                let mut work = jacobian.workspace(&threads);
+                let mut product = |change: &LinearSolution, out: &mut [f64]| {
                     let y = mixed(&jacobian, &change.u, &change.pressure);
-                    jacobian.product(&y, out, &mut room);
+                    jacobian.product(&y, out, &mut work);
                     let shift = solved.mesh.mean_shift(&y);
                     for (a, force) in change.force.iter().enumerate() {
-                        let [x, z] = [0, 1].map(|d| solved.mesh.place(a, d));
-                        out[x] += bend[a] * (y[x] - shift) + balance.slope[a] * force;
+                        let [x, z] = [0, 1].map(|d| solved.mesh.position(a, d));
+                        out[x] += bend[a] * (y[x] - shift) + residual.slope[a] * force;
                         out[z] -= force;
                     }
                 };
-                let right = balance.to_undo(&pressed);
+                let right = residual.right_hand_side(&pressed);
                 let mut left = vec![0.0; right.len()];
-                product(&solve(&right, &balance.gap, more), &mut left);
+                product(&solve(&right, &residual.gap, more), &mut left);
                 left.iter_mut()
                     .zip(&right)
                     .for_each(|(left, r)| *left = r - *left);
-                let closed = vec![0.0; balance.gap.len()];
+                let closed = vec![0.0; residual.gap.len()];
                 let apply = |v: &[f64], out: &mut [f64]| product(&solve(v, &closed, 0.0), out);
                 let target = SHARE * size(&right).max(size(&left));
-                gmres(apply, &left, target, LIMITS, &watch)
+                gmres(apply, &left, target, LIMITS, &executor)
                     .unwrap()
                     .iterations
             });

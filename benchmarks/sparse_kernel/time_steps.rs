@@ -7,10 +7,9 @@ use gripscale_kernel::solution::Solution;
 use gripscale_kernel::status::Status;
 use gripscale_kernel::steady;
 use gripscale_kernel::transient::{self, Run, Stage};
-use gripscale_kernel::watch::Watch;
 
 use crate::clock::{timed, Cost};
-use crate::{name, problem};
+use crate::{name, problem, serial};
 
 /// Half a passage, but not more steps than these.
 const MOST_STEPS: usize = 64;
@@ -31,7 +30,7 @@ pub fn table(meshes: &[(usize, usize)]) {
                 ..problem(case, true, mesh)
             };
             let settings = Settings::default();
-            let start = steady::solve(&start, &settings, None, None, &Watch::endless());
+            let start = steady::solve(&start, &settings, None, None, &serial());
             let Ok(start) = start else { continue };
             let [iterated, kept] = [0.0, 1e3].map(|most| slide(&sliding, case.1, &start, most));
             let ended = |run: &Run| run.status == Status::Converged;
@@ -78,9 +77,9 @@ fn slide(sliding: &Problem, pressure: f64, start: &Solution, most_nodes: f64) ->
         mesh,
         ..
     } = sliding;
-    let (start, watch) = (Some(start), Watch::endless());
+    let (start, executor) = (Some(start), serial());
     timed(|| {
-        transient::solve(rubber, profile, mesh, &settings, &[stage], start, &watch)
+        transient::solve(rubber, profile, mesh, &settings, &[stage], start, &executor)
             .expect("a start of the same rubber")
     })
 }

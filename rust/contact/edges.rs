@@ -19,12 +19,12 @@ impl EdgeLaw {
     }
 
     /// Exponents of pressure inside and gap outside at the edge on the side `outward` of x, and the
-    /// weight of the pressure's word on where the edge is.
+    /// weight of the pressure's estimate of the place of the edge.
     ///
     /// The stiffness |k| (i k)^a factors into k^(1/2) on one side and k^(1/2 + a) on the other:
     /// where the rubber enters p ~ s^(1/2 - a), gap ~ s^(3/2); where it leaves p ~ s^(1/2),
     /// gap ~ s^(3/2 + a). For a = 0 both are Hertz's. The pressure of a lossy rubber rises too
-    /// steeply at the entering edge for nodes to follow, and loses its word there.
+    /// steeply at the entering edge for the nodes to resolve, so its weight falls to zero there.
     fn exponents(&self, outward: isize) -> (f64, f64, f64) {
         if (outward < 0) == self.forward {
             let weight = 0.5 * (1.0 - 4.0 * self.power).max(0.0);
@@ -35,23 +35,23 @@ impl EdgeLaw {
     }
 }
 
-/// Contact intervals from runs of active nodes, their edges located between the nodes.
+/// Contact intervals from runs of nodes in the active set, with their edges located between the nodes.
 pub fn contacts(
     x: &[f64],
     pressure: &[f64],
     gap: &[f64],
-    active: &[bool],
+    active_set: &[bool],
     law: EdgeLaw,
 ) -> Vec<(f64, f64)> {
     let n = x.len();
-    if active.iter().all(|&a| a) {
+    if active_set.iter().all(|&a| a) {
         return vec![(x[0], x[0] + 1.0)];
     }
     let mut out = Vec::new();
     for a in 0..n {
-        if active[a] && !active[(a + n - 1) % n] {
+        if active_set[a] && !active_set[(a + n - 1) % n] {
             let mut length = 1;
-            while active[(a + length) % n] {
+            while active_set[(a + length) % n] {
                 length += 1;
             }
             let at = |i: isize| {
@@ -64,7 +64,7 @@ pub fn contacts(
             };
             let open = |from: isize, outward: isize| {
                 (0..n as isize)
-                    .take_while(|i| !active[at(from + i * outward).1])
+                    .take_while(|i| !active_set[at(from + i * outward).1])
                     .count()
             };
             let last = length as isize - 1;
@@ -75,8 +75,8 @@ pub fn contacts(
                 open: open(last + outward, outward),
                 exponents: law.exponents(outward),
             };
-            let from = end(0, -1).place(at, pressure, gap);
-            let to = end(last, 1).place(at, pressure, gap);
+            let from = end(0, -1).locate(at, pressure, gap);
+            let to = end(last, 1).locate(at, pressure, gap);
             out.push((from, to));
         }
     }
@@ -87,7 +87,7 @@ pub fn contacts(
 struct Edge {
     last: isize,
     outward: isize,
-    /// Nodes in a row that are closed inside and open outside.
+    /// Consecutive closed nodes inside and open nodes outside.
     closed: usize,
     open: usize,
     exponents: (f64, f64, f64),
@@ -96,9 +96,9 @@ struct Edge {
 impl Edge {
     /// Where pressure inside and gap outside, raised to be linear in the distance, vanish.
     ///
-    /// The two estimates err to opposite sides with the edge's place between the nodes; their mean
-    /// is right to about a tenth of the node spacing. Too few nodes on one side leave the other.
-    fn place(&self, at: impl Fn(isize) -> (f64, usize), pressure: &[f64], gap: &[f64]) -> f64 {
+    /// The errors of the two estimates have opposite signs; their mean is right to about a tenth of the node
+    /// spacing. With too few nodes on one side only the other estimate is used.
+    fn locate(&self, at: impl Fn(isize) -> (f64, usize), pressure: &[f64], gap: &[f64]) -> f64 {
         let (x0, inside) = at(self.last);
         let (x1, outside) = at(self.last + self.outward);
         let (inner, outer) = (1.0 / self.exponents.0, 1.0 / self.exponents.1);

@@ -4,8 +4,8 @@
 //!     h(x) = Re sum_n c_n exp(2 pi i n x),   c_n = 2/N sum_j h_j exp(-2 pi i n j / N),   n = 1 ... N/2
 //!
 //! Slope and curvature are derivatives of the same function, a sampled sine is the sine to round-off,
-//! and a change of origin changes nothing but phases. A periodic cubic spline is cheaper to evaluate,
-//! but its curvature has kinks, and all harmonics at all nodes are a thousandth of one factorisation.
+//! and a shift of the origin changes phases only. A periodic cubic spline would be cheaper to evaluate,
+//! but its curvature has kinks, and all harmonics at all nodes cost a thousandth of one factorisation.
 
 use std::f64::consts::{PI, TAU};
 use std::fmt;
@@ -14,9 +14,9 @@ use crate::error::{finite, whole, KernelError};
 
 const FEWEST_SAMPLES: usize = 8;
 const MOST_SAMPLES: usize = 8192;
-/// Harmonics above the last with this share of the largest amplitude are round-off.
+/// Harmonics after the last one with this share of the largest amplitude are round-off.
 const SMALLEST_SHARE: f64 = 1e-9;
-/// Points per smallest wave among which extremes are looked for, before Newton's method.
+/// Points per smallest wave in the search for extremes, before Newton's method.
 const POINTS_PER_WAVE: usize = 32;
 
 #[derive(Clone, PartialEq)]
@@ -28,7 +28,7 @@ pub struct Harmonics {
 }
 
 impl Harmonics {
-    /// Of heights at x = 0, 1/N, 2/N ... of the period.
+    /// Interpolate heights at x = 0, 1/N, 2/N ... of the period.
     pub fn new(samples: &[f64]) -> Result<Self, KernelError> {
         let name = "the number of heights";
         whole(name, samples.len() as f64, FEWEST_SAMPLES, MOST_SAMPLES)?;
@@ -71,7 +71,7 @@ impl Harmonics {
         Self::of(self.coefficients[..kept].to_vec())
     }
 
-    /// A `share` of the way to other heights.
+    /// Heights between these and `other`, at `share` of the way.
     pub fn toward(&self, other: &Self, share: f64) -> Self {
         let wave = |of: &Self, n: usize| of.coefficients.get(n).copied().unwrap_or_default();
         let between = |n: usize| {
@@ -126,7 +126,7 @@ impl Harmonics {
             .coefficients
             .iter()
             .enumerate()
-            .map(|one| slope(one).powi(2));
+            .map(|wave| slope(wave).powi(2));
         squares.sum::<f64>().sqrt()
     }
 
@@ -185,7 +185,7 @@ impl Harmonics {
     }
 }
 
-/// Briefly: thousands of heights say nothing in a refusal.
+/// A summary, because thousands of heights would not help in an error message.
 impl fmt::Debug for Harmonics {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (lowest, highest) = self.range;
@@ -197,7 +197,7 @@ impl fmt::Debug for Harmonics {
     }
 }
 
-/// 2/N sum_j h_j exp(-2 pi i n j / N), half of that at n = N/2, where the sine cannot be seen.
+/// 2/N sum_j h_j exp(-2 pi i n j / N), half of that at n = N/2, where samples do not see the sine.
 fn transform(samples: &[f64]) -> Vec<(f64, f64)> {
     let count = samples.len();
     let mean = samples.iter().sum::<f64>() / count as f64;

@@ -1,28 +1,29 @@
-//! The block pressed on its rigid profile: gaps, and the frictionless unilateral contact.
+//! The block pressed on its rigid profile: gaps, and frictionless unilateral contact.
 
-pub mod complementarity;
+pub mod active_set_system;
 pub mod edges;
 pub mod harmonics;
-pub mod held;
-pub mod hertz;
-pub mod pivoting;
+pub mod linear_complementarity;
+mod pivoting;
 pub mod profile;
-pub mod surface;
-pub mod touching;
+pub mod surface_compliance;
+#[cfg(test)]
+mod tests;
 
+use crate::executor::Executor;
 use crate::fem::block::{Block, Field, RowState};
 use crate::fem::mesh::Mesh;
 use crate::status::Status;
-use crate::watch::Watch;
 use profile::Heights;
 
-/// Everything that changes while solving.
+/// The unknowns of the block in contact.
 #[derive(Debug, Clone)]
 pub struct State {
     pub field: Field,
     /// Vertical contact force of every surface node.
     pub force: Vec<f64>,
-    pub active: Vec<bool>,
+    /// Surface nodes in contact.
+    pub active_set: Vec<bool>,
     /// How far the profile is pushed up into the block.
     pub approach: f64,
 }
@@ -32,27 +33,26 @@ impl State {
         Self {
             field: Field::at_rest(mesh),
             force: vec![0.0; mesh.layer_nodes()],
-            active: vec![false; mesh.layer_nodes()],
+            active_set: vec![false; mesh.layer_nodes()],
             approach: 0.0,
         }
     }
 
-    /// The same with its stresses in another unit, `stress` of which are one of this.
-    pub fn restressed(&self, stress: f64) -> Self {
+    /// The same state with stresses in another unit; `ratio` is this state's unit over the new one.
+    pub fn in_stress_unit(&self, ratio: f64) -> Self {
         let mut out = self.clone();
         for value in out.field.pressure.iter_mut().chain(&mut out.force) {
-            *value *= stress;
+            *value *= ratio;
         }
         out
     }
 }
 
-/// The block on its profile.
+/// The block on its profile, and the executor of all work on it.
 pub struct PressedBlock<'a> {
     pub block: Block<'a>,
     pub heights: &'a Heights,
-    /// Whether to go on.
-    pub watch: &'a Watch<'a>,
+    pub executor: &'a Executor<'a>,
 }
 
 impl PressedBlock<'_> {
@@ -65,13 +65,13 @@ impl PressedBlock<'_> {
         let mesh = self.mesh();
         let shift = mesh.mean_shift(&field.u);
         (0..mesh.layer_nodes())
-            .map(|a| a as f64 * mesh.node_spacing() + field.u[mesh.place(a, 0)] - shift)
+            .map(|a| a as f64 * mesh.node_spacing() + field.u[mesh.position(a, 0)] - shift)
             .collect()
     }
 
     /// Gaps of the surface nodes at the abscissae `x`.
     pub fn gaps(&self, state: &State, x: &[f64]) -> Vec<f64> {
-        let height = |a: usize| state.field.u[self.mesh().place(a, 1)] - state.approach;
+        let height = |a: usize| state.field.u[self.mesh().position(a, 1)] - state.approach;
         (0..x.len())
             .map(|a| height(a) - self.heights.height(x[a]))
             .collect()
@@ -80,6 +80,6 @@ impl PressedBlock<'_> {
     pub fn row_states(&self, field: &Field) -> Result<Vec<RowState>, Status> {
         let (block, mesh) = (&self.block, self.mesh());
         let state = |row| block.row_state(row, &field.u);
-        self.watch.map(32 * mesh.points(), mesh.rows, state)
+        self.executor.map(32 * mesh.points(), mesh.rows, state)
     }
 }

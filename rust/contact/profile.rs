@@ -8,7 +8,10 @@ use crate::error::{positive, KernelError};
 /// Fewest nodes along the smallest wave of sampled heights.
 const NODES_PER_WAVE: usize = 6;
 
-/// Heights, in any unit of length; what a kind of profile is, only this file knows.
+/// Fixed-point iterations for the width of a small contact.
+const HERTZ_ITERATIONS: usize = 60;
+
+/// Heights, in any unit of length. Only this file distinguishes the kinds of profile.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Heights {
     /// A cos(2 pi x), crest at x = 0.
@@ -97,7 +100,7 @@ impl Heights {
         }
     }
 
-    /// The longest waves alone, so many of them.
+    /// The profile with its longest `waves` alone.
     pub fn smoothed(&self, waves: usize) -> Self {
         match self {
             Self::Sine { .. } => self.clone(),
@@ -105,7 +108,8 @@ impl Heights {
         }
     }
 
-    /// A `share` of the way to other heights of the same kind; those themselves where there is none.
+    /// Heights between these and `other` of the same kind, at `share` of the way; `other` itself if the
+    /// kinds have nothing in between.
     pub fn toward(&self, other: &Self, share: f64) -> Self {
         match (self, other) {
             (Self::Sampled(from), Self::Sampled(to)) if share < 1.0 => {
@@ -123,11 +127,25 @@ impl Heights {
         }
     }
 
-    /// Nodes along the period below which a mesh cannot follow the smallest wave.
+    /// Fewest nodes along the period that resolve the smallest wave.
     pub fn fewest_nodes(&self) -> usize {
         match self {
             Self::Sine { .. } => 0,
             Self::Sampled(harmonics) => NODES_PER_WAVE * harmonics.len(),
         }
     }
+}
+
+/// Width in periods of a small contact on a crest of `curvature`, by Hertz's line contact:
+/// 2 a = 4 sqrt(P R / (pi M)), R the crest's radius of curvature, M = 4 G for an incompressible solid in
+/// plane strain (K. L. Johnson, "Contact Mechanics" (1985), section 4.2(c)).
+///
+/// `load` is the mean pressure times one period; `magnitude` is |G*| as a function of the angular frequency
+/// per passage of the period. The rubber responds with its modulus at the frequency of the contact itself,
+/// which depends on the width. Under more load other crests touch or contact is full: the contact on each
+/// crest is then narrower, or there is no edge.
+pub fn hertz_contact_width(load: f64, curvature: f64, magnitude: impl Fn(f64) -> f64) -> f64 {
+    let elastic = |modulus: f64| 2.0 * (load / (PI * modulus * curvature)).sqrt();
+    // A narrower contact meets a stiffer rubber, so the widths fall monotonically to the solution.
+    (0..HERTZ_ITERATIONS).fold(1.0, |width, _| elastic(magnitude(TAU / width)).min(1.0))
 }

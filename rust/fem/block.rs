@@ -1,4 +1,4 @@
-//! The rubber block: its unknowns, what it is made of, and where unknowns stand in an element row.
+//! The rubber block: its unknowns, its material, and the positions of unknowns in an element row.
 
 use super::element::MOST_NODES;
 use super::mesh::Mesh;
@@ -23,18 +23,18 @@ impl Field {
     }
 }
 
-/// What the temporary networks add to H.
+/// The contribution of the temporary networks to H.
 #[derive(Debug, Clone)]
 pub enum Memory {
-    /// Nothing: the relaxed rubber.
+    /// None: the relaxed rubber.
     Relaxed,
-    /// Steady sliding: all points of a line remember one another.
+    /// Steady sliding: every point of a line depends on all others.
     Sliding(SlidingHistory),
-    /// A given contribution of the networks.
+    /// A contribution that is known before the step.
     Given(Points),
 }
 
-/// The rubber in a mesh: what assembly needs beyond the field.
+/// The rubber in a mesh: everything that assembly needs except the field.
 pub struct Block<'a> {
     pub mesh: &'a Mesh,
     pub energy: Energy,
@@ -65,8 +65,8 @@ impl Block<'_> {
         (0..n).flat_map(move |line| (0..n).map(move |i| (line * n + i, line, column * n + i)))
     }
 
-    /// Positions in the row system of the unknowns of element `column`, node by node; what is left
-    /// for larger elements is zero.
+    /// Positions of the unknowns of element `column` in the vector of its row, node by node. Entries
+    /// beyond the nodes of the element are zero.
     pub(super) fn local_unknowns(&self, column: usize) -> [[usize; 2]; MOST_NODES] {
         let order = self.mesh.order;
         let mut out = [[0; 2]; MOST_NODES];
@@ -74,7 +74,7 @@ impl Block<'_> {
             for sub in 0..=order {
                 let at = layer * self.mesh.layer_size();
                 let node = order * column + sub;
-                out[layer * (order + 1) + sub] = [0, 1].map(|to| at + self.mesh.place(node, to));
+                out[layer * (order + 1) + sub] = [0, 1].map(|to| at + self.mesh.position(node, to));
             }
         }
         out

@@ -1,10 +1,10 @@
 //! The energy lost in the block per sliding distance.
 
 use super::block::{Block, Memory, RowState};
-use super::circular::Correlations;
+use crate::executor::Executor;
 use crate::material::kinematics::{isochoric, remembered, Symmetric, UNIT};
+use crate::spectral::Correlations;
 use crate::status::Status;
-use crate::watch::Watch;
 
 /// Integral of Y(x - m columns) : Cbar(x) - 3, for every number m of columns.
 pub struct StrainSince {
@@ -17,18 +17,19 @@ pub struct StrainSince {
 /// Energy lost per sliding distance.
 pub struct Loss {
     pub whole: f64,
-    /// In each element row. Rows exchange energy: one alone may be below zero, all together cannot.
+    /// Energy lost in each element row. Rows exchange energy, so that a single row may be below zero, but not
+    /// their sum.
     pub rows: Vec<f64>,
 }
 
 impl Block<'_> {
-    /// Energy lost in steady sliding; what is at rest loses none.
-    pub fn dissipation(&self, rows: &[RowState], watch: &Watch<'_>) -> Result<Loss, Status> {
+    /// Energy lost in steady sliding; zero at rest.
+    pub fn dissipation(&self, rows: &[RowState], executor: &Executor<'_>) -> Result<Loss, Status> {
         let Memory::Sliding(history) = self.memory else {
             let rows = vec![0.0; rows.len()];
             return Ok(Loss { whole: 0.0, rows });
         };
-        let since = self.strain_since(rows, watch)?;
+        let since = self.strain_since(rows, executor)?;
         let curve = history.dissipation.curve(&since.whole);
         let lost = |part: &Vec<f64>| history.dissipation.lost_on(&curve, part);
         Ok(Loss {
@@ -37,12 +38,12 @@ impl Block<'_> {
         })
     }
 
-    /// As sum y(x - m) : c(x) - y(x) : c(x) with y = Y - I and c = Cbar - I, which leaves the
-    /// squares of small strains their digits.
+    /// The sums of y(x - m) : c(x) - y(x) : c(x) with y = Y - I and c = Cbar - I, which keep the digits of
+    /// the squares of small strains.
     pub fn strain_since(
         &self,
         rows: &[RowState],
-        watch: &Watch<'_>,
+        executor: &Executor<'_>,
     ) -> Result<StrainSince, Status> {
         let mut whole = vec![0.0; self.mesh.columns];
         let correlations = Correlations::new(self.mesh.columns);
@@ -51,23 +52,24 @@ impl Block<'_> {
             self.add_pairs(row, &rows[row], &mut correlations);
             correlations.take()
         };
-        let mut parts = watch.map(100 * self.mesh.points(), rows.len(), of_row)?;
+        let mut parts = executor.map(100 * self.mesh.points(), rows.len(), of_row)?;
         for part in &mut parts {
             whole
                 .iter_mut()
                 .zip(part.iter())
-                .for_each(|(sum, own)| *sum += own);
-            let own = part[0];
-            part.iter_mut().for_each(|product| *product -= own);
+                .for_each(|(sum, product)| *sum += product);
+            let undelayed = part[0];
+            part.iter_mut()
+                .for_each(|product| *product -= undelayed);
         }
-        let own = whole[0];
+        let undelayed = whole[0];
         for (m, product) in whole.iter_mut().enumerate() {
-            // Below zero is round-off; NaN must stay.
-            if *product < own {
+            // A negative difference is round-off; NaN must stay.
+            if *product < undelayed {
                 parts.iter_mut().for_each(|part| part[m] = 0.0);
                 *product = 0.0;
             } else {
-                *product -= own;
+                *product -= undelayed;
             }
         }
         let rows = parts;

@@ -1,5 +1,6 @@
-//! The tangent of one element at fixed memory, assembled, its pressures condensed:
-//!     k = int grad(N) : dP/dF : grad(N) dV + sum over modes m of K / M b b^T,   b = int m cof F : grad(N) dV
+//! The tangent of one element at fixed memory, assembled,
+//!     k = int grad(N) : dP/dF : grad(N) dV,   b = int m cof F : grad(N) dV
+//! and its pressures condensed: k + sum over modes m of K / M b b^T.
 
 use super::block::{Block, Field, RowState};
 use super::jacobian::add_network_slope;
@@ -14,7 +15,6 @@ pub struct ElementTangent {
 }
 
 impl ElementTangent {
-    /// Room for an element of the block.
     pub fn new(block: &Block<'_>) -> Self {
         let size = 2 * block.mesh.elements[0].nodes();
         Self {
@@ -23,8 +23,21 @@ impl ElementTangent {
         }
     }
 
-    /// Of the element in `row` and `column` in the state of `field`.
-    pub fn fill(
+    /// Assemble the element in `row` and `column` in the state of `field`, its pressures condensed.
+    pub fn assemble_condensed(
+        &mut self,
+        block: &Block<'_>,
+        field: &Field,
+        state: &RowState,
+        (row, column): (usize, usize),
+    ) {
+        self.assemble_lower(block, field, state, (row, column));
+        self.condense(&block.mesh.elements[row].mode_mass, block.bulk_modulus);
+        self.mirror();
+    }
+
+    /// b, and the lower triangle of k.
+    pub(crate) fn assemble_lower(
         &mut self,
         block: &Block<'_>,
         field: &Field,
@@ -62,10 +75,9 @@ impl ElementTangent {
                 }
             }
         }
-        self.condense(&element.mode_mass, block.bulk_modulus);
     }
 
-    /// Eliminate the pressures and complete the upper triangle.
+    /// Eliminate the pressures from the lower triangle.
     fn condense(&mut self, masses: &[f64], bulk_modulus: f64) {
         let size = self.volume.len() / masses.len();
         for (b, mass) in self.volume.chunks_exact(size).zip(masses) {
@@ -77,6 +89,11 @@ impl ElementTangent {
                 }
             }
         }
+    }
+
+    /// Copy the lower triangle to the upper one.
+    pub(crate) fn mirror(&mut self) {
+        let size = self.stiffness.len().isqrt();
         for i in 0..size {
             for j in i + 1..size {
                 self.stiffness[i * size + j] = self.stiffness[j * size + i];

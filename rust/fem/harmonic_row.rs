@@ -1,12 +1,12 @@
 //! One element row in one harmonic of x, for slopes that are the same in all columns.
 //!
-//! The next column is this one times t = exp(2 pi i k / N), so that grad u = (E + t E') u with the
-//! nodes of this column in E and those that stand in the next in E'. With the stiffness D at fixed
-//! memory and what the memory's harmonic w multiplies, the matrix is a sum of real ones:
+//! The next column is this one times t = exp(2 pi i k / N), so that grad u = (E + t E') u: E acts on the
+//! nodes of this column, E' on the right-hand nodes, which belong to the next column. With the stiffness D
+//! at fixed memory, the memory's stiffness M and harmonic w, the matrix is a sum of real ones:
 //!     (E + t E')^H (D + w M) (E + t E') = D_0 + t D_1 + D_2 / t + w (M_0 + t M_1 + M_2 / t)
 
 use super::mesh::Mesh;
-use super::point_slopes::MeanSlopes;
+use super::point_slopes::AveragedSlopes;
 use crate::spectral::Complex64;
 
 pub struct HarmonicRow {
@@ -20,18 +20,18 @@ pub struct HarmonicRow {
 }
 
 impl HarmonicRow {
-    pub fn new(mesh: &Mesh, row: usize, means: &[MeanSlopes], bulk_modulus: f64) -> Self {
+    pub fn new(mesh: &Mesh, row: usize, averages: &[AveragedSlopes], bulk_modulus: f64) -> Self {
         let element = &mesh.elements[row];
         let order = mesh.order;
         let size = 2 * order * (order + 1);
-        let nothing = || std::array::from_fn(|_| vec![0.0; size * size]);
+        let zeros = || std::array::from_fn(|_| vec![0.0; size * size]);
         let mut out = Self {
             size,
-            stiffness: nothing(),
-            memory: nothing(),
+            stiffness: zeros(),
+            memory: zeros(),
             pressing: std::array::from_fn(|_| vec![0.0; size * mesh.modes()]),
         };
-        for (at, mean) in means.iter().enumerate() {
+        for (at, average) in averages.iter().enumerate() {
             // Slopes of F by every unknown, of this column and of the next.
             let mut slopes = [vec![[0.0; 4]; size], vec![[0.0; 4]; size]];
             for (node, slope) in element.gradient[at].iter().enumerate() {
@@ -43,14 +43,14 @@ impl HarmonicRow {
                     to[2 * direction + 1] += slope[1];
                 }
             }
-            add_products(&mut out.stiffness, &slopes, &mean.stiffness);
-            if let Some(memory) = &mean.memory {
+            add_products(&mut out.stiffness, &slopes, &average.stiffness);
+            if let Some(memory) = &average.memory {
                 add_products(&mut out.memory, &slopes, memory);
             }
             for (m, mode) in element.mode[at].iter().enumerate() {
                 for (pressing, slopes) in out.pressing.iter_mut().zip(&slopes) {
                     for (i, slope) in slopes.iter().enumerate() {
-                        let volume: f64 = slope.iter().zip(mean.volume).map(|(s, v)| s * v).sum();
+                        let volume: f64 = slope.iter().zip(average.volume).map(|(s, v)| s * v).sum();
                         pressing[m * size + i] += mode * volume;
                     }
                 }
@@ -65,22 +65,22 @@ impl HarmonicRow {
     /// Add K / M (b + b' / t) (b + t b')^T of one pressure mode.
     fn condense(&mut self, mode: usize, stiffness: f64) {
         let size = self.size;
-        let [own, next] = [0, 1].map(|side| &self.pressing[side][mode * size..][..size]);
+        let [this, next] = [0, 1].map(|side| &self.pressing[side][mode * size..][..size]);
         let [by_one, by_t, by_back] = &mut self.stiffness;
         for j in 0..size {
             for i in 0..size {
                 let at = j * size + i;
-                by_one[at] += stiffness * (own[i] * own[j] + next[i] * next[j]);
-                by_t[at] += stiffness * own[i] * next[j];
-                by_back[at] += stiffness * next[i] * own[j];
+                by_one[at] += stiffness * (this[i] * this[j] + next[i] * next[j]);
+                by_t[at] += stiffness * this[i] * next[j];
+                by_back[at] += stiffness * next[i] * this[j];
             }
         }
     }
 
-    /// The matrix of a harmonic, column-major, t in `turn` and the memory's harmonic in `weight`.
-    pub fn matrix(&self, turn: Complex64, weight: Option<Complex64>, out: &mut [Complex64]) {
+    /// The matrix of a harmonic, column-major, for t = `phase` and the memory's harmonic `weight`.
+    pub fn matrix(&self, phase: Complex64, weight: Option<Complex64>, out: &mut [Complex64]) {
         let sum = |parts: &[Vec<f64>; 3], at: usize| {
-            parts[0][at] + turn * parts[1][at] + turn.conj() * parts[2][at]
+            parts[0][at] + phase * parts[1][at] + phase.conj() * parts[2][at]
         };
         for (at, entry) in out.iter_mut().enumerate() {
             *entry = sum(&self.stiffness, at);
@@ -91,10 +91,10 @@ impl HarmonicRow {
     }
 
     /// Forces per unit pressure modes in a harmonic, `[mode][unknown]`.
-    pub fn pressing(&self, turn: Complex64) -> impl Iterator<Item = Complex64> + '_ {
-        let [own, next] = &self.pressing;
-        let pairs = own.iter().zip(next);
-        pairs.map(move |(own, next)| own + turn.conj() * next)
+    pub fn pressing(&self, phase: Complex64) -> impl Iterator<Item = Complex64> + '_ {
+        let [this, next] = &self.pressing;
+        let pairs = this.iter().zip(next);
+        pairs.map(move |(this, next)| this + phase.conj() * next)
     }
 }
 

@@ -10,7 +10,7 @@ const MOST_COLUMNS: usize = 4096;
 const LEAST_ROWS: usize = 2;
 const MOST_ROWS: usize = 256;
 
-/// What a mesh is made of: elements along and across, depth in wavelengths, order of the elements.
+/// Size of a mesh: elements along and across the block, depth in wavelengths, order of the elements.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeshSize {
     pub(crate) columns: usize,
@@ -34,8 +34,8 @@ impl MeshSize {
         })
     }
 
-    /// The size with other columns, the rows following with this power of them.
-    pub fn with_columns(&self, columns: usize, row_exponent: f64) -> Self {
+    /// The size with other columns; the rows change with the power `row_exponent` of the columns.
+    pub(crate) fn with_columns(&self, columns: usize, row_exponent: f64) -> Self {
         if columns == self.columns {
             return *self;
         }
@@ -83,7 +83,7 @@ impl Mesh {
         }
     }
 
-    /// Whether the unknowns of the other mesh stand at the same places.
+    /// Whether the unknowns of the other mesh have the same positions.
     pub fn same(&self, other: &Self) -> bool {
         self.order == other.order
             && self.columns == other.columns
@@ -112,9 +112,9 @@ impl Mesh {
 
     /// Position of the x (0) or z (1) displacement of a node within its layer.
     ///
-    /// Nodes of equal place in their elements stand together, so that the unknowns of all elements
-    /// of a row are contiguous and memory assembly runs over long vectors.
-    pub fn place(&self, node: usize, direction: usize) -> usize {
+    /// Nodes with the same place in their elements stand together, so that loops over the elements of a
+    /// row run over contiguous vectors.
+    pub fn position(&self, node: usize, direction: usize) -> usize {
         let (column, sub) = (node / self.order % self.columns, node % self.order);
         (direction * self.order + sub) * self.columns + column
     }
@@ -122,7 +122,7 @@ impl Mesh {
     /// Mean horizontal displacement of the contact surface.
     pub fn mean_shift(&self, u: &[f64]) -> f64 {
         let nodes = self.layer_nodes();
-        (0..nodes).map(|a| u[self.place(a, 0)]).sum::<f64>() / nodes as f64
+        (0..nodes).map(|a| u[self.position(a, 0)]).sum::<f64>() / nodes as f64
     }
 
     pub fn node_spacing(&self) -> f64 {
@@ -177,8 +177,8 @@ impl Mesh {
             for (sub, &shape_x) in nx.iter().enumerate() {
                 let node = self.order * column + sub;
                 let at = (self.order * row + layer) * self.layer_size();
-                value[0] += shape_x * shape_z * u[at + self.place(node, 0)];
-                value[1] += shape_x * shape_z * u[at + self.place(node, 1)];
+                value[0] += shape_x * shape_z * u[at + self.position(node, 0)];
+                value[1] += shape_x * shape_z * u[at + self.position(node, 1)];
             }
         }
         value
@@ -187,8 +187,8 @@ impl Mesh {
 
 /// Row heights growing geometrically from `first` so that they fill the depth.
 ///
-/// Next to the contact edges the field's length scale is the distance from the surface, which asks
-/// for heights in proportion to it; coarser rows where the first harmonic has decayed save little.
+/// Near the contact edges the length scale of the field is the distance from the surface, so row heights
+/// should be proportional to it. Coarser rows where the first harmonic has decayed would save little.
 fn graded(first: f64, rows: usize, depth: f64) -> Vec<f64> {
     let sum = |ratio: f64| (0..rows).map(|i| first * ratio.powi(i as i32)).sum::<f64>();
     let (mut low, mut high) = (1.0, 1.0 + depth / first);

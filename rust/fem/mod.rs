@@ -1,16 +1,17 @@
-//! The block in finite elements: element rows with a dense memory along x, pressures condensed.
+//! The block in finite elements: element rows with memory along x, mixed in displacement and pressure.
 
-pub mod assembly;
+pub mod averaged_jacobian;
 pub mod block;
-mod circular;
 pub mod dissipation;
 pub mod element;
+mod element_row;
 pub mod element_tangent;
-pub(crate) mod harmonic_band;
+pub mod harmonic_block;
 mod harmonic_row;
 pub mod jacobian;
+pub mod jacobian_product;
 pub mod mesh;
 pub mod pattern;
 mod point_slopes;
-mod row_state;
-pub mod uniform;
+#[cfg(test)]
+mod tests;

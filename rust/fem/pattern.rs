@@ -1,29 +1,29 @@
-//! Where the entries of the assembled tangent stand, its unknowns in the order of elimination.
+//! The sparsity pattern of the assembled tangent, with the unknowns in the order of elimination.
 //!
-//! Nested dissection (George, SIAM J. Numer. Anal. 10 (1973) 345) of the periodic strip: two cuts
-//! from surface to lid, then the longer side halved, along lines of element edges.
+//! Nested dissection (George, SIAM J. Numer. Anal. 10 (1973) 345) of the periodic strip: two cuts from
+//! surface to lid, then every part is halved along its longer side. All cuts follow element edges.
 
 use super::block::Block;
 use super::mesh::Mesh;
 
-/// Instead of the number of what is not eliminated.
+/// In position of a number, for displacements that are no unknowns.
 const NONE: usize = usize::MAX;
 
-/// Parts of no more nodes are not cut further.
+/// Parts with at most this number of nodes are not cut further.
 const LEAF: usize = 6;
 
-/// The lower triangle in compressed columns, and where the entries of every element go.
+/// The lower triangle in compressed columns, and the positions of the entries of every element.
 pub struct Pattern {
     pub column_starts: Vec<usize>,
     pub rows: Vec<usize>,
-    /// Entry of the diagonal, unknown by unknown.
+    /// Entry of the diagonal of every unknown.
     pub diagonal: Vec<usize>,
-    /// Place in a field of every unknown.
+    /// Position in a field of every unknown.
     pub unknowns: Vec<usize>,
     /// Number of every displacement of a field; the lid's have none.
     number: Vec<usize>,
     /// Displacements of every element in a field, element after element of every row.
-    places: Vec<usize>,
+    positions: Vec<usize>,
     /// Entries of an element's stiffness, row by row; `OUTSIDE` in the upper triangle or at the lid.
     entries: Vec<u32>,
     size: usize,
@@ -36,18 +36,18 @@ impl Pattern {
         let mesh = block.mesh;
         let mut number = vec![NONE; mesh.layers() * mesh.layer_size()];
         let nodes = dissection(mesh).into_iter();
-        let places = nodes.flat_map(|(x, y)| {
-            [0, 1].map(|direction| y * mesh.layer_size() + mesh.place(x, direction))
+        let positions = nodes.flat_map(|(x, y)| {
+            [0, 1].map(|direction| y * mesh.layer_size() + mesh.position(x, direction))
         });
-        let unknowns: Vec<usize> = places.collect();
-        for (i, &place) in unknowns.iter().enumerate() {
-            number[place] = i;
+        let unknowns: Vec<usize> = positions.collect();
+        for (i, &position) in unknowns.iter().enumerate() {
+            number[position] = i;
         }
         let mut pattern = Self {
             column_starts: vec![0],
             rows: Vec::new(),
             diagonal: Vec::new(),
-            places: places_of_elements(block),
+            positions: element_positions(block),
             entries: Vec::new(),
             size: 2 * mesh.elements[0].nodes(),
             unknowns,
@@ -59,13 +59,13 @@ impl Pattern {
     }
 
     /// Displacements of an element in a field.
-    pub fn places(&self, element: usize) -> &[usize] {
-        &self.places[element * self.size..][..self.size]
+    pub fn positions(&self, element: usize) -> &[usize] {
+        &self.positions[element * self.size..][..self.size]
     }
 
     /// The diagonal's entry of a free displacement of a field.
-    pub fn diagonal_of(&self, place: usize) -> usize {
-        self.diagonal[self.number[place]]
+    pub fn diagonal_of(&self, position: usize) -> usize {
+        self.diagonal[self.number[position]]
     }
 
     /// Add the stiffness of an element to the matrix.
@@ -80,14 +80,14 @@ impl Pattern {
     }
 
     /// Numbers of an element's unknowns.
-    fn numbers<'a>(number: &'a [usize], own: &'a [usize]) -> impl Iterator<Item = usize> + 'a {
-        own.iter().map(|&place| number[place])
+    fn numbers<'a>(number: &'a [usize], positions: &'a [usize]) -> impl Iterator<Item = usize> + 'a {
+        positions.iter().map(|&position| number[position])
     }
 
     fn compress(&mut self) {
         let mut of_column: Vec<Vec<usize>> = vec![Vec::new(); self.unknowns.len()];
-        for own in self.places.chunks_exact(self.size) {
-            let free = || Self::numbers(&self.number, own).filter(|&i| i != NONE);
+        for positions in self.positions.chunks_exact(self.size) {
+            let free = || Self::numbers(&self.number, positions).filter(|&i| i != NONE);
             for j in free() {
                 of_column[j].extend(free().filter(|&i| i >= j));
             }
@@ -109,30 +109,30 @@ impl Pattern {
             let (from, to) = (self.column_starts[j], self.column_starts[j + 1]);
             (from + self.rows[from..to].partition_point(|&row| row < i)) as u32
         };
-        let mut entries = Vec::with_capacity(self.places.len() * self.size);
-        for own in self.places.chunks_exact(self.size) {
-            for i in Self::numbers(&self.number, own) {
-                entries.extend(Self::numbers(&self.number, own).map(|j| entry(i, j)));
+        let mut entries = Vec::with_capacity(self.positions.len() * self.size);
+        for positions in self.positions.chunks_exact(self.size) {
+            for i in Self::numbers(&self.number, positions) {
+                entries.extend(Self::numbers(&self.number, positions).map(|j| entry(i, j)));
             }
         }
         self.entries = entries;
     }
 }
 
-fn places_of_elements(block: &Block<'_>) -> Vec<usize> {
+fn element_positions(block: &Block<'_>) -> Vec<usize> {
     let mesh = block.mesh;
-    let mut places = Vec::with_capacity(mesh.rows * mesh.columns * 2 * mesh.elements[0].nodes());
+    let mut positions = Vec::with_capacity(mesh.rows * mesh.columns * 2 * mesh.elements[0].nodes());
     for row in 0..mesh.rows {
         let from = block.row_offset(row);
         for column in 0..mesh.columns {
             let unknowns = block.local_unknowns(column);
-            let own = unknowns[..block.mesh.elements[row].nodes()]
+            let of_element = unknowns[..block.mesh.elements[row].nodes()]
                 .iter()
                 .flatten();
-            places.extend(own.map(|at| from + at));
+            positions.extend(of_element.map(|at| from + at));
         }
     }
-    places
+    positions
 }
 
 /// Node columns and layers in the order of elimination.

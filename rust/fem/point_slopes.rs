@@ -1,7 +1,7 @@
-//! Deformation and slopes at one Gauss point, of several columns at a time, and their means along a row.
+//! Deformation and slopes at one Gauss point of several columns at a time, and their averages along a row.
 //!
-//! What the memory's slopes are is found from the deformation at every product: to fetch them would take
-//! longer.
+//! The slopes of the memory are computed from the deformation in every product, because loading them from
+//! memory would take longer.
 
 use crate::material::kinematics::{cofactor, Deformation, Gradient};
 
@@ -9,37 +9,38 @@ use crate::material::kinematics::{cofactor, Deformation, Gradient};
 pub const LANES: usize = 8;
 pub type Lane = [f64; LANES];
 
-/// Of `LANES` columns.
+/// Slopes in `LANES` columns; zeros beyond the last column.
 #[derive(Clone, Default)]
-pub struct Local {
+pub struct PointSlopes {
     /// Upper triangle of dP/dF at fixed memory by rows, symmetric as P then has a potential; times the
     /// point's weight.
     stiffness: [Lane; 10],
     f: [Lane; 4],
-    /// 1 / J and J^(-2/3); zeros beyond the last column.
+    /// 1 / J.
     inverse: Lane,
+    /// J^(-2/3).
     scale: Lane,
 }
 
-/// Means along a row of the slopes at one Gauss point of its elements.
+/// Averages along a row of the slopes at one Gauss point of its elements.
 #[derive(Clone)]
-pub struct MeanSlopes {
+pub struct AveragedSlopes {
     pub stiffness: [f64; 16],
     pub volume: [f64; 4],
-    /// Of dP/dH times dY/dF.
+    /// dP/dH times dY/dF.
     pub memory: Option<[f64; 16]>,
 }
 
-/// Sums along a row of the slopes at one Gauss point of its elements, without its weight.
+/// SlopeSums along a row of the slopes at one Gauss point of its elements, without its weight.
 #[derive(Clone, Default)]
-pub struct Sums {
+pub struct SlopeSums {
     stiffness: [Gradient; 4],
     volume: Gradient,
-    /// Of dP/dH times dY/dF, with the weight.
+    /// dP/dH times dY/dF, with the weight.
     memory: [f64; 16],
 }
 
-impl Sums {
+impl SlopeSums {
     pub fn add(&mut self, point: &Deformation, stiffness: &[Gradient; 4]) {
         for (sums, values) in self.stiffness.iter_mut().zip(stiffness) {
             (0..4).for_each(|k| sums[k] += values[k]);
@@ -48,24 +49,24 @@ impl Sums {
         (0..4).for_each(|k| self.volume[k] += volume[k]);
     }
 
-    /// Add dP/dH dY/dF of several columns. What the memory answers to waves shorter than the changes of
-    /// F is its mean: that of dP/dH times that of dY/dF is far from it where F changes much.
+    /// Add dP/dH dY/dF of several columns. The memory responds to waves shorter than the changes of F with
+    /// the mean of this product; where F changes much, the product of the means is far from it.
     #[inline(always)]
-    pub fn add_memory(&mut self, local: &Local, weight: f64) {
+    pub fn add_memory(&mut self, slopes: &PointSlopes, weight: f64) {
         for b in 0..4 {
             let mut df = [[0.0; LANES]; 4];
             df[b] = [1.0; LANES];
             let mut p = [[0.0; LANES]; 4];
-            local.add_memory(&mut p, &local.remembered(&df, &local.volume(&df)), weight);
+            slopes.add_memory(&mut p, &slopes.remembered(&df, &slopes.volume(&df)), weight);
             for (a, p) in p.iter().enumerate() {
                 self.memory[4 * a + b] += p.iter().sum::<f64>();
             }
         }
     }
 
-    pub fn mean(&self, columns: usize, weight: f64, remembers: bool) -> MeanSlopes {
+    pub fn average(&self, columns: usize, weight: f64, remembers: bool) -> AveragedSlopes {
         let share = 1.0 / columns as f64;
-        MeanSlopes {
+        AveragedSlopes {
             stiffness: std::array::from_fn(|at| self.stiffness[at / 4][at % 4] * weight * share),
             volume: self.volume.map(|sum| sum * weight * share),
             memory: remembers.then(|| self.memory.map(|sum| sum * share)),
@@ -73,7 +74,7 @@ impl Sums {
     }
 }
 
-impl Local {
+impl PointSlopes {
     pub fn put(
         &mut self,
         lane: usize,
@@ -126,7 +127,7 @@ impl Local {
         ]
     }
 
-    /// dY of a change `df` of F and `volume` of J (`kinematics::remembered_slope`), with
+    /// dY of a change `df` of F and `volume` of J, with
     /// Y33 = J^(2/3) = J^2 J^(-4/3).
     #[inline(always)]
     pub fn remembered(&self, df: &[Lane; 4], volume: &Lane) -> [Lane; 4] {

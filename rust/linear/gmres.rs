@@ -4,41 +4,39 @@
 //! (1986) 856; Saad, "Iterative Methods for Sparse Linear Systems", 2nd ed. (2003), section 9.3.2).
 //! With the preconditioner on the right the residual that is minimised is the true one.
 
+use crate::executor::{Executor, Threads};
 use crate::status::Status;
-use crate::threads::Threads;
-use crate::watch::Watch;
 
-/// Numbers of a vector that a thread takes at a time; what is summed is summed piece by piece, in
-/// their order.
+/// Numbers of a vector that a thread takes at a time. Sums are taken piece by piece in a fixed order, so
+/// that they do not depend on the number of threads.
 const PIECE: usize = 8192;
 
-/// What an iteration found.
+/// An approximate solution and its residual.
 #[derive(Debug, Clone)]
-pub struct Found {
+pub struct GmresSolution {
     pub y: Vec<f64>,
-    /// The residual that is left.
-    pub left: Vec<f64>,
+    pub residual: Vec<f64>,
     pub iterations: usize,
 }
 
-/// An approximate y of A M^-1 y = `right`, with `apply` the product with A M^-1: until the residual
-/// is at most `target`, or for at most `most` products. At most `basis` directions are kept at a
-/// time. The answer is handed over as y, to be turned into M^-1 y by the caller.
+/// Solve A M^-1 y = `right` approximately, where `apply` is the product with A M^-1: until the norm of
+/// the residual is at most `target`, or for at most `limit` products. At most `basis` directions are
+/// kept before the iteration restarts. The caller computes the solution M^-1 y from y.
 pub fn gmres(
     mut apply: impl FnMut(&[f64], &mut [f64]),
     right: &[f64],
     target: f64,
-    (basis, most): (usize, usize),
-    watch: &Watch<'_>,
-) -> Result<Found, Status> {
+    (basis, limit): (usize, usize),
+    executor: &Executor<'_>,
+) -> Result<GmresSolution, Status> {
     let mut y = vec![0.0; right.len()];
-    let mut left = right.to_vec();
-    let (mut iterations, mut residual) = (0, norm(&left));
-    while residual > target && iterations < most {
-        let count = basis.min(most - iterations);
-        let mut space = Space::new(left, residual, watch.threads);
+    let mut residual = right.to_vec();
+    let (mut iterations, mut size) = (0, norm(&residual));
+    while size > target && iterations < limit {
+        let count = basis.min(limit - iterations);
+        let mut space = KrylovSpace::new(residual, size, executor.threads);
         while space.residual() > target && space.size() < count {
-            watch.look()?;
+            executor.check_cancelled()?;
             let mut next = vec![0.0; right.len()];
             apply(space.last(), &mut next);
             iterations += 1;
@@ -47,43 +45,43 @@ pub fn gmres(
             }
         }
         let change;
-        (change, left) = space.solution();
+        (change, residual) = space.solution();
         add(&mut y, 1.0, &change);
-        let before = std::mem::replace(&mut residual, norm(&left));
-        if residual >= before {
+        let before = std::mem::replace(&mut size, norm(&residual));
+        if size >= before {
             break;
         }
     }
-    if !residual.is_finite() {
+    if !size.is_finite() {
         return Err(Status::NotFinite);
     }
-    Ok(Found {
+    Ok(GmresSolution {
         y,
-        left,
+        residual,
         iterations,
     })
 }
 
 /// An orthonormal basis of a Krylov space with its Hessenberg matrix, rotated to be triangular.
-struct Space<'t> {
+struct KrylovSpace<'t> {
     threads: &'t Threads,
     basis: Vec<Vec<f64>>,
     /// Columns of the triangular factor.
     columns: Vec<Vec<f64>>,
     /// Cosine and sine of every rotation.
-    turns: Vec<(f64, f64)>,
+    rotations: Vec<(f64, f64)>,
     /// The right-hand side, rotated; its last entry is the residual.
     rotated: Vec<f64>,
 }
 
-impl<'t> Space<'t> {
+impl<'t> KrylovSpace<'t> {
     fn new(mut first: Vec<f64>, norm: f64, threads: &'t Threads) -> Self {
         first.iter_mut().for_each(|value| *value /= norm);
         Self {
             threads,
             basis: vec![first],
             columns: Vec::new(),
-            turns: Vec::new(),
+            rotations: Vec::new(),
             rotated: vec![norm],
         }
     }
@@ -100,42 +98,42 @@ impl<'t> Space<'t> {
         self.rotated[self.size()].abs()
     }
 
-    /// Add the image of the last direction; false if it leads nowhere new.
+    /// Add the image of the last direction; false if it lies in the space already.
     fn add(&mut self, mut image: Vec<f64>) -> bool {
         let mut column: Vec<f64> = vec![0.0; self.size() + 2];
         let before = self.add_and_dot(&mut image, None, None).sqrt();
-        let mut left = self.orthogonalise(&mut image, &mut column);
-        // Where most of it went, so did its digits: once more (Giraud, Langou & Rozloznik, 2005).
-        if left < 0.1 * before {
-            left = self.orthogonalise(&mut image, &mut column);
+        let mut rest = self.orthogonalise(&mut image, &mut column);
+        // If little is left of the image, so are its digits: repeat (Giraud, Langou & Rozloznik, 2005).
+        if rest < 0.1 * before {
+            rest = self.orthogonalise(&mut image, &mut column);
         }
         let last = self.size();
-        column[last + 1] = left;
-        for (i, (cosine, sine)) in self.turns.iter().enumerate() {
+        column[last + 1] = rest;
+        for (i, (cosine, sine)) in self.rotations.iter().enumerate() {
             let (a, b) = (column[i], column[i + 1]);
             column[i] = cosine * a + sine * b;
             column[i + 1] = cosine * b - sine * a;
         }
-        let radius = column[last].hypot(left);
-        let (cosine, sine) = (column[last] / radius, left / radius);
+        let radius = column[last].hypot(rest);
+        let (cosine, sine) = (column[last] / radius, rest / radius);
         column[last] = radius;
         column.pop();
-        self.turns.push((cosine, sine));
+        self.rotations.push((cosine, sine));
         self.columns.push(column);
         self.rotated.push(-sine * self.rotated[last]);
         self.rotated[last] *= cosine;
-        if left > 1e-14 * before {
-            image.iter_mut().for_each(|value| *value /= left);
+        if rest > 1e-14 * before {
+            image.iter_mut().for_each(|value| *value /= rest);
             self.basis.push(image);
             return true;
         }
-        // Invariant: what is left of the residual has no direction any more.
+        // The space is invariant: the rest of the residual has no further direction.
         self.basis.push(vec![0.0; image.len()]);
         false
     }
 
-    /// Take the directions of the basis out of `image`, one after the other (modified Gram-Schmidt),
-    /// and add what there was of them to `column`; returns the norm of what is left.
+    /// Subtract the components along the basis from `image`, one after the other (modified
+    /// Gram-Schmidt), and add them to `column`; returns the norm of the rest.
     fn orthogonalise(&self, image: &mut [f64], column: &mut [f64]) -> f64 {
         let mut part = self.add_and_dot(image, None, self.basis.first());
         for (i, direction) in self.basis.iter().enumerate() {
@@ -145,7 +143,7 @@ impl<'t> Space<'t> {
         part.sqrt()
     }
 
-    /// `to` += factor x, and then its scalar product with a vector, with itself if there is none.
+    /// `to` += factor x, and then the scalar product of `to` with a vector, with itself if none is given.
     fn add_and_dot(
         &self,
         to: &mut [f64],
@@ -155,9 +153,9 @@ impl<'t> Space<'t> {
         let mut sums = vec![0.0; to.len().div_ceil(PIECE)];
         let size = 4 * to.len();
         let pieces = sums.iter_mut().zip(to.chunks_mut(PIECE)).enumerate();
-        let mut rooms = vec![(); self.threads.on(size)];
+        let mut workspaces = vec![(); self.threads.count_for(size)];
         self.threads
-            .share(size, &mut rooms, pieces, |(), (piece, (sum, to))| {
+            .share(size, &mut workspaces, pieces, |(), (piece, (sum, to))| {
                 let within = piece * PIECE..piece * PIECE + to.len();
                 if let Some((factor, x)) = added {
                     add(to, factor, &x[within.clone()]);
@@ -170,10 +168,10 @@ impl<'t> Space<'t> {
     /// `to` += the sum of the directions of the basis times `weights`.
     fn combine(&self, to: &mut [f64], weights: &[f64]) {
         let size = to.len() * weights.len();
-        let mut rooms = vec![(); self.threads.on(size)];
+        let mut workspaces = vec![(); self.threads.count_for(size)];
         let pieces = to.chunks_mut(PIECE).enumerate();
         self.threads
-            .share(size, &mut rooms, pieces, |(), (piece, to)| {
+            .share(size, &mut workspaces, pieces, |(), (piece, to)| {
                 for (weight, direction) in weights.iter().zip(&self.basis) {
                     add(to, *weight, &direction[piece * PIECE..][..to.len()]);
                 }
@@ -185,15 +183,15 @@ impl<'t> Space<'t> {
         let size = self.size();
         let mut weights = self.rotated[..size].to_vec();
         for i in (0..size).rev() {
-            let known: f64 = (i + 1..size).map(|j| self.columns[j][i] * weights[j]).sum();
-            weights[i] = (weights[i] - known) / self.columns[i][i];
+            let solved: f64 = (i + 1..size).map(|j| self.columns[j][i] * weights[j]).sum();
+            weights[i] = (weights[i] - solved) / self.columns[i][i];
         }
         let mut x = vec![0.0; self.basis[0].len()];
         self.combine(&mut x, &weights);
         // The residual is the rotated last unit vector, in the basis.
         let mut coordinates = vec![0.0; size + 1];
         coordinates[size] = self.rotated[size];
-        for (i, (cosine, sine)) in self.turns.iter().enumerate().rev() {
+        for (i, (cosine, sine)) in self.rotations.iter().enumerate().rev() {
             let (a, b) = (coordinates[i], coordinates[i + 1]);
             coordinates[i] = cosine * a - sine * b;
             coordinates[i + 1] = sine * a + cosine * b;
@@ -204,7 +202,7 @@ impl<'t> Space<'t> {
     }
 }
 
-pub(crate) fn norm(x: &[f64]) -> f64 {
+pub fn norm(x: &[f64]) -> f64 {
     dot(x, x).sqrt()
 }
 
@@ -224,7 +222,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// to += factor x.
-pub(crate) fn add(to: &mut [f64], factor: f64, x: &[f64]) {
+pub fn add(to: &mut [f64], factor: f64, x: &[f64]) {
     pulp::Arch::new().dispatch(|| {
         for (to, x) in to.iter_mut().zip(x) {
             *to += factor * x;

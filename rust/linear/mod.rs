@@ -1,13 +1,12 @@
-//! Linear algebra, the one room with faer: dense LU, sparse L D L^T, small complex blocks, and GMRES
-//! for what is never formed.
+//! Linear algebra, the only room that uses faer: dense LU, small complex blocks, sparse L D L^T, and GMRES
+//! for matrices that are never formed.
 
-mod blocks;
 mod dense;
 mod gmres;
 mod sparse;
+#[cfg(test)]
+mod tests;
 
-pub use blocks::invert;
-pub use dense::{Factor, Matrix};
-pub(crate) use gmres::{add, norm};
-pub use gmres::{gmres, Found};
+pub use dense::{invert, Factor, Matrix};
+pub use gmres::{add, gmres, norm};
 pub use sparse::{Ldl, LdlFactor};

@@ -9,7 +9,7 @@ use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Conj, MatMut, Par, Side};
 
-/// What follows from the pattern alone.
+/// The symbolic factorisation, which follows from the pattern alone.
 pub struct Ldl {
     lower: SymbolicSparseColMat<usize>,
     symbolic: SymbolicCholesky<usize>,
@@ -19,17 +19,17 @@ pub struct Ldl {
 pub struct LdlFactor(Vec<f64>);
 
 impl Ldl {
-    /// Of a lower triangle in compressed columns, every diagonal entry in it, its unknowns in the
-    /// order in which they are eliminated; none where there is no memory for it.
+    /// Analyse the pattern of a lower triangle in compressed columns, which has every diagonal entry and
+    /// its unknowns in the order of elimination; None if memory does not suffice.
     pub fn new(column_starts: Vec<usize>, rows: Vec<usize>) -> Option<Self> {
         let size = column_starts.len() - 1;
         let lower = SymbolicSparseColMat::new_checked(size, size, column_starts, None, rows);
-        let own: Vec<usize> = (0..size).collect();
+        let identity: Vec<usize> = (0..size).collect();
         let params = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
             ..Default::default()
         };
-        let order = SymmetricOrdering::Custom(PermRef::new_checked(&own, &own, size));
+        let order = SymmetricOrdering::Custom(PermRef::new_checked(&identity, &identity, size));
         let symbolic =
             cholesky::factorize_symbolic_cholesky(lower.as_ref(), Side::Lower, order, params);
         Some(Self {
@@ -38,14 +38,14 @@ impl Ldl {
         })
     }
 
-    /// Of the matrix with these `values`; none where a pivot vanishes.
+    /// Factor the matrix with these `values`; None if a pivot vanishes.
     pub fn factor(&self, values: &[f64]) -> Option<LdlFactor> {
         let matrix = SparseColMatRef::new(self.lower.as_ref(), values);
         let mut factor = vec![0.0; self.symbolic.len_val()];
         let symbolic = &self.symbolic;
         let params = Default::default();
         let scratch = symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, params);
-        let found = symbolic.factorize_numeric_ldlt(
+        let result = symbolic.factorize_numeric_ldlt(
             &mut factor,
             matrix,
             Side::Lower,
@@ -54,7 +54,7 @@ impl Ldl {
             MemStack::new(&mut MemBuffer::new(scratch)),
             params,
         );
-        found.is_ok().then_some(LdlFactor(factor))
+        result.is_ok().then_some(LdlFactor(factor))
     }
 
     /// Replace `right` by the solution.

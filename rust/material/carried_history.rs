@@ -45,7 +45,7 @@ impl CarriedHistory {
         }
     }
 
-    /// Carry all with the rubber by one column, downstream if `forward`.
+    /// Move all states with the rubber by one column, downstream if `forward`.
     pub fn carry(&mut self, forward: bool) {
         for points in self.states.iter_mut().chain([&mut self.y]) {
             for line in points.iter_mut().flatten() {
@@ -59,29 +59,29 @@ impl CarriedHistory {
         }
     }
 
-    /// What the networks contribute to H after time `dt`, but for multiples of the new local Y.
+    /// Contribution of the networks to H after time `dt`, without the multiples of the new local Y.
     pub fn known_part(&self, maxwell: &Maxwell, dt: f64) -> Points {
         let mut sum: Points = per_line(&self.y, |line| vec![[0.0; 4]; line.len()]);
         let networks = self.states.iter().zip(&maxwell.moduli).zip(&maxwell.times);
         for ((state, &modulus), &time) in networks {
-            let (kept, left) = (modulus * (-dt / time).exp(), modulus * leaving(dt / time));
+            let (kept, from_old) = (modulus * (-dt / time).exp(), modulus * leaving(dt / time));
             for (sum, (state, y)) in flat_mut(&mut sum).zip(flat(state).zip(flat(&self.y))) {
                 for k in 0..4 {
-                    sum[k] += kept * state[k] + left * y[k];
+                    sum[k] += kept * state[k] + from_old * y[k];
                 }
             }
         }
         sum
     }
 
-    /// Close the step: the networks follow to the new deformation.
+    /// Complete the step: update the networks to the new deformation.
     pub fn advance(&mut self, new: Points, maxwell: &Maxwell, dt: f64) {
         for (state, &time) in self.states.iter_mut().zip(&maxwell.times) {
             let x = dt / time;
-            let (kept, left, arrived) = ((-x).exp(), leaving(x), arriving(x));
+            let (kept, from_old, from_new) = ((-x).exp(), leaving(x), arriving(x));
             for (state, (old, new)) in flat_mut(state).zip(flat(&self.y).zip(flat(&new))) {
                 for k in 0..4 {
-                    state[k] = kept * state[k] + left * old[k] + arrived * new[k];
+                    state[k] = kept * state[k] + from_old * old[k] + from_new * new[k];
                 }
             }
         }

@@ -7,15 +7,15 @@
 //! s and tau_i in passages; the mean state, loaded for a time only, does no work over a period.
 //! f has the period one, so that the images of one passage add up to 1 / (1 - exp(-1/tau_i)).
 //!
-//! The same loss is the work of the stress on a derivative along x, a small difference of large
-//! numbers where columns cannot follow the wave: there it would come out as anything.
+//! The loss is also the work of the stress on a derivative along x. Where columns do not resolve the wave,
+//! that is a small difference of large numbers with an arbitrary result.
 
 use super::maxwell::{decaying_moments, Maxwell};
 
 /// Coefficients of 1, u ... u^4 in one column, u = 0 ... 1.
 type Polynomial = [f64; 5];
 
-/// What one passage of f loses, for f a polynomial in every column.
+/// The loss of one passage of f, which is a polynomial in every column.
 #[derive(Debug, Clone)]
 pub struct Dissipation {
     /// `weights[m]`: loss by the coefficients of column m, counted back from the point.
@@ -29,32 +29,28 @@ impl Dissipation {
         for (&modulus, &time) in maxwell.moduli.iter().zip(&maxwell.times) {
             let step = 1.0 / (columns as f64 * time);
             if step.is_infinite() {
-                continue; // A network that forgets at once loses nothing.
+                continue; // A network that relaxes at once dissipates no energy.
             }
             let images = -(-1.0 / time).exp_m1();
             let moments = decaying_moments(step);
             for (m, weight) in weights.iter_mut().enumerate() {
-                let left = 0.5 * modulus * columns as f64 * (-step * m as f64).exp() / images;
+                let strands = 0.5 * modulus * columns as f64 * (-step * m as f64).exp() / images;
                 for (weight, moment) in weight.iter_mut().zip(moments) {
-                    *weight += left * step * (step * moment);
+                    *weight += strands * step * (step * moment);
                 }
             }
         }
         Self { weights }
     }
 
-    /// The loss for f, integrated over the block, m columns ago in `strain_since[m]`.
-    pub fn lost(&self, strain_since: &[f64]) -> f64 {
-        self.lost_on(&self.curve(strain_since), strain_since)
-    }
-
-    /// How f runs between columns. On one curve the loss is linear: parts that add up to f lose what
-    /// f loses.
+    /// How f, integrated over the block, runs between columns, with its value m columns ago in
+    /// `strain_since[m]`. On one curve the loss is linear: the losses of parts that add up to f add up to
+    /// the loss of f.
     pub fn curve(&self, strain_since: &[f64]) -> Curve {
         Curve::through(strain_since)
     }
 
-    /// What a `part` of the f that the curve was made for loses.
+    /// The loss of a `part` of the f that the curve was made for.
     pub fn lost_on(&self, curve: &Curve, part: &[f64]) -> f64 {
         let polynomials = (0..part.len()).map(|m| curve.polynomial(part, m));
         let lost = |(polynomial, weight): (Polynomial, &Polynomial)| -> f64 {
@@ -64,7 +60,7 @@ impl Dissipation {
     }
 }
 
-/// Which of the slopes a curve has at a column.
+/// The kind of slope that a curve has at a column.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Slope {
     Flat,
@@ -73,12 +69,12 @@ enum Slope {
     ThriceTheFall,
 }
 
-/// The curve through f, nowhere below zero if f is not: beside s = 0, where f and its slope vanish,
-/// even in the distance from it; elsewhere the cubic of values and slopes.
+/// The curve through f, which is nowhere negative if f is not. Next to s = 0, where f and its slope vanish,
+/// it is an even function of the distance; elsewhere it is the cubic of values and slopes.
 #[derive(Debug, Clone)]
 pub struct Curve {
     slopes: Vec<Slope>,
-    /// Whether f / m^2 at m = 0 is not held at zero.
+    /// Whether f / m^2 at m = 0 is positive; otherwise it is set to zero.
     bends: bool,
 }
 
@@ -141,7 +137,7 @@ fn limited(f: &[f64], m: usize) -> Slope {
     }
 }
 
-/// f from the column to the next, and from the one before to it.
+/// Change of f from column m to the next, and from the previous one to m.
 fn steps(f: &[f64], m: usize) -> (f64, f64) {
     let n = f.len();
     (f[(m + 1) % n] - f[m], f[m] - f[(m + n - 1) % n])

@@ -8,7 +8,7 @@ pub type Symmetric = [f64; 4];
 /// The symmetric unit tensor.
 pub const UNIT: Symmetric = [1.0, 1.0, 0.0, 1.0];
 
-/// F with J and J^(-2/3), which all that follows needs: the power costs as much as the rest together.
+/// F with J and J^(-2/3). They are computed once, because the power costs as much as all the rest.
 #[derive(Debug, Clone, Copy)]
 pub struct Deformation {
     pub f: Gradient,
@@ -92,26 +92,6 @@ pub fn remembered(deformation: impl Into<Deformation>) -> Symmetric {
     let c = right_cauchy_green(&f);
     let factor = scale * scale;
     [factor * c[1], factor * c[0], -factor * c[2], 1.0 / scale]
-}
-
-/// dY/dF, `[component of Y][component of F]`.
-pub fn remembered_slope(deformation: impl Into<Deformation>) -> [Gradient; 4] {
-    let deformation = deformation.into();
-    let Deformation { f, j, scale } = deformation;
-    let factor = scale * scale;
-    let g = cofactor(&f).map(|value| value / j);
-    let y = remembered(deformation);
-    let c22 = [0.0, 2.0 * f[1], 0.0, 2.0 * f[3]];
-    let c11 = [2.0 * f[0], 0.0, 2.0 * f[2], 0.0];
-    let c12 = [f[1], f[0], f[3], f[2]];
-    let mut slope = [[0.0; 4]; 4];
-    for k in 0..4 {
-        slope[0][k] = factor * c22[k] - 4.0 / 3.0 * g[k] * y[0];
-        slope[1][k] = factor * c11[k] - 4.0 / 3.0 * g[k] * y[1];
-        slope[2][k] = -factor * c12[k] - 4.0 / 3.0 * g[k] * y[2];
-        slope[3][k] = 2.0 / 3.0 * g[k] * y[3];
-    }
-    slope
 }
 
 /// Smallest and largest in-plane principal stretch.

@@ -1,4 +1,4 @@
-//! The generalized Maxwell model: a spring beside springs in series with dashpots.
+//! The generalized Maxwell model: a spring in parallel with springs in series with dashpots.
 //!
 //! Relaxation modulus and complex modulus are
 //!     G(t) = G_inf + sum G_i exp(-t / tau_i),   G*(w) = G_inf + sum G_i i w tau_i / (1 + i w tau_i)
@@ -44,7 +44,7 @@ impl Maxwell {
     }
 }
 
-/// A along the line for Y = 1 in column 0, linear to zero in its neighbours, going round for ever.
+/// A along the periodic line for Y = 1 in column 0, which falls linearly to zero in its neighbours.
 pub fn recurrence(columns: usize, time: f64) -> Vec<f64> {
     let step = 1.0 / (columns as f64 * time);
     let decay = (-step).exp();
@@ -53,16 +53,16 @@ pub fn recurrence(columns: usize, time: f64) -> Vec<f64> {
     for column in 1..columns {
         a[column] = decay * a[column - 1] + if column == 1 { leaving(step) } else { 0.0 };
     }
-    // What is left on return to column 0 decays round and round again.
-    let mut again = decay * a[columns - 1] / -(-1.0 / time).exp_m1();
+    // The remainder on return to column 0 decays in all further rounds.
+    let mut remainder = decay * a[columns - 1] / -(-1.0 / time).exp_m1();
     for value in &mut a {
-        *value += again;
-        again *= decay;
+        *value += remainder;
+        remainder *= decay;
     }
     a
 }
 
-/// Weight of the point arrived at: 1 - (1 - exp(-x)) / x.
+/// Weight of Y at the end of a step: 1 - (1 - exp(-x)) / x.
 pub fn arriving(x: f64) -> f64 {
     if x < 1e-3 {
         x * (0.5 - x * (1.0 / 6.0 - x / 24.0))
@@ -71,7 +71,7 @@ pub fn arriving(x: f64) -> f64 {
     }
 }
 
-/// Weight of the point left: (1 - exp(-x)) / x - exp(-x).
+/// Weight of Y at the beginning of a step: (1 - exp(-x)) / x - exp(-x).
 pub fn leaving(x: f64) -> f64 {
     if x < 1e-3 {
         x * (0.5 - x * (1.0 / 3.0 - x / 8.0))

@@ -1,4 +1,4 @@
-//! The rubber at a point and along a line: pure functions, nothing of meshes or loads.
+//! The rubber at a point and along a line: pure functions, independent of meshes and loads.
 
 pub mod carried_history;
 pub mod dissipation;
@@ -7,3 +7,5 @@ pub mod kinematics;
 pub mod maxwell;
 pub mod sliding_history;
 pub mod stress;
+#[cfg(test)]
+pub mod tests;

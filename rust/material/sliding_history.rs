@@ -1,4 +1,4 @@
-//! What the temporary networks remember in steady sliding: a convolution along a line of points.
+//! Memory of the temporary networks in steady sliding: a convolution along a line of points.
 //!
 //! The rubber flows through the fixed mesh in +x with speed v, so each temporary network obeys
 //!     tau_i v dA_i/dx = Y - A_i,   periodic in x           (Lubliner 1985, steady in the wave's frame)
@@ -6,12 +6,12 @@
 //! only for the load time t: the mean of A_i is (1 - e_i) mean(Y) + e_i I with e_i = exp(-t / tau_i).
 //!
 //! The weights follow from the Fourier series, where harmonic k is multiplied by the complex modulus
-//! G*(2 pi k v / lambda); the exact recurrence between neighbouring points is kept as a check.
+//! G*(2 pi k v / lambda). The tests check them against the exact recurrence between neighbouring points.
 
 use std::f64::consts::TAU;
 
 use super::dissipation::Dissipation;
-use super::maxwell::{recurrence, Maxwell};
+use super::maxwell::Maxwell;
 use crate::spectral::{Complex64, Lines};
 
 /// Weights between equally placed points of the columns of one line (they form a circulant matrix).
@@ -20,11 +20,9 @@ use crate::spectral::{Complex64, Lines};
 /// the line, so the weights depend on the distance in columns alone.
 #[derive(Debug, Clone)]
 pub struct SlidingHistory {
-    /// What the temporary networks add to the mean state, G(load time) - G_inf.
+    /// Modulus that the temporary networks add to the mean state, G(load time) - G_inf.
     pub frozen_modulus: f64,
-    /// `stress[m]`: weight of Y in column e - m in H in column e.
-    pub stress: Vec<f64>,
-    /// Its harmonics, by which those of Y are multiplied.
+    /// Factors of the harmonics of Y in H: the harmonics of the weights.
     pub spectrum: Vec<Complex64>,
     pub lines: Lines,
     pub dissipation: Dissipation,
@@ -33,7 +31,8 @@ pub struct SlidingHistory {
 impl SlidingHistory {
     /// Memory of steady sliding; `load_time` in passage times.
     ///
-    /// Harmonic k of Y is multiplied by G(t) - G*(omega_k), the mean by nothing.
+    /// Harmonic k of Y is multiplied by G(t) - G*(omega_k), the mean by zero. The weight of each point on
+    /// itself is then removed, which DEV would remove with cancellation.
     pub fn new(columns: usize, maxwell: &Maxwell, load_time: f64) -> Self {
         let mean = maxwell.relaxation_modulus(load_time);
         let mut lines = Lines::new(columns);
@@ -44,36 +43,13 @@ impl SlidingHistory {
         }
         let mut stress = vec![0.0; columns];
         lines.inverse(&spectrum, &mut stress);
-        Self::without_local_part(maxwell, mean, stress)
-    }
-
-    /// The same by the exact recurrence of each Maxwell element from column to column,
-    ///     A_(j+1) = e^-h A_j + leaving(h) Y_j + arriving(h) Y_(j+1),   h = column / (v tau),
-    /// closed periodically, for Y linear in between: an independent evaluation of second order.
-    pub fn by_recurrence(columns: usize, maxwell: &Maxwell, load_time: f64) -> Self {
-        let mean = maxwell.relaxation_modulus(load_time);
-        let mut stress = vec![0.0; columns];
-        for (&modulus, &time) in maxwell.moduli.iter().zip(&maxwell.times) {
-            let kept = (-load_time / time).exp() / columns as f64;
-            for (m, weight) in recurrence(columns, time).into_iter().enumerate() {
-                stress[m] += modulus * (weight - kept);
-            }
-        }
-        Self::without_local_part(maxwell, mean, stress)
-    }
-
-    /// Take out the weight of each point on itself, which DEV would remove, to avoid cancellation.
-    fn without_local_part(maxwell: &Maxwell, mean: f64, mut stress: Vec<f64>) -> Self {
         stress[0] = 0.0;
-        let mut lines = Lines::new(stress.len());
-        let mut spectrum = vec![Complex64::default(); lines.harmonics()];
         lines.forward(&stress, &mut spectrum);
         Self {
             spectrum,
             lines,
             frozen_modulus: mean - maxwell.equilibrium,
-            dissipation: Dissipation::new(stress.len(), maxwell),
-            stress,
+            dissipation: Dissipation::new(columns, maxwell),
         }
     }
 }

@@ -1,13 +1,13 @@
-//! The linearised problem on given nodes in contact by one sparse factor, for a memory known before
-//! the step: the tangent is that of the elements alone.
+//! The linearised problem on a given active set by one sparse factor, for a memory that is known before the
+//! step: the tangent is then that of the elements alone.
 //!
-//! Where node a touches, du_z = w' (du_x - ds) + dd - gap, s the mean shift and d the approach. Its u_z
-//! is eliminated and its force with it, which leaves a sparse symmetric matrix and two borders,
-//!     mean of du_x = ds,   sum of df = what is missing of the load.
+//! At node a of the active set, du_z = w' (du_x - ds) + dd - gap, with the mean shift s and the approach d.
+//! Its u_z and its force are eliminated, which leaves a sparse symmetric matrix and two borders,
+//!     mean of du_x = ds,   sum of df = missing load.
 
-use super::balance::Balance;
-use super::increment::Increment;
-use crate::contact::touching::Contact;
+use super::newton::Increment;
+use super::residual::Residual;
+use crate::contact::linear_complementarity::Contact;
 use crate::contact::{PressedBlock, State};
 use crate::fem::block::{Block, RowState};
 use crate::fem::element_tangent::ElementTangent;
@@ -16,42 +16,42 @@ use crate::fem::pattern::Pattern;
 use crate::linear::{add, Ldl, LdlFactor};
 use crate::status::Status;
 
-/// What follows from the mesh alone.
+/// Pattern and symbolic factor, which follow from the mesh alone.
 pub struct Bordered {
     pattern: Pattern,
     ldl: Ldl,
 }
 
-/// The tangent of a state, factored with the nodes that touched held on the profile.
+/// The tangent of a state, factored with the active set kept on the profile.
 pub struct Tangent {
     factor: LdlFactor,
-    pub active: Vec<bool>,
+    pub active_set: Vec<bool>,
     slope: Vec<f64>,
-    /// Stiffness of the elements at the surface, as it is where no node is held.
+    /// Stiffness of the elements at the surface, with no unknown eliminated.
     surface: Vec<f64>,
-    /// Change of volume of every pressure mode, `[row][column][mode]`, by its element's displacements.
+    /// Change of volume of every pressure mode by its element's displacements, `[row][column][mode]`.
     volumes: Vec<f64>,
-    /// Answers to a unit of approach and of mean shift.
-    borders: [Answer; 2],
+    /// Responses to a unit of approach and of mean shift.
+    borders: [Response; 2],
 }
 
-/// Entries of the matrix, and of a tangent what is not factored.
+/// Entries of the matrix, and the parts of a tangent that are not factored.
 struct Assembled {
     values: Vec<f64>,
     surface: Vec<f64>,
     volumes: Vec<f64>,
 }
 
-/// Displacements as in a field, and what they add to the forces of the nodes held.
+/// Displacements as in a field, and the change of the contact forces on the active set.
 #[derive(Default)]
-struct Answer {
+struct Response {
     u: Vec<f64>,
     force: Vec<f64>,
 }
 
-/// Solution of the linearised problem: displacements and pressures as in a field, and the change of
-/// every node's contact force, of the approach and of the mean shift.
-pub struct Change {
+/// Solution of the linearised problem: the changes of displacements and pressures, as in a field, of every
+/// node's contact force, of the approach and of the mean shift.
+pub struct LinearSolution {
     pub u: Vec<f64>,
     pub pressure: Vec<f64>,
     pub force: Vec<f64>,
@@ -59,18 +59,18 @@ pub struct Change {
     pub shift: f64,
 }
 
-/// A pressure mode: its number in a field, that of its volume out of balance, K / M, its element's
+/// A pressure mode: its number in a field, the number of its residual volume, K / M, its element's
 /// displacements and how they change its volume.
 struct Mode<'a> {
     pressure: usize,
     volume: usize,
     stiffness: f64,
-    places: &'a [usize],
+    positions: &'a [usize],
     change: &'a [f64],
 }
 
 impl Bordered {
-    /// None where there is no memory for it.
+    /// None if memory does not suffice.
     pub fn new(block: &Block<'_>) -> Option<Self> {
         let pattern = Pattern::new(block);
         let ldl = Ldl::new(pattern.column_starts.clone(), pattern.rows.clone())?;
@@ -83,54 +83,54 @@ impl Bordered {
         pressed: &PressedBlock<'_>,
         state: &State,
         rows: &[RowState],
-        balance: &Balance,
+        residual: &Residual,
     ) -> Result<Tangent, Status> {
         let mesh = pressed.mesh();
-        let mut assembled = self.assemble(pressed, state, rows, balance)?;
-        let bend = balance.bend(pressed, state);
-        for (a, bend) in bend.iter().enumerate() {
-            let [x, z] = [0, 1].map(|d| self.pattern.diagonal_of(mesh.place(a, d)));
-            assembled.values[x] += bend;
-            if state.active[a] {
+        let mut assembled = self.assemble(pressed, state, rows, residual)?;
+        let curvature = residual.curvature_stiffness(pressed, state);
+        for (a, stiffness) in curvature.iter().enumerate() {
+            let [x, z] = [0, 1].map(|d| self.pattern.diagonal_of(mesh.position(a, d)));
+            assembled.values[x] += stiffness;
+            if state.active_set[a] {
                 assembled.values[z] = 1.0;
             }
         }
         let factor = self.ldl.factor(&assembled.values);
         let mut tangent = Tangent {
             factor: factor.ok_or(Status::NotFinite)?,
-            active: state.active.clone(),
-            slope: balance.slope.clone(),
+            active_set: state.active_set.clone(),
+            slope: residual.slope.clone(),
             surface: assembled.surface,
             volumes: assembled.volumes,
             borders: Default::default(),
         };
-        tangent.borders = self.borders(mesh, &tangent, &bend);
+        tangent.borders = self.borders(mesh, &tangent, &curvature);
         Ok(tangent)
     }
 
-    /// The elements alone, the nodes in contact held.
+    /// The elements alone, with the active set kept on the profile.
     fn assemble(
         &self,
         pressed: &PressedBlock<'_>,
         state: &State,
         rows: &[RowState],
-        balance: &Balance,
+        residual: &Residual,
     ) -> Result<Assembled, Status> {
         let (block, mesh) = (&pressed.block, pressed.mesh());
         let mut values = vec![0.0; self.pattern.rows.len()];
         let mut element = ElementTangent::new(block);
         let (mut surface, mut volumes) = (Vec::new(), Vec::new());
         for (row, of_row) in rows.iter().enumerate() {
-            pressed.watch.look()?;
+            pressed.executor.check_cancelled()?;
             for column in 0..mesh.columns {
-                element.fill(block, &state.field, of_row, (row, column));
+                element.assemble_condensed(block, &state.field, of_row, (row, column));
                 volumes.extend_from_slice(&element.volume);
                 if row == 0 {
                     surface.extend_from_slice(&element.stiffness);
                     for sub in 0..=mesh.order {
                         let a = (column * mesh.order + sub) % mesh.layer_nodes();
-                        if state.active[a] {
-                            hold(&mut element.stiffness, sub, balance.slope[a]);
+                        if state.active_set[a] {
+                            follow_slope(&mut element.stiffness, sub, residual.slope[a]);
                         }
                     }
                 }
@@ -145,87 +145,88 @@ impl Bordered {
         })
     }
 
-    fn borders(&self, mesh: &Mesh, tangent: &Tangent, bend: &[f64]) -> [Answer; 2] {
-        let still = vec![0.0; mesh.layers() * mesh.layer_size()];
-        let mut turned = still.clone();
-        for (a, bend) in bend.iter().enumerate() {
-            turned[mesh.place(a, 0)] = *bend;
+    fn borders(&self, mesh: &Mesh, tangent: &Tangent, curvature: &[f64]) -> [Response; 2] {
+        let no_forces = vec![0.0; mesh.layers() * mesh.layer_size()];
+        let mut turning_forces = no_forces.clone();
+        for (a, stiffness) in curvature.iter().enumerate() {
+            turning_forces[mesh.position(a, 0)] = *stiffness;
         }
-        let raised = self.answer(mesh, tangent, still, |_| 1.0);
-        let shifted = self.answer(mesh, tangent, turned, |a| -tangent.slope[a]);
-        [raised, shifted]
+        let by_approach = self.respond(mesh, tangent, no_forces, |_| 1.0);
+        let by_shift = self.respond(mesh, tangent, turning_forces, |a| -tangent.slope[a]);
+        [by_approach, by_shift]
     }
 
-    /// The increment by `tangent` that undoes `balance` of `state` under `load`. The contact it leads to
-    /// is that of the tangent without the nodes it would pull, and with those that would come to lie in
-    /// the profile.
+    /// The increment by `tangent` that removes the `residual` of `state` under `load`. Nodes that would be
+    /// pulled leave the active set at its end, and nodes that would penetrate the profile enter it.
     pub fn increment(
         &self,
         pressed: &PressedBlock<'_>,
         tangent: &Tangent,
         state: &State,
-        balance: &Balance,
+        residual: &Residual,
         load: f64,
     ) -> Increment {
         let mesh = pressed.mesh();
         let missing = load - state.force.iter().sum::<f64>();
-        let change = self.change(&pressed.block, tangent, balance, missing);
-        let Change { u, mut force, .. } = change;
+        let solution = self.solve(&pressed.block, tangent, residual, missing);
+        let LinearSolution { u, mut force, .. } = solution;
         add(&mut force, 1.0, &state.force);
-        let touches = |a: usize| {
-            if tangent.active[a] {
+        let in_contact = |a: usize| {
+            if tangent.active_set[a] {
                 return force[a] >= 0.0;
             }
-            let along = u[mesh.place(a, 0)] - change.shift;
-            let opening = u[mesh.place(a, 1)] - balance.slope[a] * along - change.approach;
-            balance.gap[a] + opening < 0.0
+            let along = u[mesh.position(a, 0)] - solution.shift;
+            let opening = u[mesh.position(a, 1)] - residual.slope[a] * along - solution.approach;
+            residual.gap[a] + opening < 0.0
         };
-        let active: Vec<bool> = (0..force.len()).map(touches).collect();
-        for (force, _) in force.iter_mut().zip(&active).filter(|(_, &active)| !active) {
-            *force = 0.0;
+        let active_set: Vec<bool> = (0..force.len()).map(in_contact).collect();
+        for (force, &active) in force.iter_mut().zip(&active_set) {
+            if !active {
+                *force = 0.0;
+            }
         }
         Increment {
             u,
-            pressure: change.pressure,
+            pressure: solution.pressure,
             contact: Contact {
                 force,
-                approach: state.approach + change.approach,
-                active,
+                approach: state.approach + solution.approach,
+                active_set,
             },
             products: 0,
         }
     }
 
-    /// What undoes `balance` where the nodes held stay on the profile and no other touches, the forces
-    /// growing by `missing` together.
-    pub fn change(
+    /// The solution that removes the `residual` with the active set on the profile and no other node in
+    /// contact, the contact forces growing by `missing` in sum.
+    pub fn solve(
         &self,
         block: &Block<'_>,
         tangent: &Tangent,
-        balance: &Balance,
+        residual: &Residual,
         missing: f64,
-    ) -> Change {
-        let mut right: Vec<f64> = balance.forces.iter().map(|force| -force).collect();
+    ) -> LinearSolution {
+        let mut right: Vec<f64> = residual.forces.iter().map(|force| -force).collect();
         self.each_mode(block, tangent, |mode| {
-            let pressed = -mode.stiffness * balance.volumes[mode.volume];
-            for (&place, change) in mode.places.iter().zip(mode.change) {
-                right[place] += pressed * change;
+            let pressure = -mode.stiffness * residual.volumes[mode.volume];
+            for (&position, change) in mode.positions.iter().zip(mode.change) {
+                right[position] += pressure * change;
             }
         });
-        let own = self.answer(block.mesh, tangent, right, |a| -balance.gap[a]);
-        let (approach, shift) = amounts(block.mesh, &own, &tangent.borders, missing);
-        let Answer { mut u, mut force } = own;
+        let response = self.respond(block.mesh, tangent, right, |a| -residual.gap[a]);
+        let (approach, shift) = border_amounts(block.mesh, &response, &tangent.borders, missing);
+        let Response { mut u, mut force } = response;
         for (border, amount) in tangent.borders.iter().zip([approach, shift]) {
             add(&mut u, amount, &border.u);
             add(&mut force, amount, &border.force);
         }
-        let mut pressure = vec![0.0; balance.volumes.len()];
+        let mut pressure = vec![0.0; residual.volumes.len()];
         self.each_mode(block, tangent, |mode| {
-            let changes = mode.places.iter().zip(mode.change);
-            let volume: f64 = changes.map(|(&place, change)| change * u[place]).sum();
-            pressure[mode.pressure] = mode.stiffness * (volume + balance.volumes[mode.volume]);
+            let changes = mode.positions.iter().zip(mode.change);
+            let volume: f64 = changes.map(|(&position, change)| change * u[position]).sum();
+            pressure[mode.pressure] = mode.stiffness * (volume + residual.volumes[mode.volume]);
         });
-        Change {
+        LinearSolution {
             u,
             pressure,
             force,
@@ -234,38 +235,38 @@ impl Bordered {
         }
     }
 
-    /// Answer to forces with each node held `lift` above where its u_x leads it.
-    fn answer(
+    /// Response to `forces`, with each node of the active set `lift` above the profile under its u_x.
+    fn respond(
         &self,
         mesh: &Mesh,
         tangent: &Tangent,
         forces: Vec<f64>,
         lift: impl Fn(usize) -> f64,
-    ) -> Answer {
-        let held = || (0..tangent.active.len()).filter(|&a| tangent.active[a]);
+    ) -> Response {
+        let active_nodes = || (0..tangent.active_set.len()).filter(|&a| tangent.active_set[a]);
         let mut u = vec![0.0; forces.len()];
-        held().for_each(|a| u[mesh.place(a, 1)] = lift(a));
+        active_nodes().for_each(|a| u[mesh.position(a, 1)] = lift(a));
         let mut right = forces.clone();
         self.add_surface(mesh, tangent, &u, -1.0, &mut right);
-        for a in held() {
-            let up = std::mem::take(&mut right[mesh.place(a, 1)]);
-            right[mesh.place(a, 0)] += tangent.slope[a] * up;
+        for a in active_nodes() {
+            let up = std::mem::take(&mut right[mesh.position(a, 1)]);
+            right[mesh.position(a, 0)] += tangent.slope[a] * up;
         }
         let unknowns = &self.pattern.unknowns;
-        let mut solution: Vec<f64> = unknowns.iter().map(|&place| right[place]).collect();
+        let mut solution: Vec<f64> = unknowns.iter().map(|&position| right[position]).collect();
         self.ldl.solve(&tangent.factor, &mut solution);
-        for (&place, solution) in unknowns.iter().zip(&solution) {
-            u[place] += solution;
+        for (&position, solution) in unknowns.iter().zip(&solution) {
+            u[position] += solution;
         }
-        for a in held() {
-            u[mesh.place(a, 1)] += tangent.slope[a] * u[mesh.place(a, 0)];
+        for a in active_nodes() {
+            u[mesh.position(a, 1)] += tangent.slope[a] * u[mesh.position(a, 0)];
         }
-        let mut pulled: Vec<f64> = forces[..mesh.layer_size()].iter().map(|f| -f).collect();
-        pulled.resize(forces.len(), 0.0);
-        self.add_surface(mesh, tangent, &u, 1.0, &mut pulled);
-        let mut force = vec![0.0; tangent.active.len()];
-        held().for_each(|a| force[a] = pulled[mesh.place(a, 1)]);
-        Answer { u, force }
+        let mut reaction: Vec<f64> = forces[..mesh.layer_size()].iter().map(|f| -f).collect();
+        reaction.resize(forces.len(), 0.0);
+        self.add_surface(mesh, tangent, &u, 1.0, &mut reaction);
+        let mut force = vec![0.0; tangent.active_set.len()];
+        active_nodes().for_each(|a| force[a] = reaction[mesh.position(a, 1)]);
+        Response { u, force }
     }
 
     /// Add `factor` times the forces of the elements at the surface.
@@ -274,10 +275,10 @@ impl Bordered {
             .surface
             .chunks_exact(tangent.surface.len() / mesh.columns);
         for (element, stiffness) in elements.enumerate() {
-            let places = self.pattern.places(element);
-            for (line, &place) in stiffness.chunks_exact(places.len()).zip(places) {
-                let force: f64 = line.iter().zip(places).map(|(k, &p)| k * u[p]).sum();
-                to[place] += factor * force;
+            let positions = self.pattern.positions(element);
+            for (line, &position) in stiffness.chunks_exact(positions.len()).zip(positions) {
+                let force: f64 = line.iter().zip(positions).map(|(k, &p)| k * u[p]).sum();
+                to[position] += factor * force;
             }
         }
     }
@@ -293,29 +294,34 @@ impl Bordered {
                 pressure,
                 volume: (row * modes + mode) * columns + column,
                 stiffness: block.bulk_modulus / mesh.elements[row].mode_mass[mode],
-                places: self.pattern.places(element),
+                positions: self.pattern.positions(element),
                 change,
             });
         }
     }
 }
 
-/// Approach and mean shift of which the borders make an answer complete.
-fn amounts(mesh: &Mesh, own: &Answer, borders: &[Answer; 2], missing: f64) -> (f64, f64) {
-    let sum = |answer: &Answer| answer.force.iter().sum::<f64>();
-    let [raised, shifted] = borders;
+/// The approach and the mean shift with which a response satisfies the two border conditions.
+fn border_amounts(
+    mesh: &Mesh,
+    response: &Response,
+    borders: &[Response; 2],
+    missing: f64,
+) -> (f64, f64) {
+    let sum = |response: &Response| response.force.iter().sum::<f64>();
+    let [by_approach, by_shift] = borders;
     let (a, b) = (
-        mesh.mean_shift(&raised.u),
-        mesh.mean_shift(&shifted.u) - 1.0,
+        mesh.mean_shift(&by_approach.u),
+        mesh.mean_shift(&by_shift.u) - 1.0,
     );
-    let (c, d) = (sum(raised), sum(shifted));
-    let (e, f) = (-mesh.mean_shift(&own.u), missing - sum(own));
+    let (c, d) = (sum(by_approach), sum(by_shift));
+    let (e, f) = (-mesh.mean_shift(&response.u), missing - sum(response));
     let determinant = a * d - b * c;
     ((e * d - b * f) / determinant, (a * f - e * c) / determinant)
 }
 
 /// Let u_z of a surface node follow its u_x along `slope`.
-fn hold(stiffness: &mut [f64], node: usize, slope: f64) {
+fn follow_slope(stiffness: &mut [f64], node: usize, slope: f64) {
     let size = stiffness.len().isqrt();
     let (x, z) = (2 * node, 2 * node + 1);
     for line in stiffness.chunks_exact_mut(size) {

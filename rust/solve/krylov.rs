@@ -1,65 +1,65 @@
-//! The linearised problem of a Newton step without a matrix, GMRES on displacement and pressure:
-//!     J y - C^T df = r,   g + C y - dd = 0 on the nodes that touch,   sum f = load
+//! The linearised problem of a Newton step without a matrix, by GMRES on displacement and pressure:
+//!     J y - C^T df = r,   g + C y - dd = 0 on the active set,   sum f = load.
 //!
-//! J is applied (`fem::jacobian`), its average along the rows solved (`fem::uniform`). With that in
-//! place of J the whole problem, complementarity included, is dense in the contact forces alone: it
-//! says which nodes touch. On that set, its conditions kept by every direction, GMRES brings the forces
-//! into balance (constraint preconditioning: Keller, Gould & Wathen, SIAM J. Matrix Anal. Appl. 21
-//! (2000) 1300). The next Newton step finds the next set: to iterate one problem on set after set, until
-//! none changes, took more products and no fewer steps.
+//! J is applied (`fem::jacobian_product`), its average along the rows is solved (`fem::averaged_jacobian`).
+//! With the average in place of J the whole problem, complementarity included, is dense in the contact
+//! forces alone, and predicts the active set. On that set GMRES solves the problem with J; every direction
+//! satisfies the conditions of the set (constraint preconditioning: Keller, Gould & Wathen, SIAM J. Matrix
+//! Anal. Appl. 21 (2000) 1300). The next Newton step predicts the next set: to iterate one linearised
+//! problem on set after set, until none changes, took more products and no fewer steps.
 
-use super::increment::{Increment, Now};
-use crate::contact::complementarity;
-use crate::contact::held::Held;
-use crate::contact::surface::Surface;
-use crate::contact::touching::{Contact, Linearised};
+use super::newton::{Increment, Iterate};
+use crate::contact::active_set_system::ActiveSetSystem;
+use crate::contact::linear_complementarity::{self, ComplementarityProblem, Contact};
+use crate::contact::surface_compliance::SurfaceCompliance;
 use crate::contact::{PressedBlock, State};
-use crate::fem::jacobian::{self, Jacobian};
+use crate::executor::Executor;
+use crate::fem::averaged_jacobian::{AveragedJacobian, SolutionWorkspace};
+use crate::fem::jacobian::Jacobian;
+use crate::fem::jacobian_product::ProductWorkspace;
 use crate::fem::mesh::Mesh;
-use crate::fem::uniform::{self, Uniform};
 use crate::linear::{gmres, norm};
 use crate::settings::Settings;
 use crate::status::Status;
-use crate::watch::Watch;
 
-/// The forces out of balance may fall to this share, or to this absolute size.
+/// GMRES ends at this share of the residual, or at this absolute size.
 #[derive(Debug, Clone, Copy)]
 pub struct Accuracy {
     pub share: f64,
     pub least: f64,
 }
 
-/// Increment of a Newton step from `now` under `load`, the nodes of `set` held; the average tells them
-/// where none are given.
+/// The increment of a Newton step from `iterate` under `load`, with the nodes of `active_set` in contact; if
+/// no set is given, the averaged compliance predicts it.
 pub fn increment(
     pressed: &PressedBlock<'_>,
-    now: Now<'_>,
-    set: Option<&[bool]>,
+    iterate: Iterate<'_>,
+    active_set: Option<&[bool]>,
     load: f64,
     accuracy: Accuracy,
     settings: &Settings,
 ) -> Result<Increment, Status> {
-    let Now {
+    let Iterate {
         state,
         rows,
-        balance,
+        residual,
         ..
-    } = now;
-    let watch = pressed.watch;
-    let jacobian = Jacobian::new(&pressed.block, &state.field, rows, watch)?;
-    let uniform = Uniform::new(&jacobian, watch)?;
+    } = iterate;
+    let executor = pressed.executor;
+    let jacobian = Jacobian::new(&pressed.block, &state.field, rows, executor)?;
+    let average = AveragedJacobian::new(&jacobian, executor)?;
     let step = Step {
         mesh: pressed.mesh(),
-        watch,
+        executor,
         jacobian: &jacobian,
-        uniform: &uniform,
-        surface: Surface::new(&uniform, &balance.slope),
-        bend: balance.bend(pressed, state),
-        gap: &balance.gap,
+        average: &average,
+        compliance: SurfaceCompliance::new(&average, &residual.slope),
+        curvature_stiffness: residual.curvature_stiffness(pressed, state),
+        gap: &residual.gap,
         state,
-        set,
+        active_set,
         load,
-        right: balance.to_undo(pressed),
+        right: residual.right_hand_side(pressed),
     };
     step.solve(accuracy, settings)
 }
@@ -67,200 +67,209 @@ pub fn increment(
 /// One linearised problem.
 struct Step<'a> {
     mesh: &'a Mesh,
-    watch: &'a Watch<'a>,
+    executor: &'a Executor<'a>,
     jacobian: &'a Jacobian<'a>,
-    uniform: &'a Uniform<'a>,
-    surface: Surface<'a>,
+    average: &'a AveragedJacobian<'a>,
+    compliance: SurfaceCompliance<'a>,
     /// Contact force times curvature of the profile, at every node.
-    bend: Vec<f64>,
+    curvature_stiffness: Vec<f64>,
     gap: &'a [f64],
     state: &'a State,
-    set: Option<&'a [bool]>,
+    active_set: Option<&'a [bool]>,
     load: f64,
     right: Vec<f64>,
 }
 
-/// Where products and averaged solutions take place.
-struct Rooms<'t> {
-    product: jacobian::Room<'t>,
-    uniform: uniform::Room<'t>,
+/// Memory for products and averaged solutions.
+struct StepWorkspace<'t> {
+    product: ProductWorkspace<'t>,
+    average: SolutionWorkspace<'t>,
     solution: Vec<f64>,
 }
 
-/// A solution on the way.
-struct Iterate {
+/// An approximate solution of the linearised problem.
+struct Approximation {
     y: Vec<f64>,
     contact: Contact,
-    /// Forces and volumes out of balance.
-    left: Vec<f64>,
+    /// Residual forces and volumes.
+    residual: Vec<f64>,
 }
 
 impl Step<'_> {
-    /// Contact by the average, then balance on its set.
+    /// Predict the contact by the average, then solve on its active set.
     fn solve(&self, accuracy: Accuracy, settings: &Settings) -> Result<Increment, Status> {
-        let mut rooms = Rooms {
-            product: self.jacobian.room(self.watch.threads),
-            uniform: self.uniform.room(self.watch.threads),
+        let threads = self.executor.threads;
+        let mut work = StepWorkspace {
+            product: self.jacobian.workspace(threads),
+            average: self.average.workspace(threads),
             solution: vec![0.0; self.right.len()],
         };
-        let mut now = Iterate {
+        let mut approximation = Approximation {
             y: vec![0.0; self.right.len()],
             contact: Contact {
                 force: self.state.force.clone(),
                 approach: self.state.approach,
-                active: self.state.active.clone(),
+                active_set: self.state.active_set.clone(),
             },
-            left: self.right.clone(),
+            residual: self.right.clone(),
         };
-        let moved = self.uniform.reduce(&now.left, &mut rooms.uniform);
-        let (contact, held) = self.touching(&now, &moved, settings)?;
-        self.correct(&mut now, contact, moved, &mut rooms);
-        let largest = norm(&self.right).max(norm(&now.left));
+        let surface = self.average.reduce(&approximation.residual, &mut work.average);
+        let (contact, system) = self.predict_contact(&approximation, &surface, settings)?;
+        self.apply_contact(&mut approximation, contact, surface, &mut work);
+        let largest = norm(&self.right).max(norm(&approximation.residual));
         let target = (accuracy.share * largest).max(accuracy.least);
-        let products = self.balance(&mut now, &held, target, &mut rooms, settings)?;
+        let products = self.solve_on_active_set(&mut approximation, &system, target, &mut work, settings)?;
         let displacements = self.jacobian.displacements();
-        let mut u = now.y[..displacements].to_vec();
+        let mut u = approximation.y[..displacements].to_vec();
         u.resize(self.state.field.u.len(), 0.0);
         Ok(Increment {
             u,
-            pressure: self.by_element(&now.y[displacements..]),
-            contact: now.contact,
+            pressure: self.by_element(&approximation.y[displacements..]),
+            contact: approximation.contact,
             products,
         })
     }
 
-    /// Contact of the linearised problem with the average in place of the Jacobian; what is left out
-    /// of balance moves the surface by `moved`.
-    fn touching(
+    /// Contact of the linearised problem with the average in place of the Jacobian; the residual displaces
+    /// the surface by `surface`.
+    fn predict_contact(
         &self,
-        now: &Iterate,
-        moved: &[f64],
+        approximation: &Approximation,
+        surface: &[f64],
         settings: &Settings,
-    ) -> Result<(Contact, Held<'_>), Status> {
-        let answered = self
-            .surface
-            .answer(&self.surface.forces(&now.contact.force));
-        let surface = now.y.iter().zip(moved).zip(answered);
-        let free: Vec<f64> = surface
-            .map(|((y, moved), answered)| y + moved - answered)
+    ) -> Result<(Contact, ActiveSetSystem<'_>), Status> {
+        let forces = self.compliance.nodal_forces(&approximation.contact.force);
+        let by_forces = self.compliance.displacements(&forces);
+        let free_u: Vec<f64> = (approximation.y.iter().zip(surface).zip(by_forces))
+            .map(|((y, surface), by_forces)| y + surface - by_forces)
             .collect();
-        let mut free = self.surface.opening(&free);
-        for (free, gap) in free.iter_mut().zip(self.gap) {
+        let mut free_gap = self.compliance.opening(&free_u);
+        for (free, gap) in free_gap.iter_mut().zip(self.gap) {
             *free += gap + self.state.approach;
         }
-        if free.iter().any(|gap| !gap.is_finite()) {
+        if free_gap.iter().any(|gap| !gap.is_finite()) {
             return Err(Status::NotFinite);
         }
-        let problem = Linearised {
-            compliance: &self.surface,
-            free: &free,
+        let problem = ComplementarityProblem {
+            compliance: &self.compliance,
+            free_gap: &free_gap,
             load: self.load,
         };
-        match self.set {
-            None => complementarity::solve(&problem, &now.contact.active, settings, self.watch),
-            Some(active) => complementarity::on_set(&problem, active, settings, self.watch),
+        let executor = self.executor;
+        match self.active_set {
+            None => {
+                let start = &approximation.contact.active_set;
+                linear_complementarity::solve(&problem, start, settings, executor)
+            }
+            Some(active_set) => linear_complementarity::solve_on_active_set(
+                &problem, active_set, settings, executor,
+            ),
         }
     }
 
-    /// Let the average answer to what is left, of which it has been reduced to `moved`, and to new
-    /// contact forces.
-    fn correct(&self, now: &mut Iterate, contact: Contact, moved: Vec<f64>, rooms: &mut Rooms<'_>) {
-        let mut correction = std::mem::take(&mut rooms.solution);
-        self.complete(
-            moved,
-            &difference(&contact.force, &now.contact.force),
-            &mut correction,
-            rooms,
-        );
-        for (y, change) in now.y.iter_mut().zip(&correction) {
+    /// Add the averaged solution for the residual, which was reduced to `surface`, and for the change to
+    /// the forces of `contact`; then compute the new residual.
+    fn apply_contact(
+        &self,
+        approximation: &mut Approximation,
+        contact: Contact,
+        surface: Vec<f64>,
+        work: &mut StepWorkspace<'_>,
+    ) {
+        let mut correction = std::mem::take(&mut work.solution);
+        let force_change = difference(&contact.force, &approximation.contact.force);
+        self.averaged_solution(surface, &force_change, &mut correction, work);
+        for (y, change) in approximation.y.iter_mut().zip(&correction) {
             *y += change;
         }
-        rooms.solution = correction;
-        now.contact = contact;
-        let change = difference(&now.contact.force, &self.state.force);
-        self.product(&now.y, &change, &mut now.left, rooms);
-        for (left, right) in now.left.iter_mut().zip(&self.right) {
-            *left = right - *left;
+        work.solution = correction;
+        approximation.contact = contact;
+        let force_change = difference(&approximation.contact.force, &self.state.force);
+        self.product(&approximation.y, &force_change, &mut approximation.residual, work);
+        for (residual, right) in approximation.residual.iter_mut().zip(&self.right) {
+            *residual = right - *residual;
         }
     }
 
-    /// The averaged solution of what was reduced to `moved`, under contact forces as well.
-    fn complete(
+    /// The averaged solution of what was reduced to `surface`, with contact `forces` added.
+    fn averaged_solution(
         &self,
-        mut moved: Vec<f64>,
+        mut surface: Vec<f64>,
         forces: &[f64],
         out: &mut [f64],
-        rooms: &mut Rooms<'_>,
+        work: &mut StepWorkspace<'_>,
     ) {
-        let answered = self.surface.answer(&self.surface.forces(forces));
-        for (u, answered) in moved.iter_mut().zip(answered) {
-            *u += answered;
+        let by_forces = self
+            .compliance
+            .displacements(&self.compliance.nodal_forces(forces));
+        for (u, by_forces) in surface.iter_mut().zip(by_forces) {
+            *u += by_forces;
         }
-        self.uniform.expand(&moved, out, &mut rooms.uniform);
+        self.average.expand(&surface, out, &mut work.average);
     }
 
     /// `out` = J y - C^T `forces`.
-    fn product(&self, y: &[f64], forces: &[f64], out: &mut [f64], rooms: &mut Rooms<'_>) {
-        self.jacobian.product(y, out, &mut rooms.product);
+    fn product(&self, y: &[f64], forces: &[f64], out: &mut [f64], work: &mut StepWorkspace<'_>) {
+        self.jacobian.product(y, out, &mut work.product);
         let shift = self.mesh.mean_shift(y);
-        for (a, bend) in self.bend.iter().enumerate() {
-            let at = self.mesh.place(a, 0);
-            out[at] += bend * (y[at] - shift);
+        for (a, stiffness) in self.curvature_stiffness.iter().enumerate() {
+            let at = self.mesh.position(a, 0);
+            out[at] += stiffness * (y[at] - shift);
         }
-        for (out, force) in out.iter_mut().zip(self.surface.forces(forces)) {
+        for (out, force) in out.iter_mut().zip(self.compliance.nodal_forces(forces)) {
             *out -= force;
         }
     }
 
-    /// Bring forces and volumes into balance with the nodes of `held` touching.
-    fn balance(
+    /// Reduce the residual to `target` by GMRES, with the active set of `system` in contact.
+    fn solve_on_active_set(
         &self,
-        now: &mut Iterate,
-        held: &Held<'_>,
+        approximation: &mut Approximation,
+        system: &ActiveSetSystem<'_>,
         target: f64,
-        rooms: &mut Rooms<'_>,
+        work: &mut StepWorkspace<'_>,
         settings: &Settings,
     ) -> Result<usize, Status> {
-        let mut failed = Ok(());
+        let mut failure = Ok(());
         let apply = |v: &[f64], out: &mut [f64]| {
-            let mut solution = std::mem::take(&mut rooms.solution);
-            match self.corrected(v, held, &mut solution, rooms) {
-                Ok((force, _)) => self.product(&solution, &force, out, rooms),
-                Err(status) => failed = Err(status),
+            let mut solution = std::mem::take(&mut work.solution);
+            match self.precondition(v, system, &mut solution, work) {
+                Ok((force, _)) => self.product(&solution, &force, out, work),
+                Err(status) => failure = Err(status),
             }
-            rooms.solution = solution;
+            work.solution = solution;
         };
         let limits = (settings.krylov_basis, settings.krylov_iterations);
-        let found = gmres(apply, &now.left, target, limits, self.watch)?;
-        failed?;
-        let mut correction = std::mem::take(&mut rooms.solution);
-        let (force, approach) = self.corrected(&found.y, held, &mut correction, rooms)?;
-        for (y, change) in now.y.iter_mut().zip(&correction) {
+        let solution = gmres(apply, &approximation.residual, target, limits, self.executor)?;
+        failure?;
+        let mut correction = std::mem::take(&mut work.solution);
+        let (force, approach) = self.precondition(&solution.y, system, &mut correction, work)?;
+        for (y, change) in approximation.y.iter_mut().zip(&correction) {
             *y += change;
         }
-        rooms.solution = correction;
-        for (total, force) in now.contact.force.iter_mut().zip(&force) {
+        work.solution = correction;
+        for (total, force) in approximation.contact.force.iter_mut().zip(&force) {
             *total += force;
         }
-        now.contact.approach += approach;
-        now.left = found.left;
-        Ok(found.iterations)
+        approximation.contact.approach += approach;
+        approximation.residual = solution.residual;
+        Ok(solution.iterations)
     }
 
-    /// The averaged solution for forces and volumes `v` that keeps the gaps of the nodes held, with
-    /// the forces and the approach that keep them.
-    fn corrected(
+    /// The averaged solution for forces and volumes `v` that keeps the gaps of the active set, with the
+    /// contact forces and the approach that keep them.
+    fn precondition(
         &self,
         v: &[f64],
-        held: &Held<'_>,
+        system: &ActiveSetSystem<'_>,
         out: &mut [f64],
-        rooms: &mut Rooms<'_>,
+        work: &mut StepWorkspace<'_>,
     ) -> Result<(Vec<f64>, f64), Status> {
-        let moved = self.uniform.reduce(v, &mut rooms.uniform);
-        let opening = self.surface.opening(&moved);
-        let kept = held.close(&opening, 0.0, self.watch)?;
-        let (force, approach) = kept.ok_or(Status::NoActiveSet)?;
-        self.complete(moved, &force, out, rooms);
+        let surface = self.average.reduce(v, &mut work.average);
+        let opening = self.compliance.opening(&surface);
+        let closing = system.solve(&opening, 0.0, self.executor)?;
+        let (force, approach) = closing.ok_or(Status::NoActiveSet)?;
+        self.averaged_solution(surface, &force, out, work);
         Ok((force, approach))
     }
 
@@ -268,10 +277,10 @@ impl Step<'_> {
     fn by_element(&self, pressure: &[f64]) -> Vec<f64> {
         let (modes, columns) = (self.mesh.modes(), self.mesh.columns);
         let rows = pressure.chunks_exact(modes * columns);
-        let places = rows.flat_map(|row| {
+        let ordered = rows.flat_map(|row| {
             (0..columns).flat_map(move |column| (0..modes).map(move |m| row[m * columns + column]))
         });
-        places.collect()
+        ordered.collect()
     }
 }
 

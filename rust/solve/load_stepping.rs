@@ -1,28 +1,14 @@
-//! Load stepping: the pressure raised on one mesh from a small-strain start, step by step.
+//! Load stepping: the pressure is raised on one mesh from small strain, step by step.
 //!
 //! The step grows after an easy success and is cut after a failure. All in dimensionless units.
 
-use super::newton::{self, Report};
+use super::newton;
 use crate::contact::{PressedBlock, State};
 use crate::settings::Settings;
+use crate::solution::{Counts, Report};
 use crate::status::Status;
 
-#[derive(Debug, Default, Clone, Copy)]
-pub struct Counts {
-    pub load_steps: usize,
-    pub iterations: usize,
-    /// Products with the Jacobian where the linearised problem is iterated.
-    pub products: usize,
-}
-
-impl Counts {
-    pub fn add(&mut self, report: &Report) {
-        self.iterations += report.iterations;
-        self.products += report.products;
-    }
-}
-
-/// Raise the load on `state`, at rest before, to `load`; returns the share of it that was reached.
+/// Raise the load on `state`, which is at rest, to `load`; also returns the share of it that was reached.
 pub fn raise(
     pressed: &PressedBlock<'_>,
     state: &mut State,
@@ -54,7 +40,7 @@ pub fn raise(
                     .min(settings.largest_growth);
             }
             next = (reached * growth).min(load);
-        } else if report.status == Status::TimeLimit {
+        } else if report.status.interrupts() {
             return (report, reached / load);
         } else if reached == 0.0 {
             next *= settings.first_load_cut;

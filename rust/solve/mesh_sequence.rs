@@ -1,39 +1,39 @@
-//! A sequence of meshes, each twice as fine as the one before, the last two telling the error.
+//! A sequence of meshes, each twice as fine as the one before; the last two give the error estimate.
 //!
-//! The coarsest mesh has the load raised step by step, every finer one starts from its predecessor's
-//! solution. The sequence goes on until two agree as well as was asked, and the last can be trusted.
+//! On the coarsest mesh the load is raised step by step, every finer mesh starts from the solution on its
+//! predecessor. The sequence ends when two solutions agree to the tolerance and the last can be trusted.
 
-use super::judge::Judge;
-use super::mesh_solution::MeshSolution;
+use super::error_estimator::ErrorEstimator;
 use crate::contact::profile::Heights;
 use crate::error::KernelError;
 use crate::fem::mesh::{Mesh, MeshSize};
+use crate::solution::MeshSolution;
 use crate::status::Status;
 
-/// Nodes of the coarsest mesh that tells anything of a finer one.
+/// Nodes of the coarsest mesh from which the error of a finer one can be estimated.
 const FEWEST_NODES: usize = 8;
 
-/// Meshes, coarsest first, of which the first `required` are solved in any case.
+/// Meshes, coarsest first. The first `required` are always solved.
 pub struct MeshSequence {
     pub sizes: Vec<MeshSize>,
     pub required: usize,
-    /// The mesh of half the first's columns where the profile is too rough to begin with it: solved
-    /// afterwards, from the first's solution, to tell its error.
+    /// The mesh of half the first's columns, if the profile is too rough to begin with it: it is solved
+    /// after the first, from the first's solution, to estimate the error of the first.
     pub below: Option<MeshSize>,
 }
 
 impl MeshSequence {
-    /// Up to the mesh asked for, or with a tolerance to any that meets it, and beyond as long as no
-    /// solution can be trusted; less of it is needed where there is a solution to `start` from. No
-    /// mesh but the one asked for is coarser than the waves of `heights` need: it would find contacts
-    /// that are not there, and finer meshes may keep them.
+    /// Up to the mesh of size `finest`, or with a tolerance to any that meets it, and beyond as long as no
+    /// solution can be trusted; fewer meshes are needed with a solution to `start` from. Except `finest`,
+    /// no mesh is too coarse for the waves of `heights`: it would have contacts that do not exist, and
+    /// finer meshes may keep them.
     pub fn new(
         finest: &MeshSize,
         start: Option<&MeshSolution>,
         heights: &Heights,
-        judge: &Judge,
+        estimator: &ErrorEstimator,
     ) -> Self {
-        let settings = &judge.settings;
+        let settings = &estimator.settings;
         let smooth = match heights.waves() {
             1 => 0,
             waves => settings.nodes_per_wave * waves,
@@ -47,7 +47,7 @@ impl MeshSequence {
             }
             enough
         };
-        // Without a coarser mesh nothing is known of the errors: one is as coarse as it must.
+        // Without a coarser mesh there is no error estimate, so one may be as coarse as necessary.
         if !halve(settings.coarsest_nodes) {
             halve(FEWEST_NODES);
         }
@@ -56,18 +56,18 @@ impl MeshSequence {
         let below = finest.columns.div_ceil(2);
         let below = (smooth > 0 && columns.len() == 1 && follows(below)).then_some(below);
         let mut required = columns.len();
-        let most = match judge.tolerance {
+        let most = match estimator.tolerance {
             Some(_) => settings.finest_columns,
             None => settings.rescue_columns.min(settings.finest_columns),
         };
         while columns[columns.len() - 1] * 2 <= most {
             columns.push(columns[columns.len() - 1] * 2);
         }
-        let needed = if judge.tolerance.is_none() {
+        let needed = if estimator.tolerance.is_none() {
             start.map_or(0, |_| required.saturating_sub(2))
         } else {
             required = 0;
-            let least = start.map_or(0, |start| judge.columns_within(start) / 2);
+            let least = start.map_or(0, |start| estimator.columns_within(start) / 2);
             let coarser = columns.iter().filter(|&&count| count < least).count();
             coarser.min(columns.len().saturating_sub(2))
         };
@@ -80,11 +80,11 @@ impl MeshSequence {
         }
     }
 
-    /// Solve on one mesh after the other by `on_mesh(mesh, coarser solution)`, until time is over; the
-    /// mesh below from the finer solution.
+    /// Solve on one mesh after the other by `on_mesh(mesh, coarser solution)`; the mesh `below` starts from
+    /// the finer solution instead.
     pub fn solve(
         &self,
-        judge: &Judge,
+        estimator: &ErrorEstimator,
         mut on_mesh: impl FnMut(Mesh, Option<&MeshSolution>) -> Result<MeshSolution, KernelError>,
     ) -> Result<MeshSolution, KernelError> {
         let mut last: Option<MeshSolution> = None;
@@ -100,22 +100,22 @@ impl MeshSequence {
                 }
                 _ => None,
             };
-            let fine = judge.judged(fine, coarse.or(below.as_ref()));
-            // What was asked for failed, or what was solved has no finer solution: that is the answer.
-            let ends = judge.tolerance.is_none() && i + 1 >= self.required && !fine.converged();
+            let fine = estimator.with_errors(fine, coarse.or(below.as_ref()));
+            // Either the mesh of the problem failed, or its solution cannot be continued to a finer mesh.
+            let ends = estimator.tolerance.is_none() && i + 1 >= self.required && !fine.converged();
             if ends && i + 1 > self.required {
                 break;
             }
             let enough = fine.converged()
                 && i + 1 >= self.required
-                && judge.meets(&fine, 1.0)
-                && judge.verdict(&fine) == Status::Converged;
+                && estimator.meets(&fine, 1.0)
+                && estimator.verdict(&fine) == Status::Converged;
             last = Some(fine);
             if ends || enough {
                 break;
             }
         }
         let finest = last.ok_or(KernelError::Internal("a sequence without a mesh"))?;
-        Ok(judge.concluded(finest))
+        Ok(estimator.conclude(finest))
     }
 }

@@ -1,15 +1,14 @@
-//! Solving: one load, raising it, a sequence of meshes and the way from one mesh to another.
+//! Solving: one load, load stepping, a sequence of meshes, and the transfer between meshes.
 
-pub mod balance;
 pub mod bordered;
-pub mod increment;
-pub mod judge;
+pub mod error_estimator;
 pub mod kept_factor;
 pub mod krylov;
 pub mod load_stepping;
 pub mod mesh_sequence;
-pub mod mesh_solution;
 pub mod newton;
-mod next_set;
-pub mod roughening;
+pub mod profile_continuation;
+pub mod residual;
 pub mod transfer;
+#[cfg(test)]
+mod tests;

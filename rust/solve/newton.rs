@@ -1,46 +1,56 @@
 //! Newton's method for one load, on the linearised problem of the block in contact.
 //!
-//! It is solved by iteration, no better than pays: to the share of the forces out of balance
-//! (Eisenstat & Walker, SIAM J. Sci. Comput. 17 (1996) 16, choice 2)
-//!     eta = gamma (residual / residual before)^2,   at least gamma eta_before^2 where that is large.
+//! The linearised problem is solved by iteration, only as accurately as pays: to the share
+//!     eta = gamma (residual / residual before)^2,   at least gamma eta_before^2 if that is large,
+//! of the residual forces (Eisenstat & Walker, SIAM J. Sci. Comput. 17 (1996) 16, choice 2).
+//!
+//! Which nodes the next step keeps in contact is decided in two ways. Far from convergence the
+//! complementarity problem with the averaged compliance predicts the whole active set. Near convergence
+//! the signs of forces and gaps decide: this is the primal-dual active set method, which is Newton's
+//! method for the exact problem (Hintermueller, Ito & Kunisch, SIAM J. Optim. 13 (2002) 865). The averaged
+//! compliance is not exact, and under pressures of the order of the modulus it differs so much from that of
+//! the block at an edge that its predictions may cycle.
 
-use super::balance::Balance;
-use super::increment::{Increment, Now};
 use super::krylov::{self, Accuracy};
-use super::next_set::next_set;
+use super::residual::Residual;
+use crate::contact::linear_complementarity::Contact;
 use crate::contact::{PressedBlock, State};
 use crate::fem::block::RowState;
 use crate::linear::add;
 use crate::material::kinematics::Deformation;
 use crate::settings::Settings;
+use crate::solution::Report;
 use crate::status::Status;
 
-/// Share of the residual allowed below which the linearised problem is not solved.
-const ITERATED_TO: f64 = 0.1;
+/// The linearised problem is not solved below this share of the residual tolerance.
+const LEAST_SHARE_OF_TOLERANCE: f64 = 0.1;
 
-#[derive(Debug, Clone, Copy)]
-pub struct Report {
-    pub status: Status,
-    pub iterations: usize,
-    /// Products with the Jacobian that the iterations took.
+/// The state from which a Newton step starts, with its residual.
+#[derive(Clone, Copy)]
+pub struct Iterate<'a> {
+    pub state: &'a State,
+    /// States of the element rows.
+    pub rows: &'a [RowState],
+    pub residual: &'a Residual,
+    pub residual_norm: f64,
+}
+
+/// What a Newton step adds to the field, and the contact at its end.
+#[derive(Debug, Clone)]
+pub struct Increment {
+    /// Displacements of all layers, as in a field.
+    pub u: Vec<f64>,
+    /// Pressure modes, as in a field.
+    pub pressure: Vec<f64>,
+    /// At the end of the whole step.
+    pub contact: Contact,
+    /// Products with the Jacobian.
     pub products: usize,
-    /// Largest of the forces out of balance over the load and the gaps over half the range.
-    pub residual: f64,
 }
 
-impl Report {
-    /// Refuse to go on from what did not converge.
-    pub fn converged(&self) -> Result<(), Status> {
-        match self.status {
-            Status::Converged => Ok(()),
-            other => Err(other),
-        }
-    }
-}
-
-/// What to do where a whole step would go too far.
+/// What to do with a step that is too long.
 #[derive(Clone, Copy, PartialEq)]
-pub(super) enum Cut {
+pub(super) enum LongStep {
     Shorten,
     GiveUp,
 }
@@ -53,60 +63,62 @@ pub fn solve(
     settings: &Settings,
 ) -> Report {
     let (mut share, mut before) = (settings.krylov_share, f64::INFINITY);
-    iterate(pressed, state, load, settings, Cut::Shorten, |now| {
-        share = forcing(share, now.residual / before, settings);
-        before = now.residual;
-        let least = ITERATED_TO * settings.residual_tolerance * load.min(1.0);
+    iterate(pressed, state, load, settings, LongStep::Shorten, |iterate| {
+        share = forcing_share(share, iterate.residual_norm / before, settings);
+        before = iterate.residual_norm;
+        let least = LEAST_SHARE_OF_TOLERANCE * settings.residual_tolerance * load.min(1.0);
         let accuracy = Accuracy { share, least };
-        let set = next_set(now, settings);
-        krylov::increment(pressed, now, set.as_deref(), load, accuracy, settings)
+        let active_set = if iterate.residual_norm > settings.signs_below {
+            None
+        } else {
+            active_set_by_signs(iterate, settings)
+        };
+        krylov::increment(pressed, iterate, active_set.as_deref(), load, accuracy, settings)
     })
 }
 
-/// Iterate on `state` by increments as `next` finds them.
+/// Iterate on `state` by the increments that `next` computes.
 pub(super) fn iterate(
     pressed: &PressedBlock<'_>,
     state: &mut State,
     load: f64,
     settings: &Settings,
-    cut: Cut,
-    mut next: impl FnMut(Now<'_>) -> Result<Increment, Status>,
+    long_step: LongStep,
+    mut next: impl FnMut(Iterate<'_>) -> Result<Increment, Status>,
 ) -> Report {
     let mut report = Report {
-        status: Status::Converged,
-        iterations: 0,
-        products: 0,
         residual: f64::INFINITY,
+        ..Report::unsolved(Status::Converged)
     };
     let mut run = || -> Result<(), Status> {
         let mut rows = pressed.row_states(&state.field)?;
         let (mut best, mut best_at) = (f64::INFINITY, 0);
         loop {
-            let balance = Balance::new(pressed, state, &rows)?;
-            let residual = balance.residual(pressed, state, load);
-            report.residual = residual;
-            if !residual.is_finite() {
+            let residual = Residual::new(pressed, state, &rows)?;
+            let residual_norm = residual.norm(pressed, state, load);
+            report.residual = residual_norm;
+            if !residual_norm.is_finite() {
                 return Err(Status::NotFinite);
             }
-            if residual < settings.residual_tolerance {
+            if residual_norm < settings.residual_tolerance {
                 return Ok(());
             }
-            if residual < best {
-                (best, best_at) = (residual, report.iterations);
+            if residual_norm < best {
+                (best, best_at) = (residual_norm, report.iterations);
             }
             let stalled = report.iterations >= best_at + settings.patience;
             if stalled || report.iterations >= settings.max_iterations {
                 return Err(Status::IterationLimit);
             }
             report.iterations += 1;
-            let increment = next(Now {
+            let increment = next(Iterate {
                 state,
                 rows: &rows,
-                balance: &balance,
-                residual,
+                residual: &residual,
+                residual_norm,
             })?;
             report.products += increment.products;
-            step(pressed, increment, state, &mut rows, settings, cut)?;
+            step(pressed, increment, state, &mut rows, settings, long_step)?;
         }
     };
     if let Err(status) = run() {
@@ -115,28 +127,44 @@ pub(super) fn iterate(
     report
 }
 
-/// The share to which forces out of balance are to fall, from the last one and what came of it.
-fn forcing(last: f64, ratio: f64, settings: &Settings) -> f64 {
+/// The share to which the residual forces are reduced, from the last share and the last `ratio` of
+/// residuals.
+fn forcing_share(last: f64, ratio: f64, settings: &Settings) -> f64 {
     let gamma = settings.krylov_safety;
-    let careful = gamma * last * last;
+    let cautious = gamma * last * last;
     let next = gamma * ratio * ratio;
-    let next = if careful > 0.1 {
-        next.max(careful)
+    let next = if cautious > 0.1 {
+        next.max(cautious)
     } else {
         next
     };
     next.clamp(settings.krylov_least_share, settings.krylov_share)
 }
 
-/// One Newton step by `increment`, limited in displacement gradient and kept from turning elements
-/// over, as `cut` says.
+/// The active set by the signs of forces and gaps; None if it would be empty.
+fn active_set_by_signs(iterate: Iterate<'_>, settings: &Settings) -> Option<Vec<bool>> {
+    let (state, gap) = (iterate.state, &iterate.residual.gap);
+    let tolerance = settings.active_set_tolerance;
+    let count = state.active_set.iter().filter(|&&active| active).count();
+    let force_scale = state.force.iter().sum::<f64>() / count as f64;
+    let gap_scale = gap.iter().fold(0.0_f64, |most, gap| most.max(gap.abs()));
+    let in_contact = |a: usize| match state.active_set[a] {
+        true => state.force[a] >= -tolerance * force_scale,
+        false => gap[a] < -tolerance * gap_scale,
+    };
+    let active_set: Vec<bool> = (0..gap.len()).map(in_contact).collect();
+    active_set.contains(&true).then_some(active_set)
+}
+
+/// One Newton step by `increment`, limited in displacement gradient and kept from inverting elements, by
+/// the means that `long_step` names.
 fn step(
     pressed: &PressedBlock<'_>,
     increment: Increment,
     state: &mut State,
     rows: &mut Vec<RowState>,
     settings: &Settings,
-    cut: Cut,
+    long_step: LongStep,
 ) -> Result<(), Status> {
     let Increment {
         u,
@@ -147,16 +175,16 @@ fn step(
     if u.iter().any(|value| !value.is_finite()) {
         return Err(Status::NotFinite);
     }
-    let mut share = match cut {
-        Cut::Shorten => (settings.largest_step / largest_gradient(pressed, &u)?).min(1.0),
-        Cut::GiveUp => 1.0,
+    let mut share = match long_step {
+        LongStep::Shorten => (settings.largest_step / largest_gradient(pressed, &u)?).min(1.0),
+        LongStep::GiveUp => 1.0,
     };
     for _ in 0..settings.step_halvings {
         let mut trial = state.field.clone();
         add(&mut trial.u, share, &u);
         let trial_rows = pressed.row_states(&trial)?;
-        let far = || largest_change(rows, &trial_rows) > settings.largest_step;
-        if cut == Cut::GiveUp && (share < 1.0 || far()) {
+        let too_long = || largest_change(rows, &trial_rows) > settings.largest_step;
+        if long_step == LongStep::GiveUp && (share < 1.0 || too_long()) {
             return Err(Status::IterationLimit);
         }
         if smallest_jacobian(&trial_rows) > settings.smallest_volume_ratio {
@@ -165,7 +193,7 @@ fn step(
                 *f += share * (new - *f);
             }
             state.approach += share * (contact.approach - state.approach);
-            state.active = contact.active;
+            state.active_set = contact.active_set;
             state.field = trial;
             *rows = trial_rows;
             return Ok(());
@@ -175,12 +203,12 @@ fn step(
     Err(Status::ElementInverted)
 }
 
-/// The residual of a state that nothing was done to; infinite where it has none.
-pub fn missed(pressed: &PressedBlock<'_>, state: &State, load: f64) -> f64 {
+/// Norm of the residual of a state; infinite if it has none.
+pub fn residual_norm(pressed: &PressedBlock<'_>, state: &State, load: f64) -> f64 {
     let rows = pressed.row_states(&state.field);
-    let balance = rows.and_then(|rows| Balance::new(pressed, state, &rows));
-    let residual = balance.map(|balance| balance.residual(pressed, state, load));
-    residual.map_or(
+    let residual = rows.and_then(|rows| Residual::new(pressed, state, &rows));
+    let norm = residual.map(|residual| residual.norm(pressed, state, load));
+    norm.map_or(
         f64::INFINITY,
         |r| if r.is_nan() { f64::INFINITY } else { r },
     )
@@ -192,15 +220,17 @@ fn largest_gradient(pressed: &PressedBlock<'_>, du: &[f64]) -> Result<f64, Statu
         let gradients = block.gradients(row, du, 0.0).into_iter().flatten();
         gradients.flatten().fold(1e-300, larger)
     };
-    let rows = pressed.watch.map(12 * mesh.points(), mesh.rows, of_row)?;
-    Ok(rows.into_iter().fold(1e-300, larger))
+    let of_rows = pressed
+        .executor
+        .map(12 * mesh.points(), mesh.rows, of_row)?;
+    Ok(of_rows.into_iter().fold(1e-300, larger))
 }
 
 fn larger(a: f64, b: f64) -> f64 {
     a.max(b.abs())
 }
 
-/// Of the displacement gradient between two states of the rows.
+/// Largest change of the displacement gradient between two states of the rows.
 fn largest_change(from: &[RowState], to: &[RowState]) -> f64 {
     let pairs = points(from).zip(points(to));
     let changes = pairs.flat_map(|(from, to)| (0..4).map(move |k| (to.f[k] - from.f[k]).abs()));

@@ -4,7 +4,7 @@ use gripscale_kernel::settings::Settings;
 use gripscale_kernel::transient::Stage;
 use proptest::prelude::*;
 
-use crate::Case;
+use crate::case::Case;
 
 fn any_number() -> impl Strategy<Value = f64> {
     prop_oneof![

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use gripscale_kernel::settings::Settings;
 use gripscale_kernel::status::Status;
 
-use crate::{noise, Case};
+use crate::case::{noise, Case};
 
 /// Friction, contact fraction, approach and largest pressure of `wave(0)`, `wave(1)` ... by dense
 /// elimination of the node layers with the exact compliance of the surface (revision b333c5b of this
@@ -57,6 +57,7 @@ fn figures(number: usize, factored_contacts: f64) -> [f64; 4] {
     case.settings = Settings::new(changes).unwrap();
     let finest = case.solve(None).unwrap().finest;
     assert_eq!(finest.report.status, Status::Converged, "wave {number}");
+    let approach = finest.approach();
     let outcome = finest.outcome;
     let highest = outcome
         .pressure
@@ -65,7 +66,7 @@ fn figures(number: usize, factored_contacts: f64) -> [f64; 4] {
     [
         outcome.friction,
         outcome.contact_fraction,
-        finest.state.approach,
+        approach,
         highest,
     ]
 }
@@ -76,13 +77,13 @@ fn figures(number: usize, factored_contacts: f64) -> [f64; 4] {
 fn waves_are_those_of_dense_elimination() {
     for factored_contacts in [512.0, 0.0] {
         for (number, line) in ELIMINATED.lines().enumerate() {
-            let found = figures(number, factored_contacts);
-            for (figure, text) in found.into_iter().zip(line.split(' ')) {
+            let values = figures(number, factored_contacts);
+            for (figure, text) in values.into_iter().zip(line.split(' ')) {
                 let expected: f64 = text.parse().unwrap();
                 let error = (figure - expected).abs();
                 assert!(
                     error < 1e-8 * expected.abs().max(0.01),
-                    "wave {number}: {found:?}, {line}, contacts factored to {factored_contacts}"
+                    "wave {number}: {values:?}, {line}, contacts factored to {factored_contacts}"
                 );
             }
         }

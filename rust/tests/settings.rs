@@ -10,12 +10,12 @@ fn every_setting_can_be_given_by_its_name() {
         assert!(sentence.ends_with('.') && sentence.len() > 20, "{name}");
         assert_eq!(names.iter().filter(|other| **other == name).count(), 1);
         assert_eq!(Settings::new([(name, value)]).unwrap(), Settings::default());
-        let other = if value >= 2.0 {
+        let changed_value = if value >= 2.0 {
             value - 1.0
         } else {
             value * 1.05
         };
-        let changed = Settings::new([(name, other)]).unwrap().list();
+        let changed = Settings::new([(name, changed_value)]).unwrap().list();
         for (before, after) in defaults.iter().zip(&changed) {
             assert_eq!(
                 before.1 != after.1,

@@ -1,4 +1,4 @@
-//! Stepping in time with the recurrence's own memory lands on the steady state of the same memory.
+//! Sliding in time ends in the steady state, and a kept factor gives the same run as GMRES.
 
 use std::f64::consts::TAU;
 
@@ -6,7 +6,7 @@ use gripscale_kernel::settings::Settings;
 use gripscale_kernel::status::Status;
 use gripscale_kernel::transient::{Run, Stage};
 
-use crate::Case;
+use crate::case::Case;
 
 /// Friction and contact fraction of a long run against the steady solution of the same mesh.
 #[test]
@@ -111,9 +111,9 @@ fn a_start_of_another_rubber_or_profile_is_refused_by_name() {
     let run = other_mesh.run(&[stage], Some(&start)).unwrap();
     assert_eq!(run.status, Status::Converged);
     let refusal = |change: fn(&mut Case)| {
-        let mut other = case.clone();
-        change(&mut other);
-        other.run(&[stage], Some(&start)).unwrap_err().to_string()
+        let mut changed = case.clone();
+        change(&mut changed);
+        changed.run(&[stage], Some(&start)).unwrap_err().to_string()
     };
     let same = "start must be of the same rubber and profile; its";
     assert_eq!(

@@ -57,4 +57,7 @@ def test_a_setting_out_of_its_range_is_refused(settings: dict[str, float], words
 
 
 def test_every_status_of_the_kernel_is_a_status() -> None:
-    assert {Status(word) for word in _kernel.statuses()} <= set(Status)
+    for word, sentence, advice in _kernel.statuses():
+        assert Status(word) == word
+        assert sentence.endswith(".")
+        assert advice.endswith(".") == (word != Status.CONVERGED)

@@ -6,9 +6,6 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
 from typing import Any, Protocol, TypeVar, runtime_checkable
 
-import numpy as np
-from numpy.typing import NDArray
-
 from gripscale import _kernel
 from gripscale.core import checks
 from gripscale.core.errors import InputError
@@ -75,8 +72,8 @@ def solve_transient(
     start: Solution | None,
     time_limit: float | None,
     workers: int | None,
-) -> tuple[str, int, NDArray[np.float64]]:
-    """Return status, iterations and a row of numbers for each moment of a programme in time."""
+) -> _kernel.Run:
+    """Return the moments of a programme in time, with status and iterations."""
     body = _body(rubber, profile, mesh)
     work = _work(workers, time_limit)
     return _asked(lambda: _kernel.solve_transient(body, settings, list(stages), start, work))

@@ -169,19 +169,18 @@ def solve_transient(
     profile = Sine(wavelength, amplitude)
     block = FiniteStrainBlock.of(depth=depth, columns=columns, rows=rows, **options)
     programme = [(stage.duration, stage.speed, stage.pressure) for stage in stages]
-    status, iterations, table = kernel.solve_transient(
+    run = kernel.solve_transient(
         rubber, profile, block.mesh, block.settings, programme, first, block.time_limit, workers
     )
-    time, distance, speeds, pressure, friction, fraction, approach = table.reshape(-1, 7).T
     return TransientResult(
-        time=time,
-        distance=distance,
-        speed=speeds,
-        pressure=pressure,
-        friction=friction,
-        contact_fraction=fraction,
-        indentation=approach * wavelength,
-        status=Status(status),
-        newton_iterations=iterations,
+        time=run.time,
+        distance=run.distance,
+        speed=run.speed,
+        pressure=run.pressure,
+        friction=run.friction,
+        contact_fraction=run.contact_fraction,
+        indentation=run.approach * wavelength,
+        status=Status(run.status),
+        newton_iterations=run.newton_iterations,
         wavelength=float(wavelength),
     )

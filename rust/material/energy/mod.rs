@@ -1,4 +1,4 @@
-//! Strain energies of the permanent network. A new one is a file here and its line in `energies!`.
+//! Strain energies of the permanent network. To add one, add a file here and its line in `energies!`.
 //!
 //! The isochoric stress follows from W(I1, I2) of the invariants of Cbar, for a unit shear modulus:
 //!     S_iso = J^(-2/3) DEV[G b],   b = 2 dW/dCbar = 2 W_1 1 + 2 W_2 (I1 1 - Cbar)
@@ -27,10 +27,10 @@ pub type Invariants = [f64; 2];
 pub trait StrainEnergy: Sized {
     const NAME: &'static str;
     const PARAMETERS: &'static [&'static str];
-    /// Whether W is a multiple of I1 - 3, so that b never changes and costs nothing.
+    /// Whether W is a multiple of I1 - 3, so that b is constant and need not be computed.
     const CONSTANT: bool = false;
 
-    /// Read the parameters named in `PARAMETERS` and refuse what they may not be.
+    /// Read the parameters named in `PARAMETERS` and refuse values out of range.
     fn new(parameters: &Parameters) -> Result<Self, KernelError>;
 
     /// W.
@@ -84,14 +84,14 @@ macro_rules! energies {
             }
 
             /// b = 2 dW/dCbar at F.
-            pub fn network(&self, f: impl Into<Deformation>) -> Symmetric {
+            pub(crate) fn network(&self, f: impl Into<Deformation>) -> Symmetric {
                 match self {
                     $(Self::$kind(energy) => network(energy, &f.into()),)+
                 }
             }
 
             /// db/dF, `[component of b][component of F]`; None where b is constant.
-            pub fn network_slope(&self, f: impl Into<Deformation>) -> Option<[Gradient; 4]> {
+            pub(crate) fn network_slope(&self, f: impl Into<Deformation>) -> Option<[Gradient; 4]> {
                 match self {
                     $(Self::$kind(energy) => network_slope(energy, &f.into()),)+
                 }

@@ -1,0 +1,2 @@
+mod linear_complementarity;
+mod profile;

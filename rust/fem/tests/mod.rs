@@ -1,0 +1,2 @@
+mod element_and_mesh;
+mod jacobian;

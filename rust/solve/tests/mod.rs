@@ -1,0 +1,3 @@
+mod mesh_sequence;
+mod profile_continuation;
+mod sparse_step;
