@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 import numpy as np
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.surface.line_statistics import (
     ComplexArray,
@@ -15,7 +16,7 @@ from gripscale.surface.line_statistics import (
     Square,
     measured_lines,
 )
-from gripscale.surface.profile import FloatArray, HeightMap, Profile, one_or_several
+from gripscale.surface.profile import HeightMap, Profile, profile_list
 from gripscale.surface.spectrum import ArealSpectrum, areal_spectrum, profile_spectrum
 
 # Maps with the spectrum of measured lines, and with their spectrum and heights.
@@ -29,24 +30,22 @@ TURNS = 50
 """Of heights and spectrum; the last brings the heights, so that these are exact."""
 
 
-def map_amplitudes(profiles: Sequence[Profile], square: Square) -> FloatArray:
+def map_amplitudes(profiles: Sequence[Profile], square: Square) -> Array:
     """Return the rms of each wave of an isotropic map (`rfft2`) with the profiles' spectrum [m]."""
     spectrum: ArealSpectrum = areal_spectrum(profile_spectrum(list(profiles)))
-    q = np.where(square.carried, square.wavenumber, np.inf)
-    density = np.where(square.carried, spectrum.at(np.where(np.isinf(q), 1.0, q)), 0.0)
+    q = np.where(square.resolved, square.wavenumber, np.inf)
+    density = np.where(square.resolved, spectrum.at(np.where(np.isinf(q), 1.0, q)), 0.0)
     return np.asarray(np.sqrt(density) * (2.0 * np.pi / square.length) * square.points**2)
 
 
-def gaussian_waves(
-    square: Square, amplitudes: FloatArray, random: np.random.Generator
-) -> ComplexArray:
+def gaussian_waves(square: Square, amplitudes: Array, random: np.random.Generator) -> ComplexArray:
     """Return the half spectrum of a Gaussian map with these amplitudes in the mean."""
     return np.asarray(amplitudes * square.spectrum(square.noise(random)) / square.points)
 
 
 def with_heights(
-    square: Square, waves: ComplexArray, amplitudes: FloatArray, lines: Sequence[MeasuredLine]
-) -> FloatArray:
+    square: Square, waves: ComplexArray, amplitudes: Array, lines: Sequence[MeasuredLine]
+) -> Array:
     """Return heights [m] with exactly the distribution of the lines, nearly these amplitudes."""
     measured = np.sort(np.concatenate([line.heights for line in lines]))
     ranks = (np.arange(square.points**2) + 0.5) / square.points**2
@@ -120,7 +119,7 @@ def isotropic_maps(
     InputError
         If an argument is out of its range, when the first map is asked for.
     """
-    profiles = one_or_several(profile)
+    profiles = profile_list(profile)
     square = _square(profiles, smallest_wavelength, points)
     checks.one_of("construction", construction, CONSTRUCTIONS)
     chosen = seed_numbers(seeds)
@@ -142,7 +141,7 @@ def isotropic_maps(
 
 
 def _labelled(
-    square: Square, heights: FloatArray, profiles: list[Profile], construction: str, seed: int
+    square: Square, heights: Array, profiles: list[Profile], construction: str, seed: int
 ) -> HeightMap:
     x = np.asarray(square.step * np.arange(square.points), dtype=np.float64)
     names = ", ".join(one.name or "unnamed profile" for one in profiles)

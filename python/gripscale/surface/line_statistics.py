@@ -15,8 +15,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gripscale.core.arrays import Array, Mask
 from gripscale.core.errors import InputError
-from gripscale.surface.profile import FloatArray, Profile
+from gripscale.surface.profile import Profile
 from gripscale.surface.resampling import filled
 
 # Moving values to a wanted distribution, over all of them or class by class of another value.
@@ -45,10 +46,10 @@ ClassArray = NDArray[np.uint8]
 class Distribution:
     """Quantiles at `RANKS`, one row for each class of the values beside (one row: of all)."""
 
-    quantiles: FloatArray
+    quantiles: Array
 
     @staticmethod
-    def of(values: FloatArray, beside: FloatArray | None = None) -> Distribution:
+    def of(values: Array, beside: Array | None = None) -> Distribution:
         """Return the distribution of values, by class of those `beside` if given."""
         if beside is None:
             return Distribution(_quantiles(values)[None, :])
@@ -56,7 +57,7 @@ class Distribution:
         rows = [_quantiles(values[classes == number]) for number in range(CLASSES)]
         return Distribution(np.stack(rows))
 
-    def correction(self, values: FloatArray, beside: FloatArray | None = None) -> FloatArray:
+    def correction(self, values: Array, beside: Array | None = None) -> Array:
         """Return what has to be added to values (any shape) for them to have this distribution.
 
         Exact to the distance of the nodes, 1/4096 of their range.
@@ -72,19 +73,19 @@ class Distribution:
         return np.asarray(table.reshape(-1)[cells])
 
 
-def height_class(values: FloatArray) -> ClassArray:
+def height_class(values: Array) -> ClassArray:
     """Return the class of each value by its rank."""
     _, places = _counted(values)
     ranks = _ranks(np.bincount(places.reshape(-1), minlength=_NODES))
     return np.asarray(np.searchsorted(CLASS_ENDS, ranks).astype(np.uint8)[places])
 
 
-def _quantiles(values: FloatArray) -> FloatArray:
+def _quantiles(values: Array) -> Array:
     ordered = np.sort(values, axis=None)
     return np.interp(RANKS * ordered.size - 0.5, np.arange(ordered.size), ordered)
 
 
-def _counted(values: FloatArray) -> tuple[FloatArray, NDArray[np.int32]]:
+def _counted(values: Array) -> tuple[Array, NDArray[np.int32]]:
     """Return nodes from the lowest to the highest value, and the nearest to each value."""
     low, high = float(values.min()), float(values.max())
     scale = (_NODES - 1) / max(high - low, _NARROWEST)
@@ -92,7 +93,7 @@ def _counted(values: FloatArray) -> tuple[FloatArray, NDArray[np.int32]]:
     return np.linspace(low, high, _NODES), np.asarray(places.astype(np.int32))
 
 
-def _ranks(counts: NDArray[np.int64]) -> FloatArray:
+def _ranks(counts: NDArray[np.int64]) -> Array:
     """Return the rank of the middle of each node's values, along the last axis."""
     total = np.maximum(counts.sum(axis=-1, keepdims=True), 1)
     return np.asarray((np.cumsum(counts, axis=-1) - 0.5 * counts) / total)
@@ -124,36 +125,36 @@ class Square:
         return self.length / self.points
 
     @cached_property
-    def axes(self) -> tuple[FloatArray, FloatArray]:
+    def axes(self) -> tuple[Array, Array]:
         """Wavenumbers along x and y [rad/m], broadcastable to a half spectrum (`rfft2`)."""
         number = 2.0 * np.pi / self.length
         x = number * np.rint(np.fft.fftfreq(self.points, 1.0 / self.points))
         return x[:, None], number * np.arange(self.points // 2 + 1.0)[None, :]
 
     @cached_property
-    def wavenumber(self) -> FloatArray:
+    def wavenumber(self) -> Array:
         """|q| over a half spectrum [rad/m]."""
         return np.asarray(np.hypot(*self.axes))
 
     @property
-    def carried(self) -> NDArray[np.bool_]:
+    def resolved(self) -> Mask:
         """Which waves a map has: above the mean, below the highest in every direction."""
         q = self.wavenumber
         return np.asarray((q > 0.0) & (q < np.pi / self.step * (1.0 - 1e-9)))
 
-    def heights(self, spectrum: ComplexArray) -> FloatArray:
+    def heights(self, spectrum: ComplexArray) -> Array:
         """Return the heights [m] of a half spectrum."""
         from scipy.fft import irfft2
 
         return np.asarray(irfft2(spectrum, s=(self.points, self.points)))
 
-    def spectrum(self, heights: FloatArray) -> ComplexArray:
+    def spectrum(self, heights: Array) -> ComplexArray:
         """Return the half spectrum of heights [m]."""
         from scipy.fft import rfft2
 
         return np.asarray(rfft2(heights))
 
-    def noise(self, random: np.random.Generator) -> FloatArray:
+    def noise(self, random: np.random.Generator) -> Array:
         """Return white noise, of variance one."""
         return random.standard_normal((self.points, self.points))
 
@@ -164,7 +165,7 @@ class Square:
         out[:kept, :kept] = spectrum[:kept, :kept]
         out[1 - kept :, :kept] = spectrum[1 - kept :, :kept]
         scale = (other.points / self.points) ** 2
-        return np.asarray(np.where(other.carried, scale * out, 0.0))
+        return np.asarray(np.where(other.resolved, scale * out, 0.0))
 
 
 # Measured profiles as one period each, without waves longer than a map holds.
@@ -184,11 +185,11 @@ class MeasuredLine:
     """The waves of one profile (`rfft`), their wavenumbers [rad/m] and its number of points."""
 
     waves: ComplexArray
-    wavenumber: FloatArray
+    wavenumber: Array
     points: int
 
     @property
-    def heights(self) -> FloatArray:
+    def heights(self) -> Array:
         """Heights [m]."""
         return np.asarray(np.fft.irfft(self.waves, self.points))
 
@@ -242,7 +243,7 @@ class Term:
     distance: float = 0.0
     weight: float = 1.0
 
-    def at(self, k: FloatArray) -> ComplexArray:
+    def at(self, k: Array) -> ComplexArray:
         """Return the factor of waves of wavenumber `k` along the line [rad/m]."""
         ks = k * self.width
         bell = self.weight * np.exp(-0.5 * ks**2 + 1j * k * self.distance)
@@ -256,11 +257,11 @@ class LineFilter:
     terms: tuple[Term, ...]
     scale: float = 1.0
 
-    def at(self, k: FloatArray) -> ComplexArray:
+    def at(self, k: Array) -> ComplexArray:
         """Return the factor of waves of wavenumber `k` along the line [rad/m]."""
         return np.asarray(sum(term.at(k) for term in self.terms) / self.scale)
 
-    def on_lines(self, lines: Sequence[MeasuredLine]) -> FloatArray:
+    def on_lines(self, lines: Sequence[MeasuredLine]) -> Array:
         """Return the answers on measured lines, walked both ways: a road has no forward."""
         answers = []
         for line in lines:
@@ -313,7 +314,7 @@ class LineStatistic:
 
     def correction(
         self, square: Square, waves: ComplexArray, angle: float
-    ) -> tuple[ComplexArray, FloatArray]:
+    ) -> tuple[ComplexArray, Array]:
         """Return the filter's factors, and what its answers along `angle` lack [rms of one]."""
         factor = self.filter.along(square, angle)
         answers = square.heights(factor * waves)
@@ -491,4 +492,4 @@ def _step(
         factor, correction = statistic.correction(square, waves, angle)
         wanted += np.conj(factor) * square.spectrum(correction)
         seen += np.abs(factor) ** 2
-    return np.asarray(np.where(square.carried, wanted / (seen + _FLOOR * seen.max()), 0.0))
+    return np.asarray(np.where(square.resolved, wanted / (seen + _FLOOR * seen.max()), 0.0))

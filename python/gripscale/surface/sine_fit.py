@@ -45,6 +45,7 @@ from itertools import pairwise, product
 import numpy as np
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.surface.height_difference import (
     HeightDifference,
@@ -52,7 +53,6 @@ from gripscale.surface.height_difference import (
     log_weights,
     require_positive,
 )
-from gripscale.surface.profile import FloatArray
 from gripscale.surface.sines import SineStack
 
 # Search for the sine waves closest to a curve: least squares from many fixed starts.
@@ -74,10 +74,10 @@ AMPLITUDE_FACTOR_RANGE = (1.02, 60.0)
 class Target:
     """The curve to match: lags [m], C_z [m^2], and the plateau [m^2] it goes to."""
 
-    lag: FloatArray
-    value: FloatArray
+    lag: Array
+    value: Array
     plateau: float
-    weight: FloatArray = field(init=False)
+    weight: Array = field(init=False)
 
     def __post_init__(self) -> None:
         weight = log_weights(self.lag)
@@ -93,7 +93,7 @@ class Target:
 class Trial:
     """What is given of the four logarithms (NaN where free), and how the others are tied."""
 
-    given: FloatArray
+    given: Array
     waves: int
     single_factor: bool = False
     last: float | None = None  # log of a wavelength at the end, from which s_wavelength follows
@@ -114,7 +114,7 @@ class Trial:
         tied |= {S_WAVELENGTH} if self.last is not None else set()
         return [i for i in range(4) if np.isnan(self.given[i]) and i not in tied]
 
-    def fill(self, unknowns: FloatArray) -> FloatArray:
+    def fill(self, unknowns: Array) -> Array:
         """Return all four logarithms from the free ones."""
         p = self.given.copy()
         p[self.free] = unknowns
@@ -126,7 +126,7 @@ class Trial:
             p[S_AMPLITUDE] = p[S_WAVELENGTH]
         return p
 
-    def bounds(self, target: Target) -> tuple[FloatArray, FloatArray]:
+    def bounds(self, target: Target) -> tuple[Array, Array]:
         """Return limits of the free logarithms."""
         limits = np.log(
             [
@@ -149,7 +149,7 @@ class Trial:
 class Found:
     """The closest waves: their four logarithms, number, and rms residual in decades."""
 
-    logs: FloatArray
+    logs: Array
     waves: int
     residual: float
 
@@ -159,7 +159,7 @@ class Found:
         return float(self.logs[FIRST_WAVELENGTH] - (self.waves - 1) * self.logs[S_WAVELENGTH])
 
 
-def fitted_curve(logs: FloatArray, waves: int, lag: FloatArray) -> FloatArray:
+def fitted_curve(logs: Array, waves: int, lag: Array) -> Array:
     """Return C_z [m^2] at lags [m], the first wave by its mean beyond a quarter wavelength."""
     order = np.arange(waves)
     wavelength = _size(logs[FIRST_WAVELENGTH] - order * logs[S_WAVELENGTH])
@@ -169,7 +169,7 @@ def fitted_curve(logs: FloatArray, waves: int, lag: FloatArray) -> FloatArray:
     return np.asarray(2.0 * np.sin(np.pi * turns) ** 2 @ amplitude**2)
 
 
-def _size(log: FloatArray) -> FloatArray:
+def _size(log: Array) -> Array:
     """Return the length of a logarithm; one beyond reason is kept where its square is finite."""
     return np.asarray(np.exp(np.clip(log, np.log(checks.LEAST), np.log(checks.MOST))))
 
@@ -180,11 +180,11 @@ def search(target: Target, trial: Trial, refined: int = 10) -> Found | None:
 
     logs_wanted = np.log10(target.value)
 
-    def residuals(unknowns: FloatArray) -> FloatArray:
+    def residuals(unknowns: Array) -> Array:
         curve = fitted_curve(trial.fill(unknowns), trial.waves + trial.shorter, target.lag)
         return np.asarray(target.weight * (np.log10(np.maximum(curve, 1e-300)) - logs_wanted))
 
-    def distance(unknowns: FloatArray) -> float:
+    def distance(unknowns: Array) -> float:
         return float(np.linalg.norm(residuals(unknowns)))
 
     if not trial.free:
@@ -202,7 +202,7 @@ def search(target: Target, trial: Trial, refined: int = 10) -> Found | None:
     return Found(trial.fill(closest.x), trial.waves, float(np.sqrt(2.0 * closest.cost)))
 
 
-def _tied_start(target: Target, trial: Trial, refined: int) -> list[FloatArray]:
+def _tied_start(target: Target, trial: Trial, refined: int) -> list[Array]:
     """Return the solution with one factor for both lengths: two factors must not do worse."""
     if S_AMPLITUDE not in trial.free or not np.isnan(trial.given[S_WAVELENGTH]):
         return []
@@ -210,7 +210,7 @@ def _tied_start(target: Target, trial: Trial, refined: int) -> list[FloatArray]:
     return [] if tied is None else [tied.logs[trial.free]]
 
 
-def _starts(target: Target, trial: Trial) -> list[FloatArray]:
+def _starts(target: Target, trial: Trial) -> list[Array]:
     """Return a grid of starts: first wavelengths, last wavelengths, and Hurst exponents."""
     starts = []
     for first, last, hurst in product((2.5, 4.0, 6.5, 10.0, 16.0), (1.0, 3.0, 9.0), (0.6, 0.9)):
@@ -275,7 +275,7 @@ def fit_sines(
     scales : int, optional
         Number of waves, 1 to 24. At least one of `scales`, `smallest_wavelength` and `cut_off` is
         needed. Alone, the last wave is not let below the shortest one that the measurement
-        carries, `hdc.carried`, where that is known and s_wavelength is not given.
+        carries, `hdc.resolution_limit`, where that is known and s_wavelength is not given.
     smallest_wavelength : float, optional
         Wavelength of the last wave [m], which may lie below what was measured. Given with
         `scales`, s_wavelength follows from it. Alone, the number of waves with the least residual
@@ -329,7 +329,7 @@ def fit_sines(
     target = _target(hdc, smallest_lag, largest_lag, int(np.isnan(given).sum()))
     if end is None:
         waves = checks.whole("scales", scales, least=1, most=MOST_WAVES)
-        found = _carried(target, Trial(given, waves, single_factor), hdc.carried)
+        found = _carried(target, Trial(given, waves, single_factor), hdc.resolution_limit)
         return _stack(found, target, 0.0)
     if not np.isnan(given[S_WAVELENGTH]):
         if scales is not None:
@@ -367,7 +367,7 @@ class _End:
         """Waves that the measured curve holds beyond the end."""
         return SHORTER_WAVES if self.beyond > 0.0 else 0
 
-    def trial(self, given: FloatArray, waves: int, single_factor: bool) -> Trial:
+    def trial(self, given: Array, waves: int, single_factor: bool) -> Trial:
         """Return the search for `waves` waves down to the end."""
         return Trial(given, waves, single_factor, self.log, self.beyond, shorter=self.shorter)
 
@@ -378,9 +378,7 @@ class _End:
         return list(pairwise(logs))
 
 
-def _end(
-    given: FloatArray, smallest_wavelength: float | None, cut_off: float | None
-) -> _End | None:
+def _end(given: Array, smallest_wavelength: float | None, cut_off: float | None) -> _End | None:
     """Return the end that is stated, if any."""
     if cut_off is not None:
         end = _End("cut_off", float(np.log(checks.positive("cut_off", cut_off, unit="m"))), 0.5)
@@ -397,7 +395,7 @@ def _end(
     return end
 
 
-def _given_logs(values: dict[str, float | None], single_factor: bool) -> FloatArray:
+def _given_logs(values: dict[str, float | None], single_factor: bool) -> Array:
     """Return logs of what is given of the four unknowns, NaN for the others."""
     logs = np.full(4, np.nan)
     for at, (name, value) in enumerate(values.items()):
@@ -460,9 +458,7 @@ def _carried(target: Target, trial: Trial, carried: float | None) -> Found | Non
     return search(target, replace(trial, last=float(np.log(carried))))
 
 
-def _down_with_factor(
-    target: Target, given: FloatArray, single_factor: bool, end: _End
-) -> Found | None:
+def _down_with_factor(target: Target, given: Array, single_factor: bool, end: _End) -> Found | None:
     """Search with s_wavelength given: as many waves as do not go below the end."""
     factor, first = float(given[S_WAVELENGTH]), float(given[FIRST_WAVELENGTH])
     spans = end.spans(factor)
@@ -481,7 +477,7 @@ def _down_with_factor(
     return _closest(target, trials, 1.0)
 
 
-def _best_number(target: Target, given: FloatArray, single_factor: bool, end: _End) -> Found | None:
+def _best_number(target: Target, given: Array, single_factor: bool, end: _End) -> Found | None:
     """Search over the number of waves down to the end."""
     first = float(given[FIRST_WAVELENGTH])
     ranges = [[end.spans(float(np.log(f)))[n - 1][0] for f in FACTOR_RANGE] for n in NUMBERS]

@@ -8,9 +8,10 @@ from functools import lru_cache
 import numpy as np
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.surface.height_difference import height_difference
-from gripscale.surface.profile import FEWEST_POINTS, MOST_POINTS, FloatArray, Profile
+from gripscale.surface.profile import FEWEST_POINTS, MOST_POINTS, Profile
 from gripscale.surface.sine_fit import fit_sines
 from gripscale.surface.sines import SineStack
 from gripscale.surface.surface import Measured, PreparedSurface
@@ -103,7 +104,7 @@ def sine_profile(stack: SineStack, length: float, step: float, seed: int) -> Pro
     return Profile(x, z, name=f"{len(stack)} sine waves", source=f"seed {seed}")
 
 
-def _points(length: float, step: float) -> FloatArray:
+def _points(length: float, step: float) -> Array:
     step = checks.positive("step", step, unit="m")
     points = round(checks.positive("length", length, unit="m") / step) + 1
     if not FEWEST_POINTS <= points <= MOST_POINTS:
