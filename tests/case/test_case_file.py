@@ -77,7 +77,7 @@ def test_prepared_with_what_the_case_says(tmp_path: Path) -> None:
     curve = height_difference(found.measured.cleaned, upper_share=0.3, max_lag=30e-3)
     alone = fit_sines(curve, scales=4, cut_off=1e-3)
     assert found.sines.amplitude.tolist() == alone.amplitude.tolist()
-    assert found.sines.roughness_end == pytest.approx(1e-3)
+    assert found.sines.cutoff_wavelength == pytest.approx(1e-3)
     assert found.counted == {"upper_share": 0.3, "max_lag": pytest.approx(30e-3)}
 
 

@@ -57,7 +57,7 @@ def test_every_model_ends_where_the_rule_says(case: Path) -> None:
     assert prepared.cut_off is not None
     assert prepared.measured is not None
     exact = surface.find_cut_off(prepared.measured.cleaned, surface.RmsSlope(0.4))
-    assert prepared.sines.roughness_end == exact.wavelength
+    assert prepared.sines.cutoff_wavelength == exact.wavelength
     assert prepared.cut_off == exact
     assert prepared.cut_off.surface_slope == pytest.approx(0.4, rel=1e-6)
     persson = gs.theory.Persson().predict(
@@ -67,7 +67,7 @@ def test_every_model_ends_where_the_rule_says(case: Path) -> None:
 
 
 def test_instrument_and_lengths(case: Path) -> None:
-    assert stated(case, 'cut_off = "instrument"').sines.roughness_end == pytest.approx(4e-4)
+    assert stated(case, 'cut_off = "instrument"').sines.cutoff_wavelength == pytest.approx(4e-4)
     inside = stated(case, 'cut_off = "1 mm"')
     assert inside.cut_off is not None
     assert inside.cut_off.rule == "a stated length"

@@ -236,7 +236,7 @@ def _surface() -> Iterator[Door]:
     yield Door(surface.find_cut_off, {"surface": LONG, "rule": 1e-3})
     maps = {"construction": "lines", "points": 128, "seeds": [1]}
     yield Door(first_map, {"profile": LONG, "smallest_wavelength": 4e-3, **maps}, slow=True)
-    yield Door(surface.profile_doubts, {"profile": LINE, "cleaned": None, "steep": True})
+    yield Door(surface.profile_warnings, {"profile": LINE, "cleaned": None, "steep": True})
     places = {"x": PLACE, "z": HEIGHT, "step": 5e-4, "bridge": None, "name": "", "source": ""}
     yield Door(surface.resample, places)
     road = {"hurst": 0.8, "xi_parallel": 1e-2, "xi_perpendicular": 1e-3}
@@ -246,7 +246,7 @@ def _surface() -> Iterator[Door]:
     density = {"wavenumber": [1e3, 2e3], "density": [1e-12, 1e-13], "interpolated": 0.0}
     yield Door(surface.ArealSpectrum, density)
     yield Door(surface.ProfileSpectrum, density)
-    lag = {"lag": [1e-3, 2e-3], "value": [1e-8, 2e-8], "carried": None}
+    lag = {"lag": [1e-3, 2e-3], "value": [1e-8, 2e-8], "resolution_limit": None}
     yield Door(gs.HeightDifference, lag)
     yield Door(surface.read_profiles, {"path": "none.txt", "direction": "x", "reader": "auto"})
     yield Door(gs.read_map, {"path": "none.txt", "x_unit": None, "step": 1.0, "reader": "auto"})

@@ -16,7 +16,7 @@ SLOPES = slope_by_wavelength(ROUGH)
 
 @pytest.mark.parametrize("of", ["surface", "profile"])
 def test_slope_down_to_the_cut_off_is_the_one_asked_for(of: str) -> None:
-    wanted = 0.6 * SLOPES.down_to(SLOPES.carried, of)
+    wanted = 0.6 * SLOPES.down_to(SLOPES.resolution_limit, of)
     found = find_cut_off(ROUGH, RmsSlope(wanted, of))
     # of a line the sum runs over whole waves of a window, of which one adds up to 1 %
     tolerance = 1e-9 if of == "surface" else 0.01
@@ -42,18 +42,18 @@ def test_a_stated_length_is_told_where_it_lies() -> None:
 
 
 def test_slope_that_was_not_measured_is_refused_with_what_was() -> None:
-    reached = SLOPES.down_to(SLOPES.carried)
+    reached = SLOPES.down_to(SLOPES.resolution_limit)
     with pytest.raises(gs.InputError, match=rf"at most {reached:.3g} at 0.4 mm.*; got 7"):
         find_cut_off(SLOPES, RmsSlope(7.0))
 
 
 def test_slope_beyond_the_measurement_is_extrapolated_only_where_asked_for() -> None:
-    wanted = 1.2 * SLOPES.down_to(SLOPES.carried)
+    wanted = 1.2 * SLOPES.down_to(SLOPES.resolution_limit)
     found = find_cut_off(SLOPES, RmsSlope(wanted, extrapolate=True))
     assert found.beyond_measurement
     assert found.surface_slope == pytest.approx(wanted)
     # h'^2 ~ q^(2 - 2H) far above xi: 1.2^(1/(1 - H)) = 1.84 further down, H itself within 0.05
-    assert 1.5 < SLOPES.carried / found.wavelength < 2.2
+    assert 1.5 < SLOPES.resolution_limit / found.wavelength < 2.2
     with pytest.raises(gs.InputError, match=r"within a factor of 100 below 0\.4 mm"):
         find_cut_off(SLOPES, RmsSlope(100.0, extrapolate=True))
 

@@ -14,7 +14,7 @@ from gripscale.surface import (
     clean,
     fit_sines,
     height_difference,
-    profile_doubts,
+    profile_warnings,
     read_profile,
     self_affine_profile,
 )
@@ -31,7 +31,7 @@ def changed(where, values):
 
 
 def doubts_after_cleaning(profile, **options):
-    return " | ".join(profile_doubts(profile, clean(profile, **options)[0]))
+    return " | ".join(profile_warnings(profile, clean(profile, **options)[0]))
 
 
 @pytest.mark.parametrize("hurst", [0.6, 0.8, 1.0])
@@ -93,7 +93,7 @@ def test_slopes_that_are_left_are_counted():
     assert "4 of 4000 slopes left are 3 or steeper" in doubts_after_cleaning(
         spiky, remove_spikes=False
     )
-    assert profile_doubts(spiky, steep=False) == ()
+    assert profile_warnings(spiky, steep=False) == ()
 
 
 @pytest.mark.parametrize(
@@ -116,17 +116,17 @@ def test_a_unit_that_makes_spikes_of_all_is_doubted():
 
 
 def test_equal_heights_and_few_of_them():
-    assert profile_doubts(profile_of(np.ones(20))) == (
+    assert profile_warnings(profile_of(np.ones(20))) == (
         "all heights are equal: is this the column of heights?",
     )
     every_other = np.where(np.arange(20) % 2, np.nan, np.arange(20.0) * 1e-5)
-    assert profile_doubts(profile_of(every_other)) == ()
+    assert profile_warnings(profile_of(every_other)) == ()
 
 
 def test_what_is_no_part_of_the_profile_is_refused():
     short = Profile(ROUGH.x[:40], ROUGH.z[:40])
     with pytest.raises(InputError, match="cleaned must be a part of profile; got 4001 points"):
-        profile_doubts(short, ROUGH)
+        profile_warnings(short, ROUGH)
 
 
 def prepared(options, profile=ROUGH):

@@ -25,7 +25,7 @@ def test_printed_decimals_are_no_error_and_rows_left_out_are_found(step, start, 
     there[[0, 1, -1]] = True
     grid = even_grid(printed(start + step * np.arange(points), 3)[there], 1e-3)
     assert grid is not None
-    assert np.array_equal(grid.place, np.flatnonzero(there))
+    assert np.array_equal(grid.number, np.flatnonzero(there))
     assert grid.left_out == points - there.sum()
 
 
@@ -34,7 +34,7 @@ def test_a_long_gap_does_not_shift_what_follows(step):
     place = np.delete(np.arange(20000), slice(7000, 12345))
     grid = even_grid(printed(step * place, 3), 1e-3)
     assert grid is not None
-    assert np.array_equal(grid.place, place)
+    assert np.array_equal(grid.number, place)
 
 
 def test_a_resolution_that_hides_the_step_is_no_excuse():

@@ -11,8 +11,8 @@ from gripscale.surface.line_statistics import (
     CLASSES,
     CURVATURE,
     SLOPE,
+    BellFilter,
     Distribution,
-    LineFilter,
     Square,
     Term,
     height_class,
@@ -73,7 +73,7 @@ def roughness_by_height(lines):
 @pytest.mark.parametrize("angle", [0.0, 0.7, 2.0])
 def test_a_filter_on_a_map_is_that_on_its_lines(angle):
     square = Square(64, 6.4e-3)
-    one = LineFilter((Term(CURVATURE, 2e-4, 1e-4, 1.5), Term(SLOPE, 3e-4), Term(BELL, 1e-4)))
+    one = BellFilter((Term(CURVATURE, 2e-4, 1e-4, 1.5), Term(SLOPE, 3e-4), Term(BELL, 1e-4)))
     qx, qy = 2.0 * np.pi / square.length * np.array([3.0, -5.0])
     x = square.step * np.arange(64)
     phase = qx * x[:, None] + qy * x

@@ -49,9 +49,9 @@ def test_falling_distances_are_turned_round_and_it_is_said():
 
 
 def test_the_shortest_wavelength_carried_is_four_steps_or_what_the_instrument_says():
-    assert Profile(X, Z).carried == pytest.approx(4e-4)
-    assert Profile(X, Z, reliable=1e-4).carried == pytest.approx(4e-4)
-    assert Profile(X, Z, reliable=7e-4).carried == 7e-4
+    assert Profile(X, Z).resolution_limit == pytest.approx(4e-4)
+    assert Profile(X, Z, reliable=1e-4).resolution_limit == pytest.approx(4e-4)
+    assert Profile(X, Z, reliable=7e-4).resolution_limit == 7e-4
     # Four steps a wave: the slope of a sine between neighbours is 2/pi sqrt(2) = 0.900 of its own.
     place = np.arange(4001)
     slopes = np.diff(np.sin(2.0 * np.pi * place / 4.0 + 0.3)) / (2.0 * np.pi / 4.0)

@@ -56,8 +56,8 @@ def test_gaps_stay_missing():
 
 
 def test_it_carries_no_more_than_was_measured():
-    assert resample(X, sine(X), 1e-5).carried == pytest.approx(4e-4, rel=0.1)
-    assert resample(X, sine(X), 3e-4).carried == pytest.approx(12e-4)
+    assert resample(X, sine(X), 1e-5).resolution_limit == pytest.approx(4e-4, rel=0.1)
+    assert resample(X, sine(X), 3e-4).resolution_limit == pytest.approx(12e-4)
 
 
 @pytest.mark.parametrize(

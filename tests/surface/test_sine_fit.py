@@ -179,8 +179,8 @@ def test_measured_road_prefers_two_factors(road):
 
 def test_without_a_smallest_wavelength_waves_end_where_the_measurement_does():
     curve = height_difference(self_affine_profile(0.8, 2e-3, 0.6e-3, 1.0, 37.5e-6, 1))
-    unknown = replace(curve, carried=None)
-    assert curve.carried == pytest.approx(1.5e-4)
+    unknown = replace(curve, resolution_limit=None)
+    assert curve.resolution_limit == pytest.approx(1.5e-4)
     free, held = fit_sines(unknown, scales=6), fit_sines(curve, scales=6)
     assert free.wavelength[-1] < 1.5e-4  # what the rule is for
     assert held.wavelength[-1] == pytest.approx(1.5e-4, rel=1e-9)
@@ -194,7 +194,7 @@ def test_without_a_smallest_wavelength_waves_end_where_the_measurement_does():
 def test_the_instrument_may_carry_less_than_the_sampling():
     fine = self_affine_profile(0.8, 2e-3, 0.6e-3, 1.0, 37.5e-6, 1)
     curve = height_difference([fine, replace(fine, reliable=4e-4)])
-    assert curve.carried == 4e-4
+    assert curve.resolution_limit == 4e-4
     assert fit_sines(curve, scales=6).wavelength[-1] >= 4e-4 * (1.0 - 1e-9)
 
 
@@ -254,14 +254,14 @@ def test_the_cut_off_lies_half_a_factor_below_the_last_wave():
     assert fit.residual < 1e-6
     assert fit.wavelength == pytest.approx(stack.wavelength[:6], rel=1e-4)
     assert fit.amplitude == pytest.approx(stack.amplitude[:6], rel=1e-4)
-    assert fit.roughness_end == fit.cut_off
+    assert fit.cutoff_wavelength == fit.cut_off
     assert fit.cut_off == pytest.approx(stack.wavelength[5] / np.sqrt(3.5), rel=1e-9)
     counted = as_fitted(fit)
     assert counted.wavelength == pytest.approx(stack.wavelength, rel=1e-4)
     assert counted.height_difference(curve.lag) == pytest.approx(curve.value, rel=1e-5)
     to_last = fit_sines(curve, scales=9, smallest_wavelength=stack.wavelength[8])
     assert as_fitted(to_last) is to_last
-    assert (to_last.cut_off, to_last.roughness_end) == (None, to_last.wavelength[-1])
+    assert (to_last.cut_off, to_last.cutoff_wavelength) == (None, to_last.wavelength[-1])
 
 
 def test_waves_to_a_cut_off_have_the_slope_of_the_profile_to_it():
@@ -285,7 +285,7 @@ def test_a_cut_off_with_a_given_factor_takes_the_waves_that_fit():
     assert fit.s_wavelength == 3.5
     assert fit.wavelength[-1] / np.sqrt(3.5) >= 1e-3 * (1 - 1e-6)
     assert fit.wavelength[-1] / 3.5**1.5 < 1e-3 * (1 + 1e-6)
-    assert fit.roughness_end == pytest.approx(fit.wavelength[-1] / np.sqrt(3.5), rel=1e-12)
+    assert fit.cutoff_wavelength == pytest.approx(fit.wavelength[-1] / np.sqrt(3.5), rel=1e-12)
     alone = fit_sines(curve, cut_off=1e-3)
     assert alone.wavelength[-1] == pytest.approx(1e-3 * np.sqrt(alone.s_wavelength), rel=1e-9)
 

@@ -112,19 +112,19 @@ def test_a_map_and_its_lines_tell_the_same_gradient() -> None:
     surface, gradient = isotropic(512, 5e-5, seed=3)
     whole, lines = slope_by_wavelength(surface), slope_by_wavelength(surface.lines())
     # within the 3/8 of the map that Hann's window weighs, waves of half the slope scatter by 1 %
-    assert whole.down_to(whole.carried) == pytest.approx(gradient, rel=0.03)
+    assert whole.down_to(whole.resolution_limit) == pytest.approx(gradient, rel=0.03)
     # all waves end at 8 steps: nothing is seen at an angle, and the gradient is sqrt(2) the slope
-    slope = whole.down_to(whole.carried, "profile")
+    slope = whole.down_to(whole.resolution_limit, "profile")
     assert gradient / slope == pytest.approx(math.sqrt(2.0), rel=0.03)
     # of lines alone, isotropy gives it back; where all waves end within one bin the fit is rough
-    assert lines.down_to(lines.carried) == pytest.approx(gradient, rel=0.06)
+    assert lines.down_to(lines.resolution_limit) == pytest.approx(gradient, rel=0.06)
 
 
 def test_power_law_continues_what_was_not_measured() -> None:
     measured = rough()
     known = slope_by_wavelength(measured)
     coarse = slope_by_wavelength([gs.Profile(p.x, p.z, reliable=2e-3) for p in measured])
-    assert coarse.carried == 2e-3
+    assert coarse.resolution_limit == 2e-3
     for of in ("surface", "profile"):
         assert coarse.power_law(of).hurst == pytest.approx(HURST, abs=0.05)
         # three octaves at an exponent 0.05 off: 0.05 ln 8 of the part added, two thirds of all

@@ -63,7 +63,7 @@ def test_the_cut_off_ends_the_waves_and_the_roughness(known):
         surface, _ = one.inputs.for_model(HALF_PLANES)
         assert surface.sines.wavelength[-1] == pytest.approx(one.coordinates["cut_off"])
         measured, _ = one.inputs.for_model(DirectContact())
-        assert measured.roughness_end == pytest.approx(one.coordinates["cut_off"])
+        assert measured.cutoff_wavelength == pytest.approx(one.coordinates["cut_off"])
 
 
 def test_a_finer_cut_off_is_more_friction_on_less_area(known):

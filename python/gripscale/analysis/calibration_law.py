@@ -189,7 +189,7 @@ def check_names(kind: str, fixed: Iterable[str]) -> None:
     """Raise `InputError` unless a law can be fitted and names of what is fixed belong to it."""
     checks.one_of("law", kind, KINDS)
     names = [one.name for one in fields(SHEAR_STRESSES[kind])]
-    checks.known("parameter", fixed, names)
+    checks.allowed_names("parameter", fixed, names)
 
 
 def family_of(kind: str, points: Points, fixed: Mapping[str, float]) -> Family:

@@ -218,7 +218,7 @@ def _words(one: SolvedLadder) -> dict[str, Any]:
 
 
 def _wavelengths(comparisons: Sequence[SolvedLadder]) -> NDArray[np.float64]:
-    smallest = min(one.subject.surface.roughness_end for one in comparisons)
+    smallest = min(one.subject.surface.cutoff_wavelength for one in comparisons)
     samples = [s for one in comparisons for rung in one.rungs for s in rung.converged]
     return octaves((s.curve for s in samples if s.curve is not None), smallest)
 

@@ -174,7 +174,7 @@ def _on_windows(subject: ComparisonSetup, model: Model) -> Sequence[SampleSpec]:
             with_single_measurement(subject.surface, line),
             f"{line.name} from {line.x[0]:.4g} m",
         )
-        for line in _windows(lines, length, float(sines.roughness_end))
+        for line in _windows(lines, length, float(sines.cutoff_wavelength))
     ]
 
 
@@ -202,7 +202,7 @@ def _on_maps(subject: ComparisonSetup, lines: int) -> Sequence[SampleSpec]:
     cleaned, sines = surface.measured.cleaned, surface.sines
     step = max(line.step for line in cleaned)
     smallest = max(
-        MAP * sines.wavelength[0] / WAVES_IN_MAP, sines.roughness_end, STEPS_IN_WAVE * step
+        MAP * sines.wavelength[0] / WAVES_IN_MAP, sines.cutoff_wavelength, STEPS_IN_WAVE * step
     )
     if sum(line.length for line in cleaned) < FEWEST_PERIODS * WAVES_IN_MAP * smallest:
         return []
@@ -239,7 +239,7 @@ def chosen(names: Iterable[str]) -> list[Rung]:
     """
     wanted = set(names)
     groups = dict.fromkeys(rung.group for rung in LADDER)
-    checks.known("rung", sorted(wanted), [*groups, *(rung.name for rung in LADDER)])
+    checks.allowed_names("rung", sorted(wanted), [*groups, *(rung.name for rung in LADDER)])
     return [rung for rung in LADDER if not wanted or wanted & {rung.name, rung.group}]
 
 
@@ -279,7 +279,7 @@ def _chain_upper(subject: ComparisonSetup) -> Sequence[SampleSpec]:
     if upper_already and cut_off_already and subject.pressure_classes > 1:
         return []
     lines = () if surface.measured is None else tuple(surface.measured.cleaned)
-    end = surface.roughness_end
+    end = surface.cutoff_wavelength
     sines = _of_upper_half(lines, surface.counted.get("max_lag"), end) if lines else None
     if sines is None:
         return []
@@ -332,7 +332,7 @@ def _last_known(surface: PreparedSurface) -> float:
     """Return where the sine waves end [m], or the spectrum of the profile before them."""
     spectra = [_spectrum(line) for line in surface.measured.cleaned] if surface.measured else []
     ends = [float(2.0 * np.pi / spectrum.wavenumber[-1]) for spectrum in spectra]
-    return max(surface.roughness_end, *ends)
+    return max(surface.cutoff_wavelength, *ends)
 
 
 def _klueppel_heinrich(subject: ComparisonSetup) -> Sequence[SampleSpec]:

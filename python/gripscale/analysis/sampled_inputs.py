@@ -160,7 +160,7 @@ class Inputs:
     def end(self) -> float:
         """Where the waves end [m]: the cut-off or, without one, the last wave."""
         stated = (self.fit.get(name) for name in END_KEYS)
-        return next((float(end) for end in stated if end), self.surface.roughness_end)
+        return next((float(end) for end in stated if end), self.surface.cutoff_wavelength)
 
     def ended_at(self, wavelength: float) -> Inputs:
         """Return the inputs with the end of the waves at a wavelength [m].

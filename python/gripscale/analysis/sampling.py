@@ -52,7 +52,7 @@ class Uncertainty:
     block_length: float | None = None
 
     def __post_init__(self) -> None:
-        checks.known("source", [*self.without, *self.given], SOURCES)
+        checks.allowed_names("source", [*self.without, *self.given], SOURCES)
         for name in self.given:
             if name in self.without:
                 raise InputError(f"{name} must be left out or given; got both")

@@ -325,7 +325,7 @@ class CutOffSource:
             raise SourceNotApplicable("the waves are stated by hand")
         if stated.values is not None:
             return cls(Range.read(cls.name, stated.values, length))
-        return cls(Range.about(known.surface.roughness_end, math.sqrt(2.0)))
+        return cls(Range.about(known.surface.cutoff_wavelength, math.sqrt(2.0)))
 
     def draw(
         self, place: float, random: np.random.Generator, inputs: Inputs

@@ -167,7 +167,7 @@ def _cut_off(surface: PreparedSurface, measured: Measured) -> tuple[Variables, V
         "cut_off_rule": found.rule,
         "cut_off_surface_slope": found.surface_slope,
         "cut_off_profile_slope": found.profile_slope,
-        "cut_off_carried_m": found.carried,
+        "cut_off_carried_m": found.resolution_limit,
         "cut_off_beyond_measurement": int(found.beyond_measurement),
     }
 

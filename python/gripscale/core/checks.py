@@ -5,13 +5,14 @@ from __future__ import annotations
 import difflib
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import MISSING, dataclass, field, fields
+from dataclasses import MISSING, Field, dataclass, field, fields
 from functools import partial
-from typing import Any, TypeVar, dataclass_transform
+from typing import Any, ClassVar, TypeVar, dataclass_transform
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 
 T = TypeVar("T")
@@ -23,10 +24,11 @@ LEAST, MOST = 1e-100, 1e100
 def number(name: str, value: Any, *, unit: str = "", infinite: bool = False) -> float:
     """Return `value` as a float, zero or from `LEAST` to `MOST` in size; else raise `InputError`.
 
-    NaN is none; infinity is one only where it may be `infinite`.
+    NaN is refused, infinity is accepted only with `infinite`.
     """
     expected = f"{name} must be a finite number{_in(unit)}"
-    if not _is_one_real(value):
+    numeric = isinstance(value, int | float) or hasattr(value, "dtype")
+    if not numeric or not _may_be_real(value) or np.ndim(value) > 0:
         raise InputError(f"{expected}; got {short_repr(value)}")
     try:
         result = float(value)
@@ -58,7 +60,7 @@ def not_negative(name: str, value: Any, *, unit: str = "", infinite: bool = Fals
 
 
 def complex_number(name: str, value: Any, *, unit: str = "") -> complex:
-    """Return `value` as a complex number of parts of at most `MOST`, real or complex as given."""
+    """Return a real or complex `value` as a complex number with parts of at most `MOST`."""
     if not np.iscomplexobj(value):
         return complex(number(name, value, unit=unit))
     parts = np.real(value), np.imag(value)
@@ -66,7 +68,7 @@ def complex_number(name: str, value: Any, *, unit: str = "") -> complex:
 
 
 def whole(name: str, value: Any, *, least: int, most: int) -> int:
-    """Return `value` as an int; raise `InputError` unless it is whole and within its limits."""
+    """Return `value` as an int; raise `InputError` unless it is a whole number in the limits."""
     result = int(value) if _is_whole_number(value) else number(name, value)
     if result != math.floor(result) or not least <= result <= most:
         raise InputError(
@@ -76,16 +78,16 @@ def whole(name: str, value: Any, *, least: int, most: int) -> int:
 
 
 def counted(name: str, value: Any, most: int) -> int:
-    """Return the position, from 0, of what people count from 1 to `most`; else `InputError`."""
+    """Return the index, from 0, of a number counted from 1 to `most`; else `InputError`."""
     if _is_whole_number(value) and value == 0:
         raise InputError(f"{name} is counted from 1, up to {most}; got 0")
     return whole(name, value, least=1, most=most) - 1
 
 
-def vector(name: str, value: ArrayLike, *, unit: str = "", missing: bool = False) -> NDArray[Any]:
+def vector(name: str, value: ArrayLike, *, unit: str = "", missing: bool = False) -> Array:
     """Return `value` as a 1-D float array of entries of at most `MOST`.
 
-    NaN passes only where values may be `missing`; what is masked is NaN.
+    NaN passes only with `missing`; masked entries become NaN.
     """
     result = _finite(name, value, unit, missing=missing)
     if (np.abs(result) > MOST).any():
@@ -97,7 +99,7 @@ def vector(name: str, value: ArrayLike, *, unit: str = "", missing: bool = False
     return result
 
 
-def _finite(name: str, value: ArrayLike, unit: str, *, missing: bool = False) -> NDArray[Any]:
+def _finite(name: str, value: ArrayLike, unit: str, *, missing: bool = False) -> Array:
     """Return `value` as a 1-D float array without infinity."""
     expected = f"{name} must be a list of finite numbers{' or NaN' * missing}{_in(unit)}"
     result = array(value, expected)
@@ -110,17 +112,17 @@ def _finite(name: str, value: ArrayLike, unit: str, *, missing: bool = False) ->
     return result
 
 
-def array(value: ArrayLike, expected: str) -> NDArray[Any]:
+def array(value: ArrayLike, expected: str) -> Array:
     """Return a copy of `value` as a float array, NaN where it is masked.
 
-    Raises `InputError`, which begins with what was `expected`, if it holds something else than real
-    numbers: texts that spell numbers are none, nor are complex numbers without imaginary part.
+    Raises `InputError`, which begins with what was `expected`, if an entry is not a real number.
+    Texts that spell numbers and complex numbers without imaginary part are refused.
     """
     try:
-        given = np.asarray(value)
-        if not _may_be_real(given):
+        entries = np.asarray(value)
+        if not _may_be_real(entries):
             raise InputError(f"{expected}; got {short_repr(value)}")
-        result = np.array(given, dtype=float)
+        result = np.array(entries, dtype=float)
     except (TypeError, ValueError, OverflowError) as error:
         raise InputError(f"{expected}; got {short_repr(value)}") from error
     if isinstance(value, np.ma.MaskedArray):
@@ -128,7 +130,7 @@ def array(value: ArrayLike, expected: str) -> NDArray[Any]:
     return result
 
 
-def positive_vector(name: str, value: ArrayLike, *, unit: str = "") -> NDArray[Any]:
+def positive_vector(name: str, value: ArrayLike, *, unit: str = "") -> Array:
     """Return `value` as a 1-D float array; raise `InputError` unless all entries are above zero."""
     result = _above_zero(name, vector(name, value, unit=unit), unit)
     if (result < LEAST).any():
@@ -139,7 +141,36 @@ def positive_vector(name: str, value: ArrayLike, *, unit: str = "") -> NDArray[A
     return result
 
 
-def _above_zero(name: str, result: NDArray[Any], unit: str) -> NDArray[Any]:
+def not_negative_vector(name: str, value: ArrayLike, *, unit: str = "") -> Array:
+    """Return `value` as a 1-D float array; raise `InputError` if an entry is below zero."""
+    result = vector(name, value, unit=unit)
+    if (result < 0.0).any():
+        at = int(np.argmax(result < 0.0))
+        raise InputError(f"{name} must not be negative; got {result[at]:g} {unit} at index {at}")
+    return result
+
+
+def increasing_vector(name: str, value: ArrayLike, *, unit: str = "") -> Array:
+    """Return `value` as a 1-D float array; raise `InputError` unless it increases from above 0."""
+    result = positive_vector(name, value, unit=unit)
+    falls = np.diff(result) <= 0.0
+    if falls.any():
+        at = int(np.argmax(falls)) + 1
+        raise InputError(f"{name} must increase; got {result[at]:g} {unit} at index {at}")
+    return result
+
+
+def same_length(least: int, **vectors: Array) -> None:
+    """Raise `InputError` unless the named arrays have the same length, `least` or more."""
+    sizes = [values.size for values in vectors.values()]
+    if min(sizes) < least or len(set(sizes)) > 1:
+        raise InputError(
+            f"{' and '.join(vectors)} must have the same length, at least {least}; "
+            f"got {' and '.join(map(str, sizes))}"
+        )
+
+
+def _above_zero(name: str, result: Array, unit: str) -> Array:
     if (result <= 0.0).any():
         at = int(np.argmax(result <= 0.0))
         raise InputError(
@@ -156,7 +187,7 @@ def flag(name: str, value: Any) -> bool:
 
 
 def instance(name: str, value: Any, kind: type[T]) -> T:
-    """Return `value`; raise `InputError` unless it is one of `kind`."""
+    """Return `value`; raise `InputError` unless it is an instance of `kind`."""
     if not isinstance(value, kind):
         article = "an" if kind.__name__[0] in "AEIOU" else "a"
         raise InputError(f"{name} must be {article} {kind.__name__}; got {type(value).__name__}")
@@ -164,7 +195,7 @@ def instance(name: str, value: Any, kind: type[T]) -> T:
 
 
 def instances(name: str, values: Any, kind: type[T]) -> list[T]:
-    """Return `values` as a list; raise `InputError` unless it holds `kind`, one at least."""
+    """Return `values` as a list; raise `InputError` unless it holds instances of `kind` only."""
     if not isinstance(values, Sequence) or isinstance(values, str | bytes) or not values:
         raise InputError(
             f"{name} must be a list of at least one {kind.__name__}; got {short_repr(values)}"
@@ -172,7 +203,7 @@ def instances(name: str, values: Any, kind: type[T]) -> list[T]:
     return [instance(f"each of {name}", value, kind) for value in values]
 
 
-def real(name: str, value: ArrayLike, *, unit: str = "") -> NDArray[Any]:
+def real(name: str, value: ArrayLike, *, unit: str = "") -> Array:
     """Return `value`, of any shape, as a float array of entries of at most `MOST`."""
     expected = f"{name} must be finite numbers of at most {MOST:g}{_in(unit)}"
     result = array(value, expected)
@@ -189,7 +220,7 @@ def text(name: str, value: Any) -> str:
     return value
 
 
-def in_limits(name: str, value: ArrayLike, *, unit: str = "") -> NDArray[Any]:
+def in_limits(name: str, value: ArrayLike, *, unit: str = "") -> Array:
     """Return `value` as a 1-D float array; raise `InputError` unless from `LEAST` to `MOST`."""
     result = _above_zero(name, _finite(name, value, unit), unit)
     bad = (result < LEAST) | (result > MOST)
@@ -203,25 +234,25 @@ def in_limits(name: str, value: ArrayLike, *, unit: str = "") -> NDArray[Any]:
 
 
 def one_of(name: str, value: Any, choices: Iterable[str]) -> str:
-    """Return `value`; raise `InputError` unless it is one of the named `choices`."""
-    known = list(choices)
-    if not isinstance(value, str) or value not in known:
-        raise InputError(f"{name} must be one of {', '.join(known)}; got {short_repr(value)}")
+    """Return `value`; raise `InputError` unless it is among the `choices`."""
+    names = list(choices)
+    if not isinstance(value, str) or value not in names:
+        raise InputError(f"{name} must be one of {', '.join(names)}; got {short_repr(value)}")
     return str(value)
 
 
-def known(kind: str, given: Iterable[str], allowed: Iterable[str]) -> None:
-    """Raise `InputError`, with the nearest name, unless all names `given` are among `allowed`."""
-    names = list(allowed)
-    for name in given:
-        if name not in names:
-            near = difflib.get_close_matches(name, names, n=1)
-            hint = f"did you mean {near[0]}?" if near else f"expected one of {', '.join(names)}"
+def allowed_names(kind: str, names: Iterable[str], allowed: Iterable[str]) -> None:
+    """Raise `InputError`, with the nearest allowed name, unless all `names` are `allowed`."""
+    choices = list(allowed)
+    for name in names:
+        if name not in choices:
+            near = difflib.get_close_matches(name, choices, n=1)
+            hint = f"did you mean {near[0]}?" if near else f"expected one of {', '.join(choices)}"
             raise InputError(f"unknown {kind} {name}; {hint}")
 
 
 def short_repr(value: Any) -> str:
-    """Return how a value is written in a message: on one line, not longer than it is read."""
+    """Return a value as a message shows it: on one line of at most 80 characters."""
     if isinstance(value, int) and abs(value) >= 10**80:
         return "a whole number of more than 80 digits"
     if isinstance(value, np.ndarray) and value.ndim > 0:
@@ -233,22 +264,16 @@ def short_repr(value: Any) -> str:
 
 
 def shortened(text: str, most: int = 120) -> str:
-    """Return text of a file as a message quotes it: printable, and not longer than it is read."""
+    """Return text of a file as a message quotes it: printable, at most `most` characters."""
     plain = "".join(letter if letter.isprintable() else "?" for letter in text)
     return plain if len(plain) <= most else f"{plain[: most - 3]}..."
 
 
 def _may_be_real(value: Any) -> bool:
-    """Return whether `value` is no truth, text, complex number, date or mask, by type or dtype."""
+    """Return whether type or dtype exclude a truth, text, complex number, date and mask."""
     if value is np.ma.masked or isinstance(value, bool | str | bytes | complex):
         return False
     return getattr(getattr(value, "dtype", None), "kind", "f") in "iufO"
-
-
-def _is_one_real(value: Any) -> bool:
-    """Return whether `value` is a number of Python or numpy, or an array of one without a shape."""
-    numeric = isinstance(value, int | float) or hasattr(value, "dtype")
-    return numeric and _may_be_real(value) and np.ndim(value) == 0
 
 
 def _is_whole_number(value: Any) -> bool:
@@ -259,20 +284,21 @@ def _in(unit: str) -> str:
     return f" [{unit}]" if unit else ""
 
 
-def from_mapping(law: type[T], kind: str, given: Mapping[str, Any]) -> T:
-    """Return the dataclass `law` of its `given` parameters, those with a default left out or not.
+def from_mapping(law: type[T], kind: str, values: Mapping[str, Any]) -> T:
+    """Return the dataclass `law` with parameters `values`; those with a default may be left out.
 
-    Raises `InputError` that names what is missing or unknown.
+    Raises `InputError` that lists the parameters if one is missing or unknown.
     """
-    known = {one.name: one for one in fields(law) if one.init}  # type: ignore[arg-type]
-    wanted = [n for n, one in known.items() if one.default is one.default_factory is MISSING]
-    if set(given) - set(known) or set(wanted) - set(given):
+    parameters = [item for item in fields(law) if item.init]  # type: ignore[arg-type]
+    names = [item.name for item in parameters]
+    needed = [p.name for p in parameters if p.default is p.default_factory is MISSING]
+    if set(values) - set(names) or set(needed) - set(values):
         raise InputError(
-            f"{kind} takes {', '.join(known) or 'no parameters'}"
-            f", of which {', '.join(wanted) or 'none'} must be given; got "
-            f"{', '.join(map(str, given)) or 'none'}"
+            f"{kind} takes {', '.join(names) or 'no parameters'}"
+            f", of which {', '.join(needed) or 'none'} must be given; got "
+            f"{', '.join(map(str, values)) or 'none'}"
         )
-    return law(**given)
+    return law(**values)
 
 
 def checked(check: Callable[..., Any], *, default: Any = MISSING, **options: Any) -> Any:
@@ -291,15 +317,26 @@ class Checked:
             radius: float = checked(positive, unit="m")
 
     A subclass is a frozen dataclass; keywords such as ``eq=False`` go to `dataclasses.dataclass`.
-    One with conditions between fields extends `__post_init__` and calls that of this class first.
+    Checked arrays are read-only copies. A subclass with conditions between fields, or with fields
+    that follow from others, extends `__post_init__`, calls that of this class first and sets such
+    fields with `_set`.
     """
+
+    __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__()
         dataclass(frozen=True, **options)(cls)
 
     def __post_init__(self) -> None:
-        for item in fields(self):  # type: ignore[arg-type]
+        for item in fields(self):
             value, check = getattr(self, item.name), item.metadata.get("check")
             if check is not None and not (value is None and item.default is None):
-                object.__setattr__(self, item.name, check(item.name, value))
+                self._set(**{item.name: check(item.name, value)})
+
+    def _set(self, **values: Any) -> None:
+        """Store values of fields, arrays read-only, while the instance is made."""
+        for name, value in values.items():
+            if isinstance(value, np.ndarray):
+                value.flags.writeable = False
+            object.__setattr__(self, name, value)

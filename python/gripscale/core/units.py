@@ -164,9 +164,9 @@ def in_si(value: Value, unit: str, kind: str, name: str = "unit") -> Value:
     return value * UNITS[kind][known] + zero
 
 
-def in_mm(length: float) -> str:
-    """Return a length [m] as a note says it."""
-    return f"{1e3 * length:.6g} mm"
+def in_mm(length: float, digits: int = 6) -> str:
+    """Return a length [m] as text in mm."""
+    return f"{1e3 * length:.{digits}g} mm"
 
 
 def listed(kind: str) -> str:

@@ -13,6 +13,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.io.netcdf import write_whole
 from gripscale.io.text_table import file_path
@@ -29,8 +30,6 @@ from gripscale.wave.result import waves_from_dataset
 #
 # with square first elements. Quadrature is the (order + 1)^2 Gauss rule, pressures are one number
 # in an element of order 1 and linear in one of order 2 (rust/fem).
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

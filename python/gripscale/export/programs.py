@@ -387,7 +387,7 @@ def write_rubber(rubber: Rubber, path: str | Path, *, to: str, **options: Any) -
     """
     made = PROGRAMS[checks.one_of("to", to, PROGRAMS)]
     taken = [name for name in signature(made).parameters if name != "rubber"]
-    checks.known(f"option of {to}", options, taken)
+    checks.allowed_names(f"option of {to}", options, taken)
     found = made(rubber, **options)
     found.write(path)
     return found

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.core.provenance import version_of
 from gripscale.core.units import UNITS, ZERO_CELSIUS
@@ -165,7 +165,7 @@ def coefficients(rubber: Rubber) -> Coefficients:
             )
 
 
-def shares(rubber: Rubber) -> NDArray[np.float64]:
+def shares(rubber: Rubber) -> Array:
     """Return g_i = E_i / (E_inf + sum E_j) [-], shape (terms,).
 
     Raises `InputError` if E_inf is lost in 1 - sum g_i: less than `LEAST_SHARE` of the sum.

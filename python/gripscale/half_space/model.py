@@ -100,7 +100,7 @@ class DirectContact(model.Model):
         """Return the length given, or where the waves say it ends [m], two steps at least."""
         if self.smallest_wavelength is not None:
             return self.smallest_wavelength
-        return max(surface.roughness_end, 2.0 * float(np.max(measured.step)))
+        return max(surface.cutoff_wavelength, 2.0 * float(np.max(measured.step)))
 
     def _answer(self, contacts: list[RoughContact], load: NominalLoad) -> xr.Dataset:
         import xarray as xr

@@ -27,9 +27,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.checks import MOST, short_repr, shortened, whole
 from gripscale.core.errors import FileError, InputError
 from gripscale.core.units import spelled
@@ -232,7 +232,7 @@ class TextTable:
         """The names of the columns as a message lists them, empty if the file has no titles."""
         return shortened(", ".join(self.names))
 
-    def numbers(self, column: int, expected: str, *, missing: bool = False) -> NDArray[np.float64]:
+    def numbers(self, column: int, expected: str, *, missing: bool = False) -> Array:
         """Return a column of numbers, NaN where a value is `missing` and may be.
 
         Raises `FileError` with the line of the first other cell, or number beyond reason, and what

@@ -248,7 +248,7 @@ def columns_of(
     if columns is None:
         return {}
     if isinstance(columns, Mapping):
-        checks.known("quantity in columns", columns, quantities)
+        checks.allowed_names("quantity in columns", columns, quantities)
         return dict(columns)
     if (
         not isinstance(columns, Sequence)

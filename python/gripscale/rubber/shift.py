@@ -501,7 +501,9 @@ def shift_from_dict(values: Mapping[str, Any]) -> Shift:
         raise InputError(f"shift must be a mapping with its kind; got {checks.short_repr(values)}")
     settings = dict(values)
     law = SHIFTS[checks.one_of("kind", settings.pop("kind", None), SHIFTS)]
-    checks.known(f"setting of the shift {law.kind}", settings, [one.name for one in fields(law)])
+    checks.allowed_names(
+        f"setting of the shift {law.kind}", settings, [one.name for one in fields(law)]
+    )
     try:
         return law(**settings)
     except TypeError as error:

@@ -12,7 +12,7 @@ from gripscale.surface.cut_off import (
 )
 from gripscale.surface.height_difference import HeightDifference, height_difference
 from gripscale.surface.isotropic_maps import isotropic_maps
-from gripscale.surface.plausibility import profile_doubts
+from gripscale.surface.plausibility import profile_warnings
 from gripscale.surface.profile import HeightMap, Profile
 from gripscale.surface.read import read_map, read_profile, read_profiles
 from gripscale.surface.resampling import resample
@@ -58,8 +58,8 @@ __all__ = [
     "height_difference",
     "isotropic_maps",
     "map_spectrum",
-    "profile_doubts",
     "profile_spectrum",
+    "profile_warnings",
     "read_map",
     "read_profile",
     "read_profiles",

@@ -1,6 +1,7 @@
-"""Make a measured profile fit for statistics: crop, dropouts, spikes, trend, each one reported.
+"""Cleaning of measured profiles and maps: crop, dropouts, borders, spikes, trend or form.
 
-Missing heights stay missing: statistics skip them, nothing is interpolated.
+Each step is reported. Missing heights stay missing: statistics skip them, nothing is interpolated.
+The file has the report, the steps of a profile, the steps of a map, and what both share.
 """
 
 from __future__ import annotations
@@ -8,20 +9,28 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import numpy as np
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.core.units import in_mm
-from gripscale.surface.profile import FEWEST_POINTS, FloatArray, HeightMap, Profile
+from gripscale.surface.profile import FEWEST_POINTS, HeightMap, Profile
 
 TRENDS = ("linear", "mean", "none")
+
+HIGHEST_ORDER = 8
+"""Highest order of a form: beyond it a polynomial follows the roughness."""
+
+Limits = tuple[float, float]
+Measurement = TypeVar("Measurement", Profile, HeightMap)
 
 
 @dataclass(frozen=True)
 class StepReport:
-    """What one cleaning step did, in numbers of points."""
+    """The effect of one cleaning step, in numbers of points."""
 
     step: str
     """Its name, such as "crop" or "spikes"."""
@@ -30,16 +39,16 @@ class StepReport:
     removed: int
     """Points it cut off."""
     made_missing: int
-    """Heights it took out, of points that stay."""
+    """Heights it removed from points that remain."""
     missing: int
     """Points without height after it."""
     note: str = ""
-    """What else is to be said, in words."""
+    """Details in words."""
 
 
 @dataclass(frozen=True)
 class CleaningReport:
-    """What each cleaning step did, in order; `print` shows a table."""
+    """The effect of each cleaning step, in order; `print` shows a table."""
 
     steps: tuple[StepReport, ...]
 
@@ -50,11 +59,11 @@ class CleaningReport:
         for report in self.steps:
             if report.step == step:
                 return report
-        known = ", ".join(report.step for report in self.steps)
-        raise InputError(f"step must be one of {known}; got {checks.short_repr(step)}")
+        names = ", ".join(report.step for report in self.steps)
+        raise InputError(f"step must be one of {names}; got {checks.short_repr(step)}")
 
     def table(self) -> str:
-        """Return the steps as a plain table: points left, cut off, made missing, missing now."""
+        """Return the steps as a plain table: points, cut off, made missing, missing in all."""
         lines = [f"{'step':<10} {'points':>8} {'removed':>8} {'made missing':>13} {'missing':>8}"]
         for s in self.steps:
             line = f"{s.step:<10} {s.points:>8} {s.removed:>8} {s.made_missing:>13} {s.missing:>8}"
@@ -84,7 +93,7 @@ def clean(
     crop : (float, float), optional
         First and last distance to keep [m], both included.
     valid_range : (float, float), optional
-        Lowest and highest height to believe [m]; others become missing (sentinels, plates).
+        Lowest and highest valid height [m]; others become missing (sentinels, plates).
     remove_spikes : bool, optional
         Mark spikes as missing, see `mark_spikes`.
     spike_slope : float, optional
@@ -99,7 +108,7 @@ def clean(
     Profile
         The cleaned profile.
     CleaningReport
-        What each step did.
+        The effect of each step.
 
     Raises
     ------
@@ -121,7 +130,7 @@ def clean(
     return profile, CleaningReport(tuple(reports))
 
 
-def crop_profile(profile: Profile, limits: tuple[float, float]) -> tuple[Profile, StepReport]:
+def crop_profile(profile: Profile, limits: Limits) -> tuple[Profile, StepReport]:
     """Keep the points whose distance lies within `limits` [m], both included."""
     first, last = interval("crop", limits)
     keep = (profile.x >= first) & (profile.x <= last)
@@ -130,28 +139,8 @@ def crop_profile(profile: Profile, limits: tuple[float, float]) -> tuple[Profile
             f"crop must leave at least {FEWEST_POINTS} points; {in_mm(first)} to {in_mm(last)} "
             f"leaves {keep.sum()} of a profile from {in_mm(profile.x[0])} to {in_mm(profile.x[-1])}"
         )
-    note = f"kept {in_mm(first)} to {in_mm(last)}"
-    return _changed(profile, "crop", x=profile.x[keep], z=profile.z[keep], note=note)
-
-
-def mark_dropouts(
-    profile: Profile, valid_range: tuple[float, float] | None = None
-) -> tuple[Profile, StepReport]:
-    """Count the heights already missing; mark those outside `valid_range` [m] as missing."""
-    z, note = mask_out_of_range(profile.z, valid_range)
-    return _changed(profile, "dropouts", z=z, note=note)
-
-
-def mask_out_of_range(
-    z: FloatArray, valid_range: tuple[float, float] | None
-) -> tuple[FloatArray, str]:
-    """Return heights with those outside `valid_range` [m] missing, and a note of both."""
-    note = f"{int(np.isnan(z).sum())} missing as measured"
-    if valid_range is None:
-        return z, note
-    low, high = interval("valid_range", valid_range)
-    inside = (z >= low) & (z <= high)  # comparisons with NaN are false: missing stays missing
-    return np.where(inside, z, np.nan), f"{note}; kept {in_mm(low)} to {in_mm(high)}"
+    cropped = replace(profile, x=profile.x[keep], z=profile.z[keep])
+    return _report("crop", profile, cropped, f"kept {in_mm(first)} to {in_mm(last)}")
 
 
 def mark_spikes(
@@ -195,23 +184,13 @@ def mark_spikes(
             break
         spikes = _spikes(z, limit, across_gaps)
         passes += 1
-    if np.isnan(z).all():
-        raise InputError(
-            f"spike_slope must leave some heights; {slope:g} makes all of them spikes (or are the "
-            "units of distance and height others?)"
-        )
     note = f"height change per step >= {slope:g}"
-    return _changed(
-        profile,
-        "spikes",
-        z=z,
-        note=f"{note}, across gaps, {passes} passes" if across_gaps else note,
-    )
+    if across_gaps:
+        note += f", across gaps, {passes} passes"
+    return _without_spikes(profile, z, slope, note)
 
 
-def _spikes(
-    z: FloatArray, limit: float, across_gaps: bool
-) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
+def _spikes(z: Array, limit: float, across_gaps: bool) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
     """Return the indices of both points of every pair that is too steep."""
     valid = np.flatnonzero(np.isfinite(z))
     distance = np.diff(valid)
@@ -225,52 +204,18 @@ def subtract_trend(profile: Profile, kind: str = "linear") -> tuple[Profile, Ste
     """Subtract the least-squares line, or the mean, of the valid heights."""
     checks.one_of("detrend", kind, TRENDS)
     valid = np.isfinite(profile.z)
-    if kind == "none":
-        return _changed(profile, "trend", z=profile.z, note="kept")
     mean = float(profile.z[valid].mean())
-    if kind == "mean" or valid.sum() < 2:
-        return _changed(profile, "trend", z=profile.z - mean, note=f"mean {1e3 * mean:.4g} mm")
-    centred = profile.x - profile.x[valid].mean()
-    slope = float((centred[valid] @ (profile.z[valid] - mean)) / (centred[valid] @ centred[valid]))
-    z = profile.z - mean - slope * centred
-    return _changed(profile, "trend", z=z, note=f"mean {1e3 * mean:.4g} mm, slope {slope:.4g}")
-
-
-def _changed(
-    profile: Profile, step: str, *, z: FloatArray, x: FloatArray | None = None, note: str = ""
-) -> tuple[Profile, StepReport]:
-    """Return the changed profile and the count of what changed."""
-    new = replace(profile, x=profile.x if x is None else x, z=z)
-    removed = len(profile) - len(new)
-    made_missing = 0 if removed else new.missing - profile.missing
-    return new, StepReport(step, len(new), removed, made_missing, new.missing, note)
-
-
-def interval(name: str, limits: tuple[float, float]) -> tuple[float, float]:
-    """Return two limits [m], the first below the second; raise `InputError` for anything else."""
-    try:
-        first, last = limits
-    except (TypeError, ValueError) as error:
-        raise InputError(
-            f"{name} must be two numbers [m]; got {checks.short_repr(limits)}"
-        ) from error
-    first = checks.number(f"{name}[0]", first, unit="m", infinite=True)
-    last = checks.number(f"{name}[1]", last, unit="m", infinite=True)
-    if first >= last:
-        raise InputError(
-            f"{name} must have its first number below its second; got {checks.short_repr(limits)}"
-        )
-    return first, last
-
-
-# Make a measured map fit for contact: crop, dropouts, borders, spikes, form, each one reported.
-#
-# Missing heights stay missing: nothing is filled here.
-
-HIGHEST_ORDER = 8
-"""Highest order of a form: beyond it a polynomial follows the roughness."""
-
-Limits = tuple[float, float]
+    note = f"mean {1e3 * mean:.4g} mm"
+    if kind == "none":
+        z, note = profile.z, "kept"
+    elif kind == "mean" or valid.sum() < 2:
+        z = profile.z - mean
+    else:
+        centred = profile.x - profile.x[valid].mean()
+        squares = centred[valid] @ centred[valid]
+        slope = float((centred[valid] @ (profile.z[valid] - mean)) / squares)
+        z, note = profile.z - mean - slope * centred, f"{note}, slope {slope:.4g}"
+    return _report("trend", profile, replace(profile, z=z), note)
 
 
 def clean_map(
@@ -292,7 +237,7 @@ def clean_map(
     crop : ((float, float) or None, (float, float) or None), optional
         First and last distance to keep along x and along y [m], both included; None keeps all.
     valid_range : (float, float), optional
-        Lowest and highest height to believe [m]; others become missing (sentinels, fixtures).
+        Lowest and highest valid height [m]; others become missing (sentinels, fixtures).
     trim : float, optional
         Share of missing heights above which a line at a border is cut off; None keeps all.
     remove_spikes : bool, optional
@@ -308,21 +253,19 @@ def clean_map(
     HeightMap
         The cleaned map.
     CleaningReport
-        What each step did, in numbers of points.
+        The effect of each step, in numbers of points.
 
     Raises
     ------
     InputError
         If an argument is wrong, or a step leaves too few points or heights.
     """
-    if not isinstance(surface, HeightMap):
-        raise InputError(f"surface must be a HeightMap; got {type(surface).__name__}")
+    checks.instance("surface", surface, HeightMap)
     reports = []
     if crop is not None:
         surface, report = crop_map(surface, crop)
         reports.append(report)
-    z, note = mask_out_of_range(surface.z, valid_range)
-    surface, report = _changed_map(surface, "dropouts", z=z, note=note)
+    surface, report = mark_dropouts(surface, valid_range)
     reports.append(report)
     if trim is not None:
         surface, report = trim_map(surface, trim)
@@ -344,10 +287,9 @@ def crop_map(
         raise InputError(
             f"crop must be limits along x and along y, or None; got {checks.short_repr(limits)}"
         )
-    kept = []
+    parts, everything = [], (-math.inf, math.inf)
     for name, axis, pair in zip("xy", (surface.x, surface.y), limits, strict=True):
-        whole = (-math.inf, math.inf)
-        first, last = whole if pair is None else interval(f"crop along {name}", pair)
+        first, last = interval(f"crop along {name}", everything if pair is None else pair)
         inside = np.flatnonzero((axis >= first) & (axis <= last))
         if inside.size < FEWEST_POINTS:
             raise InputError(
@@ -355,12 +297,12 @@ def crop_map(
                 f"{in_mm(last)} leaves {inside.size} of a map from {in_mm(axis[0])} to "
                 f"{in_mm(axis[-1])}"
             )
-        kept.append(slice(int(inside[0]), int(inside[-1]) + 1))
-    return _part(surface, "crop", kept[0], kept[1])
+        parts.append(slice(int(inside[0]), int(inside[-1]) + 1))
+    return _part(surface, "crop", parts[0], parts[1])
 
 
 def trim_map(surface: HeightMap, share: float = 0.5) -> tuple[HeightMap, StepReport]:
-    """Cut lines off the borders, the barest first, while more than a share of one is missing.
+    """Cut lines off the borders, the barest first, while more than a share of it is missing.
 
     Raises
     ------
@@ -371,21 +313,21 @@ def trim_map(surface: HeightMap, share: float = 0.5) -> tuple[HeightMap, StepRep
     if most > 1.0:
         raise InputError(f"trim must be a share of the heights, from 0 to 1; got {most:g}")
     missing = np.isnan(surface.z)
-    (left, right), (low, high) = (0, surface.x.size), (0, surface.y.size)
+    (start, stop), (low, high) = (0, surface.x.size), (0, surface.y.size)
     while True:
-        inside = missing[left:right, low:high]
+        inside = missing[start:stop, low:high]
         borders = [line.mean() for line in (inside[0], inside[-1], inside[:, 0], inside[:, -1])]
         barest = int(np.argmax(borders))
         if borders[barest] <= most:
             break
-        left, right = left + (barest == 0), right - (barest == 1)
+        start, stop = start + (barest == 0), stop - (barest == 1)
         low, high = low + (barest == 2), high - (barest == 3)
-        if min(right - left, high - low) < FEWEST_POINTS:
+        if min(stop - start, high - low) < FEWEST_POINTS:
             raise InputError(
                 f"trim must leave at least {FEWEST_POINTS} points a way; lines with a share of "
-                f"{most:g} missing leave {right - left} x {high - low}"
+                f"{most:g} missing leave {stop - start} x {high - low}"
             )
-    return _part(surface, "trim", slice(left, right), slice(low, high))
+    return _part(surface, "trim", slice(start, stop), slice(low, high))
 
 
 def mark_map_spikes(surface: HeightMap, *, slope: float = 3.0) -> tuple[HeightMap, StepReport]:
@@ -393,10 +335,10 @@ def mark_map_spikes(surface: HeightMap, *, slope: float = 3.0) -> tuple[HeightMa
 
     A point is a spike if |z - median of its up to eight neighbours| >= slope * step, the larger
     step of both ways. It is the median test of J. Westerweel, Exp. Fluids 16 (1994) 236,
-    doi:10.1007/BF00206543, with the limit of ISO 13473-1 for profiles. Where that marks both sides
-    of a steep step, a map can tell: along a straight edge most neighbours of a point are on its
-    own side, so that stones keep their edges, and a spike of up to two by two points is found. One
-    pass, from the heights as they were.
+    doi:10.1007/BF00206543, with the limit of ISO 13473-1 for profiles. The rule for profiles marks
+    both sides of a steep step; on a map most neighbours of a point at a straight edge are on its
+    own side, so that stones keep their edges, and a spike of up to two by two points is marked. All
+    points are tested in one pass.
 
     Parameters
     ----------
@@ -411,33 +353,21 @@ def mark_map_spikes(surface: HeightMap, *, slope: float = 3.0) -> tuple[HeightMa
         If `slope` is not above zero, or all heights would become missing.
     """
     limit = checks.positive("spike_slope", slope) * max(surface.step)
-    spikes = np.abs(surface.z - _median_around(surface.z)) >= limit  # NaN, alone: no spike
-    z = np.where(spikes, np.nan, surface.z)
-    if np.isnan(z).all():
-        raise InputError(
-            f"spike_slope must leave some heights; {slope:g} makes all of them spikes (or are the "
-            "units of distance and height others?)"
-        )
-    return _changed_map(surface, "spikes", z=z, note=f"{slope:g} steps off the median around")
-
-
-def _median_around(z: FloatArray) -> FloatArray:
-    """Return the median of the valid heights among the eight neighbours; NaN where there are none.
-
-    Sorted, missing ones last: the median is the mean of the two in the middle of the valid ones.
-    """
-    padded = np.pad(z, 1, constant_values=np.nan)
-    nx, ny = z.shape
+    nx, ny = surface.z.shape
+    padded = np.pad(surface.z, 1, constant_values=np.nan)
     around = np.stack(
         [padded[i : i + nx, j : j + ny] for i in range(3) for j in range(3) if (i, j) != (1, 1)]
     )
+    # sorted with NaN last: the median is the mean of the two in the middle of the valid ones
     around.sort(axis=0)
     count = np.isfinite(around).sum(axis=0)[None]
     low, high = (
         np.take_along_axis(around, at, axis=0)[0]
         for at in (np.maximum(count - 1, 0) // 2, np.minimum(count // 2, 7))
     )
-    return np.asarray(0.5 * (low + high))
+    spikes = np.abs(surface.z - 0.5 * (low + high)) >= limit  # false where a height is missing
+    z = np.where(spikes, np.nan, surface.z)
+    return _without_spikes(surface, z, slope, f"{slope:g} steps off the median around")
 
 
 def subtract_form(surface: HeightMap, order: int = 1) -> tuple[HeightMap, StepReport]:
@@ -462,52 +392,84 @@ def subtract_form(surface: HeightMap, order: int = 1) -> tuple[HeightMap, StepRe
         np.asarray(np.polynomial.legendre.legvander(np.linspace(-1.0, 1.0, n), highest), float)
         for n in surface.z.shape
     )
-    coefficient = np.zeros((highest + 1, highest + 1))
     level = float(np.nanmean(surface.z))  # instruments put their origin metres away
-    coefficient[*zip(*terms, strict=True)] = _least_squares(surface.z - level, along, across, terms)
+    # The normal equations are sums over x and y of products of functions of x and of y: matrix
+    # products, without a table of all terms at all points.
+    m, n = np.array(terms).T
+    valid = np.isfinite(surface.z)
+    squares = np.einsum("ia,ib->iab", along, along)
+    weighted = np.tensordot(squares, valid.astype(float), axes=(0, 0))
+    normal = np.einsum("abj,jc,jd->acbd", weighted, across, across, optimize=True)
+    pull = along.T @ np.where(valid, surface.z - level, 0.0) @ across
+    matrix = normal[m[:, None], n[:, None], m, n]
+    coefficient = np.zeros((highest + 1, highest + 1))
+    coefficient[m, n] = np.linalg.lstsq(matrix, pull[m, n], rcond=None)[0]
     mean, slopes = level + coefficient[0, 0], ""
     if highest:
         sizes = (0.5 * length for length in surface.length)
         along_x, along_y = (c / s for c, s in zip(coefficient[[1, 0], [0, 1]], sizes, strict=True))
         slopes = f", slopes {along_x:.4g} along x and {along_y:.4g} along y"
     z = surface.z - level - along @ coefficient @ across.T
-    return _changed_map(
-        surface, "form", z=z, note=f"order {highest}: mean {1e3 * mean:.4g} mm{slopes}"
-    )
-
-
-def _least_squares(
-    z: FloatArray, along: FloatArray, across: FloatArray, terms: list[tuple[int, int]]
-) -> FloatArray:
-    """Return the factors of `terms` that fit the valid heights, from the normal equations.
-
-    They are sums over x and y of products of functions of x and of y: matrix products, without a
-    table of all terms at all points.
-    """
-    m, n = np.array(terms).T
-    valid = np.isfinite(z)
-    squares = np.einsum("ia,ib->iab", along, along)
-    weighed = np.tensordot(squares, valid.astype(float), axes=(0, 0))
-    normal = np.einsum("abj,jc,jd->acbd", weighed, across, across, optimize=True)
-    pull = along.T @ np.where(valid, z, 0.0) @ across
-    matrix = normal[m[:, None], n[:, None], m, n]
-    return np.asarray(np.linalg.lstsq(matrix, pull[m, n], rcond=None)[0])
+    note = f"order {highest}: mean {1e3 * mean:.4g} mm{slopes}"
+    return _report("form", surface, replace(surface, z=z), note)
 
 
 def _part(
     surface: HeightMap, step: str, along: slice, across: slice
 ) -> tuple[HeightMap, StepReport]:
-    x, y = surface.x[along], surface.y[across]
-    note = f"kept {in_mm(x[0])} to {in_mm(x[-1])} by {in_mm(y[0])} to {in_mm(y[-1])}"
-    z = surface.z[along, across]
+    """Return a rectangle of the map; raise `InputError` if it has no height."""
+    x, y, z = surface.x[along], surface.y[across], surface.z[along, across]
+    size = f"{in_mm(x[0])} to {in_mm(x[-1])} by {in_mm(y[0])} to {in_mm(y[-1])}"
     if np.isnan(z).all():
-        raise InputError(f"{step} must leave some heights; {note[5:]} has none")
-    new = replace(surface, x=x, y=y, z=z)
-    return new, StepReport(step, z.size, surface.z.size - z.size, 0, new.missing, note)
+        raise InputError(f"{step} must leave some heights; {size} has none")
+    return _report(step, surface, replace(surface, x=x, y=y, z=z), f"kept {size}")
 
 
-def _changed_map(
-    surface: HeightMap, step: str, *, z: FloatArray, note: str
-) -> tuple[HeightMap, StepReport]:
-    new = replace(surface, z=z)
-    return new, StepReport(step, z.size, 0, new.missing - surface.missing, new.missing, note)
+def mark_dropouts(
+    measured: Measurement, valid_range: Limits | None = None
+) -> tuple[Measurement, StepReport]:
+    """Count the heights already missing; mark those outside `valid_range` [m] as missing."""
+    note = f"{measured.missing} missing as measured"
+    if valid_range is None:
+        return _report("dropouts", measured, measured, note)
+    low, high = interval("valid_range", valid_range)
+    valid = (measured.z >= low) & (measured.z <= high)  # false where a height is missing
+    marked = replace(measured, z=np.where(valid, measured.z, np.nan))
+    return _report("dropouts", measured, marked, f"{note}; kept {in_mm(low)} to {in_mm(high)}")
+
+
+def _without_spikes(
+    measured: Measurement, z: Array, slope: float, note: str
+) -> tuple[Measurement, StepReport]:
+    if np.isnan(z).all():
+        raise InputError(
+            f"spike_slope must leave some heights; {slope:g} makes all of them spikes (or are the "
+            "units of distance and height others?)"
+        )
+    return _report("spikes", measured, replace(measured, z=z), note)
+
+
+def _report(
+    step: str, before: Measurement, after: Measurement, note: str
+) -> tuple[Measurement, StepReport]:
+    """Return the changed profile or map and the count of its changes."""
+    removed = before.z.size - after.z.size
+    made_missing = 0 if removed else after.missing - before.missing
+    return after, StepReport(step, after.z.size, removed, made_missing, after.missing, note)
+
+
+def interval(name: str, limits: Limits) -> Limits:
+    """Return two limits [m], the first below the second; raise `InputError` for anything else."""
+    try:
+        first, last = limits
+    except (TypeError, ValueError) as error:
+        raise InputError(
+            f"{name} must be two numbers [m]; got {checks.short_repr(limits)}"
+        ) from error
+    first = checks.number(f"{name}[0]", first, unit="m", infinite=True)
+    last = checks.number(f"{name}[1]", last, unit="m", infinite=True)
+    if first >= last:
+        raise InputError(
+            f"{name} must have its first number below its second; got {checks.short_repr(limits)}"
+        )
+    return first, last

@@ -1,7 +1,21 @@
-"""Which smallest wavelength counts: the rules in use, and what they give on a measured surface.
+"""The rms slope of a measured surface by wavelength, and the rules that cut its roughness off.
+
+    h'_line(q)^2    = int_0^q k^2 C_1(k) dk                  waves along the lines
+    h'_surface(q)^2 = 2 pi int_0^q k^3 C(k) dk               waves of any direction
+
+The slope of the surface is the root mean square of its gradient's length, that of a line the slope
+along it. Both grow without bound as shorter waves are counted in, so each is a number only together
+with a wavelength. Of a surface that ends at q the first is sqrt(2) times the second. Of a line
+measured to shorter waves it is less, because short waves are also crossed at an angle: profiles are
+first turned into their isotropic surface (`gripscale.surface.spectrum`). A map needs no such step.
+
+Beyond the shortest wave the measurement resolves, q_m, the spectra may be continued as power laws
+fitted to the last decade before it, as for a self-affine surface (h'^2 = m there):
+
+    h'(q)^2 = m + b q_m^(2-2H) ((q/q_m)^(2-2H) - 1)/(2 - 2H)
 
 The roughness of a surface goes on far below what a profile shows, and each octave adds friction
-and takes contact area: where it is cut off is a choice that every prediction rests on. In use are
+and takes contact area: every prediction rests on the choice of the cut-off. Rules in use are
 
 - a length: of dust, of a film of water, of the damage that sliding does to the rubber;
 - an rms slope, 1.3 or about 1: the wavelength down to which the rms slope of the surface adds up
@@ -9,7 +23,7 @@ and takes contact area: where it is cut off is a choice that every prediction re
   194701, doi:10.1063/1.4919221); beyond, the strain is taken to be too large for the rubber to
   last. A. Genovese, F. Farroni, A. Papangelo, M. Ciavarella, Lubricants 7 (2019) 85,
   doi:10.3390/lubricants7100085, discuss how arbitrary it is;
-- the instrument: the shortest wavelength that the measurement carries.
+- the instrument: the shortest wavelength that the measurement resolves.
 """
 
 from __future__ import annotations
@@ -23,9 +37,11 @@ from typing import Any, Literal
 import numpy as np
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
+from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
-from gripscale.core.units import parse_quantity
-from gripscale.surface.profile import CARRIED_STEPS, FloatArray, HeightMap, Profile
+from gripscale.core.units import in_mm, parse_quantity
+from gripscale.surface.profile import RESOLVED_STEPS, HeightMap, Profile
 from gripscale.surface.spectrum import (
     ArealSpectrum,
     ProfileSpectrum,
@@ -34,23 +50,6 @@ from gripscale.surface.spectrum import (
     profile_spectrum,
 )
 
-# The rms slope of a measured surface down to each wavelength, of its lines and of the surface.
-#
-#     h'_line(q)^2    = int_0^q k^2 C_1(k) dk                  waves along the lines
-#     h'_surface(q)^2 = 2 pi int_0^q k^3 C(k) dk               waves of any direction
-#
-# The slope of the surface is the root mean square of its gradient's length, that of a line the
-# slope along it. Both grow without bound as shorter waves are counted in, so each is a number only
-# together with a wavelength. Of a surface that ends at q the first is sqrt(2) times the second; of
-# a line measured further down it is less, because short waves are seen at an angle, too: profiles
-# are turned into their isotropic surface first (`gripscale.surface.spectrum`). A map needs no such
-# step.
-#
-# Beyond the shortest wave the measurement carries, q_m, the spectra may be continued as power laws
-# fitted to the last decade before it, as those of a self-affine surface are (h'^2 = m there):
-#
-#     h'(q)^2 = m + b q_m^(2-2H) ((q/q_m)^(2-2H) - 1)/(2 - 2H)
-
 DEFINITIONS = ("surface", "profile")
 """Whose slope: the length of the surface's gradient, or the slope along its lines."""
 
@@ -58,18 +57,18 @@ ROUNDING = 1e-9
 """Relative difference below which two wavelengths are the same."""
 
 _FITTED = 10.0
-"""Range of wavenumbers up to the last one carried to which a power law is fitted, as a ratio."""
+"""Range of wavenumbers, as a ratio, below the last resolved one to which a power law is fitted."""
 
 _FEWEST = 4
-"""Points such a range must have."""
+"""Points this range must have."""
 
 
 @dataclass(frozen=True)
 class PowerLaw:
-    """How a mean square slope goes on below the wavelengths that were measured."""
+    """Continuation of a mean square slope below the measured wavelengths."""
 
     hurst: float
-    """Exponent H of the surface that would go on so."""
+    """Exponent H of the continued surface."""
     growth: float
     """Growth of the mean square slope per unit of log q at the last wavenumber measured."""
 
@@ -95,17 +94,18 @@ class SlopeByWavelength:
     """Of the lines along the way of sliding."""
     areal: ArealSpectrum | None = field(repr=False)
     """Of the surface; None where the lines do not determine it."""
-    carried: float
-    """Shortest wavelength the measurement carries [m]."""
+    resolution_limit: float
+    """Shortest wavelength the measurement resolves [m]."""
     isotropic: bool = True
-    """Whether the surface is the isotropic one of the lines, and not measured itself."""
+    """Whether the surface is the isotropic one of the lines, not a measured map."""
 
     @property
-    def wavelength(self) -> FloatArray:
-        """Wavelengths [m], ten a decade, from the longest measured to the shortest carried."""
+    def wavelength(self) -> Array:
+        """Wavelengths [m], ten a decade, from the longest measured to the resolution limit."""
+        limit = self.resolution_limit
         longest = float(2.0 * np.pi / self.line.wavenumber[0])
-        count = max(2, math.ceil(10.0 * math.log10(max(longest / self.carried, 1.0))) + 1)
-        return np.asarray(np.geomspace(max(longest, self.carried), self.carried, count))
+        count = max(2, math.ceil(10.0 * math.log10(max(longest / limit, 1.0))) + 1)
+        return np.asarray(np.geomspace(max(longest, limit), limit, count))
 
     def down_to(self, wavelength: float, of: str = "surface") -> float:
         """Return the rms slope [-] of the waves not shorter than `wavelength` [m].
@@ -113,97 +113,96 @@ class SlopeByWavelength:
         Parameters
         ----------
         wavelength : float
-            Shorter than `carried`, the slope is continued as a power law.
+            Shorter than `resolution_limit`, the slope is continued as a power law.
         of : str
             "surface" for the rms length of the gradient, "profile" for the slope along lines.
 
         Returns
         -------
         float
-            NaN where it is not known: of a surface whose spectrum the lines do not determine, or
-            beyond the measurement where that does not end as a power law.
+            NaN for a surface whose spectrum the lines do not determine, and beyond a measurement
+            whose spectrum does not end as a power law.
         """
         length = checks.positive("wavelength", wavelength, unit="m")
         checks.one_of("of", of, DEFINITIONS)
-        if length >= self.carried * (1.0 - ROUNDING):
+        limit = self.resolution_limit
+        if length >= limit * (1.0 - ROUNDING):
             return self._measured(length, of)
         try:
             law = self.power_law(of)
         except InputError:
             return math.nan
-        return math.sqrt(self._measured(self.carried, of) ** 2 + law.added(self.carried / length))
+        return math.sqrt(self._measured(limit, of) ** 2 + law.added(limit / length))
 
     def reaches(self, slope: float, of: str = "surface") -> float:
         """Return the longest wavelength [m] down to which the measured rms slope is `slope`.
 
-        NaN if it stays below down to the shortest wavelength that the measurement carries.
+        NaN if the measurement does not reach it.
         """
         from scipy.optimize import brentq
 
         checks.positive("slope", slope)
         checks.one_of("of", of, DEFINITIONS)
-        if not self._measured(self.carried, of) >= slope * (1.0 - ROUNDING):
+        total = self._measured(self.resolution_limit, of)
+        if not total >= slope * (1.0 - ROUNDING):
             return math.nan
         if of == "profile":
             sums = np.cumsum(_mean_square(self.line))
             first = int(np.searchsorted(sums, slope**2 * (1.0 - ROUNDING)))
             return float(2.0 * np.pi / self.line.wavenumber[first])
         assert self.areal is not None
-        if self._measured(self.carried, of) <= slope:
-            return self.carried
+        if total <= slope:
+            return self.resolution_limit
         longest = math.log(2.0 * np.pi / self.areal.wavenumber[0])
 
-        def missing(log: float) -> float:
+        def excess(log: float) -> float:
             return self._measured(math.exp(log), of) - slope
 
-        return math.exp(brentq(missing, longest, math.log(self.carried), xtol=1e-12))
+        return math.exp(brentq(excess, longest, math.log(self.resolution_limit), xtol=1e-12))
 
     def power_law(self, of: str = "surface") -> PowerLaw:
-        """Return how the slope goes on beyond the measurement.
+        """Return the power law by which the slope continues beyond the measurement.
 
         For the surface of profiles the exponent is that of their own spectrum, with the closed form
         of `areal_spectrum`.
 
-        Raises `InputError` if the last decade that is carried has fewer than four points, or does
-        not fall as the spectrum of a self-affine surface (H above zero).
+        Raises `InputError` if the last resolved decade has fewer than four points, or does not fall
+        as the spectrum of a self-affine surface (H above zero).
         """
         from scipy.special import gamma
 
         checks.one_of("of", of, DEFINITIONS)
-        own = of == "surface" and not self.isotropic
-        if own and self.areal is not None:
+        measured_map = of == "surface" and not self.isotropic
+        if measured_map and self.areal is not None:
             q, growth = self.areal.wavenumber, 2.0 * np.pi * self.areal.wavenumber**4
-            law = self._fitted(q, growth * self.areal.density)
+            growth = growth * self.areal.density
         else:
             mean = self.line.averaged()
-            law = self._fitted(mean.wavenumber, mean.wavenumber**3 * mean.density)
-        if own or of == "profile":
-            return law
-        seen = math.sqrt(math.pi) * gamma(law.hurst + 1.0) / gamma(law.hurst + 0.5)
-        return PowerLaw(law.hurst, float(seen) * law.growth)
-
-    def _fitted(self, q: FloatArray, growth: FloatArray) -> PowerLaw:
-        """Return the power law of what the mean square slope grows by per unit of log q."""
-        last = 2.0 * np.pi / self.carried
+            q, growth = mean.wavenumber, mean.wavenumber**3 * mean.density
+        last = 2.0 * np.pi / self.resolution_limit
         used = (q <= last * (1.0 + ROUNDING)) & (q >= last / _FITTED) & (growth > 0.0)
         if used.sum() < _FEWEST:
             raise InputError(
                 f"the spectrum must have {_FEWEST} points above zero in the decade above "
-                f"{self.carried:.4g} m to be continued; got {used.sum()}"
+                f"{self.resolution_limit:.4g} m to be continued; got {used.sum()}"
             )
         # bins evenly spaced in log q hold waves in proportion to q, and scatter by their root
         logs, weight = np.log(q[used] / last), np.sqrt(q[used])
-        power, at_end = np.polyfit(logs, np.log(growth[used]), 1, w=weight)
+        power, log_growth = np.polyfit(logs, np.log(growth[used]), 1, w=weight)
         hurst = 1.0 - 0.5 * float(power)
         if hurst <= 0.0:
             raise InputError(
                 f"the spectrum must fall as that of a self-affine surface to be continued; above "
-                f"{self.carried:.4g} m its exponent is H = {hurst:.2f}, as of noise"
+                f"{self.resolution_limit:.4g} m its exponent is H = {hurst:.2f}, as of noise"
             )
-        return PowerLaw(hurst, math.exp(float(at_end)))
+        law = PowerLaw(hurst, math.exp(float(log_growth)))
+        if measured_map or of == "profile":
+            return law
+        ratio = math.sqrt(math.pi) * gamma(law.hurst + 1.0) / gamma(law.hurst + 0.5)
+        return PowerLaw(law.hurst, float(ratio) * law.growth)
 
     def _measured(self, length: float, of: str) -> float:
-        """Return the slope down to a length that is carried; zero above the longest wave."""
+        """Return the slope down to a resolved length; zero above the longest wave."""
         spectrum = self.line if of == "profile" else self.areal
         if spectrum is None:
             return math.nan
@@ -232,7 +231,7 @@ def slope_by_wavelength(
     -------
     SlopeByWavelength
         Down to four steps of the measurement, or to the shortest wavelength that the instrument
-        measures reliably, where it is known and longer.
+        measures reliably if that is known and longer.
 
     Raises
     ------
@@ -241,38 +240,34 @@ def slope_by_wavelength(
     """
     if isinstance(surface, HeightMap):
         x_step, y_step = surface.step
-        # of many lines no windows are needed: the waves longer than a window have their slope, too
+        # many lines need no windows: the waves longer than a window have their slope, too
         line = profile_spectrum(surface.lines(), window=x_step * surface.x.size)
         areal = map_spectrum(surface.z, x_step=x_step, y_step=y_step)
-        carried = max(CARRIED_STEPS * max(surface.step), surface.reliable or 0.0)
-        return SlopeByWavelength(line, areal, carried, isotropic=False)
+        limit = max(RESOLVED_STEPS * max(surface.step), surface.reliable or 0.0)
+        return SlopeByWavelength(line, areal, limit, isotropic=False)
     line = profile_spectrum(surface)
     profiles = [surface] if isinstance(surface, Profile) else surface
-    return SlopeByWavelength(line, _isotropic(line), max(one.carried for one in profiles))
-
-
-def _isotropic(line: ProfileSpectrum) -> ArealSpectrum | None:
-    """Return the spectrum of the isotropic surface; None where there are too few waves for it."""
+    isotropic: ArealSpectrum | None
     try:
-        return areal_spectrum(line)
-    except InputError:
-        return None
+        isotropic = areal_spectrum(line)
+    except InputError:  # too few waves
+        isotropic = None
+    return SlopeByWavelength(line, isotropic, max(p.resolution_limit for p in profiles))
 
 
-def _mean_square(line: ProfileSpectrum) -> FloatArray:
-    """Return what each point of the spectrum adds to the mean square slope."""
+def _mean_square(line: ProfileSpectrum) -> Array:
+    """Return the part of each point of the spectrum in the mean square slope."""
     return np.asarray(line.wavenumber**2 * line.density * line.width)
 
 
 INSTRUMENT = "instrument"
-"""The word for the shortest wavelength that the measurement carries."""
+"""The word for the shortest wavelength that the measurement resolves."""
 
 MOST_CONTINUED = 100.0
 """Ratio of the shortest wavelength measured to the shortest that it may be continued to."""
 
 
-@dataclass(frozen=True)
-class RmsSlope:
+class RmsSlope(Checked):
     """The rule that the roughness ends where its rms slope adds up to a value.
 
     Parameters
@@ -283,8 +278,8 @@ class RmsSlope:
         "surface": of the isotropic surface, the rms length of its gradient. "profile": of the slope
         along a line, which is smaller by about sqrt(2).
     extrapolate : bool
-        Whether, where the measurement does not reach the value, its spectrum is continued as a
-        power law, two decades at most. What rests on it was not measured.
+        Whether the spectrum is continued as a power law, two decades at most, if the measurement
+        does not reach the value. The result then rests on waves that were not measured.
 
     Raises
     ------
@@ -292,15 +287,9 @@ class RmsSlope:
         If a value cannot be used.
     """
 
-    rms_slope: float
-    of: str = "surface"
-    extrapolate: bool = False
-
-    def __post_init__(self) -> None:
-        slope = checks.positive("rms_slope", self.rms_slope)
-        object.__setattr__(self, "rms_slope", slope)
-        checks.one_of("of", self.of, DEFINITIONS)
-        checks.flag("extrapolate", self.extrapolate)
+    rms_slope: float = checked(checks.positive)
+    of: str = checked(checks.one_of, choices=DEFINITIONS, default="surface")
+    extrapolate: bool = checked(checks.flag, default=False)
 
     def __str__(self) -> str:
         return f"rms slope {self.rms_slope:g} of the {self.of}"
@@ -312,42 +301,42 @@ CutOffRule = float | Literal["instrument"] | RmsSlope
 
 @dataclass(frozen=True)
 class CutOff:
-    """Where the roughness of a measured surface ends, by which rule, and what that means.
+    """The cut-off of a measured surface, its rule and the slopes down to it.
 
     Attributes
     ----------
     wavelength
         Shortest wavelength that counts [m].
     rule
-        Why it is this one, in words.
+        The rule, in words.
     surface_slope, profile_slope
         Rms slope down to it [-]: length of the surface's gradient, and along a line. NaN where the
-        measurement does not tell; continued as a power law where `beyond_measurement`.
-    carried
-        Shortest wavelength that the measurement carries [m].
+        measurement does not determine it; continued as a power law if `beyond_measurement`.
+    resolution_limit
+        Shortest wavelength that the measurement resolves [m].
     """
 
     wavelength: float
     rule: str
     surface_slope: float
     profile_slope: float
-    carried: float
+    resolution_limit: float
 
     @property
     def beyond_measurement(self) -> bool:
-        """Whether waves count that the measurement does not carry."""
-        return self.wavelength < self.carried * (1.0 - ROUNDING)
+        """Whether the roughness includes waves that the measurement does not resolve."""
+        return self.wavelength < self.resolution_limit * (1.0 - ROUNDING)
 
     def __str__(self) -> str:
         slopes = (
             f"rms slope down to it {self.surface_slope:.3g} of the surface, "
             f"{self.profile_slope:.3g} along a profile"
         )
-        text = f"{_mm(self.wavelength)} ({self.rule}), {slopes}"
+        text = f"{in_mm(self.wavelength, 3)} ({self.rule}), {slopes}"
         if self.beyond_measurement:
             text += (
-                f"; beyond the measurement, which ends at {_mm(self.carried)}: slopes and waves "
-                "below are extrapolated"
+                "; beyond the measurement, which ends at "
+                f"{in_mm(self.resolution_limit, 3)}: slopes and waves below are extrapolated"
             )
         return text
 
@@ -362,8 +351,8 @@ def find_cut_off(
     surface : Profile, sequence of Profile, HeightMap or SlopeByWavelength
         The surface as measured and cleaned, or its slopes.
     rule : float, "instrument" or RmsSlope
-        A length [m]; the shortest wavelength that the measurement carries; or where the rms slope
-        adds up to a value.
+        A length [m]; the shortest wavelength that the measurement resolves; or the wavelength at
+        which the rms slope adds up to a value.
 
     Returns
     -------
@@ -378,12 +367,16 @@ def find_cut_off(
         decades below the measurement, or the spectrum does not end as a power law.
     """
     slopes = surface if isinstance(surface, SlopeByWavelength) else slope_by_wavelength(surface)
+    limit = slopes.resolution_limit
     if isinstance(rule, RmsSlope):
-        return _at(slopes, _of_slope(slopes, rule), str(rule))
-    if isinstance(rule, str):
+        length, words = _length_of_slope(slopes, rule), str(rule)
+    elif isinstance(rule, str):
         checks.one_of("rule", rule, [INSTRUMENT])
-        return _at(slopes, slopes.carried, "the shortest wavelength that the measurement carries")
-    return _at(slopes, checks.positive("rule", rule, unit="m"), "a stated length")
+        length, words = limit, "the shortest wavelength that the measurement carries"
+    else:
+        length, words = checks.positive("rule", rule, unit="m"), "a stated length"
+    surface_slope, profile_slope = (slopes.down_to(length, of) for of in DEFINITIONS)
+    return CutOff(length, words, surface_slope, profile_slope, limit)
 
 
 def cut_off_rule(value: Any) -> CutOffRule:
@@ -429,24 +422,19 @@ _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 _WORDS = re.compile(r"\s*rms_slope\s+(\S+)(?:\s+of\s+(\w+))?(\s+extrapolate)?\s*")
 
 
-def _at(slopes: SlopeByWavelength, length: float, why: str) -> CutOff:
-    surface, profile = (slopes.down_to(length, of) for of in DEFINITIONS)
-    return CutOff(length, why, surface, profile, slopes.carried)
-
-
-def _of_slope(slopes: SlopeByWavelength, rule: RmsSlope) -> float:
+def _length_of_slope(slopes: SlopeByWavelength, rule: RmsSlope) -> float:
     """Return the wavelength down to which the slope adds up to that of `rule` [m]."""
-    found = slopes.reaches(rule.rms_slope, rule.of)
-    if math.isfinite(found):
-        # the last points of a spectrum may stand for waves a little shorter than is carried
-        return max(found, slopes.carried)
-    reached = slopes.down_to(slopes.carried, rule.of)
+    length, limit = slopes.reaches(rule.rms_slope, rule.of), slopes.resolution_limit
+    if math.isfinite(length):
+        # the last points of a spectrum may stand for waves a little shorter than is resolved
+        return max(length, limit)
+    reached = slopes.down_to(limit, rule.of)
     if math.isnan(reached):
         raise InputError(f"cut_off: the profiles are too short to tell the slope of the {rule.of}")
     if not rule.extrapolate:
         raise InputError(
             f"cut_off must be an rms slope of the {rule.of} that the measurement reaches, at most "
-            f"{reached:.3g} at {_mm(slopes.carried)}, the shortest wavelength it carries; got "
+            f"{reached:.3g} at {in_mm(limit, 3)}, the shortest wavelength it carries; got "
             f"{rule.rms_slope:g} (extrapolate = true continues its spectrum as a power law)"
         )
     law = slopes.power_law(rule.of)
@@ -454,11 +442,7 @@ def _of_slope(slopes: SlopeByWavelength, rule: RmsSlope) -> float:
     if ratio > MOST_CONTINUED:
         raise InputError(
             f"cut_off must be an rms slope of the {rule.of} reached within a factor of "
-            f"{MOST_CONTINUED:g} below {_mm(slopes.carried)}, where it is {reached:.3g} and goes "
+            f"{MOST_CONTINUED:g} below {in_mm(limit, 3)}, where it is {reached:.3g} and goes "
             f"on with H = {law.hurst:.2f}; got {rule.rms_slope:g}"
         )
-    return slopes.carried / ratio
-
-
-def _mm(length: float) -> str:
-    return f"{length * 1e3:.3g} mm"
+    return limit / ratio

@@ -1,25 +1,39 @@
-"""The height difference correlation of measured profiles.
+"""The height difference correlation of measured profiles, and its plateau.
 
     C_z(l) = < (z(x + l) - z(x))^2 >                                        [LW eq. 5]
 
 averaged over all pairs of points a lag l apart in which both heights are valid. Rubber touches the
 upper part of a surface only; where that differs from the valleys, C_z of the upper part alone is
 nearer to what the rubber meets (`upper_share`).
+
+Beyond the longest wavelength of a surface, heights a lag apart are unrelated and C_z is twice the
+variance: this is its plateau. It begins at the first lag at which C_z reaches 90 % of its own mean
+over all larger lags. A curve that still rises stays far below that mean; a curve on its plateau
+scatters about it, and a measured plateau, which is finite, drifts by as much as a tenth.
+
 [LW] Lind & Wangenheim, ASME IMECE2014-37998.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
-from typing import Any
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array, Mask
+from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
-from gripscale.surface.profile import FloatArray, Profile, of_one_step
+from gripscale.surface.profile import Profile, of_one_step
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from gripscale.surface.self_affine import SelfAffineFit
+    from gripscale.surface.sines import SineStack
 
 BAND_LEVEL = 0.95
 """Nominal confidence level of the band."""
@@ -31,8 +45,11 @@ FEWEST_PAIRS = 16
 """Pairs a lag must have to be kept."""
 
 
-@dataclass(frozen=True, eq=False)
-class HeightDifference:
+def _counts(name: str, value: Any) -> NDArray[np.int64]:
+    return np.array(value, dtype=np.int64)
+
+
+class HeightDifference(Checked, eq=False):
     """Mean squared height difference against lag.
 
     Parameters
@@ -45,8 +62,8 @@ class HeightDifference:
         Number of pairs averaged; zeros if not known.
     lower, upper : array_like, shape (lags,), optional
         Band of 95 % nominal confidence [m^2]; NaN if not known.
-    carried : float, optional
-        Shortest wavelength [m] that the measurement behind the curve carries, where it is known.
+    resolution_limit : float, optional
+        Shortest wavelength [m] that the measurement behind the curve resolves, if known.
 
     Raises
     ------
@@ -54,45 +71,43 @@ class HeightDifference:
         If the lengths differ, lags do not increase from above zero, or a value is negative.
     """
 
-    lag: FloatArray
-    value: FloatArray
-    pairs: NDArray[np.int64] = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
-    lower: FloatArray = field(default_factory=lambda: np.zeros(0))
-    upper: FloatArray = field(default_factory=lambda: np.zeros(0))
-    carried: float | None = None
+    lag: Array = checked(checks.increasing_vector, unit="m")
+    value: Array = checked(checks.not_negative_vector, unit="m^2")
+    pairs: NDArray[np.int64] = checked(_counts, default=None)
+    lower: Array = checked(checks.vector, unit="m^2", missing=True, default=None)
+    upper: Array = checked(checks.vector, unit="m^2", missing=True, default=None)
+    resolution_limit: float | None = checked(checks.positive, unit="m", default=None)
 
     def __post_init__(self) -> None:
-        lag = checks.positive_vector("lag", self.lag, unit="m")
-        value = checks.vector("value", self.value, unit="m^2")
-        if lag.size == 0 or lag.size != value.size:
-            raise InputError(
-                f"lag and value must have the same length, at least 1; "
-                f"got {lag.size} and {value.size}"
-            )
-        if (np.diff(lag) <= 0.0).any():
-            at = int(np.argmax(np.diff(lag) <= 0.0)) + 1
-            raise InputError(f"lag must increase; got {lag[at]:g} m at index {at}")
-        if (value < 0.0).any():
-            at = int(np.argmax(value < 0.0))
-            raise InputError(f"value must not be negative; got {value[at]:g} m^2 at index {at}")
-        self._keep("lag", lag)
-        self._keep("value", value)
-        self._keep("pairs", np.array(self.pairs, dtype=np.int64), unknown=0)
-        for name in ("lower", "upper"):
-            band = checks.vector(name, getattr(self, name), unit="m^2", missing=True)
-            self._keep(name, band, unknown=np.nan)
-        if self.carried is not None:
-            checks.positive("carried", self.carried, unit="m")
+        super().__post_init__()
+        checks.same_length(1, lag=self.lag, value=self.value)
+        size = self.lag.size
+        for name, unknown in (("pairs", 0), ("lower", np.nan), ("upper", np.nan)):
+            values = getattr(self, name)
+            if values is None:
+                self._set(**{name: np.full(size, unknown)})
+            elif values.size != size:
+                raise InputError(f"{name} must have {size} entries as lag; got {values.size}")
 
-    def _keep(self, name: str, array: NDArray[Any], unknown: float = np.nan) -> None:
-        """Store a read-only array, or `unknown` for each lag if it was not given."""
-        size = np.size(self.lag)
-        if array.size == 0:
-            array = np.full(size, unknown, dtype=array.dtype)
-        if array.size != size:
-            raise InputError(f"{name} must have {size} entries as lag; got {array.size}")
-        array.flags.writeable = False
-        object.__setattr__(self, name, array)
+    def fit_self_affine(self, **options: Any) -> SelfAffineFit:
+        """Return power law and plateau; options as in `gripscale.fit_self_affine`."""
+        from gripscale.surface.self_affine import fit_self_affine
+
+        return fit_self_affine(self, **options)
+
+    def fit_sines(self, **options: Any) -> SineStack:
+        """Return the sine waves of the same C_z; options as in `gripscale.fit_sines`."""
+        from gripscale.surface.sine_fit import fit_sines
+
+        return fit_sines(self, **options)
+
+    def plot(
+        self, sines: Mapping[str, SineStack] | None = None, self_affine: SelfAffineFit | None = None
+    ) -> Figure:
+        """Draw the curve with its band, with fitted waves by name and the self-affine fit."""
+        from gripscale.charts import correlation_figure
+
+        return correlation_figure(self, sines or {}, self_affine)
 
     def __len__(self) -> int:
         return int(self.lag.size)
@@ -155,12 +170,37 @@ def height_difference(
         max_lag=max_lag,
         lags_per_decade=lags_per_decade,
     )
-    return replace(_curve(sums.lag, sums.squares, sums.pairs), carried=sums.carried)
+    total, pairs = sums.squares.sum(axis=0), sums.pairs.sum(axis=0)
+    value = total / pairs
+    spread = _jackknife_spread(total - sums.squares, pairs - sums.pairs, sums.pairs > 0)
+    return HeightDifference(
+        sums.lag,
+        value,
+        pairs.astype(np.int64),
+        value * np.exp(-spread),
+        value * np.exp(spread),
+        sums.resolution_limit,
+    )
+
+
+def _jackknife_spread(sums: Array, pairs: Array, used: Mask) -> Array:
+    """Return the half width of the band in log C_z from the sums without each block."""
+    from scipy.stats import t
+
+    usable = used & (pairs > 0) & (sums > 0.0)
+    n = usable.sum(axis=0)
+    logs = np.log(np.where(usable, sums, 1.0) / np.where(usable, pairs, 1.0))
+    mean = logs.sum(axis=0, where=usable) / np.maximum(n, 1)
+    scatter = np.square(logs - mean).sum(axis=0, where=usable)
+    deviation = np.sqrt((n - 1) / np.maximum(n, 1) * scatter)
+    quantile = t.ppf(0.5 + BAND_LEVEL / 2.0, np.maximum(n - 1, 1))
+    spread = quantile * deviation
+    return np.where((n >= 2) & (spread < WIDEST_BAND), spread, np.nan)
 
 
 @dataclass(frozen=True, eq=False)
 class BlockSums:
-    """What each block of the profiles adds to C_z: whoever draws blocks needs no pairs again.
+    """The contribution of each block of the profiles to C_z, from which blocks can be drawn anew.
 
     Parameters
     ----------
@@ -168,14 +208,14 @@ class BlockSums:
         Lag [m].
     squares, pairs : array, shape (blocks, lags)
         Sum of squared height differences [m^2] and number of pairs whose first point is in a block.
-    carried : float
-        Shortest wavelength [m] that the measurement carries.
+    resolution_limit : float
+        Shortest wavelength [m] that the measurement resolves.
     """
 
-    lag: FloatArray
-    squares: FloatArray
-    pairs: FloatArray
-    carried: float
+    lag: Array
+    squares: Array
+    pairs: Array
+    resolution_limit: float
 
     def drawn(self, blocks: NDArray[np.intp]) -> HeightDifference:
         """Return C_z of these blocks only, some perhaps several times, without a band."""
@@ -185,7 +225,7 @@ class BlockSums:
             self.lag[kept],
             squares[kept] / pairs[kept],
             pairs[kept].astype(np.int64),
-            carried=self.carried,
+            resolution_limit=self.resolution_limit,
         )
 
 
@@ -201,12 +241,36 @@ def block_sums(
     profiles = of_one_step(profile, "pooled")
     per_decade = checks.whole("lags_per_decade", lags_per_decade, least=1, most=1000)
     step = float(np.mean([p.step for p in profiles]))
-    shifts = _lag_steps(profiles, step, max_lag, per_decade)
+    shortest = min(p.length for p in profiles)
+    limit = shortest / 4.0 if max_lag is None else checks.positive("max_lag", max_lag, unit="m")
+    longest = max(p.length for p in profiles)
+    if not step <= limit * (1.0 + 1e-9) or limit > longest:
+        raise InputError(
+            f"max_lag must be at least one step, {step:g} m, and within the profile, "
+            f"{longest:g} m; got {limit:g} m"
+        )
     share = checks.positive("upper_share", upper_share)
     if share > 1.0:
         raise InputError(f"upper_share must be at most 1; got {share:g}")
-    centred = [_upper(p.z - np.nanmean(p.z), share) for p in profiles]
-    sums, counts = _block_sums(centred, block_starts([z.size for z in centred], blocks), shifts)
+    # the distinct whole numbers of steps nearest to evenly spaced log lags
+    most = int(np.floor(limit / step + 1e-6))
+    count = int(np.ceil(per_decade * np.log10(max(most, 1)))) + 1
+    shifts = np.unique(np.rint(np.geomspace(1, most, count)).astype(np.int64))
+    heights = [p.z - np.nanmean(p.z) for p in profiles]
+    heights = [np.where(z >= np.nanquantile(z, 1.0 - share), z, np.nan) for z in heights]
+    starts = block_starts([z.size for z in heights], blocks)
+    rows = sum(start.size for start in starts)
+    sums, counts = np.zeros((rows, shifts.size)), np.zeros((rows, shifts.size))
+    row = 0
+    for z, start in zip(heights, starts, strict=True):
+        for column, shift in enumerate(shifts[shifts < z.size]):
+            squares = np.square(z[shift:] - z[:-shift])
+            valid = np.isfinite(squares)
+            begins = start[start < squares.size]
+            part = slice(row, row + begins.size)
+            sums[part, column] = np.add.reduceat(np.where(valid, squares, 0.0), begins)
+            counts[part, column] = np.add.reduceat(valid.astype(float), begins)
+        row += start.size
     if len(profiles) > blocks:
         first = np.linspace(0, len(sums), blocks, endpoint=False).astype(int)
         sums, counts = (np.add.reduceat(values, first, axis=0) for values in (sums, counts))
@@ -216,40 +280,8 @@ def block_sums(
             f"profile must have a lag with at least {FEWEST_PAIRS} pairs of heights; got at most "
             f"{int(counts.sum(axis=0).max())}"
         )
-    carried = max(p.carried for p in profiles)
-    return BlockSums(step * shifts[keep], sums[:, keep], counts[:, keep], carried)
-
-
-def require_positive(hdc: HeightDifference) -> None:
-    """Raise `InputError` where the curve is not above zero: its logarithm is fitted."""
-    if (hdc.value <= 0.0).any():
-        at = int(np.argmin(hdc.value))
-        raise InputError(
-            "the height difference correlation must be positive at every lag; "
-            f"got {hdc.value[at]:g} m^2 at {hdc.lag[at]:g} m"
-        )
-
-
-def _upper(z: FloatArray, share: float) -> FloatArray:
-    """Return heights with all but the highest `share` of them missing."""
-    return np.where(z >= np.nanquantile(z, 1.0 - share), z, np.nan)
-
-
-def _lag_steps(
-    profiles: list[Profile], step: float, max_lag: float | None, per_decade: int
-) -> NDArray[np.int64]:
-    """Return the distinct whole numbers nearest to evenly spaced log lags."""
-    shortest = min(p.length for p in profiles)
-    longest = shortest / 4.0 if max_lag is None else checks.positive("max_lag", max_lag, unit="m")
-    most_length = max(p.length for p in profiles)
-    if not step <= longest * (1.0 + 1e-9) or longest > most_length:
-        raise InputError(
-            f"max_lag must be at least one step, {step:g} m, and within the profile, "
-            f"{most_length:g} m; got {longest:g} m"
-        )
-    most = int(np.floor(longest / step + 1e-6))
-    count = int(np.ceil(per_decade * np.log10(max(most, 1)))) + 1
-    return np.unique(np.rint(np.geomspace(1, most, count)).astype(np.int64))
+    resolution_limit = max(p.resolution_limit for p in profiles)
+    return BlockSums(step * shifts[keep], sums[:, keep], counts[:, keep], resolution_limit)
 
 
 def block_starts(sizes: list[int], blocks: int) -> list[NDArray[np.int64]]:
@@ -262,57 +294,15 @@ def block_starts(sizes: list[int], blocks: int) -> list[NDArray[np.int64]]:
     ]
 
 
-def _block_sums(
-    heights: list[FloatArray], starts: list[NDArray[np.int64]], shifts: NDArray[np.int64]
-) -> tuple[FloatArray, FloatArray]:
-    """Return sums of squared differences and numbers of pairs, both (blocks, lags)."""
-    shape = (sum(s.size for s in starts), shifts.size)
-    sums, counts = np.zeros(shape), np.zeros(shape)
-    row = 0
-    for z, start in zip(heights, starts, strict=True):
-        for column, shift in enumerate(shifts):
-            if shift >= z.size:
-                continue
-            squares = np.square(z[shift:] - z[:-shift])
-            valid = np.isfinite(squares)
-            begins = start[start < squares.size]
-            rows = slice(row, row + begins.size)
-            sums[rows, column] = np.add.reduceat(np.where(valid, squares, 0.0), begins)
-            counts[rows, column] = np.add.reduceat(valid.astype(float), begins)
-        row += start.size
-    return sums, counts
+def require_positive(hdc: HeightDifference) -> None:
+    """Raise `InputError` where the curve is not above zero: its logarithm is fitted."""
+    if (hdc.value <= 0.0).any():
+        at = int(np.argmin(hdc.value))
+        raise InputError(
+            "the height difference correlation must be positive at every lag; "
+            f"got {hdc.value[at]:g} m^2 at {hdc.lag[at]:g} m"
+        )
 
-
-def _curve(lag: FloatArray, sums: FloatArray, counts: FloatArray) -> HeightDifference:
-    total, pairs = sums.sum(axis=0), counts.sum(axis=0)
-    value = total / pairs
-    spread = _jackknife_spread(total - sums, pairs - counts, counts > 0)
-    return HeightDifference(
-        lag, value, pairs.astype(np.int64), value * np.exp(-spread), value * np.exp(spread)
-    )
-
-
-def _jackknife_spread(sums: FloatArray, pairs: FloatArray, used: NDArray[np.bool_]) -> FloatArray:
-    """Return the half width of the band in log C_z from the sums without each block."""
-    from scipy.stats import t
-
-    usable = used & (pairs > 0) & (sums > 0.0)
-    n = usable.sum(axis=0)
-    logs = np.log(np.where(usable, sums, 1.0) / np.where(usable, pairs, 1.0))
-    mean = logs.sum(axis=0, where=usable) / np.maximum(n, 1)
-    scatter = np.square(logs - mean).sum(axis=0, where=usable)
-    deviation = np.sqrt((n - 1) / np.maximum(n, 1) * scatter)
-    quantile = t.ppf(0.5 + BAND_LEVEL / 2.0, np.maximum(n - 1, 1))
-    spread = quantile * deviation
-    return np.where((n >= 2) & (spread < WIDEST_BAND), spread, np.nan)
-
-
-# The plateau of a height difference correlation: where it begins and how high it is.
-#
-# Beyond the longest wavelength of a surface, heights a lag apart are unrelated and C_z is twice the
-# variance. The plateau begins at the first lag at which C_z reaches 90 % of its own mean over all
-# larger lags: a curve that still rises stays far below that mean, one that has settled scatters
-# about it. A tenth is left for a measured plateau, which is finite and drifts by as much.
 
 REACHED = 0.9
 """Fraction of the mean over all larger lags at which the plateau begins."""
@@ -323,7 +313,7 @@ SHORTEST_PLATEAU = 2.0
 
 @dataclass(frozen=True)
 class Plateau:
-    """Where C_z stops rising: its first lag [m] and its level [m^2]."""
+    """The plateau of C_z: its first lag [m] and its level [m^2]."""
 
     lag: float
     level: float
@@ -337,21 +327,17 @@ def find_plateau(hdc: HeightDifference) -> Plateau | None:
     """
     weight = log_weights(hdc.lag)
     tail_mean = np.cumsum((weight * hdc.value)[::-1])[::-1] / np.cumsum(weight[::-1])[::-1]
-    # The last lag is its own mean, so a curve that rises to its end is caught by the ratio below.
+    # The last lag equals its own mean: the ratio below excludes a curve that rises to its end.
     first = int(np.argmax(hdc.value >= REACHED * tail_mean))
     if hdc.lag[-1] < SHORTEST_PLATEAU * hdc.lag[first]:
         return None
-    level = _weighted_median(hdc.value[first:], weight[first:])
-    return Plateau(float(hdc.lag[first]), level)
+    order = np.argsort(hdc.value[first:])
+    share = np.cumsum(weight[first:][order])
+    level = hdc.value[first:][order][np.searchsorted(share, 0.5 * share[-1])]
+    return Plateau(float(hdc.lag[first]), float(level))
 
 
-def _weighted_median(values: FloatArray, weight: FloatArray) -> float:
-    order = np.argsort(values)
-    share = np.cumsum(weight[order])
-    return float(values[order][np.searchsorted(share, 0.5 * share[-1])])
-
-
-def log_weights(lag: FloatArray) -> FloatArray:
+def log_weights(lag: Array) -> Array:
     """Return the width in log lag that each lag stands for, so that decades count alike."""
     if lag.size == 1:
         return np.ones(1)

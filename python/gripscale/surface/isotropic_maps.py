@@ -1,4 +1,11 @@
-"""Isotropic maps to stand in for the surface a profile was measured on."""
+"""Isotropic maps that represent the surface on which a profile was measured.
+
+The amplitudes of a Gaussian map are those of the areal spectrum, its phases are random. Heights are
+brought to the measured distribution by rank, the spectrum back, in turns: the iterated amplitude
+adjusted Fourier transform (T. Schreiber & A. Schmitz, Phys. Rev. Lett. 77 (1996) 635,
+doi:10.1103/PhysRevLett.77.635), on a map. Maps with the statistics of the lines in every direction
+start from a Gaussian map (`gripscale.surface.line_statistics`).
+"""
 
 from __future__ import annotations
 
@@ -7,53 +14,45 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 import numpy as np
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.surface.line_statistics import (
-    ComplexArray,
     LineMatching,
     MeasuredLine,
     Square,
+    Waves,
     measured_lines,
 )
-from gripscale.surface.profile import FloatArray, HeightMap, Profile, one_or_several
-from gripscale.surface.spectrum import ArealSpectrum, areal_spectrum, profile_spectrum
-
-# Maps with the spectrum of measured lines, and with their spectrum and heights.
-#
-# The amplitudes of a Gaussian map are the areal spectrum's, its phases random. Heights are brought
-# to the measured distribution by rank, the spectrum back, in turns: the iterated amplitude adjusted
-# Fourier transform (T. Schreiber & A. Schmitz, Phys. Rev. Lett. 77 (1996) 635,
-# doi:10.1103/PhysRevLett.77.635), on a map.
+from gripscale.surface.profile import HeightMap, Profile, profile_list
+from gripscale.surface.spectrum import areal_spectrum, profile_spectrum
 
 TURNS = 50
-"""Of heights and spectrum; the last brings the heights, so that these are exact."""
+"""Turns of heights and spectrum; the last one sets the heights, so that these are exact."""
 
 
-def map_amplitudes(profiles: Sequence[Profile], square: Square) -> FloatArray:
+def map_amplitudes(profiles: Sequence[Profile], square: Square) -> Array:
     """Return the rms of each wave of an isotropic map (`rfft2`) with the profiles' spectrum [m]."""
-    spectrum: ArealSpectrum = areal_spectrum(profile_spectrum(list(profiles)))
-    q = np.where(square.carried, square.wavenumber, np.inf)
-    density = np.where(square.carried, spectrum.at(np.where(np.isinf(q), 1.0, q)), 0.0)
+    spectrum = areal_spectrum(profile_spectrum(list(profiles)))
+    q = np.where(square.resolved, square.wavenumber, np.inf)
+    density = np.where(square.resolved, spectrum.at(np.where(np.isinf(q), 1.0, q)), 0.0)
     return np.asarray(np.sqrt(density) * (2.0 * np.pi / square.length) * square.points**2)
 
 
-def gaussian_waves(
-    square: Square, amplitudes: FloatArray, random: np.random.Generator
-) -> ComplexArray:
+def gaussian_waves(square: Square, amplitudes: Array, random: np.random.Generator) -> Waves:
     """Return the half spectrum of a Gaussian map with these amplitudes in the mean."""
     return np.asarray(amplitudes * square.spectrum(square.noise(random)) / square.points)
 
 
 def with_heights(
-    square: Square, waves: ComplexArray, amplitudes: FloatArray, lines: Sequence[MeasuredLine]
-) -> FloatArray:
+    square: Square, waves: Waves, amplitudes: Array, lines: Sequence[MeasuredLine]
+) -> Array:
     """Return heights [m] with exactly the distribution of the lines, nearly these amplitudes."""
     measured = np.sort(np.concatenate([line.heights for line in lines]))
     ranks = (np.arange(square.points**2) + 0.5) / square.points**2
-    wanted = np.interp(ranks * measured.size - 0.5, np.arange(measured.size), measured)
+    target = np.interp(ranks * measured.size - 0.5, np.arange(measured.size), measured)
     for _ in range(TURNS):
-        heights = np.empty(wanted.size)
-        heights[np.argsort(square.heights(waves), axis=None)] = wanted
+        heights = np.empty(target.size)
+        heights[np.argsort(square.heights(waves), axis=None)] = target
         waves = square.spectrum(heights.reshape(square.points, -1))
         size = np.abs(waves)
         waves *= amplitudes / np.where(size > 0.0, size, 1.0)
@@ -65,7 +64,7 @@ CONSTRUCTIONS = {
     "heights": "spectrum and heights of the lines",
     "lines": "statistics of pieces of the lines in every direction",
 }
-"""What a map has from the measured lines."""
+"""Constructions, and the properties of the measured lines that each keeps."""
 
 STEPS_IN_WAVE = 4
 """Steps of a map in its smallest wave."""
@@ -87,7 +86,7 @@ def isotropic_maps(
     """Yield synthetic isotropic maps made from measured profiles, one for each seed.
 
     A profile does not determine the surface it was measured on. "spectrum" and "heights" keep
-    neither flat tops nor where the roughness sits. "lines" brings the lines of the map in every
+    neither flat tops nor the place of the roughness. "lines" brings the lines of the map in every
     direction to the distributions of what some hundred filters answer on the measured lines, by
     class of height (`gripscale.surface.line_statistics`): half a minute a map of 512 x 512
     points on one core, and some seconds before the first.
@@ -98,8 +97,8 @@ def isotropic_maps(
         Cleaned profiles of one surface, with the same step (within 0.1 %), together at least four
         times as long as a map. Missing heights are interpolated linearly.
     smallest_wavelength : float
-        Smallest wave wanted [m], at least four steps of the profile; a map is `points / 4` of them
-        long. It goes on to waves half as long: lines of a map that is cut off lack the shorter
+        Smallest wave of interest [m], at least four steps of the profile; a map is `points / 4` of
+        them long. It includes waves half as long: lines of a map that is cut off lack the shorter
         waves that they would cross at an angle.
     construction : str
         "lines", "heights" or "spectrum".
@@ -108,7 +107,7 @@ def isotropic_maps(
     seeds : iterable of int
         Seeds of the random numbers: the same seed gives the same map.
     on_batch : callable, optional
-        Called with the seed and the share of its map that is done, again and again.
+        Called repeatedly with the seed and the share of its map that is done.
 
     Yields
     ------
@@ -120,62 +119,48 @@ def isotropic_maps(
     InputError
         If an argument is out of its range, when the first map is asked for.
     """
-    profiles = one_or_several(profile)
-    square = _square(profiles, smallest_wavelength, points)
-    checks.one_of("construction", construction, CONSTRUCTIONS)
-    chosen = seed_numbers(seeds)
-    lines = measured_lines(profiles, square.length)
-    amplitudes = map_amplitudes(profiles, square)
-    matching = LineMatching.of(lines, square) if construction == "lines" else None
-    for seed in chosen:
-        random = np.random.default_rng(seed)
-        waves = gaussian_waves(square, amplitudes, random)
-        if construction == "heights":
-            heights = with_heights(square, waves, amplitudes, lines)
-        elif matching is not None:
-            heights = square.heights(matching.draw(waves, random, _share(on_batch, seed, matching)))
-        else:
-            heights = square.heights(waves)
-        if on_batch is not None:
-            on_batch(seed, 1.0)
-        yield _labelled(square, heights, profiles, construction, seed)
-
-
-def _labelled(
-    square: Square, heights: FloatArray, profiles: list[Profile], construction: str, seed: int
-) -> HeightMap:
-    x = np.asarray(square.step * np.arange(square.points), dtype=np.float64)
-    names = ", ".join(one.name or "unnamed profile" for one in profiles)
-    return HeightMap(
-        x,
-        x,
-        heights.astype(float),
-        name=f"synthetic isotropic map ({construction}) of {names}",
-        source=f"synthetic: {CONSTRUCTIONS[construction]}; seed {seed}",
-    )
-
-
-def _share(
-    on_batch: Callable[[int, float], None] | None, seed: int, matching: LineMatching
-) -> Callable[[int], None] | None:
-    if on_batch is None:
-        return None
-    return lambda done: on_batch(seed, done / (matching.batches + 1))
-
-
-def _square(profiles: list[Profile], smallest_wavelength: float, points: int) -> Square:
-    """Return the square of a map, its steps no finer than those of the profiles."""
+    profiles = profile_list(profile)
     number = checks.whole("points", points, least=FEWEST_POINTS, most=MOST_POINTS)
     if number % MULTIPLE:
         raise InputError(f"points must be a multiple of {MULTIPLE}; got {number}")
     smallest = checks.positive("smallest_wavelength", smallest_wavelength, unit="m")
-    least = STEPS_IN_WAVE * max(one.step for one in profiles)
+    least = STEPS_IN_WAVE * max(p.step for p in profiles)
     if smallest < least * (1.0 - 1e-9):
         raise InputError(
             f"smallest_wavelength must be at least {STEPS_IN_WAVE} steps of the profile, "
             f"{least:.4g} m; got {smallest:.4g} m"
         )
-    return Square(number, number * smallest / STEPS_IN_WAVE)
+    checks.one_of("construction", construction, CONSTRUCTIONS)
+    seed_list = seed_numbers(seeds)
+    square = Square(number, number * smallest / STEPS_IN_WAVE)
+    lines = measured_lines(profiles, square.length)
+    amplitudes = map_amplitudes(profiles, square)
+    matching = LineMatching.of(lines, square) if construction == "lines" else None
+    x = np.asarray(square.step * np.arange(square.points), dtype=np.float64)
+    names = ", ".join(p.name or "unnamed profile" for p in profiles)
+    for seed in seed_list:
+        random = np.random.default_rng(seed)
+        waves = gaussian_waves(square, amplitudes, random)
+
+        def on_share(done: int, seed: int = seed) -> None:
+            if on_batch is not None and matching is not None:
+                on_batch(seed, done / (matching.batches + 1))
+
+        if construction == "heights":
+            heights = with_heights(square, waves, amplitudes, lines)
+        elif matching is not None:
+            heights = square.heights(matching.draw(waves, random, on_share))
+        else:
+            heights = square.heights(waves)
+        if on_batch is not None:
+            on_batch(seed, 1.0)
+        yield HeightMap(
+            x,
+            x,
+            heights.astype(float),
+            name=f"synthetic isotropic map ({construction}) of {names}",
+            source=f"synthetic: {CONSTRUCTIONS[construction]}; seed {seed}",
+        )
 
 
 def seed_numbers(seeds: Iterable[int]) -> list[int]:

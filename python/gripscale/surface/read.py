@@ -14,10 +14,11 @@ from typing import Any
 import numpy as np
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.errors import FileError, InputError
 from gripscale.core.units import in_si
 from gripscale.io.text_table import EXCEL, file_path, read_bytes, read_sheets
-from gripscale.surface.profile import FloatArray, HeightMap, Profile, line_label
+from gripscale.surface.profile import HeightMap, Profile, line_label
 from gripscale.surface.text_files import length_unit, read_text_map, read_text_profile
 
 # Instrument formats, read by SurfaceTopography (the extra `gripscale[formats]`).
@@ -33,9 +34,9 @@ MOST_POINTS_PER_BYTE = 1032
 class HeightField:
     """Heights [m] on a line (points, 1) or a map (points along x, points along y)."""
 
-    heights: FloatArray
-    x: FloatArray
-    y: FloatArray | None
+    heights: Array
+    x: Array
+    y: Array | None
     reliable: float | None = None
     """Shortest wavelength [m] free of the instrument's artifacts, where the file tells."""
 
@@ -97,7 +98,7 @@ def read_instrument_file(
             try:
                 topography = _topography(path, reader, channel, step)
                 _check_count(path, topography.nb_grid_pts, len(raw))
-                heights: FloatArray = np.ma.filled(
+                heights: Array = np.ma.filled(
                     np.ma.asarray(topography.heights(), dtype=float), np.nan
                 )
                 positions = topography.positions()
@@ -175,7 +176,7 @@ def _open_topography(path: Path) -> Any:
 
 
 def _height_field(
-    path: Path, heights: FloatArray, positions: Any, x_unit: str, z_unit: str
+    path: Path, heights: Array, positions: Any, x_unit: str, z_unit: str
 ) -> HeightField:
     if heights.ndim not in (1, 2) or min(heights.shape) == 0:
         raise FileError(f"{path}: expected a line or a map; got heights of shape {heights.shape}")

@@ -1,25 +1,38 @@
-"""Heights at unequal steps, put on equal ones by straight lines between neighbours.
+"""Heights where none were measured: unequal steps made equal, and gaps filled.
+
+Between unequal steps by straight lines between neighbours,
 
     z(x) = z_i + (z_(i+1) - z_i) (x - x_i) / (x_(i+1) - x_i),   x_i <= x <= x_(i+1)
 
-Its error is at most h^2 max|z''| / 8 over a distance h of neighbours (C. de Boor, A Practical Guide
+The error is at most h^2 max|z''| / 8 over a distance h of neighbours (C. de Boor, A Practical Guide
 to Splines (1978), ch. III): of a sine of wavelength L, 5 (h/L)^2 of its amplitude.
+
+In gaps by a membrane,
+
+    (z[i-1, j] - 2 z[i, j] + z[i+1, j]) / dx^2 + (z[i, j-1] - 2 z[i, j] + z[i, j+1]) / dy^2 = 0
+
+at every missing point, with the measured heights around it fixed and without slope across the
+border of the surface: Laplace's equation in five points (R. J. LeVeque, Finite Difference Methods
+for Ordinary and Partial Differential Equations (2007), ch. 3, doi:10.1137/1.9780898717839). On a
+line that is linear interpolation, with the nearest height at the ends. By the maximum principle no
+filled height lies above the highest or below the lowest around its gap: a gap makes no asperity of
+its own.
 """
 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.errors import FileError, InputError
 from gripscale.io.text_table import TextTable
 from gripscale.surface.profile import (
-    CARRIED_STEPS,
     FEWEST_POINTS,
     MOST_POINTS,
+    RESOLVED_STEPS,
     TURNED_ROUND,
-    FloatArray,
     Grid,
     Profile,
     even_grid,
@@ -41,8 +54,8 @@ def resample(
 ) -> Profile:
     """Return a profile with equal steps from heights at unequal ones.
 
-    Heights are taken between neighbours, not averaged: with a step longer than those measured,
-    roughness shorter than two new steps is folded into longer wavelengths.
+    Heights are interpolated between neighbours, not averaged: with a step longer than the measured
+    ones, roughness shorter than two new steps is folded into longer wavelengths.
 
     Parameters
     ----------
@@ -56,13 +69,13 @@ def resample(
         Longest distance of neighbours to draw a line over [m]; over a longer one heights are
         missing. Twice the step or twice the median distance by default, whichever is longer.
     name, source : str, optional
-        As those of a profile.
+        Name and source of the profile.
 
     Returns
     -------
     Profile
         From the first distance on, missing where a height is missing on either side. Its
-        shortest reliable wavelength is four of the usual distances, if those are the longer ones.
+        shortest reliable wavelength is four new steps or four median distances, the longer ones.
 
     Raises
     ------
@@ -71,79 +84,59 @@ def resample(
         throughout, `step` or `bridge` is not above zero, or the step gives too few or too many
         points.
     """
-    place, height = _rising(x, z)
+    old, height = checks.vector("x", x, unit="m"), checks.vector("z", z, unit="m", missing=True)
+    checks.same_length(FEWEST_POINTS, x=old, z=height)
+    falling = old[0] > old[-1]
+    if falling:
+        old, height = old[::-1], height[::-1]
+    distances = np.diff(old)
+    if (distances <= 0.0).any():
+        at = int(np.argmax(distances <= 0.0))
+        raise InputError(
+            f"x must rise or fall from point to point throughout; got {old[at]:.9g} m and "
+            f"{old[at + 1]:.9g} m side by side"
+        )
     even = checks.positive("step", step, unit="m")
-    points = int(np.floor((place[-1] - place[0]) / even * (1.0 + 1e-12))) + 1
+    points = int(np.floor((old[-1] - old[0]) / even * (1.0 + 1e-12))) + 1
     if not FEWEST_POINTS <= points <= MOST_POINTS:
         raise InputError(
             f"step must give {FEWEST_POINTS} to {MOST_POINTS} points over "
-            f"{place[-1] - place[0]:g} m; {even:g} m gives {points}"
+            f"{old[-1] - old[0]:g} m; {even:g} m gives {points}"
         )
-    usual = float(np.median(np.diff(place)))
+    usual = float(np.median(distances))
     longest = LONGEST_BRIDGE * max(usual, even)
     if bridge is not None:
         longest = checks.positive("bridge", bridge, unit="m")
-    new = place[0] + even * np.arange(points)
-    notes = [
-        f"put on steps of {even * 1e3:.4g} mm by straight lines; {usual * 1e3:.4g} mm were usual"
-    ]
-    if np.asarray(x, dtype=float)[0] > place[0]:
-        notes.insert(0, TURNED_ROUND)
+    new = old[0] + even * np.arange(points)
+    before = np.clip(np.searchsorted(old, new, side="right") - 1, 0, old.size - 2)
+    low, high = height[before], height[before + 1]
+    share = np.clip((new - old[before]) / (old[before + 1] - old[before]), 0.0, 1.0)
+    # at a measured point only its own height counts: a missing neighbour would make it missing
+    between = np.where(share == 1.0, high, low + share * (high - low))
+    between = np.where(share == 0.0, low, between)
+    apart = old[before + 1] - old[before] > longest * (1.0 + 1e-9)
+    between = np.where(apart & (share > 0.0) & (share < 1.0), np.nan, between)
+    note = f"put on steps of {even * 1e3:.4g} mm by straight lines; {usual * 1e3:.4g} mm were usual"
     return Profile(
         new,
-        _between(place, height, new, longest),
+        between,
         name,
         source,
-        reliable=CARRIED_STEPS * max(usual, even),
-        notes=tuple(notes),
+        reliable=RESOLVED_STEPS * max(usual, even),
+        notes=(TURNED_ROUND, note) if falling else (note,),
     )
 
 
-def _rising(x: ArrayLike, z: ArrayLike) -> tuple[FloatArray, FloatArray]:
-    """Return distances in rising order and their heights."""
-    place = checks.vector("x", x, unit="m")
-    height = checks.vector("z", z, unit="m", missing=True)
-    if place.size != height.size or place.size < FEWEST_POINTS:
-        raise InputError(
-            f"x and z must have the same length, at least {FEWEST_POINTS}; "
-            f"got {place.size} and {height.size}"
-        )
-    if place[0] > place[-1]:
-        place, height = place[::-1], height[::-1]
-    steps = np.diff(place)
-    if (steps <= 0.0).any():
-        at = int(np.argmax(steps <= 0.0))
-        raise InputError(
-            f"x must rise or fall from point to point throughout; got {place[at]:.9g} m and "
-            f"{place[at + 1]:.9g} m side by side"
-        )
-    return place, height
-
-
-def _between(place: FloatArray, height: FloatArray, new: FloatArray, longest: float) -> FloatArray:
-    """Return heights on the lines between neighbours at most `longest` apart, NaN elsewhere."""
-    left = np.clip(np.searchsorted(place, new, side="right") - 1, 0, place.size - 2)
-    share = (new - place[left]) / (place[left + 1] - place[left])
-    # on a measured point its height alone counts, or a missing neighbour would take it away
-    share = np.clip(share, 0.0, 1.0)
-    one, other = height[left], height[left + 1]
-    z = np.where(share == 0.0, one, np.where(share == 1.0, other, one + share * (other - one)))
-    apart = place[left + 1] - place[left] > longest * (1.0 + 1e-9)
-    return np.where(apart & (share > 0.0) & (share < 1.0), np.nan, z)
-
-
-# The even grid that the distances in a column of a text file stand on, rows left out or not.
-
 MOST_LEFT_OUT = 0.5
-"""Share of the points of a grid that a file may leave out: beyond it, it is hardly a grid."""
+"""Largest share of the points of a grid that a file may leave out."""
 
 
 def printed_grid(
-    table: TextTable, column: int, distances: FloatArray, lines: list[int] | None = None
+    table: TextTable, column: int, distances: Array, lines: list[int] | None = None
 ) -> Grid:
-    """Return the grid of increasing `distances` as printed in a column.
+    """Return the even grid of increasing `distances` printed in a column, some rows left out.
 
-    `lines` are the lines of a profile they stand in; a map repeats its distances in many.
+    `lines` are the line numbers of a profile's rows; a map repeats its distances in many lines.
 
     Raises
     ------
@@ -154,46 +147,30 @@ def printed_grid(
     hint = "" if lines is None else "; gripscale.surface.resample makes steps equal"
     if grid is None:
         at = uneven_step(distances)
-        one, other = (f"{distances[i]:.9g}" for i in (at, at + 1))
-        if lines is None:
-            place, found = f"{table.path}", f"{one} then {other}"
-        else:
-            place = f"{table.path}, line {lines[at + 1]}"
-            found = f"{one} (line {lines[at]}) then {other}"
+        first, second = (f"{distances[i]:.9g}" for i in (at, at + 1))
+        where = f"{table.path}"
+        if lines is not None:
+            where, first = f"{table.path}, line {lines[at + 1]}", f"{first} (line {lines[at]})"
         raise FileError(
-            f"{place}: expected distances in column {column + 1} that increase in equal steps; "
-            f"got {found}, where {np.median(np.diff(distances)):.6g} is usual{hint}"
+            f"{where}: expected distances in column {column + 1} that increase in equal steps; "
+            f"got {first} then {second}, where {np.median(np.diff(distances)):.6g} is usual{hint}"
         )
     if grid.left_out > MOST_LEFT_OUT * grid.size:
         raise FileError(
             f"{table.path}: expected a distance in column {column + 1} at half the points of an "
-            f"even grid or more; got {grid.place.size} of {grid.size} in steps of "
+            f"even grid or more; got {grid.number.size} of {grid.size} in steps of "
             f"{grid.step:.6g}{hint}"
         )
     return grid
 
 
-# Heights where none were measured: those of a membrane over the gap.
-#
-#     (z[i-1, j] - 2 z[i, j] + z[i+1, j]) / dx^2 + (z[i, j-1] - 2 z[i, j] + z[i, j+1]) / dy^2 = 0
-#
-# at every missing point, the measured heights around it held, without slope across the border of
-# the surface: Laplace's equation in five points (R. J. LeVeque, Finite Difference Methods for
-# Ordinary and Partial Differential Equations (2007), ch. 3, doi:10.1137/1.9780898717839). On a line
-# that is linear interpolation, the nearest height held at the ends. By the maximum principle no
-# filled height lies above the highest or below the lowest around its gap: a gap makes no asperity
-# of its own.
-
-Mask = NDArray[np.bool_]
-
-
-def filled(z: FloatArray, steps: tuple[float, ...] = (), *, periodic: bool = False) -> FloatArray:
-    """Return heights with none missing.
+def filled(z: Array, steps: tuple[float, ...] = (), *, periodic: bool = False) -> Array:
+    """Return heights with all gaps filled.
 
     Parameters
     ----------
     z : array, shape (points,) or (nx, ny)
-        Heights [m], NaN where they are missing; some must be there.
+        Heights [m], NaN where they are missing, but not everywhere.
     steps : tuple of float, optional
         Steps of a map along x and y [m]; equal by default, only their ratio counts.
     periodic : bool, optional
@@ -203,22 +180,16 @@ def filled(z: FloatArray, steps: tuple[float, ...] = (), *, periodic: bool = Fal
     if not missing.any():
         return z
     if z.ndim == 1:
-        place, known = np.arange(z.size, dtype=float), ~missing
+        index, valid = np.arange(z.size, dtype=float), ~missing
         period = float(z.size) if periodic else None
-        line: FloatArray = np.interp(place, place[known], z[known], period=period)
+        line: Array = np.interp(index, index[valid], z[valid], period=period)
         return line
-    result = z.copy()
-    result[missing] = _membrane(z, missing, steps or (1.0, 1.0), periodic)
-    return result
-
-
-def _membrane(z: FloatArray, missing: Mask, steps: tuple[float, ...], periodic: bool) -> FloatArray:
-    """Return the heights of the missing points, in the order of the array."""
     from scipy.sparse import coo_array
     from scipy.sparse.linalg import splu
 
-    places = np.argwhere(missing)
-    count = len(places)
+    steps = steps or (1.0, 1.0)
+    gaps = np.argwhere(missing)
+    count = len(gaps)
     number = np.full(z.shape, -1)
     number[missing] = np.arange(count)
     diagonal, pull = np.zeros(count), np.zeros(count)
@@ -226,33 +197,27 @@ def _membrane(z: FloatArray, missing: Mask, steps: tuple[float, ...], periodic: 
     for axis, step in enumerate(steps):
         weight = (steps[0] / step) ** 2
         for side in (-1, 1):
-            row, beside = _neighbours(places, z.shape, axis, side, periodic)
+            neighbour = gaps.copy()
+            neighbour[:, axis] += side
+            if periodic:
+                neighbour[:, axis] %= z.shape[axis]
+            row = np.flatnonzero((neighbour[:, axis] >= 0) & (neighbour[:, axis] < z.shape[axis]))
+            at = tuple(neighbour[row].T)
             diagonal[row] += weight
-            unknown = number[beside]
+            unknown = number[at]
             free = unknown >= 0
-            pull[row[~free]] += weight * z[beside][~free]
+            pull[row[~free]] += weight * z[at][~free]
             rows.append(row[free])
             columns.append(unknown[free])
             values.append(np.full(int(free.sum()), -weight))
     entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
-    matrix = coo_array(entries, shape=(count, count)).tocsc()
     # symmetric and positive definite: ordered as such, its pivots are on the diagonal
     factors = splu(
-        matrix,
+        coo_array(entries, shape=(count, count)).tocsc(),
         permc_spec="MMD_AT_PLUS_A",
         diag_pivot_thresh=0.0,
         options={"SymmetricMode": True},
     )
-    return np.asarray(factors.solve(pull))
-
-
-def _neighbours(
-    places: NDArray[np.intp], shape: tuple[int, ...], axis: int, side: int, periodic: bool
-) -> tuple[NDArray[np.intp], tuple[NDArray[np.intp], ...]]:
-    """Return which `places` have a neighbour on a side, and the indices of these neighbours."""
-    beside = places.copy()
-    beside[:, axis] += side
-    if periodic:
-        beside[:, axis] %= shape[axis]
-    row = np.flatnonzero((beside[:, axis] >= 0) & (beside[:, axis] < shape[axis]))
-    return row, tuple(beside[row].T)
+    result = z.copy()
+    result[missing] = factors.solve(pull)
+    return result

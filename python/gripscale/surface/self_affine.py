@@ -10,12 +10,12 @@ Rubber Chem. Technol. 73 (2000) 578.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
+from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.surface.height_difference import (
     HeightDifference,
@@ -23,14 +23,12 @@ from gripscale.surface.height_difference import (
     log_weights,
     require_positive,
 )
-from gripscale.surface.profile import FloatArray
 
 FEWEST_LAGS = 4
 """Lags a power law must cover."""
 
 
-@dataclass(frozen=True)
-class SelfAffineFit:
+class SelfAffineFit(Checked):
     """A power law up to a cut-off, and the plateau above it.
 
     Attributes
@@ -52,25 +50,19 @@ class SelfAffineFit:
         If a value is not a number above zero; the residual may be zero.
     """
 
-    hurst: float
-    xi_parallel: float
-    xi_perpendicular: float
-    lag_min: float
-    lag_max: float
-    residual: float
-
-    def __post_init__(self) -> None:
-        checks.positive("hurst", self.hurst)
-        for name in ("xi_parallel", "xi_perpendicular", "lag_min", "lag_max"):
-            checks.positive(name, getattr(self, name), unit="m")
-        checks.not_negative("residual", self.residual)
+    hurst: float = checked(checks.positive)
+    xi_parallel: float = checked(checks.positive, unit="m")
+    xi_perpendicular: float = checked(checks.positive, unit="m")
+    lag_min: float = checked(checks.positive, unit="m")
+    lag_max: float = checked(checks.positive, unit="m")
+    residual: float = checked(checks.not_negative)
 
     @property
     def fractal_dimension(self) -> float:
         """Fractal dimension of the surface, D = 3 - H [-]."""
         return 3.0 - self.hurst
 
-    def evaluate(self, lag: ArrayLike) -> FloatArray:
+    def evaluate(self, lag: ArrayLike) -> Array:
         """Return C_z [m^2] at lags [m], same shape, by [LW eq. 6].
 
         Raises `InputError` unless the lags are above zero.
@@ -85,11 +77,10 @@ def fit_self_affine(
 ) -> SelfAffineFit:
     """Find the power law and the plateau of a height difference correlation.
 
-    The range of the power law is found, not assumed: of all ranges of lags below the plateau over
-    which a straight line in log C_z departs by no more than `tolerance` rms, the widest is taken
-    (of equally wide ones, that with the smallest departure). Where none is as wide as
-    `shortest_range`, the straightest range of that width is taken, and `residual` exceeds
-    `tolerance`: the surface is then not self-affine.
+    The range of the power law is the widest range of lags below the plateau over which a straight
+    line in log C_z departs by no more than `tolerance` rms. If none is as wide as `shortest_range`,
+    the straightest range of that width is taken, and `residual` exceeds `tolerance`: the surface is
+    then not self-affine.
 
     Parameters
     ----------
@@ -103,7 +94,7 @@ def fit_self_affine(
     Returns
     -------
     SelfAffineFit
-        Exponent, cut-offs, and the range they were found in.
+        Exponent, cut-offs, and the range of lags they hold for.
 
     Raises
     ------
@@ -121,7 +112,26 @@ def fit_self_affine(
             f"it still rises at {hdc.lag[-1]:.4g} m, so use a longer profile or a larger max_lag"
         )
     rising = hdc.lag < plateau.lag * (1.0 + 1e-9)
-    first, last = _power_law_range(hdc.lag[rising], hdc.value[rising], tolerance, shortest_range)
+    lag, value = hdc.lag[rising], hdc.value[rising]
+    ranges = [
+        (i, j)
+        for i in range(lag.size)
+        for j in range(i + FEWEST_LAGS, lag.size + 1)
+        if np.log10(lag[j - 1] / lag[i]) >= shortest_range
+    ]
+    if not ranges:
+        raise InputError(
+            f"the height difference correlation must have {FEWEST_LAGS} lags over "
+            f"{shortest_range:g} decades below its plateau; "
+            f"got {lag.size} lags up to {lag[-1]:.4g} m"
+        )
+    residuals = [_line(lag[i:j], value[i:j])[2] for i, j in ranges]
+    straight = [r for r, residual in zip(ranges, residuals, strict=True) if residual <= tolerance]
+    first, last = (
+        max(straight, key=lambda r: float(np.log10(lag[r[1] - 1] / lag[r[0]])))
+        if straight
+        else ranges[int(np.argmin(residuals))]
+    )
     slope, at_one_metre, residual = _line(hdc.lag[first:last], hdc.value[first:last])
     if slope <= 0.0:
         raise InputError(
@@ -140,39 +150,7 @@ def fit_self_affine(
     )
 
 
-def _power_law_range(
-    lag: FloatArray, value: FloatArray, tolerance: float, shortest: float
-) -> tuple[int, int]:
-    """Return the first index and the one past the last of the widest straight range."""
-    candidates = _ranges(lag, shortest)
-    if not candidates:
-        raise InputError(
-            f"the height difference correlation must have {FEWEST_LAGS} lags over {shortest:g} "
-            "decades below its plateau; "
-            f"got {lag.size} lags up to {lag[-1]:.4g} m"
-        )
-    residuals = [_line(lag[i:j], value[i:j])[2] for i, j in candidates]
-    straight = [(i, j) for (i, j), r in zip(candidates, residuals, strict=True) if r <= tolerance]
-    if straight:
-        return max(straight, key=lambda range_: _decades(lag, range_))
-    return candidates[int(np.argmin(residuals))]
-
-
-def _ranges(lag: FloatArray, shortest: float) -> list[tuple[int, int]]:
-    return [
-        (i, j)
-        for i in range(lag.size)
-        for j in range(i + FEWEST_LAGS, lag.size + 1)
-        if _decades(lag, (i, j)) >= shortest
-    ]
-
-
-def _decades(lag: FloatArray, range_: tuple[int, int]) -> float:
-    first, last = range_
-    return float(np.log10(lag[last - 1] / lag[first]))
-
-
-def _line(lag: FloatArray, value: FloatArray) -> tuple[float, float, float]:
+def _line(lag: Array, value: Array) -> tuple[float, float, float]:
     """Return slope, log10 value at 1 m and rms departure of a line in log-log, decades alike."""
     x, y, weight = np.log10(lag), np.log10(value), log_weights(lag)
     weight = weight / weight.sum()

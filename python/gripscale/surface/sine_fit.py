@@ -1,4 +1,4 @@
-"""Find the sine waves whose height difference correlation matches a measured one.
+"""Fit sine waves whose height difference correlation matches a measured one.
 
 Wave i has lambda_{i+1} = lambda_i / s_lambda and A_{i+1} = A_i / s_A; the unknowns are the first
 wave (lambda_1, A_1) and the two factors. The fit minimises the rms difference of log10 C_z, decades
@@ -7,7 +7,7 @@ of lag counting alike (Lind & Wangenheim, ASME IMECE2014-37998). Which lags coun
 **Large lags.** C_z of a sine falls back to zero at each whole wavelength. A road does not repeat:
 its long waves fill a band of wavelengths and its C_z stays on the plateau, twice the variance of
 the heights. So beyond lambda_1 / 4 the first wave enters the fit by its mean over phases, A_1^2,
-the value it has just reached there:
+the value it reaches there:
 
     C_fit(l) = A_1^2 g(l / lambda_1) + sum_{i > 1} A_i^2 (1 - cos(2 pi l / lambda_i)),
     g(u) = 1 - cos(2 pi u) for u < 1/4, else 1.
@@ -18,33 +18,39 @@ one where the plateau begins count: without them a first wave several times too 
 as well, and at still larger lags C_z scatters for want of independent heights. To fit the curve of
 a few pure sines, which does fall back, give `largest_lag` = lambda_1 / 4.
 
-The first wave rises as l^2, faster than a rough surface. The amplitudes of the smaller waves fall
-the faster for it: of profiles of exponent H, log s_A / log s_lambda comes out 0.04 above H = 0.8,
-0.13 above 0.9 and 0.24 above 0.95, so that they count for little there (docs/method.md, sec. 1).
+The first wave rises as l^2, faster than a rough surface, which makes the amplitudes of the smaller
+waves fall faster: of profiles of exponent H, log s_A / log s_lambda comes out 0.04 above H = 0.8,
+0.13 above 0.9 and 0.24 above 0.95, so that they matter little there (docs/method.md, sec. 1).
 
 **Small lags.** Any profile has |z(x + m l) - z(x)| <= the sum of its m differences over l, hence
 C_z(m l) <= m^2 C_z(l). Spike removal marks both points of steep neighbours as missing, so steep
 flanks count at lags that span the gap but not at smaller ones: C_z then breaks this rule, and no
 sum of waves can follow. Lags before the first one that keeps the rule do not count by default.
 
-**The end of the stack.** Each wave stands for a band of wavelengths, from its own over
+**The end of the stack.** Each wave represents a band of wavelengths, from its own over
 sqrt(s_lambda) to its own times sqrt(s_lambda). A last wave of the wavelength l therefore brings in
 roughness down to l / sqrt(s_lambda), and the slope of the stack is larger than that of a profile
 without the waves shorter than l. `cut_off` states where the roughness ends: the last wave is then
 cut_off sqrt(s_lambda). The measured C_z holds the shorter waves too, so that three more of them, by
 the same factors, count in the fit and are left out of the stack. Lags below cut_off / 4, which they
 decide, do not count. Where s_wavelength is given, whole waves end at cut_off or above it: the stack
-says where. `smallest_wavelength` states the last wave itself, as Lind & Wangenheim do.
+holds its own cut-off. `smallest_wavelength` states the last wave itself, as Lind & Wangenheim do.
+
+**The search.** The unknowns are natural logarithms of the first wavelength and amplitude and of the
+two magnification factors; each may be fixed, and the factors may be tied to each other or to a
+smallest wavelength. Least squares start from a fixed grid, so that equal input gives equal output.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import pairwise, product
 
 import numpy as np
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.surface.height_difference import (
     HeightDifference,
@@ -52,14 +58,7 @@ from gripscale.surface.height_difference import (
     log_weights,
     require_positive,
 )
-from gripscale.surface.profile import FloatArray
 from gripscale.surface.sines import SineStack
-
-# Search for the sine waves closest to a curve: least squares from many fixed starts.
-#
-# The unknowns are natural logarithms of the first wavelength and amplitude and of the two
-# magnification factors; each may be given, and the factors may be tied to each other or to a
-# smallest wavelength. Starts are a fixed grid, so that equal input gives equal output.
 
 FIRST_WAVELENGTH, FIRST_AMPLITUDE, S_WAVELENGTH, S_AMPLITUDE = range(4)
 
@@ -72,16 +71,39 @@ AMPLITUDE_FACTOR_RANGE = (1.02, 60.0)
 
 @dataclass(frozen=True, eq=False)
 class Target:
-    """The curve to match: lags [m], C_z [m^2], and the plateau [m^2] it goes to."""
+    """The curve to match: lags [m], C_z [m^2], and its plateau [m^2]."""
 
-    lag: FloatArray
-    value: FloatArray
+    lag: Array
+    value: Array
     plateau: float
-    weight: FloatArray = field(init=False)
 
-    def __post_init__(self) -> None:
+    @classmethod
+    def of(
+        cls, hdc: HeightDifference, smallest: float, largest: float | None, unknowns: int
+    ) -> Target:
+        """Return the part of a curve from the smallest to the largest lag [m] that counts."""
+        require_positive(hdc)
+        plateau = find_plateau(hdc)
+        if largest is None:
+            largest = float(hdc.lag[-1]) if plateau is None else PLATEAU_COUNTED * plateau.lag
+        low = checks.positive("smallest_lag", smallest, unit="m") * (1.0 - 1e-9)
+        high = checks.positive("largest_lag", largest, unit="m") * (1.0 + 1e-9)
+        used = (hdc.lag >= low) & (hdc.lag <= high)
+        if used.sum() < max(unknowns, 1):
+            raise InputError(
+                "the height difference correlation must have at least "
+                f"{max(unknowns, 1)} lags to fit {unknowns} unknowns; got "
+                f"{used.sum()} from {low:g} m to {high:g} m"
+            )
+        highest = float(hdc.value[used].max())
+        level = highest if plateau is None else min(plateau.level, highest)
+        return cls(hdc.lag[used], hdc.value[used], level)
+
+    @cached_property
+    def weight(self) -> Array:
+        """Roots of the weights of the squared residuals, decades of lag counting alike."""
         weight = log_weights(self.lag)
-        object.__setattr__(self, "weight", np.sqrt(weight / weight.sum()))
+        return np.asarray(np.sqrt(weight / weight.sum()))
 
     @property
     def reach(self) -> float:
@@ -91,12 +113,12 @@ class Target:
 
 @dataclass(frozen=True, eq=False)
 class Trial:
-    """What is given of the four logarithms (NaN where free), and how the others are tied."""
+    """The fixed ones of the four logarithms (NaN where free), and the ties of the others."""
 
-    given: FloatArray
+    fixed: Array
     waves: int
     single_factor: bool = False
-    last: float | None = None  # log of a wavelength at the end, from which s_wavelength follows
+    last: float | None = None  # log of a wavelength at the end, which determines s_wavelength
     beyond: float = 0.0  # how many factors s_wavelength it lies below the last wave
     shorter: int = 0  # waves below the last one that the curve holds and the stack leaves out
     first_range: tuple[float, float] | None = None  # limits of the first wavelength's log
@@ -108,15 +130,15 @@ class Trial:
 
     @property
     def free(self) -> list[int]:
-        """Which of the four are searched for."""
+        """Indices of the logarithms to search for."""
         tied = {S_WAVELENGTH, S_AMPLITUDE} if self.waves == 1 else set()
         tied |= {S_AMPLITUDE} if self.single_factor else set()
         tied |= {S_WAVELENGTH} if self.last is not None else set()
-        return [i for i in range(4) if np.isnan(self.given[i]) and i not in tied]
+        return [i for i in range(4) if np.isnan(self.fixed[i]) and i not in tied]
 
-    def fill(self, unknowns: FloatArray) -> FloatArray:
+    def fill(self, unknowns: Array) -> Array:
         """Return all four logarithms from the free ones."""
-        p = self.given.copy()
+        p = self.fixed.copy()
         p[self.free] = unknowns
         if self.waves == 1:
             p[2:] = np.where(np.isnan(p[2:]), 0.0, p[2:])
@@ -126,7 +148,7 @@ class Trial:
             p[S_AMPLITUDE] = p[S_WAVELENGTH]
         return p
 
-    def bounds(self, target: Target) -> tuple[FloatArray, FloatArray]:
+    def bounds(self, target: Target) -> tuple[Array, Array]:
         """Return limits of the free logarithms."""
         limits = np.log(
             [
@@ -144,12 +166,31 @@ class Trial:
             limits[FIRST_WAVELENGTH] = max(low, spans[0]), min(high, spans[1])
         return limits[self.free, 0], limits[self.free, 1]
 
+    def starts(self, target: Target) -> list[Array]:
+        """Return a grid of starts: first wavelengths, last wavelengths, and Hurst exponents."""
+        starts = []
+        for first, last, hurst in product((2.5, 4.0, 6.5, 10.0, 16.0), (1.0, 3.0, 9.0), (0.6, 0.9)):
+            p = self.fixed.copy()
+            if np.isnan(p[FIRST_WAVELENGTH]):
+                p[FIRST_WAVELENGTH] = np.log(first * target.reach)
+            if np.isnan(p[S_WAVELENGTH]):
+                decades = p[FIRST_WAVELENGTH] - np.log(last * target.lag[0])
+                p[S_WAVELENGTH] = np.clip(decades / max(self.waves - 1, 1), *np.log(FACTOR_RANGE))
+            if np.isnan(p[S_AMPLITUDE]):
+                p[S_AMPLITUDE] = hurst * p[S_WAVELENGTH]
+            if np.isnan(p[FIRST_AMPLITUDE]):
+                # The plateau is sum A_i^2, nearly the whole geometric series A_1^2/(1 - 1/s_A^2).
+                share = 1.0 - np.exp(-2.0 * max(p[S_AMPLITUDE], 0.02))
+                p[FIRST_AMPLITUDE] = 0.5 * np.log(target.plateau * share)
+            starts.append(p[self.free])
+        return starts
+
 
 @dataclass(frozen=True, eq=False)
-class Found:
+class Solution:
     """The closest waves: their four logarithms, number, and rms residual in decades."""
 
-    logs: FloatArray
+    logs: Array
     waves: int
     residual: float
 
@@ -158,83 +199,70 @@ class Found:
         """Logarithm of the smallest wavelength."""
         return float(self.logs[FIRST_WAVELENGTH] - (self.waves - 1) * self.logs[S_WAVELENGTH])
 
+    def stack(self, lag_range: tuple[float, float], beyond: float) -> SineStack:
+        """Return the waves; the roughness ends `beyond` factors below the last of them."""
+        order = np.arange(self.waves)
+        first_wavelength, first_amplitude, s_wavelength, s_amplitude = self.logs
+        end = first_wavelength - (order[-1] + beyond) * s_wavelength
+        return SineStack(
+            wavelength=np.exp(first_wavelength - order * s_wavelength),
+            amplitude=np.exp(first_amplitude - order * s_amplitude),
+            s_wavelength=float(np.exp(s_wavelength)) if self.waves > 1 else None,
+            s_amplitude=float(np.exp(s_amplitude)) if self.waves > 1 else None,
+            residual=self.residual,
+            lag_range=lag_range,
+            cut_off=float(np.exp(end)) if beyond else None,
+        )
 
-def fitted_curve(logs: FloatArray, waves: int, lag: FloatArray) -> FloatArray:
+
+def fitted_curve(logs: Array, waves: int, lag: Array) -> Array:
     """Return C_z [m^2] at lags [m], the first wave by its mean beyond a quarter wavelength."""
     order = np.arange(waves)
-    wavelength = _size(logs[FIRST_WAVELENGTH] - order * logs[S_WAVELENGTH])
-    amplitude = _size(logs[FIRST_AMPLITUDE] - order * logs[S_AMPLITUDE])
+    limits = np.log(checks.LEAST), np.log(checks.MOST)  # beyond them squares are not finite
+    wavelength = np.exp(np.clip(logs[FIRST_WAVELENGTH] - order * logs[S_WAVELENGTH], *limits))
+    amplitude = np.exp(np.clip(logs[FIRST_AMPLITUDE] - order * logs[S_AMPLITUDE], *limits))
     turns = lag[:, None] / wavelength
     turns[:, 0] = np.minimum(turns[:, 0], 0.25)
     return np.asarray(2.0 * np.sin(np.pi * turns) ** 2 @ amplitude**2)
 
 
-def _size(log: FloatArray) -> FloatArray:
-    """Return the length of a logarithm; one beyond reason is kept where its square is finite."""
-    return np.asarray(np.exp(np.clip(log, np.log(checks.LEAST), np.log(checks.MOST))))
-
-
-def search(target: Target, trial: Trial, refined: int = 10) -> Found | None:
+def search(target: Target, trial: Trial, refined: int = 10) -> Solution | None:
     """Return the closest waves, refining the best `refined` starts; None if limits exclude all."""
     from scipy.optimize import least_squares
 
-    logs_wanted = np.log10(target.value)
+    target_logs = np.log10(target.value)
 
-    def residuals(unknowns: FloatArray) -> FloatArray:
+    def residuals(unknowns: Array) -> Array:
         curve = fitted_curve(trial.fill(unknowns), trial.waves + trial.shorter, target.lag)
-        return np.asarray(target.weight * (np.log10(np.maximum(curve, 1e-300)) - logs_wanted))
+        return np.asarray(target.weight * (np.log10(np.maximum(curve, 1e-300)) - target_logs))
 
-    def distance(unknowns: FloatArray) -> float:
+    def distance(unknowns: Array) -> float:
         return float(np.linalg.norm(residuals(unknowns)))
 
     if not trial.free:
-        return Found(trial.fill(np.zeros(0)), trial.waves, distance(np.zeros(0)))
+        return Solution(trial.fill(np.zeros(0)), trial.waves, distance(np.zeros(0)))
     low, high = trial.bounds(target)
     if (low >= high).any():
         return None
-    grid = _starts(target, trial) + _tied_start(target, trial, refined)
+    grid = trial.starts(target)
+    if S_AMPLITUDE in trial.free and np.isnan(trial.fixed[S_WAVELENGTH]):
+        # two factors must not do worse than one factor for both lengths
+        tied = search(target, replace(trial, single_factor=True), refined)
+        grid += [] if tied is None else [tied.logs[trial.free]]
     starts = sorted((np.clip(q, low, high) for q in grid), key=distance)[:refined]
     fits = [
         least_squares(residuals, q, bounds=(low, high), xtol=1e-11, ftol=1e-11, gtol=1e-11)
-        for q in dict.fromkeys(tuple(q) for q in starts)  # what is given makes starts equal
+        for q in dict.fromkeys(tuple(q) for q in starts)  # fixed values make starts equal
     ]
     closest = min(fits, key=lambda fit: float(fit.cost))
-    return Found(trial.fill(closest.x), trial.waves, float(np.sqrt(2.0 * closest.cost)))
-
-
-def _tied_start(target: Target, trial: Trial, refined: int) -> list[FloatArray]:
-    """Return the solution with one factor for both lengths: two factors must not do worse."""
-    if S_AMPLITUDE not in trial.free or not np.isnan(trial.given[S_WAVELENGTH]):
-        return []
-    tied = search(target, replace(trial, single_factor=True), refined)
-    return [] if tied is None else [tied.logs[trial.free]]
-
-
-def _starts(target: Target, trial: Trial) -> list[FloatArray]:
-    """Return a grid of starts: first wavelengths, last wavelengths, and Hurst exponents."""
-    starts = []
-    for first, last, hurst in product((2.5, 4.0, 6.5, 10.0, 16.0), (1.0, 3.0, 9.0), (0.6, 0.9)):
-        p = trial.given.copy()
-        if np.isnan(p[FIRST_WAVELENGTH]):
-            p[FIRST_WAVELENGTH] = np.log(first * target.reach)
-        if np.isnan(p[S_WAVELENGTH]):
-            decades = p[FIRST_WAVELENGTH] - np.log(last * target.lag[0])
-            p[S_WAVELENGTH] = np.clip(decades / max(trial.waves - 1, 1), *np.log(FACTOR_RANGE))
-        if np.isnan(p[S_AMPLITUDE]):
-            p[S_AMPLITUDE] = hurst * p[S_WAVELENGTH]
-        if np.isnan(p[FIRST_AMPLITUDE]):
-            # The plateau is sum A_i^2, nearly the whole geometric series A_1^2 / (1 - 1/s_A^2).
-            share = 1.0 - np.exp(-2.0 * max(p[S_AMPLITUDE], 0.02))
-            p[FIRST_AMPLITUDE] = 0.5 * np.log(target.plateau * share)
-        starts.append(p[trial.free])
-    return starts
+    return Solution(trial.fill(closest.x), trial.waves, float(np.sqrt(2.0 * closest.cost)))
 
 
 MOST_WAVES = 24
 """Waves beyond which a stack is refused."""
 
 NUMBERS = range(2, MOST_WAVES + 1)
-"""Numbers of waves tried where none is given."""
+"""Numbers of waves tried where none is stated."""
 
 PLATEAU_COUNTED = 4.0
 """Largest lag that counts by default, in lags at which the plateau begins."""
@@ -249,7 +277,7 @@ SHORTER_WAVES = 3
 """Waves below a cut-off that count in the fit: factors of 2 take them below the lags that count."""
 
 AS_GOOD = 1.1
-"""Residual, as a ratio to the least one, up to which fewer waves are preferred."""
+"""Ratio of a residual to the least one up to which fewer waves are preferred."""
 
 
 def fit_sines(
@@ -274,20 +302,20 @@ def fit_sines(
         The measured curve.
     scales : int, optional
         Number of waves, 1 to 24. At least one of `scales`, `smallest_wavelength` and `cut_off` is
-        needed. Alone, the last wave is not let below the shortest one that the measurement
-        carries, `hdc.carried`, where that is known and s_wavelength is not given.
+        needed. With `scales` alone, no wave lies below `hdc.resolution_limit` if that is known
+        and s_wavelength is not given.
     smallest_wavelength : float, optional
         Wavelength of the last wave [m], which may lie below what was measured. Given with
         `scales`, s_wavelength follows from it. Alone, the number of waves with the least residual
         is taken (of numbers as good within 10 %, the smallest). Where s_wavelength is given too,
         the last wave is the smallest one not below `smallest_wavelength`.
     cut_off : float, optional
-        Shortest wavelength of the roughness the waves stand for [m], in place of
+        Shortest wavelength of the roughness the waves represent [m], in place of
         `smallest_wavelength`: the last wave is cut_off sqrt(s_wavelength).
     s_wavelength, s_amplitude : float, optional
-        Magnification factors, both above 1, if they are given rather than fitted.
+        Magnification factors, both above 1, to fix them.
     first_wavelength, first_amplitude : float, optional
-        The first wave [m], if it is given rather than fitted.
+        The first wave [m], to fix it.
     single_factor : bool, optional
         One factor for both lengths, the comparison Lind & Wangenheim show to fail.
     smallest_lag, largest_lag : float, optional
@@ -297,7 +325,7 @@ def fit_sines(
     -------
     SineStack
         The waves, their factors, the rms residual in decades of C_z over `lag_range`, and the
-        cut-off they stand for if there is one.
+        cut-off if there is one.
 
     Raises
     ------
@@ -314,7 +342,7 @@ def fit_sines(
         )
     checks.instance("hdc", hdc, HeightDifference)
     checks.flag("single_factor", single_factor)
-    given = _given_logs(
+    fixed = _fixed_logs(
         {
             "first_wavelength": first_wavelength,
             "first_amplitude": first_amplitude,
@@ -323,26 +351,56 @@ def fit_sines(
         },
         single_factor,
     )
-    end = _end(given, smallest_wavelength, cut_off)
+    end = None
+    if cut_off is not None:
+        log = float(np.log(checks.positive("cut_off", cut_off, unit="m")))
+        end = _End("cut_off", log, 0.5)
+    elif smallest_wavelength is not None:
+        log = float(np.log(checks.positive("smallest_wavelength", smallest_wavelength, unit="m")))
+        end = _End("smallest_wavelength", log, 0.0)
+    if end is not None and end.log >= fixed[FIRST_WAVELENGTH]:
+        raise InputError(
+            f"{end.name} must be below first_wavelength; got {np.exp(end.log):g} m "
+            f"against {np.exp(fixed[FIRST_WAVELENGTH]):g} m"
+        )
     if smallest_lag is None:
         smallest_lag = max(first_consistent_lag(hdc), CUT_OFF_COUNTED * (cut_off or 0.0))
-    target = _target(hdc, smallest_lag, largest_lag, int(np.isnan(given).sum()))
+    target = Target.of(hdc, smallest_lag, largest_lag, int(np.isnan(fixed).sum()))
     if end is None:
         waves = checks.whole("scales", scales, least=1, most=MOST_WAVES)
-        found = _carried(target, Trial(given, waves, single_factor), hdc.carried)
-        return _stack(found, target, 0.0)
-    if not np.isnan(given[S_WAVELENGTH]):
+        trial = Trial(fixed, waves, single_factor)
+        solution = search(target, trial)
+        limit = -np.inf if hdc.resolution_limit is None else float(np.log(hdc.resolution_limit))
+        free = waves > 1 and np.isnan(fixed[S_WAVELENGTH])
+        unresolved = solution is not None and solution.last < limit
+        if unresolved and free and not fixed[FIRST_WAVELENGTH] <= limit:
+            solution = search(target, replace(trial, last=limit))
+    elif not np.isnan(fixed[S_WAVELENGTH]):
         if scales is not None:
             raise InputError(f"give two of scales, {end.name} and s_wavelength; got three")
-        return _stack(_down_with_factor(target, given, single_factor, end), target, end.beyond)
-    if scales is not None:
+        solution = _search_with_factor(target, fixed, single_factor, end)
+    elif scales is not None:
         waves = checks.whole("scales", scales, least=2, most=MOST_WAVES)
-        return _stack(search(target, end.trial(given, waves, single_factor)), target, end.beyond)
-    return _stack(_best_number(target, given, single_factor, end), target, end.beyond)
+        solution = search(target, end.trial(fixed, waves, single_factor))
+    else:
+        first, trials = float(fixed[FIRST_WAVELENGTH]), []
+        for waves in NUMBERS:
+            low, high = (end.spans(float(np.log(f)))[waves - 1][0] for f in FACTOR_RANGE)
+            if np.isnan(first) or low <= first <= high:
+                trials.append(end.trial(fixed, waves, single_factor))
+        solution = _closest(target, trials, AS_GOOD)
+    if solution is None:
+        raise InputError(
+            "no sine waves fit the given number, factors and wavelengths: s_wavelength must lie "
+            f"between {FACTOR_RANGE[0]:g} and {FACTOR_RANGE[1]:g}, and the first wavelength "
+            f"between {2 * target.lag[0]:.3g} m and {400 * target.lag[-1]:.3g} m"
+        )
+    lag_range = float(target.lag[0]), float(target.lag[-1])
+    return solution.stack(lag_range, 0.0 if end is None else end.beyond)
 
 
 def as_fitted(sines: SineStack) -> SineStack:
-    """Return the waves that count in a fit to C_z: with a cut-off there are shorter ones, too."""
+    """Return the waves that count in a fit to C_z: with a cut-off these include shorter ones."""
     if sines.cut_off is None or sines.s_wavelength is None or sines.s_amplitude is None:
         return sines
     order = np.arange(1, SHORTER_WAVES + 1)
@@ -356,7 +414,7 @@ def as_fitted(sines: SineStack) -> SineStack:
 
 @dataclass(frozen=True)
 class _End:
-    """Where a stack ends: log of a wavelength, and how many factors beyond the last wave it is."""
+    """End of a stack: log of a wavelength, and the number of factors from the last wave to it."""
 
     name: str
     log: float
@@ -367,9 +425,9 @@ class _End:
         """Waves that the measured curve holds beyond the end."""
         return SHORTER_WAVES if self.beyond > 0.0 else 0
 
-    def trial(self, given: FloatArray, waves: int, single_factor: bool) -> Trial:
+    def trial(self, fixed: Array, waves: int, single_factor: bool) -> Trial:
         """Return the search for `waves` waves down to the end."""
-        return Trial(given, waves, single_factor, self.log, self.beyond, shorter=self.shorter)
+        return Trial(fixed, waves, single_factor, self.log, self.beyond, shorter=self.shorter)
 
     def spans(self, factor: float) -> list[tuple[float, float]]:
         """Return logs of the first wavelength at which 1, 2, ... waves reach the end."""
@@ -378,27 +436,8 @@ class _End:
         return list(pairwise(logs))
 
 
-def _end(
-    given: FloatArray, smallest_wavelength: float | None, cut_off: float | None
-) -> _End | None:
-    """Return the end that is stated, if any."""
-    if cut_off is not None:
-        end = _End("cut_off", float(np.log(checks.positive("cut_off", cut_off, unit="m"))), 0.5)
-    elif smallest_wavelength is not None:
-        last = checks.positive("smallest_wavelength", smallest_wavelength, unit="m")
-        end = _End("smallest_wavelength", float(np.log(last)), 0.0)
-    else:
-        return None
-    if end.log >= given[FIRST_WAVELENGTH]:
-        raise InputError(
-            f"{end.name} must be below first_wavelength; got {np.exp(end.log):g} m "
-            f"against {np.exp(given[FIRST_WAVELENGTH]):g} m"
-        )
-    return end
-
-
-def _given_logs(values: dict[str, float | None], single_factor: bool) -> FloatArray:
-    """Return logs of what is given of the four unknowns, NaN for the others."""
+def _fixed_logs(values: dict[str, float | None], single_factor: bool) -> Array:
+    """Return logs of the stated ones of the four unknowns, NaN for the others."""
     logs = np.full(4, np.nan)
     for at, (name, value) in enumerate(values.items()):
         if value is None:
@@ -417,25 +456,6 @@ def _given_logs(values: dict[str, float | None], single_factor: bool) -> FloatAr
     return logs
 
 
-def _target(hdc: HeightDifference, smallest: float, largest: float | None, unknowns: int) -> Target:
-    """Return the part of the curve that counts."""
-    require_positive(hdc)
-    plateau = find_plateau(hdc)
-    if largest is None:
-        largest = float(hdc.lag[-1]) if plateau is None else PLATEAU_COUNTED * plateau.lag
-    low = checks.positive("smallest_lag", smallest, unit="m") * (1.0 - 1e-9)
-    high = checks.positive("largest_lag", largest, unit="m") * (1.0 + 1e-9)
-    used = (hdc.lag >= low) & (hdc.lag <= high)
-    if used.sum() < max(unknowns, 1):
-        raise InputError(
-            "the height difference correlation must have at least "
-            f"{max(unknowns, 1)} lags to fit {unknowns} unknowns; got "
-            f"{used.sum()} from {low:g} m to {high:g} m"
-        )
-    level = plateau.level if plateau is not None else float(hdc.value[used].max())
-    return Target(hdc.lag[used], hdc.value[used], min(level, float(hdc.value[used].max())))
-
-
 def first_consistent_lag(hdc: HeightDifference) -> float:
     """Return the first lag l with C_z(m l) <= m^2 C_z(l) for all whole m measured [m].
 
@@ -449,23 +469,11 @@ def first_consistent_lag(hdc: HeightDifference) -> float:
     return float(hdc.lag[0])  # not reached: the last lag has no multiples
 
 
-def _carried(target: Target, trial: Trial, carried: float | None) -> Found | None:
-    """Search freely; where the last wave is shorter than is carried, search with it at that."""
-    found = search(target, trial)
-    tied = trial.waves == 1 or not np.isnan(trial.given[S_WAVELENGTH])
-    if found is None or carried is None or tied or found.last >= np.log(carried):
-        return found
-    if trial.given[FIRST_WAVELENGTH] <= np.log(carried):
-        return found
-    return search(target, replace(trial, last=float(np.log(carried))))
-
-
-def _down_with_factor(
-    target: Target, given: FloatArray, single_factor: bool, end: _End
-) -> Found | None:
-    """Search with s_wavelength given: as many waves as do not go below the end."""
-    factor, first = float(given[S_WAVELENGTH]), float(given[FIRST_WAVELENGTH])
-    spans = end.spans(factor)
+def _search_with_factor(
+    target: Target, fixed: Array, single_factor: bool, end: _End
+) -> Solution | None:
+    """Search with s_wavelength fixed: as many waves as fit above the end."""
+    factor, first = float(fixed[S_WAVELENGTH]), float(fixed[FIRST_WAVELENGTH])
     if not np.isnan(first):
         waves = 1 + int((first - end.log) / factor - end.beyond + 1e-9)
         if waves > MOST_WAVES:
@@ -473,56 +481,20 @@ def _down_with_factor(
                 f"{end.name} must need at most {MOST_WAVES} waves; "
                 f"{np.exp(end.log):g} m needs {waves}"
             )
-        return search(target, Trial(given, waves, single_factor, shorter=end.shorter))
+        return search(target, Trial(fixed, waves, single_factor, shorter=end.shorter))
     trials = [
-        Trial(given, n, single_factor, first_range=span, shorter=end.shorter)
-        for n, span in enumerate(spans, start=1)
+        Trial(fixed, n, single_factor, first_range=span, shorter=end.shorter)
+        for n, span in enumerate(end.spans(factor), start=1)
     ]
     return _closest(target, trials, 1.0)
 
 
-def _best_number(target: Target, given: FloatArray, single_factor: bool, end: _End) -> Found | None:
-    """Search over the number of waves down to the end."""
-    first = float(given[FIRST_WAVELENGTH])
-    ranges = [[end.spans(float(np.log(f)))[n - 1][0] for f in FACTOR_RANGE] for n in NUMBERS]
-    numbers = [
-        n
-        for n, (low, high) in zip(NUMBERS, ranges, strict=True)
-        if np.isnan(first) or low <= first <= high
-    ]
-    trials = [end.trial(given, n, single_factor) for n in numbers]
-    return _closest(target, trials, AS_GOOD)
-
-
-def _closest(target: Target, trials: list[Trial], as_good: float) -> Found | None:
-    """Return the closest of all trials; of those as good, the one with the fewest waves."""
-    found = [(search(target, trial, refined=2), trial) for trial in trials]
-    residuals = [one.residual for one, _ in found if one is not None]
+def _closest(target: Target, trials: list[Trial], as_good: float) -> Solution | None:
+    """Return the closest of all trials; of those as good, that with the fewest waves."""
+    solved = [(search(target, trial, refined=2), trial) for trial in trials]
+    residuals = [(s.residual, trial) for s, trial in solved if s is not None]
     if not residuals:
         return None
-    good = [t for one, t in found if one is not None and one.residual <= as_good * min(residuals)]
+    limit = as_good * min(residual for residual, _ in residuals)
+    good = [trial for residual, trial in residuals if residual <= limit]
     return search(target, min(good, key=lambda trial: trial.waves))
-
-
-def _stack(found: Found | None, target: Target, beyond: float) -> SineStack:
-    """Return the waves found; the roughness ends `beyond` factors below the last of them."""
-    if found is None:
-        raise InputError(
-            "no sine waves fit the given number, factors and wavelengths: s_wavelength must lie "
-            f"between {FACTOR_RANGE[0]:g} and {FACTOR_RANGE[1]:g}, and the first wavelength "
-            f"between {2 * target.lag[0]:.3g} m and {400 * target.lag[-1]:.3g} m"
-        )
-    order = np.arange(found.waves)
-    first_wavelength, first_amplitude, s_wavelength, s_amplitude = found.logs
-    several = found.waves > 1
-    return SineStack(
-        wavelength=np.exp(first_wavelength - order * s_wavelength),
-        amplitude=np.exp(first_amplitude - order * s_amplitude),
-        s_wavelength=float(np.exp(s_wavelength)) if several else None,
-        s_amplitude=float(np.exp(found.logs[S_AMPLITUDE])) if several else None,
-        residual=found.residual,
-        lag_range=(float(target.lag[0]), float(target.lag[-1])),
-        cut_off=float(np.exp(first_wavelength - (order[-1] + beyond) * s_wavelength))
-        if beyond
-        else None,
-    )

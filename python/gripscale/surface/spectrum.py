@@ -1,4 +1,4 @@
-"""Power spectra of lines and surfaces: how much of the height variance each wavenumber carries.
+"""Power spectra of lines and surfaces: the height variance by wavenumber.
 
     <z^2> = int_0^inf C_1(q) dq                       line, one-sided, C_1 [m^3]
     <z^2> = 2 pi int_0^inf q C(q) dq                  surface, mean over directions, C [m^4]
@@ -6,14 +6,36 @@
 
 The conventions are those of B. N. J. Persson et al., J. Phys.: Condens. Matter 17 (2005) R1,
 doi:10.1088/0953-8984/17/1/R01. The mean square gradient of an isotropic surface is twice the mean
-square slope of its lines: every number here says which of the two it is. Spectra are measured in
-`gripscale.surface.spectrum`; `gripscale.surface.spectrum` leads from lines to surfaces.
+square slope of its lines: every number here says which of the two it is.
+
+Spectra are measured with windows w of a line, or of a map whose plane waves are averaged over rings
+< > (P. D. Welch, IEEE Trans. Audio Electroacoust. 15 (1967) 70, doi:10.1109/TAU.1967.1161901), F
+being the discrete Fourier transform:
+
+    C_1(q) = 2 / (2 pi)   |F{w z}|^2 step / sum(w^2)             for q > 0
+    C(q)   = 1 / (2 pi)^2 < |F{w z}|^2 > step_x step_y / sum(w^2)
+
+A line crosses a wave of wavenumber q at an angle phi and sees one of q cos(phi), so that
+
+    C_1(k) = 4 int_k^inf q C(q) dq / sqrt(q^2 - k^2)
+    C(q)   = -1/(2 pi) int_q^inf C_1'(k) dk / sqrt(k^2 - q^2)
+
+The first is Abel's integral equation, the second its solution (R. N. Bracewell, The Fourier
+Transform and Its Applications, 3rd ed. (2000), ch. 13; for surfaces P. R. Nayak, J. Lubr.
+Technol. 93 (1971) 398, doi:10.1115/1.3451608). For C_1 ~ q^(-1 - 2H) it is, by the beta function,
+
+    C(q) = C_1(q) / (2 sqrt(pi) q Gamma(H + 1/2) / Gamma(H + 1)),
+
+1.6 to 2 times (H from 0.5 to 1) the C_1/(2 pi q) that takes every wave to run along the line. The
+solution needs the derivative of a measured, scattered curve. Instead, `areal_spectrum` solves the
+first equation by least squares with C >= 0.
+
+The file has the two spectra, then their measurement, then the way from lines to surfaces.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from functools import partial
 from typing import Any, Literal
 
@@ -21,8 +43,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
+from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
-from gripscale.surface.profile import FEWEST_POINTS, FloatArray, Profile, of_one_step
+from gripscale.surface.profile import FEWEST_POINTS, Profile, of_one_step
 from gripscale.surface.resampling import filled
 
 PER_DECADE = 10
@@ -31,8 +55,7 @@ PER_DECADE = 10
 _ABSCISSAE, _WEIGHTS = np.polynomial.legendre.leggauss(6)
 
 
-@dataclass(frozen=True, eq=False)
-class ProfileSpectrum:
+class ProfileSpectrum(Checked, eq=False):
     """One-sided power spectrum of a line.
 
     Parameters
@@ -40,9 +63,9 @@ class ProfileSpectrum:
     wavenumber : array_like, shape (points,)
         2 pi over the wavelength [rad/m], above zero, increasing.
     density : array_like, shape (points,)
-        C_1 [m^3], not negative: the mean over the wavenumbers each point stands for.
+        C_1 [m^3], not negative: the mean over the wavenumbers each point represents.
     width : array_like, shape (points,), optional
-        How many wavenumbers each point stands for [rad/m]; up to half way (in the logarithm) to its
+        Range of wavenumbers that each point represents [rad/m]; half way (in the logarithm) to its
         neighbours by default, and to the first and last point.
     interpolated : float
         Share of the heights that were missing and interpolated [-].
@@ -53,22 +76,22 @@ class ProfileSpectrum:
         If lengths differ or a value is out of range.
     """
 
-    wavenumber: FloatArray
-    density: FloatArray
-    width: FloatArray = field(default_factory=lambda: np.zeros(0))
-    interpolated: float = 0.0
+    wavenumber: Array = checked(checks.increasing_vector, unit="rad/m")
+    density: Array = checked(checks.not_negative_vector, unit="m^3")
+    width: Array = checked(checks.vector, unit="rad/m", default=None)
+    interpolated: float = checked(checks.not_negative, default=0.0)
 
     def __post_init__(self) -> None:
-        _keep(self, "m^3")
-        q = self.wavenumber
-        width = checks.vector("width", self.width, unit="rad/m")
-        if width.size == 0:
+        super().__post_init__()
+        q, width = self.wavenumber, self.width
+        checks.same_length(2, wavenumber=q, density=self.density)
+        if width is None:
             width = np.diff(np.concatenate((q[:1], np.sqrt(q[1:] * q[:-1]), q[-1:])))
         if width.size != q.size or (width <= 0.0).any():
             raise InputError(
                 f"width must have {q.size} entries above zero; got {checks.short_repr(width)}"
             )
-        object.__setattr__(self, "width", width)
+        self._set(width=width)
 
     @property
     def rms_height(self) -> float:
@@ -87,7 +110,7 @@ class ProfileSpectrum:
     def averaged(self, per_decade: int = PER_DECADE) -> ProfileSpectrum:
         """Return the spectrum at fewer points, evenly spaced in log q where there are enough.
 
-        The variance stays exactly what it is.
+        The variance is kept exactly.
         """
         each = checks.whole("per_decade", per_decade, least=1, most=1000)
         start = first_of_bins(self.wavenumber, each)
@@ -97,8 +120,7 @@ class ProfileSpectrum:
         return ProfileSpectrum(np.exp(middle), power / width, width, self.interpolated)
 
 
-@dataclass(frozen=True, eq=False)
-class ArealSpectrum:
+class ArealSpectrum(Checked, eq=False):
     """Power spectrum of a surface, mean over directions.
 
     Between its points q^3 C(q) is linear in log q; outside them there are no waves.
@@ -118,14 +140,15 @@ class ArealSpectrum:
         If lengths differ or a value is out of range.
     """
 
-    wavenumber: FloatArray
-    density: FloatArray
-    interpolated: float = 0.0
+    wavenumber: Array = checked(checks.increasing_vector, unit="rad/m")
+    density: Array = checked(checks.not_negative_vector, unit="m^4")
+    interpolated: float = checked(checks.not_negative, default=0.0)
 
     def __post_init__(self) -> None:
-        _keep(self, "m^4")
+        super().__post_init__()
+        checks.same_length(2, wavenumber=self.wavenumber, density=self.density)
 
-    def at(self, wavenumber: ArrayLike) -> FloatArray:
+    def at(self, wavenumber: ArrayLike) -> Array:
         """Return C [m^4] at absolute wavenumbers [rad/m], same shape."""
         q, points = np.asarray(wavenumber, dtype=float), self.wavenumber
         weighted = points**3 * self.density
@@ -157,7 +180,7 @@ class ArealSpectrum:
         return float(2.0 * np.pi * np.sum(half * _WEIGHTS * q ** (power + 2) * self.at(q)))
 
 
-def last_wavenumber(q: FloatArray, smallest_wavelength: float | None) -> float:
+def last_wavenumber(q: Array, smallest_wavelength: float | None) -> float:
     """Return 2 pi over the smallest wavelength, by default the last of `q` [rad/m].
 
     Raises `InputError` if it is not among the wavelengths of `q`.
@@ -180,40 +203,11 @@ def first_of_bins(values: NDArray[Any], per_decade: int) -> NDArray[np.intp]:
     return np.flatnonzero(np.diff(bins, prepend=-1.0))
 
 
-def _keep(spectrum: ProfileSpectrum | ArealSpectrum, unit: str) -> None:
-    """Check wavenumbers and densities, and store them read-only."""
-    q = checks.positive_vector("wavenumber", spectrum.wavenumber, unit="rad/m")
-    density = checks.vector("density", spectrum.density, unit=unit)
-    if q.size < 2 or q.size != density.size:
-        raise InputError(
-            f"wavenumber and density must have the same length, at least 2; "
-            f"got {q.size} and {density.size}"
-        )
-    if (np.diff(q) <= 0.0).any():
-        at = int(np.argmax(np.diff(q) <= 0.0)) + 1
-        raise InputError(f"wavenumber must increase; got {q[at]:g} rad/m at index {at}")
-    if (density < 0.0).any():
-        at = int(np.argmax(density < 0.0))
-        raise InputError(f"density must not be negative; got {density[at]:g} {unit} at index {at}")
-    checks.not_negative("interpolated", spectrum.interpolated)
-    for name, values in (("wavenumber", q), ("density", density)):
-        values.flags.writeable = False
-        object.__setattr__(spectrum, name, values)
-
-
-# Measuring power spectra: windows of a line, rings of a map.
-#
-#     C_1(q) = 2 / (2 pi)   |F{w z}|^2 step / sum(w^2)             for q > 0
-#     C(q)   = 1 / (2 pi)^2 < |F{w z}|^2 > step_x step_y / sum(w^2)
-#
-# with windows w and the discrete Fourier transform F; < > is the mean over the plane waves of a
-# ring. P. D. Welch, IEEE Trans. Audio Electroacoust. 15 (1967) 70, doi:10.1109/TAU.1967.1161901.
-
 TAPERS: dict[str, tuple[str, Literal["linear", "constant"]]] = {
     "hann": ("hann", "linear"),
     "none": ("boxcar", "constant"),
 }
-"""What is done to each window: its weights, and the trend taken out of it before."""
+"""Weights of a window, and the trend subtracted before."""
 
 WINDOWS = 4
 """Windows a tapered line is cut into by default; as many fit again between them."""
@@ -251,17 +245,22 @@ def profile_spectrum(
     profiles = of_one_step(profile, "averaged")
     step = profiles[0].step
     weights, trend = TAPERS[checks.one_of("taper", taper, TAPERS)]
-    shortest = min(len(one) for one in profiles)
+    shortest = min(len(p) for p in profiles)
     parts = WINDOWS if taper == "hann" else 1
     points = max(shortest // parts, FEWEST_POINTS)
     if window is not None:
-        points = _points(shortest, step, window)
+        points = round(checks.positive("window", window, unit="m") / step)
+        if not FEWEST_POINTS <= points <= shortest:
+            raise InputError(
+                f"window must be from {FEWEST_POINTS * step:g} m to {shortest * step:g} m long; "
+                f"got {window:g}"
+            )
     detrend = partial(signal.detrend, type=trend)
-    heights = [filled(one.z, periodic=taper == "none") for one in profiles]
+    heights = [filled(p.z, periodic=taper == "none") for p in profiles]
     powers = [signal.welch(z, 1.0 / step, weights, points, detrend=detrend)[1] for z in heights]
-    density = np.average(powers, axis=0, weights=[len(one) for one in profiles])
+    density = np.average(powers, axis=0, weights=[len(p) for p in profiles])
     q = 2.0 * np.pi / (points * step) * np.arange(1.0, points // 2 + 1)
-    missing = sum(one.missing for one in profiles) / sum(len(one) for one in profiles)
+    missing = sum(p.missing for p in profiles) / sum(len(p) for p in profiles)
     return ProfileSpectrum(q, density[1:] / (2.0 * np.pi), np.full(q.size, q[0]), missing)
 
 
@@ -299,11 +298,29 @@ def map_spectrum(
         checks.positive("x_step", x_step, unit="m"),
         checks.positive("y_step", y_step, unit="m"),
     )
-    heights = _heights(z)
+    expected = f"z must be heights of shape (nx, ny), at least {FEWEST_POINTS} each way [m]"
+    heights = checks.array(z, expected)
+    if heights.ndim != 2 or min(heights.shape) < FEWEST_POINTS:
+        raise InputError(f"{expected}; got shape {heights.shape}")
+    if (np.abs(heights) > checks.MOST).any():
+        raise InputError(f"{expected}; got one beyond {checks.MOST:g}")
+    if np.isnan(heights).all():
+        raise InputError(f"z must have some heights; got {heights.size} points, all missing")
     each = checks.whole("per_decade", per_decade, least=1, most=1000)
     checks.one_of("taper", taper, TAPERS)
     whole = filled(heights, steps, periodic=taper == "none")
-    power, q = _plane_waves(whole, steps, tapered=taper == "hann")
+    whole = whole - whole.mean()
+    windows = [np.ones(n) for n in whole.shape]
+    if taper == "hann":
+        x, y = np.meshgrid(*(np.arange(n) - 0.5 * (n - 1) for n in whole.shape), indexing="ij")
+        tilt_x, tilt_y = (axis * (whole * axis).sum() / (axis * axis).sum() for axis in (x, y))
+        whole = whole - tilt_x - tilt_y
+        windows = [np.hanning(n + 1)[:-1] for n in whole.shape]
+    weights = windows[0][:, None] * windows[1]
+    area = steps[0] * steps[1] / (4.0 * np.pi**2 * np.square(weights).sum())
+    power = np.asarray(area * np.abs(np.fft.fft2(weights * whole)) ** 2, dtype=np.float64)
+    qx, qy = (2.0 * np.pi * np.fft.fftfreq(n, d) for n, d in zip(whole.shape, steps, strict=True))
+    q = np.asarray(np.hypot(qx[:, None], qy), dtype=np.float64)
     ring = max(2.0 * np.pi / (n * step) for n, step in zip(heights.shape, steps, strict=True))
     number = np.rint(q / ring).astype(int)
     rings = int(np.pi / max(steps) / ring)
@@ -323,78 +340,21 @@ def map_spectrum(
     )
 
 
-def _plane_waves(
-    z: FloatArray, steps: tuple[float, float], *, tapered: bool
-) -> tuple[FloatArray, FloatArray]:
-    """Return the density [m^4] of every plane wave, and its absolute wavenumber [rad/m]."""
-    z = z - z.mean()
-    windows = [np.ones(n) for n in z.shape]
-    if tapered:
-        x, y = np.meshgrid(*(np.arange(n) - 0.5 * (n - 1) for n in z.shape), indexing="ij")
-        z = z - x * (z * x).sum() / (x * x).sum() - y * (z * y).sum() / (y * y).sum()
-        windows = [np.hanning(n + 1)[:-1] for n in z.shape]
-    window = windows[0][:, None] * windows[1]
-    area = steps[0] * steps[1] / (4.0 * np.pi**2 * np.square(window).sum())
-    power = np.asarray(area * np.abs(np.fft.fft2(window * z)) ** 2, dtype=np.float64)
-    qx, qy = (2.0 * np.pi * np.fft.fftfreq(n, d) for n, d in zip(z.shape, steps, strict=True))
-    return power, np.asarray(np.hypot(qx[:, None], qy), dtype=np.float64)
-
-
-def _points(most: int, step: float, window: float) -> int:
-    """Return how many heights a window holds, of `most`."""
-    points = round(checks.positive("window", window, unit="m") / step)
-    if not FEWEST_POINTS <= points <= most:
-        raise InputError(
-            f"window must be from {FEWEST_POINTS * step:g} m to {most * step:g} m long; "
-            f"got {window:g}"
-        )
-    return points
-
-
-def _heights(z: ArrayLike) -> FloatArray:
-    expected = f"z must be heights of shape (nx, ny), at least {FEWEST_POINTS} each way [m]"
-    heights = checks.array(z, expected)
-    if heights.ndim != 2 or min(heights.shape) < FEWEST_POINTS:
-        raise InputError(f"{expected}; got shape {heights.shape}")
-    if (np.abs(heights) > checks.MOST).any():
-        raise InputError(f"{expected}; got one beyond {checks.MOST:g}")
-    if np.isnan(heights).all():
-        raise InputError(f"z must have some heights; got {heights.size} points, all missing")
-    return heights
-
-
-# From the spectrum of lines to that of the isotropic surface they were measured on.
-#
-# A line sees a wave of wavenumber q at an angle phi as one of q cos(phi), so that
-#
-#     C_1(k) = 4 int_k^inf q C(q) dq / sqrt(q^2 - k^2)
-#     C(q)   = -1/(2 pi) int_q^inf C_1'(k) dk / sqrt(k^2 - q^2)
-#
-# The first is Abel's integral equation, the second its solution (R. N. Bracewell, The Fourier
-# Transform and Its Applications, 3rd ed. (2000), ch. 13; for surfaces P. R. Nayak, J. Lubr.
-# Technol. 93 (1971) 398, doi:10.1115/1.3451608). For C_1 ~ q^(-1 - 2H) it is, by the beta function,
-#
-#     C(q) = C_1(q) / (2 sqrt(pi) q Gamma(H + 1/2) / Gamma(H + 1)),
-#
-# 1.6 to 2 times (H from 0.5 to 1) the C_1/(2 pi q) that takes every wave to run along the line. The
-# solution needs the derivative of a measured, scattered curve; C is found here by least squares on
-# the first equation instead, and not negative.
-
 _TAIL_POINTS = 4
-"""Last points whose power law is taken to go on."""
+"""Last points of a spectrum whose power law is continued."""
 
 _SLOWEST_FALL = 1.0
-"""Least exponent of C_1 there: with less the variance beyond would be infinite."""
+"""Least exponent of C_1 beyond them: with less the variance would be infinite."""
 
 
 def areal_spectrum(
     spectrum: ProfileSpectrum, *, hurst: float | None = None, per_decade: int = PER_DECADE
 ) -> ArealSpectrum:
-    """Return the spectrum of the isotropic surface whose lines have the given one.
+    """Return the spectrum of the isotropic surface whose lines have a measured one.
 
     The Abel equation is solved for the C >= 0 at the averaged wavenumbers that fits C_1 there best,
-    relative to its scatter. Beyond the last point C_1 is taken to go on as the power law of its
-    last points: those waves are seen at smaller k, too, but are no part of the result.
+    relative to its scatter. Beyond the last point C_1 is continued as the power law of its last
+    points: lines see those waves at smaller k, too, but they are no part of the result.
 
     Parameters
     ----------
@@ -426,17 +386,23 @@ def areal_spectrum(
         if exponent > 1.0:
             raise InputError(f"hurst must be at most 1; got {hurst:g}")
         ratio = gamma(exponent + 0.5) / gamma(exponent + 1.0)
-        areal = density / (2.0 * np.sqrt(np.pi) * q * ratio)
-    else:
-        certainty = np.sqrt(mean.width) / density
-        size = density / q
-        matrix = certainty[:, None] * _seen_by_lines(q, density) * size
-        areal = size * nnls(matrix, certainty * density)[0]
+        return ArealSpectrum(q, density / (2.0 * np.sqrt(np.pi) * q * ratio), mean.interpolated)
+    certainty = np.sqrt(mean.width) / density
+    size = density / q
+    matrix = certainty[:, None] * _abel_matrix(q, density) * size
+    areal = size * nnls(matrix, certainty * density)[0]
     return ArealSpectrum(q, areal, mean.interpolated)
 
 
-def _seen_by_lines(q: FloatArray, density: FloatArray) -> FloatArray:
-    """Return the matrix from C to C_1 at `q`: C_1(q) = 4 int C k dtheta, k = q cosh(theta)."""
+def _abel_matrix(q: Array, density: Array) -> Array:
+    """Return the matrix from C to C_1 at `q`: C_1(q) = 4 int C k dtheta, k = q cosh(theta).
+
+    Waves beyond the last point Q, C continuing as C_1/q does at the end, C ~ q^(-1 - s), add
+
+        4 int_Q^inf C q dq / sqrt(q^2 - k^2) = 2 C(Q) Q (Q/k)^s B(k^2/Q^2; s/2, 1/2).
+    """
+    from scipy.special import beta, betainc
+
     matrix = np.zeros((q.size, q.size))
     logs = np.log(q)
     for row, start in enumerate(q):
@@ -447,19 +413,9 @@ def _seen_by_lines(q: FloatArray, density: FloatArray) -> FloatArray:
         part = 4.0 * half * _WEIGHTS / k**2
         matrix[row, row:-1] += (part * (1.0 - share)).sum(axis=1)
         matrix[row, row + 1 :] += (part * share).sum(axis=1)
-    return np.asarray(matrix * q**3 + _seen_beyond(q, density))
-
-
-def _seen_beyond(q: FloatArray, density: FloatArray) -> FloatArray:
-    """Return what waves beyond the last point add, C going on as C_1/q does at the end.
-
-    4 int_Q^inf C q dq / sqrt(q^2 - k^2) = 2 C(Q) Q (Q/k)^s B(k^2/Q^2; s/2, 1/2), C ~ q^(-1 - s).
-    """
-    from scipy.special import beta, betainc
-
+    matrix *= q**3
     fall = np.log(density[-_TAIL_POINTS] / density[-1]) / np.log(q[-1] / q[-_TAIL_POINTS])
     s = max(float(fall), _SLOWEST_FALL)
     incomplete = betainc(s / 2.0, 0.5, (q / q[-1]) ** 2) * beta(s / 2.0, 0.5)
-    added = np.zeros((q.size, q.size))
-    added[:, -1] = 2.0 * q[-1] * (q[-1] / q) ** s * incomplete
-    return added
+    matrix[:, -1] += 2.0 * q[-1] * (q[-1] / q) ** s * incomplete
+    return matrix

@@ -19,7 +19,7 @@ from gripscale.surface.cut_off import (
     slope_by_wavelength,
 )
 from gripscale.surface.height_difference import HeightDifference, height_difference
-from gripscale.surface.plausibility import profile_doubts, stack_notes
+from gripscale.surface.plausibility import profile_warnings, stack_notes
 from gripscale.surface.profile import HeightMap, Profile
 from gripscale.surface.self_affine import SelfAffineFit
 from gripscale.surface.sine_fit import fit_sines
@@ -71,7 +71,7 @@ class Measured:
         found = []
         for raw, cleaned in self.profiles:
             about = f"{raw.name}: " if raw.name else ""
-            doubts = profile_doubts(raw, cleaned, steep=self.map is None)
+            doubts = profile_warnings(raw, cleaned, steep=self.map is None)
             found += [f"{about}{note}" for note in (*raw.notes, *doubts)]
         return tuple(found)
 
@@ -124,16 +124,16 @@ class PreparedSurface:
         return self.waves
 
     @property
-    def roughness_end(self) -> float:
+    def cutoff_wavelength(self) -> float:
         """Shortest wavelength of the roughness [m]; `InputError` if nothing says where it ends."""
-        return self.sines.roughness_end if self.end is None else self.end
+        return self.sines.cutoff_wavelength if self.end is None else self.end
 
     @property
     def cut_off(self) -> CutOff | None:
         """Where the roughness ends and by which rule, or None if nothing was measured."""
         if self.measured is None:
             return None
-        end = self.roughness_end
+        end = self.cutoff_wavelength
         if self.rule is None:
             return replace(find_cut_off(self.measured.slopes, end), rule="the last wave")
         found = find_cut_off(self.measured.slopes, self.rule)
@@ -153,7 +153,7 @@ class PreparedSurface:
             waves and SineStack(waves.wavelength, waves.amplitude),
             source="",
             measured=self.measured and self.measured.bare() if "measurement" in parts else None,
-            end=self.roughness_end if "cut_off" in parts else None,
+            end=self.cutoff_wavelength if "cut_off" in parts else None,
         )
 
     @property
@@ -163,7 +163,7 @@ class PreparedSurface:
         if self.correlation is None:
             return found
         notes = [*found, *stack_notes(self.sines, self.correlation, self.fit)]
-        end, carried = self.sines.cut_off, self.correlation.carried
+        end, carried = self.sines.cut_off, self.correlation.resolution_limit
         if end is not None and carried is not None and end < carried * (1.0 - 1e-6):
             notes.append(
                 f"the cut-off, {end * 1e3:.3g} mm, lies beyond what the measurement carries, "

@@ -1,4 +1,4 @@
-"""Profiles made to measure, with known statistics, to test methods and to study sampling."""
+"""Synthetic profiles and surfaces with stated statistics, for tests and studies."""
 
 from __future__ import annotations
 
@@ -8,9 +8,10 @@ from functools import lru_cache
 import numpy as np
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.surface.height_difference import height_difference
-from gripscale.surface.profile import FEWEST_POINTS, MOST_POINTS, FloatArray, Profile
+from gripscale.surface.profile import FEWEST_POINTS, MOST_POINTS, Profile
 from gripscale.surface.sine_fit import fit_sines
 from gripscale.surface.sines import SineStack
 from gripscale.surface.surface import Measured, PreparedSurface
@@ -31,9 +32,9 @@ def self_affine_profile(
         C_z(l) = xi_perp^2 (1 - exp(-(l / xi_par)^(2H))),
 
     which has the two asymptotes of [LW eq. 6] (the power law and the plateau meet at xi_par) with
-    a smooth bend between: the sharp bend itself is no covariance of a line for H > 1/2.
-    Drawn exactly, by circulant embedding (C. R. Dietrich & G. N. Newsam, SIAM J. Sci. Comput. 18
-    (1997) 1088, doi:10.1137/S1064827592240555). [LW] Lind & Wangenheim, ASME IMECE2014-37998.
+    a smooth bend between: a sharp bend is no covariance of a line for H > 1/2.
+    The profile is drawn exactly, by circulant embedding (C. R. Dietrich & G. N. Newsam, SIAM J.
+    Sci. Comput. 18 (1997) 1088, doi:10.1137/S1064827592240555). [LW] Lind & Wangenheim, ASME IMECE2014-37998.
 
     Parameters
     ----------
@@ -103,7 +104,7 @@ def sine_profile(stack: SineStack, length: float, step: float, seed: int) -> Pro
     return Profile(x, z, name=f"{len(stack)} sine waves", source=f"seed {seed}")
 
 
-def _points(length: float, step: float) -> FloatArray:
+def _points(length: float, step: float) -> Array:
     step = checks.positive("step", step, unit="m")
     points = round(checks.positive("length", length, unit="m") / step) + 1
     if not FEWEST_POINTS <= points <= MOST_POINTS:
@@ -113,12 +114,9 @@ def _points(length: float, step: float) -> FloatArray:
     return np.asarray(step * np.arange(points), dtype=np.float64)
 
 
-# Surfaces made from stated statistics, for studies where no second measured road is at hand.
-
-
 @dataclass(frozen=True)
 class Statistics:
-    """Self-affine statistics of a synthetic surface, and how it is drawn and described (m)."""
+    """Self-affine statistics [m] of a synthetic surface, its sampling and its waves."""
 
     hurst: float
     xi_parallel: float
@@ -142,15 +140,13 @@ SYNTHETIC_SURFACES = {
         smallest_wavelength=0.1e-3,
     )
 }
-"""By name. The numbers are of the order of a dense asphalt's; no road was measured for them."""
+"""Synthetic surfaces by name. Numbers are of the order of a dense asphalt; none was measured."""
 
 
 def synthetic_profile(name: str) -> Profile:
     """Return the profile of a synthetic surface."""
-    made = SYNTHETIC_SURFACES[name]
-    return self_affine_profile(
-        made.hurst, made.xi_parallel, made.xi_perpendicular, made.length, made.step, made.seed
-    )
+    s = SYNTHETIC_SURFACES[name]
+    return self_affine_profile(s.hurst, s.xi_parallel, s.xi_perpendicular, s.length, s.step, s.seed)
 
 
 def with_profile(name: str) -> PreparedSurface:
@@ -162,15 +158,15 @@ def with_profile(name: str) -> PreparedSurface:
 
 @lru_cache(maxsize=4)
 def synthetic_surface(name: str) -> PreparedSurface:
-    """Return a synthetic surface, with what it is made of as its source."""
-    made = SYNTHETIC_SURFACES[name]
+    """Return a synthetic surface, with its statistics as its source."""
+    s = SYNTHETIC_SURFACES[name]
     correlation = height_difference(synthetic_profile(name))
-    sines = fit_sines(correlation, scales=made.waves, smallest_wavelength=made.smallest_wavelength)
+    sines = fit_sines(correlation, scales=s.waves, smallest_wavelength=s.smallest_wavelength)
     source = (
-        f"{name}: synthetic, self-affine, H = {made.hurst:g}, "
-        f"xi_parallel = {made.xi_parallel * 1e3:g} mm, "
-        f"xi_perpendicular = {made.xi_perpendicular * 1e3:g} mm, "
-        f"{made.length:g} m in steps of {made.step * 1e6:g} um, seed {made.seed}"
+        f"{name}: synthetic, self-affine, H = {s.hurst:g}, "
+        f"xi_parallel = {s.xi_parallel * 1e3:g} mm, "
+        f"xi_perpendicular = {s.xi_perpendicular * 1e3:g} mm, "
+        f"{s.length:g} m in steps of {s.step * 1e6:g} um, seed {s.seed}"
     )
     fit = {"smallest_wavelength": float(sines.wavelength[-1])}
     return PreparedSurface(sines, source, correlation, fit)

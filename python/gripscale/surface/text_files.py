@@ -17,10 +17,11 @@ from pathlib import Path
 import numpy as np
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.errors import FileError, InputError
 from gripscale.core.units import in_si, spelled
 from gripscale.io.text_table import TextTable, read_table
-from gripscale.surface.profile import FEWEST_POINTS, TURNED_ROUND, FloatArray, HeightMap, Profile
+from gripscale.surface.profile import FEWEST_POINTS, TURNED_ROUND, HeightMap, Profile
 from gripscale.surface.resampling import printed_grid
 
 # Numbers that stand for missing heights in text files, such as -9999, told from heights.
@@ -40,7 +41,7 @@ ALONE = 10.0
 """Distance of a code from all heights, in the largest difference of two of them."""
 
 
-def without_codes(heights: FloatArray) -> tuple[FloatArray, float | None]:
+def without_codes(heights: Array) -> tuple[Array, float | None]:
     """Return heights, NaN where one is a code for a missing height, and the code if there is one.
 
     Parameters
@@ -177,7 +178,7 @@ def column_unit(table: TextTable, column: int, name: str, given: str | None) -> 
     return length_unit(table.path, part, stated, name, given, how=how)
 
 
-def _check_complete(path: Path, z: FloatArray) -> None:
+def _check_complete(path: Path, z: Array) -> None:
     if z.size < FEWEST_POINTS:
         raise FileError(f"{path}: expected at least {FEWEST_POINTS} points; got {z.size}")
     if np.isnan(z).all():
@@ -185,8 +186,8 @@ def _check_complete(path: Path, z: FloatArray) -> None:
 
 
 def _on_grid(
-    table: TextTable, column: int, x: FloatArray, z: FloatArray
-) -> tuple[FloatArray, FloatArray, tuple[str, ...]]:
+    table: TextTable, column: int, x: Array, z: Array
+) -> tuple[Array, Array, tuple[str, ...]]:
     """Return distances and heights of all points of the even grid, and what was changed for it."""
     lines, notes = table.line_numbers, []
     if x[0] > x[-1]:
@@ -277,7 +278,7 @@ def _map_columns(table: TextTable) -> tuple[int, int, int] | None:
 
 def _table(
     table: TextTable, z_unit: str | None, step: tuple[float, float] | None
-) -> tuple[FloatArray, FloatArray, FloatArray]:
+) -> tuple[Array, Array, Array]:
     if step is None:
         raise FileError(
             f"{table.path}: a table of heights has no steps; give step, that along x and that "
@@ -297,7 +298,7 @@ def _table(
 
 def _points(
     table: TextTable, columns: tuple[int, int, int], x_unit: str | None, z_unit: str | None
-) -> tuple[FloatArray, FloatArray, FloatArray]:
+) -> tuple[Array, Array, Array]:
     units = [
         column_unit(table, column, name, given)
         for column, name, given in zip(
@@ -320,7 +321,7 @@ def _points(
     return x, y, z.reshape(x.size, y.size)
 
 
-def _axis(table: TextTable, column: int) -> tuple[FloatArray, np.ndarray]:
+def _axis(table: TextTable, column: int) -> tuple[Array, np.ndarray]:
     """Return all distances of the grid of a column, and which of them each row has."""
     printed = table.numbers(column, f"a distance in column {column + 1}")
     distances, which = np.unique(printed, return_inverse=True)
@@ -330,7 +331,7 @@ def _axis(table: TextTable, column: int) -> tuple[FloatArray, np.ndarray]:
             f"{distances.size} distances in column {column + 1}"
         )
     grid = printed_grid(table, column, distances)
-    return grid.points(distances), grid.place[which]
+    return grid.points(distances), grid.number[which]
 
 
 def _check_single(table: TextTable, place: np.ndarray) -> None:

@@ -250,7 +250,7 @@ class HalfPlane:
     @classmethod
     def of(cls, **options: Any) -> HalfPlane:
         """Return the solver of keyword arguments; unknown ones are refused."""
-        checks.known("option", options, cls.__dataclass_fields__)
+        checks.allowed_names("option", options, cls.__dataclass_fields__)
         return cls(**options)
 
     def solve(self, problem: WaveProblem, start: WaveResult | None = None) -> WaveResult:

@@ -28,7 +28,7 @@ class Persson(Model):
     ----------
     smallest_wavelength : float, optional
         Smallest wave that counts [m]; where the surface's sine waves end by default, see
-        `SineStack.roughness_end`.
+        `SineStack.cutoff_wavelength`.
     gamma : float
         See `persson`.
     window : float, optional
@@ -79,7 +79,7 @@ class KlueppelHeinrich(Model):
         See `klueppel_heinrich`; the depth [m] is the same at every load.
     smallest_wavelength : float, optional
         Smallest wave that counts [m]; where the surface's sine waves end by default, see
-        `SineStack.roughness_end`.
+        `SineStack.cutoff_wavelength`.
     """
 
     name: ClassVar[str] = "klueppel_heinrich"
@@ -126,7 +126,7 @@ def _answered(result: Any, on_progress: Callable[[Any], None] | None) -> xr.Data
 
 
 def _smallest(stated: float | None, surface: PreparedSurface) -> float:
-    return surface.roughness_end if stated is None else stated
+    return surface.cutoff_wavelength if stated is None else stated
 
 
 def _cleaned(surface: PreparedSurface, name: str) -> list[Profile]:

@@ -80,7 +80,7 @@ class FiniteStrainBlock:
         **mesh: Any,
     ) -> FiniteStrainBlock:
         """Return the block of the keyword arguments of `solve_scale`; others are refused."""
-        checks.known("option", mesh, Mesh.__dataclass_fields__)
+        checks.allowed_names("option", mesh, Mesh.__dataclass_fields__)
         stated = {"max_iterations": max_iterations, "residual_tolerance": residual_tolerance}
         settings = {name: value for name, value in stated.items() if value is not None}
         return cls(Mesh(**mesh), tolerance, settings, time_limit)

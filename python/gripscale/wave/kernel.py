@@ -36,7 +36,7 @@ def checked_settings(settings: Mapping[str, float]) -> Mapping[str, float]:
     The kernel refuses what is out of its range.
     """
     checks.instance("settings", settings, Mapping)  # type: ignore[type-abstract]
-    checks.known("setting", settings, default_settings())
+    checks.allowed_names("setting", settings, default_settings())
     return {name: checks.number(name, value) for name, value in settings.items()}
 
 
