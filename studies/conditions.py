@@ -100,7 +100,7 @@ def norm_rows(chain: Any) -> Iterator[str]:
             first, last = (found.scales[at].details for at in (0, -1))
             ends = [
                 f"{first[name]:.3f}, {last[name]:.3f}"
-                for name in ("strain", "storage_factor", "loss_factor_left")
+                for name in ("strain", "storage_modulus_ratio", "loss_modulus_ratio")
             ]
             yield (
                 f"| {speed:g} | {norm} | {' | '.join(ends)} | {found.contact_fraction:.4f} | "

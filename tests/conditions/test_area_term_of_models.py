@@ -70,7 +70,7 @@ def test_conditions_and_what_they_did_survive_a_file(tmp_path):
     )
     assert again.conditions == EVERYTHING
     assert again.total_friction == found.total_friction
-    for name in ("temperature", "strain", "storage_factor", "passes"):
+    for name in ("temperature", "strain", "storage_modulus_ratio", "passes"):
         for one, other in zip(again.scales, found.scales, strict=True):
             assert one.details[name] == other.details[name]
 

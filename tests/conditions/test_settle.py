@@ -132,7 +132,7 @@ def test_a_settled_direct_contact_is_its_own_rubber():
     assert strain == pytest.approx(state.strain, rel=5e-3)
     assert found.surface_warming == pytest.approx(rise.surface)
     assert state.strain[-1] > 10.0 * KRAUS.measured_at
-    assert state.storage_factor[-1] < 0.6
+    assert state.storage_modulus_ratio[-1] < 0.6
 
 
 def test_by_scale_the_unchanged_rubber_is_the_rubber():

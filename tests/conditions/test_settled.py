@@ -41,7 +41,7 @@ def tight(monkeypatch):
 
     def held(model, conditions):
         with monkeypatch.context() as patch:
-            for name in ("SETTLED", "AGREED", "ROUGH"):
+            for name in ("RESULT_TOLERANCE", "STATE_TOLERANCE", "COARSE_TOLERANCE"):
                 patch.setattr(fixed_point, name, 1e-6)
             patch.setattr(fixed_point, "MOST_PASSES", 40)
             found = model(conditions)
@@ -121,8 +121,8 @@ def test_a_slow_chain_is_warmed_by_what_lasts():
     last = found.scales[-1].details
     flux = found.friction * LOAD["pressure"] * speed
     spread = np.sqrt(footprint / speed / (np.pi * 0.25 * 1150.0 * 1500.0))
-    assert last["warming_uniform"] == pytest.approx(2.0 * flux * spread, rel=0.05)
-    assert last["warming_larger_waves"] + last["warming_own"] < 0.02
+    assert last["flash_temperature_rise_uniform"] == pytest.approx(2.0 * flux * spread, rel=0.05)
+    assert last["flash_temperature_rise_larger_waves"] + last["flash_temperature_rise_own"] < 0.02
 
 
 def half_plane_at(speed):

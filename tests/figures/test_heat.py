@@ -76,9 +76,11 @@ def test_bars_stack_to_the_temperature_of_each_wave(chain: xr.Dataset) -> None:
 
 
 def test_parts_that_cool_hang_below_zero(chain: xr.Dataset) -> None:
-    cooled = chain.assign(warming_larger_waves=-0.1 * chain.warming_uniform)
+    cooled = chain.assign(
+        flash_temperature_rise_larger_waves=-0.1 * chain.flash_temperature_rise_uniform
+    )
     bars = heat_figure(cooled).axes[0].patches[2:4]
-    for bar, wave in zip(bars, cooled.warming_larger_waves.values, strict=True):
+    for bar, wave in zip(bars, cooled.flash_temperature_rise_larger_waves.values, strict=True):
         assert (bar.get_y(), bar.get_height()) == (0.0, pytest.approx(float(wave)))
 
 
@@ -108,6 +110,6 @@ def test_map_shows_the_temperature_everywhere() -> None:
 
 def test_results_without_heat_are_refused(chain: xr.Dataset) -> None:
     with pytest.raises(InputError, match="data must be of a chain solved with heat"):
-        heat_figure(chain.drop_vars("warming_own"))
+        heat_figure(chain.drop_vars("flash_temperature_rise_own"))
     with pytest.raises(InputError, match="contact must be solved with heat and slide"):
         direct_heat_figure(contact(line(), None))

@@ -12,12 +12,17 @@ import xarray as xr
 from numpy.typing import NDArray
 
 import gripscale as gs
+from gripscale.io import netcdf
 
 from .experiments import Experiments
 
 Values = dict[str, NDArray[Any]]
 
-RENAMED: dict[str, str] = {}
+RENAMED: dict[str, str] = {
+    f"{folder}/{before}": f"{folder}/{now}"
+    for folder in ("run_conditions/dynamic", "study_effects/study", "study/study")
+    for before, now in netcdf.RENAMED.items()
+}
 """Today's name of a variable, "file/variable" or "file/group/variable", by its name in the file."""
 
 STORES = {"predictions", "effects"}

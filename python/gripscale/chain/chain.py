@@ -17,7 +17,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from gripscale import model
-from gripscale.chain.conditions import solve_coupled_chain, unsettled
+from gripscale.chain.conditions import mark_unsettled, solve_coupled_chain
 from gripscale.chain.prediction import Prediction, PressureClasses, RubberAt, usable
 from gripscale.conditions.conditions import Conditions
 from gripscale.core import checks, provenance
@@ -187,7 +187,7 @@ def predict(
         return walk(lambda wave, so_far: before, start)
     if on_scale is None:
         return solve_coupled_chain(walk, rubber, conditions)
-    passing = replace(walk, on_scale=lambda so_far: on_scale(unsettled(so_far)))
+    passing = replace(walk, on_scale=lambda so_far: on_scale(mark_unsettled(so_far)))
     settled = solve_coupled_chain(passing, rubber, conditions)
     on_scale(settled)
     return settled

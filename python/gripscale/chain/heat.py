@@ -1,15 +1,16 @@
-"""How warm the rubber is on every wave of a chain: the heat of all waves, at all their scales.
+"""Temperature of the rubber on every wave of a chain, by the friction heat of all waves.
 
 Wave j loses mu_j p_j v per area of its own, which is mu_j p_1 v of the nominal area: all waves
-together lose mu p_1 v. Seen from the nominal area this heat is uniform while the footprint passes;
-in the contact of wave l it is denser by the pattern of the pressure there, for wave l's own loss by
-the pattern of that loss. So the temperature on wave i, over that of the rubber, is
+together lose mu p_1 v. Over the nominal area this heat is uniform while the footprint passes. In
+the contact of wave l it is distributed as the pressure there, and the loss of wave l itself as that
+loss. So the temperature rise on wave i is
 
     uniform, for the time footprint/v           v p_1 sum_j mu_j
     + the harmonics of each wave l <= i         v p_l (mu_l own pattern + sum_(j > l) mu_j contact)
 
-each by `interface.temperature_rise`: for l < i averaged over the contact, by its pressure; for
-l = i over where wave i loses its energy. The road takes up no heat: an upper bound.
+each from `gripscale.conditions.flash_temperature`: for l < i averaged over the contact, weighted by
+its pressure; for l = i averaged over the loss of wave i. The road takes up no heat, so that this is
+an upper bound. The strain of a wave, for the softening, is half the rms slope in its contact.
 """
 
 from __future__ import annotations
@@ -33,8 +34,6 @@ from gripscale.conditions.flash_temperature import (
 from gripscale.core.errors import InputError
 from gripscale.rubber import Rubber
 from gripscale.wave.result import WaveResult
-
-# The heat of one wave: where along it and how deep below it the friction work is lost.
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -66,11 +65,13 @@ class WaveHeat:
     def of(cls, wave: WaveResult, rubber: Rubber) -> WaveHeat:
         """Return the heat of a solved wave of `rubber`.
 
-        The pressure along the wave decides where along it: harmonic n of it loses
-        |p_n|^2 Im M / |M|^2 at n times the frequency of the wave. How deep it tells its solver, or
+        Along the wave, harmonic n of the pressure loses |p_n|^2 Im M / |M|^2 at n times the
+        frequency of the wave. The depth of the loss comes from the solver, if it reports one; else
         each harmonic has a mean depth of 3/2 over its wavenumber.
         """
-        spectrum = np.fft.rfft(_pressure(wave)) / POINTS
+        steps = np.arange(POINTS) * wave.wavelength / POINTS
+        pressure = np.interp(steps, wave.x, wave.pressure, period=wave.wavelength)
+        spectrum = np.fft.rfft(np.asarray(pressure)) / POINTS
         number = np.arange(1, POINTS // 2)
         modulus = rubber.plane_strain_modulus(number * wave.angular_frequency)
         lost = np.zeros(spectrum.size)
@@ -78,97 +79,89 @@ class WaveHeat:
         total = lost.sum()
         wavenumber = 2.0 * math.pi / wave.wavelength
         depth: DepthsOfLoss = LossDepth.under(wavenumber)
-        if total <= 0.0:
-            pattern = np.zeros(number.size, dtype=complex)
-        else:
+        pattern = np.zeros(number.size, dtype=complex)
+        if total > 0.0:
             along = np.fft.rfft(loss_pattern(spectrum, lost))
             pattern = along[1:-1] / along[0]
             depth = LossDepth(float(lost[1:-1] @ (1.5 / number) / total / wavenumber))
         if wave.loss_by_depth is not None and wave.friction_from_dissipation > 0.0:
             depth = LossLayers.of(*wave.loss_by_depth)
         return cls(
-            wave.wavelength,
-            wave.pressure_received,
-            max(wave.friction, 0.0),
-            spectrum[1:-1] / spectrum[0],
-            pattern,
-            depth,
+            wavelength=wave.wavelength,
+            pressure=wave.pressure_received,
+            friction=max(wave.friction, 0.0),
+            contact=spectrum[1:-1] / spectrum[0],
+            lost=pattern,
+            depth=depth,
         )
-
-
-def _pressure(wave: WaveResult) -> Array:
-    """Return the pressure at equal steps along the wave [Pa]."""
-    steps = np.arange(POINTS) * wave.wavelength / POINTS
-    return np.asarray(np.interp(steps, wave.x, wave.pressure, period=wave.wavelength))
 
 
 @dataclass(frozen=True)
 class Warming:
-    """Temperatures over that of the rubber before the contact [K]."""
+    """Temperature rises over the temperature of the rubber before the contact [K]."""
 
     uniform: float
-    """Of the heat of all waves, spread over the nominal area, where this wave loses its own."""
+    """By the heat of all waves, spread over the nominal area, where this wave loses its energy."""
     larger_waves: float
-    """Of the patterns of the larger waves, in their contact."""
-    own: float
-    """Of this wave's own pattern, where it loses energy."""
+    """By the patterns of the larger waves, in their contact."""
+    own_pattern: float
+    """By the pattern of this wave, where it loses its energy."""
     contact: float
-    """In the real contact of this wave, at the surface, from everything."""
+    """By everything, at the surface in the real contact of this wave."""
 
     @property
     def total(self) -> float:
         """Where this wave loses its energy [K]."""
-        return self.uniform + self.larger_waves + self.own
+        return self.uniform + self.larger_waves + self.own_pattern
 
 
 def warming(
     waves: Sequence[WaveHeat], *, speed: float, time: float, thermal: ThermalProperties
 ) -> list[Warming]:
-    """Return how much warmer the rubber is on each wave.
+    """Return the temperature rise of the rubber on each wave.
 
     Parameters
     ----------
     waves : sequence of WaveHeat
         Of the chain, largest first.
     speed : float
-        Of sliding [m/s].
+        Sliding speed [m/s].
     time : float
-        For which the nominal contact lasts [s].
+        Duration of the nominal contact [s].
     thermal : ThermalProperties
-        Of the rubber.
+        Thermal properties of the rubber.
     """
     if speed == 0.0 or not waves:
         return [Warming(0.0, 0.0, 0.0, 0.0) for _ in waves]
     nominal = speed * waves[0].pressure
     deep = [rise.uniform_where_lost(time, wave.depth, thermal) for wave in waves]
     top = [rise.uniform_at_surface(time, wave.depth, thermal) for wave in waves]
-    out, above = [], 0.0
+    heats = [nominal * wave.friction for wave in waves]
+    out, larger_waves = [], 0.0
     for i, wave in enumerate(waves):
-        heats = [nominal * other.friction for other in waves]
         others = sum(h * t for j, (h, t) in enumerate(zip(heats, top, strict=True)) if j != i)
-        uniform = others + heats[i] * deep[i]
-        own, contact = _patterns(wave, waves[i + 1 :], speed, thermal)
-        surface = others + heats[i] * top[i]
-        out.append(Warming(uniform, above, own, surface + above + contact))
-        above += contact
+        own_pattern, contact = _rise_by_patterns(wave, waves[i + 1 :], speed, thermal)
+        surface = others + heats[i] * top[i] + larger_waves + contact
+        out.append(Warming(others + heats[i] * deep[i], larger_waves, own_pattern, surface))
+        larger_waves += contact
     return out
 
 
-def _patterns(
+def _rise_by_patterns(
     wave: WaveHeat, smaller: Sequence[WaveHeat], speed: float, thermal: ThermalProperties
 ) -> tuple[float, float]:
     """Return the rise by the wave's harmonics where it loses energy, and in its contact [K]."""
     k, heat = wave.wavenumbers, speed * wave.pressure
     m = rise.harmonic_decay(k, k, speed, thermal)
-    own = heat * wave.friction * wave.lost
-    passed_on = np.zeros_like(m)
+    loss = heat * wave.friction * wave.lost
+    by_smaller = np.zeros_like(m)
     for other in smaller:
-        reached = rise.harmonic_at_surface(m, other.depth, thermal)
-        passed_on += heat * other.friction * wave.contact * reached
-    at_surface = own * rise.harmonic_at_surface(m, wave.depth, thermal) + passed_on
-    where_lost = own * rise.harmonic_where_lost(m, wave.depth, thermal)
-    where_lost += wave.depth.decay(m) * passed_on
-    return _mean(where_lost, wave.lost), _mean(at_surface, wave.contact)
+        at_surface = rise.harmonic_at_surface(m, other.depth, thermal)
+        by_smaller += heat * other.friction * wave.contact * at_surface
+    contact = loss * rise.harmonic_at_surface(m, wave.depth, thermal) + by_smaller
+    where_lost = loss * rise.harmonic_where_lost(m, wave.depth, thermal)
+    where_lost += wave.depth.decay(m) * by_smaller
+    return _mean(where_lost, wave.lost), _mean(contact, wave.contact)
 
 
 def _mean(temperature: np.ndarray, weight: np.ndarray) -> float:
@@ -176,18 +169,22 @@ def _mean(temperature: np.ndarray, weight: np.ndarray) -> float:
     return float(2.0 * (temperature * weight.conj()).real.sum())
 
 
-# How strongly a wave strains the rubber it touches.
-
-
 def strains(waves: Sequence[WaveResult], norm: StrainNorm) -> list[float]:
     """Return the strain amplitude [-] on each wave, largest wave first.
 
-    Raises `InputError` for the stretches of a solver that gives none.
+    Raises `InputError` for the norm "stretch" if the solver has no stretches.
     """
-    if norm == "stretch":
-        return [_largest_strain(wave) for wave in waves]
-    squares = np.cumsum([(0.5 * contact_slope(wave)) ** 2 for wave in waves])
-    return [float(e) for e in np.sqrt(squares)]
+    if norm == "slope":
+        squares = np.cumsum([(0.5 * contact_slope(wave)) ** 2 for wave in waves])
+        return [float(e) for e in np.sqrt(squares)]
+    out = [max(wave.max_stretch - 1.0, 1.0 - wave.min_stretch) for wave in waves]
+    for wave, strain in zip(waves, out, strict=True):
+        if not math.isfinite(strain):
+            raise InputError(
+                f'strain_norm must be "slope" for a solver without stretches; got "stretch" '
+                f"with {wave.model}"
+            )
+    return out
 
 
 def contact_slope(wave: WaveResult) -> float:
@@ -197,13 +194,3 @@ def contact_slope(wave: WaveResult) -> float:
     start, end = k * edges[:, 0], k * edges[:, 1]
     square = 0.5 - (np.sin(2.0 * end) - np.sin(2.0 * start)).sum() / (4.0 * (end - start).sum())
     return float(k * wave.amplitude * math.sqrt(max(square, 0.0)))
-
-
-def _largest_strain(wave: WaveResult) -> float:
-    strain = max(wave.max_stretch - 1.0, 1.0 - wave.min_stretch)
-    if not math.isfinite(strain):
-        raise InputError(
-            f'strain_norm must be "slope" for a solver without stretches; got "stretch" '
-            f"with {wave.model}"
-        )
-    return strain

@@ -8,14 +8,15 @@ Its parameters are fits to measured friction of one rubber on one surface; there
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import fields
 from typing import Any, ClassVar, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gripscale.core import checks
+from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 
 Array = NDArray[np.float64]
@@ -39,8 +40,7 @@ class InterfacialShearStress(Protocol):
         """
 
 
-@dataclass(frozen=True)
-class ConstantStress:
+class ConstantStress(Checked):
     """The same shear stress at every speed and temperature.
 
     Parameters
@@ -51,18 +51,14 @@ class ConstantStress:
 
     kind: ClassVar[str] = "constant"
 
-    stress_0: float
-
-    def __post_init__(self) -> None:
-        _checked(self, stress_0="Pa")
+    stress_0: float = checked(checks.not_negative, unit="Pa")
 
     def stress(self, speed: ArrayLike, temperature: ArrayLike | None = None) -> Array:
         """Return tau_f [Pa] at speeds [m/s], same shape."""
         return np.full(_speeds(speed).shape, self.stress_0)
 
 
-@dataclass(frozen=True)
-class GaussianStress:
+class GaussianStress(Checked):
     """A bell in the logarithm of the speed, which shifts with the temperature.
 
         tau_f = tau_0 exp(-c log10(v a_T / v_0)^2),   a_T = exp(eps/k_B (1/T - 1/T_0))
@@ -86,20 +82,15 @@ class GaussianStress:
 
     kind: ClassVar[str] = "gaussian"
 
-    stress_0: float
-    width: float
-    speed_0: float
-    activation_energy: float = 0.0
-    reference_temperature: float | None = None
+    stress_0: float = checked(checks.not_negative, unit="Pa")
+    width: float = checked(checks.positive)
+    speed_0: float = checked(checks.positive, unit="m/s")
+    activation_energy: float = checked(checks.not_negative, unit="eV", default=0.0)
+    reference_temperature: float | None = checked(checks.positive, unit="K", default=None)
 
     def __post_init__(self) -> None:
-        _checked(self, stress_0="Pa", activation_energy="eV")
-        for name, unit in (("width", ""), ("speed_0", "m/s")):
-            object.__setattr__(self, name, checks.positive(name, getattr(self, name), unit=unit))
-        if self.reference_temperature is not None:
-            kelvin = checks.positive("reference_temperature", self.reference_temperature, unit="K")
-            object.__setattr__(self, "reference_temperature", kelvin)
-        elif self.activation_energy > 0.0:
+        super().__post_init__()
+        if self.reference_temperature is None and self.activation_energy > 0.0:
             raise InputError(
                 "reference_temperature must be given with an activation_energy; got none"
             )
@@ -108,11 +99,11 @@ class GaussianStress:
         """Return tau_f [Pa] at speeds [m/s] and temperatures [K], broadcast together."""
         with np.errstate(divide="ignore"):
             decades = np.log10(_speeds(speed) / self.speed_0)
-        away = decades + self._log_shift(temperature)
-        return np.asarray(self.stress_0 * np.exp(-self.width * away**2))
+        shifted = decades + self._log_shift(temperature)
+        return np.asarray(self.stress_0 * np.exp(-self.width * shifted**2))
 
     def _log_shift(self, temperature: ArrayLike | None) -> Array:
-        """Return log10 a_T [-], zero where the temperature does not matter."""
+        """Return log10 a_T [-]; zero without an activation energy."""
         if self.reference_temperature is None or self.activation_energy == 0.0:
             return np.zeros(())
         if temperature is None:
@@ -120,13 +111,12 @@ class GaussianStress:
         kelvin = checks.real("temperature", temperature, unit="K")
         if (kelvin < checks.LEAST).any():
             raise InputError(f"temperature must be greater than zero [K]; got {kelvin.min():g}")
-        apart = 1.0 / kelvin - 1.0 / self.reference_temperature
-        return np.asarray(self.activation_energy / BOLTZMANN * apart / math.log(10.0))
+        difference = 1.0 / kelvin - 1.0 / self.reference_temperature
+        return np.asarray(self.activation_energy / BOLTZMANN * difference / math.log(10.0))
 
 
-@dataclass(frozen=True)
-class LeGalKlueppelStress:
-    """A stress that rises from one plateau to another as the interface turns glassy.
+class LeGalKlueppelStress(Checked):
+    """A stress that rises from the rubbery to the glassy plateau of the interface.
 
         tau_f = tau_0 (1 + (E_glass/E_inf) / (1 + (v_c/v)^n))
 
@@ -138,7 +128,7 @@ class LeGalKlueppelStress:
     stress_0 : float
         tau_0, at slow sliding [Pa], not negative.
     ratio : float
-        What the stress gains at high speed, over tau_0: the ratio of glassy to relaxed modulus [-].
+        E_glass/E_inf, the increase of the stress at high speed over tau_0 [-].
     critical_speed : float
         v_c [m/s], above zero.
     exponent : float
@@ -147,26 +137,25 @@ class LeGalKlueppelStress:
 
     kind: ClassVar[str] = "le_gal_klueppel"
 
-    stress_0: float
-    ratio: float
-    critical_speed: float
-    exponent: float
-
-    def __post_init__(self) -> None:
-        _checked(self, stress_0="Pa", ratio="")
-        for name, unit in (("critical_speed", "m/s"), ("exponent", "")):
-            object.__setattr__(self, name, checks.positive(name, getattr(self, name), unit=unit))
+    stress_0: float = checked(checks.not_negative, unit="Pa")
+    ratio: float = checked(checks.not_negative)
+    critical_speed: float = checked(checks.positive, unit="m/s")
+    exponent: float = checked(checks.positive)
 
     def stress(self, speed: ArrayLike, temperature: ArrayLike | None = None) -> Array:
         """Return tau_f [Pa] at speeds [m/s], same shape."""
         with np.errstate(divide="ignore", over="ignore"):
-            slower = (self.critical_speed / _speeds(speed)) ** self.exponent
-        return np.asarray(self.stress_0 * (1.0 + self.ratio / (1.0 + slower)))
+            slowness = (self.critical_speed / _speeds(speed)) ** self.exponent
+        return np.asarray(self.stress_0 * (1.0 + self.ratio / (1.0 + slowness)))
 
 
-@dataclass(frozen=True)
-class TableStress:
-    """A shear stress measured at some speeds, interpolated in log speed, held beyond its ends.
+def _numbers(name: str, value: Any, *, rule: Callable[..., Array], unit: str) -> tuple[float, ...]:
+    """Return checked numbers as a tuple, which can be compared and stored."""
+    return tuple(rule(name, value, unit=unit).tolist())
+
+
+class TableStress(Checked):
+    """A measured shear stress, interpolated in log speed; constant beyond the measured speeds.
 
     Parameters
     ----------
@@ -178,21 +167,19 @@ class TableStress:
 
     kind: ClassVar[str] = "table"
 
-    speed: Sequence[float]
-    stress_at: Sequence[float]
+    speed: Sequence[float] = checked(_numbers, rule=checks.positive_vector, unit="m/s")
+    stress_at: Sequence[float] = checked(_numbers, rule=checks.vector, unit="Pa")
 
     def __post_init__(self) -> None:
-        speeds = checks.positive_vector("speed", self.speed, unit="m/s")
-        stresses = checks.vector("stress_at", self.stress_at, unit="Pa")
-        if speeds.size < 2 or speeds.size != stresses.size or not (np.diff(speeds) > 0.0).all():
+        super().__post_init__()
+        speed, stress = np.array(self.speed), np.array(self.stress_at)
+        if speed.size < 2 or speed.size != stress.size or not (np.diff(speed) > 0.0).all():
             raise InputError(
                 "speed must rise over at least 2 values, with one stress_at each; "
-                f"got {speeds.size} and {stresses.size}"
+                f"got {speed.size} and {stress.size}"
             )
-        if (stresses < 0.0).any():
-            raise InputError(f"stress_at must not be negative [Pa]; got {stresses.min():g}")
-        object.__setattr__(self, "speed", tuple(speeds.tolist()))
-        object.__setattr__(self, "stress_at", tuple(stresses.tolist()))
+        if (stress < 0.0).any():
+            raise InputError(f"stress_at must not be negative [Pa]; got {stress.min():g}")
 
     def stress(self, speed: ArrayLike, temperature: ArrayLike | None = None) -> Array:
         """Return tau_f [Pa] at speeds [m/s], same shape."""
@@ -212,9 +199,9 @@ def shear_stress_from_dict(values: Mapping[str, Any]) -> InterfacialShearStress:
 
     Raises `InputError` if the kind is unknown, a parameter is missing, unknown or cannot be used.
     """
-    given = dict(values)
-    kind = checks.one_of("kind", given.pop("kind", None), SHEAR_STRESSES)
-    law: InterfacialShearStress = checks.from_mapping(SHEAR_STRESSES[kind], kind, given)
+    parameters = dict(values)
+    kind = checks.one_of("kind", parameters.pop("kind", None), SHEAR_STRESSES)
+    law: InterfacialShearStress = checks.from_mapping(SHEAR_STRESSES[kind], kind, parameters)
     return law
 
 
@@ -226,7 +213,7 @@ def shear_stress_to_dict(law: InterfacialShearStress) -> dict[str, Any]:
 def adhesive_friction(shear_stress: float, contact_fraction: float, pressure: float) -> float:
     """Return mu_adh [-] of a shear stress [Pa], A_r/A_0 [-] and the nominal pressure [Pa].
 
-    NaN where the contact is NaN, that of a wave that did not converge.
+    NaN if the contact fraction is NaN, that of a wave that did not converge.
     Raises `InputError` if a value cannot be used.
     """
     if isinstance(contact_fraction, float) and math.isnan(contact_fraction):
@@ -237,14 +224,8 @@ def adhesive_friction(shear_stress: float, contact_fraction: float, pressure: fl
 
 
 def _speeds(speed: ArrayLike) -> Array:
-    """Return speeds [m/s]; raise `InputError` if one is no number from zero."""
-    found = checks.real("speed", speed, unit="m/s")
-    if (found < 0.0).any():
-        raise InputError(f"speed must not be negative [m/s]; got {found.min():g}")
-    return found
-
-
-def _checked(law: Any, **units: str) -> None:
-    for name, unit in units.items():
-        value = checks.not_negative(name, getattr(law, name), unit=unit)
-        object.__setattr__(law, name, value)
+    """Return speeds [m/s]; raise `InputError` if one is negative or not a number."""
+    speeds = checks.real("speed", speed, unit="m/s")
+    if (speeds < 0.0).any():
+        raise InputError(f"speed must not be negative [m/s]; got {speeds.min():g}")
+    return speeds

@@ -1,4 +1,13 @@
-"""What changes the rubber on the way: its temperature, softening by strain, and its own heat."""
+"""Conditions that change the rubber: temperature, softening by strain, friction heat.
+
+A wave of the chain has one temperature and one strain. In the direct contact a harmonic of
+wavenumber q meets the rubber at the temperature and the strain of its scale,
+
+    E*(w, q) = (f E'(a_T w) + i g E''(a_T w)) / b_T,     a_T, b_T, f and g functions of |q|
+
+with the modulus ratios f and g exact: no relaxation times have to be fitted. Between the scales
+where they are known the logarithms of the factors are linear in log |q|.
+"""
 
 from __future__ import annotations
 
@@ -18,22 +27,30 @@ from gripscale.conditions.area_term import (
 )
 from gripscale.conditions.flash_temperature import ThermalProperties
 from gripscale.core import checks
+from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.rubber import Rubber
 from gripscale.rubber.softening import SofteningLaw, softened, softening_from_dict
 
 Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
 
 StrainNorm = Literal["slope", "stretch"]
 STRAIN_NORMS = ("slope", "stretch")
 
 HARMONICS = np.geomspace(1.0, 16.0, 12)
-"""Multiples of a wave's frequency at which the softened moduli are asked for."""
+"""Frequencies, over that of a wave, at which a Prony series is fitted to the softened moduli."""
+ROWS_AT_ONCE = 50_000
 
 
-@dataclass(frozen=True)
-class Conditions:
-    """Effects beside the rubber as measured, each off unless asked for.
+def _effect(name: str, value: Any, *, kind: type, expected: str) -> Any:
+    if value is not None and not isinstance(value, kind):
+        raise InputError(f"{name} must be {expected}; got {checks.short_repr(value)}")
+    return value
+
+
+class Conditions(Checked):
+    """Effects on the rubber as measured, and the area term; each is off by default.
 
     Parameters
     ----------
@@ -42,13 +59,13 @@ class Conditions:
     softening : SofteningLaw, optional
         How E' and E'' fall with the strain.
     strain_norm : "slope" or "stretch"
-        The strain of a wave: half the rms slope in its contact, the larger waves' included (the
-        convention of B. N. J. Persson's theory, and the one the direct contact has), or the
-        largest principal stretch less one anywhere in the block of this wave alone.
+        The strain of a wave. "slope": half the rms slope in its contact, including the slopes of
+        the larger waves (the convention of B. N. J. Persson's theory, and that of the direct
+        contact). "stretch": the largest principal stretch minus one in the block of this wave.
     heat : ThermalProperties, optional
-        Warm the rubber by its own friction.
+        Warm the rubber by its friction.
     shear_stress : InterfacialShearStress, optional
-        The area term's.
+        Interfacial shear stress of the area term.
 
     Raises
     ------
@@ -56,26 +73,20 @@ class Conditions:
         If a value cannot be used.
     """
 
-    temperature: float | None = None
-    softening: SofteningLaw | None = None
-    strain_norm: StrainNorm = "slope"
-    heat: ThermalProperties | None = None
-    shear_stress: InterfacialShearStress | None = None
-
-    def __post_init__(self) -> None:
-        if self.temperature is not None:
-            kelvin = checks.positive("temperature", self.temperature, unit="K")
-            object.__setattr__(self, "temperature", kelvin)
-        checks.one_of("strain_norm", self.strain_norm, STRAIN_NORMS)
-        kinds = (
-            ("softening", SofteningLaw, "a law of gripscale.rubber.softening"),
-            ("heat", ThermalProperties, "ThermalProperties"),
-            ("shear_stress", InterfacialShearStress, "a law of gripscale.conditions"),
-        )
-        for name, kind, expected in kinds:
-            value = getattr(self, name)
-            if value is not None and not isinstance(value, kind):
-                raise InputError(f"{name} must be {expected}; got {checks.short_repr(value)}")
+    temperature: float | None = checked(checks.positive, unit="K", default=None)
+    softening: SofteningLaw | None = checked(
+        _effect, kind=SofteningLaw, expected="a law of gripscale.rubber.softening", default=None
+    )
+    strain_norm: StrainNorm = checked(checks.one_of, choices=STRAIN_NORMS, default="slope")
+    heat: ThermalProperties | None = checked(
+        _effect, kind=ThermalProperties, expected="ThermalProperties", default=None
+    )
+    shear_stress: InterfacialShearStress | None = checked(
+        _effect,
+        kind=InterfacialShearStress,
+        expected="a law of gripscale.conditions",
+        default=None,
+    )
 
     def to_dict(self) -> dict[str, Any]:
         """Return every effect as plain values, None where it is off."""
@@ -91,25 +102,25 @@ class Conditions:
 
     @classmethod
     def from_dict(cls, values: Mapping[str, Any]) -> Conditions:
-        """Return the conditions of `to_dict`; raise `InputError` if a value is another."""
-        given = dict(values)
-        made = {
+        """Return the conditions of `to_dict`; raise `InputError` if a value cannot be used."""
+        effects = dict(values)
+        laws = {
             "softening": softening_from_dict,
             "heat": lambda heat: checks.from_mapping(ThermalProperties, "heat", heat),
             "shear_stress": shear_stress_from_dict,
         }
-        for name, make in made.items():
-            if given.get(name) is not None:
-                given[name] = make(given[name])
-        return checks.from_mapping(cls, "conditions", given)
+        for name, law in laws.items():
+            if effects.get(name) is not None:
+                effects[name] = law(effects[name])
+        return checks.from_mapping(cls, "conditions", effects)
 
     def adhesive_friction(
         self, contact_fraction: float, pressure: float, speed: float, temperature: float | None
     ) -> float:
-        """Return the area term's friction [-], NaN where none was asked for or nothing slides.
+        """Return the friction of the area term [-]; NaN without an area term, and at rest.
 
-        Of A_r/A_0 [-], the nominal pressure [Pa], the speed [m/s] and the temperature in the
-        contact [K], None for that before it.
+        Arguments: A_r/A_0 [-], nominal pressure [Pa], sliding speed [m/s], and the temperature in
+        the contact [K], None for the temperature before the contact.
         """
         if self.shear_stress is None or speed == 0.0:
             return math.nan
@@ -119,17 +130,17 @@ class Conditions:
 
     @property
     def iterated(self) -> bool:
-        """Whether the rubber depends on what is solved."""
+        """Whether the rubber depends on the solution, which then is a fixed point."""
         return self.softening is not None or self.heat is not None
 
     def temperature_of(self, rubber: Rubber) -> float | None:
-        """Return the temperature before the contact [K], None if nobody knows it."""
+        """Return the temperature before the contact [K], None if it is not known."""
         return rubber.reference_temperature if self.temperature is None else self.temperature
 
     def before(self, rubber: Rubber) -> Rubber:
         """Return `rubber` at the temperature before the contact.
 
-        Raises `InputError` if there is a temperature, or heat, and the rubber has no shift.
+        Raises `InputError` for a temperature or heat if the rubber has no temperature shift.
         """
         if self.heat is not None and (rubber.shift is None or self.temperature_of(rubber) is None):
             raise InputError(
@@ -139,7 +150,7 @@ class Conditions:
         return rubber if self.temperature is None else rubber.at(self.temperature)
 
     def within_shift(self, rubber: Rubber, kelvin: ArrayLike) -> Array:
-        """Return temperatures [K], those beyond what the shift of `rubber` has values for held."""
+        """Return temperatures [K], clipped to the limits of the temperature shift of `rubber`."""
         if rubber.shift is None:
             return np.asarray(kelvin, dtype=float)
         return np.clip(kelvin, *rubber.shift.limits)
@@ -147,25 +158,25 @@ class Conditions:
 
 @dataclass(frozen=True)
 class RubberState:
-    """What the rubber has become at one place."""
+    """The rubber at one strain and temperature."""
 
     rubber: Rubber
-    storage_factor: float
-    """f, what is left of E' by strain [-]."""
-    loss_factor: float
-    """g, what is left of E'' by strain [-]."""
+    storage_modulus_ratio: float
+    """f, softened over measured E' [-]."""
+    loss_modulus_ratio: float
+    """g, softened over measured E'' [-]."""
     series_misfit: float
-    """Of the softened series at the frequency of the wave [-]."""
-    beyond_sweep: bool
-    """Whether the strain lies beyond what the softening was measured for."""
-    beyond_shift: bool
-    """Whether the temperature lies beyond those the shift rests on."""
+    """Misfit of the softened Prony series at the frequency of the wave [-]."""
+    strain_extrapolated: bool
+    """Whether the strain lies outside the measured range of the softening."""
+    temperature_extrapolated: bool
+    """Whether the temperature lies outside the measured range of the shift."""
 
 
 def rubber_under(
     conditions: Conditions, rubber: Rubber, *, warming: float, strain: float, omega: float
 ) -> RubberState:
-    """Return the rubber at one place of a contact.
+    """Return the rubber at one temperature and strain.
 
     Parameters
     ----------
@@ -174,37 +185,24 @@ def rubber_under(
     rubber : Rubber
         As measured.
     warming : float
-        Above the temperature before the contact [K].
+        Temperature rise over that before the contact [K].
     strain : float
         Uniaxial amplitude [-].
     omega : float
-        Lowest angular frequency there [rad/s]; zero at rest.
+        Lowest angular frequency of the excitation [rad/s]; zero at rest.
     """
-    own, kelvin = conditions.before(rubber), conditions.temperature_of(rubber)
+    solid, kelvin = conditions.before(rubber), conditions.temperature_of(rubber)
     if conditions.heat is not None and kelvin is not None:
-        kelvin = float(conditions.within_shift(own, kelvin + warming))
-        own = own.at(kelvin)
-    beyond = own.shift_extrapolated
-    if conditions.softening is None:
-        return RubberState(own, 1.0, 1.0, 0.0, beyond_sweep=False, beyond_shift=beyond)
-    left = conditions.softening.factors(strain, kelvin)
-    f, g = float(left.storage), float(left.loss)
-    series = softened(own, f, g, omega * HARMONICS if omega > 0.0 else ())
-    return RubberState(series.rubber, f, g, series.misfit, bool(left.outside), beyond)
-
-
-# A rubber that is another one at every scale: what the direct contact is solved with.
-#
-# A harmonic of wavenumber q meets the rubber at the temperature and the strain of its own scale,
-#
-#     E*(w, q) = (f E'(a_T w) + i g E''(a_T w)) / b_T,     a_T, b_T, f and g of |q|
-#
-# with f and g exact here: no series has to carry them. Between the scales at which they are known
-# the logarithms of the factors are linear in log |q|.
-
-ComplexArray = NDArray[np.complex128]
-
-ROWS_AT_ONCE = 50_000
+        kelvin = float(conditions.within_shift(solid, kelvin + warming))
+        solid = solid.at(kelvin)
+    f, g, misfit, outside = 1.0, 1.0, 0.0, False
+    warm_outside = solid.shift_extrapolated
+    if conditions.softening is not None:
+        ratios = conditions.softening.factors(strain, kelvin)
+        f, g, outside = float(ratios.storage), float(ratios.loss), bool(ratios.outside)
+        series = softened(solid, f, g, omega * HARMONICS if omega > 0.0 else ())
+        solid, misfit = series.rubber, series.misfit
+    return RubberState(solid, f, g, misfit, outside, warm_outside)
 
 
 @dataclass(frozen=True)
@@ -245,8 +243,9 @@ class RubberByScale:
         )
         shape = frequency.shape
         frequency, number = frequency.reshape(-1), number.reshape(-1)
+        # in blocks, because the factors of all relaxation times are in memory at once
         parts = [
-            self._part(frequency[at : at + ROWS_AT_ONCE], number[at : at + ROWS_AT_ONCE])
+            self._modulus(frequency[at : at + ROWS_AT_ONCE], number[at : at + ROWS_AT_ONCE])
             for at in range(0, frequency.size, ROWS_AT_ONCE)
         ]
         shear = np.concatenate(parts).reshape(shape) / 3.0
@@ -254,44 +253,41 @@ class RubberByScale:
         return np.asarray(4.0 * shear * (bulk + shear) / (bulk + 4.0 * shear))
 
     def shift(self, wavenumber: Array) -> Array:
-        """Return a_T [-] at |q| [rad/m], that of the longest scale for the mean."""
-        return self.factors.at("shift", self._own(wavenumber))
+        """Return a_T [-] at |q| [rad/m]; the mean, |q| = 0, has that of the longest scale."""
+        return self.factors.at("shift", self._without_mean(wavenumber))
 
-    def _own(self, wavenumber: Array) -> Array:
+    def _without_mean(self, wavenumber: Array) -> Array:
         return np.where(wavenumber > 0.0, wavenumber, self.factors.wavenumber[0])
 
-    def _part(self, omega: Array, wavenumber: Array) -> ComplexArray:
-        own = self._own(wavenumber)
-        at = {
-            name: self.factors.at(name, own) for name in ("shift", "stiffening", "storage", "loss")
-        }
-        modulus = self.rubber.complex_modulus(omega * at["shift"]) * at["stiffening"]
-        return np.asarray(at["storage"] * modulus.real + 1j * at["loss"] * modulus.imag)
-
-
-# Temperature and strain at every scale of a direct contact, and the rubber they make.
+    def _modulus(self, omega: Array, wavenumber: Array) -> ComplexArray:
+        number = self._without_mean(wavenumber)
+        shift, stiffening, storage, loss = (
+            self.factors.at(name, number) for name in ("shift", "stiffening", "storage", "loss")
+        )
+        modulus = self.rubber.complex_modulus(omega * shift) * stiffening
+        return np.asarray(storage * modulus.real + 1j * loss * modulus.imag)
 
 
 @dataclass(frozen=True)
 class StateByScale:
-    """What the rubber has become at some wavenumbers, arrays of shape (scales,)."""
+    """Temperature, strain and rubber at some wavenumbers, arrays of shape (scales,)."""
 
     wavenumber: Array
     """Rising [rad/m]."""
     warming: Array
-    """Above the temperature before the contact [K]."""
+    """Temperature rise over that before the contact [K]."""
     strain: Array
     """Uniaxial amplitude of the waves up to the wavenumber [-]."""
-    storage_factor: Array
-    """f, what is left of E' by strain [-]."""
-    loss_factor: Array
-    """g, what is left of E'' by strain [-]."""
-    beyond_sweep: NDArray[np.bool_]
-    """Where the strain lies beyond what the softening was measured for."""
-    beyond_shift: NDArray[np.bool_]
-    """Where the temperature lies beyond those the shift rests on."""
+    storage_modulus_ratio: Array
+    """f, softened over measured E' [-]."""
+    loss_modulus_ratio: Array
+    """g, softened over measured E'' [-]."""
+    strain_extrapolated: NDArray[np.bool_]
+    """Where the strain lies outside the measured range of the softening."""
+    temperature_extrapolated: NDArray[np.bool_]
+    """Where the temperature lies outside the measured range of the shift."""
     rubber: RubberByScale
-    """The rubber that is solved with."""
+    """The rubber of all scales."""
 
 
 def state_by_scale(
@@ -308,32 +304,31 @@ def state_by_scale(
     wavenumber : array, shape (scales,)
         Rising [rad/m].
     warming, strain : array, shape (scales,)
-        Above the temperature before the contact [K], and uniaxial amplitude [-].
+        Temperature rise over that before the contact [K], and uniaxial amplitude [-].
     """
     before, kelvin = conditions.before(rubber), conditions.temperature_of(rubber)
-    one = np.ones(wavenumber.size)
-    shift, stiffening = one, one
-    storage, loss = one, one
-    beyond = warm_beyond = np.zeros(wavenumber.size, dtype=bool)
+    shift = stiffening = storage = loss = np.ones(wavenumber.size)
+    outside = warm_outside = np.zeros(wavenumber.size, dtype=bool)
     if conditions.heat is not None and kelvin is not None and before.shift is not None:
         warm = conditions.within_shift(before, kelvin + warming)
         shift = before.shift.a(warm, kelvin)
         stiffening = 1.0 / before.shift.b(warm, kelvin)
-        warm_beyond = np.array([not before.shift.within(t) for t in kelvin + warming])
+        warm_outside = np.array([not before.shift.within(t) for t in kelvin + warming])
     if conditions.softening is not None:
         at = [kelvin] * wavenumber.size if kelvin is None else list(kelvin + warming)
-        left = [conditions.softening.factors(float(e), t) for e, t in zip(strain, at, strict=True)]
-        storage = np.array([float(one.storage) for one in left])
-        loss = np.array([float(one.loss) for one in left])
-        beyond = np.array([bool(one.outside) for one in left])
-    factors = ScaleFactors(wavenumber, shift, stiffening, storage, loss)
+        ratios = [
+            conditions.softening.factors(float(e), t) for e, t in zip(strain, at, strict=True)
+        ]
+        storage = np.array([float(ratio.storage) for ratio in ratios])
+        loss = np.array([float(ratio.loss) for ratio in ratios])
+        outside = np.array([bool(ratio.outside) for ratio in ratios])
     return StateByScale(
-        wavenumber,
-        warming,
-        strain,
-        storage,
-        loss,
-        beyond,
-        warm_beyond,
-        RubberByScale(before, factors),
+        wavenumber=wavenumber,
+        warming=warming,
+        strain=strain,
+        storage_modulus_ratio=storage,
+        loss_modulus_ratio=loss,
+        strain_extrapolated=outside,
+        temperature_extrapolated=warm_outside,
+        rubber=RubberByScale(before, ScaleFactors(wavenumber, shift, stiffening, storage, loss)),
     )

@@ -1,14 +1,22 @@
-"""Passes until a solution finds what it was solved with, most of them on a coarse mesh.
+"""Fixed-point iteration of a contact and the rubber it deforms, accelerated by a coarse mesh.
 
-With F(x) what the solution for x finds on the mesh asked for, f(x) what it finds on a coarse one,
-the next x after F(x_k) solves
+Temperatures and strains x decide what the rubber is; the contact with that rubber has the
+temperatures and strains F(x), and the coupled solution is x = F(x). With f(x) the same function on
+a coarse mesh, the argument after F(x_k) solves
 
     x = f(x) + F(x_k) - f(x_k)
 
-(defect correction: H. J. Stetter, Numer. Math. 29 (1978) 425, doi:10.1007/BF01432879), the last
-term changing as it did between the last two x_k (C. G. Broyden, Math. Comp. 19 (1965) 577,
-doi:10.1090/S0025-5718-1965-0198670-6). What the coarse mesh's results change on the way there is
-how far those of F(x_k) still are from the end.
+(defect correction: H. J. Stetter, Numer. Math. 29 (1978) 425, doi:10.1007/BF01432879). The last
+term changes along x as it did between the last two x_k (C. G. Broyden, Math. Comp. 19 (1965) 577,
+doi:10.1090/S0025-5718-1965-0198670-6). On one mesh the next argument follows from the last few by
+Anderson's acceleration,
+
+    x_next = f_k - sum_j gamma_j (f_j+1 - f_j)
+
+with r = f - x and gamma minimising |r_k - sum_j gamma_j (r_j+1 - r_j)| (D. G. Anderson, J. ACM 12
+(1965) 547, doi:10.1145/321296.321305; in this form H. F. Walker & P. Ni, SIAM J. Numer. Anal. 49
+(2011) 1715, doi:10.1137/10078356X). The iteration ends when the step to the next x would change the
+results of the coarse mesh by less than `RESULT_TOLERANCE`.
 """
 
 from __future__ import annotations
@@ -22,245 +30,221 @@ from numpy.typing import NDArray
 
 from gripscale.core.errors import ConvergenceError
 
-# Anderson's acceleration of a fixed point x = f(x): the next x from the last few.
-#
-#     x_next = f_k - sum_j gamma_j (f_j+1 - f_j)
-#
-# with r = f - x and gamma minimising |r_k - sum_j gamma_j (r_j+1 - r_j)|. Source: D. G. Anderson,
-# J. ACM 12 (1965) 547, doi:10.1145/321296.321305; as here in H. F. Walker & P. Ni, SIAM J. Numer.
-# Anal. 49 (2011) 1715, doi:10.1137/10078356X.
-
 Array = NDArray[np.float64]
+S = TypeVar("S")
 
-REMEMBERED = 3
+HISTORY = 3
+"""Evaluations before the last one that Anderson's acceleration uses."""
 LONGEST_STEP = 2.0
 """Largest change of one component from one x to the next."""
-
-
-@dataclass
-class FixedPoint:
-    """What is assumed, and what was found for the last few assumptions."""
-
-    assumed: Array
-    _tried: list[tuple[Array, Array]] = field(default_factory=list)
-
-    @property
-    def tried(self) -> bool:
-        """Whether anything was found yet."""
-        return bool(self._tried)
-
-    @property
-    def missed(self) -> float:
-        """Largest difference of what was found last from what was assumed for it."""
-        assumed, value = self._tried[-1]
-        return float(np.abs(value - assumed).max())
-
-    def found(self, value: Array) -> None:
-        """Take f of what is assumed, and assume better."""
-        self._tried = [*self._tried[-REMEMBERED:], (self.assumed, value)]
-        self._improve()
-
-    @property
-    def step(self) -> float:
-        """Largest difference of what is assumed next from what was assumed last."""
-        return float(np.abs(self.assumed - self._tried[-1][0]).max())
-
-    def shift(self, offset: Callable[[Array], Array]) -> None:
-        """Add `offset` of x to f, wherever it was found, and assume better."""
-        self._tried = [(x, f + offset(x)) for x, f in self._tried]
-        self._improve()
-
-    def _improve(self) -> None:
-        assumed, value = self._tried[-1]
-        values = np.array([f for _, f in self._tried])
-        misses = np.array([f - x for x, f in self._tried])
-        following = value
-        if len(self._tried) > 1:
-            steps = np.diff(misses, axis=0).T
-            gamma = np.linalg.lstsq(steps, misses[-1], rcond=1e-8)[0]
-            following = value - np.diff(values, axis=0).T @ gamma
-        self.assumed = assumed + np.clip(following - assumed, -LONGEST_STEP, LONGEST_STEP)
-
-
 MOST_PASSES = 8
-"""After which iteration ends, on the mesh asked for and, each time, on the coarse one."""
-SETTLED = 3e-4
-"""Relative change of contact fraction and friction still to be expected at which they have settled:
-a third of the 1e-3 that is promised."""
-AGREED = 5e-4
-"""Largest difference of what was found from what was assumed, of log strains and temperatures
-(`mixing`), at which they agree."""
-ROUGH = 1e-2
-"""The same on the coarse mesh before the fine one is asked: they differ by more."""
-
-S = TypeVar("S")
+"""Most evaluations, on the fine mesh and in each fixed point of the coarse one."""
+RESULT_TOLERANCE = 3e-4
+"""Relative change still expected of contact fraction and friction at the end: a third of the 1e-3
+that the documentation promises."""
+STATE_TOLERANCE = 5e-4
+"""Largest component of f(x) - x at a fixed point, in the logarithms of `pack_state`."""
+COARSE_TOLERANCE = 1e-2
+"""The same on the coarse mesh before the first fine evaluation: the meshes differ by more."""
 
 
 @dataclass(frozen=True)
 class Iteration(Generic[S]):
-    """A solution for what was assumed, and what it finds instead."""
+    """One evaluation of F or f: a solution with the state `x`, and the state it leads to."""
 
-    solved: S
-    assumed: Array | None
-    """None: the rubber as it is before the contact."""
-    found: Array
+    solution: S
+    x: Array | None
+    """State the solution assumes; None: the rubber as it is before the contact."""
+    value: Array
+    """State that follows from the solution."""
     results: Sequence[float]
-    """What must not change any more."""
+    """Numbers that must not change any more at the end."""
     usable: bool = True
     """Whether the solution converged."""
 
 
 Solve = Callable[[Array | None, S | None], Iteration[S]]
-"""Solves for what is assumed, from the last solution if there is one."""
+"""Evaluates the state x, starting from the last solution if there is one."""
 
 
 @dataclass(frozen=True)
-class Passes(Generic[S]):
-    """The last pass, and how many it took."""
+class FixedPoint(Generic[S]):
+    """The last evaluation on the fine mesh, and the number of evaluations on both meshes."""
 
     last: Iteration[S]
     fine: int
-    """On the mesh asked for."""
     coarse: int
-    settled: bool
+    converged: bool
 
 
-def solve_coupled(fine: Solve[S], coarse: Solve[S] | None) -> Passes[S]:
-    """Return the passes until solution and assumption agree.
+def solve_fixed_point(fine: Solve[S], coarse: Solve[S] | None) -> FixedPoint[S]:
+    """Return the solution that agrees with the state it assumes.
 
     Parameters
     ----------
     fine, coarse
-        Solve on the mesh asked for, and in a fraction of the time; a coarse mesh that fails, or
-        does not settle, is given up.
+        Evaluate a state on the mesh of the answer, and in a fraction of the time. A coarse mesh
+        that fails, or whose own fixed point is not found, is not used any more.
     """
-    start = None if coarse is None else _tried(coarse, None, None)
+    start = None if coarse is None else _evaluated(coarse, None, None)
     if coarse is None or start is None:
         start = fine(None, None)
-        return _alone(fine, FixedPoint(start.found), start, (1, 0))
-    stand_in = _StandIn(coarse, start)
+        return _solve_on_fine_mesh(fine, start, 1, 0)
+    model = _CoarseModel(coarse, start)
     last: Iteration[S] | None = None
-    number, trusted = 0, stand_in.agrees(ROUGH)
-    while trusted and number < MOST_PASSES:
-        here = stand_in.last
-        last = fine(here.assumed, here.solved if last is None else last.solved)
-        number += 1
-        trusted = last.usable and stand_in.corrected_by(last).agrees(AGREED)
-        if not last.usable or (trusted and _change(stand_in.last, here) < SETTLED):
-            return Passes(last, number, stand_in.passes, settled=last.usable)
-    if last is not None and number == MOST_PASSES:
-        return Passes(last, number, stand_in.passes, settled=False)
-    so_far = last or start
-    return _alone(fine, FixedPoint(so_far.found), so_far, (number, stand_in.passes))
+    count, trusted = 0, model.solve(COARSE_TOLERANCE)
+    while trusted and count < MOST_PASSES:
+        before = model.last
+        last = fine(before.x, before.solution if last is None else last.solution)
+        count += 1
+        if not last.usable:
+            return FixedPoint(last, count, model.count, converged=False)
+        model.correct(last)
+        trusted = model.solve(STATE_TOLERANCE)
+        pairs = zip(model.last.results, before.results, strict=True)
+        change = max(abs(a - b) / max(abs(b), 1e-300) for a, b in pairs)
+        if trusted and change < RESULT_TOLERANCE:
+            return FixedPoint(last, count, model.count, converged=True)
+    if last is not None and count == MOST_PASSES:
+        return FixedPoint(last, count, model.count, converged=False)
+    return _solve_on_fine_mesh(fine, last or start, count, model.count)
 
 
-def _alone(
-    fine: Solve[S], point: FixedPoint, last: Iteration[S], before: tuple[int, int]
-) -> Passes[S]:
-    """Return the passes without a coarse mesh, after so many fine and coarse ones."""
-    number, coarse = before
-    if not last.usable:
-        return Passes(last, number, coarse, settled=False)
-    while True:
-        now = fine(point.assumed, last.solved)
-        number += 1
-        point.found(now.found)
-        agreed = max(point.missed, point.step) < AGREED
-        if agreed or not now.usable or number >= MOST_PASSES:
-            return Passes(now, number, coarse, settled=agreed)
-        last = now
+def _solve_on_fine_mesh(
+    fine: Solve[S], last: Iteration[S], count: int, coarse: int
+) -> FixedPoint[S]:
+    """Iterate without a coarse mesh, after `count` fine and `coarse` coarse evaluations."""
+    sequence, converged = AndersonSequence(last.value), False
+    while last.usable and not converged:
+        last = fine(sequence.x, last.solution)
+        count += 1
+        sequence.add(last.value)
+        converged = max(sequence.residual, sequence.step) < STATE_TOLERANCE
+        if count >= MOST_PASSES:
+            break
+    return FixedPoint(last, count, coarse, converged)
 
 
-class _StandIn(Generic[S]):
-    """The coarse mesh, moved to where the fine one is."""
+@dataclass
+class AndersonSequence:
+    """Arguments of a fixed-point iteration, each from the evaluations before."""
 
-    def __init__(self, solve: Solve[S], start: Iteration[S]) -> None:
-        self.solve, self.point, self.last = solve, FixedPoint(start.found), start
-        self.offset = _Offset.nothing(start.found)
-        self.passes = 1
+    x: Array
+    """The next argument."""
+    history: list[tuple[Array, Array]] = field(default_factory=list)
+    """The last arguments x and their values f(x)."""
 
-    def agrees(self, enough: float) -> bool:
-        """Solve until what is found is what was assumed; return whether that was reached."""
+    @property
+    def residual(self) -> float:
+        """Largest component of f(x) - x of the last evaluation; infinite before the first."""
+        if not self.history:
+            return np.inf
+        x, value = self.history[-1]
+        return float(np.abs(value - x).max())
+
+    @property
+    def step(self) -> float:
+        """Largest component of the step from the last argument to the next."""
+        return float(np.abs(self.x - self.history[-1][0]).max())
+
+    def add(self, value: Array) -> None:
+        """Add the value f(x) at the current argument and move to the next."""
+        self.history = [*self.history[-HISTORY:], (self.x, value)]
+        self._advance()
+
+    def shift(self, offset: Callable[[Array], Array]) -> None:
+        """Add `offset(x)` to the values of the history and choose the next argument anew."""
+        self.history = [(x, value + offset(x)) for x, value in self.history]
+        self._advance()
+
+    def _advance(self) -> None:
+        x, value = self.history[-1]
+        values = np.array([f for _, f in self.history])
+        residuals = np.array([f - x for x, f in self.history])
+        following = value
+        if len(self.history) > 1:
+            changes = np.diff(residuals, axis=0).T
+            gamma = np.linalg.lstsq(changes, residuals[-1], rcond=1e-8)[0]
+            following = value - np.diff(values, axis=0).T @ gamma
+        self.x = x + np.clip(following - x, -LONGEST_STEP, LONGEST_STEP)
+
+
+class _CoarseModel(Generic[S]):
+    """The coarse mesh with its defect F - f added, as a model of the fine one."""
+
+    def __init__(self, evaluate: Solve[S], start: Iteration[S]) -> None:
+        self.evaluate, self.last, self.count = evaluate, start, 1
+        self.sequence = AndersonSequence(start.value)
+        zero = np.zeros_like(start.value)
+        self.defect = _Defect(None, zero, zero, zero)
+
+    def solve(self, tolerance: float) -> bool:
+        """Find the fixed point of the model; return whether its residual meets `tolerance`."""
         for _ in range(MOST_PASSES):
-            if self.point.tried and self.point.missed < enough:
+            if self.sequence.residual < tolerance:
                 return True
-            assumed = self.point.assumed
-            now = _tried(self.solve, assumed, self.last.solved)
-            if now is None:
+            x = self.sequence.x
+            iteration = _evaluated(self.evaluate, x, self.last.solution)
+            if iteration is None:
                 return False
-            self.last, self.passes = now, self.passes + 1
-            self.point.found(now.found + self.offset(assumed))
-        return self.point.missed < enough
+            self.last, self.count = iteration, self.count + 1
+            self.sequence.add(iteration.value + self.defect(x))
+        return self.sequence.residual < tolerance
 
-    def corrected_by(self, fine: Iteration[S]) -> _StandIn[S]:
-        """Move to where the fine mesh finds what it does for the same assumption."""
-        last, here = self.offset, self.last
-        assert here.assumed is not None
-        self.offset = last.moved(here.assumed, fine.found - here.found)
-        self.point.shift(lambda x: self.offset(x) - last(x))
-        return self
+    def correct(self, fine: Iteration[S]) -> None:
+        """Take the defect at the last argument from the fine evaluation there."""
+        before = self.defect
+        assert self.last.x is not None
+        self.defect = before.updated(self.last.x, fine.value - self.last.value)
+        self.sequence.shift(lambda x: self.defect(x) - before(x))
 
 
 @dataclass(frozen=True)
-class _Offset:
-    """F(x) - f(x): known at one x, and how it changes along the way to it from the last."""
+class _Defect:
+    """F(x) - f(x), linear along the step between the last two arguments where it was evaluated."""
 
-    at: Array | None
+    x: Array | None
     value: Array
-    way: Array
-    gained: Array
-    """On that way."""
-
-    @classmethod
-    def nothing(cls, like: Array) -> _Offset:
-        """Return no offset, anywhere."""
-        none = np.zeros_like(like)
-        return cls(None, none, none, none)
+    step: Array
+    change: Array
+    """Of the defect along the step."""
 
     def __call__(self, x: Array) -> Array:
-        """Return the offset at `x`."""
-        length = self.way @ self.way
-        if self.at is None or length == 0.0:
+        """Return the defect at `x`."""
+        length = self.step @ self.step
+        if self.x is None or length == 0.0:
             return self.value
-        return np.asarray(self.value + self.gained * ((x - self.at) @ self.way) / length)
+        return np.asarray(self.value + self.change * ((x - self.x) @ self.step) / length)
 
-    def moved(self, at: Array, value: Array) -> _Offset:
-        """Return the offset with its value at another x."""
-        if self.at is None:
-            return replace(self, at=at, value=value)
-        return _Offset(at, value, at - self.at, value - self.value)
+    def updated(self, x: Array, value: Array) -> _Defect:
+        """Return the defect with its value at another argument."""
+        if self.x is None:
+            return replace(self, x=x, value=value)
+        return _Defect(x, value, x - self.x, value - self.value)
 
 
-def _tried(solve: Solve[S], assumed: Array | None, last: S | None) -> Iteration[S] | None:
-    """Return the pass, None if there is no solution."""
+def _evaluated(solve: Solve[S], x: Array | None, start: S | None) -> Iteration[S] | None:
+    """Return the evaluation at `x`, None if it has no usable solution."""
     try:
-        now = solve(assumed, last)
+        iteration = solve(x, start)
     except ConvergenceError:
         return None
-    return now if now.usable else None
+    return iteration if iteration.usable else None
 
-
-def _change(now: Iteration[S], last: Iteration[S]) -> float:
-    """Return the largest relative change of the results."""
-    pairs = zip(now.results, last.results, strict=True)
-    return max(abs(a - b) / max(abs(b), 1e-300) for a, b in pairs)
-
-
-# Temperatures and strains in one vector of numbers of the same order, to be iterated on.
 
 WARM = 20.0
-"""Kelvin above which temperatures go by their logarithm: the first guess of the heat, from a cold
-rubber, may be a thousand too high."""
+"""Temperature rise [K] above which the state is logarithmic. The first estimate of the heat, from a
+cold rubber, may be a thousand times too high."""
 LEAST_STRAIN = 1e-12
 
 
-def mixed(warming: Array, strain: Array) -> Array:
-    """Return the vector of temperature rises [K] and strains [-]."""
+def pack_state(warming: Array, strain: Array) -> Array:
+    """Return temperature rises [K] and strains [-] as one vector with entries of order one."""
     warm = np.log1p(np.maximum(warming, 0.0) / WARM)
     return np.concatenate([warm, np.log(np.maximum(strain, LEAST_STRAIN))])
 
 
-def separate(vector: Array) -> tuple[Array, Array]:
-    """Return temperature rises [K] and strains [-] of a vector of `mixed`."""
-    warm, strain = np.split(vector, 2)
+def unpack_state(x: Array) -> tuple[Array, Array]:
+    """Return the temperature rises [K] and strains [-] of a vector of `pack_state`."""
+    warm, strain = np.split(x, 2)
     return WARM * np.expm1(np.maximum(warm, 0.0)), np.exp(strain)

@@ -1,12 +1,12 @@
-"""How warm a sliding rubber gets where it loses energy: closed forms for an insulated half-space.
+"""Flash temperature of a sliding rubber: closed forms for an insulated half-space.
 
-The rubber moves with v along x over heat that stands still, lost at depths distributed as in
-`loss_depth`. A harmonic q exp(i k . r) of the heat per area [W/m^2], steady, gives
+The rubber moves with v along x over a heat source at rest. A harmonic q exp(i k . r) of the heat
+per area [W/m^2], lost at random depths Z and Z', in the steady state gives
 
     T(0)    = q E exp(-m Z) / (kappa m),      m^2 = |k|^2 + i k_x v / D,   Re m > 0
     T(lost) = q (E exp(-m |Z - Z'|) + (E exp(-m Z))^2) / (2 kappa m)
 
-at the surface, and on the mean where the energy is lost; for the exponential depth exp(-a z) the
+at the surface, and on average where the energy is lost; for the exponential depth exp(-a z) the
 first is Q / (kappa m (m + a)) with Q = a q. A uniform q that lasts for a time t, l = 2 sqrt(D t):
 
     T(0)    = q l E ierfc(Z/l) / kappa        (2 q sqrt(t / (pi kappa rho c)) at the surface)
@@ -14,6 +14,46 @@ first is Q / (kappa m (m + a)) with Q = a q. A uniform q that lasts for a time t
 
 Source of the plane source and its image: H. S. Carslaw & J. C. Jaeger, Conduction of Heat in
 Solids, 2nd ed. (1959), sec. 10.2 and 10.7; the averages over depths are derived here.
+
+A harmonic across the sliding direction does not move over the rubber and approaches its steady
+state by conduction alone. Switched on at t = 0 it gives
+
+    T(0)    = q E r(Z) / kappa
+    T(lost) = q (E r(|Z - Z'|) + E r(Z + Z')) / (2 kappa)
+    r(z)    = (exp(-m z) erfc(z/l - m l/2) - exp(m z) erfc(z/l + m l/2)) / (2 m)
+
+which is the steady exp(-m z)/m for l to infinity and the uniform l ierfc(z/l) for m to zero: the
+integral over time of the plane source exp(-z^2/(4 D t) - D m^2 t)/sqrt(pi t) with complex decay.
+
+Depths of the loss: a pressure p cos(k x) that moves along a half-plane shears it with an amplitude
+p k z exp(-k z), the same everywhere along x (K. L. Johnson, Contact Mechanics (1985), sec. 13.2,
+doi:10.1017/CBO9781139171731). Its loss is distributed over depth as (k z)^2 exp(-2 k z), a gamma
+distribution of shape 3 and mean 3/(2 k). Shape 1 is the exponential exp(-a z), mean 1/a. With
+b = shape/mean and m of positive real part:
+
+    E exp(-m Z)        = (b/(b + m))^shape
+    E exp(-m |Z - Z'|) = b/(b + m)                                                shape 1
+                       = b/8 (3/(b + m) + 3 b/(b + m)^2 + 2 b^2/(b + m)^3)        shape 3
+
+A solver may report the loss by layers instead. With the share s_i of the loss in the layer between
+the depths a_i and b_i, h_i = b_i - a_i, and the mean e_i = (1 - exp(-m h_i)) / (m h_i) of
+exp(-m (z - a_i)) over it,
+
+    E exp(-m Z)        = sum_i s_i exp(-m a_i) e_i
+    E exp(-m |Z - Z'|) = sum_i s_i^2 2 (1 - e_i) / (m h_i)
+                       + 2 sum_(i < j) s_i s_j exp(-m (a_j - b_i)) e_i e_j
+
+and means of ierfc are differences of its integrals i2erfc and i3erfc between the edges (Carslaw &
+Jaeger, appendix II); over |Z - Z'|, where ierfc has an edge, of l^2 i3erfc(|d|/l) + l |d|/4, whose
+second derivative is ierfc(|d|/l) everywhere.
+
+Along the contact every harmonic of the pressure loses the power l(q), whose sum is the friction.
+With phi(q) the phase of the harmonic, and only the half q_x > 0 of the spectrum,
+
+    g(r) = sum_q sqrt(l(q)) exp(i phi(q) + i q . r),      mean |g|^2 = sum_q l(q)
+
+so that |g|^2 is a density of the loss that is never negative and has the right mean. How harmonics
+of different wavelengths share their loss at one point is a choice.
 """
 
 from __future__ import annotations
@@ -29,14 +69,15 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.special import erfc, gamma, wofz
 
 from gripscale.core import checks
+from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 
-# What a rubber does with heat: conductivity, density, specific heat.
+Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
 
 
-@dataclass(frozen=True)
-class ThermalProperties:
-    """Thermal properties of a rubber; there are no defaults, they are measured or looked up.
+class ThermalProperties(Checked):
+    """Thermal properties of a rubber. There are no defaults: they are measured or looked up.
 
     Parameters
     ----------
@@ -53,14 +94,9 @@ class ThermalProperties:
         If a value is no finite number above zero.
     """
 
-    conductivity: float
-    density: float
-    specific_heat: float
-
-    def __post_init__(self) -> None:
-        units = {"conductivity": "W/(m K)", "density": "kg/m^3", "specific_heat": "J/(kg K)"}
-        for name, unit in units.items():
-            object.__setattr__(self, name, checks.positive(name, getattr(self, name), unit=unit))
+    conductivity: float = checked(checks.positive, unit="W/(m K)")
+    density: float = checked(checks.positive, unit="kg/m^3")
+    specific_heat: float = checked(checks.positive, unit="J/(kg K)")
 
     @property
     def diffusivity(self) -> float:
@@ -68,25 +104,8 @@ class ThermalProperties:
         return self.conductivity / (self.density * self.specific_heat)
 
 
-# How deep below the surface energy is lost: distributions of depth, and averages over them.
-#
-# A pressure p cos(k x) on a half-plane, moving along, shears it with an amplitude p k z exp(-k z)
-# that is the same everywhere along x (K. L. Johnson, Contact Mechanics (1985), sec. 13.2,
-# doi:10.1017/CBO9781139171731), so that its loss lies at depths distributed as (k z)^2 exp(-2 k z):
-# a gamma distribution of shape 3 and mean 3/(2 k). Shape 1 is the exponential exp(-a z), mean 1/a.
-#
-# With b = shape/mean, Z and Z' two depths, and m of positive real part:
-#
-#     E exp(-m Z)        = (b/(b + m))^shape
-#     E exp(-m |Z - Z'|) = b/(b + m)                                     shape 1
-#                        = b/8 (3/(b + m) + 3 b/(b + m)^2 + 2 b^2/(b + m)^3)    shape 3
-
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
-
-
 class DepthsOfLoss(Protocol):
-    """A distribution of the depth Z at which energy is lost, as temperatures ask for it."""
+    """A distribution of the depth Z at which energy is lost, with the means temperatures need."""
 
     @property
     def mean(self) -> float:
@@ -108,20 +127,26 @@ class DepthsOfLoss(Protocol):
         """Return E ierfc((Z + Z') / length)."""
 
 
-Distances = Literal["one", "between", "sum"]
+Distances = Literal["depth", "difference", "sum"]
 
-SHAPES = (1, 3)
 DEEPEST = 60.0
-"""Depth in units of 1/b beyond which nothing is lost: exp(-60)."""
+"""Depth in units of 1/b beyond which the loss is neglected: exp(-60)."""
 WIDEST = 6.5
 """Argument beyond which ierfc is below 1e-20."""
+STEADY = 4.0
+"""Re(m) l/2 from which a harmonic is steady: erfc of it is 2e-8."""
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(96)
 
 
-@dataclass(frozen=True)
-class LossDepth:
-    """A distribution of the depth at which energy is lost.
+def _loss_shape(name: str, value: Any) -> int:
+    if value not in (1, 3):
+        raise InputError(f"{name} must be 1 or 3; got {checks.short_repr(value)}")
+    return int(value)
+
+
+class LossDepth(Checked):
+    """A gamma distribution of the depth at which energy is lost.
 
     Parameters
     ----------
@@ -136,17 +161,12 @@ class LossDepth:
         If the mean is no finite number from zero, or the shape another.
     """
 
-    mean: float
-    shape: int = 3
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "mean", checks.not_negative("mean", self.mean, unit="m"))
-        if self.shape not in SHAPES:
-            raise InputError(f"shape must be 1 or 3; got {checks.short_repr(self.shape)}")
+    mean: float = checked(checks.not_negative, unit="m")
+    shape: int = checked(_loss_shape, default=3)
 
     @classmethod
     def under(cls, wavenumber: float) -> LossDepth:
-        """Return where a harmonic of the pressure of this wavenumber [rad/m] loses energy."""
+        """Return the depths at which a harmonic of this wavenumber [rad/m] loses energy."""
         return cls(1.5 / checks.positive("wavenumber", wavenumber, unit="rad/m"))
 
     @property
@@ -167,43 +187,40 @@ class LossDepth:
 
     def spread(self, length: float) -> float:
         """Return E ierfc(Z / length), ierfc the integral of the complementary error function."""
-        return self._spread("one", length)
+        return float(self.average("depth", lambda z: ierfc(z / length), length))
 
     def spread_between(self, length: float) -> float:
         """Return E ierfc(|Z - Z'| / length)."""
-        return self._spread("between", length)
+        return float(self.average("difference", lambda z: ierfc(z / length), length))
 
     def spread_sum(self, length: float) -> float:
         """Return E ierfc((Z + Z') / length)."""
-        return self._spread("sum", length)
+        return float(self.average("sum", lambda z: ierfc(z / length), length))
 
     def average(self, of: Distances, function: Callable[[Array], Any], length: float) -> Any:
         """Return the mean of a function of a distance [m] that vanishes beyond some lengths.
 
         Parameters
         ----------
-        of : "one", "between" or "sum"
+        of : "depth", "difference" or "sum"
             The distance: Z, |Z - Z'| or Z + Z'.
         function : callable
-            Of distances of shape (n,); n is the first axis of what it returns.
+            Takes distances of shape (n,); n is the first axis of its value.
         length : float
-            Over which it changes [m]: at `WIDEST` of it nothing is left.
+            Length over which the function changes [m]; it vanishes at `WIDEST` lengths.
         """
         if self.mean == 0.0:
             return function(np.zeros(1))[0]
         end = min(DEEPEST, WIDEST * self.rate * length)
         s = 0.5 * end * (_NODES + 1.0)
-        weights = 0.5 * end * _WEIGHTS * self._density(of, s)
+        if of == "difference":
+            polynomial = 1.0 if self.shape == 1 else (3.0 + 3.0 * s + s**2) / 8.0
+            density = polynomial * np.exp(-s)
+        else:
+            shape = self.shape if of == "depth" else 2 * self.shape
+            density = s ** (shape - 1) * np.exp(-s) / gamma(shape)
+        weights = 0.5 * end * _WEIGHTS * density
         return np.tensordot(weights, function(s / self.rate), axes=(0, 0))
-
-    def _spread(self, of: Distances, length: float) -> float:
-        return float(self.average(of, lambda z: ierfc(z / length), length))
-
-    def _density(self, of: Distances, s: Array) -> Array:
-        """Return the density of a distance times the rate."""
-        if of == "between":
-            return np.exp(-s) if self.shape == 1 else (3.0 + 3.0 * s + s**2) / 8.0 * np.exp(-s)
-        return _gamma_density(s, self.shape if of == "one" else 2 * self.shape)
 
 
 def ierfc(x: Array) -> Array:
@@ -211,23 +228,19 @@ def ierfc(x: Array) -> Array:
     return np.asarray(np.exp(-(x**2)) / math.sqrt(math.pi) - x * erfc(x))
 
 
-def _gamma_density(s: Array, shape: int) -> Array:
-    return np.asarray(s ** (shape - 1) * np.exp(-s) / gamma(shape))
-
-
 def harmonic_decay(
     wavenumber: ArrayLike, along: ArrayLike, speed: float, thermal: ThermalProperties
 ) -> ComplexArray:
-    """Return m [1/m] of harmonics.
+    """Return the decay m [1/m] of harmonics.
 
     Parameters
     ----------
     wavenumber, along : array_like
         |k| and k_x [rad/m], broadcast together.
     speed : float
-        Of the rubber [m/s].
+        Sliding speed [m/s].
     thermal : ThermalProperties
-        Of the rubber.
+        Thermal properties of the rubber.
     """
     number = np.asarray(wavenumber, dtype=float)
     carried = np.asarray(along, dtype=float) * speed / thermal.diffusivity
@@ -244,12 +257,12 @@ def harmonic_at_surface(
 def harmonic_where_lost(
     m: ComplexArray, depth: DepthsOfLoss, thermal: ThermalProperties
 ) -> ComplexArray:
-    """Return the temperature of harmonics on the mean where they are lost, per heat per area.
+    """Return the temperature of harmonics, averaged over their loss, per heat per area.
 
     In [K m^2/W], shape of `m`.
     """
-    met = depth.decay_between(m) + depth.decay(m) ** 2
-    return np.asarray(met / (2.0 * thermal.conductivity * m))
+    mean = depth.decay_between(m) + depth.decay(m) ** 2
+    return np.asarray(mean / (2.0 * thermal.conductivity * m))
 
 
 def uniform_at_surface(time: float, depth: DepthsOfLoss, thermal: ThermalProperties) -> float:
@@ -258,60 +271,41 @@ def uniform_at_surface(time: float, depth: DepthsOfLoss, thermal: ThermalPropert
     Parameters
     ----------
     time : float
-        How long the heat has lasted [s].
+        Duration of the heat [s].
     depth : DepthsOfLoss
-        Where it is lost.
+        Depths at which it is lost.
     thermal : ThermalProperties
-        Of the rubber.
+        Thermal properties of the rubber.
 
     Returns
     -------
     float
-        In [K m^2/W].
+        [K m^2/W]
 
     Raises
     ------
     InputError
         If the time is no finite number from zero.
     """
-    length = _spread(time, thermal)
+    length = _diffusion_length(time, thermal)
     return length * depth.spread(length) / thermal.conductivity if length > 0.0 else 0.0
 
 
 def uniform_where_lost(time: float, depth: DepthsOfLoss, thermal: ThermalProperties) -> float:
-    """Return the temperature where the energy is lost of uniform heat per heat per area.
+    """Return the temperature of uniform heat, averaged over its loss, per heat per area.
 
     Arguments, unit and errors as for `uniform_at_surface`.
     """
-    length = _spread(time, thermal)
+    length = _diffusion_length(time, thermal)
     if length == 0.0:
         return 0.0
-    met = depth.spread_between(length) + depth.spread_sum(length)
-    return length * met / (2.0 * thermal.conductivity)
+    mean = depth.spread_between(length) + depth.spread_sum(length)
+    return length * mean / (2.0 * thermal.conductivity)
 
 
-def _spread(time: float, thermal: ThermalProperties) -> float:
+def _diffusion_length(time: float, thermal: ThermalProperties) -> float:
     """Return 2 sqrt(D t) [m]."""
     return 2.0 * math.sqrt(thermal.diffusivity * checks.not_negative("time", time, unit="s"))
-
-
-# Temperature of a moving harmonic of heat that has lasted only while a contact passes.
-#
-# The steady harmonic of `temperature_rise` takes its time: one across the way of sliding never
-# moves over the rubber, and warms it by conduction alone. Switched on at t = 0 it gives, l = 2
-# sqrt(D t),
-#
-#     T(0)    = q E r(Z) / kappa
-#     T(lost) = q (E r(|Z - Z'|) + E r(Z + Z')) / (2 kappa)
-#     r(z)    = (exp(-m z) erfc(z/l - m l/2) - exp(m z) erfc(z/l + m l/2)) / (2 m)
-#
-# which is the steady exp(-m z)/m for l to infinity and the uniform l ierfc(z/l) for m to zero.
-# Derived here, as the integral over time of the plane source of Carslaw & Jaeger (1959), sec. 10.7,
-# exp(-z^2/(4 D t) - D m^2 t)/sqrt(pi t), whose decay is complex; held against that integral in
-# tests/interface/test_passing_harmonic.py.
-
-STEADY = 4.0
-"""Re(m) l/2 from which a harmonic is steady: erfc of it is 2e-8."""
 
 
 def passing_at_surface(
@@ -322,68 +316,54 @@ def passing_at_surface(
     In [K m^2/W], shape of `m`, which has no zero.
     """
 
-    def slow(own: ComplexArray, length: float) -> ComplexArray:
-        met = depth.average("one", lambda z: _risen(z, own, length), length)
-        return np.asarray(met / thermal.conductivity)
+    def unsteady(decay: ComplexArray, length: float) -> ComplexArray:
+        mean = depth.average("depth", lambda z: _rise_in_time(z, decay, length), length)
+        return np.asarray(mean / thermal.conductivity)
 
-    return _each(m, time, thermal, harmonic_at_surface(m, depth, thermal), slow)
+    return _steady_or_not(m, time, thermal, harmonic_at_surface(m, depth, thermal), unsteady)
 
 
 def passing_where_lost(
     m: ComplexArray, time: float, depth: LossDepth, thermal: ThermalProperties
 ) -> ComplexArray:
-    """Return the temperature on the mean where they are lost, per heat per area.
+    """Return the temperature after a `time` [s], averaged over the loss, per heat per area.
 
     In [K m^2/W], shape of `m`, which has no zero.
     """
 
-    def slow(own: ComplexArray, length: float) -> ComplexArray:
-        parts = [
-            depth.average(of, lambda z: _risen(z, own, length), length) for of in ("between", "sum")
+    def unsteady(decay: ComplexArray, length: float) -> ComplexArray:
+        distances: tuple[Distances, ...] = ("difference", "sum")
+        means = [
+            depth.average(of, lambda z: _rise_in_time(z, decay, length), length) for of in distances
         ]
-        return np.asarray(sum(parts) / (2.0 * thermal.conductivity))
+        return np.asarray(sum(means) / (2.0 * thermal.conductivity))
 
-    return _each(m, time, thermal, harmonic_where_lost(m, depth, thermal), slow)
+    return _steady_or_not(m, time, thermal, harmonic_where_lost(m, depth, thermal), unsteady)
 
 
-def _each(
+def _steady_or_not(
     m: ComplexArray,
     time: float,
     thermal: ThermalProperties,
     steady: ComplexArray,
-    slow: Callable[[ComplexArray, float], ComplexArray],
+    unsteady: Callable[[ComplexArray, float], ComplexArray],
 ) -> ComplexArray:
-    """Return the steady values, those of harmonics that are not steady yet replaced."""
+    """Return the steady values, and the unsteady ones of harmonics that still change."""
     length = 2.0 * math.sqrt(thermal.diffusivity * time)
-    late = m.real * (0.5 * length) < STEADY
-    if not late.any():
+    changing = m.real * (0.5 * length) < STEADY
+    if not changing.any():
         return steady
     out = steady.copy()
-    different, back = np.unique(m[late], return_inverse=True)
-    out[late] = slow(different, length)[back] if length > 0.0 else 0.0
+    different, inverse = np.unique(m[changing], return_inverse=True)
+    out[changing] = unsteady(different, length)[inverse] if length > 0.0 else 0.0
     return out
 
 
-def _risen(z: Array, m: ComplexArray, length: float) -> ComplexArray:
+def _rise_in_time(z: Array, m: ComplexArray, length: float) -> ComplexArray:
     """Return r at depths of shape (n,), shape (n, m), by Faddeeva's w(x) = exp(-x^2) erfc(-i x)."""
     at, half = (z / length)[:, None], (0.5 * length * m)[None, :]
     scale = np.exp(-(at**2) - half**2)
     return np.asarray(scale * (wofz(1j * (at - half)) - wofz(1j * (at + half))) / (2.0 * m))
-
-
-# Loss by depth as a solver found it: layers, evenly lossy within.
-#
-# With the share s_i of the loss in the layer between the depths a_i and b_i, h_i = b_i - a_i, and
-# the mean e_i = (1 - exp(-m h_i)) / (m h_i) of exp(-m (z - a_i)) over it,
-#
-#     E exp(-m Z)        = sum_i s_i exp(-m a_i) e_i
-#     E exp(-m |Z - Z'|) = sum_i s_i^2 2 (1 - e_i) / (m h_i)
-#                        + 2 sum_(i < j) s_i s_j exp(-m (a_j - b_i)) e_i e_j
-#
-# Means of ierfc are differences of its integrals i2erfc and i3erfc between the edges (H. S. Carslaw
-# & J. C. Jaeger, Conduction of Heat in Solids, 2nd ed. (1959), appendix II); over |Z - Z'|, where
-# ierfc has an edge, of l^2 i3erfc(|d|/l) + l |d|/4, whose second derivative is ierfc(|d|/l)
-# everywhere.
 
 
 @dataclass(frozen=True)
@@ -403,7 +383,7 @@ class LossLayers:
 
     @classmethod
     def of(cls, edges: Array, lost: Array) -> LossLayers:
-        """Return the layers of what is lost in each; what a layer gains counts as nothing."""
+        """Return the layers with the loss of each; a negative loss counts as zero."""
         positive = np.maximum(lost, 0.0)
         return cls(edges, positive / positive.sum())
 
@@ -421,14 +401,14 @@ class LossLayers:
         """Return E exp(-m |Z - Z'|) for `m` [1/m], same shape."""
         within = self._within(m)
         height = np.multiply.outer(m, np.diff(self.edges))
-        own = (2.0 * (1.0 - within) / height) @ self.share**2
+        same_layer = (2.0 * (1.0 - within) / height) @ self.share**2
         lossy = within * self.share
         falls = np.exp(-height)
-        above, passed = np.zeros_like(own), np.zeros_like(own)
+        above, pairs = np.zeros_like(same_layer), np.zeros_like(same_layer)
         for layer in range(self.share.size):
-            passed = passed + above * lossy[..., layer]
+            pairs = pairs + above * lossy[..., layer]
             above = above * falls[..., layer] + lossy[..., layer]
-        return np.asarray(own + 2.0 * passed)
+        return np.asarray(same_layer + 2.0 * pairs)
 
     def spread(self, length: float) -> float:
         """Return E ierfc(Z / length), ierfc the integral of the complementary error function."""
@@ -438,12 +418,14 @@ class LossLayers:
     def spread_between(self, length: float) -> float:
         """Return E ierfc(|Z - Z'| / length)."""
         distance = np.abs(self.edges[:, None] - self.edges[None, :])
-        return -self._of_two(length**2 * _i3erfc(distance / length) + 0.25 * length * distance)
+        return -self._mean_over_pairs(
+            length**2 * _i3erfc(distance / length) + 0.25 * length * distance
+        )
 
     def spread_sum(self, length: float) -> float:
         """Return E ierfc((Z + Z') / length)."""
-        together = self.edges[:, None] + self.edges[None, :]
-        return self._of_two(length**2 * _i3erfc(together / length))
+        sums = self.edges[:, None] + self.edges[None, :]
+        return self._mean_over_pairs(length**2 * _i3erfc(sums / length))
 
     @property
     def _density(self) -> Array:
@@ -455,8 +437,8 @@ class LossLayers:
         height = np.multiply.outer(m, np.diff(self.edges))
         return np.asarray(-np.expm1(-height) / height)
 
-    def _of_two(self, at_edges: Array) -> float:
-        """Return the mean over pairs of layers of what has these second integrals at the edges."""
+    def _mean_over_pairs(self, at_edges: Array) -> float:
+        """Return the mean over pairs of layers from the second integral at the edges."""
         integral = np.diff(np.diff(at_edges, axis=0), axis=1)
         return float(self._density @ integral @ self._density)
 
@@ -471,27 +453,15 @@ def _i3erfc(x: Array) -> Array:
     return np.asarray(ierfc(x) / 6.0 - x * _i2erfc(x) / 3.0)
 
 
-# Where along the contact energy is lost: a heat that adds up to the friction work exactly.
-#
-# Every harmonic of the pressure loses the power l(q) (`rough.outcome`: the sum is the friction).
-# With phi(q) the phase of the harmonic, and only the half q_x > 0 of the spectrum,
-#
-#     g(r) = sum_q sqrt(l(q)) exp(i phi(q) + i q . r),      mean |g|^2 = sum_q l(q)
-#
-# so that |g|^2, the squared envelope of the part of the pressure that loses energy, is a density of
-# the loss that is nowhere negative and has the right mean. Its place follows from the pressure; how
-# harmonics of different wavelengths share their loss at one place is a choice.
-
-
 def loss_pattern(pressure: ComplexArray, lost: Array) -> Array:
-    """Return the loss along one period, shape (points,), its mean the sum of `lost`.
+    """Return the loss |g|^2 along one period, shape (points,); its mean is the sum of `lost`.
 
     Parameters
     ----------
     pressure : array, shape (points // 2 + 1,)
         Spectrum of the pressure, as `rfft` gives it.
     lost : array, shape (points // 2 + 1,)
-        Loss of each harmonic; below zero is round-off.
+        Loss of each harmonic; negative values are round-off.
     """
     points = 2 * (pressure.size - 1)
     size = np.abs(pressure)

@@ -133,7 +133,7 @@ def _interpolated(x: float, abscissas: Array, values: Array, count: int) -> floa
     return float(np.dot(weights, values[nearest]))
 
 
-BEYOND_SHIFT = "rubber_beyond_shift"
+BEYOND_SHIFT = "rubber_temperature_extrapolated"
 REDUCED_SPEED = "reduced_speed"
 COLLAPSED = {
     "total_friction": "friction_collapse",

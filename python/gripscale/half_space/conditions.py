@@ -1,8 +1,17 @@
-"""The direct contact under conditions that depend on what is solved: passes until nothing changes.
+"""The direct contact under conditions that depend on its solution: softening, and friction heat.
 
-Every pass solves the whole contact with the rubber that assumed temperatures and strains make of it
-at every scale, most of them on grids that only resolve the surface
-(`gripscale.conditions.fixed_point`), each from the contact of the last.
+An evaluation of the fixed point (`gripscale.conditions.fixed_point`) solves the whole contact with
+the rubber that a state of temperatures and strains, one of each an octave of wavelengths, makes of
+it. Each contact starts from the last one.
+
+The strain of a scale is half the rms slope in the contact of the surface with the waves up to that
+scale: the convention of B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840, doi:10.1063/1.1388626.
+
+The harmonics of an octave lose mu_b p_0 v per nominal area, and the pattern of
+`gripscale.conditions.flash_temperature` distributes this heat along the surface. Summed over
+octaves it is exactly the friction work. It is lost at a mean depth of 3/2 over the wavenumber,
+averaged over the octave by the loss, and moves over the rubber while the footprint passes. The road
+takes up none.
 """
 
 from __future__ import annotations
@@ -16,25 +25,23 @@ from numpy.typing import NDArray
 
 from gripscale.conditions import flash_temperature as rise
 from gripscale.conditions.conditions import Conditions, RubberByScale, StateByScale, state_by_scale
-from gripscale.conditions.fixed_point import Iteration, Passes, mixed, separate
-from gripscale.conditions.fixed_point import solve_coupled as settle_passes
-from gripscale.conditions.flash_temperature import (
-    LossDepth,
-    ThermalProperties,
-    passing_at_surface,
-    passing_where_lost,
+from gripscale.conditions.fixed_point import (
+    Iteration,
+    pack_state,
+    solve_fixed_point,
+    unpack_state,
 )
+from gripscale.conditions.flash_temperature import LossDepth, ThermalProperties
 from gripscale.half_space.grid import Array, Grid, Mask
 from gripscale.half_space.grid_sequence import GridRecord, KnownLevels
 from gripscale.half_space.result import RoughContact
 from gripscale.rubber import Rubber
 from gripscale.wave.problem import Status
 
-# How strongly the surface strains the rubber at each scale: half the rms slope in the contact.
-#
-# Down to a wavenumber q: of the surface with only the waves up to q, where the whole surface is
-# touched. The convention of B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840,
-# doi:10.1063/1.1388626, for the strain of filled rubber on a rough surface.
+ComplexArray = NDArray[np.complex128]
+
+ROUND_OFF = 1e-12
+"""Share of the friction below which the heat of an octave is neglected."""
 
 
 def strain_by_scale(grid: Grid, height: Array, active: Mask, wavenumber: Array) -> Array:
@@ -45,19 +52,6 @@ def strain_by_scale(grid: Grid, height: Array, active: Mask, wavenumber: Array) 
         slope = scipy.fft.irfftn(np.where(grid.wavenumber <= largest, spectrum, 0.0), s=grid.shape)
         out.append(0.5 * float(np.sqrt(np.mean(slope[active] ** 2))))
     return np.maximum.accumulate(np.array(out))
-
-
-# Temperature on the grid of a direct contact: the heat of every octave of the pressure.
-#
-# The harmonics of an octave lose mu_b p_0 v per nominal area, which the pattern of
-# `gripscale.conditions.flash_temperature` puts in its place; summed over octaves the heat is the
-# friction work, exactly. It is lost at a mean depth of 3/2 over the wavenumber, averaged over the
-# octave by the loss, and moves over the rubber while the footprint passes; the road takes up none.
-
-ComplexArray = NDArray[np.complex128]
-
-ROUND_OFF = 1e-12
-"""Share of the friction below which an octave loses nothing."""
 
 
 @dataclass(frozen=True)
@@ -79,31 +73,50 @@ def octave_heats(grid: Grid, pressure: Array, lost: Array) -> list[OctaveHeat]:
     Parameters
     ----------
     grid : Grid
-        Of the contact.
+        Grid of the contact.
     pressure : array, shape of the grid
-        [Pa].
+        Contact pressure [Pa].
     lost : array, shape of the half spectrum
-        Friction each harmonic adds [-], as `lost_by_harmonic` gives it.
+        Friction of each harmonic [-], as `lost_by_harmonic` returns it.
     """
     number = np.broadcast_to(grid.wavenumber, grid.spectrum_shape)
     longest = 2.0 * np.pi / max(grid.lengths)
     octave = np.floor(np.log2(np.maximum(number, longest) / longest) + 1e-9).astype(int)
-    phase = _phases(pressure)
+    spectrum = scipy.fft.rfftn(pressure)
+    size = np.abs(spectrum)
+    phase = np.divide(spectrum, size, out=np.zeros_like(spectrum), where=size > 0.0)
     out = []
     for which in range(int(octave.max()) + 1):
-        own = np.where((octave == which) & (lost > 0.0), lost, 0.0)
-        total = float(own.sum())
+        loss = np.where((octave == which) & (lost > 0.0), lost, 0.0)
+        total = float(loss.sum())
         if total > ROUND_OFF * float(lost.sum()):
-            density = np.abs(_envelope(grid, np.sqrt(own) * phase)) ** 2
-            mean = float((own * 1.5 / np.maximum(number, longest)).sum() / total)
+            density = np.abs(_forward_field(grid, np.sqrt(loss) * phase)) ** 2
+            mean = float((loss * 1.5 / np.maximum(number, longest)).sum() / total)
             middle = longest * 2.0 ** (which + 0.5)
             out.append(OctaveHeat(middle, total, density / density.mean(), LossDepth(mean)))
     return out
 
 
+def _forward_field(grid: Grid, half: ComplexArray) -> ComplexArray:
+    """Return the complex field of the waves with q_x > 0 from the half spectrum of a real field."""
+    whole = np.zeros(grid.shape, dtype=complex)
+    if len(grid.shape) == 1:
+        whole[: half.shape[0]] = half
+        return np.asarray(scipy.fft.ifft(whole))
+    forward = half * (grid.along > 0.0)
+    backward = half * (grid.along < 0.0)
+    columns = half.shape[1]
+    whole[:, :columns] = forward
+    opposite = np.roll(backward[::-1], 1, axis=0).conj()
+    last = grid.shape[1]
+    for column in range(columns):
+        whole[:, (last - column) % last] += opposite[:, column]
+    return np.asarray(scipy.fft.ifftn(whole))
+
+
 @dataclass(frozen=True)
 class GridTemperature:
-    """How much warmer the rubber is than before the contact [K]."""
+    """Temperature rise of the rubber over its temperature before the contact [K]."""
 
     surface: Array
     """At the surface, shape of the grid."""
@@ -120,83 +133,74 @@ def grid_temperature(
     time: float,
     thermal: ThermalProperties,
 ) -> GridTemperature:
-    """Return the temperature rise of heat that is lost in a contact.
+    """Return the temperature rise by the heat of all octaves.
 
     Parameters
     ----------
     grid : Grid
-        Of the contact.
+        Grid of the contact.
     heats : list of OctaveHeat
-        What is lost.
+        Heat of each octave.
     flux : float
         Heat per nominal area and unit of friction, p_0 v [W/m^2].
     speed : float
-        Of sliding [m/s].
+        Sliding speed [m/s].
     time : float
-        For which the nominal contact lasts [s].
+        Duration of the nominal contact [s].
     thermal : ThermalProperties
-        Of the rubber.
+        Thermal properties of the rubber.
     """
+
+    def without_mean(density: Array) -> ComplexArray:
+        spectrum = scipy.fft.rfftn(density)
+        spectrum.flat[0] = 0.0
+        return np.asarray(spectrum)
+
     m = rise.harmonic_decay(grid.wavenumber, grid.along, speed, thermal)
     m.flat[0] = 1.0
-    sources = [flux * heat.friction * _without_mean(heat.density) for heat in heats]
+    sources = [flux * heat.friction * without_mean(heat.density) for heat in heats]
     uniform = [
         flux * heat.friction * rise.uniform_at_surface(time, heat.depth, thermal) for heat in heats
     ]
     surfaces = [
-        source * passing_at_surface(m, time, heat.depth, thermal)
+        source * rise.passing_at_surface(m, time, heat.depth, thermal)
         for source, heat in zip(sources, heats, strict=True)
     ]
     surface = sum(surfaces, np.zeros(grid.spectrum_shape, dtype=complex))
     octave = []
     for which, heat in enumerate(heats):
-        pattern = _without_mean(heat.density)
-        seen = heat.depth.decay(m) * (surface - surfaces[which])
-        seen += sources[which] * passing_where_lost(m, time, heat.depth, thermal)
-        lasting = rise.uniform_where_lost(time, heat.depth, thermal)
-        level = sum(uniform) - uniform[which] + flux * heat.friction * lasting
-        octave.append(level + _mean_product(grid, seen, pattern))
+        pattern = without_mean(heat.density)
+        # the other octaves warm the depth of this one from the surface, its own heat where it is
+        here = heat.depth.decay(m) * (surface - surfaces[which])
+        here += sources[which] * rise.passing_where_lost(m, time, heat.depth, thermal)
+        level = sum(uniform) - uniform[which]
+        level += flux * heat.friction * rise.uniform_where_lost(time, heat.depth, thermal)
+        mean_product = float((grid.weight * (here * pattern.conj()).real).sum() / grid.points**2)
+        octave.append(level + mean_product)
     field = scipy.fft.irfftn(surface, s=grid.shape) + sum(uniform)
     return GridTemperature(np.asarray(field), np.array(octave))
 
 
-def _phases(pressure: Array) -> ComplexArray:
-    spectrum = scipy.fft.rfftn(pressure)
-    size = np.abs(spectrum)
-    return np.divide(spectrum, size, out=np.zeros_like(spectrum), where=size > 0.0)
-
-
-def _envelope(grid: Grid, half: ComplexArray) -> ComplexArray:
-    """Return the field of the waves with q_x > 0 of a half spectrum that holds their opposites."""
-    whole = np.zeros(grid.shape, dtype=complex)
-    if len(grid.shape) == 1:
-        whole[: half.shape[0]] = half
-        return np.asarray(scipy.fft.ifft(whole))
-    forward = half * (grid.along > 0.0)
-    backward = half * (grid.along < 0.0)
-    columns = half.shape[1]
-    whole[:, :columns] = forward
-    opposite = np.roll(backward[::-1], 1, axis=0).conj()
-    last = grid.shape[1]
-    for column in range(columns):
-        whole[:, (last - column) % last] += opposite[:, column]
-    return np.asarray(scipy.fft.ifftn(whole))
-
-
-def _without_mean(density: Array) -> ComplexArray:
-    spectrum = scipy.fft.rfftn(density)
-    spectrum.flat[0] = 0.0
-    return np.asarray(spectrum)
-
-
-def _mean_product(grid: Grid, one: ComplexArray, other: ComplexArray) -> float:
-    """Return the mean of the product of two fields from their half spectra."""
-    return float((grid.weight * (one * other.conj()).real).sum() / grid.points**2)
+def temperature(
+    contact: RoughContact, conditions: Conditions, time: float
+) -> tuple[Array, GridTemperature]:
+    """Return the wavenumbers of the octaves that lose energy [rad/m], and the temperature rise."""
+    assert conditions.heat is not None
+    heats = octave_heats(contact.grid, contact.pressure, contact.lost_by_harmonic())
+    rises = grid_temperature(
+        contact.grid,
+        heats,
+        flux=contact.nominal_pressure * contact.speed,
+        speed=contact.speed,
+        time=time,
+        thermal=conditions.heat,
+    )
+    return np.array([heat.wavenumber for heat in heats]), rises
 
 
 @dataclass(frozen=True)
 class GridSequenceResult:
-    """A contact, and what was found on the levels on the way to it."""
+    """A contact, and the contacts on all levels of its grid sequence."""
 
     contact: RoughContact
     levels: KnownLevels
@@ -208,7 +212,7 @@ Solve = Callable[[RubberByScale | None, KnownLevels], GridSequenceResult]
 def solve_coupled_contact(
     solve: Solve, quick: Solve, rubber: Rubber, conditions: Conditions, time: float
 ) -> RoughContact:
-    """Return the contact in which rubber, strains and heat agree.
+    """Return the contact whose strains and temperatures are those of its rubber.
 
     Parameters
     ----------
@@ -219,105 +223,80 @@ def solve_coupled_contact(
     conditions
         What changes it.
     time
-        For which the nominal contact lasts [s].
+        Duration of the nominal contact [s].
 
     Returns
     -------
     RoughContact
-        With the state of the rubber by scale and the grids of all passes. Its status is `conditions
-        not settled` if passes still changed the result.
+        With the state of the rubber by scale and the grids of all evaluations. Its status is
+        `conditions not settled` if the iteration did not converge.
     """
-    grids: list[GridRecord] = []
-    fine = _Contacts(solve, rubber, conditions, time, grids)
-    return _told(settle_passes(fine, replace(fine, solve=quick)), fine)
+    fine = _ContactEvaluation(solve, rubber, conditions, time)
+    fixed_point = solve_fixed_point(fine, replace(fine, solve=quick))
+    contact, x = fixed_point.last.solution.contact, fixed_point.last.x
+    out = replace(
+        contact,
+        scales=None if x is None else fine.state(x, contact),
+        passes=fixed_point.fine,
+        coarse_passes=fixed_point.coarse,
+        grids=fine.grids,
+    )
+    if contact.converged and not fixed_point.converged:
+        return replace(out, status=Status.CONDITIONS_NOT_SETTLED)
+    return out
 
 
 @dataclass(frozen=True)
-class _Contacts:
-    """Solves the contact with the rubber that assumed temperatures and strains make."""
+class _ContactEvaluation:
+    """Evaluates a state: solves the contact with the rubber it makes, and keeps the grids."""
 
     solve: Solve
     rubber: Rubber
     conditions: Conditions
     time: float
-    grids: list[GridRecord] = field(repr=False)
-    """Of all passes."""
+    grids: list[GridRecord] = field(default_factory=list, repr=False)
+    """Of all evaluations."""
 
     def __call__(
-        self, assumed: Array | None, last: GridSequenceResult | None
+        self, x: Array | None, last: GridSequenceResult | None
     ) -> Iteration[GridSequenceResult]:
-        """Return the pass for what is assumed, from the last contact."""
-        state = None if assumed is None or last is None else self.state(assumed, last.contact)
-        known = {} if last is None or last.contact.by_scale is None else last.levels
-        now = self.solve(None if state is None else state.rubber, known)
-        self.grids.extend(now.contact.grids)
-        found, surface = self._found(now.contact)
-        warmed = replace(now, contact=replace(now.contact, surface_warming=surface))
-        return Iteration(warmed, assumed, found, _results(now.contact), now.contact.converged)
+        """Return the evaluation of `x`, started from the last contact."""
+        state = None if x is None or last is None else self.state(x, last.contact)
+        levels = {} if last is None or last.contact.by_scale is None else last.levels
+        solved = self.solve(None if state is None else state.rubber, levels)
+        contact = solved.contact
+        self.grids.extend(contact.grids)
+        number, surface = _octaves(contact), None
+        warming, strain = np.zeros(number.size), np.ones(number.size)
+        if self.conditions.heat is not None and contact.speed > 0.0:
+            at, rises = temperature(contact, self.conditions, self.time)
+            warming = np.interp(np.log(number), np.log(at), rises.octave)
+            surface = rises.surface
+        if self.conditions.softening is not None:
+            strain = strain_by_scale(contact.grid, contact.height, contact.active, number)
+        friction = [contact.friction_from_dissipation] if contact.speed > 0.0 else []
+        return Iteration(
+            replace(solved, contact=replace(contact, surface_warming=surface)),
+            x,
+            pack_state(warming, strain),
+            [contact.contact_fraction, *friction],
+            contact.converged,
+        )
 
-    def state(self, assumed: Array, contact: RoughContact) -> StateByScale:
-        """Return what is assumed at every scale of a contact."""
-        warming, strain = separate(assumed)
+    def state(self, x: Array, contact: RoughContact) -> StateByScale:
+        """Return the rubber that the state `x` makes at every scale of a contact."""
+        warming, strain = unpack_state(x)
         return state_by_scale(
             self.conditions,
             self.rubber,
-            wavenumber=_scales(contact),
+            wavenumber=_octaves(contact),
             warming=warming,
             strain=strain,
         )
 
-    def _found(self, contact: RoughContact) -> tuple[Array, Array | None]:
-        """Return temperatures and strains by scale, mixed, and the warming of the surface."""
-        number, surface = _scales(contact), None
-        warm, strain = np.zeros(number.size), np.ones(number.size)
-        if self.conditions.heat is not None and contact.speed > 0.0:
-            at, rise = temperature(contact, self.conditions, self.time)
-            warm, surface = np.interp(np.log(number), np.log(at), rise.octave), rise.surface
-        if self.conditions.softening is not None:
-            strain = strain_by_scale(contact.grid, contact.height, contact.active, number)
-        return mixed(warm, strain), surface
 
-
-def temperature(
-    contact: RoughContact, conditions: Conditions, time: float
-) -> tuple[Array, GridTemperature]:
-    """Return wavenumbers of the octaves that lose energy [rad/m], and the temperature rise."""
-    assert conditions.heat is not None
-    heats = octave_heats(contact.grid, contact.pressure, contact.lost_by_harmonic())
-    rise = grid_temperature(
-        contact.grid,
-        heats,
-        flux=contact.nominal_pressure * contact.speed,
-        speed=contact.speed,
-        time=time,
-        thermal=conditions.heat,
-    )
-    return np.array([heat.wavenumber for heat in heats]), rise
-
-
-def _scales(contact: RoughContact) -> Array:
-    """Return the wavenumbers at which the state is known: octaves to half the smallest wave."""
+def _octaves(contact: RoughContact) -> Array:
+    """Return the wavenumbers of the state [rad/m]: octaves down to half the smallest wave."""
     longest = 2.0 * np.pi / max(contact.grid.lengths)
     octaves = np.log2(4.0 * np.pi / contact.smallest_wavelength / longest)
     return np.asarray(longest * 2.0 ** (np.arange(int(np.ceil(octaves))) + 0.5))
-
-
-def _results(now: RoughContact) -> list[float]:
-    """Return what must not change any more: friction only where it slides."""
-    return [now.contact_fraction, *([now.friction_from_dissipation] if now.speed > 0.0 else [])]
-
-
-def _told(passes: Passes[GridSequenceResult], contacts: _Contacts) -> RoughContact:
-    """Return the last pass with what became of the rubber."""
-    contact, assumed = passes.last.solved.contact, passes.last.assumed
-    state = None if assumed is None else contacts.state(assumed, contact)
-    out = replace(
-        contact,
-        scales=state,
-        passes=passes.fine,
-        coarse_passes=passes.coarse,
-        grids=contacts.grids,
-    )
-    if contact.converged and not passes.settled:
-        return replace(out, status=Status.CONDITIONS_NOT_SETTLED)
-    return out

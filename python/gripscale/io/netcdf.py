@@ -26,6 +26,18 @@ _SEAL_LENGTH: Final = len(_SEAL) + 65
 _PART: Final = 1 << 20
 """Bytes read at once."""
 
+RENAMED: Final = {
+    "storage_factor": "storage_modulus_ratio",
+    "loss_factor_left": "loss_modulus_ratio",
+    "beyond_sweep": "strain_extrapolated",
+    "beyond_shift": "temperature_extrapolated",
+    "rubber_beyond_shift": "rubber_temperature_extrapolated",
+    "warming_uniform": "flash_temperature_rise_uniform",
+    "warming_larger_waves": "flash_temperature_rise_larger_waves",
+    "warming_own": "flash_temperature_rise_own",
+}
+"""Variables by their names in files of version 0.1; a file is read with the new names."""
+
 
 def save(
     data: xr.Dataset, path: str | Path, groups: Mapping[str, xr.Dataset] | None = None
@@ -58,7 +70,7 @@ def load(path: str | Path) -> xr.Dataset:
     place = _there(path)
     try:
         with held_back():
-            return xr.load_dataset(place, engine=ENGINE)
+            return _with_new_names(xr.load_dataset(place, engine=ENGINE))
     except (OSError, ValueError, KeyError, RuntimeError) as error:
         raise FileError(f"{place} cannot be read as a netCDF result: {error}") from error
 
@@ -73,9 +85,16 @@ def load_tree(path: str | Path) -> xr.DataTree:
     place = _there(path)
     try:
         with held_back(), xr.open_datatree(place, engine=ENGINE) as tree:
-            return tree.load()
+            tree.load()
+            for node in tree.subtree:
+                node.dataset = _with_new_names(node.to_dataset(inherit=False))
+            return tree
     except (OSError, ValueError, KeyError, RuntimeError) as error:
         raise FileError(f"{place} cannot be read as a netCDF result: {error}") from error
+
+
+def _with_new_names(data: xr.Dataset) -> xr.Dataset:
+    return data.rename({name: RENAMED[name] for name in RENAMED if name in data.data_vars})
 
 
 def write_whole(path: str | Path, write: Callable[[Path], None]) -> Path:

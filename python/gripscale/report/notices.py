@@ -41,9 +41,9 @@ LARGE_MISFIT = 0.05
 """Of the softened series: friction errs by about as much."""
 
 FLAGS = {
-    "beyond_sweep": "the strain lies beyond what the softening was measured for; the last moduli "
-    "are held",
-    "beyond_shift": "the temperature lies beyond what the shift rests on",
+    "strain_extrapolated": "the strain lies beyond what the softening was measured for; the last "
+    "moduli are held",
+    "temperature_extrapolated": "the temperature lies beyond what the shift rests on",
 }
 """What a wave may be flagged for, and in words."""
 

@@ -213,7 +213,11 @@ def _table(view: PredictionView, columns: Sequence[Column], padding: int) -> Tab
 
 # How warm the rubber gets on each wave of a chain, as a table.
 
-PARTS = ("warming_uniform", "warming_larger_waves", "warming_own")
+PARTS = (
+    "flash_temperature_rise_uniform",
+    "flash_temperature_rise_larger_waves",
+    "flash_temperature_rise_own",
+)
 
 
 def heat_table(data: xr.Dataset) -> Table:

@@ -90,16 +90,16 @@ ERRORS = [
 ]
 CONDITIONS = [
     Column("strain", "strain", "%", _in(0.01)),
-    Column("storage_factor", "E′ left", "", percent),
-    Column("loss_factor_left", "E″ left", "", percent),
+    Column("storage_modulus_ratio", "E′ left", "", percent),
+    Column("loss_modulus_ratio", "E″ left", "", percent),
     Column("series_misfit", "misfit", "of the series", percent),
-    Column("beyond_sweep", "beyond sweep", show=_yes_no),
-    Column("warming_uniform", "warming", "uniform, K", _kelvin),
-    Column("warming_larger_waves", "warming", "larger waves, K", _kelvin),
-    Column("warming_own", "warming", "own, K", _kelvin),
+    Column("strain_extrapolated", "beyond sweep", show=_yes_no),
+    Column("flash_temperature_rise_uniform", "warming", "uniform, K", _kelvin),
+    Column("flash_temperature_rise_larger_waves", "warming", "larger waves, K", _kelvin),
+    Column("flash_temperature_rise_own", "warming", "own, K", _kelvin),
     Column("temperature", "temperature", "°C", _celsius),
     Column("contact_temperature", "in contact", "°C", _celsius),
-    Column("beyond_shift", "beyond shift", show=_yes_no),
+    Column("temperature_extrapolated", "beyond shift", show=_yes_no),
     Column("passes", "passes", "", whole),
 ]
 SOLUTION = [

@@ -1,4 +1,9 @@
-"""Contact and friction of one wave, with the evidence for them."""
+"""Contact and friction of one wave, with the evidence for them, as an object and as a Dataset.
+
+Both directions of the conversion use the same tables: `FIELDS`, the numbers of a `WaveResult`;
+`DERIVED`, numbers that follow from these and are written for the reader; and `DETAILS`, numbers
+that only some solvers have. Arrays along the waves are padded with NaN.
+"""
 
 from __future__ import annotations
 
@@ -17,28 +22,26 @@ from gripscale.rubber import Rubber, extrapolation
 from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
 from gripscale.wave.problem import Status
 
-# Harmonics of a contact pressure that is known at the uneven places of surface nodes.
-
 Array = NDArray[np.float64]
+
+LARGE_MISMATCH = 0.05
+"""Relative difference of the two frictions above which a result is in doubt."""
 
 
 def harmonics(x: Array, pressure: Array, period: float, order: NDArray[np.int_]) -> Array:
     """Return |p_k| [Pa] of the harmonics of `order`, by the trapezoidal rule.
 
-    `x` [m] may be anywhere; where it or `pressure` [Pa] is not finite there is no node.
+    The nodes `x` [m] may be at uneven steps; those where `x` or `pressure` [Pa] is not finite are
+    left out.
     """
-    known = np.isfinite(x) & np.isfinite(pressure)
-    place = np.mod(x[known], period)
-    sequence = np.argsort(place)
-    place, height = place[sequence], pressure[known][sequence]
-    width = np.diff(np.append(place, place[0] + period))
+    finite = np.isfinite(x) & np.isfinite(pressure)
+    position = np.mod(x[finite], period)
+    sequence = np.argsort(position)
+    position, height = position[sequence], pressure[finite][sequence]
+    width = np.diff(np.append(position, position[0] + period))
     weight = 0.5 * (width + np.roll(width, 1))
-    phase = np.exp(-2j * np.pi * np.outer(order, place) / period)
+    phase = np.exp(-2j * np.pi * np.outer(order, position) / period)
     return np.asarray(np.abs(phase @ (weight * height)) / period)
-
-
-LARGE_MISMATCH = 0.05
-"""Relative difference of the two frictions above which a result is in doubt."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +56,7 @@ class WaveResult:
     amplitude: float
     """Of the wave; of a profile half the range of heights [m]."""
     pressure_received: float
-    """Mean pressure this wave was given [Pa]."""
+    """Mean pressure on this wave [Pa]."""
     speed: float
     load_time: float
     contact_fraction: float
@@ -91,18 +94,18 @@ class WaveResult:
     friction_bound: float = math.nan
     """Largest difference of the two frictions of a converged wave [-]; NaN at rest, or if unknown.
 
-    A twentieth of the larger, or of 0.04 of the slope 2 pi amplitude/wavelength (root of two times
-    the rms slope of a profile) where friction is less: so small a friction is known to no more.
+    A twentieth of the larger friction. Frictions below 0.04 of the slope 2 pi amplitude/wavelength
+    (root of two times the rms slope of a profile) have the bound of that value.
     """
     loss_by_depth: tuple[Array, Array] | None = field(default=None, repr=False, compare=False)
-    """Depths between the rows of elements at rest [m], shape (rows + 1,), and the part of
-    `friction_from_dissipation` that each row loses [-], shape (rows,); None where it is not known.
-    Not written to files."""
+    """Depths between the rows of elements at rest [m], shape (rows + 1,), and the contribution of
+    each row to `friction_from_dissipation` [-], shape (rows,); None if unknown. Not written to
+    files."""
     solution: Any = field(default=None, repr=False, compare=False)
-    """What the solver keeps to start another wave from; not written to files."""
+    """State of the solver, to start another wave from; not written to files."""
 
     def __getstate__(self) -> dict[str, Any]:
-        """Leave the solver's own solution behind when a result is pickled."""
+        """Return the fields without the state of the solver, which cannot be pickled."""
         return {**self.__dict__, "solution": None}
 
     @property
@@ -117,11 +120,17 @@ class WaveResult:
 
     @property
     def why(self) -> str:
-        """The status, with how the frictions disagree or how much of the pressure was reached."""
+        """The status, with both frictions if they disagree, or the share of the pressure."""
         if self.converged:
             return str(self.status)
         if self.status == Status.FRICTIONS_DISAGREE:
-            return f"{self.status}, {self._frictions}"
+            slope = self.details.get("contact_slope")
+            where = "" if slope is None else f" with contact on slopes up to {slope:.2g}"
+            return (
+                f"{self.status}, {self.friction:.3g} from traction and "
+                f"{self.friction_from_dissipation:.3g} from dissipation{where}: "
+                "more columns are needed"
+            )
         reached = self.details.get("load_reached", math.nan)
         if self.status == Status.CONTACT_TOO_NARROW and "expected_contact_width" in self.details:
             return (
@@ -140,17 +149,8 @@ class WaveResult:
         return f"{self.status} at {100.0 * reached:.3g} % of the pressure"
 
     @property
-    def _frictions(self) -> str:
-        slope = self.details.get("contact_slope")
-        where = "" if slope is None else f" with contact on slopes up to {slope:.2g}"
-        return (
-            f"{self.friction:.3g} from traction and {self.friction_from_dissipation:.3g} from "
-            f"dissipation{where}: more columns are needed"
-        )
-
-    @property
     def friction_mismatch(self) -> float:
-        """Relative difference of the two friction measures: the discretisation's own error."""
+        """Relative difference of the two frictions, which is an error of the discretisation."""
         scale = max(abs(self.friction), abs(self.friction_from_dissipation))
         difference = abs(self.friction - self.friction_from_dissipation)
         return difference / scale if scale > 0.0 else 0.0
@@ -159,7 +159,7 @@ class WaveResult:
     def slope(self) -> float:
         """Largest slope of a sine, 2 pi amplitude / wavelength [-].
 
-        Of a profile that of the sine of its period and range: the profile itself is steeper.
+        For a profile that of a sine with its period and range; the profile itself is steeper.
         """
         return 2.0 * math.pi * self.amplitude / self.wavelength
 
@@ -170,27 +170,27 @@ class WaveResult:
 
     @property
     def modulus(self) -> float:
-        """|E*| of the rubber at the fundamental excitation [Pa], NaN if it is not known."""
+        """|E*| of the rubber at the fundamental excitation [Pa], NaN if unknown."""
         return abs(self._complex_modulus())
 
     @property
     def loss_factor(self) -> float:
-        """E''/E' of the rubber at the fundamental excitation [-], NaN if it is not known."""
+        """Tan delta = E''/E' of the rubber at the fundamental excitation [-], NaN if unknown."""
         modulus = self._complex_modulus()
         return modulus.imag / modulus.real
 
     @property
     def outside_band(self) -> bool:
-        """Whether more than 1 % of its friction rests on the rubber beyond what was measured."""
+        """Whether more than 1 % of the friction uses the rubber beyond its measured band."""
         return self.extrapolation.share > WORTH_SAYING
 
     @property
     def extrapolation(self) -> Extrapolation:
-        """What of it rests on the rubber beyond what was measured; nothing at rest.
+        """Share of the friction that uses the rubber beyond its measured band; zero at rest.
 
-        A sine counts whole if its fundamental, or its harmonic as long as the contact,
-        n = ceil(wavelength / contact length), is beyond the band. The friction of a profile is
-        split by the harmonics of its pressure, |p_k|^2 Im(M)/|M|^2 each, as on a half-plane.
+        The share of a sine is 1 if its fundamental, or its harmonic n = ceil(wavelength / contact
+        length), is beyond the band. The friction of a profile is split by the harmonics of its
+        pressure, |p_k|^2 Im(M)/|M|^2 each, as on a half-plane.
         """
         if self.speed == 0.0:
             return extrapolation.NONE
@@ -214,10 +214,7 @@ class WaveResult:
 
 
 ScaleResult = WaveResult
-"""Its name as `gripscale.ScaleResult`."""
-
-
-# Solved waves as a labelled Dataset over `scale`, and back: one table of fields for both ways.
+"""The public name, `gripscale.ScaleResult`."""
 
 LW = "Lind & Wangenheim 2014, IMECE2014-37998"
 CHAIN = "gripscale chain"
@@ -241,7 +238,7 @@ class Field(NamedTuple):
         return self.other_name or self.name
 
     def variable(self, values: Any) -> xr.Variable:
-        """Return `values` over the waves with what every variable of a result carries."""
+        """Return `values` over the waves as a labelled variable."""
         return labelled("scale", values, self.unit, self.long_name, self.source)
 
 
@@ -264,7 +261,7 @@ FIELDS = (
     Field("newton_iterations", "1", "Newton iterations"),
     Field("residual", "1", "residual force over applied force"),
 )
-"""What a `WaveResult` is made of, as far as it is one number."""
+"""Numbers of a `WaveResult`, written and read."""
 
 DERIVED = (
     Field("contact_length", "m", "contact length on the mean plane"),
@@ -294,7 +291,7 @@ DERIVED = (
     ),
     Field("friction_mismatch", "1", "relative difference of the two friction coefficients", CHAIN),
 )
-"""What follows from the fields; written for the reader, not read back."""
+"""Numbers that follow from the fields: written, not read."""
 
 DETAILS = (
     Field("load_steps", "1", "load steps"),
@@ -308,23 +305,34 @@ DETAILS = (
     Field("points", "1", "points along the wave"),
     Field("points_in_contact", "1", "points in contact"),
     Field("full_contact", "1", "1 where the contact is full"),
-    Field("passes", "1", "passes until rubber, strains and heat agreed"),
-    Field("strain", "1", "uniaxial strain amplitude the softening was taken at", CHAIN),
-    Field("storage_factor", "1", "what strain leaves of the storage modulus", CHAIN),
-    Field("loss_factor_left", "1", "what strain leaves of the loss modulus", CHAIN),
+    Field("passes", "1", "solutions until rubber, strains and heat agreed"),
+    Field("strain", "1", "uniaxial strain amplitude of the softening", CHAIN),
+    Field("storage_modulus_ratio", "1", "softened over measured storage modulus", CHAIN),
+    Field("loss_modulus_ratio", "1", "softened over measured loss modulus", CHAIN),
     Field("series_misfit", "1", "relative misfit of the softened series at the wave", CHAIN),
-    Field("beyond_sweep", "1", "1 where the strain lies beyond the sweep of the softening", CHAIN),
+    Field(
+        "strain_extrapolated",
+        "1",
+        "1 where the strain lies beyond the sweep of the softening",
+        CHAIN,
+    ),
     Field("temperature", "K", "temperature of the rubber where the wave loses energy", CHAIN),
-    Field("warming_uniform", "K", "of it by the heat of all waves spread evenly", CHAIN),
-    Field("warming_larger_waves", "K", "of it in the contact of the larger waves", CHAIN),
-    Field("warming_own", "K", "of it by the wave's own heat", CHAIN),
+    Field(
+        "flash_temperature_rise_uniform", "K", "rise by the heat of all waves, spread evenly", CHAIN
+    ),
+    Field(
+        "flash_temperature_rise_larger_waves", "K", "rise in the contact of the larger waves", CHAIN
+    ),
+    Field("flash_temperature_rise_own", "K", "rise by the heat pattern of the wave", CHAIN),
     Field("contact_temperature", "K", "temperature in the contact of the wave", CHAIN),
-    Field("beyond_shift", "1", "1 where the temperature lies beyond the shift's", CHAIN),
+    Field(
+        "temperature_extrapolated",
+        "1",
+        "1 where the temperature lies beyond the range of the shift",
+        CHAIN,
+    ),
 )
-"""Numbers only some solvers have."""
-
-ALONG = {"surface_x": "x", "surface_pressure": "pressure"}
-MESH = ("mesh_x", "mesh_z")
+"""Numbers that only some solvers or conditions have."""
 
 
 def waves_to_dataset(results: Sequence[WaveResult]) -> xr.Dataset:
@@ -332,99 +340,80 @@ def waves_to_dataset(results: Sequence[WaveResult]) -> xr.Dataset:
 
     Every variable carries `units`, `long_name` and `source`.
     """
-    data = {field.name: _column(field, results) for field in (*FIELDS, *DERIVED)}
+    data: dict[str, xr.Variable] = {}
+    for number in (*FIELDS, *DERIVED):
+        values = np.array([attrgetter(number.attribute)(result) for result in results])
+        if number.name == "friction_mismatch":  # without sliding there are no frictions to compare
+            values = np.where([result.speed > 0.0 for result in results], values, math.nan)
+        if values.dtype == bool:
+            values = values.astype(np.int8)
+        data[number.name] = number.variable(values)
     for detail in DETAILS:
-        values = [float(result.details.get(detail.name, math.nan)) for result in results]
+        values = np.array([float(r.details.get(detail.name, math.nan)) for r in results])
         if np.isfinite(values).any():
             data[detail.name] = detail.variable(values)
-    data |= _along_the_wave(results) | _meshes(results)
+
+    dims: tuple[str, ...] = ("scale", "surface_node")
+    x, pressure = _padded([r.x for r in results]), _padded([r.pressure for r in results])
+    data["surface_x"] = labelled(dims, x, "m", "deformed abscissa, crest of the wave at 0", SOLVER)
+    data["surface_pressure"] = labelled(dims, pressure, "Pa", "contact pressure", SOLVER)
+    meshes = [result.deformed_mesh for result in results]
+    if any(mesh is not None for mesh in meshes):
+        dims, empty = ("scale", "layer", "column"), np.zeros((0, 0))
+        for i, (name, words) in enumerate((("mesh_x", "abscissa"), ("mesh_z", "height"))):
+            positions = _padded([empty if mesh is None else mesh[i] for mesh in meshes])
+            data[name] = labelled(dims, positions, "m", f"{words} of the deformed nodes", SOLVER)
+
+    rubbers = [r.rubber and json.dumps(r.rubber.to_dict()) for r in results]
     for name, long_name, texts in (
         ("status", "converged, or why not", [str(result.status) for result in results]),
         ("wave_solver", "solver of the wave", [result.model for result in results]),
-        ("rubber_parameters", "the rubber", [_text_of(result.rubber) for result in results]),
+        ("rubber_parameters", "the rubber", [text or "" for text in rubbers]),
     ):
         data[name] = labelled("scale", np.array(texts, dtype=object), "1", long_name, SOLVER)
-    number = labelled("scale", np.arange(1, len(results) + 1), "1", "number of the wave", CHAIN)
-    return xr.Dataset(data, coords={"scale": number})
+    scale = labelled("scale", np.arange(1, len(results) + 1), "1", "number of the wave", CHAIN)
+    return xr.Dataset(data, coords={"scale": scale})
 
 
 def waves_from_dataset(data: xr.Dataset) -> list[WaveResult]:
-    """Return the waves of a Dataset, equal to those it was made of but for what starts others."""
-    return [_wave(data.isel(scale=i)) for i in range(data.sizes["scale"])]
+    """Return the waves of a Dataset, equal to the original ones except for solver states."""
+    out = []
+    for i in range(data.sizes["scale"]):
+        wave = data.isel(scale=i)
+        fields = {f.attribute: float(wave[f.name]) for f in FIELDS if f.name in wave}
+        details = {f.name: float(wave[f.name]) for f in DETAILS if f.name in wave}
+        rubber = str(wave["rubber_parameters"].item())
+        node = np.isfinite(wave["surface_x"].values)
+        mesh = None
+        if "mesh_x" in wave:
+            x, z = wave["mesh_x"].values, wave["mesh_z"].values
+            layers, columns = np.isfinite(x).any(axis=1), np.isfinite(x).any(axis=0)
+            mesh = (x[layers][:, columns], z[layers][:, columns]) if layers.any() else None
+        out.append(
+            WaveResult(
+                **{**fields, "newton_iterations": int(fields["newton_iterations"])},  # type: ignore[arg-type]
+                status=Status(str(wave["status"].item())),
+                model=str(wave["wave_solver"].item()),
+                rubber=Rubber.from_dict(json.loads(rubber)) if rubber else None,
+                x=wave["surface_x"].values[node],
+                pressure=wave["surface_pressure"].values[node],
+                deformed_mesh=mesh,
+                details={name: value for name, value in details.items() if math.isfinite(value)},
+            )
+        )
+    return out
 
 
 def labelled(dims: Any, values: Any, unit: str, long_name: str, source: str) -> xr.Variable:
-    """Return `values` with what every variable of a result carries."""
+    """Return `values` as a variable with the attributes that every result has."""
     attrs = {"units": unit, "long_name": long_name, "source": source}
     return xr.Variable(dims, np.asarray(values), attrs)
 
 
-def _column(field: Field, results: Sequence[WaveResult]) -> xr.Variable:
-    values = np.array([attrgetter(field.attribute)(result) for result in results])
-    if field.name == "friction_mismatch":  # nothing slides: nothing to compare
-        values = np.where([result.speed > 0.0 for result in results], values, math.nan)
-    if values.dtype == bool:
-        values = values.astype(np.int8)
-    return field.variable(values)
-
-
-def _along_the_wave(results: Sequence[WaveResult]) -> dict[str, xr.Variable]:
-    dims = ("scale", "surface_node")
-    x, pressure = (_padded([getattr(r, name) for r in results]) for name in ALONG.values())
-    return {
-        "surface_x": labelled(dims, x, "m", "deformed abscissa, crest of the wave at 0", SOLVER),
-        "surface_pressure": labelled(dims, pressure, "Pa", "contact pressure", SOLVER),
-    }
-
-
-def _meshes(results: Sequence[WaveResult]) -> dict[str, xr.Variable]:
-    meshes = [result.deformed_mesh for result in results]
-    if all(mesh is None for mesh in meshes):
-        return {}
-    none = np.zeros((0, 0))
-    out = {}
-    for i, (name, long_name) in enumerate(zip(MESH, ("abscissa", "height"), strict=True)):
-        values = _padded([none if mesh is None else mesh[i] for mesh in meshes])
-        dims = ("scale", "layer", "column")
-        out[name] = labelled(dims, values, "m", f"{long_name} of the deformed nodes", SOLVER)
-    return out
-
-
 def _padded(arrays: Sequence[Array]) -> Array:
-    """Return arrays of different sizes as one, NaN where they have nothing."""
+    """Return arrays of different sizes as one array, padded with NaN."""
     shapes = np.array([array.shape for array in arrays])
     out = np.full((len(arrays), *shapes.max(axis=0, initial=0)), math.nan)
     for row, array in zip(out, arrays, strict=True):
         row[tuple(slice(length) for length in array.shape)] = array
     return out
-
-
-def _wave(one: xr.Dataset) -> WaveResult:
-    fields = {field.attribute: float(one[field.name]) for field in FIELDS if field.name in one}
-    details = {f.name: float(one[f.name]) for f in DETAILS if f.name in one}
-    known = np.isfinite(one["surface_x"].values)
-    return WaveResult(
-        **{**fields, "newton_iterations": int(fields["newton_iterations"])},  # type: ignore[arg-type]
-        status=Status(str(one["status"].item())),
-        model=str(one["wave_solver"].item()),
-        rubber=_rubber_of(str(one["rubber_parameters"].item())),
-        **{name: one[long].values[known] for long, name in ALONG.items()},
-        deformed_mesh=_mesh(one),
-        details={name: value for name, value in details.items() if math.isfinite(value)},
-    )
-
-
-def _mesh(one: xr.Dataset) -> tuple[Array, Array] | None:
-    if MESH[0] not in one:
-        return None
-    x, z = (one[name].values for name in MESH)
-    layers, columns = np.isfinite(x).any(axis=1), np.isfinite(x).any(axis=0)
-    return (x[layers][:, columns], z[layers][:, columns]) if layers.any() else None
-
-
-def _text_of(rubber: Rubber | None) -> str:
-    return "" if rubber is None else json.dumps(rubber.to_dict())
-
-
-def _rubber_of(text: str) -> Rubber | None:
-    return Rubber.from_dict(json.loads(text)) if text else None
