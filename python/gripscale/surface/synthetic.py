@@ -34,7 +34,8 @@ def self_affine_profile(
     which has the two asymptotes of [LW eq. 6] (the power law and the plateau meet at xi_par) with
     a smooth bend between: a sharp bend is no covariance of a line for H > 1/2.
     The profile is drawn exactly, by circulant embedding (C. R. Dietrich & G. N. Newsam, SIAM J.
-    Sci. Comput. 18 (1997) 1088, doi:10.1137/S1064827592240555). [LW] Lind & Wangenheim, ASME IMECE2014-37998.
+    Sci. Comput. 18 (1997) 1088, doi:10.1137/S1064827592240555).
+    [LW] Lind & Wangenheim, ASME IMECE2014-37998.
 
     Parameters
     ----------
