@@ -124,7 +124,7 @@ def visit(browser: Any, server: str) -> Iterator[AppVisit]:
 def open_small(seen: AppVisit, small: Path) -> None:
     """Drop the small case with its files; wait until it is shown."""
     seen.drop(-1, *small.iterdir())
-    seen.look(lambda: '"inputs/dma.txt"' in seen.case(), "files of the case")
+    seen.look(lambda: '"inputs/road.txt"' in seen.case(), "files of the case")
     seen.says("This case can be run")
 
 
@@ -260,7 +260,7 @@ def test_two_tabs_are_apart(slow: AppVisit, browser: Any, server: str, root: Pat
         other.look(kept, "cases of their own")
         assert (slow.case(), other.case()) == (SLOW, own)
         other.tab("5 Results")
-        other.says("Nothing was run yet")
+        other.says("No case was run yet")
 
 
 def test_stop_ends_the_process(slow: AppVisit, root: Path) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from gripscale.analysis.comparison import save_reference
-from gripscale.app.tabs import results_elements
+from gripscale.app.run_tabs import results_elements
 from gripscale.case import read_case, run_case
 from gripscale.charts.page_elements import Chart, Text
 

@@ -34,7 +34,7 @@ rows = 60
 @pytest.fixture
 def runs(tmp_path: Path) -> Runs:
     state = CaseState(VisitFolder.new(tmp_path))
-    state.show(SLOW)
+    state.set_text(SLOW)
     return Runs(state)
 
 
@@ -51,7 +51,7 @@ def test_stopping_ends_the_process_and_the_same_case_goes_on_in_its_folder(runs:
     run = runs.start()
     assert run.state == "running"
     assert there(run.pid)
-    with pytest.raises(InputError, match="run-1 is still going"):
+    with pytest.raises(InputError, match="run-1 is still running"):
         runs.start()
     runs.stop()
     assert run.state == "stopped"
@@ -69,10 +69,10 @@ def test_a_failed_run_says_its_sentence(runs: Runs) -> None:
     state.set(("surface", "scales"), 2)
     run = runs.start()
     until = time.monotonic() + 60
-    while run.going and time.monotonic() < until:
+    while run.running and time.monotonic() < until:
         time.sleep(0.1)
     assert run.state == "failed"
     assert (
-        state.place.short(run.complaint())
+        state.visit.short(run.failure())
         == "inputs/no.txt: cannot be read (no such file); see `gripscale keys surface`"
     )

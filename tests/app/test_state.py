@@ -14,14 +14,14 @@ from hypothesis import strategies as st
 from gripscale.app.case import (
     CaseState,
     VisitFolder,
-    stated,
-    tables,
-    value_of,
+    field_text,
+    field_value,
+    tables_of,
+    value_at,
     with_value,
-    words_of,
 )
 from gripscale.app.forms import table_form
-from gripscale.app.tabs import load_tab, road_tab, rubber_tab
+from gripscale.app.input_tabs import load_tab, road_tab, rubber_tab
 from gripscale.case import EXAMPLES
 from gripscale.case.keys import sections
 from gripscale.core.errors import InputError
@@ -40,7 +40,7 @@ VALUES: st.SearchStrategy[Any] = st.recursive(
 @pytest.fixture
 def state(tmp_path: Path) -> CaseState:
     state = CaseState(VisitFolder.new(tmp_path))
-    state.show(CASE)
+    state.set_text(CASE)
     return state
 
 
@@ -51,14 +51,14 @@ def fields(form: pn.Column) -> dict[str, Any]:
 
 @given(VALUES.filter(lambda value: not isinstance(value, str) or value.strip() == value != ""))
 def test_a_field_shows_every_value_so_that_it_is_read_back(value: Any) -> None:
-    assert value_of(words_of(value)) == value
+    assert field_value(field_text(value)) == value
 
 
 @given(VALUES)
 def test_a_value_put_into_the_text_is_stated_there_and_nothing_else_changes(value: Any) -> None:
     text = with_value(CASE, ("load", "speed"), value)
-    assert stated(text, ("load", "speed")) == value
-    assert tables(with_value(text, ("load", "speed"), "0.3 m/s")) == tables(CASE)
+    assert value_at(text, ("load", "speed")) == value
+    assert tables_of(with_value(text, ("load", "speed"), "0.3 m/s")) == tables_of(CASE)
 
 
 def test_comments_stay_and_a_key_can_be_taken_out() -> None:
@@ -92,10 +92,10 @@ def test_a_kind_that_is_chosen_brings_its_keys(state: CaseState, kind: str) -> N
     assert state.get(("conditions", "softening")) == {"kind": kind}
     keys = next(s for s in sections() if s.name == "conditions.softening" and s.kind == kind).keys
     assert {key.name.replace("_", " ") for key in keys} - {"kind"} <= set(fields(form))
-    assert "[conditions] softening" in state.complaint
+    assert "[conditions] softening" in state.validation_message
     fields(form)["softening"].value = "none"
     assert state.get(("conditions", "softening")) is None
-    assert state.complaint.startswith("surface file")
+    assert state.validation_message.startswith("surface file")
 
 
 def test_a_file_in_place_of_a_law_is_shown_and_can_be_taken_out(state: CaseState) -> None:
@@ -112,9 +112,9 @@ def test_what_is_typed_is_in_the_text_and_what_is_in_the_text_is_shown(state: Ca
     shown["speed"].value = "2 m/s"
     shown["static"].value = "true"
     shown["pressure"].value = "4e5"
-    assert tables(state.text)["load"] == {
+    assert tables_of(state.text)["load"] == {
         "pressure": 4e5, "speed": "2 m/s", "footprint": "100 mm", "static": True}  # fmt: skip
-    state.show(CASE)
+    state.set_text(CASE)
     assert state.text == CASE
     assert [shown[name].value for name in ("speed", "pressure")] == ["0.3 m/s", "3 bar"]
     assert shown["static"].value == "by default: false"
@@ -123,18 +123,18 @@ def test_what_is_typed_is_in_the_text_and_what_is_in_the_text_is_shown(state: Ca
 def test_a_value_that_cannot_be_shown_stays_in_the_text(state: CaseState) -> None:
     shown = fields(table_form(state, "surface", ()))
     text = CASE.replace("scales = 3", 'scales = 3\ndirection = "z"')
-    state.show(text)
+    state.set_text(text)
     assert state.text == text
     assert shown["direction"].value == 'by default: "x"'
-    assert "direction = 'z'" in state.complaint
+    assert "direction = 'z'" in state.validation_message
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_an_example_fills_every_form_and_no_form_changes_it(state: CaseState, name: str) -> None:
     tabs = [tab(state) for tab in (road_tab, rubber_tab, load_tab)]
     state.load_example(name)
-    assert state.complaint == ""
-    assert state.place.case.read_text(encoding="utf-8") == state.text
+    assert state.validation_message == ""
+    assert state.visit.case.read_text(encoding="utf-8") == state.text
     assert fields(tabs[2])["pressure"].value == state.get(("load", "pressure"))
 
 
@@ -142,7 +142,7 @@ def test_a_case_is_opened_with_the_files_it_names(
     state: CaseState, dropped: dict[str, bytes]
 ) -> None:
     state.open(dropped)
-    assert state.complaint == ""
+    assert state.validation_message == ""
     assert state.get(("surface", "files")) == ["inputs/road.txt"]
     assert state.text == CASE.replace("../elsewhere/road", "inputs/road").replace(
         '"dma', '"inputs/dma'
@@ -159,8 +159,8 @@ def test_two_cases_dropped_at_once_are_refused(state: CaseState) -> None:
 
 
 def test_a_text_that_is_no_toml_is_kept_and_said(state: CaseState) -> None:
-    state.show("[load\n")
-    assert state.complaint.startswith("case file case.toml is not valid TOML")
+    state.set_text("[load\n")
+    assert state.validation_message.startswith("case file case.toml is not valid TOML")
     state.set(("load", "speed"), 1.0)
     assert state.text == "[load\n"
-    assert "not valid TOML" in state.complaint
+    assert "not valid TOML" in state.validation_message

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from gripscale.app.case import MOST, CaseState, VisitFolder, safe_name
+from gripscale.app.case import MAX_UPLOAD, CaseState, VisitFolder, safe_name
 from gripscale.app.runs import Runs
 from gripscale.core.errors import InputError
 
@@ -45,10 +45,10 @@ def inside(text: str) -> str:
 def test_a_case_that_names_a_file_outside_is_refused(
     state: CaseState, role: str, name: str, tmp_path: Path
 ) -> None:
-    (state.place.path / "link.txt").symlink_to(tmp_path / "secret.txt")
+    (state.visit.path / "link.txt").symlink_to(tmp_path / "secret.txt")
     old, new = ROLES[role]
-    state.show(inside(CASE.replace(old, new.replace("NAME", name))))
-    assert f'file "{name}" lies outside the folder of this page' in state.complaint
+    state.set_text(inside(CASE.replace(old, new.replace("NAME", name))))
+    assert f'file "{name}" lies outside the folder of this page' in state.validation_message
     with pytest.raises(InputError, match="lies outside"):
         state.file()
     runs = Runs(state)
@@ -60,17 +60,17 @@ def test_a_case_that_names_a_file_outside_is_refused(
 @pytest.mark.parametrize("role", ROLES)
 def test_a_case_that_names_a_file_inside_is_taken(state: CaseState, role: str) -> None:
     old, new = ROLES[role]
-    state.show(inside(CASE.replace(old, new.replace("NAME", "inputs/other.txt"))))
-    assert state.complaint == ""
+    state.set_text(inside(CASE.replace(old, new.replace("NAME", "inputs/other.txt"))))
+    assert state.validation_message == ""
 
 
 def test_the_folder_of_another_visit_is_outside(state: CaseState) -> None:
     """Its name begins like that of this one: a comparison of texts would let it pass."""
-    other = Path(f"{state.place.path}0")
+    other = Path(f"{state.visit.path}0")
     other.mkdir()
     (other / "road.txt").write_text("0 0\n")
-    state.show(CASE.replace("../elsewhere", f"../{other.name}"))
-    assert "lies outside" in state.complaint
+    state.set_text(CASE.replace("../elsewhere", f"../{other.name}"))
+    assert "lies outside" in state.validation_message
 
 
 @pytest.mark.parametrize(
@@ -102,7 +102,7 @@ def test_a_name_without_letters_is_refused(name: str) -> None:
 def test_a_file_too_large_is_refused_with_its_size(tmp_path: Path) -> None:
     place = VisitFolder.new(tmp_path)
     with pytest.raises(InputError, match=r"big.dat has 50 MB; expected at most 50 MB"):
-        place.store("big.dat", bytes(MOST + 1))
+        place.store("big.dat", bytes(MAX_UPLOAD + 1))
     assert list((place.path / "inputs").iterdir()) == []
 
 

@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 import xarray as xr
 
-from gripscale.case import WaveSolved, run_case
+from gripscale.case import run_case
+from gripscale.case.events import Event, ResultsReplaced, WaveSolved
 from gripscale.io import netcdf
 from gripscale.theory import HalfPlane
 from gripscale.wave import FiniteStrainBlock, WaveProblem, WaveResult
@@ -69,10 +70,12 @@ def test_a_stopped_run_solves_only_what_is_missing(
     solved(last)
     with pytest.raises(KeyboardInterrupt):
         run_case(three, output=tmp_path / "stopped")
-    seen, told = solved(None), list[WaveSolved]()
-    results = run_case(three, output=tmp_path / "stopped", on_wave=told.append)
+    seen, events = solved(None), list[Event]()
+    results = run_case(three, output=tmp_path / "stopped", on_event=events.append)
     assert len(seen) == 6 - last
-    assert [one.taken_up for one in told] == [number < last for number in range(6)]
+    assert [event.stored for event in events if isinstance(event, WaveSolved)] == [
+        number < last for number in range(6)
+    ]
     assert results.converged
     same(tmp_path / "whole", tmp_path / "stopped")
 
@@ -82,10 +85,11 @@ def test_a_finished_run_solves_nothing_again_unless_told_to(
 ) -> None:
     run_case(three, output=tmp_path / "out")
     first = netcdf.load(tmp_path / "out" / "dynamic.nc")
-    seen, told = solved(None), list[str]()
-    results = run_case(three, output=tmp_path / "out", on_folder=told.append)
+    seen, events = solved(None), list[Event]()
+    results = run_case(three, output=tmp_path / "out", on_event=events.append)
     assert not seen
-    assert told[0].startswith("Replaces 1 file of an earlier run")  # the case itself
+    replaced = [event for event in events if isinstance(event, ResultsReplaced)]
+    assert replaced[0].message.startswith("Replaces 1 file of an earlier run")  # the case itself
     assert results.dynamic is not None
     xr.testing.assert_identical(first, netcdf.load(tmp_path / "out" / "dynamic.nc"))
     run_case(three, output=tmp_path / "out", fresh=True)

@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 import gripscale as gs
-from gripscale.case import WaveSolved, case_chain, prepare_case, read_case, run_case
+from gripscale.case import case_chain, prepare_case, read_case, run_case
+from gripscale.case.events import Event, WaveSolved
 from gripscale.core.errors import ExtrapolationError
 from gripscale.io import netcdf
 from gripscale.wave import FiniteStrainBlock, Status, WaveProblem, WaveResult
@@ -50,11 +51,13 @@ def test_files_are_written_where_they_are_wanted(case: Path, tmp_path: Path) -> 
     target = tmp_path / "out"
     seen: list[tuple[str, int, int]] = []
 
-    def look(solved: WaveSolved) -> None:
-        on_disk = netcdf.load(target / f"{solved.name}.nc").sizes["scale"]
-        seen.append((solved.name, len(solved.so_far.scales), on_disk))
+    def look(event: Event) -> None:
+        if not isinstance(event, WaveSolved):
+            return
+        on_disk = netcdf.load(target / f"{event.prediction}.nc").sizes["scale"]
+        seen.append((event.prediction, event.number, on_disk))
 
-    results = run_case(prepare_case(case), output=target, on_wave=look)
+    results = run_case(prepare_case(case), output=target, on_event=look)
     assert seen == [("dynamic", 1, 1), ("dynamic", 2, 2), ("static", 1, 1), ("static", 2, 2)]
     tree = netcdf.load_tree(target / "dynamic.nc")
     assert set(tree.children) == {"inputs"}

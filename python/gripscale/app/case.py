@@ -1,4 +1,8 @@
-"""The case of one visit: its text is the one state of the page, shown and edited from all sides."""
+"""The case of one visit: its folder, and its text, which is the only state of the page.
+
+Every field, tab and upload of the page changes the text of the case, and follows it. Uploads are
+stored in the folder of the visit; the page reads no other file.
+"""
 
 from __future__ import annotations
 
@@ -21,12 +25,10 @@ from gripscale.case.examples import write_example
 from gripscale.case.folder import CASE, INPUTS, renamed
 from gripscale.core.errors import FileError, GripscaleError, InputError
 
-# The folder of one visit: what is dropped on the page is stored here, and nothing else is read.
-
-MOST = 50_000_000
-"""Bytes of a file that is taken."""
-LONGEST = 100
-"""Letters of a name that are kept."""
+MAX_UPLOAD = 50_000_000
+"""Bytes of an uploaded file."""
+MAX_NAME = 100
+"""Letters of the name of an uploaded file."""
 
 
 @dataclass(frozen=True)
@@ -48,42 +50,39 @@ class VisitFolder:
         return self.path / CASE
 
     def store(self, name: str, content: bytes) -> str:
-        """Keep a dropped file; return its name as the case states it.
+        """Store an upload; return its name as the case states it.
 
         A file of the same name with another content stays, as a run may still read it.
         """
-        if len(content) > MOST:
-            raise InputError(
-                f"{safe_name(name)} has {len(content) / 1e6:.0f} MB; "
-                f"expected at most {MOST / 1e6:.0f} MB"
-            )
         safe, number = Path(safe_name(name)), 1
-        place = self.path / INPUTS / safe
-        while place.exists() and place.read_bytes() != content:
+        if len(content) > MAX_UPLOAD:
+            raise InputError(
+                f"{safe} has {len(content) / 1e6:.0f} MB; expected at most "
+                f"{MAX_UPLOAD / 1e6:.0f} MB"
+            )
+        path = self.path / INPUTS / safe
+        while path.exists() and path.read_bytes() != content:
             number += 1
-            place = place.with_name(f"{safe.stem}_{number}{safe.suffix}")
-        folder.write_bytes(place, content)
-        return f"{INPUTS}/{place.name}"
+            path = path.with_name(f"{safe.stem}_{number}{safe.suffix}")
+        folder.write_bytes(path, content)
+        return f"{INPUTS}/{path.name}"
 
     def require_inside(self, file: CaseFile) -> None:
         """Raise `InputError` if the case names a file outside this folder."""
         for role, name in file.case.named_files():
-            if not self.holds(file, name):
+            try:
+                inside = file.resolve(name).is_relative_to(self.path)
+            except (OSError, RuntimeError, ValueError):  # a loop of links, an unknown home, a NUL
+                inside = False
+            if not inside:
                 raise InputError(
                     f'{role} file "{name}" lies outside the folder of this page; '
                     "drop the file itself on the page"
                 )
 
-    def holds(self, file: CaseFile, name: str) -> bool:
-        """Return whether a file that the case names lies in this folder, links followed."""
-        try:
-            return file.resolve(name).is_relative_to(self.path)
-        except (OSError, RuntimeError, ValueError):  # a loop of links, an unknown home, a zero byte
-            return False
-
-    def short(self, words: object) -> str:
-        """Return an error or a text with paths from this folder on."""
-        return str(words).replace(f"{self.path}/", "").replace(f"{self.path}\\", "")
+    def short(self, message: object) -> str:
+        """Return an error or a text with its paths relative to this folder."""
+        return str(message).replace(f"{self.path}/", "").replace(f"{self.path}\\", "")
 
     def remove_if_unused(self) -> None:
         """Remove the folder unless something was run in it."""
@@ -94,35 +93,33 @@ class VisitFolder:
 def safe_name(name: str) -> str:
     """Return the last part of a path with letters, digits, dots, dashes and underscores only."""
     last = PureWindowsPath(name).name  # cuts at / and \
-    plain = re.sub(r"[^\w.-]+", "_", last).lstrip(".")[-LONGEST:].lstrip(".")
+    plain = re.sub(r"[^\w.-]+", "_", last).lstrip(".")[-MAX_NAME:].lstrip(".")
     if not plain.strip("._"):
         raise InputError(f"a file named {name!r} cannot be kept; expected letters or digits in it")
     return plain
 
 
-# The text of a case edited key by key: comments and everything else in it stay as they are.
-
-
-def stated(text: str, path: Sequence[str]) -> Any:
-    """Return what `text` states at a path such as ("load", "speed"), or None."""
-    value: Any = tables(text)
-    for name in path:
-        value = value.get(name) if isinstance(value, dict) else None
-    return value
-
-
-def tables(text: str) -> dict[str, Any]:
-    """Return all that `text` states; nothing of a text that is not TOML."""
+def tables_of(text: str) -> dict[str, Any]:
+    """Return the tables of the text of a case; none if the text is not TOML."""
     try:
         return tomllib.loads(text)
     except (ValueError, RecursionError):
         return {}
 
 
+def value_at(text: str, path: Sequence[str]) -> Any:
+    """Return the value in `text` at a path such as ("load", "speed"), or None."""
+    value: Any = tables_of(text)
+    for name in path:
+        value = value.get(name) if isinstance(value, dict) else None
+    return value
+
+
 def with_value(text: str, path: Sequence[str], value: Any) -> str:
     """Return `text` with `value` at a path, or without the key if it is None.
 
-    Raises `FileError` if `text` is not TOML.
+    Comments and everything else in the text stay as they are. Raises `FileError` if `text` is not
+    TOML.
     """
     try:
         document = tomlkit.parse(text)
@@ -143,12 +140,12 @@ def with_value(text: str, path: Sequence[str], value: Any) -> str:
         raise FileError(f"the text of the case is not valid TOML: {error}") from error
 
 
-def value_of(words: str) -> Any:
-    """Return what is written into a field: a value of TOML, else the words as a text.
+def field_value(text: str) -> Any:
+    """Return the value of what is written into a field: a value of TOML, else the text itself.
 
-    `0.3` is a number, `["1 mm", "2 mm"]` a list, `3 bar` a text; nothing is None.
+    `0.3` is a number, `["1 mm", "2 mm"]` a list, `3 bar` a text; an empty field is None.
     """
-    plain = words.strip()
+    plain = text.strip()
     if not plain:
         return None
     try:
@@ -157,13 +154,13 @@ def value_of(words: str) -> Any:
         return plain
 
 
-def words_of(value: Any) -> str:
-    """Return how a field shows a value: texts without quotes, all else as TOML writes it."""
+def field_text(value: Any) -> str:
+    """Return how a field shows a value: texts without quotes, all else as TOML on one line."""
     if value is None:
         return ""
-    if not isinstance(value, str):
-        return _inline(value)
-    return value if value_of(value) == value else _inline(value)
+    if isinstance(value, str) and field_value(value) == value:
+        return value
+    return _inline(value)
 
 
 def _inline(value: Any) -> str:
@@ -180,76 +177,71 @@ class CaseState(param.Parameterized):
     """Text of the case, and one sentence on what is wrong with it."""
 
     text: str = param.String("")  # type: ignore[assignment]
-    complaint: str = param.String("")  # type: ignore[assignment]
+    validation_message: str = param.String("")  # type: ignore[assignment]
 
-    def __init__(self, place: VisitFolder) -> None:
+    def __init__(self, visit: VisitFolder) -> None:
         super().__init__()  # type: ignore[no-untyped-call]
-        self.place = place
+        self.visit = visit
 
-    def show(self, text: str) -> None:
-        """Take `text` as the case, good or not."""
+    def set_text(self, text: str) -> None:
+        """Take `text` as the case, valid or not."""
         text = text.replace("\r\n", "\n")
-        folder.write_text(self.place.case, text)
+        folder.write_text(self.visit.case, text)
         try:
-            self.place.require_inside(read_case(self.place.case))
-            complaint = ""
+            self.file()
+            message = ""
         except GripscaleError as error:
-            complaint = self.place.short(error)
-        self.param.update(text=text, complaint=complaint)
+            message = self.visit.short(error)
+        self.param.update(text=text, validation_message=message)
 
     def set(self, path: Sequence[str], value: Any) -> None:
-        """State `value` at a path such as ("load", "speed"); None takes the key out."""
+        """State `value` at a path such as ("load", "speed"); None removes the key."""
         try:
-            self.show(with_value(self.text, path, value))
+            self.set_text(with_value(self.text, path, value))
         except GripscaleError as error:
-            self.complaint = str(error)
+            self.validation_message = str(error)
 
     def get(self, path: Sequence[str]) -> Any:
-        """Return what the case states at a path, or None."""
-        return stated(self.text, path)
+        """Return the value the case states at a path, or None."""
+        return value_at(self.text, path)
 
     def file(self) -> CaseFile:
         """Return the case as it can be run; raise what is wrong with it."""
-        file = read_case(self.place.case)
-        self.place.require_inside(file)
+        file = read_case(self.visit.case)
+        self.visit.require_inside(file)
         return file
 
-    def adopt(self, path: Path) -> None:
+    def copy_case(self, path: Path) -> None:
         """Take a case of this machine, with copies of its files."""
-        folder.save_case(read_case(path), self.place.path)
-        self.show(self.place.case.read_text(encoding="utf-8"))
+        folder.save_case(read_case(path), self.visit.path)
+        self.set_text(self.visit.case.read_text(encoding="utf-8"))
 
     def load_example(self, name: str) -> None:
         """Take a shipped example."""
-        source = self.place.path / "examples" / name
+        source = self.visit.path / "examples" / name
         case = source / "case.toml"
-        self.adopt(case if case.exists() else write_example(source, name)[0])
+        self.copy_case(case if case.exists() else write_example(source, name)[0])
 
-    def open(self, dropped: Mapping[str, bytes]) -> None:
-        """Take a dropped case; files dropped with it stand for those of the same name in it.
+    def open(self, uploads: Mapping[str, bytes]) -> None:
+        """Take an uploaded case; files uploaded with it replace those of the same name in it.
 
-        Raises `InputError` if none or several of `dropped` are cases or one is no text.
+        Raises `InputError` if none or several of `uploads` are cases or one is no text.
         """
-        cases = [name for name in dropped if name.lower().endswith(".toml")]
+        cases = [name for name in uploads if name.lower().endswith(".toml")]
         if len(cases) != 1:
             raise InputError(
                 f"{len(cases)} of the dropped files end in .toml; expected one case with the files "
                 "it names"
             )
         try:
-            text = dropped[cases[0]].decode("utf-8")
+            text = uploads[cases[0]].decode("utf-8")
         except UnicodeDecodeError as error:
             raise InputError(f"{cases[0]} cannot be read: it is not UTF-8 text") from error
-        stored = {n: self.place.store(n, c) for n, c in dropped.items() if n not in cases}
-        self.show(text)
-        self.show(renamed(text, _places(self.place.case, stored)))
-
-
-def _places(case: Path, stored: Mapping[str, str]) -> dict[str, str]:
-    """Return, by the name in the case, where dropped files of that name lie."""
-    try:
-        names = [name for _, name in read_case(case).case.named_files()]
-    except GripscaleError:
-        return {}
-    last = {name: name.replace("\\", "/").rpartition("/")[2] for name in names}
-    return {name: stored[last[name]] for name in names if last[name] in stored}
+        stored = {n: self.visit.store(n, c) for n, c in uploads.items() if n not in cases}
+        self.set_text(text)
+        try:
+            names = [name for _, name in read_case(self.visit.case).case.named_files()]
+        except GripscaleError:
+            return  # the message says what is wrong with the text
+        last = {name: name.replace("\\", "/").rpartition("/")[2] for name in names}
+        self.set_text(renamed(text, {n: stored[last[n]] for n in names if last[n] in stored}))

@@ -1,4 +1,7 @@
-"""The case file beside everything: shown, edited, opened and saved; one sentence if it is wrong."""
+"""The case file beside the tabs: shown, edited, opened and saved, with what is wrong with it.
+
+Files are uploaded by dropping them; each is stored in the folder of the visit under a safe name.
+"""
 
 from __future__ import annotations
 
@@ -8,49 +11,45 @@ from typing import Any
 
 import panel as pn
 
-from gripscale.app.case import MOST, CaseState
-from gripscale.app.elements import error, html
+from gripscale.app.case import MAX_UPLOAD, CaseState
+from gripscale.app.elements import error_notice, html
 from gripscale.case.examples import EXAMPLES
 from gripscale.charts.page_elements import Notice
 from gripscale.core.errors import GripscaleError
 
-# Places to drop files: what is dropped is kept in the folder of the visit under a safe name.
-
-Taken = Callable[[Mapping[str, bytes]], None]
+OnUpload = Callable[[Mapping[str, bytes]], None]
 
 
-def file_upload(label: str, taken: Taken, *, several: bool = False) -> pn.Column:
-    """Return a place to drop files, which `taken` gets by name; what it raises is shown there."""
-    place = pn.widgets.FileDropper(
+def file_upload(label: str, on_upload: OnUpload, *, several: bool = False) -> pn.Column:
+    """Return an area to drop files on; `on_upload` gets them by name, its error is shown below."""
+    area = pn.widgets.FileDropper(
         multiple=several,
-        max_file_size=f"{MOST // 1_000_000}MB",
+        max_file_size=f"{MAX_UPLOAD // 1_000_000}MB",
         sizing_mode="stretch_width",
         margin=(0, 8),
         previews=[],
     )
-    complaint = pn.Column(sizing_mode="stretch_width")
+    message = pn.Column(sizing_mode="stretch_width")
 
-    def dropped(_: object) -> None:
-        given = {name: _bytes(content) for name, content in place.value.items()}
-        complaint.objects = []
-        if not given:
-            return
-        try:
-            taken(given)
-        except GripscaleError as refused:
-            complaint.objects = [error(str(refused))]
+    def receive(_: object) -> None:
+        message.objects = []
+        uploads = {
+            name: content.encode("utf-8") if isinstance(content, str) else content
+            for name, content in area.value.items()
+        }
+        if uploads:
+            try:
+                on_upload(uploads)
+            except GripscaleError as refusal:
+                message.objects = [error_notice(str(refusal))]
 
-    place.param.watch(dropped, "value")
+    area.param.watch(receive, "value")
     title = pn.pane.Markdown(label, margin=(4, 8, 0, 8), sizing_mode="stretch_width")
-    return pn.Column(title, place, complaint, sizing_mode="stretch_width")
+    return pn.Column(title, area, message, sizing_mode="stretch_width")
 
 
-def _bytes(content: bytes | str) -> bytes:
-    return content.encode("utf-8") if isinstance(content, str) else content
-
-
-def case_side(state: CaseState) -> pn.Column:
-    """Return the case as text, with what opens and saves it."""
+def case_panel(state: CaseState) -> pn.Column:
+    """Return the case as text, with the choice of an example and what opens and saves the case."""
     text = pn.widgets.TextAreaInput(
         label="case.toml",
         value=state.text,
@@ -61,70 +60,62 @@ def case_side(state: CaseState) -> pn.Column:
         css_classes=["case"],
         stylesheets=["textarea { font: 12.5px/1.4 ui-monospace, Consolas, monospace; }"],
     )
-    verdict = pn.Column(sizing_mode="stretch_width")
-    text.param.watch(lambda event: state.show(event.new), "value")
+    message = pn.Column(sizing_mode="stretch_width")
+    text.param.watch(lambda event: state.set_text(event.new), "value")
 
     def follow(*_: Any) -> None:
         text.value = state.text
-        good = html(Notice("good", "This case can be run."))
-        verdict.objects = [error(state.complaint) if state.complaint else good]
+        valid = html(Notice("good", "This case can be run."))
+        invalid = error_notice(state.validation_message)
+        message.objects = [invalid if state.validation_message else valid]
 
     follow()
-    state.param.watch(follow, ["text", "complaint"])
+    state.param.watch(follow, ["text", "validation_message"])
 
-    def opened(dropped: Mapping[str, bytes]) -> None:
-        state.open(dropped)
-
-    save = pn.widgets.FileDownload(
-        callback=lambda: io.BytesIO(state.text.encode("utf-8")),
-        filename="case.toml",
-        label="Save the case",
-        margin=(4, 8),
-    )
-    return pn.Column(
-        _examples(state, verdict),
-        text,
-        verdict,
-        save,
-        file_upload("Open a case: drop it together with the files it names.", opened, several=True),
-        sizing_mode="stretch_width",
-    )
-
-
-def _examples(state: CaseState, verdict: pn.Column) -> pn.FlexBox:
-    """Return the choice of a shipped example."""
-    names = {f"{name}: {one.about}": name for name, one in EXAMPLES.items()}
-    choice = pn.widgets.Select(
+    example = pn.widgets.Select(
         label="Shipped example",
-        options=names,
+        options={f"{name}: {example.about}": name for name, example in EXAMPLES.items()},
         margin=(4, 8),
         sizing_mode="stretch_width",
         styles={"flex": "1 1 180px", "min-width": "0"},
     )
     load = pn.widgets.Button(label="Load the example", margin=(4, 8))
 
-    def loads(_: Any) -> None:
+    def load_example(_: Any) -> None:
         try:
-            state.load_example(choice.value)
-        except GripscaleError as refused:
-            verdict.objects = [error(state.place.short(refused))]
+            state.load_example(example.value)
+        except GripscaleError as refusal:
+            message.objects = [error_notice(state.visit.short(refusal))]
 
-    load.on_click(loads)
-    return pn.FlexBox(choice, load, align_items="end", sizing_mode="stretch_width")
+    load.on_click(load_example)
+    save = pn.widgets.FileDownload(
+        callback=lambda: io.BytesIO(state.text.encode("utf-8")),
+        filename="case.toml",
+        label="Save the case",
+        margin=(4, 8),
+    )
+    prompt = "Drop a case together with the files it names to open it."
+    return pn.Column(
+        pn.FlexBox(example, load, align_items="end", sizing_mode="stretch_width"),
+        text,
+        message,
+        save,
+        file_upload(prompt, state.open, several=True),
+        sizing_mode="stretch_width",
+    )
 
 
-# What is wrong with the case, said in the part of the page where it can be mended.
-
-
-def validation_message(state: CaseState, *tables: str) -> pn.Column:
-    """Return a place that shows the complaint about the case if it is about one of `tables`."""
-    place = pn.Column(sizing_mode="stretch_width")
+def validation_pane(state: CaseState, *tables: str) -> pn.Column:
+    """Return a pane that shows what is wrong with the case if it is about one of `tables`."""
+    pane = pn.Column(sizing_mode="stretch_width")
 
     def follow(*_: object) -> None:
-        own = any(f"[{name}{end}" in state.complaint for name in tables for end in "].[")
-        own = own or any(state.complaint.startswith(f"{name} file ") for name in tables)
-        place.objects = [error(state.complaint)] if own else []
+        message = state.validation_message
+        starts = [f"[{name}{end}" for name in tables for end in "].["]
+        relevant = any(start in message for start in starts)
+        relevant = relevant or message.startswith(tuple(f"{name} file " for name in tables))
+        pane.objects = [error_notice(message)] if relevant else []
 
     follow()
-    state.param.watch(follow, "complaint")
-    return place
+    state.param.watch(follow, "validation_message")
+    return pane

@@ -1,4 +1,7 @@
-"""Elements of a report as parts of the page; all texts are escaped by the template."""
+"""Elements of a report as panes of the page, and the thread that computes what they show.
+
+All texts are escaped by the template.
+"""
 
 from __future__ import annotations
 
@@ -6,14 +9,16 @@ import asyncio
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache
 from importlib.resources import files
 from typing import Any, ClassVar, TypeVar
 
 import panel as pn
-from jinja2 import Environment, PackageLoader, StrictUndefined, Template
+from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from gripscale.charts.page_elements import Card, Chart, Code, Element, Notice, Text
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -24,28 +29,38 @@ class Cards:
     kind: ClassVar[str] = "cards"
 
 
+PageElements = Sequence[Element | Cards]
+
+
+@cache
+def _environment() -> Environment:
+    loader = PackageLoader("gripscale.app")
+    return Environment(loader=loader, autoescape=True, undefined=StrictUndefined)
+
+
+@cache
+def _style() -> str:
+    return files("gripscale.app").joinpath("templates/elements.css").read_text(encoding="utf-8")
+
+
 def panes(elements: Iterable[Element | Cards]) -> list[pn.viewable.Viewable]:
-    """Return what shows `elements`, in order."""
-    return [_chart(e) if isinstance(e, Chart) else html(e) for e in elements]
+    """Return the panes that show `elements`, in order."""
+    return [chart_pane(e) if isinstance(e, Chart) else html(e) for e in elements]
 
 
-def html(element: Any) -> pn.pane.HTML:
-    """Return a text, a table, facts or cards."""
-    return raw(_template().render(e=element))
+def html(element: Element | Cards) -> pn.pane.HTML:
+    """Return the pane of a text, a notice, a table, facts, code or cards."""
+    return raw(_environment().get_template("elements.html").render(e=element))
 
 
 def raw(markup: str, **options: Any) -> pn.pane.HTML:
-    """Return markup of this package in the look of the page."""
+    """Return the pane of markup written in this package, in the style of the page."""
     look = {"sizing_mode": "stretch_width", "margin": (4, 8), "stylesheets": [_style()]}
     return pn.pane.HTML(markup, **(look | options))
 
 
-def error(sentence: str) -> pn.pane.HTML:
-    """Return what went wrong, in its sentence."""
-    return html(Notice("error", sentence))
-
-
-def _chart(chart: Chart) -> pn.Column:
+def chart_pane(chart: Chart) -> pn.Column:
+    """Return the pane of a chart and its caption."""
     chart.model.html_attributes = {"role": "img", "aria-label": chart.alt}
     figure = pn.pane.Bokeh(chart.model, sizing_mode="stretch_width", margin=(4, 8))
     return pn.Column(
@@ -53,38 +68,25 @@ def _chart(chart: Chart) -> pn.Column:
     )
 
 
+def error_notice(sentence: str) -> pn.pane.HTML:
+    """Return the pane of an error."""
+    return html(Notice("error", sentence))
+
+
 def code(caption: str, text: str) -> pn.pane.HTML:
-    """Return a long text that opens at a click."""
+    """Return the pane of a long text that opens at a click."""
     return html(Code("text", caption, text))
 
 
-@lru_cache(maxsize=1)
-def _template() -> Template:
-    environment = Environment(
-        loader=PackageLoader("gripscale.app"), autoescape=True, undefined=StrictUndefined
-    )
-    return environment.get_template("elements.html")
+_WORKER = ThreadPoolExecutor(1, thread_name_prefix="gripscale app")
+"""Reads files and prepares cases. One thread: netCDF's library must not be entered by two."""
 
 
-@lru_cache(maxsize=1)
-def _style() -> str:
-    return files("gripscale.app").joinpath("templates/elements.css").read_text(encoding="utf-8")
+async def in_worker(work: Callable[[], T]) -> T:
+    """Return the result of `work` from the worker thread; the page stays responsive."""
+    return await asyncio.get_running_loop().run_in_executor(_WORKER, work)
 
 
-# The one thread that reads files and prepares cases beside the page.
-#
-# One, because the library under netCDF must not be entered by two threads.
-
-T = TypeVar("T")
-
-_ONE = ThreadPoolExecutor(1, thread_name_prefix="beside the page")
-
-
-async def beside(work: Callable[[], T]) -> T:
-    """Return what `work` returns; the page stays alive meanwhile."""
-    return await asyncio.get_running_loop().run_in_executor(_ONE, work)
-
-
-def in_turn(work: Callable[[], T]) -> T:
-    """Return what `work` returns, once the thread has come to it; the page waits."""
-    return _ONE.submit(work).result()
+def wait_for_worker(work: Callable[[], T]) -> T:
+    """Return the result of `work` from the worker thread; the page waits for it."""
+    return _WORKER.submit(work).result()

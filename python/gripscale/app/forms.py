@@ -1,41 +1,42 @@
-"""Forms made from the tables of a case: a field for every key, named and explained as there.
+"""Forms made from the tables of a case: one field for each key, named and explained as in the case.
 
-A field that is left empty takes the key out of the case.
+A field that is left empty removes its key from the case.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping
 from typing import Any, Literal, get_args, get_origin
 
 import panel as pn
 
-from gripscale.app.case import CaseState, value_of, words_of
-from gripscale.app.elements import Cards, beside, error, panes
+from gripscale.app.case import CaseState, field_text, field_value
+from gripscale.app.elements import PageElements, error_notice, in_worker, panes
 from gripscale.case import CaseFile
 from gripscale.case.keys import NEEDED, NOTHING, TABLES, Key, Section, sections
 from gripscale.case.schema import Table
-from gripscale.charts.page_elements import Element
 from gripscale.core.errors import GripscaleError
 
-Watch = Callable[[], None]
 BY_DEFAULT = "by default"
 LOOK: dict[str, Any] = {
     "sizing_mode": "stretch_width",
     "margin": (2, 8),
     "styles": {"flex": "1 1 190px", "min-width": "0", "max-width": "340px"},
 }
-DROPPED = {"surface.sines", "surface.files", "surface.map", "rubber.file"}
-"""Keys that are not typed: files are dropped, and waves by hand stand in the text."""
+WITHOUT_FIELD = {"surface.sines", "surface.files", "surface.map", "rubber.file"}
+"""Keys without a field: files are uploaded, and waves are written into the text of the case."""
 
 
 def table_form(state: CaseState, name: str, first: Collection[str]) -> pn.Column:
     """Return the form of the table `name` of a case: the keys of `first`, the others to open."""
-    section = next(one for one in sections() if one.name == name)
-    fields = {key.name: field(state, section, key) for key in section.keys if _typed(name, key)}
-    laws = [law_form(state, inner) for inner in _inner(name)]
-    shown = [fields.pop(key) for key in first]
-    parts: list[Any] = [_rows(shown)]
+    section = next(section for section in sections() if section.name == name)
+    tables = {table for table, _, _ in TABLES if table.startswith(f"{name}.")} - WITHOUT_FIELD
+    fields = {
+        key.name: field(state, section, key)
+        for key in section.keys
+        if f"{name}.{key.name}" not in tables | WITHOUT_FIELD
+    }
+    parts: list[Any] = [_rows([fields.pop(key) for key in first])]
     if fields:
         parts.append(
             pn.Card(
@@ -46,187 +47,164 @@ def table_form(state: CaseState, name: str, first: Collection[str]) -> pn.Column
                 margin=(6, 8),
             )
         )
+    laws = [law_form(state, table) for table, _, _ in TABLES if table in tables]
     return pn.Column(*parts, *laws, sizing_mode="stretch_width")
 
 
 def law_form(state: CaseState, name: str) -> pn.Column:
-    """Return the choice of a kind of the table `name`, and the fields of the kind chosen."""
-    kinds = {one.kind: one for one in sections() if one.name == name}
+    """Return the choice of a law, such as the softening, and the fields of the chosen law."""
+    laws = {section.kind: section for section in sections() if section.name == name}
+    single = list(laws) == [""]
     path = tuple(name.split("."))
-    only = list(kinds) == [""]
-    labels = {_unstated(name): None, **{kind or "as stated below": kind for kind in kinds}}
-    title = path[-1].replace("_", " ")
-    about = next(iter(kinds.values())).about if only else ""
-    choice = pn.widgets.Select(label=title, options=list(labels), description=about, **LOOK)
+    table = next(section for section in sections() if section.name == ".".join(path[:-1]))
+    default = next(key.default for key in table.keys if key.name == path[-1])
+    no_law = "none" if default == NOTHING else f"{BY_DEFAULT}: {default}"
+    labels = {no_law: None, **{kind or "as stated below": kind for kind in laws}}
+    choice = pn.widgets.Select(
+        label=path[-1].replace("_", " "),
+        options=list(labels),
+        description=laws[""].about if single else "",
+        **LOOK,
+    )
     body = pn.Column(sizing_mode="stretch_width", margin=(0, 0, 6, 16))
-    shown: list[str | None] = [None]
+    body_kind: list[str | None] = [None]
 
-    def chosen() -> None:
+    def kind_of_case() -> str | None:
+        law = state.get(path)
+        kind = law.get("kind", "") if isinstance(law, dict) else None
+        return kind if kind in laws else None
+
+    def edit() -> None:
         if choice.value not in labels:
-            return  # the file that is stated
-        kind, stated = labels[choice.value], state.get(path)
-        if kind != _kind(state, path, kinds) or isinstance(stated, str):
-            empty = {} if only else {"kind": kind}
+            return  # the law is a file, which the case already states
+        kind = labels[choice.value]
+        if kind != kind_of_case() or isinstance(state.get(path), str):
+            empty = {} if single else {"kind": kind}
             state.set(path, None if kind is None else empty)
 
     def follow() -> None:
-        kind = _kind(state, path, kinds)
-        label = next(label for label, one in labels.items() if one == kind)
-        stated = state.get(path)
-        named = [f"file {stated}"] if isinstance(stated, str) else []
-        choice.param.update(options=[*labels, *named], value=[label, *named][-1])
-        if kind != shown[0]:
-            shown[0] = kind
-            body.objects = [] if kind is None else [_law(state, kinds[kind])]
+        kind, law = kind_of_case(), state.get(path)
+        label = next(label for label, labelled in labels.items() if labelled == kind)
+        file = [f"file {law}"] if isinstance(law, str) else []
+        choice.param.update(options=[*labels, *file], value=[label, *file][-1])
+        if kind != body_kind[0]:
+            body_kind[0] = kind
+            body.objects = []
+            if kind is not None:
+                keys = [key for key in laws[kind].keys if key.name != "kind"]
+                body.objects = [_rows([field(state, laws[kind], key) for key in keys])]
 
-    _bind(state, choice, chosen, follow)
+    _bind(state, choice, edit, follow)
     return pn.Column(_rows([choice]), body, sizing_mode="stretch_width")
 
 
-def _unstated(name: str) -> str:
-    """Return what it means that the case states no table `name`."""
-    above, _, last = name.rpartition(".")
-    outer = next(one for one in sections() if one.name == above)
-    default = next(key.default for key in outer.keys if key.name == last)
-    return "none" if default == NOTHING else f"{BY_DEFAULT}: {default}"
-
-
-def _law(state: CaseState, section: Section) -> pn.FlexBox:
-    return _rows([field(state, section, key) for key in section.keys if key.name != "kind"])
-
-
-def _kind(state: CaseState, path: tuple[str, ...], kinds: Collection[str]) -> str | None:
-    """Return the kind the case states, or None where it states no table there."""
-    table = state.get(path)
-    if not isinstance(table, dict):
-        return None
-    kind = table.get("kind", "")
-    return kind if kind in kinds else None
-
-
 def field(state: CaseState, section: Section, key: Key) -> pn.widgets.Select | pn.widgets.TextInput:
-    """Return what shows and changes one key of a table."""
+    """Return the widget that shows and changes one key of a table."""
     path = (*section.name.split("."), key.name)
-    annotation = _annotation(section, key.name)
-    choices, words = list(_literals(annotation)), annotation in (str, str | None)
-    label = key.name.replace("_", " ") + (" *" if key.default == NEEDED else "")
-    about = f"{key.meaning} Takes {key.takes}."
-    look = {"label": label, "description": about, **LOOK}
-    widget: pn.widgets.Select | pn.widgets.TextInput
-    known = key.default not in (NEEDED, NOTHING)
-    by_default = f"{BY_DEFAULT}: {key.default}" if known else BY_DEFAULT
+    law = next(table for name, table, _ in TABLES if name == section.name)
+    table = law[section.kind] if isinstance(law, Mapping) else law
+    annotation: Any = float  # of the parameters of strain energies, which are dataclasses
+    if issubclass(table, Table):
+        annotation = table.model_fields[key.name].annotation
+    choices, is_text = list(literals(annotation)), annotation in (str, str | None)
+    look = {
+        "label": key.name.replace("_", " ") + (" *" if key.default == NEEDED else ""),
+        "description": f"{key.meaning} Takes {key.takes}.",
+        **LOOK,
+    }
+    has_default = key.default not in (NEEDED, NOTHING)
+    by_default = f"{BY_DEFAULT}: {key.default}" if has_default else BY_DEFAULT
     if key.default == NEEDED:
         by_default = "to be chosen"
-    labels = {by_default: None, **{str(one).lower(): one for one in choices}}
+    labels = {by_default: None, **{str(choice).lower(): choice for choice in choices}}
+    widget: pn.widgets.Select | pn.widgets.TextInput
     if choices:
         widget = pn.widgets.Select(options=list(labels), **look)
     else:
-        hint = by_default if known else key.takes
-        widget = pn.widgets.TextInput(placeholder=hint, **look)
+        widget = pn.widgets.TextInput(placeholder=by_default if has_default else key.takes, **look)
 
-    def typed() -> None:
-        shown = str(widget.value or "")
-        value = labels.get(shown) if choices else _typed_value(shown, words)
+    def edit() -> None:
+        text = str(widget.value or "")
+        if choices:
+            value = labels.get(text)
+        else:
+            value = (text.strip() or None) if is_text else field_value(text)
         if value != state.get(path):
             state.set(path, value)
 
     def follow() -> None:
         value = state.get(path)
         if choices:
-            found = (label for label, one in labels.items() if one == value)
-            widget.value = next(found, by_default)
+            matching = (label for label, choice in labels.items() if choice == value)
+            widget.value = next(matching, by_default)
         else:
-            widget.value = value if words and isinstance(value, str) else words_of(value)
+            widget.value = value if is_text and isinstance(value, str) else field_text(value)
 
-    _bind(state, widget, typed, follow)
+    _bind(state, widget, edit, follow)
     return widget
 
 
-def _typed_value(value: str, words: bool) -> Any:
-    return (value.strip() or None) if words else value_of(value)
+def literals(annotation: Any) -> Iterator[Any]:
+    """Yield the values of a `Literal` or a bool, optional or not."""
+    parts = [part for part in get_args(annotation) or () if part is not type(None)]
+    if annotation is bool:
+        yield from (True, False)
+    elif get_origin(annotation) is Literal:
+        yield from parts
+    elif len(parts) == 1 and get_origin(annotation) is not list:
+        yield from literals(parts[0])
 
 
-def _bind(state: CaseState, widget: Any, typed: Watch, follow: Watch) -> None:
-    """Let a widget follow the case, and the case what is typed: never what only followed."""
+def _bind(
+    state: CaseState, widget: Any, edit: Callable[[], None], follow: Callable[[], None]
+) -> None:
+    """Bind a widget and a case key both ways, without feedback loops."""
     following: list[bool] = []
 
-    def follows(*_: Any) -> None:
+    def on_text(*_: Any) -> None:
         following.append(True)
         try:
             follow()
         finally:
             following.pop()
 
-    def changes(_: Any) -> None:
+    def on_value(_: Any) -> None:
         if not following:
-            typed()
+            edit()
 
-    follows()
-    state.param.watch(follows, "text")
-    widget.param.watch(changes, "value")
+    on_text()
+    state.param.watch(on_text, "text")
+    widget.param.watch(on_value, "value")
 
 
 def _rows(fields: list[Any]) -> pn.FlexBox:
     return pn.FlexBox(*fields, sizing_mode="stretch_width", align_items="end")
 
 
-def _typed(table: str, key: Key) -> bool:
-    return f"{table}.{key.name}" not in {*DROPPED, *_inner(table)}
-
-
-def _inner(table: str) -> list[str]:
-    """Return the tables in a table that have forms of their own."""
-    names = [name for name, _, _ in TABLES]
-    return [name for name in names if name.startswith(f"{table}.") and name not in DROPPED]
-
-
-def _annotation(section: Section, key: str) -> Any:
-    """Return the type of a key; strain energies are dataclasses of numbers."""
-    law = next(table for name, table, _ in TABLES if name == section.name)
-    model = law[section.kind] if isinstance(law, Mapping) else law
-    return model.model_fields[key].annotation if issubclass(model, Table) else float
-
-
-def _literals(annotation: Any) -> Iterator[Any]:
-    """Yield the values of a `Literal` or a truth, with None beside it or not."""
-    parts = [one for one in get_args(annotation) or () if one is not type(None)]
-    if annotation is bool:
-        yield from (True, False)
-    elif get_origin(annotation) is Literal:
-        yield from parts
-    elif len(parts) == 1 and get_origin(annotation) is not list:
-        yield from _literals(parts[0])
-
-
-# Parts of the page that take a while: computed in a thread, shown, or the sentence why not.
-
-Shown = Sequence[Element | Cards]
-
-
-async def fill(body: pn.Column, make: Callable[[], Shown], state: CaseState) -> None:
-    """Fill `body` with what `make` returns; meanwhile the page stays alive."""
+async def fill(body: pn.Column, make: Callable[[], PageElements], state: CaseState) -> None:
+    """Fill `body` with what `make` returns or its error; the page stays responsive meanwhile."""
     body.loading = True
     try:
-        body.objects = panes(await beside(make))
-    except GripscaleError as refused:
-        body.objects = [error(state.place.short(refused))]
+        body.objects = panes(await in_worker(make))
+    except GripscaleError as refusal:
+        body.objects = [error_notice(state.visit.short(refusal))]
     finally:
         body.loading = False
 
 
 class PreviewPanel:
-    """A button and what `make` finds in the case as it is at the click."""
+    """A button, and the elements `make` returns for the case at the click."""
 
     def __init__(
-        self, state: CaseState, label: str, make: Callable[[CaseFile], Sequence[Element]]
+        self, state: CaseState, label: str, make: Callable[[CaseFile], PageElements]
     ) -> None:
         self._state, self._make = state, make
         self.button = pn.widgets.Button(label=label, color="primary", margin=(8, 8))
         self.body = pn.Column(sizing_mode="stretch_width")
-        self.button.on_click(self.look)
+        self.button.on_click(self.update)
 
-    async def look(self, _: Any = None) -> None:
-        """Make it from the case as it is now."""
+    async def update(self, _: Any = None) -> None:
+        """Make the preview of the case as it is now."""
         self.button.disabled = True
         await fill(self.body, lambda: self._make(self._state.file()), self._state)
         self.button.disabled = False

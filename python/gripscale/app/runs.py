@@ -1,7 +1,8 @@
-"""One run: `gripscale run` in a process of its own, which writes wave by wave into a folder.
+"""Runs of one visit: each is `gripscale run` in its own process, which writes into a folder.
 
-To stop it is to end the process and all it started; the waves it finished stay, and a run of the
-same case goes on from them.
+The process writes its events (`gripscale.case.events`) to one file beside the results and its text
+to another. Stopping a run ends the process and all it started; the waves it finished stay, and
+a run of the same case continues from them.
 """
 
 from __future__ import annotations
@@ -9,11 +10,10 @@ from __future__ import annotations
 import atexit
 import contextlib
 import os
-import re
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -22,94 +22,97 @@ import param
 
 from gripscale.app.case import CaseState
 from gripscale.case import CaseFile, folder
-from gripscale.case.results import planned
+from gripscale.case.events import (
+    DirectContactSolved,
+    EffectsSolved,
+    Event,
+    PredictionFinished,
+    RunFailed,
+    RunStarted,
+    WaveSolved,
+    from_json,
+)
 from gripscale.core.errors import InputError
 
-# How far a run is, by what its process prints.
-#
-# How many predictions and waves there are is known; how many passes rubber and contact need until
-# they agree, and how long direct contact, effects and figures take after the waves, is not.
-
-WAVE = re.compile(r" +wave (\d+) of (\d+):")
-PASS = re.compile(r" +pass (\d+)$")
-AGREED = re.compile(r" +rubber and contact (agree|do not agree)\b")
+GRACE = 5.0
+"""Seconds a process has to end before it is killed."""
 
 
 @dataclass(frozen=True)
 class Progress:
-    """The wave that was solved last, of which pass of which prediction."""
+    """How far a run is: what its last events state.
 
-    predictions: int
-    """How many the run was asked for."""
-    passing: bool
-    """Whether a prediction is solved in passes."""
-    prediction: int = 0
-    """Number of it, from 1; 0 before the first wave."""
-    passes: int = 0
-    """Of this prediction, begun so far."""
-    wave: int = 0
-    waves: int = 0
-    settled: bool = False
-    """Whether the passes of this prediction have ended."""
+    The numbers of predictions and waves are known from the start. How many passes rubber and
+    contact need until they agree is not, nor how long direct contact, effects and figures take.
+    """
 
-    def after(self, line: str) -> Progress:
-        """Return how far the run is once it printed `line`, too."""
-        if PASS.match(line):
-            return replace(self, passes=self.passes + 1, wave=0)
-        if AGREED.match(line):
-            return replace(self, settled=True)
-        found = WAVE.match(line)
-        if found is None:
-            return self
-        wave, waves = int(found[1]), int(found[2])
-        if (wave == 1 and self.wave > 0) or self.prediction == 0:  # and no pass was begun
-            number = self.prediction + 1
-            return Progress(self.predictions, self.passing, number, 1, wave, waves)
-        return replace(self, wave=wave, waves=waves)
+    start: RunStarted | None = None
+    wave: WaveSolved | None = None
+    """The wave that was solved last."""
+    finished: tuple[str, ...] = ()
+    """Predictions that came to their end, with a solution or without."""
+    last_stage: str = "waves"
+    """What was solved last: waves, direct contact or effects."""
+
+    def after(self, event: Event) -> Progress:
+        """Return how far the run is after one more event."""
+        match event:
+            case RunStarted():
+                return Progress(event)
+            case WaveSolved():
+                return replace(self, wave=event)
+            case PredictionFinished():
+                return replace(self, finished=(*self.finished, event.prediction))
+            case DirectContactSolved():
+                return replace(self, last_stage="direct contact")
+            case EffectsSolved():
+                return replace(self, last_stage="effects")
+        return self
+
+    @classmethod
+    def of(cls, events: Iterable[Event]) -> Progress:
+        """Return how far the run is that reported `events`."""
+        progress = cls()
+        for event in events:
+            progress = progress.after(event)
+        return progress
 
     @property
     def solved(self) -> bool:
-        """Whether all waves of all predictions are solved."""
-        ended = self.settled or not self.passing
-        return ended and 0 < self.waves == self.wave and self.prediction == self.predictions
+        """Whether all predictions came to their end."""
+        return self.start is not None and len(self.finished) == len(self.start.predictions)
 
     @property
     def share(self) -> float | None:
-        """Of the waves that are solved, from 0 to 1; None where it is not known what is left."""
-        if self.passing or self.solved:
+        """Share of the waves that are solved, from 0 to 1; None where their number is unknown."""
+        if self.start is None or self.start.iterated or self.solved:
             return None
-        before = max(self.prediction - 1, 0)
-        return (before + (self.wave / self.waves if self.waves else 0.0)) / self.predictions
+        share = float(len(self.finished))
+        if self.wave is not None and self.wave.prediction not in self.finished:
+            share += self.wave.number / self.wave.count
+        return share / len(self.start.predictions)
 
     @property
-    def words(self) -> str:
+    def sentence(self) -> str:
         """How far the run is, in words."""
         return ", ".join(self._parts())
 
     def _parts(self) -> Iterator[str]:
-        if not self.waves:
+        if self.start is None or self.wave is None:
             yield "reading and fitting"
-            return
-        if self.solved:
+        elif self.solved and self.last_stage == "effects":
+            yield "the effects are solved; the figures follow"
+        elif self.solved and self.last_stage == "direct contact":
+            yield "the direct contact is solved; effects and figures follow"
+        elif self.solved:
             yield "all waves are solved; direct contact, effects and figures follow"
-            return
-        if self.predictions > 1:
-            yield f"prediction {self.prediction} of {self.predictions}"
-        if self.passing:
-            yield f"pass {self.passes} until rubber and contact agree"
-        yield f"wave {self.wave} of {self.waves}"
-
-
-def progress_of(said: str, predictions: int, *, passing: bool) -> Progress:
-    """Return how far a run is that printed `said`."""
-    progress = Progress(predictions, passing)
-    for line in said.splitlines():
-        progress = progress.after(line)
-    return progress
-
-
-GRACE = 5.0
-"""Seconds a process has to end before it is killed."""
+        else:
+            names = self.start.predictions
+            if len(names) > 1:
+                yield f"prediction {names.index(self.wave.prediction) + 1} of {len(names)}"
+            if self.start.iterated:
+                yield f"pass {self.wave.pass_number} until rubber and contact agree"
+            yield f"wave {self.wave.number} of {self.wave.count}"
 
 
 @dataclass
@@ -120,28 +123,24 @@ class Run:
     case: Path
     folder: Path
     text: str
-    predictions: int = 1
-    """How many the case asks for."""
-    passing: bool = False
-    """Whether rubber and contact are solved in passes until they agree."""
     stopped: bool = field(default=False, init=False)
     _process: Any = field(default=None, init=False, repr=False)
 
     def start(self) -> None:
-        """Start the process; what it says goes into files beside the results."""
+        """Start the process; its events and its text go into files beside the results."""
         atexit.register(self.stop)
         self.folder.mkdir(parents=True, exist_ok=True)
-        command = [sys.executable, "-m", "gripscale", "run", self.case.name]
-        own_group: dict[str, Any] = {"start_new_session": True} if os.name == "posix" else {}
-        with self._log("out").open("wb") as out, self._log("err").open("wb") as err:
+        command = [sys.executable, "-m", "gripscale", "run", self.case.name, "--progress", "json"]
+        process_group: dict[str, Any] = {"start_new_session": True} if os.name == "posix" else {}
+        with self._events_file.open("wb") as events, self._log_file.open("wb") as log:
             self._process = subprocess.Popen(
                 [*command, "--output", str(self.folder)],
                 cwd=self.case.parent,
                 stdin=subprocess.DEVNULL,
-                stdout=out,
-                stderr=err,
+                stdout=events,
+                stderr=log,
                 env=os.environ | {"PYTHONUNBUFFERED": "1", "COLUMNS": "110"},
-                **own_group,
+                **process_group,
             )
 
     @property
@@ -150,14 +149,14 @@ class Run:
         return int(self._process.pid)
 
     @property
-    def going(self) -> bool:
-        """Whether the process is still there."""
+    def running(self) -> bool:
+        """Whether the process exists."""
         return self._process is not None and self._process.poll() is None
 
     @property
     def state(self) -> str:
-        """How it stands, in a word."""
-        if self.going:
+        """State in a word: running, stopped, finished or failed."""
+        if self.running:
             return "running"
         if self.stopped:
             return "stopped"
@@ -166,8 +165,8 @@ class Run:
         )
 
     def stop(self) -> None:
-        """End the process and what it started."""
-        if not self.going:
+        """End the process and all it started."""
+        if not self.running:
             return
         self.stopped = True
         self._end(signal.SIGTERM)
@@ -184,34 +183,42 @@ class Run:
         else:
             self._process.terminate()
 
-    def said(self) -> str:
-        """Return what the process printed so far."""
-        return self._read("out")
+    @property
+    def _events_file(self) -> Path:
+        return self.folder.with_name(f"{self.folder.name}.events.jsonl")
 
-    def complaint(self) -> str:
-        """Return the last sentence of what went wrong, or nothing."""
-        lines = [line for line in self._read("err").splitlines() if line.strip()]
-        errors = [line for line in lines if line.startswith("error: ")]
-        last = errors[-1:] or (lines[-1:] if self.state == "failed" else [])
-        return last[0].removeprefix("error: ") if last else ""
+    @property
+    def _log_file(self) -> Path:
+        return self.folder.with_name(f"{self.folder.name}.log.txt")
+
+    def events(self) -> list[Event]:
+        """Return the events the process reported so far."""
+        if not self._events_file.exists():
+            return []
+        lines = self._events_file.read_text(encoding="utf-8", errors="replace").splitlines()
+        return [event for event in map(from_json, lines) if event is not None]
+
+    def log(self) -> str:
+        """Return the text the process printed so far."""
+        if not self._log_file.exists():
+            return ""
+        return self._log_file.read_text(encoding="utf-8", errors="replace")
+
+    def failure(self) -> str:
+        """Return the sentence the process failed with; its last line if it broke off."""
+        for event in self.events():
+            if isinstance(event, RunFailed):
+                return event.message
+        lines = self.log().split("\n") if self.state == "failed" else []
+        return next((line for line in reversed(lines) if line.strip()), "")
 
     def progress(self) -> Progress:
         """Return how far it is."""
-        return progress_of(self.said(), self.predictions, passing=self.passing)
-
-    def _log(self, name: str) -> Path:
-        return self.folder.with_name(f"{self.folder.name}.{name}.txt")
-
-    def _read(self, name: str) -> str:
-        path = self._log(name)
-        return path.read_text(encoding="utf-8", errors="replace") if path.exists() else ""
-
-
-# The runs of one visit.
+        return Progress.of(self.events())
 
 
 class Runs(param.Parameterized):
-    """All runs in order; `changes` counts whenever one starts or ends."""
+    """All runs of a visit in order; `changes` counts whenever one starts or ends."""
 
     changes: int = param.Integer(0)  # type: ignore[assignment]
 
@@ -221,44 +228,35 @@ class Runs(param.Parameterized):
         self.all: list[Run] = []
 
     @property
-    def going(self) -> Run | None:
-        """The run whose process is there."""
-        return next((run for run in self.all if run.going), None)
+    def running(self) -> Run | None:
+        """The run whose process exists."""
+        return next((run for run in self.all if run.running), None)
 
     def start(self) -> Run:
-        """Run the case as it is now; a stopped run of the same text goes on.
+        """Run the case as it is now; a stopped run of the same text continues.
 
-        Raises what is wrong with the case, and `InputError` while another run is going.
+        Raises what is wrong with the case, and `InputError` while another run is running.
         """
-        if self.going is not None:
-            raise InputError(f"{self.going.name} is still going; stop it or wait for its end")
+        if self.running is not None:
+            raise InputError(f"{self.running.name} is still running; stop it or wait for its end")
         file = self._state.file()
-        text = file.text
-        run = next((one for one in self.all if one.stopped and one.text == text), None)
-        if run is None:
-            run = self._new(file)
-            self.all.append(run)
+        stopped = [run for run in self.all if run.stopped and run.text == file.text]
+        run = stopped[0] if stopped else self._new(file)
         run.stopped = False
         run.start()
         self.changes += 1
         return run
 
     def stop(self) -> None:
-        """End whatever is going."""
+        """End whatever is running."""
         for run in self.all:
             run.stop()
         self.changes += 1
 
     def _new(self, file: CaseFile) -> Run:
-        """Return a run of a case, saved beside the files it names."""
-        name = f"run-{len(self.all) + 1}"
-        place = self._state.place.path
-        case = folder.write_text(place / f"{name}.toml", file.text)
-        return Run(
-            name,
-            case,
-            place / "runs" / name,
-            file.text,
-            predictions=len(list(planned(file.case.load))),
-            passing=file.case.conditions.iterated,
-        )
+        """Add a run of a case, saved beside the files it names."""
+        name, path = f"run-{len(self.all) + 1}", self._state.visit.path
+        case = folder.write_text(path / f"{name}.toml", file.text)
+        run = Run(name, case, path / "runs" / name, file.text)
+        self.all.append(run)
+        return run

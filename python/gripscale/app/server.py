@@ -1,4 +1,4 @@
-"""The server of the page: on this machine, for this machine only."""
+"""The server of the page, on this machine for this machine only, and the page of one visit."""
 
 from __future__ import annotations
 
@@ -11,42 +11,44 @@ from typing import Any
 import panel as pn
 from bokeh.util.warnings import BokehUserWarning
 
-from gripscale.app.case import MOST, CaseState, VisitFolder
-from gripscale.app.case_panel import case_side
+from gripscale.app.case import MAX_UPLOAD, CaseState, VisitFolder
+from gripscale.app.case_panel import case_panel
 from gripscale.app.elements import raw
+from gripscale.app.input_tabs import load_tab, road_tab, rubber_tab
+from gripscale.app.run_tabs import compare_tab, results_tab, run_tab
 from gripscale.app.runs import Runs
-from gripscale.app.tabs import compare_tab, load_tab, results_tab, road_tab, rubber_tab, run_tab
 from gripscale.case import folder, read_case
 from gripscale.case.examples import EXAMPLES
 from gripscale.core.errors import InputError
 
-# The page of one visit: the parts in the order of the work, and the case beside them.
-
 TITLE = "gripscale"
 INTRO = (
     "<h1>gripscale</h1><p>Real contact area and friction of rubber on rough roads. "
-    "Everything set here is in the case file at the side; <code>gripscale run</code> gives the "
-    "same.</p>"
+    "All settings are in the case file shown on this page; <code>gripscale run</code> computes the "
+    "same results from it.</p>"
 )
-TABS = ":host .bk-header { min-width: 0; } :host .bk-headers-wrapper { flex-wrap: wrap; }"
+TABS_STYLE = ":host .bk-header { min-width: 0; } :host .bk-headers-wrapper { flex-wrap: wrap; }"
+HOST = "127.0.0.1"
+GONE_AFTER = 15_000
+"""Milliseconds after which a page that was closed counts as left."""
 
 
-def visit(root: Path, case: Path | None) -> pn.Column:
+def visit_page(root: Path, case: Path | None) -> pn.Column:
     """Return the page of a new visit, with a folder of its own in `root`."""
-    place = VisitFolder.new(root)
-    state = CaseState(place)
+    visit = VisitFolder.new(root)
+    state = CaseState(visit)
     if case is None:
         state.load_example(next(iter(EXAMPLES)))
     else:
-        state.adopt(case)
+        state.copy_case(case)
     runs = Runs(state)
 
     def leave(_: Any) -> None:
         runs.stop()
-        place.remove_if_unused()
+        visit.remove_if_unused()
 
     pn.state.on_session_destroyed(leave)
-    parts = pn.Tabs(
+    tabs = pn.Tabs(
         ("1 Road", road_tab(state)),
         ("2 Rubber", rubber_tab(state)),
         ("3 Load and conditions", load_tab(state)),
@@ -55,21 +57,16 @@ def visit(root: Path, case: Path | None) -> pn.Column:
         ("6 Compare", compare_tab(state, runs)),
         dynamic=True,
         sizing_mode="stretch_width",
-        stylesheets=[TABS],
+        stylesheets=[TABS_STYLE],
         styles={"flex": "3 1 560px", "min-width": "0", "max-width": "100%"},
     )
     side = pn.Column(
-        case_side(state),
+        case_panel(state),
         sizing_mode="stretch_width",
         styles={"flex": "1 1 300px", "min-width": "0", "max-width": "100%"},
     )
-    body = pn.FlexBox(parts, side, sizing_mode="stretch_width", align_items="start")
+    body = pn.FlexBox(tabs, side, sizing_mode="stretch_width", align_items="start")
     return pn.Column(raw(INTRO), body, sizing_mode="stretch_width", max_width=1500)
-
-
-HOST = "127.0.0.1"
-GONE_AFTER = 15_000
-"""Milliseconds after which a page that was closed counts as left."""
 
 
 def serve(root: Path, case: Path | None, port: int, browser: bool) -> None:
@@ -82,10 +79,10 @@ def serve(root: Path, case: Path | None, port: int, browser: bool) -> None:
     pn.extension("filedropper")
 
     def page() -> pn.Column:
-        return visit(root.resolve(), case)
+        return visit_page(root.resolve(), case)
 
-    # BokehJS names what the server has just added to the page by sending it back whole; the server
-    # keeps its own and says so each time.
+    # BokehJS returns models that the server has just added to the page; the server keeps its own
+    # and warns each time.
     warnings.filterwarnings("ignore", "reference already known", BokehUserWarning)
     server = pn.serve(
         {"/": page},
@@ -93,7 +90,7 @@ def serve(root: Path, case: Path | None, port: int, browser: bool) -> None:
         address=HOST,
         port=port,
         websocket_origin=[f"{HOST}:{port}", f"localhost:{port}"],
-        websocket_max_message_size=2 * MOST,
+        websocket_max_message_size=2 * MAX_UPLOAD,
         show=browser,
         start=False,
         verbose=False,
@@ -112,7 +109,7 @@ def _free_port(port: int) -> int:
     if not 0 <= port <= 65535:
         raise InputError(f"port must be a whole number from 0 to 65535; got {port}")
     with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as probe:
-        if os.name == "posix":  # a port that was just left is free, as the server sees it, too
+        if os.name == "posix":  # the server can reuse a port that was just closed, too
             probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
             probe.bind((HOST, port))

@@ -1,4 +1,6 @@
+from . import events as events
 from . import folder as folder
+from .events import WaveSolved as WaveSolved
 from .examples import EXAMPLES as EXAMPLES
 from .examples import Example as Example
 from .examples import write_example as write_example
@@ -13,7 +15,6 @@ from .read import validate as validate
 from .results import CaseResults as CaseResults
 from .rubber_tables import ConditionsTable as ConditionsTable
 from .rubber_tables import RubberSource as RubberSource
-from .run import WaveSolved as WaveSolved
 from .run import prepare_case as prepare_case
 from .run import run_case as run_case
 from .tables import Case as Case

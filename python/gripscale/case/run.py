@@ -6,11 +6,20 @@ results.dynamic.friction
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import time
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from gripscale.case import folder, record
+from gripscale.case.events import (
+    PASSES,
+    FileWritten,
+    OnEvent,
+    PredictionFinished,
+    ResultsReplaced,
+    RunStarted,
+    WaveSolved,
+)
 from gripscale.case.prepare import case_chain, prepare_rubber, prepare_surface
 from gripscale.case.read import CaseFile, read_case
 from gripscale.case.results import CaseResults
@@ -86,16 +95,6 @@ def earlier(path: Path, key: str, chain: Chain) -> StoredPrediction | None:
     return StoredPrediction(replace(found, scales=kept), finished=False) if kept else None
 
 
-@dataclass(frozen=True)
-class WaveSolved:
-    """One more wave of a prediction is there, as `on_wave` is told."""
-
-    name: str
-    so_far: Prediction
-    taken_up: bool = False
-    """It was solved by an earlier run of the same case."""
-
-
 def prepare_case(case: CaseFile | str | Path) -> CaseResults:
     """Read and fit what a case names; nothing is solved yet.
 
@@ -114,8 +113,7 @@ def run_case(
     case: CaseResults | CaseFile | str | Path,
     *,
     output: str | Path | None = None,
-    on_wave: Callable[[WaveSolved], None] | None = None,
-    on_folder: Callable[[str], None] | None = None,
+    on_event: OnEvent | None = None,
     fresh: bool = False,
 ) -> CaseResults:
     """Predict contact area and friction of a case.
@@ -129,10 +127,8 @@ def run_case(
         runs from there. Results of an earlier run are replaced, unless they are of exactly this
         case: then what was finished is taken up and not solved again. Without it nothing is
         written.
-    on_wave : callable, optional
-        Called after each wave.
-    on_folder : callable, optional
-        Called with a sentence if results of an earlier run are replaced, before they are.
+    on_event : callable, optional
+        Called with each event of `gripscale.case.events`: start, waves, predictions, files.
     fresh : bool, optional
         Take nothing up.
 
@@ -148,20 +144,24 @@ def run_case(
         For what cannot be read, used or written.
     """
     results = case if isinstance(case, CaseResults) else prepare_case(case)
+    emit = on_event or (lambda event: None)
     _require_solid(results)
     _require_measured(results)
     if output is not None:
         results.folder = Path(output)
         folder.require_writable(results.folder)
     known = {} if fresh else _known(results)
+    names = tuple(name for name, _ in results.planned())
+    iterated = results.file.case.conditions.iterated
+    emit(RunStarted(names, len(results.surface.sines), iterated))
     if results.folder is not None:
         keep = [f"{name}.nc" for name in known]
         replaced = folder.earlier_run(results.folder, keep)
-        if replaced and on_folder is not None:
-            on_folder(replaced)
+        if replaced:
+            emit(ResultsReplaced(replaced))
         folder.prepare(results.folder, results.file, keep)
     for name, speed in results.planned():
-        _solve(results, name, speed, on_wave, known.get(name))
+        _solve(results, name, speed, emit, known.get(name))
     return results
 
 
@@ -189,8 +189,7 @@ def _require_solid(results: CaseResults) -> None:
     """Raise `InputError` before anything is solved or written if the rubber cannot carry a load."""
     for _, speed in results.planned():
         load = replace(results.load, speed=speed)
-        time = load.time_under(load.footprint)
-        require_solid(results.rubber_before, load.pressure, time)
+        require_solid(results.rubber_before, load.pressure, load.time_under(load.footprint))
 
 
 def _require_measured(results: CaseResults) -> None:
@@ -204,46 +203,56 @@ def _solve(
     results: CaseResults,
     name: str,
     speed: float,
-    on_wave: Callable[[WaveSolved], None] | None,
-    known: StoredPrediction | None,
+    emit: OnEvent,
+    stored: StoredPrediction | None,
 ) -> None:
     """Add one prediction to `results`, on disk after each wave; the inputs follow at the end."""
     load, chain = results.file.case.load, results.chain
-    before = 0 if known is None else len(known.prediction.scales)
+    stored_waves = 0 if stored is None else len(stored.prediction.scales)
+    clock, pass_number = time.perf_counter(), 0
 
     def keep(so_far: Prediction) -> None:
+        nonlocal clock, pass_number
         results.predictions[name] = so_far
-        taken_up = len(so_far.scales) <= before
-        if not taken_up:
+        is_stored = len(so_far.scales) <= stored_waves
+        if not is_stored:
             _save(results, name)
-        if on_wave is not None:
-            on_wave(WaveSolved(name, so_far, taken_up))
+            if (
+                PASSES in so_far.scales[-1].details
+            ):  # rubber and contact agree: no wave was solved anew
+                return
+        pass_number += len(so_far.scales) == 1
+        seconds, clock = time.perf_counter() - clock, time.perf_counter()
+        emit(WaveSolved.last_of(so_far, name, pass_number, seconds, stored=is_stored))
 
-    if known is not None and known.finished:
-        for count in range(1, before + 1):
-            keep(replace(known.prediction, scales=known.prediction.scales[:count]))
-        _save(results, name, with_inputs=True, finished=True)
-        return
     finished = False
     try:
-        predict(
-            results.rubber.rubber,
-            results.surface.sines,
-            pressure=load.pressure,
-            speed=speed,
-            footprint=load.footprint,
-            pressure_classes=chain.pressure_classes,
-            load_time=load.load_time,
-            solver=chain.solver if known is None else known.solver(chain.solver),
-            extrapolate=chain.extrapolate,
-            conditions=chain.conditions,
-            on_scale=keep,
-        )
+        if stored is not None and stored.finished:
+            for count in range(1, stored_waves + 1):
+                keep(replace(stored.prediction, scales=stored.prediction.scales[:count]))
+        else:
+            predict(
+                results.rubber.rubber,
+                results.surface.sines,
+                pressure=load.pressure,
+                speed=speed,
+                footprint=load.footprint,
+                pressure_classes=chain.pressure_classes,
+                load_time=load.load_time,
+                solver=chain.solver if stored is None else stored.solver(chain.solver),
+                extrapolate=chain.extrapolate,
+                conditions=chain.conditions,
+                on_scale=keep,
+            )
         finished = True
     except ChainError as failure:
         results.failures[name] = failure
     finally:
         _save(results, name, with_inputs=True, finished=finished)
+    if name in results.predictions:
+        emit(PredictionFinished.of(results.predictions[name], name, results.failures.get(name)))
+        if results.folder is not None:
+            emit(FileWritten(str(results.folder / f"{name}.nc")))
 
 
 def _save(

@@ -5,10 +5,9 @@ from __future__ import annotations
 import importlib
 import shlex
 import sys
-import time
-from collections import Counter
-from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, nullcontext
+from collections.abc import Iterator
+from contextlib import contextmanager, nullcontext
+from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
@@ -17,23 +16,32 @@ import typer
 from gripscale.cli.terminal import (
     CasePath,
     command,
+    failure_of,
     print_error,
     print_wrapped,
     screen,
     with_doc_link,
 )
-from gripscale.core.errors import FileError
+from gripscale.core.errors import FileError, GripscaleError
 
 if TYPE_CHECKING:
     import xarray as xr
     from rich.console import Console
 
     from gripscale.analysis.measured_friction import MeasuredFriction
-    from gripscale.case import CaseResults, WaveSolved
+    from gripscale.case import CaseResults
+    from gripscale.case.events import Event, OnEvent
     from gripscale.core.units import DisplayUnit
 
 
 REPORT_WIDTH = 110
+
+
+class ProgressFormat(StrEnum):
+    """How `gripscale run` reports what it does."""
+
+    TEXT = "text"
+    JSON = "json"
 
 
 class RunExtras(NamedTuple):
@@ -59,45 +67,81 @@ def run(
             "--fresh", help="Solve all anew, also what an earlier run of the same case finished."
         ),
     ] = False,
+    progress: Annotated[
+        ProgressFormat,
+        typer.Option(
+            help="json: write a line of JSON for each event to standard output, and all text to "
+            "standard error.",
+        ),
+    ] = ProgressFormat.TEXT,
 ) -> None:
     """Predict contact area and friction of a case; goes on where it was stopped."""
+    from gripscale.analysis.comparison import FILE as DIRECT
     from gripscale.analysis.comparison import save_reference
+    from gripscale.analysis.effects import FILE as EFFECTS
     from gripscale.analysis.effects import case_effects
     from gripscale.analysis.measured_comparison import friction_of_case
     from gripscale.case import folder, prepare_case, read_case, run_case
+    from gripscale.case.events import (
+        DirectContactSolved,
+        EffectsSolved,
+        FileWritten,
+        WaveSolved,
+    )
     from gripscale.charts.print_run import background_figures
 
-    console = screen()
-    file = read_case(case)
-    target = output if output is not None else file.resolve(file.case.output.folder)
-    folder.require_writable(target)
-    friction = friction_of_case(file)
-    results = prepare_case(file)
-    opening = _opening(results)
-    for line in opening:
-        print_wrapped(console, line)
-    tell = _teller(console, len(results.surface.sines), results.shown("speed"))
-    with background_figures(results, target / "figures") as solving:
+    console = screen(stderr=progress == ProgressFormat.JSON)
+    with _json_events(progress) as emit:
+        file = read_case(case)
+        target = output if output is not None else file.resolve(file.case.output.folder)
+        folder.require_writable(target)
+        friction = friction_of_case(file)
+        results = prepare_case(file)
+        opening = _opening(results)
+        for line in opening:
+            print_wrapped(console, line)
+        print_event = _event_printer(console, results.shown("speed"))
+        with background_figures(results, target / "figures") as draw_solved:
 
-        def look(solved: WaveSolved) -> None:
-            tell(solved)
-            solving(solved.name)
+            def on_event(event: Event) -> None:
+                emit(event)
+                print_event(event)
+                if isinstance(event, WaveSolved):
+                    draw_solved(event.prediction)
 
-        with _spinner(console):
-            run_case(
-                results,
-                output=target,
-                on_wave=look,
-                on_folder=lambda words: print_wrapped(console, words),
-                fresh=fresh,
-            )
-            direct = save_reference(results, target)
-            worth = case_effects(results, results.chain, target, target / "effects")
-        _conclude_run(console, target, opening, results, RunExtras(direct, worth, friction))
-    console.print()
-    print_wrapped(console, f"Results, report and figures are in {target}")
-    _tell_old_page(console, target, results)
-    _fail_if_any(results)
+            with console.status("solving") if console.is_terminal else nullcontext():
+                run_case(results, output=target, on_event=on_event, fresh=fresh)
+                direct = save_reference(results, target)
+                if direct is not None:
+                    emit(DirectContactSolved.of(direct))
+                    emit(FileWritten(str(target / DIRECT)))
+                effects = case_effects(results, results.chain, target, target / "effects")
+                if effects is not None:
+                    emit(EffectsSolved.of(effects))
+                    emit(FileWritten(str(target / EFFECTS.format(model=results.chain.name))))
+            _conclude_run(console, target, opening, results, RunExtras(direct, effects, friction))
+            emit(FileWritten(str(target / "report.txt")))
+        console.print()
+        print_wrapped(console, f"Results, report and figures are in {target}")
+        _tell_old_page(console, target, results)
+        _fail_if_any(results)
+
+
+@contextmanager
+def _json_events(progress: ProgressFormat) -> Iterator[OnEvent]:
+    """Give what writes an event to standard output, if asked for; the last tells the exit code."""
+    from gripscale.case.events import RunFailed, RunFinished, to_json
+
+    def emit(event: Event) -> None:
+        if progress == ProgressFormat.JSON:
+            print(to_json(event), flush=True)
+
+    try:
+        yield emit
+    except (GripscaleError, KeyboardInterrupt) as error:
+        emit(RunFailed(*failure_of(error)))
+        raise
+    emit(RunFinished())
 
 
 def _opening(results: CaseResults) -> list[str]:
@@ -128,47 +172,38 @@ def _conditions(results: CaseResults) -> list[str]:
     return ["", "Conditions", *(f"  {line}" for line in (*told, *notes))]
 
 
-def _spinner(console: Console) -> AbstractContextManager[Any]:
-    """Return a spinner where somebody may be watching, else nothing."""
-    return console.status("solving") if console.is_terminal else nullcontext()
-
-
-def _teller(console: Console, waves: int, how: DisplayUnit) -> Callable[[WaveSolved], None]:
-    """Return what prints a line for each wave, and a title before the first of a prediction."""
+def _event_printer(console: Console, speed_unit: DisplayUnit) -> OnEvent:
+    """Return what prints a sentence for each event that a person waits for."""
+    from gripscale.case.events import PredictionFinished, ResultsReplaced, WaveSolved
     from gripscale.case.results import title
 
-    clock, passes = time.perf_counter(), Counter[str]()
+    def print_event(event: Event) -> None:
+        match event:
+            case ResultsReplaced():
+                print_wrapped(console, event.message)
+            case WaveSolved():
+                if event.number == 1 and event.pass_number == 1:
+                    console.print()
+                    print_wrapped(console, title(event.speed, speed_unit))
+                elif event.number == 1:
+                    print_wrapped(console, f"  pass {event.pass_number}")
+                parts = [
+                    f"  wave {event.number} of {event.count}: {event.wavelength * 1e3:.3g} mm",
+                    f"contact {event.contact_fraction:.3f}",
+                ]
+                if event.speed > 0.0:
+                    parts.append(f"friction {event.friction:.3f}")
+                if event.status != "conditions not settled":
+                    parts.append(event.message)
+                parts.append("already solved" if event.stored else f"{event.seconds:.1f} s")
+                print_wrapped(console, ", ".join(parts))
+            case PredictionFinished(passes=int(passes)):
+                agree = "agree" if event.converged else f"do not agree ({event.message})"
+                print_wrapped(
+                    console, f"  rubber and contact {agree} after {passes} passes on these meshes"
+                )
 
-    def tell(solved: WaveSolved) -> None:
-        nonlocal clock
-        so_far = solved.so_far
-        scale = so_far.scales[-1]
-        if "passes" in scale.details:
-            count = int(scale.details["passes"])
-            agree = "agree" if scale.converged else f"do not agree ({scale.why})"
-            print_wrapped(
-                console, f"  rubber and contact {agree} after {count} passes on these meshes"
-            )
-            return
-        if len(so_far.scales) == 1:
-            passes[solved.name] += 1
-            if passes[solved.name] == 1:
-                console.print()
-                print_wrapped(console, title(so_far.load.speed, how))
-            else:
-                print_wrapped(console, f"  pass {passes[solved.name]}")
-        text = (
-            f"wave {len(so_far.scales)} of {waves}: {scale.wavelength * 1e3:.3g} mm, "
-            f"contact {scale.contact_fraction:.3f}"
-        )
-        if scale.speed > 0.0:
-            text += f", friction {scale.friction:.3f}"
-        seconds, clock = time.perf_counter() - clock, time.perf_counter()
-        why = "" if scale.status == "conditions not settled" else f"{scale.why}, "
-        took = "already solved" if solved.taken_up else f"{seconds:.1f} s"
-        print_wrapped(console, f"  {text}, {why}{took}")
-
-    return tell
+    return print_event
 
 
 def _conclude_run(

@@ -53,6 +53,18 @@ def with_doc_link(failure: object) -> str:
     return f"{failure}{pointer(failure)}"
 
 
+def failure_of(error: GripscaleError | KeyboardInterrupt) -> tuple[str, int]:
+    """Return the sentence and the exit code a command ends with after `error`."""
+    if isinstance(error, KeyboardInterrupt):
+        stopped = (
+            "stopped; what is finished is kept in the output folder, "
+            "and the same command goes on from it"
+        )
+        return stopped, STOPPED
+    exit_code = NOT_CONVERGED if isinstance(error, ConvergenceError) else BAD_INPUT
+    return with_doc_link(error), exit_code
+
+
 def print_wrapped(console: Console, message: str) -> None:
     """Print a line, continued with its own indent where too long; words and paths stay whole."""
     from rich.text import Text
@@ -86,18 +98,10 @@ def command(body: Callable[P, None]) -> Callable[P, None]:
     def inside(*args: P.args, **kwargs: P.kwargs) -> None:
         try:
             body(*args, **kwargs)
-        except ConvergenceError as error:
-            print_error(with_doc_link(error))
-            raise typer.Exit(NOT_CONVERGED) from None
-        except GripscaleError as error:
-            print_error(with_doc_link(error))
-            raise typer.Exit(BAD_INPUT) from None
-        except KeyboardInterrupt:
-            print_error(
-                "stopped; what is finished is kept in the output folder, "
-                "and the same command goes on from it"
-            )
-            raise typer.Exit(STOPPED) from None
+        except (GripscaleError, KeyboardInterrupt) as error:
+            message, exit_code = failure_of(error)
+            print_error(message)
+            raise typer.Exit(exit_code) from None
 
     return inside
 

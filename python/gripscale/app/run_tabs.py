@@ -1,0 +1,295 @@
+"""Tabs for what comes of the case: run, results, and all runs of the visit compared.
+
+Figures, tables and sentences are those of the report.
+"""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from collections.abc import Iterator
+from dataclasses import replace
+from html import escape
+from pathlib import Path
+from typing import Any
+
+import panel as pn
+
+from gripscale.analysis.measured_comparison import friction_of_case
+from gripscale.app.case import CaseState, field_text, tables_of
+from gripscale.app.elements import (
+    Cards,
+    PageElements,
+    code,
+    error_notice,
+    html,
+    in_worker,
+    raw,
+    wait_for_worker,
+)
+from gripscale.app.forms import fill
+from gripscale.app.runs import Run, Runs
+from gripscale.case import read_case
+from gripscale.case.folder import CASE
+from gripscale.charts.page_elements import NONE, Element, Heading, Notice, Table, Text, number
+from gripscale.charts.page_run import contact_charts, measured_chart
+from gripscale.charts.view import PredictionView
+from gripscale.core.errors import GripscaleError
+from gripscale.model import with_adhesive
+from gripscale.report import source, write_report
+from gripscale.report.comparison_chapters import effects_elements
+from gripscale.report.notices import cards, exponent_sentence, notices
+from gripscale.report.pages import judgement_elements
+from gripscale.report.tables_measured import measured_lines
+from gripscale.report.wave_tables import wave_tables
+
+POLL = 500
+"""Milliseconds between two readings of the events of a run."""
+NO_RUN = "<p>No case was run yet.</p>"
+
+
+def run_tab(state: CaseState, runs: Runs) -> pn.Column:
+    """Return the tab that runs the case: start, stop, progress and output of the process."""
+    start = pn.widgets.Button(label="Run the case", color="primary", margin=(8, 8))
+    stop = pn.widgets.Button(label="Stop", color="danger", disabled=True, margin=(8, 8))
+    bar = pn.indicators.Progress(value=0, max=100, sizing_mode="stretch_width", visible=False)
+    status = pn.Column(sizing_mode="stretch_width")
+    last_state: list[tuple[str, int, str]] = []
+
+    def on_start(_: Any) -> None:
+        try:
+            runs.start()
+        except GripscaleError as refusal:
+            status.objects = [error_notice(state.visit.short(refusal))]
+
+    def update() -> None:
+        run = runs.all[-1] if runs.all else None
+        start.disabled, stop.disabled = runs.running is not None, runs.running is None
+        if run is None:
+            return
+        log = state.visit.short(run.log())
+        now = (run.state, len(run.events()), log)
+        if last_state == [now]:
+            return
+        ended = bool(last_state) and last_state[0][0] == "running" and not run.running
+        last_state[:] = [now]
+        share = run.progress().share
+        bar.param.update(visible=run.running, value=-1 if share is None else round(100 * share))
+        status.objects = [html(run_status(run, state)), *([code("Output", log)] if log else [])]
+        if ended:
+            runs.changes += 1
+
+    def on_stop(_: Any) -> None:
+        runs.stop()
+        update()
+
+    start.on_click(on_start)
+    stop.on_click(on_stop)
+    runs.param.watch(lambda _: update(), "changes")
+    pn.state.add_periodic_callback(update, period=POLL)
+    return pn.Column(pn.Row(start, stop), bar, status, sizing_mode="stretch_width")
+
+
+def run_status(run: Run, state: CaseState) -> Element:
+    """Return the state of a run in a sentence."""
+    progress = run.progress().sentence
+    if run.state == "running":
+        return Text(f"{run.name} is running: {progress}.")
+    if run.state == "stopped":
+        return Notice(
+            "warning", f"{run.name} was stopped ({progress}); the same case continues from there."
+        )
+    if run.state == "failed":
+        return Notice("error", f"{run.name}: {state.visit.short(run.failure())}")
+    return Notice("good", f"{run.name} has finished; the next tab shows its results.")
+
+
+def results_tab(state: CaseState, runs: Runs) -> pn.Column:
+    """Return the tab that shows one run: results, output, downloads and the report."""
+    choice = pn.widgets.Select(label="Run", options=[], margin=(4, 8), width=200)
+    body = pn.Column(raw(NO_RUN), sizing_mode="stretch_width")
+    footer = pn.Column(sizing_mode="stretch_width")
+
+    async def show(*_: Any) -> None:
+        run = next((run for run in runs.all if run.name == choice.value), None)
+        if run is None:
+            return
+        footer.objects = []
+        if run.running:
+            body.objects = [raw(f"<p>{run.name} is running; its results follow at its end.</p>")]
+            return
+        await fill(body, lambda: list(results_elements(run.folder)), state)
+        if any(run.folder.glob("*.nc")):
+            log = code("Output of the run", state.visit.short(run.log()))
+            footer.objects = [log, downloads(run), report_pane(state, run)]
+
+    async def follow(_: Any) -> None:
+        names = [run.name for run in runs.all]
+        if choice.options != names:
+            choice.param.update(options=names, value=names[-1])  # which shows it
+        else:
+            await show()
+
+    choice.param.watch(show, "value")
+    runs.param.watch(follow, "changes")
+    return pn.Column(choice, body, footer, sizing_mode="stretch_width")
+
+
+def results_elements(folder: Path) -> Iterator[Element | Cards]:
+    """Yield the results in the folder of a run, in the order of the page."""
+    run = source.read_result(folder)
+    if not isinstance(run, source.Run):
+        return
+    yield Cards(cards(run))
+    yield from notices(run)
+    yield from judgement_elements(run)
+    for prediction in run.predictions:
+        sentence = exponent_sentence(prediction.data)
+        if sentence:
+            yield Text(f"{prediction.title}. {sentence}")
+    yield from contact_charts(run.by_wave, run.direct)
+    yield from measured_elements(folder, run)
+    tables = {table.name: table for table in wave_tables(run.by_wave)}
+    yield from (tables[name] for name in ("contact", "load", "conditions") if name in tables)
+    yield from effects_elements(run.effects)
+
+
+def measured_elements(folder: Path, run: source.Run) -> Iterator[Element]:
+    """Yield the measured friction the case of the run names, with the predictions."""
+    friction = friction_of_case(read_case(folder / CASE))
+    sliding = [view for view in run.predictions if view.moving and view.complete]
+    if friction is None or not sliding:
+        return
+    direct = [] if run.direct is None else [PredictionView(run.direct, "direct contact")]
+    yield measured_chart(friction, [*sliding, *direct])
+    lines = measured_lines(friction, sliding[0].speed, sliding[0].shown("speed"))
+    yield from (Text(line) for line in lines)
+
+
+def downloads(run: Run) -> pn.FlexBox:
+    """Return buttons that save the report, each data file and the whole folder."""
+
+    def zipped() -> io.BytesIO:
+        buffer = io.BytesIO()
+        with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
+            for path in sorted(path for path in run.folder.rglob("*") if path.is_file()):
+                archive.write(path, path.relative_to(run.folder.parent))
+        buffer.seek(0)
+        return buffer
+
+    report = pn.widgets.FileDownload(
+        callback=lambda: io.BytesIO(wait_for_worker(lambda: new_report(run))),
+        filename=f"{run.name}.html",
+        label="Save the report",
+    )
+    data = [
+        pn.widgets.FileDownload(
+            file=str(path), filename=f"{run.name}-{path.name}", label=f"Save {path.name}"
+        )
+        for path in sorted(run.folder.glob("*.nc"))
+    ]
+    folder = pn.widgets.FileDownload(
+        callback=zipped, filename=f"{run.name}.zip", label="Save everything"
+    )
+    return pn.FlexBox(report, *data, folder)
+
+
+def new_report(run: Run) -> bytes:
+    """Return the report of a run, written now."""
+    return write_report(run.folder).read_bytes()
+
+
+def report_pane(state: CaseState, run: Run) -> pn.Column:
+    """Return a button that shows the report of a run inside the page."""
+    button = pn.widgets.Button(label="Show the report here", margin=(8, 8))
+    pane = pn.Column(button, sizing_mode="stretch_width")
+
+    async def show(_: Any) -> None:
+        try:
+            page = (await in_worker(lambda: new_report(run))).decode("utf-8")
+        except GripscaleError as refusal:
+            pane.objects = [button, error_notice(state.visit.short(refusal))]
+            return
+        options = f'title="Report of {run.name}" sandbox="allow-scripts"'
+        pane.objects = [raw(f'<iframe {options} srcdoc="{escape(page)}"></iframe>')]
+
+    button.on_click(show)
+    return pane
+
+
+COMPARED_CHARTS = ("contact-area", "friction")
+"""Figures with one curve a run; the others show one run alone."""
+RUN_HEADINGS = (
+    Heading("run", words=True),
+    Heading("speed"),
+    Heading("A_r/A_0"),
+    Heading("μ"),
+    Heading("μ with the area term"),
+    Heading("status", words=True),
+    Heading("keys that differ from the first", words=True),
+)
+
+
+def compare_tab(state: CaseState, runs: Runs) -> pn.Column:
+    """Return the tab that compares all runs of the visit."""
+    body = pn.Column(raw(NO_RUN), sizing_mode="stretch_width")
+
+    async def follow(_: Any) -> None:
+        if any(not run.running for run in runs.all):
+            await fill(body, lambda: compared_elements(runs), state)
+
+    runs.param.watch(follow, "changes")
+    return body
+
+
+def compared_elements(runs: Runs) -> PageElements:
+    """Return table and figures of all runs that have results."""
+    compared: list[tuple[Run, PredictionView]] = []
+    for run in runs.all:
+        try:
+            result = None if run.running else source.read_result(run.folder)
+        except GripscaleError:
+            continue  # stopped or failed before its first wave
+        if isinstance(result, source.Run):
+            for view in result.by_wave:
+                name = run.name + ("" if view.moving else ", at rest")
+                compared.append((run, replace(view, name=name)))
+    if not compared:
+        return [Text("No run of this visit has results.")]
+    charts = contact_charts([view for _, view in compared])
+    return [runs_table(compared), *(chart for chart in charts if chart.name in COMPARED_CHARTS)]
+
+
+def runs_table(compared: list[tuple[Run, PredictionView]]) -> Table:
+    """Return the totals of each prediction, and the keys in which the cases differ."""
+    first = compared[0][0].text
+    rows = []
+    for run, view in compared:
+        with_area_term = with_adhesive(view.data)
+        totals = [
+            view.total("contact_fraction"),
+            view.total("friction") if view.moving else float("nan"),
+            float("nan") if with_area_term is None else float(with_area_term),
+        ]
+        texts = [number(value) if view.complete else NONE for value in totals]
+        status = "complete" if view.complete else f"{view.waves} of {view.planned} waves"
+        speed = view.shown("speed").text(view.speed, 3)
+        changes = ", ".join(changed_keys(first, run.text)) or NONE
+        rows.append([view.name, speed, *texts, status, changes])
+    return Table("runs", "The runs of this visit", RUN_HEADINGS, rows)
+
+
+def changed_keys(first: str, other: str) -> Iterator[str]:
+    """Yield the keys that two cases state differently, with the values of the other."""
+    before, after = (dict(_flat(tables_of(text))) for text in (first, other))
+    for key in dict.fromkeys([*before, *after]):
+        if before.get(key) != after.get(key):
+            yield f"{key} = {field_text(after[key])}" if key in after else f"no {key}"
+
+
+def _flat(table: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
+    for name, value in table.items():
+        if isinstance(value, dict):
+            yield from _flat(value, f"{prefix}{name}.")
+        else:
+            yield f"{prefix}{name}", value

@@ -1,0 +1,224 @@
+"""What happens while a case runs, as data: one event for each step, one line of JSON an event.
+
+`run_case` reports to its caller by these events and nothing else. `gripscale run` prints them as
+sentences; with `--progress json` it writes each as a line for another program, such as
+
+    {"event": "WaveSolved", "prediction": "dynamic", "number": 1, "count": 4, ...}
+
+All numbers are in SI units; NaN and infinity are `null`. A reader ignores events it does not know.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, TypeAlias, get_args
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from gripscale.chain.prediction import Prediction
+
+PASSES = "passes"
+"""Detail of the waves of a prediction whose rubber and contact were iterated."""
+
+
+@dataclass(frozen=True)
+class RunStarted:
+    """The inputs of the case are read and fitted; the waves follow."""
+
+    predictions: tuple[str, ...]
+    """Names of the predictions the case asks for, in order."""
+    waves: int
+    """Waves of each prediction."""
+    iterated: bool
+    """Whether rubber and contact are solved in passes until they agree."""
+
+
+@dataclass(frozen=True)
+class ResultsReplaced:
+    """Results of an earlier run are about to be replaced."""
+
+    message: str
+    """What is replaced, in a sentence."""
+
+
+@dataclass(frozen=True)
+class WaveSolved:
+    """One more wave of a prediction is solved."""
+
+    prediction: str
+    pass_number: int
+    """Pass of the prediction, from 1; more than one where rubber and contact are iterated."""
+    number: int
+    """Number of the wave, from 1."""
+    count: int
+    """Waves of the prediction."""
+    wavelength: float
+    """[m]"""
+    speed: float
+    """Sliding speed [m/s]; zero at rest."""
+    contact_fraction: float
+    friction: float
+    status: str
+    message: str
+    """The status in words."""
+    seconds: float
+    """Time it took to solve [s]."""
+    stored: bool
+    """Whether an earlier run of the same case solved it."""
+    so_far: Prediction | None = field(default=None, repr=False, compare=False)
+    """The prediction down to this wave; not in the line of JSON."""
+
+    @classmethod
+    def last_of(
+        cls, so_far: Prediction, prediction: str, pass_number: int, seconds: float, *, stored: bool
+    ) -> WaveSolved:
+        """Return the event of the last wave of a prediction."""
+        wave = so_far.scales[-1]
+        return cls(
+            prediction,
+            pass_number,
+            number=len(so_far.scales),
+            count=so_far.planned,
+            wavelength=wave.wavelength,
+            speed=wave.speed,
+            contact_fraction=wave.contact_fraction,
+            friction=wave.friction,
+            status=wave.status,
+            message=wave.why,
+            seconds=seconds,
+            stored=stored,
+            so_far=so_far,
+        )
+
+
+@dataclass(frozen=True)
+class PredictionFinished:
+    """A prediction is complete, or ended at a wave without solution."""
+
+    prediction: str
+    converged: bool
+    message: str
+    """`converged`, or why it is not."""
+    passes: int | None
+    """Passes until rubber and contact agreed, where they are iterated."""
+    contact_fraction: float
+    friction: float
+
+    @classmethod
+    def of(
+        cls, solved: Prediction, prediction: str, failure: Exception | None
+    ) -> PredictionFinished:
+        """Return the event of a prediction, with what ended it early."""
+        last = solved.scales[-1]
+        passes = last.details.get(PASSES)
+        return cls(
+            prediction,
+            converged=failure is None and last.converged,
+            message=last.why if failure is None else str(failure),
+            passes=None if passes is None else int(passes),
+            contact_fraction=solved.contact_fraction,
+            friction=solved.friction,
+        )
+
+
+@dataclass(frozen=True)
+class DirectContactSolved:
+    """The direct contact of the measured profiles, which judges the chain, is solved."""
+
+    converged: bool
+    contact_fraction: float
+    friction: float
+
+    @classmethod
+    def of(cls, totals: xr.Dataset) -> DirectContactSolved:
+        """Return the event of the totals of a direct contact."""
+        return cls(
+            str(totals.prediction_status.item()) == "converged",
+            float(totals.total_contact_fraction),
+            float(totals.total_friction),
+        )
+
+
+@dataclass(frozen=True)
+class EffectsSolved:
+    """The effect of each condition on area and friction is solved."""
+
+    effects: tuple[str, ...]
+    """Names of the conditions, such as "heat"."""
+
+    @classmethod
+    def of(cls, effects: xr.Dataset) -> EffectsSolved:
+        """Return the event of the answers without each effect, labelled "no heat" and so on."""
+        labels = map(str, effects.effect.values)
+        return cls(tuple(text.removeprefix("no ") for text in labels if text.startswith("no ")))
+
+
+@dataclass(frozen=True)
+class FileWritten:
+    """A result file is complete."""
+
+    path: str
+
+
+@dataclass(frozen=True)
+class RunFinished:
+    """The run came to its end and every prediction converged."""
+
+    exit_code: int = 0
+
+
+@dataclass(frozen=True)
+class RunFailed:
+    """The run ended early, or a prediction did not converge."""
+
+    message: str
+    exit_code: int
+
+
+Event: TypeAlias = (
+    RunStarted
+    | ResultsReplaced
+    | WaveSolved
+    | PredictionFinished
+    | DirectContactSolved
+    | EffectsSolved
+    | FileWritten
+    | RunFinished
+    | RunFailed
+)
+OnEvent: TypeAlias = Callable[[Event], None]
+
+
+def to_json(event: Event) -> str:
+    """Return an event as one line of JSON."""
+    values: dict[str, Any] = {"event": type(event).__name__}
+    for item in dataclasses.fields(event):
+        if item.name == "so_far":
+            continue
+        value = getattr(event, item.name)
+        finite = not isinstance(value, float) or math.isfinite(value)
+        values[item.name] = value if finite else None
+    return json.dumps(values, allow_nan=False)
+
+
+def from_json(line: str) -> Event | None:
+    """Return the event of a line of JSON, or None if the line is none that this version knows."""
+    kinds = {kind.__name__: kind for kind in get_args(Event)}
+    try:
+        values = json.loads(line)
+        kind = kinds[values.pop("event")]
+        types = {item.name: item.type for item in dataclasses.fields(kind) if item.name in values}
+        for name, value in values.items():
+            if isinstance(value, list):
+                values[name] = tuple(value)
+            elif value is None and types.get(name) == "float":
+                values[name] = math.nan
+        event: Event = kind(**{name: values[name] for name in types})
+    except (ValueError, KeyError, AttributeError, TypeError):  # no JSON, or another event
+        return None
+    return event
