@@ -1,16 +1,17 @@
-"""The errors gripscale raises on purpose, each saying what was given and what was expected."""
+"""The errors gripscale raises on purpose; each message names the value and what was expected."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 
 class GripscaleError(Exception):
     """Base of every error gripscale raises on purpose."""
 
     see = ""
-    """What explains it: a chapter of the documentation or a command; empty where nothing does."""
+    """A chapter of the documentation or a command that explains it, or empty."""
 
 
 class InputError(GripscaleError, ValueError):
@@ -18,7 +19,7 @@ class InputError(GripscaleError, ValueError):
 
 
 class ExtrapolationError(InputError):
-    """A wave excites the rubber beyond what was measured, and extrapolation was to be refused."""
+    """A wave excites the rubber beyond its measured band while extrapolation is refused."""
 
     see = "docs/reading-results.md#beyond-the-measured-band"
 
@@ -32,14 +33,23 @@ class ConvergenceError(GripscaleError):
 
 
 class RubberWarning(UserWarning):
-    """A rubber made by hand that no rubber is like."""
+    """A rubber made by hand with values that no rubber has."""
 
 
 @contextmanager
 def about_keys(table: str) -> Iterator[None]:
-    """Let errors say that the keys of a table of the case explain them, unless they say more."""
+    """Let errors refer to the keys of a table of the case, unless they refer to something else."""
     try:
         yield
     except GripscaleError as error:
         error.see = error.see or f"`{f'gripscale keys {table}'.strip()}`"
         raise
+
+
+@contextmanager
+def values_of_file(path: Path | str) -> Iterator[None]:
+    """Raise an `InputError` about values read from a file as a `FileError` with its path."""
+    try:
+        yield
+    except InputError as error:
+        raise FileError(f"{path}: {error}") from error

@@ -1,4 +1,8 @@
-"""Read profiles from files: text by gripscale itself, instrument formats by an extra."""
+"""Read profiles and maps from files: text by gripscale itself, instrument formats by an extra.
+
+Instrument formats are read by SurfaceTopography (the extra `gripscale[formats]`),
+https://github.com/ContactEngineering/SurfaceTopography, doi:10.1088/2051-672X/ac860a.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +11,7 @@ import math
 import os
 import warnings
 from collections.abc import Collection
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -15,19 +19,14 @@ import numpy as np
 
 from gripscale.core import checks
 from gripscale.core.arrays import Array
-from gripscale.core.errors import FileError, InputError
+from gripscale.core.errors import FileError, InputError, values_of_file
 from gripscale.core.units import in_si
 from gripscale.io.text_table import EXCEL, file_path, read_bytes, read_sheets
 from gripscale.surface.profile import HeightMap, Profile, line_label
 from gripscale.surface.text_files import length_unit, read_text_map, read_text_profile
 
-# Instrument formats, read by SurfaceTopography (the extra `gripscale[formats]`).
-#
-# SurfaceTopography: https://github.com/ContactEngineering/SurfaceTopography,
-# doi:10.1088/2051-672X/ac860a.
-
 MOST_POINTS_PER_BYTE = 1032
-"""Deflate, the densest packing of all formats, makes at most 1032 bytes of one."""
+"""Deflate, the densest packing of all formats, packs at most 1032 bytes into one."""
 
 
 @dataclass(frozen=True)
@@ -38,10 +37,10 @@ class HeightField:
     x: Array
     y: Array | None
     reliable: float | None = None
-    """Shortest wavelength [m] free of the instrument's artifacts, where the file tells."""
+    """Shortest wavelength [m] free of the instrument's artifacts, if the file states it."""
 
     def lines(self, direction: str) -> int:
-        """Return how many profiles the field has along a direction."""
+        """Return the number of profiles along a direction."""
         return int(self.heights.shape[1 if direction == "x" else 0])
 
     def profile(self, path: Path, direction: str, line: int) -> Profile:
@@ -51,10 +50,8 @@ class HeightField:
         name, source = path.stem, str(path)
         if self.y is not None:
             name, source = (line_label(text, line, direction) for text in (name, source))
-        try:
+        with values_of_file(source):
             return Profile(np.asarray(along), heights, name, source, self.reliable)
-        except InputError as error:
-            raise FileError(f"{source}: {error}") from error
 
 
 def read_instrument_file(
@@ -89,15 +86,26 @@ def read_instrument_file(
     raw = read_bytes(path)
     if not raw.strip():
         raise FileError(f"{path}: expected a surface; got an empty file")
-    open_topography = _open_topography(path)
     # Its readers warn about pictures, missing dates and the like, none of which is the caller's.
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
+            from SurfaceTopography import open_topography
+        except ImportError as error:
+            raise FileError(
+                f"{path}: instrument formats need SurfaceTopography; "
+                "install it with: pip install 'gripscale[formats]'"
+            ) from error
+        try:
             reader = open_topography(io.BytesIO(raw))
             try:
-                topography = _topography(path, reader, channel, step)
-                _check_count(path, topography.nb_grid_pts, len(raw))
+                topography = _topography(path, reader.channels, channel, step)
+                points = topography.nb_grid_pts
+                if math.prod(points) > MOST_POINTS_PER_BYTE * len(raw):
+                    raise FileError(
+                        f"{path}: expected a surface; its header states "
+                        f"{' x '.join(map(str, points))} points, which {len(raw)} bytes cannot hold"
+                    )
                 heights: Array = np.ma.filled(
                     np.ma.asarray(topography.heights(), dtype=float), np.nan
                 )
@@ -115,79 +123,52 @@ def read_instrument_file(
             ) from error
     x_unit = "m" if step else length_unit(path, "the file", unit, "x_unit", x_unit)
     z_unit = length_unit(path, "the file", unit, "z_unit", z_unit)
-    field = _height_field(path, heights, positions, x_unit, z_unit)
-    return field if reliable is None else replace(field, reliable=in_si(reliable, x_unit, "length"))
-
-
-def _topography(
-    path: Path, reader: Any, channel: str | int | None, step: tuple[float, float] | None
-) -> Any:
-    """Return the heights of one channel, with its lateral size."""
-    chosen = _channel(path, reader.channels, channel)
-    if chosen.physical_sizes is not None:
-        if step is not None:
-            raise InputError(f"step must be left out; {path} states the size of its surface")
-        return chosen.topography()
-    if step is None:
-        raise FileError(f"{path}: expected a lateral size; the file gives none")
-    sizes = tuple(n * d for n, d in zip(chosen.nb_grid_pts, step, strict=False))
-    return chosen.topography(physical_sizes=sizes)
-
-
-def _check_count(path: Path, points: tuple[int, ...], length: int) -> None:
-    """Refuse a header with more points than any packing gets into the bytes of the file."""
-    if math.prod(points) > MOST_POINTS_PER_BYTE * length:
-        raise FileError(
-            f"{path}: expected a surface; its header states {' x '.join(map(str, points))} points, "
-            f"which {length} bytes cannot hold"
-        )
-
-
-def _channel(path: Path, channels: list[Any], wanted: str | int | None) -> Any:
-    """Return the one channel of heights, or the one of them that is `wanted`."""
-    known = [channel for channel in channels if channel.is_height_channel]
-    named = ", ".join(f"{channel.index + 1} {channel.name!r}" for channel in known)
-    if not known:
-        others = ", ".join(repr(channel.name) for channel in channels)
-        raise FileError(f"{path}: expected a channel of heights; got {others or 'none'}")
-    if wanted is not None:
-        known = [channel for channel in known if wanted in (channel.name, channel.index + 1)]
-        if not known:
-            raise InputError(
-                f"channel of {path} must be one of {named}, counted from 1; got "
-                f"{checks.short_repr(wanted)}"
-            )
-    if len(known) > 1:
-        raise FileError(f"{path}: expected one channel of heights; got {named}; give channel")
-    return known[0]
-
-
-def _open_topography(path: Path) -> Any:
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            from SurfaceTopography import open_topography
-    except ImportError as error:
-        raise FileError(
-            f"{path}: instrument formats need SurfaceTopography; "
-            "install it with: pip install 'gripscale[formats]'"
-        ) from error
-    return open_topography
-
-
-def _height_field(
-    path: Path, heights: Array, positions: Any, x_unit: str, z_unit: str
-) -> HeightField:
     if heights.ndim not in (1, 2) or min(heights.shape) == 0:
         raise FileError(f"{path}: expected a line or a map; got heights of shape {heights.shape}")
     heights = in_si(heights, z_unit, "length")
+    if reliable is not None:
+        reliable = in_si(reliable, x_unit, "length")
     if heights.ndim == 1:
-        return HeightField(heights[:, None], in_si(np.asarray(positions), x_unit, "length"), None)
+        x = in_si(np.asarray(positions), x_unit, "length")
+        return HeightField(heights[:, None], x, None, reliable)
     x, y = (in_si(np.asarray(axis, dtype=float), x_unit, "length") for axis in positions)
-    return HeightField(heights, x[:, 0], y[0, :])
+    return HeightField(heights, x[:, 0], y[0, :], reliable)
+
+
+def _topography(
+    path: Path,
+    channels: list[Any],
+    wanted: str | int | None,
+    step: tuple[float, float] | None,
+) -> Any:
+    """Return the heights of the only channel, or of the `wanted` one, with its lateral size."""
+    of_heights = [channel for channel in channels if channel.is_height_channel]
+    names = ", ".join(f"{channel.index + 1} {channel.name!r}" for channel in of_heights)
+    if not of_heights:
+        others = ", ".join(repr(channel.name) for channel in channels)
+        raise FileError(f"{path}: expected a channel of heights; got {others or 'none'}")
+    if wanted is not None:
+        of_heights = [c for c in of_heights if wanted in (c.name, c.index + 1)]
+        if not of_heights:
+            raise InputError(
+                f"channel of {path} must be one of {names}, counted from 1; got "
+                f"{checks.short_repr(wanted)}"
+            )
+    if len(of_heights) > 1:
+        raise FileError(f"{path}: expected one channel of heights; got {names}; give channel")
+    channel = of_heights[0]
+    if channel.physical_sizes is not None:
+        if step is not None:
+            raise InputError(f"step must be left out; {path} states the size of its surface")
+        return channel.topography()
+    if step is None:
+        raise FileError(f"{path}: expected a lateral size; the file gives none")
+    sizes = tuple(n * d for n, d in zip(channel.nb_grid_pts, step, strict=False))
+    return channel.topography(physical_sizes=sizes)
 
 
 TEXT_SUFFIXES = ("", ".dat", ".txt", ".csv", ".tsv", ".prn")
+MAP_TEXT_SUFFIXES = (*TEXT_SUFFIXES, ".xyz")
 _SHEETS_OF_AN_INSTRUMENT = {"Certificate", "DATA"}
 """Sheets of a Mitutoyo roughness tester's Excel file."""
 
@@ -237,16 +218,12 @@ def read_profile(
     InputError
         If an argument is wrong or contradicts the file.
     """
-    checks.one_of("direction", direction, ("x", "y"))
-    place = file_place(path, x_unit, z_unit, reader)
-    if _is_text_or_sheet(place, reader):
-        _check_line(place, line, 1)
-        return read_text_profile(place, x_unit=x_unit, z_unit=z_unit, sheet=sheet)
-    field = read_instrument_file(place, x_unit=x_unit, z_unit=z_unit, channel=channel)
-    _check_direction(place, field, direction)
-    lines = field.lines(direction)
-    chosen = _check_line(place, line, lines)
-    return field.profile(place, direction, lines // 2 if chosen is None else chosen)
+    file, source = _open_lines(path, x_unit, z_unit, direction, channel, sheet, reader)
+    lines = 1 if isinstance(source, Profile) else source.lines(direction)
+    number = lines // 2
+    if line is not None:
+        number = checks.whole(f"line of {file}", line, least=0, most=lines - 1)
+    return source if isinstance(source, Profile) else source.profile(file, direction, number)
 
 
 def read_profiles(
@@ -264,22 +241,42 @@ def read_profiles(
     Lines of a map on which no height was measured are left out. Parameters and errors are those
     of `read_profile`.
     """
-    checks.one_of("direction", direction, ("x", "y"))
-    place = file_place(path, x_unit, z_unit, reader)
-    if _is_text_or_sheet(place, reader):
-        return [read_text_profile(place, x_unit=x_unit, z_unit=z_unit, sheet=sheet)]
-    field = read_instrument_file(place, x_unit=x_unit, z_unit=z_unit, channel=channel)
-    _check_direction(place, field, direction)
-    measured = np.isfinite(field.heights).any(axis=0 if direction == "x" else 1)
+    file, source = _open_lines(path, x_unit, z_unit, direction, channel, sheet, reader)
+    if isinstance(source, Profile):
+        return [source]
+    measured = np.isfinite(source.heights).any(axis=0 if direction == "x" else 1)
     if not measured.any():
-        raise FileError(f"{place}: expected heights; got {measured.size} lines, all missing")
-    return [field.profile(place, direction, int(line)) for line in np.flatnonzero(measured)]
+        raise FileError(f"{file}: expected heights; got {measured.size} lines, all missing")
+    return [source.profile(file, direction, int(line)) for line in np.flatnonzero(measured)]
 
 
-def file_place(
+def _open_lines(
+    path: str | os.PathLike[str],
+    x_unit: str | None,
+    z_unit: str | None,
+    direction: str,
+    channel: str | int | None,
+    sheet: str | int | None,
+    reader: str,
+) -> tuple[Path, Profile | HeightField]:
+    """Return the path of a file and its profile, or the heights of an instrument file."""
+    checks.one_of("direction", direction, ("x", "y"))
+    file = _checked_path(path, x_unit, z_unit, reader)
+    text = _is_text(file, reader, TEXT_SUFFIXES)
+    if reader == "auto" and file.suffix.lower() in EXCEL:
+        text = not set(read_sheets(file)) >= _SHEETS_OF_AN_INSTRUMENT
+    if text:
+        return file, read_text_profile(file, x_unit=x_unit, z_unit=z_unit, sheet=sheet)
+    field = read_instrument_file(file, x_unit=x_unit, z_unit=z_unit, channel=channel)
+    if field.y is None and direction != "x":
+        raise InputError(f"direction must be 'x' for {file}, which is a single line; got 'y'")
+    return file, field
+
+
+def _checked_path(
     path: str | os.PathLike[str], x_unit: str | None, z_unit: str | None, reader: str
 ) -> Path:
-    """Return the path, the other arguments being checked."""
+    """Return the path; raise `InputError` if it, a unit or the reader cannot be used."""
     checks.one_of("reader", reader, ("auto", "text", "instrument"))
     for name, unit in (("x_unit", x_unit), ("z_unit", z_unit)):
         if unit is not None:
@@ -287,32 +284,9 @@ def file_place(
     return file_path(path)
 
 
-def is_text(path: Path, reader: str, suffixes: Collection[str] = TEXT_SUFFIXES) -> bool:
+def _is_text(path: Path, reader: str, suffixes: Collection[str]) -> bool:
     """Return whether gripscale reads the file itself."""
     return reader == "text" or (reader == "auto" and path.suffix.lower() in suffixes)
-
-
-def _is_text_or_sheet(path: Path, reader: str) -> bool:
-    """Return the same of a profile, which may stand in an Excel file of no instrument, too."""
-    if reader == "auto" and path.suffix.lower() in EXCEL:
-        return not set(read_sheets(path)) >= _SHEETS_OF_AN_INSTRUMENT
-    return is_text(path, reader)
-
-
-def _check_direction(path: Path, field: HeightField, direction: str) -> None:
-    if field.y is None and direction != "x":
-        raise InputError(f"direction must be 'x' for {path}, which is a single line; got 'y'")
-
-
-def _check_line(path: Path, line: int | None, lines: int) -> int | None:
-    if line is None:
-        return None
-    return checks.whole(f"line of {path}", line, least=0, most=lines - 1)
-
-
-# Read maps from files: text by gripscale itself, instrument formats by an extra.
-
-MAP_TEXT_SUFFIXES = (*TEXT_SUFFIXES, ".xyz")
 
 
 def read_map(
@@ -337,7 +311,7 @@ def read_map(
         Units of distance and height ("m", "cm", "mm", "um", "nm", "pm", "in") where the file does
         not name them. Units are never guessed, and must not contradict the file.
     step : float or (float, float), optional
-        Distance between points [m], along x and y if they differ, of a table or an array, whose
+        Distance between points [m], along x and y if they differ, for a table or an array, whose
         file has none.
     channel : str or int, optional
         Name of the channel, or its number from 1, of an instrument file that has several of
@@ -348,8 +322,8 @@ def read_map(
     Returns
     -------
     HeightMap
-        Distances and heights [m]; missing heights are NaN. The rubber slides along its x: turn it
-        for the other way.
+        Distances and heights [m]; missing heights are NaN. The rubber slides along x: `turned`
+        gives the map for the other way.
 
     Raises
     ------
@@ -359,40 +333,27 @@ def read_map(
     InputError
         If an argument is wrong or contradicts the file.
     """
-    place = file_place(path, x_unit, z_unit, reader)
-    steps = None if step is None else _steps(step)
-    if steps is not None and x_unit is not None:
-        raise InputError(
-            f"x_unit must be left out with step, which is in m; got {checks.short_repr(x_unit)}"
+    file = _checked_path(path, x_unit, z_unit, reader)
+    steps = None
+    if step is not None:
+        pair = tuple(step) if isinstance(step, tuple | list) else (step, step)
+        if len(pair) != 2:
+            raise InputError(
+                "step must be one distance [m], or that along x and y; "
+                f"got {checks.short_repr(step)}"
+            )
+        steps = (
+            checks.positive("step", pair[0], unit="m"),
+            checks.positive("step", pair[1], unit="m"),
         )
-    if is_text(place, reader, MAP_TEXT_SUFFIXES):
-        return read_text_map(place, x_unit=x_unit, z_unit=z_unit, step=steps)
-    return _instrument_map(place, x_unit, z_unit, steps, channel)
-
-
-def _instrument_map(
-    path: Path,
-    x_unit: str | None,
-    z_unit: str | None,
-    step: tuple[float, float] | None,
-    channel: str | int | None,
-) -> HeightMap:
-    field = read_instrument_file(path, x_unit=x_unit, z_unit=z_unit, channel=channel, step=step)
+        if x_unit is not None:
+            raise InputError(
+                f"x_unit must be left out with step, which is in m; got {checks.short_repr(x_unit)}"
+            )
+    if _is_text(file, reader, MAP_TEXT_SUFFIXES):
+        return read_text_map(file, x_unit=x_unit, z_unit=z_unit, step=steps)
+    field = read_instrument_file(file, x_unit=x_unit, z_unit=z_unit, channel=channel, step=steps)
     if field.y is None:
-        raise FileError(f"{path}: expected a map; got a line, which gripscale.read_profile reads")
-    try:
-        return HeightMap(
-            field.x, field.y, field.heights, path.stem, str(path), reliable=field.reliable
-        )
-    except InputError as error:
-        raise FileError(f"{path}: {error}") from error
-
-
-def _steps(step: float | tuple[float, float]) -> tuple[float, float]:
-    pair = (step, step) if not isinstance(step, tuple | list) else tuple(step)
-    if len(pair) != 2:
-        raise InputError(
-            f"step must be one distance [m], or that along x and y; got {checks.short_repr(step)}"
-        )
-    along, across = (checks.positive("step", value, unit="m") for value in pair)
-    return along, across
+        raise FileError(f"{file}: expected a map; got a line, which gripscale.read_profile reads")
+    with values_of_file(file):
+        return HeightMap(field.x, field.y, field.heights, file.stem, str(file), field.reliable)

@@ -1,12 +1,19 @@
-"""A profile from a text file: two columns with units, or the CAPTIF laser profilometer's layout.
+"""Profiles and maps from text files, with stated units and codes for missing heights.
 
-The CAPTIF stationary laser profilometer writes point number, distance and height, parted by tabs,
-below a line "*****DATA*****" and a title line that names millimetres. Its point numbers are not
-consecutive (they jump and repeat where scans are joined), while the distance column runs on at a
-constant step printed to three decimals: the step is therefore taken from the distance column.
+A profile stands in two columns with units, in rows of either direction, or in the layout of the
+CAPTIF stationary laser profilometer: point number, distance and height, parted by tabs, below a
+line "*****DATA*****" and a title line that names millimetres. CAPTIF's point numbers are not
+consecutive (they jump and repeat where scans are joined), while the distance column goes on at a
+constant step printed to three decimals: the step is therefore that of the distance column.
 
-Rows may run either way, and those without a height may be left out or hold a code such as -9999:
-they become missing heights.
+A map stands in a table of heights or in points (x, y, z). A table is an image: its rows run along
+y, its columns along x, and it has no steps. Points may come in any order.
+
+Missing heights are rows or points left out, empty cells, or codes such as -9999. A number is such a
+code only if it is in use as one and lies ten times farther from all other heights than they lie
+from each other: no texture has a height like that.
+
+Units are stated by the file or by the caller, never guessed.
 """
 
 from __future__ import annotations
@@ -18,27 +25,22 @@ import numpy as np
 
 from gripscale.core import checks
 from gripscale.core.arrays import Array
-from gripscale.core.errors import FileError, InputError
+from gripscale.core.errors import FileError, InputError, values_of_file
 from gripscale.core.units import in_si, spelled
 from gripscale.io.text_table import TextTable, read_table
 from gripscale.surface.profile import FEWEST_POINTS, TURNED_ROUND, HeightMap, Profile
 from gripscale.surface.resampling import printed_grid
 
-# Numbers that stand for missing heights in text files, such as -9999, told from heights.
-#
-# One is taken for such a code only where it is one in use and lies ten times farther from all other
-# heights than they lie from each other: no texture has a height like that.
-
 _NINES = [10.0**digits - 1.0 for digits in range(3, 10)]
 _WORDS = [2.0**bits - less for bits in (15, 16, 31, 32) for less in (0.0, 1.0)]
 CODES = np.array([*_NINES, *_WORDS])
-"""Codes in use, but for their sign: nines, and the ends of the whole numbers instruments store."""
+"""Codes in use, without sign: nines, and the limits of the whole numbers instruments store."""
 
 BEYOND = 1e30
-"""Height, in any unit of length, from which on a number is no height but a code."""
+"""Height, in any unit of length, beyond which every number is a code."""
 
 ALONE = 10.0
-"""Distance of a code from all heights, in the largest difference of two of them."""
+"""Least distance of a code from all heights, in the largest difference of two of them."""
 
 
 def without_codes(heights: Array) -> tuple[Array, float | None]:
@@ -60,11 +62,8 @@ def without_codes(heights: Array) -> tuple[Array, float | None]:
     return np.where(suspect, np.nan, heights), code
 
 
-# The unit of length of a measurement: stated by its file or given by the caller, never guessed.
-
-
 def length_unit(
-    path: Path, part: str, stated: object, name: str, given: str | None, *, how: str = "give"
+    path: Path, part: str, named: object, name: str, stated: str | None, *, how: str = "give"
 ) -> str:
     """Return the unit of a `part` of a file.
 
@@ -72,12 +71,12 @@ def length_unit(
     ----------
     path : pathlib.Path
         The file, and `part` ("column 1") of it, for messages.
-    stated : object
-        What the file says the unit is.
-    name, given : str, str or None
-        The argument with the caller's unit.
+    named : object
+        The unit that the file names.
+    name, stated : str, str or None
+        The caller's argument and the unit stated with it.
     how : str
-        How to make up for a missing unit, before `name`.
+        What to do about a missing unit, before `name`.
 
     Raises
     ------
@@ -86,23 +85,52 @@ def length_unit(
     InputError
         If the caller's unit is unknown or contradicts the file.
     """
-    found = spelled(stated, "length")
-    if given is not None:
-        if found is not None and in_si(1.0, found, "length") != in_si(1.0, given, "length", name):
-            raise InputError(f"{name} is {given!r}, but {path} says {found!r}; give one of them")
-        return given
-    if found is not None:
-        return found
-    if stated:
+    unit = spelled(named, "length")
+    if stated is not None:
+        if unit is not None and in_si(1.0, unit, "length") != in_si(1.0, stated, "length", name):
+            raise InputError(f"{name} is {stated!r}, but {path} says {unit!r}; give one of them")
+        return stated
+    if unit is not None:
+        return unit
+    if named:
         raise FileError(
-            f"{path}: {part} is in {checks.short_repr(stated)}, which is no known unit of "
+            f"{path}: {part} is in {checks.short_repr(named)}, which is no known unit of "
             f"length; give {name}"
         )
     raise FileError(f"{path}: {part} names no unit of length; {how} {name}")
 
 
+def _column_unit(table: TextTable, column: int, name: str, stated: str | None) -> str:
+    """Return the unit of a column: that of its title, or the one stated as argument `name`."""
+    part, named = f"column {column + 1}", table.columns[column].unit
+    how = "write it in the title, such as 'x [mm]', or give"
+    return length_unit(table.path, part, named, name, stated, how=how)
+
+
 DISTANCE_TITLE = re.compile(r"^\W*(x\b|x_|dist|pos|length|lateral)", re.IGNORECASE)
+ACROSS_TITLE = re.compile(r"^\W*(y\b|y_)", re.IGNORECASE)
 HEIGHT_TITLE = re.compile(r"^\W*(z\b|z_|height|depth|elev|relative.height|profile)", re.IGNORECASE)
+
+
+_MOST_TIMES = 100
+"""Most points of a grid, in points of the file: with fewer on it, the file is not on a grid."""
+
+
+def _read_table(
+    path: Path, expected: str, titles: tuple[re.Pattern[str], ...], sheet: str | int | None = None
+) -> tuple[TextTable, list[int] | None]:
+    """Return the table of a file and its columns by their titles, or None if not all are named."""
+    table = read_table(
+        path,
+        expected,
+        kinds=("length",),
+        named=lambda name: any(title.match(name) for title in titles),
+        sheet=sheet,
+    )
+    matches = [[i for i, name in enumerate(table.names) if t.match(name)] for t in titles]
+    if any(len(columns) != 1 for columns in matches):
+        return table, None
+    return table, [column for (column,) in matches]
 
 
 def read_text_profile(
@@ -122,8 +150,8 @@ def read_text_profile(
     Returns
     -------
     Profile
-        Distances [m] at the mean step of the distance column, heights [m]; `notes` say where rows
-        were turned round or left out.
+        Distances [m] at the mean step of the distance column, heights [m]; `notes` tell of rows
+        that were reversed or left out.
 
     Raises
     ------
@@ -132,86 +160,41 @@ def read_text_profile(
     InputError
         If a unit is unknown or contradicts the file.
     """
-    table = read_table(
-        path,
-        "rows with two columns of numbers",
-        kinds=("length",),
-        named=lambda name: bool(DISTANCE_TITLE.match(name) or HEIGHT_TITLE.match(name)),
-        sheet=sheet,
+    table, columns = _read_table(
+        path, "rows with two columns of numbers", (DISTANCE_TITLE, HEIGHT_TITLE), sheet
     )
-    x_column, z_column = _profile_columns(table)
-    x_unit = column_unit(table, x_column, "x_unit", x_unit)
-    z_unit = column_unit(table, z_column, "z_unit", z_unit)
+    if columns is None and len(table.columns) != 2:
+        raise FileError(
+            f"{table.path}, line {table.line_numbers[0]}: expected two columns, distance and "
+            f"height, or titles that name them; got {len(table.columns)} columns titled "
+            f"{table.titles or 'not at all'}"
+        )
+    x_column, z_column = columns or (0, 1)
+    x_unit = _column_unit(table, x_column, "x_unit", x_unit)
+    z_unit = _column_unit(table, z_column, "z_unit", z_unit)
     x = table.numbers(x_column, f"a distance in column {x_column + 1}")
     z = table.numbers(z_column, f"a number in column {z_column + 1}", missing=True)
-    _check_complete(path, z)
-    z, code = without_codes(z)
-    x, z, notes = _on_grid(table, x_column, x, z)
-    if code is not None:
-        notes += (f"heights of {code:g} {z_unit} stand for missing ones",)
-    x, z = in_si(x, x_unit, "length"), in_si(z, z_unit, "length")
-    try:
-        return Profile(x, z, name=path.stem, source=str(path), notes=notes)
-    except InputError as error:
-        raise FileError(f"{path}: {error}") from error
-
-
-def _profile_columns(table: TextTable) -> tuple[int, int]:
-    """Return which column is distance and which is height."""
-    distance = [i for i, name in enumerate(table.names) if DISTANCE_TITLE.match(name)]
-    height = [i for i, name in enumerate(table.names) if HEIGHT_TITLE.match(name)]
-    if len(distance) == 1 and len(height) == 1:
-        return distance[0], height[0]
-    if len(table.columns) == 2:
-        return 0, 1
-    raise FileError(
-        f"{table.path}, line {table.line_numbers[0]}: expected two columns, distance and height, "
-        f"or titles that name them; got {len(table.columns)} columns titled "
-        f"{table.titles or 'not at all'}"
-    )
-
-
-def column_unit(table: TextTable, column: int, name: str, given: str | None) -> str:
-    """Return the unit of a column: that of its title, or the one given for argument `name`."""
-    part, stated = f"column {column + 1}", table.columns[column].unit
-    how = "write it in the title, such as 'x [mm]', or give"
-    return length_unit(table.path, part, stated, name, given, how=how)
-
-
-def _check_complete(path: Path, z: Array) -> None:
     if z.size < FEWEST_POINTS:
         raise FileError(f"{path}: expected at least {FEWEST_POINTS} points; got {z.size}")
     if np.isnan(z).all():
         raise FileError(f"{path}: expected heights; got {z.size} points, all missing")
-
-
-def _on_grid(
-    table: TextTable, column: int, x: Array, z: Array
-) -> tuple[Array, Array, tuple[str, ...]]:
-    """Return distances and heights of all points of the even grid, and what was changed for it."""
+    z, code = without_codes(z)
     lines, notes = table.line_numbers, []
     if x[0] > x[-1]:
         x, z, lines = x[::-1], z[::-1], lines[::-1]
         notes.append(TURNED_ROUND)
-    grid = printed_grid(table, column, x, lines)
+    grid = printed_grid(table, x_column, x, lines)
     if grid.left_out:
         rows = "1 row" if grid.left_out == 1 else f"{grid.left_out} rows"
         notes.append(
             f"{rows} of the even grid not in the file, of {grid.size}: taken as missing heights"
         )
-    return grid.points(x), grid.spread(z), tuple(notes)
-
-
-# A map from a text file: a table of heights, or points with their two distances and their height.
-#
-# A table is an image: its rows run along y, its columns along x, and the steps are not in it.
-# Points (x, y, z) may come in any order; those left out, single or whole lines, and those that hold
-# a code such as -9999 are missing heights.
-
-_MOST_TIMES = 100
-"""Points of a grid, in those of a file: with fewer on it, they are not on a grid."""
-
-_ACROSS_TITLE = re.compile(r"^\W*(y\b|y_)", re.IGNORECASE)
+    if code is not None:
+        notes.append(f"heights of {code:g} {z_unit} stand for missing ones")
+    x = in_si(grid.points(x), x_unit, "length")
+    z = in_si(grid.spread(z), z_unit, "length")
+    with values_of_file(path):
+        return Profile(x, z, name=path.stem, source=str(path), notes=tuple(notes))
 
 
 def read_text_map(
@@ -231,115 +214,75 @@ def read_text_map(
     Raises
     ------
     FileError
-        If the file cannot be read or understood; the message names the line where it can.
+        If the file cannot be read or understood; the message names the line if possible.
     InputError
         If an argument is unknown or contradicts the file.
     """
-    titles = (DISTANCE_TITLE, _ACROSS_TITLE, HEIGHT_TITLE)
-    table = read_table(
-        path,
-        "rows of heights, or of x, y and z",
-        kinds=("length",),
-        named=lambda name: any(title.match(name) for title in titles),
-    )
-    columns = _map_columns(table)
-    if columns is None:
-        x, y, z = _table(table, z_unit, step)
-    elif step is not None:
-        raise InputError(f"step must be left out; {path} states where its points are")
-    else:
-        x, y, z = _points(table, columns, x_unit, z_unit)
-    try:
-        return HeightMap(x, y, z, name=path.stem, source=str(path))
-    except InputError as error:
-        raise FileError(f"{path}: {error}") from error
-
-
-def _map_columns(table: TextTable) -> tuple[int, int, int] | None:
-    """Return the columns of x, y and z, or None for a table of heights."""
-    titled = [
-        [i for i, name in enumerate(table.names) if title.match(name)]
-        for title in (DISTANCE_TITLE, _ACROSS_TITLE, HEIGHT_TITLE)
-    ]
-    if all(len(found) == 1 for found in titled):
-        x, y, z = (found[0] for found in titled)
-        return x, y, z
+    titles = (DISTANCE_TITLE, ACROSS_TITLE, HEIGHT_TITLE)
+    table, columns = _read_table(path, "rows of heights, or of x, y and z", titles)
     count = len(table.columns)
-    if count == 3:
-        return 0, 1, 2
-    if count >= FEWEST_POINTS:
-        return None
-    line = "; a line of two columns is for gripscale.read_profile" if count == 2 else ""
-    raise FileError(
-        f"{table.path}, line {table.line_numbers[0]}: expected three columns, x, y and z, or a "
-        f"table of heights with at least {FEWEST_POINTS}; got {count}{line}"
-    )
-
-
-def _table(
-    table: TextTable, z_unit: str | None, step: tuple[float, float] | None
-) -> tuple[Array, Array, Array]:
-    if step is None:
+    if columns is None and count == 3:
+        columns = [0, 1, 2]
+    if columns is not None and step is not None:
+        raise InputError(f"step must be left out; {path} states where its points are")
+    if columns is not None:
+        x, y, z = _points(table, columns, x_unit, z_unit)
+    elif count < FEWEST_POINTS:
+        line = "; a line of two columns is for gripscale.read_profile" if count == 2 else ""
+        raise FileError(
+            f"{table.path}, line {table.line_numbers[0]}: expected three columns, x, y and z, or "
+            f"a table of heights with at least {FEWEST_POINTS}; got {count}{line}"
+        )
+    elif step is None:
         raise FileError(
             f"{table.path}: a table of heights has no steps; give step, that along x and that "
             "along y [m], or reader 'instrument' for a header that states them"
         )
-    z_unit = length_unit(table.path, "the table", None, "z_unit", z_unit)
-    z = np.array(
-        [
+    else:
+        z_unit = length_unit(table.path, "the table", None, "z_unit", z_unit)
+        heights = [
             table.numbers(column, f"a height in column {column + 1}", missing=True)
-            for column in range(len(table.columns))
+            for column in range(count)
         ]
-    )
-    z, _ = without_codes(z)
-    x, y = (d * np.arange(n) for n, d in zip(z.shape, step, strict=True))
-    return x, y, in_si(z, z_unit, "length")
+        z = in_si(without_codes(np.array(heights))[0], z_unit, "length")
+        x, y = (d * np.arange(n) for n, d in zip(z.shape, step, strict=True))
+    with values_of_file(path):
+        return HeightMap(x, y, z, name=path.stem, source=str(path))
 
 
 def _points(
-    table: TextTable, columns: tuple[int, int, int], x_unit: str | None, z_unit: str | None
+    table: TextTable, columns: list[int], x_unit: str | None, z_unit: str | None
 ) -> tuple[Array, Array, Array]:
-    units = [
-        column_unit(table, column, name, given)
-        for column, name, given in zip(
-            columns, ("x_unit", "x_unit", "z_unit"), (x_unit, x_unit, z_unit), strict=True
-        )
-    ]
-    (x, across_x), (y, across_y) = (_axis(table, column) for column in columns[:2])
+    """Return axes and heights [m] of points (x, y, z) in any order; those left out are NaN."""
+    stated = (("x_unit", x_unit), ("x_unit", x_unit), ("z_unit", z_unit))
+    units = [_column_unit(table, c, *unit) for c, unit in zip(columns, stated, strict=True)]
+    axes, numbers = [], []
+    for column, unit in zip(columns[:2], units[:2], strict=True):
+        printed = table.numbers(column, f"a distance in column {column + 1}")
+        distances, which = np.unique(printed, return_inverse=True)
+        if distances.size < FEWEST_POINTS:
+            raise FileError(
+                f"{table.path}: expected a map of at least {FEWEST_POINTS} points a way; got "
+                f"{distances.size} distances in column {column + 1}"
+            )
+        grid = printed_grid(table, column, distances)
+        axes.append(in_si(grid.points(distances), unit, "length"))
+        numbers.append(grid.number[which])
     printed = table.numbers(columns[2], f"a number in column {columns[2] + 1}", missing=True)
     heights, _ = without_codes(printed)
-    if x.size * y.size > _MOST_TIMES * len(heights):
+    nx, ny = (axis.size for axis in axes)
+    if nx * ny > _MOST_TIMES * len(heights):
         raise FileError(
-            f"{table.path}: expected points on a grid; got {len(heights)} on one of {x.size} x "
-            f"{y.size}"
+            f"{table.path}: expected points on a grid; got {len(heights)} on one of {nx} x {ny}"
         )
-    place = across_x * y.size + across_y
-    _check_single(table, place)
-    z = np.full(x.size * y.size, np.nan)
-    z[place] = heights
-    x, y, z = (in_si(v, unit, "length") for v, unit in zip((x, y, z), units, strict=True))
-    return x, y, z.reshape(x.size, y.size)
-
-
-def _axis(table: TextTable, column: int) -> tuple[Array, np.ndarray]:
-    """Return all distances of the grid of a column, and which of them each row has."""
-    printed = table.numbers(column, f"a distance in column {column + 1}")
-    distances, which = np.unique(printed, return_inverse=True)
-    if distances.size < FEWEST_POINTS:
-        raise FileError(
-            f"{table.path}: expected a map of at least {FEWEST_POINTS} points a way; got "
-            f"{distances.size} distances in column {column + 1}"
-        )
-    grid = printed_grid(table, column, distances)
-    return grid.points(distances), grid.number[which]
-
-
-def _check_single(table: TextTable, place: np.ndarray) -> None:
-    """Refuse a point that stands twice."""
-    order = np.argsort(place, kind="stable")
-    again = np.flatnonzero(np.diff(place[order]) == 0)
-    if again.size:
-        first, second = (table.line_numbers[order[again[0] + i]] for i in (0, 1))
+    at = numbers[0] * ny + numbers[1]
+    order = np.argsort(at, kind="stable")
+    repeated = np.flatnonzero(np.diff(at[order]) == 0)
+    if repeated.size:
+        first, second = (table.line_numbers[order[repeated[0] + i]] for i in (0, 1))
         raise FileError(
             f"{table.path}, line {second}: expected each point once; got that of line {first} again"
         )
+    z = np.full(nx * ny, np.nan)
+    z[at] = heights
+    return axes[0], axes[1], in_si(z.reshape(nx, ny), units[2], "length")
