@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from gripscale.core import checks
 from gripscale.core.errors import FileError, InputError
 from gripscale.core.units import in_si, listed, spelled
-from gripscale.io.text_table import Column, TextTable, file_path, read_table
+from gripscale.io.text_table import ColumnTitle, TextTable, file_path, read_table
 
 Array = NDArray[np.float64]
 
@@ -191,7 +191,7 @@ def _places(table: TextTable) -> dict[str, int]:
     return places
 
 
-def _in_si(path: Path, word: str, column: Column, values: Array) -> Array:
+def _in_si(path: Path, word: str, column: ColumnTitle, values: Array) -> Array:
     if word not in _UNITS:
         if column.unit not in (None, *_RATIO):
             raise FileError(

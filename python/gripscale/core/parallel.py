@@ -1,7 +1,8 @@
-"""Ctrl-C held back while something must not be left half done.
+"""Threads for independent tasks, and interrupts held back while a file is written.
 
-xarray guards its files with one lock for all. An interrupt that lands while it is taken leaves it
-taken, and the next file waits for ever.
+Threads use all cores, since kernel and transforms release Python's lock. xarray guards its files
+with one lock for all: an interrupt that arrives while it is taken would leave it taken, and the
+next file would wait for ever.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from gripscale.core import checks
 
 @contextmanager
 def held_back() -> Iterator[None]:
-    """Let an interrupt from the keyboard act only when the block is left."""
+    """Delay an interrupt from the keyboard to the end of the block."""
     before = signal.getsignal(signal.SIGINT)
     if threading.current_thread() is not threading.main_thread() or before is None:
         yield
@@ -35,22 +36,20 @@ def held_back() -> Iterator[None]:
             before(*came[-1])
 
 
-# Independent tasks on all cores: threads, since kernel and transforms leave Python's lock free.
-
 T = TypeVar("T")
 Job = Callable[[threading.Event], T]
-"""Solves one task; gives up between two steps once the event is set."""
+"""Solves one task; stops between two steps once the event is set."""
 _here = threading.local()
 
 
 class Stopped(Exception):
-    """Somebody asked for an end."""
+    """A job ended because the caller stopped it."""
 
 
 def look() -> None:
-    """Raise `Stopped` if the job that this thread works on is to end.
+    """Raise `Stopped` if the job of this thread is to end; do nothing in other threads.
 
-    For long work below a job, which does not know the job's event; does nothing in other threads.
+    For long work inside a job that does not have the job's event.
     """
     stop = getattr(_here, "stop", None)
     if stop is not None and stop.is_set():
@@ -59,7 +58,7 @@ def look() -> None:
 
 @contextmanager
 def sharing(workers: int) -> Iterator[None]:
-    """Let what this thread solves use `workers` threads by default: others work beside it."""
+    """Limit solves on this thread to `workers` threads, because other solves run concurrently."""
     before = getattr(_here, "workers", None)
     _here.workers = workers
     try:
@@ -69,12 +68,12 @@ def sharing(workers: int) -> Iterator[None]:
 
 
 def cores() -> int:
-    """Return how many cores this process may use."""
+    """Return the number of cores this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def worker_count(workers: int | None) -> int:
-    """Return `workers`, or one per core; in a job of `in_threads` or under `sharing` its share.
+    """Return `workers`, by default one per core or the share of `in_threads` and `sharing`.
 
     Raises `InputError` if it is not a whole number from 1 to 1024.
     """
@@ -85,27 +84,25 @@ def worker_count(workers: int | None) -> int:
 
 
 def in_threads(jobs: Sequence[Job[T]], workers: int) -> Generator[tuple[int, T], None, None]:
-    """Yield the place and the result of each job as they come.
+    """Yield the index and the result of each job in the order of completion.
 
-    Jobs fewer than workers share them: what a job solves uses its share by default.
-    On any end but the natural one (an error, Ctrl-C, `close`) the others are told to stop, and
-    those that run are waited for: they hear it from their event and from `look`.
+    If there are fewer jobs than workers, each job may use an equal share of the workers. After an
+    error, Ctrl-C or `close`, the event of the other jobs is set, `look` raises in their threads,
+    and the running ones are awaited.
     """
     stop = threading.Event()
     share = max(workers // max(len(jobs), 1), 1)
-    pool = ThreadPoolExecutor(workers, "gripscale", initializer=_serve, initargs=(stop, share))
+
+    def start_thread() -> None:
+        _here.stop, _here.workers = stop, share
+
+    pool = ThreadPoolExecutor(workers, "gripscale", initializer=start_thread)
     try:
         futures: dict[Future[T], int] = {
-            pool.submit(job, stop): place for place, job in enumerate(jobs)
+            pool.submit(job, stop): index for index, job in enumerate(jobs)
         }
         for future in as_completed(futures):
             yield futures[future], future.result()
     finally:
         stop.set()
         pool.shutdown(wait=True, cancel_futures=True)
-
-
-def _serve(stop: threading.Event, workers: int) -> None:
-    """Tell `look` what ends the jobs of this thread, and how many threads each may use."""
-    _here.stop = stop
-    _here.workers = workers

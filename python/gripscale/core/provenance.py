@@ -1,4 +1,4 @@
-"""The versions of gripscale and of what it computes with."""
+"""Versions of gripscale and its dependencies, and the fingerprint of the software that solves."""
 
 from __future__ import annotations
 
@@ -31,15 +31,13 @@ def version_of(name: str) -> str:
         return "unknown (not installed)"
 
 
-# The fingerprint of what turns inputs into results: compiled kernel and numeric modules.
-
 FACES = ("app", "charts", "cli", "report")
-"""Rooms that only show results; every other room is taken to make them."""
+"""Rooms that only show results: a change in them changes no number."""
 
 
 @lru_cache(maxsize=1)
 def software() -> str:
-    """Return version and fingerprint of the software that solves."""
+    """Return version and fingerprint of the compiled kernel and the numeric modules."""
     home = Path(__file__).parents[1]
     digest = fingerprint(home, Path(str(_kernel.__file__)))
     return f"gripscale {version_of('gripscale')} {digest[:16]}"
@@ -47,10 +45,10 @@ def software() -> str:
 
 def fingerprint(home: Path, kernel: Path) -> str:
     """Return a hash of the package at `home`, without the faces, and of the `kernel`."""
-    found = hashlib.sha256(kernel.read_bytes())
+    digest = hashlib.sha256(kernel.read_bytes())
     for path in sorted(home.rglob("*.py")):
-        place = path.relative_to(home)
-        if place.parts[0] not in FACES:
-            found.update(f"{place.as_posix()} {path.stat().st_size}\n".encode())
-            found.update(path.read_bytes())
-    return found.hexdigest()
+        name = path.relative_to(home)
+        if name.parts[0] not in FACES:
+            digest.update(f"{name.as_posix()} {path.stat().st_size}\n".encode())
+            digest.update(path.read_bytes())
+    return digest.hexdigest()

@@ -1,4 +1,8 @@
-"""Units that files, case files and callers may name, each with its size in SI units."""
+"""Units that files, case files and callers may name, and the units in which results are shown.
+
+Inside, and in result files, all values are in SI units. A result carries the text of its case, and
+an axis of a study the unit of its values (`GIVEN`); plain numbers are shown in the usual unit.
+"""
 
 from __future__ import annotations
 
@@ -58,20 +62,20 @@ UNITS: dict[str, dict[str, float]] = {
     "bond energy": {"eV": 1.0, "meV": 1e-3, "kJ/mol": 1e3 / _JOULES_PER_MOLE_IN_EV},
     "strain": {"1": 1.0, "%": 1e-2},
 }
-"""The units of each kind of quantity by their usual spelling; the first is the one used inside, the
-SI unit but for the energy of a bond."""
+"""The units of each kind of quantity by their usual spelling; the first is the one used inside: the
+SI unit, except for the energy of a bond."""
 
 MILLI, MEGA, SQUARE_MM = 1e-3, 1e6, 1e-6
-"""What SI values are divided by to be read in mm, MPa and mm^2."""
+"""Sizes of mm, MPa and mm^2 in SI units."""
 
 ZERO_CELSIUS = 273.15
 """0 C [K]."""
 
 _ZERO = {"C": ZERO_CELSIUS, "F": 459.67 * 5.0 / 9.0}
-"""Where a scale of temperature does not begin at the zero of the SI unit."""
+"""Zero [K] of the scales of temperature that do not begin at 0 K."""
 
 _UNIT_NEEDED = ("temperature",)
-"""Kinds whose plain numbers mean one thing to a program and another to whoever writes them."""
+"""Kinds whose plain numbers are ambiguous."""
 
 _SPELLINGS = {
     "micron": "um",
@@ -157,11 +161,11 @@ def in_si(value: Value, unit: str, kind: str, name: str = "unit") -> Value:
 
     Raises `InputError`, which says that `name` must be one of the units of `kind`.
     """
-    known = spelled(unit, kind)
-    if known is None:
+    spelling = spelled(unit, kind)
+    if spelling is None:
         raise InputError(f"{name} must be one of {listed(kind)}; got {short_repr(unit)}")
-    zero = _ZERO.get(known, 0.0) if kind == "temperature" else 0.0
-    return value * UNITS[kind][known] + zero
+    zero = _ZERO.get(spelling, 0.0) if kind == "temperature" else 0.0
+    return value * UNITS[kind][spelling] + zero
 
 
 def in_mm(length: float, digits: int = 6) -> str:
@@ -170,7 +174,7 @@ def in_mm(length: float, digits: int = 6) -> str:
 
 
 def listed(kind: str) -> str:
-    """Return the units of `kind` as a sentence lists them."""
+    """Return the units of `kind`, separated by commas."""
     return ", ".join(UNITS[kind])
 
 
@@ -178,7 +182,7 @@ def parse_quantity(value: Any, kind: str) -> float:
     """Return `value`, such as "3 bar" or a plain number in the SI unit, in the SI unit of `kind`.
 
     Temperatures must have their unit. Raises `ValueError` with what was expected; the caller adds
-    the place.
+    where it was found.
     """
     if isinstance(value, int | float) and not isinstance(value, bool):
         if kind in _UNIT_NEEDED:
@@ -196,7 +200,7 @@ def parse_quantity(value: Any, kind: str) -> float:
 
 
 def unit_of(value: object, kind: str) -> str:
-    """Return the unit of a quantity such as "3 bar" by its usual spelling, empty without one."""
+    """Return the usual spelling of the unit of a quantity such as "3 bar"; empty without a unit."""
     match = _QUANTITY.fullmatch(value) if isinstance(value, str) else None
     return "" if match is None else spelled(match[2], kind) or ""
 
@@ -208,25 +212,19 @@ def _finite(value: float, kind: str) -> float:
 
 
 def such_as(kind: str) -> str:
-    """Return an example of a quantity of `kind`, as what was expected goes on after its name."""
+    """Return an example of a quantity of `kind`, to follow the name of the kind in a message."""
     if kind in _UNIT_NEEDED:
         return f'such as "{_EXAMPLES[kind]}"'
-    own = next(iter(UNITS[kind]))
-    plain = "a plain number" if own == "1" else f"a plain number in {own}"
+    unit = next(iter(UNITS[kind]))
+    plain = "a plain number" if unit == "1" else f"a plain number in {unit}"
     return f'such as "{_EXAMPLES[kind]}", or {plain}'
 
 
-# The units in which results are shown: those the case gives its load and its lengths in.
-#
-# Inside, and in result files, all is in SI units. A result carries the text of its case, and an
-# axis of a study the unit its values were given in (`GIVEN`); what was a plain number is shown in
-# the usual unit.
-
 GIVEN = "given_unit"
-"""Attribute of a coordinate: the unit its values were given in, where they had one."""
+"""Attribute of a coordinate: the unit in which its values were stated, if any."""
 
 USUAL = {"pressure": "MPa", "speed": "m/s", "length": "mm"}
-"""The unit of each kind of quantity where none was given."""
+"""The unit of each kind of quantity stated without one."""
 
 KEYS = {
     "pressure": ("load", "pressure"),
@@ -235,39 +233,39 @@ KEYS = {
     "smallest_wavelength": ("surface", "length"),
     "cut_off": ("surface", "length"),
 }
-"""Keys of a case that are shown as they are given, with their table and kind of quantity."""
+"""Keys of a case that are shown in their stated unit, with their table and kind of quantity."""
 
 
 @dataclass(frozen=True)
 class DisplayUnit:
-    """How numbers in SI units are shown."""
+    """The unit in which numbers in SI units are shown."""
 
     unit: str
     divisor: float = 1.0
     """Size of the unit in SI units."""
     zero: float = 0.0
-    """Where the unit begins to count, in SI units."""
+    """Zero of the scale of the unit, in SI units."""
 
     def of(self, values: ArrayLike) -> NDArray[np.float64]:
-        """Return values in SI units as they are shown."""
+        """Convert values in SI units to this unit."""
         return (np.asarray(values, dtype=float) - self.zero) / self.divisor
 
     def text(self, value: float, digits: int = 6) -> str:
-        """Return a value in SI units as it is shown, with its unit."""
+        """Return a value in SI units as text in this unit."""
         return f"{float(self.of(value)):.{digits}g} {self.unit}"
 
 
 def display_unit(name: str, case: str = "", unit: str = "") -> DisplayUnit:
-    """Return how one of `KEYS` is shown.
+    """Return the unit in which one of `KEYS` is shown.
 
     Parameters
     ----------
     name
         The key.
     case
-        Text of the case, whose unit is taken where `unit` is empty.
+        Text of the case, whose unit counts if `unit` is empty.
     unit
-        The unit it was given in.
+        The stated unit.
     """
     kind = KEYS[name][1]
     chosen = unit or given_units(case).get(name) or USUAL[kind]
@@ -276,22 +274,22 @@ def display_unit(name: str, case: str = "", unit: str = "") -> DisplayUnit:
 
 @lru_cache(maxsize=64)
 def given_units(case: str) -> Mapping[str, str]:
-    """Return the unit of each of `KEYS` that has one in the text of a case."""
+    """Return the stated unit of each of `KEYS` in the text of a case."""
     try:
         tables = tomllib.loads(case)
     except tomllib.TOMLDecodeError:
         return {}
-    found = {}
+    units = {}
     for name, (table, kind) in KEYS.items():
         keys = tables.get(table)
         unit = unit_of(keys.get(name), kind) if isinstance(keys, dict) else ""
         if unit:
-            found[name] = unit
-    return found
+            units[name] = unit
+    return units
 
 
 def significant(value: float, digits: int = 3) -> str:
-    """Return `value` with so many significant digits, without an exponent where it stays short."""
+    """Return `value` with this many significant digits, without an exponent if that is short."""
     if not math.isfinite(value):
         return "-" if math.isnan(value) else "inf"
     if value == 0.0 or 1e-4 <= abs(value) < 1e6:

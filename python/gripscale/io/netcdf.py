@@ -1,14 +1,15 @@
 """Datasets to disk and back as netCDF (HDF5), completely or not at all.
 
-Behind the end of what HDF5 reads stands a seal, the SHA-256 of all before it: HDF5 itself takes a
-flipped bit of a number for a number. A file without one, from elsewhere, is read as it is.
+A seal follows the end of the HDF5 data, the SHA-256 of all bytes before it, because HDF5 itself
+does not notice a flipped bit of a number. A file without a seal, from elsewhere, is read as it is.
 """
 
 from __future__ import annotations
 
 import hashlib
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO, Final
 
@@ -24,7 +25,8 @@ ENGINE: Final = "netcdf4"
 _SEAL: Final = b"\ngripscale sha256 "
 _SEAL_LENGTH: Final = len(_SEAL) + 65
 _PART: Final = 1 << 20
-"""Bytes read at once."""
+"""Bytes read together."""
+
 
 RENAMED: Final = {
     "storage_factor": "storage_modulus_ratio",
@@ -42,7 +44,7 @@ RENAMED: Final = {
 def save(
     data: xr.Dataset, path: str | Path, groups: Mapping[str, xr.Dataset] | None = None
 ) -> Path:
-    """Write `data` to `path`, with the named `groups` beside it in the file; return the path.
+    """Write `data` and the named `groups` to the file at `path`; return the path.
 
     Raises `FileError` if the file cannot be written.
     """
@@ -54,7 +56,9 @@ def save(
             tree.to_netcdf(temporary, engine=ENGINE)
         else:
             data.to_netcdf(temporary, engine=ENGINE)
-        _seal(temporary)
+        with temporary.open("r+b") as file:
+            digest = _digest(file, temporary.stat().st_size)
+            file.write(_SEAL + digest + b"\n")
 
     with held_back():
         return write_whole(path, write)
@@ -67,12 +71,8 @@ def load(path: str | Path) -> xr.Dataset:
     """
     import xarray as xr
 
-    place = _there(path)
-    try:
-        with held_back():
-            return _with_new_names(xr.load_dataset(place, engine=ENGINE))
-    except (OSError, ValueError, KeyError, RuntimeError) as error:
-        raise FileError(f"{place} cannot be read as a netCDF result: {error}") from error
+    with _reading(path) as file:
+        return _with_new_names(xr.load_dataset(file, engine=ENGINE))
 
 
 def load_tree(path: str | Path) -> xr.DataTree:
@@ -82,25 +82,41 @@ def load_tree(path: str | Path) -> xr.DataTree:
     """
     import xarray as xr
 
-    place = _there(path)
-    try:
-        with held_back(), xr.open_datatree(place, engine=ENGINE) as tree:
-            tree.load()
-            for node in tree.subtree:
-                node.dataset = _with_new_names(node.to_dataset(inherit=False))
-            return tree
-    except (OSError, ValueError, KeyError, RuntimeError) as error:
-        raise FileError(f"{place} cannot be read as a netCDF result: {error}") from error
+    with _reading(path) as file, xr.open_datatree(file, engine=ENGINE) as tree:
+        tree.load()
+        for node in tree.subtree:
+            node.dataset = _with_new_names(node.to_dataset(inherit=False))
+        return tree
 
 
 def _with_new_names(data: xr.Dataset) -> xr.Dataset:
     return data.rename({name: RENAMED[name] for name in RENAMED if name in data.data_vars})
 
 
+@contextmanager
+def _reading(path: str | Path) -> Iterator[Path]:
+    """Yield the path of an undamaged file; raise `FileError` if it is missing or unreadable."""
+    path = Path(path)
+    if not path.is_file():
+        raise FileError(f"result file {path} does not exist")
+    try:
+        with path.open("rb") as file:
+            whole = _is_whole(file)
+    except OSError as error:
+        raise FileError(f"{path} cannot be read: {error.strerror or error}") from error
+    if not whole:
+        raise FileError(f"{path} cannot be read as a netCDF result: damaged since it was written")
+    try:
+        with held_back():
+            yield path
+    except (OSError, ValueError, KeyError, RuntimeError) as error:
+        raise FileError(f"{path} cannot be read as a netCDF result: {error}") from error
+
+
 def write_whole(path: str | Path, write: Callable[[Path], None]) -> Path:
     """Let `write` fill a temporary neighbour of `path`, then rename it into place.
 
-    Raises `FileError` if either fails; a file that was there before is then untouched.
+    Raises `FileError` if either fails; an existing file is then untouched.
     """
     path = Path(path)
     temporary = path.with_name(f".{path.stem}.{os.getpid()}.part{path.suffix}")
@@ -117,54 +133,29 @@ def write_whole(path: str | Path, write: Callable[[Path], None]) -> Path:
     return path
 
 
-def _there(path: str | Path) -> Path:
-    """Return the path of a file that is there, and whole as far as it tells."""
-    place = Path(path)
-    if not place.is_file():
-        raise FileError(f"result file {place} does not exist")
-    try:
-        with place.open("rb") as file:
-            whole = _is_whole(file)
-    except OSError as error:
-        raise FileError(f"{place} cannot be read: {error.strerror or error}") from error
-    if not whole:
-        raise FileError(f"{place} cannot be read as a netCDF result: damaged since it was written")
-    return place
-
-
-def _seal(path: Path) -> None:
-    with path.open("r+b") as file:
-        digest = _digest(file, path.stat().st_size)
-        file.write(_SEAL + digest + b"\n")
-
-
 def _is_whole(file: BinaryIO) -> bool:
-    """Return whether a file has its right seal, or nothing behind its end as HDF5 states it."""
+    """Return whether a file has its right seal, or ends where HDF5 states its end.
+
+    The end is the end-of-file address in a superblock of version 2 or 3 with eight bytes an
+    address, as this package writes it: HDF5 File Format Specification 3.0, section II.A.
+    """
     length = file.seek(0, os.SEEK_END)
     file.seek(max(length - _SEAL_LENGTH, 0))
     seal = file.read()
     if seal.startswith(_SEAL):
         return seal == _SEAL + _digest(file, length - _SEAL_LENGTH) + b"\n"
-    return not 0 < _stated_end(file) < length
-
-
-def _stated_end(file: BinaryIO) -> int:
-    """Return where HDF5 says the file ends, 0 where it does not in the way this package writes.
-
-    Superblock of version 2 or 3, with eight bytes an address: HDF5 File Format Specification 3.0,
-    section II.A.
-    """
     file.seek(0)
     head = file.read(36)
-    known = head.startswith(b"\x89HDF\r\n\x1a\n") and head[8:9] in (b"\x02", b"\x03")
-    return int.from_bytes(head[28:36], "little") if known else 0
+    if not head.startswith(b"\x89HDF\r\n\x1a\n") or head[8:9] not in (b"\x02", b"\x03"):
+        return True
+    return not 0 < int.from_bytes(head[28:36], "little") < length
 
 
 def _digest(file: BinaryIO, length: int) -> bytes:
-    """Return the SHA-256 of the first `length` bytes in hexadecimal, the file being left there."""
+    """Return the SHA-256 of the first `length` bytes in hexadecimal; the file stays after them."""
     file.seek(0)
-    found = hashlib.sha256()
+    digest = hashlib.sha256()
     while length > 0 and (part := file.read(min(length, _PART))):
-        found.update(part)
+        digest.update(part)
         length -= len(part)
-    return found.hexdigest().encode()
+    return digest.hexdigest().encode()

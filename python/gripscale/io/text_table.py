@@ -10,6 +10,8 @@
 - Empty cells, nan, n/a, - and the like are missing values.
 - The last line above the rows that names as many columns holds the titles. A unit stands in
   brackets, behind a slash or a blank, or in a line of units.
+
+The file has the cells of a line, the sheets of an Excel file, the table, and the text of a file.
 """
 
 from __future__ import annotations
@@ -34,8 +36,6 @@ from gripscale.core.checks import MOST, short_repr, shortened, whole
 from gripscale.core.errors import FileError, InputError
 from gripscale.core.units import spelled
 
-# Cells of a line of a table: which are numbers, which are missing values, what is a row.
-
 Line = tuple[int, str]
 """A line with its number in the file, from 1."""
 
@@ -43,12 +43,12 @@ MISSING = {"", "nan", "na", "n/a", "null", "none", "-", "--", "---", "bad"}
 NUMBER = re.compile(r"[+-]?(\d++(\.\d*)?|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 COMMA_NUMBER = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?", re.ASCII)
 SEPARATORS = ("\t", ";", ",", None)
-"""What may part the cells of a line, in the order they are tried; None: blanks."""
+"""Separators of the cells of a line, in the order they are tried; None: blanks."""
 COMMENT = ("#", "%", "!")
 
 
 def parse_number(cell: str) -> float | None:
-    """Return the number a cell holds, or None if it holds none; missing values are NaN."""
+    """Return the number in a cell, NaN for a missing value, or None if there is neither."""
     if cell.lower() in MISSING:
         return float("nan")
     return float(cell) if NUMBER.fullmatch(cell) else None
@@ -56,7 +56,9 @@ def parse_number(cell: str) -> float | None:
 
 def is_row(line: str) -> bool:
     """Return whether a line is a row: at least two cells, numbers or missing, not all missing."""
-    return not is_comment(line) and any(is_row_of(cells_of(line, one)) for one in SEPARATORS)
+    return not is_comment(line) and any(
+        is_row_of(cells_of(line, separator)) for separator in SEPARATORS
+    )
 
 
 def is_row_of(cells: list[str]) -> bool:
@@ -84,16 +86,14 @@ def cells_of(line: str, separator: str | None) -> list[str]:
     return [cell.strip().strip('"').strip() for cell in line.strip(" \r\n").split(separator)]
 
 
-# Sheets of an Excel file as rows of cells, and as the lines a text file would have.
-
 EXCEL = (".xlsx", ".xlsm")
-"""Suffixes of the files that are read as Excel's."""
+"""Suffixes of Excel files."""
 
 Rows = list[tuple[object, ...]]
 
 
 def is_excel(path: Path) -> bool:
-    """Return whether a file is read as Excel's, by its suffix."""
+    """Return whether a file is an Excel file, by its suffix."""
     return path.suffix.lower() in EXCEL
 
 
@@ -125,12 +125,12 @@ def read_sheets(path: Path) -> dict[str, Rows]:
         raise FileError(f"{path}: expected an xlsx file; got an empty file")
     openpyxl = import_openpyxl(path)
     try:
-        with path.open("rb") as file:  # openpyxl leaves open what it cannot read
+        with path.open("rb") as file:  # openpyxl leaves files open that it cannot read
             book = openpyxl.load_workbook(file, read_only=True, data_only=True)
             sheets = {
                 sheet.title: list(sheet.iter_rows(values_only=True)) for sheet in book.worksheets
             }
-    except Exception as error:  # openpyxl, zipfile and the XML parser fail each in their own way
+    except Exception as error:  # openpyxl, zipfile and the XML parser each fail in their own way
         raise FileError(f"{path}: expected an xlsx file ({type(error).__name__})") from error
     if not sheets:
         raise FileError(f"{path}: expected a sheet of cells; got none")
@@ -149,7 +149,16 @@ def sheet_lines(path: Path, sheet: str | int | None) -> list[Line]:
     InputError
         If there is no such sheet, or several hold rows of numbers and none is named.
     """
-    sheets = {name: _lines(rows) for name, rows in read_sheets(path).items()}
+    sheets = {}
+    for name, rows in read_sheets(path).items():
+        cells = [[_cell_text(value) for value in row] for row in rows]
+        width = max(map(len, cells), default=0)
+        used = [i for i in range(width) if any(row[i : i + 1] not in ([], [""]) for row in cells)]
+        sheets[name] = [
+            (number, "\t".join("".join(row[i : i + 1]) for i in used))
+            for number, row in enumerate(cells, start=1)
+            if any(row)
+        ]
     if sheet is None:
         full = [name for name, lines in sheets.items() if any(is_row(line) for _, line in lines)]
         if len(full) > 1:
@@ -163,18 +172,7 @@ def sheet_lines(path: Path, sheet: str | int | None) -> list[Line]:
     return list(sheets.values())[checks.counted(f"{path}: sheet", sheet, len(sheets))]
 
 
-def _lines(rows: Rows) -> list[Line]:
-    cells = [[_cell(one) for one in row] for row in rows]
-    width = max(map(len, cells), default=0)
-    used = [at for at in range(width) if any(row[at : at + 1] not in ([], [""]) for row in cells)]
-    return [
-        (number, "\t".join("".join(row[at : at + 1]) for at in used))
-        for number, row in enumerate(cells, start=1)
-        if any(row)
-    ]
-
-
-def _cell(value: object) -> str:
+def _cell_text(value: object) -> str:
     if isinstance(value, float):
         return repr(value)
     return "" if value is None else " ".join(str(value).split())
@@ -185,38 +183,38 @@ _BINARY = {
     b"PK\x03\x04": "a zip file; an Excel file must end in .xlsx",
     b"%PDF": "a PDF",
 }
-"""First bytes of files that are mistaken for text."""
+"""Binary files that are mistaken for text, by their first bytes."""
 _LINE_END = re.compile(r"\r*\n|\r")
 MOST_LINES = 10**6
-"""Lines above the rows, at most."""
+"""Largest number of lines above the rows."""
 _TITLE_SEPARATORS = (r"\t", r";", r",", r"\s{2,}", r"\s+")
 _CUT = re.compile(r"\s*[\[(]\s*([^\[\]()]+?)\s*[\])]|[\s/_,]+(?=(.+))")
-_STATED = re.compile(r"(.*?)(?:\s*[\[(]\s*([^\[\]()]+?)\s*[\])]|\s+/\s*(\S+))\s*")
+_NAME_AND_UNIT = re.compile(r"(.*?)(?:\s*[\[(]\s*([^\[\]()]+?)\s*[\])]|\s+/\s*(\S+))\s*")
 _TITLES_IN_BRACKETS = re.compile(r"[^()\[\]]+[(\[][^()\[\]]*[)\]]")
 _DIGITS = frozenset("0123456789+-.")
 _PLAIN = _DIGITS | {"e", "E"}
-"""Letters of numbers that can be read all at once."""
+"""Letters of numbers that numpy reads all at once."""
 
 
 @dataclass(frozen=True)
-class Column:
-    """A column as its title names it; the unit is the file's own word for it."""
+class ColumnTitle:
+    """Name and unit of a column by its title, in the words of the file."""
 
     name: str = ""
     unit: str | None = None
 
     def __bool__(self) -> bool:
-        """Return whether the file says anything of the column."""
+        """Return whether the file names the column or its unit."""
         return bool(self.name or self.unit)
 
 
 @dataclass(frozen=True)
 class TextTable:
-    """Rows of cells as printed, the titles above them, and the line each row stood in."""
+    """Rows of cells as printed, the titles above them, and the line number of each row."""
 
     path: Path
-    columns: list[Column]
-    """One a column, nameless where the file has no titles."""
+    columns: list[ColumnTitle]
+    """Title of each column, empty if the file has no titles."""
     rows: list[list[str]]
     line_numbers: list[int]
     decimal: str
@@ -233,14 +231,14 @@ class TextTable:
         return shortened(", ".join(self.names))
 
     def numbers(self, column: int, expected: str, *, missing: bool = False) -> Array:
-        """Return a column of numbers, NaN where a value is `missing` and may be.
+        """Return a column of numbers; with `missing`, NaN where a value is missing.
 
-        Raises `FileError` with the line of the first other cell, or number beyond reason, and what
-        was `expected`.
+        Raises `FileError`, with the line and what was `expected`, for the first other cell or
+        number beyond `MOST`.
         """
         cells = [self._with_point(row[column]) for row in self.rows]
         if _PLAIN.issuperset("".join(cells)):
-            with suppress(ValueError):  # a word of these letters, which the loop below names
+            with suppress(ValueError):  # a word of these letters: the loop below names it
                 plain = np.array(cells, dtype=float)
                 if (np.abs(plain) <= MOST).all():
                     return plain
@@ -256,12 +254,12 @@ class TextTable:
         return values
 
     def resolution(self, column: int) -> float:
-        """Return the last decimal place to which any number of a column is printed, as 0.001."""
+        """Return the last decimal place of any printed number of a column, such as 0.001."""
         cells = [self._with_point(row[column]) for row in self.rows]
         if _DIGITS.issuperset("".join(cells)):
             return float(10.0 ** -max(len(cell.partition(".")[2]) for cell in cells))
-        places = (Decimal(cell).as_tuple().exponent for cell in cells)
-        return 10.0 ** min(max(place, -300) for place in places if isinstance(place, int))
+        exponents = (Decimal(cell).as_tuple().exponent for cell in cells)
+        return 10.0 ** min(max(power, -300) for power in exponents if isinstance(power, int))
 
     def _with_point(self, cell: str) -> str:
         return cell.replace(",", ".") if self.decimal == "," else cell
@@ -282,12 +280,12 @@ def read_table(
     path : pathlib.Path
         The file.
     expected : str
-        What the rows hold, for messages.
+        Content of the rows, for messages.
     kinds : collection of str
         Kinds of units (see `gripscale.core.units`) the titles may name.
     named : callable
-        Whether a text is the name of a column. A line with such a name, or with a known unit,
-        holds the titles.
+        Whether a text is the name of a column. A line with such a name, or with a unit of these
+        kinds, holds the titles.
     sheet : str or int, optional
         Name of the Excel sheet or its number from 1, where several hold numbers.
 
@@ -297,7 +295,7 @@ def read_table(
         If the file cannot be read, is not text or has no rows; if a row has another number of
         cells than the first; if the decimal sign changes. The message names path and line.
     InputError
-        If `sheet` is missing or none of the file.
+        If `sheet` is missing or is not in the file.
     """
     return table_in(path, read_lines(path, sheet=sheet), expected, kinds=kinds, named=named)
 
@@ -307,10 +305,10 @@ def read_lines(
 ) -> list[Line]:
     """Return the lines of a text file or of a sheet of an Excel file that are not empty.
 
-    Among the first `header` lines numbers are no rows: they are made comments.
+    Rows of numbers among the first `header` lines are turned into comments.
 
-    Raises `FileError` and `InputError` as `read_table` does, also if `header` is no number of
-    lines.
+    Raises `FileError` and `InputError` as `read_table` does, and `InputError` if `header` is no
+    number of lines.
     """
     above = 0 if header is None else whole("header", header, least=0, most=MOST_LINES)
     if is_excel(path):
@@ -344,30 +342,39 @@ def table_in(
     rows = [cells_of(line, separator) for _, line in lines[first:] if not is_comment(line)]
     count = len(rows[0])
     _check_faults(path, lines[:first], separator, range(count, count + 1))
-    _check_lengths(path, rows, numbers)
+    for number, row in zip(numbers, rows, strict=True):
+        if len(row) != count:
+            raise FileError(
+                f"{path}, line {number}: expected {count} columns as in line {numbers[0]}; "
+                f"got {len(row)}"
+            )
     decimal = _decimal_sign(path, rows, numbers)
     above = [line for _, line in lines[:first]]
-    full = _full_columns(rows)
+    # separators at the ends of all lines make empty columns
+    full = slice(
+        0 if any(row[0] for row in rows) else 1,
+        count - (0 if any(row[-1] for row in rows) else 1),
+    )
     columns = _columns(above, count, kinds, named)[full]
     rows = [row[full] for row in rows]
-    if not any(columns) and len(columns) < count:  # titles that have not those empty cells
+    if not any(columns) and len(columns) < count:  # titles without those empty cells
         columns = _columns(above, len(columns), kinds, named)
     return TextTable(path, columns, rows, numbers, decimal)
 
 
 def file_path(path: object) -> Path:
-    """Return `path` as one; raise `InputError` if it cannot be the path of a file."""
+    """Return `path` as `Path`; raise `InputError` if it cannot be the path of a file."""
     if not isinstance(path, str | os.PathLike):
         raise InputError(f"path must be the path of a file; got {short_repr(path)}")
     return Path(path)
 
 
 def file_paths(path: object) -> list[Path]:
-    """Return one path or several; raise `InputError` if there is none or something else."""
+    """Return one path or several as a list; raise `InputError` for none or something else."""
     if isinstance(path, Sequence) and not isinstance(path, str | bytes):
         if not path:
             raise InputError("path must name at least one file; got none")
-        return [file_path(one) for one in path]
+        return [file_path(item) for item in path]
     return [file_path(path)]
 
 
@@ -391,28 +398,16 @@ def read_text(path: Path) -> str:
     if raw.startswith(tuple(_BINARY)) or any(
         raw[:4096].count(code) for code in (*range(9), *range(14, 32))
     ):
-        raise FileError(f"{path}: expected a text file; got {_binary(raw)}")
-    try:
-        return raw.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        return _western(raw)
-
-
-def _binary(raw: bytes) -> str:
-    """Return what a file that is no text is, from its first bytes."""
-    return next((what for first, what in _BINARY.items() if raw.startswith(first)), "binary data")
-
-
-def _western(raw: bytes) -> str:
-    """Return text in Windows' or, where that has no such letter, ISO's code of western Europe."""
-    try:
-        return raw.decode("cp1252")
-    except UnicodeDecodeError:
-        return raw.decode("latin-1")
+        kind = next((k for start, k in _BINARY.items() if raw.startswith(start)), "binary data")
+        raise FileError(f"{path}: expected a text file; got {kind}")
+    for code in ("utf-8-sig", "cp1252"):
+        with suppress(UnicodeDecodeError):
+            return raw.decode(code)
+    return raw.decode("latin-1")
 
 
 def _first_row(path: Path, lines: list[Line], expected: str) -> tuple[int, str | None]:
-    """Return the index of the first line of numbers, and what parts its cells."""
+    """Return the index of the first line of numbers, and its separator of cells."""
     for at, (_, line) in enumerate(lines):
         for separator in () if is_comment(line) else SEPARATORS:
             if is_row_of(cells_of(line, separator)):
@@ -426,7 +421,7 @@ def _first_row(path: Path, lines: list[Line], expected: str) -> tuple[int, str |
 
 
 def _check_faults(path: Path, lines: list[Line], separator: str | None, counts: range) -> None:
-    """Refuse a line that begins as a row of so many cells, but has a word in another cell."""
+    """Raise `FileError` for a line that begins with a number as a row, but has a word in it."""
     for number, line in lines:
         cells = cells_of(line, separator)
         if not is_comment(line) and len(cells) in counts and is_number(cells[0]):
@@ -437,56 +432,39 @@ def _check_faults(path: Path, lines: list[Line], separator: str | None, counts: 
             )
 
 
-def _check_lengths(path: Path, rows: list[list[str]], numbers: list[int]) -> None:
-    for number, row in zip(numbers, rows, strict=True):
-        if len(row) != len(rows[0]):
-            raise FileError(
-                f"{path}, line {number}: expected {len(rows[0])} columns as in line "
-                f"{numbers[0]}; got {len(row)}"
-            )
-
-
 def _decimal_sign(path: Path, rows: list[list[str]], numbers: list[int]) -> str:
-    """Return the sign all numbers of the file use."""
-    comma = _first_cell(rows, lambda cell: "," in cell and bool(COMMA_NUMBER.fullmatch(cell)))
-    if comma is None:
-        return "."
-    point = _first_cell(rows, lambda cell: "." in cell and bool(NUMBER.fullmatch(cell)))
-    if point is None:
-        return ","
-    (first, one), (second, other) = sorted((comma, point))
+    """Return the decimal sign that all numbers of the file use."""
+    first: dict[str, tuple[int, str]] = {}
+    for sign, form in ((",", COMMA_NUMBER), (".", NUMBER)):
+        for at, row in enumerate(rows):
+            cell = next((cell for cell in row if sign in cell and form.fullmatch(cell)), None)
+            if cell is not None:
+                first[sign] = at, cell
+                break
+    if len(first) < 2:
+        return next(iter(first), ".")
+    (before, cell), (after, other) = sorted(first.values())
     raise FileError(
-        f"{path}, line {numbers[second]}: expected one decimal sign throughout; "
-        f"got {short_repr(other)} after {short_repr(one)} in line {numbers[first]}"
+        f"{path}, line {numbers[after]}: expected one decimal sign throughout; "
+        f"got {short_repr(other)} after {short_repr(cell)} in line {numbers[before]}"
     )
-
-
-def _first_cell(rows: list[list[str]], fits: Callable[[str], bool]) -> tuple[int, str] | None:
-    return next(((at, cell) for at, row in enumerate(rows) for cell in row if fits(cell)), None)
-
-
-def _full_columns(rows: list[list[str]]) -> slice:
-    """Return all columns without the empty ones that separators at the ends of all lines make."""
-    first = 0 if any(row[0] for row in rows) else 1
-    last = len(rows[0]) - (0 if any(row[-1] for row in rows) else 1)
-    return slice(first, last)
 
 
 def _columns(
     above: list[str], count: int, kinds: Collection[str], named: Callable[[str], bool]
-) -> list[Column]:
-    """Return what the lines `above` the rows say of the columns."""
-    columns, units = [Column()] * count, [""] * count
+) -> list[ColumnTitle]:
+    """Return names and units of the columns from the lines `above` the rows."""
+    columns, units = [ColumnTitle()] * count, [""] * count
     for cells in filter(None, (_titles(line, count) for line in above)):
         bare = [cell.strip("()[] ") for cell in cells]
-        if any(_known(cell, kinds) for cell in bare):
+        if any(_is_unit(cell, kinds) for cell in bare):
             units = bare
             continue
-        found = [_column(cell, kinds) for cell in cells]
-        if any(named(column.name) or _known(column.unit, kinds) for column in found):
-            columns = found
+        titles = [_column_title(cell, kinds) for cell in cells]
+        if any(named(title.name) or _is_unit(title.unit, kinds) for title in titles):
+            columns = titles
     return [
-        Column(column.name, column.unit or unit or None)
+        ColumnTitle(column.name, column.unit or unit or None)
         for column, unit in zip(columns, units, strict=True)
     ]
 
@@ -503,15 +481,15 @@ def _titles(line: str, count: int) -> list[str] | None:
     return cells if len(cells) == count else None
 
 
-def _column(title: str, kinds: Collection[str]) -> Column:
-    """Return the name and the unit of a title: x [mm], x / mm or, of known units, x mm or x_mm."""
+def _column_title(title: str, kinds: Collection[str]) -> ColumnTitle:
+    """Return name and unit of a title: x [mm], x / mm or, with a unit of `kinds`, x mm or x_mm."""
     for cut in _CUT.finditer(title):
         unit = cut[1] or cut[2]
-        if _known(unit, kinds):
-            return Column(title[: cut.start()], unit)
-    stated = _STATED.fullmatch(title)
-    return Column(stated[1], stated[2] or stated[3]) if stated else Column(title)
+        if _is_unit(unit, kinds):
+            return ColumnTitle(title[: cut.start()], unit)
+    parts = _NAME_AND_UNIT.fullmatch(title)
+    return ColumnTitle(parts[1], parts[2] or parts[3]) if parts else ColumnTitle(title)
 
 
-def _known(unit: str | None, kinds: Collection[str]) -> bool:
+def _is_unit(unit: str | None, kinds: Collection[str]) -> bool:
     return any(spelled(unit, kind) for kind in kinds)

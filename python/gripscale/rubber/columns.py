@@ -22,7 +22,7 @@ from gripscale.core.checks import shortened
 from gripscale.core.errors import FileError, InputError
 from gripscale.core.units import ZERO_CELSIUS, in_si, listed, spelled
 from gripscale.io.text_table import (
-    Column,
+    ColumnTitle,
     Line,
     TextTable,
     is_row,
@@ -376,7 +376,7 @@ def check_rows(
 
 KINDS = ("temperature", "frequency", "modulus", "strain")
 _PARAMETERS = re.compile(r"(?:\s*\w+=[^;=]*;)+\s*")
-_REPTATE = (Column("frequency", "rad/s"), Column("G'", "Pa"), Column("G''", "Pa"))
+_REPTATE = (ColumnTitle("frequency", "rad/s"), ColumnTitle("G'", "Pa"), ColumnTitle("G''", "Pa"))
 
 
 @dataclass(frozen=True)
@@ -510,6 +510,6 @@ def _reptate(path: Path, lines: list[Line], expected: list[str]) -> Block:
                 f"{path}, line {table.line_numbers[0]}: expected at least 3 columns (frequency, "
                 f"G', G''); got {len(table.columns)}"
             )
-        others = [Column()] * (len(table.columns) - len(_REPTATE))
+        others = [ColumnTitle()] * (len(table.columns) - len(_REPTATE))
         table = replace(table, columns=[*_REPTATE, *others])
     return Block(table, celsius + ZERO_CELSIUS)
