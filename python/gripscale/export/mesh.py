@@ -1,4 +1,29 @@
-"""The deformed block of a wave, with pressure and stress, as a VTU file."""
+"""The deformed block of a wave, with pressure and stress, as a VTU file.
+
+The kernel keeps deformed positions only; its mesh follows from columns, rows, depth and order of
+the elements by the same rule as in the kernel,
+
+    h_r = h_0 q^r,   sum h_r = depth,   h_0 = min(width of an element, depth/rows),
+
+with square first elements. Quadrature is the (order + 1)^2 Gauss rule; the pressure is constant in
+an element of order 1 and linear in one of order 2 (rust/fem).
+
+The stress follows from the deformed mesh and the material law, without a new solution:
+
+    P = J^(-2/3) (F H - 1/3 (H : C) F^-T) + p J F^-T,   sigma = P F^T / J
+    H = G_inf b + (G(t) - G_inf) 1 + T^-1{ (G(t) - G*(w_k)) T{Y} },   Y = J^(2/3) C^-1
+
+with b = 2 dW/dCbar of a unit shear modulus, T the Fourier series along a line of equally spaced
+Gauss points (its mean not counted), w_k = 2 pi k v/wavelength, t the load time, and for p the
+projection of K (J - 1) on the pressure modes of the element. At rest H = G_inf b. These are the
+equations of the kernel (rust/material), so that nodal forces vanish in the block to its residual.
+Source: Lubliner, Mech. Res. Commun. 12 (1985) 93; Holzapfel, Nonlinear Solid Mechanics (2000),
+section 6.4.
+
+ParaView, VisIt, PyVista and meshio open VTU, the XML format of VTK for unstructured grids. Arrays
+stand in it as base64 of a length and little-endian numbers. Source: The VTK User's Guide, 11th ed.
+(2010), section 19.3; VTK file formats, docs.vtk.org.
+"""
 
 from __future__ import annotations
 
@@ -17,19 +42,8 @@ from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.io.netcdf import write_whole
 from gripscale.io.text_table import file_path
-from gripscale.rubber import Rubber
 from gripscale.wave import Status, WaveResult
 from gripscale.wave.result import waves_from_dataset
-
-# The block before it was pressed: its nodes, and what they make of deformed ones at every point.
-#
-# Lengths are in m. The kernel keeps deformed positions only; its mesh follows from columns, rows,
-# depth and order of the elements, and is made here by the same rule:
-#
-#     h_r = h_0 q^r,   sum h_r = depth,   h_0 = min(width of an element, depth/rows)
-#
-# with square first elements. Quadrature is the (order + 1)^2 Gauss rule, pressures are one number
-# in an element of order 1 and linear in one of order 2 (rust/fem).
 
 
 @dataclass(frozen=True)
@@ -45,16 +59,16 @@ class ReferenceBlock:
 
     @classmethod
     def of(cls, result: WaveResult) -> ReferenceBlock:
-        """Return the mesh a wave was solved on.
+        """Return the mesh on which a wave was solved.
 
-        Raises `InputError` if it has none: it is of a solver without a mesh.
+        Raises `InputError` if the solver of the wave has no mesh.
         """
-        wanted = ("columns", "rows", "depth", "element_order")
-        if result.deformed_mesh is None or not set(wanted) <= set(result.details):
+        names = ("columns", "rows", "depth", "element_order")
+        if result.deformed_mesh is None or not set(names) <= set(result.details):
             raise InputError(
                 f"result must be of the finite-strain block, which has a mesh; got {result.model}"
             )
-        columns, rows, depth, order = (result.details[name] for name in wanted)
+        columns, rows, depth, order = (result.details[name] for name in names)
         block = cls(
             result.wavelength, depth * result.wavelength, int(columns), int(rows), int(order)
         )
@@ -78,8 +92,16 @@ class ReferenceBlock:
     @property
     def heights(self) -> Array:
         """Heights of the element rows [m], contact surface first, shape (rows,)."""
-        first = min(self.width, self.depth / self.rows)
-        heights = first * _ratio(self.rows, self.depth / first) ** np.arange(self.rows)
+        first, row = min(self.width, self.depth / self.rows), np.arange(self.rows)
+        # bisection for q with sum q^r = depth/first, q >= 1
+        low, high = 1.0, 1.0 + self.depth / first
+        for _ in range(200):
+            middle = 0.5 * (low + high)
+            if (middle**row).sum() < self.depth / first:
+                low = middle
+            else:
+                high = middle
+        heights = first * low**row
         return np.asarray(heights * (self.depth / heights.sum()))
 
     def nodes(self) -> tuple[Array, Array]:
@@ -125,9 +147,9 @@ class ReferenceBlock:
     def modes(self) -> Array:
         """Return the pressure modes at the Gauss points, shape (modes, across, along)."""
         point, _ = np.polynomial.legendre.leggauss(self.order + 1)
-        one = np.ones((self.order + 1, self.order + 1))
-        linear = [one * point[None, :], one * point[:, None]]
-        return np.stack([one, *(linear if self.order == 2 else [])])
+        constant = np.ones((self.order + 1, self.order + 1))
+        linear = [constant * point[None, :], constant * point[:, None]]
+        return np.stack([constant, *(linear if self.order == 2 else [])])
 
 
 def shapes(order: int) -> Array:
@@ -146,30 +168,8 @@ def slopes(order: int) -> Array:
     return np.stack([s - 0.5, -2.0 * s, s + 0.5], axis=1)
 
 
-def _ratio(rows: int, total: float) -> float:
-    """Return q with sum q^r = `total`, r from 0 to rows - 1; 1 or more."""
-    low, high = 1.0, 1.0 + total
-    power = np.arange(rows)
-    for _ in range(200):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if (middle**power).sum() < total else (low, middle)
-    return low
-
-
-# The stress in the block of a wave, from its deformed mesh and the material law: no new solution.
-#
-#     P = J^(-2/3) (F H - 1/3 (H : C) F^-T) + p J F^-T,   sigma = P F^T / J
-#     H = G_inf b + (G(t) - G_inf) 1 + T^-1{ (G(t) - G*(w_k)) T{Y} },   Y = J^(2/3) C^-1
-#
-# with b = 2 dW/dCbar of a unit shear modulus, T the Fourier series along a line of equally placed
-# Gauss points (its mean not counted), w_k = 2 pi k v/wavelength, t the load time, and for p the
-# projection of K (J - 1) on the pressure modes of the element. At rest H = G_inf b. These are the
-# equations the kernel solves (rust/material), so that nodal forces vanish in the block to its
-# residual. Source: Lubliner, Mech. Res. Commun. 12 (1985) 93; Holzapfel, Nonlinear Solid Mechanics
-# (2000), section 6.4.
-
 EQUILIBRIUM = (Status.CONVERGED, Status.TOLERANCE_NOT_MET, Status.FRICTIONS_DISAGREE)
-"""Endings of a wave in which the forces on its nodes vanish."""
+"""Statuses of a wave in which the forces on its nodes vanish."""
 
 
 @dataclass(frozen=True)
@@ -215,88 +215,63 @@ def block_stress(result: WaveResult) -> BlockStress:
     Returns
     -------
     BlockStress
-        What the material law gives for the deformed mesh: the stress of the solver, as far as it
-        found one.
+        Stress of the material law in the deformed mesh, as in the solver.
 
     Raises
     ------
     InputError
-        If the wave has no mesh or no rubber, or no equilibrium was found.
+        If the wave has no mesh or no rubber, or is not in equilibrium.
     """
     checks.instance("result", result, WaveResult)
-    block = ReferenceBlock.of(result)
-    if result.status not in EQUILIBRIUM or result.rubber is None or result.deformed_mesh is None:
+    block, rubber = ReferenceBlock.of(result), result.rubber
+    if result.status not in EQUILIBRIUM or rubber is None or result.deformed_mesh is None:
         raise InputError(
             "result must be in equilibrium and have its rubber for the stress to be known; got a "
             f"wave with status {result.status}"
         )
     gradient = block.gradients(*result.deformed_mesh)
     volume = np.linalg.det(gradient)
-    pressure = _pressure(block, volume, result.rubber.bulk_modulus)
-    full = _three_dimensional(gradient)
-    right = np.swapaxes(full, -1, -2) @ full
+    # p = K (J - 1) projected on the pressure modes of each element
+    modes, weights = block.modes(), block.weights
+    change = np.einsum("rcpq,rcpq,mpq->rcm", *np.broadcast_arrays(weights, volume - 1.0), modes)
+    mass = np.einsum("rcpq,mpq->rcm", weights, modes**2)
+    pressure = np.asarray(rubber.bulk_modulus * np.einsum("rcm,mpq->rcpq", change / mass, modes))
+    full = np.zeros((*gradient.shape[:-2], 3, 3))  # F with components (x, y, z), plane strain
+    full[..., 1, 1] = 1.0
+    full[..., ::2, ::2] = gradient
     factor = (volume ** (-2.0 / 3.0))[..., None, None]
-    history = _networks(result.rubber, factor * right)
-    if result.speed > 0.0 and len(result.rubber.moduli):
-        history = history + _remembered(result, np.linalg.inv(factor * right))
+    isochoric = factor * (np.swapaxes(full, -1, -2) @ full)
+    # the permanent network, G_inf b with b = w1 1 + w2 (I1 1 - Cbar)
+    first = np.trace(isochoric, axis1=-2, axis2=-1)
+    second = 0.5 * (first**2 - np.einsum("...ij,...ij->...", isochoric, isochoric))
+    w1, w2 = rubber.strain_energy.slopes(first - 3.0, second - 3.0)
+    b = (w1 + w2 * first)[..., None, None] * np.eye(3) - w2[..., None, None] * isochoric
+    history = rubber.equilibrium_shear_modulus * b
+    if result.speed > 0.0 and len(rubber.moduli):
+        # the temporary networks, from Y = Cbar^-1 along the lines of points
+        inverse = np.linalg.inv(isochoric)
+        columns = inverse.shape[1]
+        omega = result.angular_frequency * np.arange(1, columns // 2 + 1)
+        mean = float(rubber.relaxation_modulus(result.load_time)) / 3.0
+        transfer = np.zeros(columns // 2 + 1, dtype=complex)
+        transfer[1:] = mean - rubber.complex_modulus(omega) / 3.0
+        harmonics = np.fft.rfft(inverse, axis=1) * transfer[:, None, None, None, None]
+        frozen = mean - rubber.equilibrium_shear_modulus
+        history = history + (np.fft.irfft(harmonics, columns, axis=1) + frozen * np.eye(3))
     pushed = factor * (full @ history @ np.swapaxes(full, -1, -2))
     trace = np.trace(pushed, axis1=-2, axis2=-1)[..., None, None]
     deviator = (pushed - trace / 3.0 * np.eye(3)) / volume[..., None, None]
     return BlockStress(block, gradient, pressure, deviator + pressure[..., None, None] * np.eye(3))
 
 
-def _pressure(block: ReferenceBlock, volume: Array, bulk: float) -> Array:
-    """Return p = K (J - 1) projected on the pressure modes of each element."""
-    modes, weights = block.modes(), block.weights
-    change = np.einsum("rcpq,rcpq,mpq->rcm", *np.broadcast_arrays(weights, volume - 1.0), modes)
-    mass = np.einsum("rcpq,mpq->rcm", weights, modes**2)
-    return np.asarray(bulk * np.einsum("rcm,mpq->rcpq", change / mass, modes))
-
-
-def _three_dimensional(gradient: Array) -> Array:
-    """Return F with components (x, y, z), of plane strain."""
-    full = np.zeros((*gradient.shape[:-2], 3, 3))
-    full[..., 1, 1] = 1.0
-    full[..., ::2, ::2] = gradient
-    return full
-
-
-def _networks(rubber: Rubber, isochoric: Array) -> Array:
-    """Return G_inf b of the permanent network, b = w1 1 + w2 (I1 1 - Cbar)."""
-    first = np.trace(isochoric, axis1=-2, axis2=-1)
-    second = 0.5 * (first**2 - np.einsum("...ij,...ij->...", isochoric, isochoric))
-    w1, w2 = rubber.strain_energy.slopes(first - 3.0, second - 3.0)
-    one = (w1 + w2 * first)[..., None, None] * np.eye(3)
-    b = one - w2[..., None, None] * isochoric
-    return np.asarray(rubber.equilibrium_shear_modulus * b)
-
-
-def _remembered(result: WaveResult, inverse: Array) -> Array:
-    """Return what the temporary networks add to H, from Y = Cbar^-1 along the lines of points."""
-    assert result.rubber is not None
-    columns = inverse.shape[1]
-    omega = result.angular_frequency * np.arange(1, columns // 2 + 1)
-    mean = float(result.rubber.relaxation_modulus(result.load_time)) / 3.0
-    factor = np.zeros(columns // 2 + 1, dtype=complex)
-    factor[1:] = mean - result.rubber.complex_modulus(omega) / 3.0
-    harmonics = np.fft.rfft(inverse, axis=1) * factor[:, None, None, None, None]
-    frozen = mean - result.rubber.equilibrium_shear_modulus
-    return np.asarray(np.fft.irfft(harmonics, columns, axis=1) + frozen * np.eye(3))
-
-
-# Unstructured grids as VTK XML files (.vtu), which ParaView, VisIt, PyVista and meshio open.
-#
-# Arrays stand in the file as base64 of a length and little-endian numbers. Source: The VTK User's
-# Guide, 11th ed. (2010), section 19.3; VTK file formats, docs.vtk.org.
-
 Fields = Mapping[str, Array]
 
 QUAD, BIQUADRATIC_QUAD = 9, 28
-"""VTK's numbers of the elements."""
+"""VTK's numbers of the element types."""
 
 
 @dataclass(frozen=True)
-class Grid:
+class VtuGrid:
     """Points, cells of one kind, and fields on them."""
 
     points: Array
@@ -312,7 +287,7 @@ class Grid:
     """Numbers of the whole grid."""
 
 
-def write_vtu(grid: Grid, path: Path) -> Path:
+def write_vtu(grid: VtuGrid, path: Path) -> Path:
     """Write a grid to `path`; return it. Raises `FileError` if it cannot be written."""
     root = ET.Element(
         "VTKFile",
@@ -327,8 +302,8 @@ def write_vtu(grid: Grid, path: Path) -> Path:
         _array(numbers, name, np.array([value]), NumberOfTuples="1")
     counts = {"NumberOfPoints": len(grid.points), "NumberOfCells": len(grid.cells)}
     piece = ET.SubElement(whole, "Piece", {name: str(count) for name, count in counts.items()})
-    for place, fields in (("PointData", grid.point_data), ("CellData", grid.cell_data)):
-        part = ET.SubElement(piece, place)
+    for tag, fields in (("PointData", grid.point_data), ("CellData", grid.cell_data)):
+        part = ET.SubElement(piece, tag)
         for name, values in fields.items():
             _array(part, name, values)
     _array(ET.SubElement(piece, "Points"), "Points", grid.points)
@@ -339,11 +314,7 @@ def write_vtu(grid: Grid, path: Path) -> Path:
     _array(cells, "types", np.full(len(grid.cells), grid.cell_type, dtype=np.uint8))
     ET.indent(root)
     text = ET.tostring(root, xml_declaration=True, encoding="utf-8")
-
-    def write(part: Path) -> None:
-        part.write_bytes(text)
-
-    return write_whole(path, write)
+    return write_whole(path, lambda part: part.write_bytes(text))
 
 
 def _array(into: ET.Element, name: str, values: NDArray[np.generic], **others: str) -> None:
@@ -367,7 +338,7 @@ NUMBERS = (
     "contact_fraction",
     "friction",
 )
-"""What of the wave stands in the field data, all in SI units."""
+"""Attributes of the wave in the field data, in SI units."""
 
 
 def write_mesh(result: WaveResult, path: str | Path) -> Path:
@@ -378,8 +349,8 @@ def write_mesh(result: WaveResult, path: str | Path) -> Path:
 
     - `displacement` [m], from the block at rest with its surface on the mean plane; its mean along
       the surface is zero in x,
-    - `contact_pressure` [Pa], zero wherever nothing touches: in the block and on its other sides as
-      well, so that filters that integrate or scale meet no missing numbers.
+    - `contact_pressure` [Pa], zero outside the contact, in the block and on its other sides too, so
+      that filters that integrate or scale meet no missing numbers.
 
     Cells, bilinear or biquadratic as solved, carry the means over the deformed element of
 
@@ -390,8 +361,8 @@ def write_mesh(result: WaveResult, path: str | Path) -> Path:
     Parameters
     ----------
     result : WaveResult
-        Of the finite-strain block, solved or read from a file. Where it is not in equilibrium, its
-        status being neither converged nor that of an accuracy missed, the cells carry nothing.
+        Of the finite-strain block, solved or read from a file. If it is not in equilibrium (its
+        status is neither converged nor that of a missed accuracy), cells have no data.
     path : str or Path
         The file.
 
@@ -405,22 +376,38 @@ def write_mesh(result: WaveResult, path: str | Path) -> Path:
     checks.instance("result", result, WaveResult)
     block = ReferenceBlock.of(result)
     assert result.deformed_mesh is not None
-    grid = Grid(
-        points=_vectors(*result.deformed_mesh),
-        cells=cells_of(block),
+    x, z = result.deformed_mesh
+    rest_x, rest_z = block.nodes()
+    contact_pressure = np.zeros(block.shape)
+    contact_pressure[0, :-1] = result.pressure
+    contact_pressure[0, -1] = result.pressure[0]
+    cell_data = {}
+    if result.status in EQUILIBRIUM and result.rubber is not None:
+        solved = block_stress(result)
+        stress = solved.element_mean(solved.cauchy)
+        weights = np.broadcast_to(block.weights, solved.jacobian.shape)
+        areas = (weights * solved.jacobian).sum(axis=(2, 3))
+        cell_data = {
+            "stress": stress.reshape(-1, 9),
+            "pressure": -np.trace(stress, axis1=-2, axis2=-1).ravel() / 3.0,
+            "volume_ratio": (areas / weights.sum(axis=(2, 3))).ravel(),
+        }
+    grid = VtuGrid(
+        points=_vectors(x, z),
+        cells=element_nodes(block),
         cell_type=QUAD if block.order == 1 else BIQUADRATIC_QUAD,
         point_data={
-            "displacement": _displacement(block, result.deformed_mesh),
-            "contact_pressure": _contact_pressure(block, result.pressure),
+            "displacement": _vectors(x - rest_x, z - rest_z),
+            "contact_pressure": contact_pressure.ravel(),
         },
-        cell_data=_cell_data(result),
+        cell_data=cell_data,
         field_data={name: float(getattr(result, name)) for name in NUMBERS},
     )
     return write_vtu(grid, file_path(path))
 
 
 def wave_of(data: xr.Dataset, number: int) -> WaveResult:
-    """Return wave `number`, from 1, of a prediction; of blocks on profiles that profile.
+    """Return wave `number`, from 1, of a prediction, or that profile of blocks on profiles.
 
     Raises `InputError` if the prediction has no meshes, or not so many.
     """
@@ -432,12 +419,12 @@ def wave_of(data: xr.Dataset, number: int) -> WaveResult:
             f"give it; got one of {data.attrs.get('model', 'no model')} without"
         )
     along = str(mesh.dims[0])
-    place = checks.whole("wave", number, least=1, most=data.sizes[along]) - 1
-    (wave,) = waves_from_dataset(data.isel({along: [place]}).rename({along: "scale"}))
+    index = checks.whole("wave", number, least=1, most=data.sizes[along]) - 1
+    (wave,) = waves_from_dataset(data.isel({along: [index]}).rename({along: "scale"}))
     return wave
 
 
-def cells_of(block: ReferenceBlock) -> NDArray[np.int64]:
+def element_nodes(block: ReferenceBlock) -> NDArray[np.int64]:
     """Return the points of each element in VTK's order, row by row from the contact surface.
 
     Corners anticlockwise with x to the right and z up, then the middles of the edges in the same
@@ -455,35 +442,3 @@ def cells_of(block: ReferenceBlock) -> NDArray[np.int64]:
 
 def _vectors(x: Array, z: Array) -> Array:
     return np.stack([x.ravel(), np.zeros(x.size), z.ravel()], axis=1)
-
-
-def _displacement(block: ReferenceBlock, deformed: tuple[Array, Array]) -> Array:
-    x, z = block.nodes()
-    return _vectors(deformed[0] - x, deformed[1] - z)
-
-
-def _contact_pressure(block: ReferenceBlock, pressure: Array) -> Array:
-    out = np.zeros(block.shape)
-    out[0, :-1] = pressure
-    out[0, -1] = pressure[0]
-    return out.ravel()
-
-
-def _cell_data(result: WaveResult) -> dict[str, Array]:
-    if result.status not in EQUILIBRIUM or result.rubber is None:
-        return {}
-    found = block_stress(result)
-    stress = found.element_mean(found.cauchy)
-    cells = stress.shape[0] * stress.shape[1]
-    return {
-        "stress": stress.reshape(cells, 9),
-        "pressure": -np.trace(stress, axis1=-2, axis2=-1).ravel() / 3.0,
-        "volume_ratio": _volume_ratio(found.block, found.jacobian),
-    }
-
-
-def _volume_ratio(block: ReferenceBlock, jacobian: Array) -> Array:
-    """Return the deformed over the undeformed area of each element."""
-    weights = np.broadcast_to(block.weights, jacobian.shape)
-    ratio = (weights * jacobian).sum(axis=(2, 3)) / weights.sum(axis=(2, 3))
-    return np.asarray(ratio.ravel())

@@ -113,7 +113,7 @@ def _reading(path: str | Path) -> Iterator[Path]:
         raise FileError(f"{path} cannot be read as a netCDF result: {error}") from error
 
 
-def write_whole(path: str | Path, write: Callable[[Path], None]) -> Path:
+def write_whole(path: str | Path, write: Callable[[Path], object]) -> Path:
     """Let `write` fill a temporary neighbour of `path`, then rename it into place.
 
     Raises `FileError` if either fails; an existing file is then untouched.
