@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 import gripscale as gs
 from gripscale.half_space import solve_map_and_lines, solve_windows, windows
 from gripscale.surface import HeightMap
-from gripscale.surface.line_statistics import measured_lines
+from gripscale.surface.line_statistics import periodic_lines
 from studies.isotropic_maps.setting import AREA, FRICTION, LENGTH, LOAD, SMALLEST, TOLERANCE
 from studies.shipped import road
 
@@ -72,7 +72,7 @@ def of_lines(rubber: gs.Rubber, station: int) -> OfLines:
         z = np.interp(window.x, window.x[known], window.z[known])
         joined.append(z - np.linspace(z[0], z[-1], z.size))
     # a window has no mean of its own: heights are those of the whole line that maps are made from
-    heights = measured_lines([profile], LENGTH)[0].heights[None, :]
+    heights = periodic_lines([profile], LENGTH)[0].heights[None, :]
     whole = statistics(heights, profile.step)
     of_windows = statistics(np.array(joined), profile.step)
     own = {name: whole[name] for name in ("rms height", "skewness")}

@@ -16,7 +16,7 @@ from gripscale.surface.line_statistics import (
     Square,
     Term,
     height_class,
-    measured_lines,
+    periodic_lines,
     scaled,
 )
 
@@ -27,7 +27,7 @@ POINTS = 128
 LENGTH = POINTS * SMALLEST / 4
 STEP = LENGTH / POINTS
 ROUGH = clean(read_profile(ROAD[0]), crop=ROAD_ONLY)[0]
-MEASURED = measured_lines([ROUGH], LENGTH)[0].heights
+MEASURED = periodic_lines([ROUGH], LENGTH)[0].heights
 EVERY = np.interp(np.arange(0.0, ROUGH.length, STEP), ROUGH.x - ROUGH.x[0], MEASURED)
 """The measured line at the steps of a map."""
 
@@ -88,7 +88,7 @@ def test_a_filter_on_a_map_is_that_on_its_lines(angle):
 
 def test_filters_are_derivatives_of_a_bell():
     x, k = 1e-4 * np.arange(8192), 2 * np.pi * 40 / 0.8192
-    line = measured_lines([Profile(x, np.cos(k * x))], 0.1)[0]
+    line = periodic_lines([Profile(x, np.cos(k * x))], 0.1)[0]
     for order in (BELL, SLOPE, CURVATURE):
         width = 1e-3
         rms = scaled([Term(order, width)], [line]).scale

@@ -1,9 +1,39 @@
-"""A rubber into the file of a finite element program."""
+"""A rubber as the material of a finite element program: Abaqus, Ansys MAPDL or FEBio.
+
+Abaqus, with *HYPERELASTIC, *VISCOELASTIC, *TRS (Abaqus Keywords Reference Guide (2016); Analysis
+User's Guide, sections 22.5.1 and 22.7.1):
+
+    U     = sum C_ij (I1 - 3)^i (I2 - 3)^j + (J - 1)^2 / D1,   K = 2/D1
+    G(t)  = G_0 (1 - sum g_i (1 - exp(-t/tau_i))),   k_i = 0
+    log10 A = -c1 (T - T_0) / (c2 + T - T_0),   time runs at 1/A
+
+With MODULI=LONG TERM the C_ij are those of the relaxed rubber, C_ij(0) = C_ij / (1 - sum g_i).
+
+Ansys MAPDL, with TB,HYPER, TB,PRONY, TB,SHIFT (Ansys Mechanical APDL, Material Reference,
+"Hyperelasticity" and "Viscoelasticity"):
+
+    W    = sum C_ij (I1 - 3)^i (I2 - 3)^j + (J - 1)^2 / d,   K = 2/d
+    G(t) = G_0 (alpha_inf + sum alpha_i exp(-t/tau_i)),   alpha_inf = 1 - sum alpha_i
+    log10 A = C1 (T - T_r) / (C2 + T - T_r),   tau_i(T) = tau_i(T_r) / A
+
+The constants of TB,HYPER are those of the fast limit: C_ij of the relaxed rubber over alpha_inf.
+
+FEBio, with a mixture of the permanent network and temporary networks (FEBio User Manual 4,
+"Uncoupled Viscoelastic Materials" and "Uncoupled Solid Mixture"):
+
+    S_dev = sum over solids of g_0 S_e + sum g_i int exp(-(t - s)/t_i) dS_e/ds ds
+    U     = K/2 (ln J)^2,   S_e of W = c1 (I1 - 3) + c2 (I2 - 3)
+
+"uncoupled viscoelastic" has six terms. A mixture of uncoupled solids adds their deviatoric
+stresses, so that any number of terms is exported exactly: the permanent network is one solid, and
+each six Maxwell elements are another, neo-Hookean as in gripscale, with g_0 = 0. The bulk modulus
+stands on the mixture, and in equal parts on its solids: versions that add those get the same sum.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from inspect import signature
 from pathlib import Path
 from typing import Any
@@ -12,7 +42,6 @@ from xml.etree import ElementTree as ET
 from gripscale.core import checks
 from gripscale.core.errors import InputError
 from gripscale.export.rubber import (
-    Coefficients,
     ProgramFile,
     Units,
     coefficients,
@@ -20,21 +49,11 @@ from gripscale.export.rubber import (
     heading,
     label,
     material_number,
-    shares,
+    prony_shares,
     with_one_series,
     wlf,
 )
 from gripscale.rubber import Rubber
-
-# A rubber as an Abaqus material: *HYPERELASTIC, *VISCOELASTIC, *TRS.
-#
-#     U     = sum C_ij (I1 - 3)^i (I2 - 3)^j + (J - 1)^2 / D1,   K = 2/D1
-#     G(t)  = G_0 (1 - sum g_i (1 - exp(-t/tau_i))),   k_i = 0
-#     log10 A = -c1 (T - T_0) / (c2 + T - T_0),   time runs at 1/A
-#
-# With MODULI=LONG TERM the C_ij are those of the relaxed rubber, C_ij(0) = C_ij / (1 - sum g_i).
-# Source: Abaqus Keywords Reference Guide (2016), *HYPERELASTIC, *VISCOELASTIC, *TRS; Analysis
-# User's Guide, sections 22.5.1 and 22.7.1.
 
 FORMS: dict[str, tuple[str, tuple[tuple[int, int], ...], int]] = {
     "neo_hookean": ("NEO HOOKE", ((1, 0),), 1),
@@ -61,16 +80,16 @@ def abaqus_rubber(
         Any strain energy; Isihara's becomes a polynomial. Its times and moduli are those at its
         reference temperature; a shift becomes *TRS if it is, or can be fitted by, WLF.
     name : str, optional
-        Of the material; made of the rubber's by default.
+        Name of the material, by default derived from that of the rubber.
     modulus_unit : str
-        Pa, kPa, MPa, N/mm^2 or GPa, of all stresses in the file.
+        Pa, kPa, MPa, N/mm^2 or GPa, for all stresses in the file.
     temperature_unit : str
-        K or C, of the reference temperature of *TRS.
+        K or C, for the reference temperature of *TRS.
 
     Returns
     -------
     ProgramFile
-        Numbers have 15 digits, what fits into the 20 characters Abaqus reads of each.
+        Numbers have 15 digits, as many as fit into the 20 characters that Abaqus reads of each.
 
     Raises
     ------
@@ -86,14 +105,20 @@ def abaqus_rubber(
         "hybrid elements",
         "MODULI=LONG TERM: the constants of *HYPERELASTIC are those of the relaxed rubber.",
     )
+    c = coefficients(rubber)
+    form, orders, compliances = FORMS[rubber.strain_energy.kind]
+    constants = [units.stress(c.get(powers, 0.0)) for powers in orders]
+    constants += [2.0 / units.stress(rubber.bulk_modulus), *[0.0] * (compliances - 1)]
+    moduli = ", MODULI=LONG TERM" if len(rubber.moduli) else ""
     lines = [
         *comment(remarks, "**"),
         f"*MATERIAL, NAME={label(rubber, name)}",
-        *_abaqus_hyperelastic(rubber, coefficients(rubber), units),
+        f"*HYPERELASTIC, {form}{moduli}",
+        _row(constants),
     ]
     if len(rubber.moduli):
         lines.append("*VISCOELASTIC, TIME=PRONY")
-        pairs = zip(shares(rubber), rubber.relaxation_times, strict=True)
+        pairs = zip(prony_shares(rubber), rubber.relaxation_times, strict=True)
         lines += [_row((share, 0.0, time)) for share, time in pairs]
         if law is not None and law.reference_temperature is not None:
             reference = units.temperature_of(law.reference_temperature)
@@ -101,34 +126,17 @@ def abaqus_rubber(
     return ProgramFile("\n".join(lines) + "\n", tuple(remarks))
 
 
-def _abaqus_hyperelastic(rubber: Rubber, found: Coefficients, units: Units) -> list[str]:
-    form, order, volumetric = FORMS[rubber.strain_energy.kind]
-    constants = [units.stress(found.get(powers, 0.0)) for powers in order]
-    compliances = [2.0 / units.stress(rubber.bulk_modulus), *[0.0] * (volumetric - 1)]
-    moduli = ", MODULI=LONG TERM" if len(rubber.moduli) else ""
-    return [f"*HYPERELASTIC, {form}{moduli}", _row([*constants, *compliances])]
+def _row(numbers: Sequence[float]) -> str:
+    """Return numbers in the 20 characters that Abaqus reads: 15 digits, fewer with more signs."""
+    texts = (
+        next(t for digits in (14, 13, 12) if len(t := f"{float(number):.{digits}E}") <= 20)
+        for number in numbers
+    )
+    return ", ".join(texts)
 
-
-def _row(numbers: Iterable[float]) -> str:
-    return ", ".join(_abaqus_number(float(number)) for number in numbers)
-
-
-def _abaqus_number(value: float) -> str:
-    """Return a number in the 20 characters that Abaqus reads: 15 digits, fewer with more signs."""
-    return next(text for digits in (14, 13, 12) if len(text := f"{value:.{digits}E}") <= 20)
-
-
-# A rubber as an Ansys MAPDL material: TB,HYPER, TB,PRONY, TB,SHIFT.
-#
-#     W    = sum C_ij (I1 - 3)^i (I2 - 3)^j + (J - 1)^2 / d,   K = 2/d
-#     G(t) = G_0 (alpha_inf + sum alpha_i exp(-t/tau_i)),   alpha_inf = 1 - sum alpha_i
-#     log10 A = C1 (T - T_r) / (C2 + T - T_r),   tau_i(T) = tau_i(T_r) / A
-#
-# The constants of TB,HYPER are those of the fast limit: C_ij of the relaxed rubber over alpha_inf.
-# Source: Ansys Mechanical APDL, Material Reference, "Hyperelasticity" and "Viscoelasticity".
 
 _ON_A_LINE = 6
-"""Constants that TBDATA takes."""
+"""Constants in a line of TBDATA."""
 
 
 def ansys_rubber(
@@ -148,9 +156,9 @@ def ansys_rubber(
     material : int
         Number of the material, 1 to 99999.
     modulus_unit : str
-        Pa, kPa, MPa, N/mm^2 or GPa, of all stresses in the file.
+        Pa, kPa, MPa, N/mm^2 or GPa, for all stresses in the file.
     temperature_unit : str
-        K or C, of the reference temperature of TB,SHIFT.
+        K or C, for the reference temperature of TB,SHIFT.
 
     Returns
     -------
@@ -172,29 +180,12 @@ def ansys_rubber(
         "elements with mixed u-P",
         "The constants of TB,HYPER are those of the fast limit, as TB,PRONY wants them.",
     )
-    lines = [*comment(remarks, "!"), *_ansys_hyperelastic(rubber, number, units)]
-    if len(rubber.moduli):
-        pairs = [
-            value
-            for pair in zip(shares(rubber), rubber.relaxation_times, strict=True)
-            for value in pair
-        ]
-        lines += [f"TB,PRONY,{number},1,{len(rubber.moduli)},SHEAR", *_data(pairs)]
-        if law is not None and law.reference_temperature is not None:
-            reference = units.temperature_of(law.reference_temperature)
-            constants = [reference, law.c1, law.c2]
-            lines += ["! T_r, C1, C2", f"TB,SHIFT,{number},1,3,WLF", *_data(constants)]
-    return ProgramFile("\n".join(lines) + "\n", tuple(remarks))
-
-
-def _ansys_hyperelastic(rubber: Rubber, number: int, units: Units) -> list[str]:
-    """Return TB,HYPER with its data, at once after a step."""
     fast = rubber.glassy_modulus / rubber.equilibrium_modulus
-    found = {at: units.stress(value) * fast for at, value in coefficients(rubber).items()}
+    relaxed = coefficients(rubber)
     compliance = 2.0 / units.stress(rubber.bulk_modulus)
 
     def c(i: int, j: int) -> float:
-        return found.get((i, j), 0.0)
+        return units.stress(relaxed.get((i, j), 0.0)) * fast
 
     match rubber.strain_energy.kind:
         case "neo_hookean":
@@ -207,36 +198,33 @@ def _ansys_hyperelastic(rubber: Rubber, number: int, units: Units) -> list[str]:
         case _:
             parts = [c(1, 0), c(0, 1), c(2, 0), c(1, 1), c(0, 2)]
             option, count, data = "POLY", 2, [*parts, compliance, 0.0]
-    return [f"TB,HYPER,{number},1,{count},{option}", *_data(data)]
+    lines = [
+        *comment(remarks, "!"),
+        f"TB,HYPER,{number},1,{count},{option}",
+        *_data(data),
+    ]
+    if len(rubber.moduli):
+        pairs = zip(prony_shares(rubber), rubber.relaxation_times, strict=True)
+        lines.append(f"TB,PRONY,{number},1,{len(rubber.moduli)},SHEAR")
+        lines += _data([value for pair in pairs for value in pair])
+        if law is not None and law.reference_temperature is not None:
+            reference = units.temperature_of(law.reference_temperature)
+            lines += ["! T_r, C1, C2", f"TB,SHIFT,{number},1,3,WLF"]
+            lines += _data([reference, law.c1, law.c2])
+    return ProgramFile("\n".join(lines) + "\n", tuple(remarks))
 
 
 def _data(values: Sequence[float]) -> list[str]:
-    starts = range(0, len(values), _ON_A_LINE)
+    """Return lines of TBDATA, each with the number of its first constant."""
+    numbers = [repr(float(value)) for value in values]
     return [
-        ",".join(
-            ["TBDATA", str(start + 1), *map(_ansys_number, values[start : start + _ON_A_LINE])]
-        )
-        for start in starts
+        ",".join(["TBDATA", str(start + 1), *numbers[start : start + _ON_A_LINE]])
+        for start in range(0, len(values), _ON_A_LINE)
     ]
 
 
-def _ansys_number(value: float) -> str:
-    return repr(float(value))
-
-
-# A rubber as an FEBio material: a mixture of the permanent network and temporary networks.
-#
-#     S_dev = sum over solids of g_0 S_e + sum g_i int exp(-(t - s)/t_i) dS_e/ds ds
-#     U     = K/2 (ln J)^2,   S_e of W = c1 (I1 - 3) + c2 (I2 - 3)
-#
-# "uncoupled viscoelastic" has six terms. A mixture of uncoupled solids adds their deviatoric
-# stresses, so that any number of terms is carried as it is: the permanent network is one solid, and
-# each six Maxwell elements are another, neo-Hookean as in gripscale, with g_0 = 0. The bulk modulus
-# stands on the mixture, and in equal parts on its solids: versions that add those get the same sum.
-# Source: FEBio User Manual 4, "Uncoupled Viscoelastic Materials" and "Uncoupled Solid Mixture".
-
 TERMS = 6
-"""Terms of one "uncoupled viscoelastic"."""
+"""Terms of an "uncoupled viscoelastic" material."""
 
 
 def febio_rubber(
@@ -252,18 +240,18 @@ def febio_rubber(
     ----------
     rubber : Rubber
         Neo-Hookean, Mooney-Rivlin with a share below one, or Yeoh. FEBio has no time-temperature
-        shift: the file holds for the reference temperature of the rubber alone.
+        shift: the file is valid at the reference temperature of the rubber only.
     name : str, optional
-        Of the material; made of the rubber's by default.
+        Name of the material, by default derived from that of the rubber.
     material : int
-        Its id, 1 to 99999.
+        Id of the material, 1 to 99999.
     modulus_unit : str
-        Pa, kPa, MPa, N/mm^2 or GPa, of all stresses in the file.
+        Pa, kPa, MPa, N/mm^2 or GPa, for all stresses in the file.
 
     Returns
     -------
     ProgramFile
-        A file of version 4.0 with the Material section alone, to be copied or included.
+        A file of version 4.0 with the Material section only, to be copied or included.
 
     Raises
     ------
@@ -288,44 +276,51 @@ def febio_rubber(
         _value(mixture, "k", bulk)
         _permanent(ET.SubElement(mixture, "solid"), rubber, bulk / solids, units)
         for first in range(0, len(rubber.moduli), TERMS):
-            _temporary(mixture, rubber, slice(first, first + TERMS), bulk / solids, units)
-    remarks = _remarks(rubber, units, solids)
-    ET.indent(root)
-    body = ET.tostring(root, encoding="unicode")
-    # XML allows no two hyphens in a comment.
-    said = [re.sub("-(?=-)", "- ", line) for line in comment(remarks, " ")]
-    head = ['<?xml version="1.0" encoding="UTF-8"?>', "<!--", *said, "-->"]
-    return ProgramFile("\n".join([*head, body]) + "\n", tuple(remarks))
-
-
-def _remarks(rubber: Rubber, units: Units, solids: int) -> list[str]:
+            moduli = rubber.shear_moduli[first : first + TERMS]
+            times = rubber.relaxation_times[first : first + TERMS]
+            total = float(moduli.sum())
+            solid = ET.SubElement(mixture, "solid", {"type": "uncoupled viscoelastic"})
+            _value(solid, "g0", 0.0)
+            for number, (modulus, time) in enumerate(zip(moduli, times, strict=True), start=1):
+                _value(solid, f"g{number}", modulus / total)
+                _value(solid, f"t{number}", time)
+            elastic = ET.SubElement(solid, "elastic", {"type": "Mooney-Rivlin"})
+            _value(elastic, "k", bulk / solids)
+            _value(elastic, "c1", units.stress(0.5 * total))
+            _value(elastic, "c2", 0.0)
     remarks = [
         *heading(rubber, units, "FEBio"),
         "FEBio's volume energy is K/2 (ln J)^2, gripscale's K/2 (J-1)^2: equal at small changes of "
         "volume.",
     ]
-    if solids == 1:
-        return remarks
-    law, said = wlf(rubber)
-    return [
-        *remarks,
-        f"{solids - 1} solids of at most {TERMS} Maxwell elements and the permanent network: the "
-        "whole series, not a fit of it.",
-        "At finite strain FEBio relaxes the second Piola-Kirchhoff stress of each solid by a "
-        "hereditary integral, gripscale has temporary networks that are born free of stress "
-        "(Lubliner 1985): equal at small strain and relaxed, different in between.",
-        said
-        if law is None
-        else "FEBio has no time-temperature shift: for another temperature, export the rubber "
-        "there.",
-    ]
+    if solids > 1:
+        law, shift_remark = wlf(rubber)
+        if law is not None:
+            shift_remark = (
+                "FEBio has no time-temperature shift: for another temperature, export the rubber "
+                "there."
+            )
+        remarks += [
+            f"{solids - 1} solids of at most {TERMS} Maxwell elements and the permanent network: "
+            "the whole series, not a fit of it.",
+            "At finite strain FEBio relaxes the second Piola-Kirchhoff stress of each solid by a "
+            "hereditary integral, gripscale has temporary networks that are born free of stress "
+            "(Lubliner 1985): equal at small strain and relaxed, different in between.",
+            shift_remark,
+        ]
+    ET.indent(root)
+    body = ET.tostring(root, encoding="unicode")
+    # XML allows no two hyphens in a comment.
+    comments = [re.sub("-(?=-)", "- ", line) for line in comment(remarks, " ")]
+    head = ['<?xml version="1.0" encoding="UTF-8"?>', "<!--", *comments, "-->"]
+    return ProgramFile("\n".join([*head, body]) + "\n", tuple(remarks))
 
 
 def _permanent(into: ET.Element, rubber: Rubber, bulk: float, units: Units) -> None:
     """Fill a material with the strain energy of the permanent network."""
-    found = coefficients(rubber)
+    c = coefficients(rubber)
     kind = rubber.strain_energy.kind
-    if kind == "isihara" or found[1, 0] <= 0.0:
+    if kind == "isihara" or c[1, 0] <= 0.0:
         raise InputError(
             "strain_energy must be neo_hookean, yeoh, or mooney_rivlin with a share below 1 for "
             f"FEBio; got {kind} with {rubber.strain_energy.parameters()}"
@@ -333,23 +328,8 @@ def _permanent(into: ET.Element, rubber: Rubber, bulk: float, units: Units) -> N
     into.set("type", "Yeoh" if kind == "yeoh" else "Mooney-Rivlin")
     _value(into, "k", bulk)
     powers = [(1, 0), (2, 0), (3, 0)] if kind == "yeoh" else [(1, 0), (0, 1)]
-    for place, at in enumerate(powers, start=1):
-        _value(into, f"c{place}", units.stress(found.get(at, 0.0)))
-
-
-def _temporary(into: ET.Element, rubber: Rubber, terms: slice, bulk: float, units: Units) -> None:
-    """Add a solid of at most six Maxwell elements and no permanent part."""
-    moduli, times = rubber.shear_moduli[terms], rubber.relaxation_times[terms]
-    total = float(moduli.sum())
-    solid = ET.SubElement(into, "solid", {"type": "uncoupled viscoelastic"})
-    _value(solid, "g0", 0.0)
-    for place, (modulus, time) in enumerate(zip(moduli, times, strict=True), start=1):
-        _value(solid, f"g{place}", modulus / total)
-        _value(solid, f"t{place}", time)
-    elastic = ET.SubElement(solid, "elastic", {"type": "Mooney-Rivlin"})
-    _value(elastic, "k", bulk)
-    _value(elastic, "c1", units.stress(0.5 * total))
-    _value(elastic, "c2", 0.0)
+    for number, order in enumerate(powers, start=1):
+        _value(into, f"c{number}", units.stress(c.get(order, 0.0)))
 
 
 def _value(into: ET.Element, name: str, value: float) -> None:
@@ -361,33 +341,33 @@ PROGRAMS: dict[str, Callable[..., ProgramFile]] = {
     "ansys": ansys_rubber,
     "febio": febio_rubber,
 }
-"""Functions that turn a rubber into the input of a program."""
+"""Functions that write a rubber as the input of a program."""
 
 
 def write_rubber(rubber: Rubber, path: str | Path, *, to: str, **options: Any) -> ProgramFile:
-    """Write a rubber for a finite element program; return what was written.
+    """Write a rubber for a finite element program; return the file.
 
     Parameters
     ----------
     rubber : Rubber
-        The rubber, at the temperature wanted (`Rubber.at`).
+        The rubber, at the temperature of the analysis (`Rubber.at`).
     path : str or Path
         The file.
     to : str
         abaqus, ansys or febio.
     options
-        Those of `abaqus_rubber`, `ansys_rubber` and `febio_rubber`.
+        Options of `abaqus_rubber`, `ansys_rubber` or `febio_rubber`.
 
     Raises
     ------
     InputError
-        If the program is unknown, does not take an option, or cannot carry the rubber.
+        If the program is unknown, does not take an option, or has no such material.
     FileError
         If the file cannot be written.
     """
-    made = PROGRAMS[checks.one_of("to", to, PROGRAMS)]
-    taken = [name for name in signature(made).parameters if name != "rubber"]
-    checks.allowed_names(f"option of {to}", options, taken)
-    found = made(rubber, **options)
-    found.write(path)
-    return found
+    program = PROGRAMS[checks.one_of("to", to, PROGRAMS)]
+    allowed = [name for name in signature(program).parameters if name != "rubber"]
+    checks.allowed_names(f"option of {to}", options, allowed)
+    file = program(rubber, **options)
+    file.write(path)
+    return file

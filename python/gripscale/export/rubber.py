@@ -1,4 +1,10 @@
-"""A rubber as the input of a finite element program, and what of it the program cannot carry."""
+"""The parts of a rubber that finite element programs take alike, and remarks on the others.
+
+    W = sum C_ij (I1 - 3)^i (I2 - 3)^j + K/2 (J - 1)^2
+
+with the invariants of the isochoric C, as in `gripscale.rubber.strain_energy`, its Prony series and
+its WLF law.
+"""
 
 from __future__ import annotations
 
@@ -28,7 +34,7 @@ from gripscale.rubber import (
 )
 
 WIDTH = 76
-"""Characters of a comment: Abaqus reads 256 a line, people read fewer."""
+"""Characters in a line of comment: Abaqus reads 256, people read fewer."""
 
 
 @dataclass(frozen=True)
@@ -38,17 +44,16 @@ class ProgramFile:
     text: str = field(repr=False)
     """The whole file."""
     remarks: tuple[str, ...]
-    """What it says of itself in comments: units, what holds where, what is not carried."""
+    """Comments of the file: units, limits of validity, properties that are not exported."""
 
     def write(self, path: str | Path) -> Path:
         """Write the file, completely or not at all; return its path.
 
         Raises `FileError` if it cannot be written.
         """
-        return write_whole(file_path(path), self._write)
-
-    def _write(self, part: Path) -> None:
-        part.write_text(self.text, encoding="utf-8")
+        return write_whole(
+            file_path(path), lambda part: part.write_text(self.text, encoding="utf-8")
+        )
 
 
 @dataclass(frozen=True)
@@ -75,7 +80,7 @@ class Units:
 
 
 def heading(rubber: Rubber, units: Units, program: str) -> list[str]:
-    """Return what a file says of the rubber before what it says of the program."""
+    """Return the remarks of a file on the rubber and its units."""
     named = "; ".join(text for text in (rubber.name, rubber.source) if text) or "a rubber"
     lines = [
         f"Written by gripscale {version_of('gripscale')} for {program}: {' '.join(named.split())}.",
@@ -100,7 +105,7 @@ def heading(rubber: Rubber, units: Units, program: str) -> list[str]:
 
 
 def comment(remarks: list[str], mark: str) -> list[str]:
-    """Return remarks as lines of comment, each begun with `mark`; letters beyond ASCII are "?"."""
+    """Return remarks as lines of comment after a `mark`; letters beyond ASCII become "?"."""
     return [
         f"{mark} {line}"
         for remark in remarks
@@ -114,9 +119,9 @@ def comment(remarks: list[str], mark: str) -> list[str]:
 
 
 def label(rubber: Rubber, name: str | None) -> str:
-    """Return a name that all programs take: letters, digits, underscores; 38 at most.
+    """Return a name that all programs accept: at most 38 letters, digits and underscores.
 
-    Raises `InputError` if it is stated and is none.
+    Raises `InputError` if a stated `name` is not of this kind.
     """
     if name is None:
         plain = "".join(c if c.isascii() and c.isalnum() else "_" for c in rubber.name).strip("_")
@@ -131,12 +136,6 @@ def label(rubber: Rubber, name: str | None) -> str:
     return name
 
 
-# What of a rubber finite element programs carry alike: its polynomial energy and its WLF law.
-#
-#     W = sum C_ij (I1 - 3)^i (I2 - 3)^j + K/2 (J - 1)^2
-#
-# with the invariants of the isochoric C, as in `gripscale.rubber.strain_energy`.
-
 Coefficients = dict[tuple[int, int], float]
 
 LEAST_SHARE = 1e-7
@@ -146,7 +145,7 @@ LEAST_SHARE = 1e-7
 def coefficients(rubber: Rubber) -> Coefficients:
     """Return C_ij [Pa] of the permanent network by (i, j).
 
-    Raises `InputError` if its strain energy is of a kind that is not known here.
+    Raises `InputError` if its strain energy has no such polynomial.
     """
     half, energy = 0.5 * rubber.equilibrium_shear_modulus, rubber.strain_energy
     match energy:
@@ -165,7 +164,7 @@ def coefficients(rubber: Rubber) -> Coefficients:
             )
 
 
-def shares(rubber: Rubber) -> Array:
+def prony_shares(rubber: Rubber) -> Array:
     """Return g_i = E_i / (E_inf + sum E_j) [-], shape (terms,).
 
     Raises `InputError` if E_inf is lost in 1 - sum g_i: less than `LEAST_SHARE` of the sum.
@@ -180,10 +179,10 @@ def shares(rubber: Rubber) -> Array:
 
 
 def wlf(rubber: Rubber) -> tuple[WLF | None, str]:
-    """Return the WLF law of a rubber at its reference temperature, or None, and what to say of it.
+    """Return the WLF law of a rubber at its reference temperature, or None, and a remark on it.
 
-    A shift table is fitted, and the sentence tells the misfit; of WLF with Arrhenius below the
-    glass transition the upper part is taken.
+    A shift table is fitted, and the remark states the misfit; WLF with Arrhenius below the glass
+    transition is reduced to its upper part.
     """
     shift, reference = rubber.shift, rubber.reference_temperature
     if shift is None or reference is None:
@@ -198,49 +197,45 @@ def wlf(rubber: Rubber) -> tuple[WLF | None, str]:
                 "Arrhenius law below it is not carried."
             )
         case ShiftTable():
-            return _of_table(shift, reference)
+            try:
+                fit = fit_wlf(shift, reference_temperature=reference)
+            except InputError as error:
+                return None, (
+                    f"The shift table is not carried ({error}): the numbers hold for "
+                    f"{reference:.2f} K."
+                )
+            assert isinstance(fit.shift, WLF)
+            low, high = shift.limits
+            remark = (
+                f"WLF fitted to the shift table from {low:.2f} to {high:.2f} K: misses it by "
+                f"{fit.misfit:.2g} decades rms, {float(np.abs(fit.residual).max()):.2g} at most."
+            )
+            vertical = float(np.abs(shift.log_b(shift.temperature, reference)).max())
+            if vertical > 0.0:
+                remark += (
+                    f" The vertical shift, up to a factor of {10.0**vertical:.3g}, is not carried."
+                )
+            return fit.shift, remark
     return None, (
         f"The shift ({shift.kind}) is not carried: the numbers hold for {reference:.2f} K; export "
         "the rubber at the temperature of the analysis."
     )
 
 
-def _of_table(table: ShiftTable, reference: float) -> tuple[WLF | None, str]:
-    vertical = float(np.abs(table.log_b(table.temperature, reference)).max())
-    lost = (
-        f" The vertical shift, up to a factor of {10.0**vertical:.3g}, is not carried."
-        if vertical > 0.0
-        else ""
-    )
-    try:
-        found = fit_wlf(table, reference_temperature=reference)
-    except InputError as error:
-        return None, (
-            f"The shift table is not carried ({error}): the numbers hold for {reference:.2f} K."
-        )
-    assert isinstance(found.shift, WLF)
-    worst = float(np.abs(found.residual).max())
-    low, high = table.limits
-    return found.shift, (
-        f"WLF fitted to the shift table from {low:.2f} to {high:.2f} K: misses it by "
-        f"{found.misfit:.2g} decades rms, {worst:.2g} at most.{lost}"
-    )
-
-
 def with_one_series(
     rubber: Rubber, units: Units, program: str, elements: str, constants: str
 ) -> tuple[list[str], WLF | None]:
-    """Return what is said where a program relaxes the whole strain energy by one Prony series.
+    """Return remarks and shift for a program that relaxes the whole energy by one Prony series.
 
     Parameters
     ----------
     elements, constants
-        What the program calls elements for rubber, and which moduli its constants are.
+        The program's word for elements for rubber, and a sentence on its constants.
 
     Returns
     -------
     list of str, WLF or None
-        The remarks, and the shift that is carried; none of an elastic rubber.
+        The remarks, and the shift that is exported; None for an elastic rubber.
     """
     remarks = [
         *heading(rubber, units, program),
@@ -248,7 +243,7 @@ def with_one_series(
     ]
     if not len(rubber.moduli):
         return remarks, None
-    law, said = wlf(rubber)
+    law, shift_remark = wlf(rubber)
     form = (
         f"At finite strain {program} relaxes the whole stress by a hereditary integral, gripscale "
         "by temporary networks that are born free of stress (Lubliner 1985): equal at small "
@@ -259,9 +254,9 @@ def with_one_series(
             f" Here the relaxing part has the {rubber.strain_energy.kind} energy as well; in "
             "gripscale it is neo-Hookean."
         )
-    return [*remarks, constants, form, said], law
+    return [*remarks, constants, form, shift_remark], law
 
 
 def material_number(material: int) -> int:
-    """Return the number of a material, 1 to 99999; raise `InputError` if it is none."""
+    """Return the number of a material; raise `InputError` unless it is from 1 to 99999."""
     return checks.whole("material", material, least=1, most=99999)

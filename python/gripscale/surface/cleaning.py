@@ -132,7 +132,7 @@ def clean(
 
 def crop_profile(profile: Profile, limits: Limits) -> tuple[Profile, StepReport]:
     """Keep the points whose distance lies within `limits` [m], both included."""
-    first, last = interval("crop", limits)
+    first, last = limit_pair("crop", limits)
     keep = (profile.x >= first) & (profile.x <= last)
     if keep.sum() < FEWEST_POINTS:
         raise InputError(
@@ -289,7 +289,7 @@ def crop_map(
         )
     parts, everything = [], (-math.inf, math.inf)
     for name, axis, pair in zip("xy", (surface.x, surface.y), limits, strict=True):
-        first, last = interval(f"crop along {name}", everything if pair is None else pair)
+        first, last = limit_pair(f"crop along {name}", everything if pair is None else pair)
         inside = np.flatnonzero((axis >= first) & (axis <= last))
         if inside.size < FEWEST_POINTS:
             raise InputError(
@@ -432,7 +432,7 @@ def mark_dropouts(
     note = f"{measured.missing} missing as measured"
     if valid_range is None:
         return _report("dropouts", measured, measured, note)
-    low, high = interval("valid_range", valid_range)
+    low, high = limit_pair("valid_range", valid_range)
     valid = (measured.z >= low) & (measured.z <= high)  # false where a height is missing
     marked = replace(measured, z=np.where(valid, measured.z, np.nan))
     return _report("dropouts", measured, marked, f"{note}; kept {in_mm(low)} to {in_mm(high)}")
@@ -458,7 +458,7 @@ def _report(
     return after, StepReport(step, after.z.size, removed, made_missing, after.missing, note)
 
 
-def interval(name: str, limits: Limits) -> Limits:
+def limit_pair(name: str, limits: Limits) -> Limits:
     """Return two limits [m], the first below the second; raise `InputError` for anything else."""
     try:
         first, last = limits

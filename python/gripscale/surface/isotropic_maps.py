@@ -21,7 +21,7 @@ from gripscale.surface.line_statistics import (
     MeasuredLine,
     Square,
     Waves,
-    measured_lines,
+    periodic_lines,
 )
 from gripscale.surface.profile import HeightMap, Profile, profile_list
 from gripscale.surface.spectrum import areal_spectrum, profile_spectrum
@@ -133,7 +133,7 @@ def isotropic_maps(
     checks.one_of("construction", construction, CONSTRUCTIONS)
     seed_list = seed_numbers(seeds)
     square = Square(number, number * smallest / STEPS_IN_WAVE)
-    lines = measured_lines(profiles, square.length)
+    lines = periodic_lines(profiles, square.length)
     amplitudes = map_amplitudes(profiles, square)
     matching = LineMatching.of(lines, square) if construction == "lines" else None
     x = np.asarray(square.step * np.arange(square.points), dtype=np.float64)

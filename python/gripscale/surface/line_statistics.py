@@ -203,7 +203,7 @@ class MeasuredLine:
         return np.asarray(np.fft.irfft(self.waves, self.points))
 
 
-def measured_lines(profiles: Sequence[Profile], length: float) -> list[MeasuredLine]:
+def periodic_lines(profiles: Sequence[Profile], length: float) -> list[MeasuredLine]:
     """Return profiles as one period each, without waves longer than a map of period `length` [m].
 
     Missing heights are filled linearly and the straight line through the ends is subtracted, as in

@@ -52,7 +52,7 @@ _LARGEST_NUMBER = 1e12
 
 
 @dataclass(frozen=True, eq=False)
-class Grid:
+class EvenGrid:
     """The numbers of points on an even grid, and their largest distance from it in steps."""
 
     number: NDArray[np.int64]
@@ -80,7 +80,7 @@ class Grid:
         return np.linspace(x[0], x[-1], self.size)
 
 
-def even_grid(x: Array, resolution: float = 0.0) -> Grid | None:
+def even_grid(x: Array, resolution: float = 0.0) -> EvenGrid | None:
     """Return the even grid on which increasing distances lie, or None if there is none.
 
     Parameters
@@ -110,7 +110,7 @@ def even_grid(x: Array, resolution: float = 0.0) -> Grid | None:
         departure = float(np.abs(x - mean_x - step * centred).max())
         printed = 1.01 * resolution if resolution <= COARSEST_PRINT * step else 0.0
         if departure <= max(GRID_TOLERANCE * step, printed) + rounding:
-            return Grid(number, step, departure / step)
+            return EvenGrid(number, step, departure / step)
     return None
 
 

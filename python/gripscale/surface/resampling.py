@@ -33,7 +33,7 @@ from gripscale.surface.profile import (
     MOST_POINTS,
     RESOLVED_STEPS,
     TURNED_ROUND,
-    Grid,
+    EvenGrid,
     Profile,
     even_grid,
     uneven_step,
@@ -133,7 +133,7 @@ MOST_LEFT_OUT = 0.5
 
 def printed_grid(
     table: TextTable, column: int, distances: Array, lines: list[int] | None = None
-) -> Grid:
+) -> EvenGrid:
     """Return the even grid of increasing `distances` printed in a column, some rows left out.
 
     `lines` are the line numbers of a profile's rows; a map repeats its distances in many lines.
