@@ -7,8 +7,9 @@ The file has the report, the steps of a profile, the steps of a map, and what bo
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TypeVar
 
 import numpy as np
@@ -116,18 +117,14 @@ def clean(
         If an argument is wrong, or a step leaves too few points or heights.
     """
     checks.instance("profile", profile, Profile)
-    reports = []
+    steps: list[Callable[[Profile], tuple[Profile, StepReport]]] = []
     if crop is not None:
-        profile, report = crop_profile(profile, crop)
-        reports.append(report)
-    profile, report = mark_dropouts(profile, valid_range)
-    reports.append(report)
+        steps.append(partial(crop_profile, limits=crop))
+    steps.append(partial(mark_dropouts, valid_range=valid_range))
     if checks.flag("remove_spikes", remove_spikes):
-        profile, report = mark_spikes(profile, slope=spike_slope, across_gaps=across_gaps)
-        reports.append(report)
-    profile, report = subtract_trend(profile, detrend)
-    reports.append(report)
-    return profile, CleaningReport(tuple(reports))
+        steps.append(partial(mark_spikes, slope=spike_slope, across_gaps=across_gaps))
+    steps.append(partial(subtract_trend, kind=detrend))
+    return _in_turn(steps, profile)
 
 
 def crop_profile(profile: Profile, limits: Limits) -> tuple[Profile, StepReport]:
@@ -261,22 +258,17 @@ def clean_map(
         If an argument is wrong, or a step leaves too few points or heights.
     """
     checks.instance("surface", surface, HeightMap)
-    reports = []
+    steps: list[Callable[[HeightMap], tuple[HeightMap, StepReport]]] = []
     if crop is not None:
-        surface, report = crop_map(surface, crop)
-        reports.append(report)
-    surface, report = mark_dropouts(surface, valid_range)
-    reports.append(report)
+        steps.append(partial(crop_map, limits=crop))
+    steps.append(partial(mark_dropouts, valid_range=valid_range))
     if trim is not None:
-        surface, report = trim_map(surface, trim)
-        reports.append(report)
+        steps.append(partial(trim_map, share=trim))
     if checks.flag("remove_spikes", remove_spikes):
-        surface, report = mark_map_spikes(surface, slope=spike_slope)
-        reports.append(report)
+        steps.append(partial(mark_map_spikes, slope=spike_slope))
     if form is not None:
-        surface, report = subtract_form(surface, form)
-        reports.append(report)
-    return surface, CleaningReport(tuple(reports))
+        steps.append(partial(subtract_form, order=form))
+    return _in_turn(steps, surface)
 
 
 def crop_map(
@@ -302,7 +294,7 @@ def crop_map(
 
 
 def trim_map(surface: HeightMap, share: float = 0.5) -> tuple[HeightMap, StepReport]:
-    """Cut lines off the borders, the barest first, while more than a share of it is missing.
+    """Cut off border lines with more than a share of missing heights, the barest line first.
 
     Raises
     ------
@@ -447,6 +439,17 @@ def _without_spikes(
             "units of distance and height others?)"
         )
     return _report("spikes", measured, replace(measured, z=z), note)
+
+
+def _in_turn(
+    steps: Sequence[Callable[[Measurement], tuple[Measurement, StepReport]]], measured: Measurement
+) -> tuple[Measurement, CleaningReport]:
+    """Return a profile or map after all steps, and their reports."""
+    reports = []
+    for step in steps:
+        measured, report = step(measured)
+        reports.append(report)
+    return measured, CleaningReport(tuple(reports))
 
 
 def _report(

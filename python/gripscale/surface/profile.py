@@ -246,7 +246,7 @@ class Profile(Checked, eq=False):
         return profile_spectrum(self, **options)
 
     def plot(self, cleaned: Profile | None = None) -> Figure:
-        """Draw the profile beside what cleaning made of it; alone without `cleaned`."""
+        """Draw the profile, with the `cleaned` one if it is there."""
         from gripscale.charts import profile_figure
 
         return profile_figure([(self, self if cleaned is None else cleaned)])
