@@ -124,9 +124,7 @@ def solve_rough_contact(
     effects = Conditions() if conditions is None else conditions
     solid = effects.before(rubber)
     body = half_space(solid, speed)
-    goal = math.inf if tolerance is None else checks.positive("tolerance", tolerance)
-    if tolerance is not None and goal >= 1.0:
-        raise InputError(f"tolerance must be below 1, being a relative error; got {goal:g}")
+    goal = relative_tolerance("tolerance", tolerance) or math.inf
     if body.speed == 0.0:
         require_solid(rubber, load, math.inf)
     heights = periodic_heights(
@@ -170,6 +168,16 @@ def solve_rough_contact(
     quick, whole = partial(solve, reach=math.inf), partial(solve, reach=goal)
     contact = solve_coupled_contact(whole, quick, rubber, effects, time)
     return replace(contact, conditions=conditions)
+
+
+def relative_tolerance(name: str, value: float | None) -> float | None:
+    """Return a relative tolerance, or None; raise `InputError` unless it is between 0 and 1."""
+    if value is None:
+        return None
+    tolerance = checks.positive(name, value)
+    if tolerance >= 1.0:
+        raise InputError(f"{name} must be below 1, being a relative error; got {tolerance:g}")
+    return tolerance
 
 
 def _solve_sequence(
