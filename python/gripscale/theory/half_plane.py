@@ -52,7 +52,7 @@ from gripscale.theory.elastic import (
     poisson,
 )
 from gripscale.wave.kernel import face_of
-from gripscale.wave.problem import Load, Sine, Status, WaveProblem
+from gripscale.wave.problem import Sine, Status, WaveLoad, WaveProblem
 from gripscale.wave.result import WaveResult
 
 Array = NDArray[np.float64]
@@ -369,7 +369,7 @@ def solve_half_plane(
         If an argument is out of its range, or the rubber at rest is a melt: the pressure is more
         than ten times the equilibrium modulus.
     """
-    problem = WaveProblem(rubber, Sine(wavelength, amplitude), Load(pressure, speed, load_time))
+    problem = WaveProblem(rubber, Sine(wavelength, amplitude), WaveLoad(pressure, speed, load_time))
     if problem.load.speed == 0.0:
         require_solid(rubber, problem.load.pressure, math.inf)
     return HalfPlane(points, poisson_ratio, most_iterations).solve(problem)

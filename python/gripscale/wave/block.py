@@ -22,7 +22,7 @@ from gripscale.rubber import Rubber
 from gripscale.rubber.material import require_solid
 from gripscale.wave import kernel
 from gripscale.wave.kernel import face_of
-from gripscale.wave.problem import Load, Mesh, Sine, Status, WaveProblem
+from gripscale.wave.problem import Mesh, Sine, Status, WaveLoad, WaveProblem
 from gripscale.wave.result import WaveResult
 
 SOLVED = (
@@ -255,7 +255,7 @@ def solve_scale(
     InputError
         If a value is not a number or out of its range.
     """
-    problem = WaveProblem(rubber, Sine(wavelength, amplitude), Load(pressure, speed, load_time))
+    problem = WaveProblem(rubber, Sine(wavelength, amplitude), WaveLoad(pressure, speed, load_time))
     if problem.load.speed == 0.0:
         require_solid(rubber, problem.load.pressure, math.inf)
     block = FiniteStrainBlock.of(

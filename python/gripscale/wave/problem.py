@@ -96,7 +96,7 @@ class SampledProfile(Checked, eq=False):
         return int(np.flatnonzero(size > SMALLEST_SHARE * size.max())[-1])
 
 
-class Load(Checked):
+class WaveLoad(Checked):
     """Mean pressure and sliding on one wave.
 
     Parameters
@@ -124,7 +124,7 @@ class WaveProblem(Checked):
 
     rubber: Rubber = checked(checks.instance, kind=Rubber)
     profile: Sine | SampledProfile
-    load: Load
+    load: WaveLoad
 
     @property
     def angular_frequency(self) -> float:

@@ -23,7 +23,7 @@ from gripscale.surface import PreparedSurface, Profile, SurfacePart
 from gripscale.surface.resampling import filled
 from gripscale.wave import kernel
 from gripscale.wave.block import FiniteStrainBlock
-from gripscale.wave.problem import Load, Mesh, SampledProfile, WaveProblem
+from gripscale.wave.problem import Mesh, SampledProfile, WaveLoad, WaveProblem
 from gripscale.wave.result import WaveResult, waves_to_dataset
 
 if TYPE_CHECKING:
@@ -149,7 +149,7 @@ def solve_profile(
         max_iterations=max_iterations,
         residual_tolerance=residual_tolerance,
     )
-    problem = WaveProblem(rubber, heights, Load(pressure, speed, load_time))
+    problem = WaveProblem(rubber, heights, WaveLoad(pressure, speed, load_time))
     if problem.load.speed == 0.0:
         require_solid(rubber, problem.load.pressure, math.inf)
     result = block.solve(problem, start, workers=workers)
