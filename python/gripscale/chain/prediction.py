@@ -24,7 +24,7 @@ import json
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 import xarray as xr
@@ -47,6 +47,9 @@ from gripscale.wave.result import (
     waves_from_dataset,
     waves_to_dataset,
 )
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
 
@@ -320,6 +323,12 @@ class Prediction:
             self.cut_off_exponents,
         )
         return model.with_area_term(answer, self.adhesive_friction)
+
+    def plot(self) -> Figure:
+        """Draw area and friction down to each wave; see `gripscale.charts.contact_figure`."""
+        from gripscale.charts import contact_figure
+
+        return contact_figure({"chain": self.to_dataset()})
 
     @classmethod
     def from_dataset(cls, data: xr.Dataset) -> Prediction:

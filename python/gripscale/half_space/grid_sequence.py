@@ -83,7 +83,7 @@ def lost_by_harmonic(compliance: ComplexArray, grid: Grid, pressure: Array) -> A
     return np.asarray(lost / pressure.mean())
 
 
-def contact_fraction(active: Mask, gap: Array) -> float:
+def grid_contact_fraction(active: Mask, gap: Array) -> float:
     """Return real over nominal contact area of a periodic line or map [-]."""
     if active.ndim == 2:
         border = sum(int((active != np.roll(active, 1, axis=axis)).sum()) for axis in (0, 1))
@@ -223,17 +223,17 @@ class GridSequence:
     pressure: float
     workers: int
     most_iterations: int
-    known: KnownLevels = field(default_factory=dict)
+    start: KnownLevels = field(default_factory=dict)
     """Contacts with another rubber, to start from."""
     solved: dict[LevelKey, LevelContact] = field(default_factory=dict)
     last: LevelContact | None = None
 
     def solve(self, level: Level, tolerance: float = TOLERANCE) -> LevelContact:
-        """Return the contact on `level`, started from a known contact or the level before.
+        """Return the contact on `level`, from its contact in `start` or the level before.
 
         `tolerance` is the missing pressure at the end, over the pressure.
         """
-        self.last = self.known.get(level.key, self.last)
+        self.last = self.start.get(level.key, self.last)
         height = self.heights.on(level.grid.shape, level.cut_off)
         response = Response.of(self.body, level.grid, self.workers)
         following = response.full_contact(height, self.pressure)
@@ -254,7 +254,7 @@ class GridSequence:
         record = GridRecord(
             points=level.grid.shape[0],
             cut_off=level.cut_off,
-            contact_fraction=contact_fraction(contact.active, contact.gap),
+            contact_fraction=grid_contact_fraction(contact.active, contact.gap),
             border_error=border_error(contact.active),
             friction=friction_from_traction(level.grid, contact.pressure, height),
             friction_from_dissipation=lost,

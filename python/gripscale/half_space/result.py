@@ -278,14 +278,14 @@ class RoughContact:
     @property
     def friction_by_wavelength(self) -> xr.Dataset:
         """Friction and contact fraction by octave of wavelength, see the module."""
-        return by_wavelength(self)
+        return friction_by_octave(self)
 
     def to_dataset(self, *, fields: bool = True) -> xr.Dataset:
         """Return everything as a labelled Dataset, with `fields` the arrays on the grid too."""
-        return to_dataset(self, fields=fields)
+        return contact_dataset(self, fields=fields)
 
 
-def by_wavelength(contact: RoughContact) -> xr.Dataset:
+def friction_by_octave(contact: RoughContact) -> xr.Dataset:
     """Return friction and contact fraction over `wavelength`, from long to short."""
     number = np.broadcast_to(contact.grid.wavenumber, contact.grid.spectrum_shape).reshape(-1)[1:]
     lost = contact.lost_by_harmonic().reshape(-1)[1:]
@@ -315,7 +315,7 @@ def by_wavelength(contact: RoughContact) -> xr.Dataset:
     )
 
 
-def to_dataset(contact: RoughContact, *, fields: bool) -> xr.Dataset:
+def contact_dataset(contact: RoughContact, *, fields: bool) -> xr.Dataset:
     """Return the numbers of `contact`, by octave and by grid, and its `fields` on the last grid."""
     data = {
         name: labelled((), float(getattr(contact, name)), unit, text, SOURCE)
@@ -326,7 +326,7 @@ def to_dataset(contact: RoughContact, *, fields: bool) -> xr.Dataset:
     for name, (part, text) in CUT_OFF_EXPONENTS.items():
         words = f"d ln({text})/d ln(cut-off)"
         data[name] = labelled((), getattr(contact.cut_off_exponents, part), "1", words, SOURCE)
-    octaves = by_wavelength(contact)
+    octaves = friction_by_octave(contact)
     data |= {
         "octave_friction": octaves["friction"].variable,
         "octave_running_friction": octaves["running_friction"].variable,

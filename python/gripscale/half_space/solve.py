@@ -149,10 +149,10 @@ def solve_rough_contact(
         raise InputError(f"on_grid must be a function or None; got {checks.short_repr(on_grid)}")
 
     def solve(
-        by_scale: RubberByScale | None, known: KnownLevels, reach: float
+        by_scale: RubberByScale | None, start: KnownLevels, reach: float
     ) -> GridSequenceResult:
         sequence = GridSequence(
-            replace(body, by_scale=by_scale), heights, load, threads, iterations, known
+            replace(body, by_scale=by_scale), heights, load, threads, iterations, start
         )
         return _solve_sequence(sequence, most, reach, on_grid)
 
@@ -188,13 +188,13 @@ def _solve_sequence(
 ) -> GridSequenceResult:
     """Return the contact with one rubber, on grids refined until the errors meet `goal`."""
     body, heights, load = sequence.body, sequence.heights, sequence.pressure
-    # start from the last known levels with all waves: as many as the errors are estimated from
-    known = [
+    # only the last levels of `start` with all waves: as many as the errors are estimated from
+    whole = [
         contact.level
-        for contact in sequence.known.values()
+        for contact in sequence.start.values()
         if contact.level.cut_off == heights.smallest_wavelength
     ]
-    plan = known[-(1 if math.isinf(goal) else ERROR_GRIDS) :] or levels(heights)
+    plan = whole[-(1 if math.isinf(goal) else ERROR_GRIDS) :] or levels(heights)
     grids: list[GridRecord] = []
     while plan:
         level = plan.pop(0)
@@ -236,7 +236,7 @@ def _solve_sequence(
         grids=grids,
         by_scale=body.by_scale,
     )
-    return GridSequenceResult(result, {**sequence.known, **sequence.solved})
+    return GridSequenceResult(result, {**sequence.start, **sequence.solved})
 
 
 def _status(solved: LevelContact, grids: list[GridRecord], goal: float) -> Status:

@@ -59,7 +59,7 @@ class Persson(Checked, Model):
             profile_spectrum(_cleaned(surface, self.name), window=self.window),
             pressure=load.pressure,
             speed=load.speed,
-            smallest_wavelength=_smallest(self.smallest_wavelength, surface),
+            smallest_wavelength=self.smallest_wavelength or surface.cutoff_wavelength,
             gamma=self.gamma,
         )
         return _answered(replace(result, load=load), on_progress)
@@ -103,7 +103,7 @@ class KlueppelHeinrich(Checked, Model):
             speed=load.speed,
             layer_ratio=self.layer_ratio,
             penetration_depth=self.penetration_depth,
-            smallest_wavelength=_smallest(self.smallest_wavelength, surface),
+            smallest_wavelength=self.smallest_wavelength or surface.cutoff_wavelength,
         )
         return _answered(replace(result, load=load), on_progress)
 
@@ -113,10 +113,6 @@ def _answered(result: Any, on_progress: Callable[[Any], None] | None) -> xr.Data
         on_progress(result)
     data: xr.Dataset = result.to_dataset()
     return data
-
-
-def _smallest(stated: float | None, surface: PreparedSurface) -> float:
-    return surface.cutoff_wavelength if stated is None else stated
 
 
 def _cleaned(surface: PreparedSurface, name: str) -> list[Profile]:

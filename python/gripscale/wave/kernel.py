@@ -53,7 +53,7 @@ def solve_steady(
     return _checked_call(lambda: _kernel.solve_steady(inputs, settings, tolerance, start, work))
 
 
-def solve_transient(
+def solve_stages(
     rubber: Rubber,
     profile: Sine | SampledProfile,
     mesh: Mesh,

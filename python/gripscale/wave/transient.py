@@ -164,7 +164,7 @@ def solve_transient(
     profile = Sine(wavelength, amplitude)
     block = FiniteStrainBlock.of(depth=depth, columns=columns, rows=rows, **options)
     programme = [(stage.duration, stage.speed, stage.pressure) for stage in stages]
-    run = kernel.solve_transient(
+    run = kernel.solve_stages(
         rubber, profile, block.mesh, block.settings, programme, first, block.time_limit, workers
     )
     return TransientResult(
