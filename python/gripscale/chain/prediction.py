@@ -28,11 +28,11 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from gripscale import model
 from gripscale.conditions.conditions import Conditions
 from gripscale.core import checks, provenance
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.model import NOT_CONVERGED, CutOffExponents, NominalLoad, of_curve
 from gripscale.rubber import Rubber
@@ -50,8 +50,6 @@ from gripscale.wave.result import (
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-Array = NDArray[np.float64]
 
 
 CLASS_PRESSURES = "class_pressures"

@@ -46,11 +46,10 @@ import numpy as np
 import scipy.sparse
 from numpy.typing import NDArray
 
-from gripscale.half_space.grid import Mask
+from gripscale.core.arrays import Array, Mask
 from gripscale.half_space.response import AnyArray, Response
 from gripscale.theory.half_plane import GridContact
 
-Array = NDArray[np.float64]
 Index = NDArray[np.intp]
 
 REACH = 1

@@ -33,13 +33,11 @@ import scipy.fft
 from numpy.typing import NDArray
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array, ComplexArray, Mask
 from gripscale.core.errors import InputError
 from gripscale.surface import HeightMap, Profile
 from gripscale.surface.resampling import filled
 
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
-Mask = NDArray[np.bool_]
 Single = NDArray[np.float32]
 SingleComplex = NDArray[np.complex64]
 

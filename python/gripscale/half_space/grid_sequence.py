@@ -50,9 +50,10 @@ from itertools import pairwise
 import numpy as np
 import scipy.fft
 
+from gripscale.core.arrays import Array, ComplexArray, Mask
 from gripscale.half_space.active_set import TOLERANCE, solve_grid
-from gripscale.half_space.grid import Array, Grid, Mask, PeriodicHeights, doubled
-from gripscale.half_space.response import ComplexArray, HalfSpace, Response
+from gripscale.half_space.grid import Grid, PeriodicHeights, doubled
+from gripscale.half_space.response import HalfSpace, Response
 from gripscale.theory.half_plane import GridContact
 
 POINTS_IN_WAVE = 4

@@ -20,8 +20,8 @@ import numpy as np
 
 from gripscale import model
 from gripscale.core import checks, provenance
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
-from gripscale.half_space.grid import Array
 from gripscale.half_space.result import RoughContact
 from gripscale.half_space.solve import solve_rough_contact
 from gripscale.half_space.windows import WindowContacts, solve_windows

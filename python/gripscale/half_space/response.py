@@ -23,12 +23,12 @@ from numpy.typing import NDArray
 
 from gripscale.conditions.conditions import RubberByScale
 from gripscale.core import checks
+from gripscale.core.arrays import Array, ComplexArray
 from gripscale.core.errors import InputError
-from gripscale.half_space.grid import Array, Grid, LineConvolution, PeriodicHeights, SingleComplex
+from gripscale.half_space.grid import Grid, LineConvolution, PeriodicHeights, SingleComplex
 from gripscale.rubber import Rubber
 
 AnyArray = NDArray[np.floating]
-ComplexArray = NDArray[np.complex128]
 AnyComplexArray = NDArray[np.complexfloating]
 
 

@@ -31,7 +31,8 @@ from scipy.sparse import csgraph
 
 from gripscale.conditions.conditions import Conditions, RubberByScale, StateByScale
 from gripscale.core import provenance
-from gripscale.half_space.grid import Array, Grid, Mask
+from gripscale.core.arrays import Array, Mask
+from gripscale.half_space.grid import Grid
 from gripscale.half_space.grid_sequence import GridRecord, lost_by_harmonic
 from gripscale.half_space.response import HalfSpace
 from gripscale.model import NOT_CONVERGED, OCTAVE, CutOffExponents, between

@@ -16,8 +16,9 @@ import scipy.fft
 from scipy import stats
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
-from gripscale.half_space.grid import DEFAULT_STEPS, Array, joined, periodic_heights
+from gripscale.half_space.grid import DEFAULT_STEPS, joined, periodic_heights
 from gripscale.half_space.result import RoughContact
 from gripscale.half_space.solve import solve_rough_contact
 from gripscale.rubber import Rubber

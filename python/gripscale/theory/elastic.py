@@ -75,13 +75,12 @@ Int. J. Mech. Sci. 10 (1968) 637 (bonded layer).
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.rubber import Rubber
-
-Array = NDArray[np.float64]
 
 
 def crest_radius(*, wavelength: float, amplitude: float) -> float:

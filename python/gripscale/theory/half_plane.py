@@ -38,9 +38,9 @@ from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array, ComplexArray, Mask
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.rubber import Rubber
@@ -55,9 +55,6 @@ from gripscale.wave.kernel import face_of
 from gripscale.wave.problem import Sine, Status, WaveLoad, WaveProblem
 from gripscale.wave.result import WaveResult
 
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
-Mask = NDArray[np.bool_]
 Compliance = Callable[[Array], ComplexArray]
 
 _ALIASES = 16

@@ -29,9 +29,9 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.model import NominalLoad
 from gripscale.rubber import Rubber
@@ -44,7 +44,6 @@ from gripscale.wave.problem import Status
 if TYPE_CHECKING:
     import xarray as xr
 
-Array = NDArray[np.float64]
 
 SOURCE = "Klueppel & Heinrich 2000, Rubber Chem. Technol. 73, 578"
 UPPER_SHARE = 0.5

@@ -26,10 +26,10 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gripscale import model
 from gripscale.core import checks, provenance
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.model import NOT_CONVERGED, NominalLoad, of_curve
 from gripscale.rubber import Rubber
@@ -46,7 +46,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-Array = NDArray[np.float64]
 Values = tuple[Array, ...]
 Variable = tuple[str, Any, str, str]
 """Name of variable and attribute, dimension, unit and meaning."""
@@ -60,9 +59,9 @@ class TheoryResult(Protocol):
     @property
     def load(self) -> NominalLoad: ...  # noqa: D102
     @property
-    def wavelength(self) -> NDArray[np.float64]: ...  # noqa: D102
+    def wavelength(self) -> Array: ...  # noqa: D102
     @property
-    def running_friction(self) -> NDArray[np.float64]: ...  # noqa: D102
+    def running_friction(self) -> Array: ...  # noqa: D102
     @property
     def contact_fraction(self) -> float: ...  # noqa: D102
     @property

@@ -10,9 +10,10 @@ import math
 from enum import StrEnum
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.rubber import Rubber
@@ -42,7 +43,7 @@ class Sine(Checked):
     amplitude: float = checked(checks.positive, unit="m")
 
 
-def _heights(name: str, value: ArrayLike) -> NDArray[np.float64]:
+def _heights(name: str, value: ArrayLike) -> Array:
     """Return heights without their mean, read-only."""
     heights = checks.vector(name, value, unit="m")
     if heights.size < FEWEST_HEIGHTS:
@@ -71,7 +72,7 @@ class SampledProfile(Checked, eq=False):
     """
 
     wavelength: float = checked(checks.positive, unit="m")
-    heights: NDArray[np.float64] = checked(_heights)
+    heights: Array = checked(_heights)
 
     @property
     def amplitude(self) -> float:
@@ -80,7 +81,7 @@ class SampledProfile(Checked, eq=False):
         fine = np.fft.irfft(np.fft.rfft(self.heights), 16 * count) * 16.0
         return float(np.ptp(fine)) / 2.0
 
-    def slope(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
+    def slope(self, x: Array) -> Array:
         """Return the slope dz/dx [-] of the interpolant at `x` [m], shape (points,)."""
         count = self.heights.size
         number = np.arange(1, count // 2 + 1)

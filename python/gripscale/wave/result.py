@@ -18,6 +18,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from gripscale.core.arrays import Array
 from gripscale.rubber import Rubber, extrapolation
 from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
 from gripscale.wave.problem import Status
@@ -25,7 +26,6 @@ from gripscale.wave.problem import Status
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 
 LARGE_MISMATCH = 0.05
 """Relative difference of the two frictions above which a result is in doubt."""

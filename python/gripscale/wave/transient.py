@@ -12,9 +12,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.rubber import Rubber
@@ -22,8 +22,6 @@ from gripscale.wave import kernel
 from gripscale.wave.block import FiniteStrainBlock
 from gripscale.wave.problem import Sine, Status
 from gripscale.wave.result import WaveResult
-
-Array = NDArray[np.float64]
 
 DEFAULT_COLUMNS = 96
 DEFAULT_ROWS = 14
