@@ -17,7 +17,7 @@ import gripscale as gs
 from benchmarks.measure import name
 from benchmarks.table import show
 from gripscale.case import prepare_case
-from gripscale.wave import FiniteStrainBlock, WaveLoad, Mesh, Sine, WaveProblem
+from gripscale.wave import FiniteStrainBlock, Mesh, Sine, WaveLoad, WaveProblem
 from tests.verification.families import ROOT
 
 CASE = ROOT / "examples" / "road_and_tread" / "case.toml"
