@@ -17,7 +17,7 @@ import gripscale as gs
 from benchmarks.measure import name
 from benchmarks.table import show
 from gripscale.case import prepare_case
-from gripscale.wave import FiniteStrainBlock, Load, Mesh, Sine, WaveProblem
+from gripscale.wave import FiniteStrainBlock, Mesh, Sine, WaveLoad, WaveProblem
 from tests.verification.families import ROOT
 
 CASE = ROOT / "examples" / "road_and_tread" / "case.toml"
@@ -101,7 +101,7 @@ def _chains() -> list[Chain]:
 
 def _again(scale: gs.ScaleResult) -> gs.ScaleResult:
     """Solve the same wave under the same load on the fine mesh."""
-    load = Load(scale.pressure_received, scale.speed, scale.load_time)
+    load = WaveLoad(scale.pressure_received, scale.speed, scale.load_time)
     wave = Sine(scale.wavelength, scale.amplitude)
     return FiniteStrainBlock(FINE).solve(WaveProblem(scale.rubber, wave, load))
 

@@ -179,6 +179,6 @@ class Silent:
 
 def _problem(pressure: float) -> WaveProblem:
     from gripscale.wave import Sine
-    from gripscale.wave.problem import Load
+    from gripscale.wave.problem import WaveLoad
 
-    return WaveProblem(RUBBER, Sine(8e-3, 1e-3), Load(pressure))
+    return WaveProblem(RUBBER, Sine(8e-3, 1e-3), WaveLoad(pressure))

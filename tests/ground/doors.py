@@ -260,7 +260,7 @@ FITTED = ("hurst", "xi_parallel", "xi_perpendicular", "lag_min", "lag_max", "res
 def _wave() -> Iterator[Door]:
     yield Door(wave.Sine, WAVE)
     yield Door(wave.SampledProfile, {"wavelength": 1e-3, "heights": HEIGHT})
-    yield Door(wave.Load, {**PRESSED, "load_time": 1.0})
+    yield Door(wave.WaveLoad, {**PRESSED, "load_time": 1.0})
     yield Door(wave.Mesh, MESH)
     limits = {"tolerance": None, "time_limit": 0.2}
     small = {"max_iterations": 20, "residual_tolerance": 1e-8, "start": None}

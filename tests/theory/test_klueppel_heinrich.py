@@ -89,7 +89,7 @@ def test_the_strain_spectrum_holds_the_variance():
     """int S dw from w_min on is the variance xi_perp^2/2 over xi_par^2."""
     fit = surface(0.8)
     q = 2 * np.pi / PARALLEL * np.exp(np.linspace(0, 20, 20_001))
-    held = np.trapezoid(module._strain_spectrum(q, fit) * q, np.log(q))
+    held = np.trapezoid(module.strain_spectrum(q, fit) * q, np.log(q))
     assert held == pytest.approx(0.5 * (PERPENDICULAR / PARALLEL) ** 2, rel=1e-6)
 
 

@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import quad
 
 from gripscale.theory.half_plane import (
-    PeriodicContact,
+    GridContact,
     contact_edges,
     influence_column,
     nodes,
@@ -70,10 +70,10 @@ def test_edges_of_two_patches_one_across_the_period():
         for shift in (-2 * np.pi, 0.0, 2 * np.pi):
             outside = np.maximum(start + shift - angle, angle - end - shift)
             gap = np.minimum(gap, np.maximum(outside, 0.0) ** 1.5)
-    contact = PeriodicContact(np.ones(points), gap, gap == 0.0, 1, True)
+    contact = GridContact(np.ones(points), gap, gap == 0.0, 1, True)
     assert np.array(contact_edges(contact)) == pytest.approx(np.array(edges), abs=1e-12)
 
 
 def test_all_in_contact_is_one_patch():
-    full = PeriodicContact(np.ones(8), np.zeros(8), np.ones(8, dtype=bool), 1, True)
+    full = GridContact(np.ones(8), np.zeros(8), np.ones(8, dtype=bool), 1, True)
     assert contact_edges(full) == [(-np.pi, np.pi)]

@@ -26,7 +26,7 @@ from gripscale.model import NominalLoad
 from gripscale.surface import HeightMap, Measured, PreparedSurface, Profile, SineStack
 from gripscale.theory.half_plane import HalfPlane
 from gripscale.wave.block import FiniteStrainBlock
-from gripscale.wave.problem import Load, Sine, WaveProblem
+from gripscale.wave.problem import Sine, WaveLoad, WaveProblem
 
 SAMPLES = 40
 HALF_PLANES = Chain(HalfPlane(points=64))
@@ -123,7 +123,7 @@ def test_longer_loads_reach_the_solver():
         def solve(self, problem, start=None):
             return problem.load.load_time
 
-    problem = WaveProblem(Rubber(6e6), Sine(1e-2, 1e-3), Load(3e5, 0.3, 2.0))
+    problem = WaveProblem(Rubber(6e6), Sine(1e-2, 1e-3), WaveLoad(3e5, 0.3, 2.0))
     assert loaded_longer(Told(), 1.5).solve(problem) == 3.0
 
 

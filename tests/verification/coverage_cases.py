@@ -12,7 +12,7 @@ import numpy as np
 
 import gripscale as gs
 from gripscale import theory
-from gripscale.wave import Load, Sine, WaveProblem
+from gripscale.wave import Sine, WaveLoad, WaveProblem
 from tests.verification.families import tread
 from tests.verification.load_grid import MODULUS, SPEED, WAVELENGTH, mean_shear, power_law, rubber
 
@@ -81,7 +81,7 @@ def _wave(
     solid: gs.Rubber, slope: float, pressure: float, speed: float, load_time: float = np.inf
 ) -> WaveProblem:
     return WaveProblem(
-        solid, Sine(WAVELENGTH, slope * WAVELENGTH), Load(pressure, speed, load_time)
+        solid, Sine(WAVELENGTH, slope * WAVELENGTH), WaveLoad(pressure, speed, load_time)
     )
 
 
@@ -126,7 +126,7 @@ def _sliding_tread(g: np.random.Generator) -> WaveProblem:
     wavelength, speed = _log(g, 1e-4, 3e-2), _log(g, 1e-3, 10.0)
     slope, solid = g.uniform(0.02, 0.2), tread()
     modulus = abs(solid.complex_modulus(2.0 * np.pi * speed / wavelength))
-    load = Load(_log(g, 0.02, 0.5) * modulus, speed, _log(g, 1.0, 10.0) * wavelength / speed)
+    load = WaveLoad(_log(g, 0.02, 0.5) * modulus, speed, _log(g, 1.0, 10.0) * wavelength / speed)
     return WaveProblem(solid, Sine(wavelength, slope * wavelength), load)
 
 

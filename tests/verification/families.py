@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 import gripscale as gs
 from gripscale import theory
-from gripscale.wave import FiniteStrainBlock, Load, Mesh, Sine, WaveProblem, WaveResult
+from gripscale.wave import FiniteStrainBlock, Mesh, Sine, WaveLoad, WaveProblem, WaveResult
 
 ROOT = Path(__file__).parents[2]
 WAVELENGTH = 1e-3
@@ -176,7 +176,7 @@ def _wave(
     speed: float = 0.0,
     load_time: float = np.inf,
 ) -> WaveProblem:
-    return WaveProblem(rubber, Sine(WAVELENGTH, amplitude), Load(pressure, speed, load_time))
+    return WaveProblem(rubber, Sine(WAVELENGTH, amplitude), WaveLoad(pressure, speed, load_time))
 
 
 def _against(

@@ -8,7 +8,7 @@ import numpy as np
 
 import gripscale as gs
 from gripscale.theory import HalfPlane
-from gripscale.wave import Load, Sine, WaveProblem
+from gripscale.wave import Sine, WaveLoad, WaveProblem
 
 WAVELENGTH = 1e-3
 SPEED = 1.0
@@ -37,7 +37,7 @@ class LoadCase:
     @property
     def problem(self) -> WaveProblem:
         """The same as a `WaveProblem`."""
-        load = Load(self.pressure_ratio * MODULUS, SPEED, self.passages * WAVELENGTH / SPEED)
+        load = WaveLoad(self.pressure_ratio * MODULUS, SPEED, self.passages * WAVELENGTH / SPEED)
         return WaveProblem(self.rubber, Sine(WAVELENGTH, self.slope * WAVELENGTH), load)
 
     def arguments(self) -> dict[str, float]:

@@ -3,7 +3,7 @@
 import pytest
 
 import gripscale as gs
-from gripscale.wave import FiniteStrainBlock, Load, Mesh, Sine, WaveProblem
+from gripscale.wave import FiniteStrainBlock, Mesh, Sine, WaveLoad, WaveProblem
 from tests.verification.families import RELAXED, finite_strain, westergaard, worst, zener
 
 ELASTIC = gs.Rubber(RELAXED, bulk_modulus=1e3 * RELAXED)
@@ -33,7 +33,7 @@ def test_sliding_keeps_its_word(every):
 
 def test_a_tolerance_out_of_reach_is_a_status():
     block = FiniteStrainBlock(Mesh(64, 12), 1e-6, settings={"finest_columns": 128})
-    result = block.solve(WaveProblem(ELASTIC, Sine(1e-3, 1e-6), Load(1e3, 0.0)))
+    result = block.solve(WaveProblem(ELASTIC, Sine(1e-3, 1e-6), WaveLoad(1e3, 0.0)))
     assert result.status.startswith("tolerance not met")
     assert result.details["columns"] == 128
 

@@ -3,7 +3,7 @@
 import pytest
 
 from gripscale.case import run_case
-from gripscale.wave import FiniteStrainBlock, Load, Mesh, Sine, WaveProblem
+from gripscale.wave import FiniteStrainBlock, Mesh, Sine, WaveLoad, WaveProblem
 from tests.verification.families import ROOT
 
 CASE = ROOT / "examples" / "road_and_tread" / "case.toml"
@@ -13,7 +13,7 @@ FINE = FiniteStrainBlock(Mesh(256, 30))
 def again(scale):
     """Solve a wave of a prediction on the fine mesh."""
     sine = Sine(scale.wavelength, scale.amplitude)
-    load = Load(scale.pressure_received, scale.speed, scale.load_time)
+    load = WaveLoad(scale.pressure_received, scale.speed, scale.load_time)
     return FINE.solve(WaveProblem(scale.rubber, sine, load))
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.wave import FiniteStrainBlock, Load, Mesh, SampledProfile, Sine, WaveProblem
+from gripscale.wave import FiniteStrainBlock, Mesh, SampledProfile, Sine, WaveLoad, WaveProblem
 from tests.verification.families import tread
 from tests.verification.profiles import road_windows, sums_of_sines
 
@@ -34,7 +34,7 @@ def steep(**settings):
     settings = {"smallest_volume_ratio": 0.05} | settings
     block = FiniteStrainBlock(Mesh(64, 12), settings=settings)
     sine = Sine(STEEP["wavelength"], STEEP["amplitude"])
-    load = Load(STEEP["pressure"], 0.3, STEEP["load_time"])
+    load = WaveLoad(STEEP["pressure"], 0.3, STEEP["load_time"])
     return block.solve(WaveProblem(tread(), sine, load))
 
 

@@ -8,7 +8,7 @@ import pytest
 
 import gripscale as gs
 from gripscale.theory.half_plane import HalfPlane, contact_edges, nodes, solve_periodic_contact
-from gripscale.wave import Load, SampledProfile, WaveProblem
+from gripscale.wave import SampledProfile, WaveLoad, WaveProblem
 
 DATA = Path(__file__).parents[2] / "examples" / "data"
 RUBBER = gs.Rubber(3e6, [6e6, 9e6], [2e-5, 2e-4], bulk_modulus=1e9)
@@ -203,7 +203,7 @@ def test_heights_that_are_no_profile_are_refused():
 
 
 def test_the_half_plane_model_refuses_sampled_heights():
-    problem = WaveProblem(RUBBER, SampledProfile(1e-3, sine().z), Load(1e5, 1.0))
+    problem = WaveProblem(RUBBER, SampledProfile(1e-3, sine().z), WaveLoad(1e5, 1.0))
     with pytest.raises(gs.InputError, match=r"profile must be a Sine .* got a SampledProfile"):
         HalfPlane().solve(problem)
 

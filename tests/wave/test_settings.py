@@ -8,17 +8,17 @@ import gripscale as gs
 from gripscale import _kernel
 from gripscale.wave import (
     FiniteStrainBlock,
-    Load,
     Mesh,
     Sine,
     Status,
+    WaveLoad,
     WaveProblem,
     WaveSolver,
     default_settings,
     describe_settings,
 )
 
-PROBLEM = WaveProblem(gs.Rubber(3e6), Sine(1e-3, 1e-4), Load(5e5))
+PROBLEM = WaveProblem(gs.Rubber(3e6), Sine(1e-3, 1e-4), WaveLoad(5e5))
 
 
 def block(**settings: float) -> FiniteStrainBlock:

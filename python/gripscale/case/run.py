@@ -23,7 +23,7 @@ from gripscale.case.events import (
 from gripscale.case.prepare import case_chain, prepare_rubber, prepare_surface
 from gripscale.case.read import CaseFile, read_case
 from gripscale.case.results import CaseResults
-from gripscale.chain.chain import Chain, ChainError, predict
+from gripscale.chain.chain import Chain, ChainError
 from gripscale.chain.prediction import Prediction
 from gripscale.core.errors import FileError, InputError, about_keys
 from gripscale.io import netcdf
@@ -207,7 +207,7 @@ def _solve(
     stored: StoredPrediction | None,
 ) -> None:
     """Add one prediction to `results`, on disk after each wave; the inputs follow at the end."""
-    load, chain = results.file.case.load, results.chain
+    chain = results.chain
     stored_waves = 0 if stored is None else len(stored.prediction.scales)
     clock, pass_number = time.perf_counter(), 0
 
@@ -231,17 +231,11 @@ def _solve(
             for count in range(1, stored_waves + 1):
                 keep(replace(stored.prediction, scales=stored.prediction.scales[:count]))
         else:
-            predict(
+            solver = chain.solver if stored is None else stored.solver(chain.solver)
+            replace(chain, solver=solver).solve(
                 results.rubber.rubber,
                 results.surface.sines,
-                pressure=load.pressure,
-                speed=speed,
-                footprint=load.footprint,
-                pressure_classes=chain.pressure_classes,
-                load_time=load.load_time,
-                solver=chain.solver if stored is None else stored.solver(chain.solver),
-                extrapolate=chain.extrapolate,
-                conditions=chain.conditions,
+                replace(results.load, speed=speed),
                 on_scale=keep,
             )
         finished = True

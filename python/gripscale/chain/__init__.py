@@ -1,4 +1,4 @@
-"""The chain: waves solved one after the other, each with the pressure that leaves the one above."""
+"""The chain: waves solved one after the other, each under the pressure of the larger one."""
 
 import lazy_loader
 

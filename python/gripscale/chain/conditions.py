@@ -13,7 +13,6 @@ from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gripscale.chain.heat import Warming, WaveHeat, strains, warming
 from gripscale.chain.prediction import Prediction, RubberAt
@@ -24,10 +23,9 @@ from gripscale.conditions.fixed_point import (
     solve_fixed_point,
     unpack_state,
 )
+from gripscale.core.arrays import Array
 from gripscale.rubber import Rubber
 from gripscale.wave.problem import Sine, Status
-
-Array = NDArray[np.float64]
 
 
 class ChainSolver(Protocol):

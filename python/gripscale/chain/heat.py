@@ -20,7 +20,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gripscale.conditions import flash_temperature as rise
 from gripscale.conditions.conditions import StrainNorm
@@ -31,12 +30,10 @@ from gripscale.conditions.flash_temperature import (
     ThermalProperties,
     loss_pattern,
 )
+from gripscale.core.arrays import Array, ComplexArray
 from gripscale.core.errors import InputError
 from gripscale.rubber import Rubber
 from gripscale.wave.result import WaveResult
-
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 POINTS = 256
 

@@ -1,10 +1,21 @@
-"""What the chain answers: the waves solved, and area and friction down to each of them.
+"""Prediction of the chain: the solved waves, and area and friction down to each of them.
 
     real area    A_r/A_0  = prod A_i / lambda_i
     friction     mu_r     = sum mu_i
 
 Lind & Wangenheim 2014, IMECE2014-37998, equations 2 and 3. The friction sum conserves energy,
 because the pressure on a wave times the area fraction above it is the nominal pressure.
+
+A wave hands the pressure in its contact down to the next one. The mean of this pressure, p_(i+1) =
+p_i lambda_i / A_i (equation 1), is one class. But the pressure under a crest is not uniform, and
+neither contact nor friction of the next wave is linear in it. So the contact is divided, from low
+to high pressure, into N classes of equal load:
+
+    a_n = int dF / p    over the n-th of N equal shares of the load F,    p_n = p_1 / (N a_n)
+
+with a_n the area of the class over the nominal area and p_1 the nominal pressure: load and contact
+area are kept exactly. The next wave is solved under each p_n. Its contacts are divided into N
+classes again, so that the cost grows as waves times classes, not as a tree.
 """
 
 from __future__ import annotations
@@ -16,46 +27,38 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
+import xarray as xr
 
 from gripscale import model
 from gripscale.conditions.conditions import Conditions
 from gripscale.core import checks, provenance
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.model import NOT_CONVERGED, CutOffExponents, NominalLoad, of_curve
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import Extrapolation, of_sum
 from gripscale.surface import SineStack
 from gripscale.wave.problem import Sine, Status
-from gripscale.wave.result import WaveResult
+from gripscale.wave.result import (
+    CHAIN,
+    LW,
+    WaveResult,
+    labelled,
+    waves_from_dataset,
+    waves_to_dataset,
+)
 
 if TYPE_CHECKING:
-    import xarray as xr
-
-
-# What a wave hands down: the pressure on the parts of its contact, in classes of equal load.
-#
-# The mean pressure of the contact of wave i, p_(i+1) = p_i lambda_i / A_i (Lind & Wangenheim 2014,
-# IMECE2014-37998, equation 1), is one class. The pressure under a crest is not uniform, though, and
-# neither the contact of the next wave nor its friction is linear in the pressure. So the contact is
-# cut, from low to high pressure, into N classes that carry the same load:
-#
-#     a_n = int dF / p    over the n-th of N equal shares of the load F,    p_n = p_1 / (N a_n)
-#
-# with a_n the area of the class over the nominal area and p_1 the nominal pressure: load and area
-# in contact are kept exactly. The next wave is solved under each p_n. Of what it hands down in its
-# turn, N classes are made again: the cost grows as waves times classes, not as a tree.
-
-Array = NDArray[np.float64]
+    from matplotlib.figure import Figure
 
 
 CLASS_PRESSURES = "class_pressures"
-"""Name of the pressures a wave was solved under [Pa], among the details of its result."""
+"""Name of the pressures of the classes [Pa], among the details of a wave."""
 
 
 @dataclass(frozen=True)
 class PressureClasses:
-    """Parts of the nominal area under one pressure each, all carrying the same load."""
+    """Parts of the nominal area under one pressure each, all of the same load."""
 
     pressure: Array
     """On each class [Pa], rising."""
@@ -73,9 +76,9 @@ class PressureClasses:
         return float(self.pressure @ self.area / self.area.sum())
 
     def handed_down(self, solved: Sequence[WaveResult], count: int) -> PressureClasses:
-        """Return `count` classes of what waves solved under each class hand down.
+        """Return `count` classes of the contacts of the waves solved under each class.
 
-        Raises `InputError` if there are several, and a solver does not say where the pressure is.
+        Raises `InputError` for several classes if a solver returns no pressure along the wave.
         """
         if count == len(solved) == 1:
             wave, area = solved[0], self.area * solved[0].contact_fraction
@@ -83,18 +86,18 @@ class PressureClasses:
             return PressureClasses(self.pressure * wave.wavelength / wave.contact_length, area)
         parts = [_contact_of(wave) for wave in solved]
         area = np.concatenate([a * part for a, (part, _) in zip(self.area, parts, strict=True)])
-        pressure = np.concatenate([on_part for _, on_part in parts])
+        pressure = np.concatenate([values for _, values in parts])
         order = np.argsort(pressure)
         load = np.append(0.0, np.cumsum((area * pressure)[order]))
         below = np.append(0.0, np.cumsum(area[order]))
-        own = np.diff(np.interp(np.linspace(0.0, load[-1], count + 1), load, below))
-        return PressureClasses(load[-1] / (count * own), own)
+        areas = np.diff(np.interp(np.linspace(0.0, load[-1], count + 1), load, below))
+        return PressureClasses(load[-1] / (count * areas), areas)
 
-    def together(self, solved: Sequence[WaveResult]) -> WaveResult:
+    def combined(self, solved: Sequence[WaveResult]) -> WaveResult:
         """Return one result for a wave solved under each class.
 
-        Contact fractions are averaged by area, frictions by load, the worst stretch, residual and
-        status count, iterations are added. Pressure and deformed mesh are those of the class
+        Contact fractions are averaged by area, frictions by load; stretches, residual and status
+        are the worst ones, iterations are summed. Pressure and deformed mesh are those of the class
         nearest to the mean pressure.
         """
         failed = [wave for wave in solved if not usable(wave)]
@@ -123,27 +126,27 @@ class PressureClasses:
 
 
 def usable(wave: WaveResult) -> bool:
-    """Return whether a wave may hand its pressure on: converged, and in contact."""
+    """Return whether the next wave can be solved: this one converged and is in contact."""
     return wave.converged and 0.0 < wave.contact_fraction <= 1.0
 
 
 def _contact_of(wave: WaveResult) -> tuple[Array, Array]:
     """Return share of the wavelength and pressure [Pa] of each node in contact.
 
-    Nodes do not end where the contact does: shares are scaled to the contact fraction, pressures
-    to the load.
+    The edges of the contact lie between nodes, so that shares are scaled to the contact fraction
+    and pressures to the load.
     """
     after = np.append(wave.x[1:], wave.x[0] + wave.wavelength)
     before = np.insert(wave.x[:-1], 0, wave.x[-1] - wave.wavelength)
-    touching = wave.pressure > 0.0
-    if not touching.any():
+    active = wave.pressure > 0.0
+    if not active.any():
         raise InputError(
             "pressure_classes must be 1 for a solver that gives no pressure along the wave; "
             f"got none above zero from {wave.model}"
         )
-    share = (after - before)[touching]
+    share = (after - before)[active]
     share *= wave.contact_fraction / share.sum()
-    pressure = wave.pressure[touching]
+    pressure = wave.pressure[active]
     return share, pressure * (wave.pressure_received / (share @ pressure))
 
 
@@ -155,23 +158,23 @@ class Prediction:
     """
 
     rubber: Rubber
-    """As it was given; conditions may change it on the way, see `WaveResult.rubber`."""
+    """As measured; under conditions each wave has another one, see `WaveResult.rubber`."""
     sines: SineStack
     load: NominalLoad
     scales: list[WaveResult]
     planned: int
     """Number of waves to solve."""
     conditions: Conditions | None = None
-    """What changed the rubber on the way, and the area term."""
+    """Conditions of the rubber, and the area term."""
 
     @property
     def status(self) -> Status:
-        """`converged` if every wave solved so far may be used, else the status of the last."""
+        """`converged` if every wave so far has converged, else the status of the last."""
         return self.scales[-1].status if self.scales else Status.CONVERGED
 
     @property
     def converged(self) -> bool:
-        """Whether every wave solved so far may be used."""
+        """Whether every wave so far has converged."""
         return all(scale.converged for scale in self.scales)
 
     @property
@@ -204,7 +207,7 @@ class Prediction:
 
     @property
     def adhesive_friction(self) -> float:
-        """Friction coefficient of the area term [-], NaN where none was asked for or at rest."""
+        """Friction coefficient of the area term [-]; NaN without an area term, and at rest."""
         if self.conditions is None or not self.scales:
             return math.nan
         kelvin = self.scales[-1].details.get("contact_temperature")
@@ -217,18 +220,18 @@ class Prediction:
 
     @property
     def total_friction(self) -> float:
-        """Hysteresis and area term together [-], NaN where no area term was asked for."""
+        """Sum of hysteresis and area term [-]; NaN without an area term."""
         return self.friction + self.adhesive_friction
 
     @property
     def extrapolation(self) -> Extrapolation:
-        """What of it rests on the rubber beyond its measured frequencies."""
+        """Share of the friction that uses the rubber beyond its measured frequencies."""
         friction = self._of_converged([s.friction for s in self.scales])
         return of_sum([scale.extrapolation for scale in self.scales], friction)
 
     @property
     def cut_off_exponents(self) -> CutOffExponents:
-        """How it changes with the cut-off length, over the last octave of its own waves."""
+        """Exponents of the cut-off, over the last octave of the waves."""
         if not self.converged:
             return NOT_CONVERGED
         return of_curve(
@@ -244,15 +247,15 @@ class Prediction:
         return "converged" if self.converged else self.failure()
 
     def failure(self) -> str:
-        """Return a sentence on the last wave, which did not converge."""
+        """Return a sentence about the last wave, which did not converge."""
         scale = self.scales[-1]
         return (
-            f"{self.place()} did not converge: {scale.why} after {scale.newton_iterations} "
+            f"{self.last_wave()} did not converge: {scale.why} after {scale.newton_iterations} "
             f"Newton iterations, residual {scale.residual:.2g}"
         )
 
-    def place(self) -> str:
-        """Return which wave the last one is, in words."""
+    def last_wave(self) -> str:
+        """Return number and data of the last wave, in words."""
         scale = self.scales[-1]
         return (
             f"wave {len(self.scales)} of {self.planned} "
@@ -263,8 +266,6 @@ class Prediction:
 
     def to_dataset(self) -> xr.Dataset:
         """Return everything as a labelled Dataset over the dimension `scale`."""
-        from gripscale.wave.result import CHAIN, LW, labelled, waves_to_dataset
-
         running = {
             "running_contact_fraction": (
                 self.running_contact_fraction,
@@ -286,7 +287,16 @@ class Prediction:
                 for part in ("wavelength", "amplitude")
             }
         )
-        data = data.assign(_class_pressures(self.scales))
+        classes = [
+            np.ravel(s.details.get(CLASS_PRESSURES, s.pressure_received)) for s in self.scales
+        ]
+        most = max((len(pressures) for pressures in classes), default=0)
+        if most > 1:
+            padded = [np.pad(p, (0, most - len(p)), constant_values=np.nan) for p in classes]
+            words = "pressure on each class of equal load"
+            data[CLASS_PRESSURES] = labelled(
+                ("scale", "pressure_class"), np.array(padded), "Pa", words, CHAIN
+            )
         totals = {
             "total_contact_fraction": self.contact_fraction,
             "total_friction": self.friction,
@@ -312,17 +322,42 @@ class Prediction:
         )
         return model.with_area_term(answer, self.adhesive_friction)
 
+    def plot(self) -> Figure:
+        """Draw area and friction down to each wave; see `gripscale.charts.contact_figure`."""
+        from gripscale.charts import contact_figure
+
+        return contact_figure({"chain": self.to_dataset()})
+
     @classmethod
     def from_dataset(cls, data: xr.Dataset) -> Prediction:
-        """Return the prediction a Dataset was made of, in memory or read from a file.
+        """Return the prediction of a Dataset, in memory or read from a file.
 
-        Raises `InputError` if it was made of something else.
+        Raises `InputError` if the Dataset is not that of a prediction of the chain.
         """
-        import xarray as xr
-
         checks.instance("data", data, xr.Dataset)
         try:
-            return cls._from_dataset(data)
+            scales = waves_from_dataset(data)
+            if CLASS_PRESSURES in data:
+                rows = [row[np.isfinite(row)] for row in data[CLASS_PRESSURES].values]
+                scales = [
+                    replace(s, details={**s.details, CLASS_PRESSURES: row}) if len(row) > 1 else s
+                    for s, row in zip(scales, rows, strict=True)
+                ]
+            time = str(data.attrs["load_time"])
+            conditions = json.loads(data.attrs.get("conditions", "null"))
+            return cls(
+                rubber=Rubber.from_dict(json.loads(data.attrs["rubber_parameters"])),
+                sines=SineStack(data["sines_wavelength"].values, data["sines_amplitude"].values),
+                load=NominalLoad(
+                    pressure=float(data["nominal_pressure"]),
+                    speed=float(data["nominal_speed"]),
+                    footprint=float(data["footprint"]),
+                    load_time="passage" if time == "passage" else float(time),
+                ),
+                scales=scales,
+                planned=int(data.attrs["planned_waves"]),
+                conditions=None if conditions is None else Conditions.from_dict(conditions),
+            )
         except (KeyError, TypeError, ValueError) as error:
             kind = data.attrs.get("model") or data.attrs.get("title") or "another kind"
             raise InputError(
@@ -330,61 +365,13 @@ class Prediction:
                 f"Dataset of {kind}"
             ) from error
 
-    @classmethod
-    def _from_dataset(cls, data: xr.Dataset) -> Prediction:
-        from gripscale.wave.result import waves_from_dataset
-
-        stated = str(data.attrs["load_time"])
-        conditions = json.loads(data.attrs.get("conditions", "null"))
-        load = NominalLoad(
-            pressure=float(data["nominal_pressure"]),
-            speed=float(data["nominal_speed"]),
-            footprint=float(data["footprint"]),
-            load_time="passage" if stated == "passage" else float(stated),
-        )
-        return cls(
-            rubber=Rubber.from_dict(json.loads(data.attrs["rubber_parameters"])),
-            sines=SineStack(data["sines_wavelength"].values, data["sines_amplitude"].values),
-            load=load,
-            scales=_with_class_pressures(waves_from_dataset(data), data),
-            planned=int(data.attrs["planned_waves"]),
-            conditions=None if conditions is None else Conditions.from_dict(conditions),
-        )
-
     def _of_converged(self, values: Sequence[float]) -> Array:
         usable = np.array([scale.converged for scale in self.scales], dtype=bool)
         return np.where(usable, np.array(values, dtype=float), math.nan)
 
 
-def _class_pressures(scales: Sequence[WaveResult]) -> dict[str, xr.Variable]:
-    """Return the pressures each wave was solved under, where there are several."""
-    from gripscale.wave.result import CHAIN, labelled
-
-    listed = [np.ravel(s.details.get(CLASS_PRESSURES, s.pressure_received)) for s in scales]
-    most = max((len(pressures) for pressures in listed), default=0)
-    if most < 2:
-        return {}
-    values = np.array([np.pad(p, (0, most - len(p)), constant_values=np.nan) for p in listed])
-    words = "pressure on each class of equal load", CHAIN
-    return {CLASS_PRESSURES: labelled(("scale", "pressure_class"), values, "Pa", *words)}
-
-
-def _with_class_pressures(scales: list[WaveResult], data: xr.Dataset) -> list[WaveResult]:
-    """Return the waves with the pressures they were solved under, if `data` has any."""
-    if CLASS_PRESSURES not in data:
-        return scales
-    rows = [row[np.isfinite(row)] for row in data[CLASS_PRESSURES].values]
-    return [
-        replace(s, details={**s.details, CLASS_PRESSURES: row}) if len(row) > 1 else s
-        for s, row in zip(scales, rows, strict=True)
-    ]
-
-
-# Conditions that change the rubber on the way from wave to wave.
-
-
 class RubberAt(Protocol):
-    """Conditions that change the rubber on the way: temperature, strain, what was solved so far."""
+    """Rubber of each wave, which may depend on the waves solved before."""
 
     def __call__(self, wave: Sine, so_far: Prediction) -> Rubber:
-        """Return the rubber as it is on `wave`, next after those of `so_far`."""
+        """Return the rubber on `wave`, the next one after those of `so_far`."""

@@ -13,13 +13,12 @@ from dataclasses import fields
 from typing import Any, ClassVar, Protocol, runtime_checkable
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
-
-Array = NDArray[np.float64]
 
 BOLTZMANN = 8.617333262e-5
 """k_B [eV/K]: CODATA 2018."""

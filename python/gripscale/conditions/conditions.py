@@ -17,7 +17,7 @@ from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from gripscale.conditions.area_term import (
     InterfacialShearStress,
@@ -27,13 +27,11 @@ from gripscale.conditions.area_term import (
 )
 from gripscale.conditions.flash_temperature import ThermalProperties
 from gripscale.core import checks
+from gripscale.core.arrays import Array, ComplexArray, Mask
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.rubber import Rubber
 from gripscale.rubber.softening import SofteningLaw, softened, softening_from_dict
-
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 StrainNorm = Literal["slope", "stretch"]
 STRAIN_NORMS = ("slope", "stretch")
@@ -282,9 +280,9 @@ class StateByScale:
     """f, softened over measured E' [-]."""
     loss_modulus_ratio: Array
     """g, softened over measured E'' [-]."""
-    strain_extrapolated: NDArray[np.bool_]
+    strain_extrapolated: Mask
     """Where the strain lies outside the measured range of the softening."""
-    temperature_extrapolated: NDArray[np.bool_]
+    temperature_extrapolated: Mask
     """Where the temperature lies outside the measured range of the shift."""
     rubber: RubberByScale
     """The rubber of all scales."""

@@ -26,11 +26,10 @@ from dataclasses import dataclass, field, replace
 from typing import Generic, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gripscale.core.arrays import Array
 from gripscale.core.errors import ConvergenceError
 
-Array = NDArray[np.float64]
 S = TypeVar("S")
 
 HISTORY = 3

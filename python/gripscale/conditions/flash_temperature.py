@@ -65,15 +65,13 @@ from typing import Any, Literal, Protocol
 
 import numpy as np
 import scipy.fft
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.special import erfc, gamma, wofz
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array, ComplexArray
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
-
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 
 class ThermalProperties(Checked):

@@ -1,50 +1,86 @@
-"""Contact on one grid: the points that touch, by a primal-dual active set.
+"""Contact on one grid by a primal-dual active set, with a preconditioned Krylov solver.
 
-Asked for are p >= 0, gap = K p + u_0 - h >= 0, p gap = 0 and mean p = p_0. With the gap closed at
+The contact has p >= 0, gap = K p + u_0 - h >= 0, p gap = 0 and mean p = p_0. With the gap closed at
 the points A in contact and p = 0 elsewhere, the next A holds the points of A with p > 0 and the
 others with gap < 0 (M. Hintermueller, K. Ito & K. Kunisch, SIAM J. Optim. 13 (2002) 865,
 doi:10.1137/S1052623401383558). K is not symmetric but its symmetric part is positive definite, so
-the solution is unique. The linear system is solved the better the fewer points change sides, and
-well at the end; solved loosely to the end, some points change sides for ever.
+the solution is unique. The tolerance of the linear system falls with the number of points that
+change sides; with a loose tolerance at the end the active sets may cycle.
+
+With K the displacement under a pressure, S = 1/K its inverse over the full surface, a subscript A
+for the points in contact, h the heights, u_0 the rigid approach and P the load, the linear system
+is
+
+    K_AA p + u_0 = h_A,   sum p = P.
+
+It is preconditioned from the left: means are left out (P r = r - mean r), which removes u_0, the
+open gap is extended a little beyond A (E), and S is applied,
+
+    Q r = P S_A E P r,       Q 1 = 0,   1 . Q r = 0,
+
+so that Q K_AA p = Q h_A is solved for corrections p of zero sum, and Q (h_A - K_AA p) is, to first
+order, the missing pressure. GMRES (Y. Saad & M. H. Schultz, SIAM J. Sci. Stat. Comput. 7 (1986)
+856, doi:10.1137/0907058) runs in single precision on the residual, which is recomputed in double
+precision after each run (iterative refinement): single precision costs no accuracy. A system of few
+points that one run does not solve is eliminated directly.
+
+The extension E: the pressure that closes a gap r at A also lifts the surface outside A. With this
+displacement u known everywhere, S u would be p at once. For an elastic body
+
+    (S u)(x)  ~  sum_y (u(x) - u(y)) / |x - y|^(d+1),    d = 1 on a line, 2 on a map
+
+(the half Laplacian: M. Kwasnicki, Fract. Calc. Appl. Anal. 20 (2017) 7, def. 2.7,
+doi:10.1515/fca-2017-0002) is zero outside A: u(x) there is the mean of the others with these
+weights. E takes this mean over the neighbours of x in A. Neighbours outside A count as u(x) itself,
+and all farther points as zero with the weight `FAR`, chosen by measurements on elastic and lossy
+rubbers.
 """
 
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse
 from numpy.typing import NDArray
 
-from gripscale.half_space.grid import Mask
+from gripscale.core.arrays import Array, Mask
 from gripscale.half_space.response import AnyArray, Response
-
-# The gap carried a little beyond the contact, where the pressure has to vanish.
-#
-# The pressure p that closes a gap r at the points A in contact lifts the surface outside A by K p
-# as well. Were that known, S = 1/K of the whole displacement would be p at once. Of an elastic body
-#
-#     (S u)(x)  ~  sum_y (u(x) - u(y)) / |x - y|^(d+1),    d = 1 on a line, 2 on a map
-#
-# (the half Laplacian: M. Kwasnicki, Fract. Calc. Appl. Anal. 20 (2017) 7, def. 2.7,
-# doi:10.1515/fca-2017-0002), which is zero outside A: u there is the mean of the others with these
-# weights. Kept are the points of A at most two steps away along each axis; points outside A count
-# as u(x) itself and all that is farther as zero with a weight of 0.3, the best of 0 to 3 measured
-# on elastic and lossy rubbers.
+from gripscale.theory.half_plane import GridContact
 
 Index = NDArray[np.intp]
 
 REACH = 1
-"""Steps along each axis."""
+"""Steps along each axis to the neighbours that the extension uses."""
 FAR = 2.0
-"""Weight of what is farther, that of a neighbour being one."""
+"""Weight of all farther points, over that of a neighbour along an axis."""
+SHORTEST, LONGEST = 60, 240
+"""Most products of a run of GMRES, doubled after each run that does not reach its target. As many
+vectors of the points in contact are kept. Very lossy rubber needs some hundred."""
+REDUCTION = 1e-4
+"""Least reduction of the residual in one run: single precision does not resolve more."""
+RUNS = 5
+FEW = 600
+"""Points in contact up to which the system is eliminated if a run of GMRES does not reach its
+target. Not before: elimination wakes the threads of BLAS, whose waiting costs more than the
+iterations."""
+TOLERANCE = 1e-6
+"""Missing pressure over pressure at which the linear system counts as solved."""
+START_TOLERANCE = 1e-4
+"""The same on a grid that another one starts from: its contact fraction is reported, too."""
+LOOSEST = 1e-2
+TIGHTENING = 1e-2
+"""Missing pressure allowed, over the share of points that changed sides last."""
+PATIENCE, GIVING_UP = 6, 18
+"""Iterations without fewer wrong points before only the worse half of them may change sides, and
+before the iteration ends."""
 
 
 @dataclass(frozen=True)
 class Extension:
-    """Points around a contact and what a gap is carried there by."""
+    """Points around a contact, and the weights that extend a gap to them."""
 
     around: Index
     """As indices of the flattened grid."""
@@ -54,93 +90,51 @@ class Extension:
     @classmethod
     def of(cls, active: Mask) -> Extension:
         """Return the extension from the points `active` of a periodic grid."""
-        around = np.flatnonzero(_near(active) & ~active)
-        touching = np.flatnonzero(active)
+        steps = range(-REACH, REACH + 1)
+        near = active
+        for axis in range(active.ndim):
+            near = near | np.logical_or.reduce([np.roll(near, by, axis) for by in steps if by])
+        around, in_contact = np.flatnonzero(near & ~active), np.flatnonzero(active)
         order = np.full(active.size, -1, dtype=np.int32)
-        order[touching] = np.arange(len(touching), dtype=np.int32)
+        order[in_contact] = np.arange(len(in_contact), dtype=np.int32)
+
+        position = np.unravel_index(around, active.shape)
+        moved = [
+            [(axis + by) % n for by in steps]
+            for axis, n in zip(position, active.shape, strict=True)
+        ]
         rows, columns, weights = [], [], []
-        for step, other in _neighbours(around, active.shape):
-            column = order[other]
+        for step in itertools.product(steps, repeat=active.ndim):
+            square = sum(by * by for by in step)
+            if square == 0:
+                continue
+            neighbour = np.zeros_like(around)
+            for n, by_step, by in zip(active.shape, moved, step, strict=True):
+                neighbour = neighbour * n + by_step[by + REACH]
+            column = order[neighbour]
             row = np.flatnonzero(column >= 0).astype(np.int32)
             rows.append(row)
             columns.append(column[row])
-            weights.append(np.full(len(row), _weight(step), dtype=np.float32))
-        row, weight = np.concatenate(rows), np.concatenate(weights)
-        total = np.bincount(row, weight, len(around)) + FAR
-        weight /= total[row].astype(np.float32)
-        shape = len(around), len(touching)
-        entries = weight, (row, np.concatenate(columns))
-        return cls(around, scipy.sparse.csr_array(entries, shape=shape))
-
-
-def _neighbours(around: Index, shape: tuple[int, ...]) -> Iterator[tuple[tuple[int, ...], Index]]:
-    """Yield each step and where it leads from the points `around` of a periodic grid."""
-    place = np.unravel_index(around, shape)
-    steps = range(-REACH, REACH + 1)
-    moved = [[(axis + by) % n for by in steps] for axis, n in zip(place, shape, strict=True)]
-    for step in itertools.product(steps, repeat=len(shape)):
-        if any(step):
-            other = np.zeros_like(around)
-            for n, axis, by in zip(shape, moved, step, strict=True):
-                other = other * n + axis[by + REACH]
-            yield step, other
-
-
-def _near(active: Mask) -> Mask:
-    """Return the points at most `REACH` steps along each axis from an active one."""
-    near = active
-    for axis in range(active.ndim):
-        moved = [np.roll(near, by, axis) for by in range(-REACH, REACH + 1) if by]
-        near = near | np.logical_or.reduce(moved)
-    return near
-
-
-def _weight(step: tuple[int, ...]) -> float:
-    square = sum(by * by for by in step)
-    return float(square ** (-0.5 * (len(step) + 1)))
-
-
-# Pressure that closes the gap at given points under a given load: GMRES on those points alone.
-#
-# With K the displacement under a pressure, S = 1/K its inverse over the full surface, a subscript A
-# for "at the points in contact", h the heights, u_0 the rigid approach and P the load,
-#
-#     K_AA p + u_0 = h_A,   sum p = P.
-#
-# Preconditioned from the left with S of what is open, carried a little beyond A (E, see
-# `extension`), and freed of u_0 by leaving out means (P r = r - mean r),
-#
-#     Q r = P S_A E P r,       Q 1 = 0,   1 . Q r = 0,
-#
-# this is Q K_AA p = Q h_A for corrections p of zero sum, and Q (h_A - K_AA p) is, to first order,
-# the pressure still missing. GMRES (Y. Saad & M. H. Schultz, SIAM J. Sci. Stat. Comput. 7 (1986)
-# 856, doi:10.1137/0907058) runs in single precision on what is missing, taken anew in double
-# precision after each run (iterative refinement), so that single precision costs no accuracy. A
-# system of few points that one run does not solve is eliminated.
-
-Array = NDArray[np.float64]
-
-SHORTEST, LONGEST = 60, 240
-"""Most products of a run of GMRES, twice as many after each that fell short; as many vectors of
-the points in contact are kept. Very lossy rubber needs some hundred."""
-REDUCTION = 1e-4
-"""Least reduction asked of one run: more would be lost in single precision."""
-RUNS = 5
-FEW = 600
-"""Points in contact up to which the system is eliminated if a run of GMRES falls short. Not at
-once: elimination wakes the threads of BLAS, whose waiting costs more than the iterations."""
+            weight = float(square ** (-0.5 * (active.ndim + 1)))
+            weights.append(np.full(len(row), weight, dtype=np.float32))
+        row_index, entries = np.concatenate(rows), np.concatenate(weights)
+        total = np.bincount(row_index, entries, len(around)) + FAR
+        entries /= total[row_index].astype(np.float32)
+        shape = len(around), len(in_contact)
+        places = row_index, np.concatenate(columns)
+        return cls(around, scipy.sparse.csr_array((entries, places), shape=shape))
 
 
 @dataclass(frozen=True)
 class ClosedGap:
-    """What closes the gap at the points in contact."""
+    """Solution of the linear system of the points in contact."""
 
     pressure: Array
     """At the points [Pa]."""
     displacement: Array
-    """Under it, over the whole grid [m], flattened."""
+    """Under this pressure, over the whole grid [m], flattened."""
     missing: float
-    """Pressure still missing over the pressure, both root mean square [-]."""
+    """Missing pressure over the pressure, both root mean square [-]."""
     products: int
     """Products with K and S each."""
 
@@ -158,7 +152,7 @@ class PointsInContact:
         self.products = 0
 
     def missing(self, gap: AnyArray) -> AnyArray:
-        """Return Q r [Pa] of what is open, r [m], at the points."""
+        """Return Q r [Pa] of the open gap r [m] at the points."""
         gap = (gap - gap.mean(dtype=np.float64)).astype(np.float32, copy=False)
         full, around = self._spread(gap), self._extension.around
         full[around] = self._extension.weights @ gap
@@ -177,7 +171,10 @@ class PointsInContact:
         return self.missing(self.displacement(pressure)[self._where])
 
     def _spread(self, values: AnyArray) -> AnyArray:
-        """Return `values` at the points and zero elsewhere; in single precision until the next."""
+        """Return `values` at the points and zero elsewhere.
+
+        In single precision the array is reused by the next call.
+        """
         single = values.dtype == np.float32
         full = self._single if single else np.zeros(self._single.size, dtype=values.dtype)
         full[self._where] = values
@@ -208,46 +205,46 @@ def close_gap(
     height : array
         Heights there [m].
     start : array
-        A pressure there with the load wanted [Pa]; its sum is kept.
+        A pressure there with the required load [Pa]; its sum is kept.
     displacement : array
-        K of it over the whole grid, flattened [m].
+        K of this pressure over the whole grid, flattened [m].
     tolerance : float
-        Missing pressure to stop at, over the pressure [-].
+        Missing pressure at the end, over the pressure [-].
     check : bool
-        Whether the missing pressure is worked out at the end and not taken from GMRES.
+        Whether the missing pressure is computed at the end and not taken from GMRES.
     """
     points = PointsInContact(response, where)
     pressure = start.copy()
     size, most = float(np.linalg.norm(pressure)), SHORTEST
     for run in range(RUNS + 1):
-        lacking = points.missing(height - displacement[where])
-        norm = float(np.linalg.norm(lacking))
+        residual = points.missing(height - displacement[where])
+        norm = float(np.linalg.norm(residual))
         if norm <= tolerance * size or run == RUNS or not np.isfinite(norm):
             break
         target, before = max(REDUCTION, 0.5 * tolerance * size / norm), points.products
-        correction, left = gmres(points, lacking / np.float32(norm), target, most)
+        correction, reduction = gmres(points, residual / np.float32(norm), target, most)
         short = points.products - before == most
         if short:
             most = min(2 * most, LONGEST)
         pressure += norm * correction
         pressure += (start.sum() - pressure.sum()) / len(pressure)
         if short and len(where) <= FEW:
-            pressure, left = _direct(response, where, height, float(start.sum())), 0.0
+            pressure, reduction = _eliminated(response, where, height, float(start.sum())), 0.0
         displacement = np.asarray(points.displacement(pressure), dtype=np.float64)
-        norm *= left
+        norm *= reduction
         if norm <= tolerance * size and not check:
             break
     return ClosedGap(pressure, displacement, norm / size, points.products)
 
 
-def _direct(response: Response, where: Index, height: Array, load: float) -> Array:
-    """Return the pressure by elimination, the rigid approach and the load as a border."""
-    shape, size = response.grid.shape, len(where)
-    place = np.unravel_index(where, shape)
-    apart = [(axis[:, None] - axis) % n for axis, n in zip(place, shape, strict=True)]
-    stiffest = response.smallest_compliance  # scales the border
+def _eliminated(response: Response, where: Index, height: Array, load: float) -> Array:
+    """Return the pressure by elimination, with the rigid approach and the load as a border."""
+    size, shape = len(where), response.grid.shape
+    position = np.unravel_index(where, shape)
+    distance = [(axis[:, None] - axis) % n for axis, n in zip(position, shape, strict=True)]
+    stiffest = response.smallest_compliance  # scales the border to the size of the other entries
     system = np.full((size + 1, size + 1), stiffest)
-    system[:size, :size] = response.influence[tuple(apart)]
+    system[:size, :size] = response.influence[tuple(distance)]
     system[size, size] = 0.0
     return np.asarray(np.linalg.solve(system, np.append(height, stiffest * load))[:size])
 
@@ -255,9 +252,9 @@ def _direct(response: Response, where: Index, height: Array, load: float) -> Arr
 def gmres(
     operator: Callable[[AnyArray], AnyArray], right: AnyArray, target: float, most: int
 ) -> tuple[AnyArray, float]:
-    """Return x with |right - operator(x)| at `target`, or at its least after `most` products.
+    """Return x with |right - operator(x)| <= `target`, or the least after `most` products.
 
-    The second value is what is left of |right|, as GMRES has it. `right` has unit length. Arnoldi
+    The second value is this residual as GMRES estimates it. `right` has unit length. Arnoldi
     vectors by modified Gram-Schmidt, least squares by rotations.
     """
     basis = [right]
@@ -292,35 +289,6 @@ def _rotated(turn: complex, first: float, second: float) -> tuple[float, float]:
     return c * first + s * second, c * second - s * first
 
 
-TOLERANCE = 1e-6
-"""Missing pressure over pressure at which the linear system counts as solved."""
-START_TOLERANCE = 1e-4
-"""The same on a grid that another one starts from: its contact fraction by octave is told, too."""
-LOOSEST = 1e-2
-TIGHTENING = 1e-2
-"""Missing pressure allowed, over the share of points that changed sides last."""
-PATIENCE, GIVING_UP = 6, 18
-"""Iterations without fewer wrong points before only the worse half of them may change sides, and
-before it is no use."""
-
-
-@dataclass(frozen=True)
-class GridContact:
-    """Solution on one grid, arrays of its shape."""
-
-    pressure: Array
-    """[Pa]"""
-    gap: Array
-    """[m]"""
-    active: Mask
-    iterations: int
-    products: int
-    missing: float
-    """Pressure still missing over the pressure [-]."""
-    settled: bool
-    """Whether the points in contact stopped changing, with the linear system solved."""
-
-
 def solve_grid(
     response: Response,
     height: Array,
@@ -330,8 +298,8 @@ def solve_grid(
 ) -> GridContact:
     """Return the contact with `height` [m] under the load of `start`.
 
-    `start` is a pressure [Pa], positive where contact is expected, with the mean that is wanted;
-    `goal` the missing pressure over the pressure at which the linear system counts as solved.
+    `start` is a pressure [Pa] with the required mean, positive where contact is expected; `goal`
+    the missing pressure over the pressure at which the linear system counts as solved.
     """
     flat, shape = height.reshape(-1), height.shape
     pressure, active = start.reshape(-1), start.reshape(-1) > 0.0
@@ -340,8 +308,11 @@ def solve_grid(
     tolerance, products, fewest, waited = LOOSEST, 1, flat.size + 1, 0
     for iteration in range(1, most_iterations + 1):
         where = np.flatnonzero(active)
+        # the pressure at the points without tension, scaled to the load; even if there is none
+        positive = np.maximum(pressure[where], 0.0)
+        total = positive.sum()
         tried = np.zeros(flat.size)
-        tried[where] = _loaded(pressure[where], load)
+        tried[where] = load / len(where) if total == 0.0 else positive * (load / total)
         change = (tried - pressure).astype(np.float32).reshape(shape)
         displacement += response.displacement(change).reshape(-1)
         closed = close_gap(
@@ -369,7 +340,10 @@ def solve_grid(
             break
         if waited > PATIENCE:
             wrong &= excess >= np.median(excess[wrong])
-        tolerance = _next_tolerance(tolerance, count / len(where), count < fewest, goal)
+        # tighter with fewer changes, and tenfold where the number of wrong points does not fall
+        fewer = count < fewest
+        wanted = min(tolerance if fewer else 0.1 * tolerance, TIGHTENING * (count / len(where)))
+        tolerance = max(wanted, goal if fewer else TOLERANCE)
         fewest = min(fewest, count)
         active = active ^ wrong
     return GridContact(
@@ -377,21 +351,7 @@ def solve_grid(
         gap.reshape(shape),
         active.reshape(shape),
         iteration,
-        products,
-        closed.missing,
-        count == 0 and closed.missing <= goal,
+        settled=count == 0 and closed.missing <= goal,
+        products=products,
+        missing=closed.missing,
     )
-
-
-def _loaded(pressure: Array, load: float) -> Array:
-    """Return `pressure` without tension, scaled to sum to `load`; even if there is none."""
-    positive = np.maximum(pressure, 0.0)
-    total = positive.sum()
-    if total == 0.0:
-        return np.full(len(pressure), load / len(pressure))
-    return np.asarray(positive * (load / total))
-
-
-def _next_tolerance(tolerance: float, changed: float, fewer: bool, goal: float) -> float:
-    wanted = min(tolerance if fewer else 0.1 * tolerance, TIGHTENING * changed)
-    return max(wanted, goal if fewer else TOLERANCE)

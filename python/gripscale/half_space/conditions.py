@@ -21,7 +21,6 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 import scipy.fft
-from numpy.typing import NDArray
 
 from gripscale.conditions import flash_temperature as rise
 from gripscale.conditions.conditions import Conditions, RubberByScale, StateByScale, state_by_scale
@@ -32,13 +31,12 @@ from gripscale.conditions.fixed_point import (
     unpack_state,
 )
 from gripscale.conditions.flash_temperature import LossDepth, ThermalProperties
-from gripscale.half_space.grid import Array, Grid, Mask
+from gripscale.core.arrays import Array, ComplexArray, Mask
+from gripscale.half_space.grid import Grid
 from gripscale.half_space.grid_sequence import GridRecord, KnownLevels
 from gripscale.half_space.result import RoughContact
 from gripscale.rubber import Rubber
 from gripscale.wave.problem import Status
-
-ComplexArray = NDArray[np.complex128]
 
 ROUND_OFF = 1e-12
 """Share of the friction below which the heat of an octave is neglected."""

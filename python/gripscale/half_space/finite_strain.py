@@ -1,8 +1,8 @@
-"""What finite strain changes: the same lines in the block and in the half-space, pair by pair.
+"""Effect of finite strain: the same lines in the block and in the half-space, pair by pair.
 
-The half-space takes a whole profile at small strain, the block a short window of it, cut off at
-some millimetres, at finite strain. Over such windows both can be had, and their ratio is what
-finite strain changes.
+The half-space solves a whole profile at small strain, the block a short window of it, cut off at
+some millimetres, at finite strain. Both solve such windows, and the ratio of their answers is the
+correction for finite strain.
 """
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ if TYPE_CHECKING:
 
 
 ANSWERS = ("contact_fraction", "friction_from_dissipation")
-"""What a correction is for. Where crests are as narrow as columns the friction from dissipation is
-the better of the two: traction hangs on the flank a single node happens to sit on."""
+"""Quantities with a correction. Where crests are as narrow as columns the friction from dissipation
+is the better one: traction depends on the flank under a single node."""
 RESAMPLES = 9999
 
 
@@ -48,7 +48,7 @@ class Pair:
 
     @property
     def status(self) -> str:
-        """`converged`, or why this pair does not count."""
+        """`converged`, or the reason not to use this pair."""
         if not self.block.converged:
             return self.block.why
         if not self.half_space.converged:
@@ -57,7 +57,7 @@ class Pair:
 
     @property
     def converged(self) -> bool:
-        """Whether both may be used."""
+        """Whether both solutions converged."""
         return self.status == "converged"
 
 
@@ -83,7 +83,7 @@ class FiniteStrainPairs:
 
     @property
     def converged(self) -> list[Pair]:
-        """The pairs that count."""
+        """The pairs of which both solutions converged."""
         return [pair for pair in self.pairs if pair.converged]
 
     def mean(self, name: str, which: str = "block") -> float:
@@ -102,7 +102,7 @@ class FiniteStrainPairs:
             return Correction(factor, math.nan, math.nan)
         both = [[getattr(p.block, name), getattr(p.half_space, name)] for p in self.converged]
         block, half_space = np.array(both, dtype=float).T
-        found = stats.bootstrap(
+        interval = stats.bootstrap(
             (block, half_space),
             lambda a, b, axis: a.mean(axis=axis) / b.mean(axis=axis),
             paired=True,
@@ -111,7 +111,7 @@ class FiniteStrainPairs:
             method="percentile",
             rng=np.random.default_rng(seed),
         ).confidence_interval
-        return Correction(factor, float(found.low), float(found.high))
+        return Correction(factor, float(interval.low), float(interval.high))
 
     def to_dataset(self) -> xr.Dataset:
         """Return both answers of each line, over `line`, and the corrections."""
@@ -131,10 +131,10 @@ class FiniteStrainPairs:
         data["length"] = along([p.line.length for p in self.pairs], "m", "length of the line")
         out = xr.Dataset(data, {"line": np.arange(len(self.pairs))})
         for name in ANSWERS:
-            found = self.correction(name)
+            correction = self.correction(name)
             out.attrs |= {
-                f"{name}_correction": found.factor,
-                f"{name}_correction_interval": [found.low, found.high],
+                f"{name}_correction": correction.factor,
+                f"{name}_correction_interval": [correction.low, correction.high],
             }
         return out
 
@@ -149,7 +149,7 @@ def solve_both_ways(
     workers: int | None = None,
     on_pair: Callable[[Pair], None] | None = None,
 ) -> FiniteStrainPairs:
-    """Return contact and friction of each line at finite strain, and at small strain beside it.
+    """Return contact and friction of each line at finite strain and at small strain.
 
     Parameters
     ----------
@@ -186,14 +186,14 @@ def solve_both_ways(
             raise Stopped
         return Pair(line, in_block(line, periodic=True), in_half_space(line, periodic=True))
 
-    found: dict[int, Pair] = {}
+    pairs: dict[int, Pair] = {}
     jobs = [partial(solve, line) for line in lines]
     with closing(in_threads(jobs, worker_count(workers))) as stream:
-        for place, pair in stream:
-            found[place] = pair
+        for index, pair in stream:
+            pairs[index] = pair
             if on_pair is not None:
                 on_pair(pair)
-    return FiniteStrainPairs([found[place] for place in range(len(lines))])
+    return FiniteStrainPairs([pairs[index] for index in range(len(lines))])
 
 
 def spread_windows(
@@ -204,7 +204,7 @@ def spread_windows(
     Parameters
     ----------
     profiles : sequence of Profile
-        Cut into `windows` of `length` [m], of which those taken are spread evenly.
+        Cut into `windows` of `length` [m]; the returned ones are spread evenly.
     smallest_wavelength : float
         Shorter waves are left out [m].
 
@@ -214,7 +214,7 @@ def spread_windows(
         As `windows` does, or if `most` is not a whole number from 1.
     """
     number = checks.whole("most", most, least=1, most=100_000)
-    given = checks.instances("profiles", profiles, Profile)
-    every = [window for profile in given for window in windows(profile, length)]
-    taken = np.linspace(0, len(every) - 1, min(number, len(every))).round().astype(int)
-    return [one_period(every[place], smallest_wavelength) for place in taken]
+    lines = checks.instances("profiles", profiles, Profile)
+    every = [window for line in lines for window in windows(line, length)]
+    chosen = np.linspace(0, len(every) - 1, min(number, len(every))).round().astype(int)
+    return [one_period(every[index], smallest_wavelength) for index in chosen]

@@ -1,4 +1,11 @@
-"""Synthetic maps of a measured surface, and their lines, as models that can be compared."""
+"""Synthetic isotropic maps of a measured surface: the factor from its lines to the surface.
+
+A line is solved in plane strain, as if the surface were grooves across the sliding direction. The
+maps are synthetic (`gripscale.surface.isotropic_maps`). Each is solved whole, sliding along x and
+along y, and so are single lines of it:
+
+    factor = mean over maps (map) / mean over maps (lines of the map)
+"""
 
 from __future__ import annotations
 
@@ -13,8 +20,8 @@ import numpy as np
 
 from gripscale import model
 from gripscale.core import checks, provenance
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
-from gripscale.half_space.grid import Array
 from gripscale.half_space.result import RoughContact
 from gripscale.half_space.solve import solve_rough_contact
 from gripscale.half_space.windows import WindowContacts, solve_windows
@@ -31,16 +38,10 @@ if TYPE_CHECKING:
     from gripscale.rubber import Rubber
 
 
-# What an isotropic map has in place of its lines: the factor from a measured line to a surface.
-#
-# A line is solved in plane strain, as if the surface were grooves across the way of sliding. The
-# maps are synthetic (`gripscale.surface.isotropic_maps`); each is solved whole, sliding along x and
-# along y, and so are single lines of it:
-#
-#     factor = mean over maps (map) / mean over maps (lines of the map)
-
 QUANTITIES = ("contact_fraction", "friction_from_dissipation")
-"""Of a contact; the friction that is right to some per cent with four points in a wave."""
+"""Of a contact. This friction is accurate to a few per cent with four points in a wave."""
+KEPT = 16
+"""Maps kept in memory, for other speeds and for the lines of the same map."""
 
 
 @dataclass(frozen=True)
@@ -61,9 +62,9 @@ class MapOverLines:
 
     construction: str
     length: float
-    """Of a map each way, and of a window [m]."""
+    """Length of a map along each axis, and of a window [m]."""
     smallest_wavelength: float
-    """Of every surface that was solved [m]."""
+    """Of every solved surface [m]."""
     measured: WindowContacts = field(repr=False)
     seeds: list[int]
     maps: list[MapContact] = field(repr=False)
@@ -77,17 +78,17 @@ class MapOverLines:
         """Return the standard deviation of map by lines from map to map; NaN for a single one."""
         if len(self.maps) < 2:
             return math.nan
-        ratios = [_ratio(one.whole[name], one.lines[name]) for one in self.maps]
+        ratios = [_ratio(contact.whole[name], contact.lines[name]) for contact in self.maps]
         return float(np.std(ratios, ddof=1))
 
     def match(self, name: str) -> float:
-        """Return mean over the maps' lines by mean over the measured windows: one if they match."""
+        """Return mean over the maps' lines by mean over the measured windows; 1 if they match."""
         return _ratio(self._mean("lines", name), self.measured.mean(name))
 
     def uncertainty(self, name: str) -> float:
-        """Return the standard error of `match`, of the windows' and the maps' scatter."""
+        """Return the standard error of `match`, from the scatter of windows and maps."""
         windows = self.measured.values(name)
-        lines = np.array([one.lines[name] for one in self.maps])
+        lines = np.array([contact.lines[name] for contact in self.maps])
         if min(windows.size, lines.size) < 2:
             return math.nan
         relative = [
@@ -122,7 +123,7 @@ class MapOverLines:
         )
 
     def _mean(self, part: str, name: str) -> float:
-        return float(np.mean([getattr(one, part)[name] for one in self.maps]))
+        return float(np.mean([getattr(contact, part)[name] for contact in self.maps]))
 
 
 def map_over_lines(
@@ -141,7 +142,7 @@ def map_over_lines(
     on_batch: Callable[[int, float], None] | None = None,
     on_map: Callable[[MapContact], None] | None = None,
 ) -> MapOverLines:
-    """Return what synthetic isotropic maps of a measured surface have in place of their lines.
+    """Compare synthetic isotropic maps of a measured surface with their lines.
 
     Multiply contact and friction of the measured line by the factors for a best estimate of the
     surface, if the maps' lines match the measured ones.
@@ -153,7 +154,7 @@ def map_over_lines(
     profile, smallest_wavelength, construction, points, seeds, on_batch
         As for `gripscale.surface.isotropic_maps`.
     lines : int
-        Lines solved of each map in each of two directions, evenly spaced.
+        Number of solved lines of each map in each of two directions, evenly spaced.
     tolerance : float
         Estimated relative error of the lines and windows. Maps have four points in the smallest
         wave, whatever the errors.
@@ -193,7 +194,12 @@ def map_over_lines(
     if not contacts:
         raise InputError("seeds must be one whole number at least; got none")
     length = points * surface.step[0]
-    measured = _measured(rubber, profile, length, tolerance, load)
+    windows = [
+        contact
+        for line in ([profile] if isinstance(profile, Profile) else profile)
+        for contact in solve_windows(rubber, line, length, tolerance=tolerance, **load).contacts
+    ]
+    measured = WindowContacts(windows)
     return MapOverLines(construction, length, smallest_wavelength, measured, chosen, contacts)
 
 
@@ -228,8 +234,8 @@ def solve_map_and_lines(
     return MapContact(whole.values, of_lines.values, whole.between_directions)
 
 
-class Solved(NamedTuple):
-    """Contact along x and along y."""
+class TwoWayContact(NamedTuple):
+    """Contact of a surface that slides along x and along y."""
 
     values: dict[str, float]
     """Means of the two; NaN if a contact did not converge."""
@@ -242,100 +248,88 @@ class Solved(NamedTuple):
 
 def solve_whole(
     rubber: Rubber, surface: HeightMap, *, workers: int | None = None, **load: Any
-) -> Solved:
+) -> TwoWayContact:
     """Return the contact of a square, periodic map with four points in the smallest wave.
 
     Raises `InputError` as `solve_rough_contact`, and if the map is no square.
     """
     options = {"periodic": True, "tolerance": None, "workers": workers, **load}
     return _both_ways(
-        [[solve_rough_contact(rubber, one, **options)] for one in _directions(surface)]
+        [[solve_rough_contact(rubber, turned, **options)] for turned in _directions(surface)]
     )
 
 
 def solve_lines_of(
     rubber: Rubber, surface: HeightMap, *, lines: int, tolerance: float, **load: Any
-) -> Solved:
+) -> TwoWayContact:
     """Return the mean contact of lines of a square, periodic map, evenly spaced.
 
     Raises `InputError` as `solve_rough_contact`, and if the map is no square.
     """
     number = checks.whole("lines", lines, least=1, most=surface.z.shape[0])
-    places = np.linspace(0, surface.z.shape[0], number, endpoint=False).astype(int)
+    rows = np.linspace(0, surface.z.shape[0], number, endpoint=False).astype(int)
     options = {"periodic": True, "tolerance": tolerance, **load}
     return _both_ways(
         [
-            [solve_rough_contact(rubber, Profile(one.x, one.z[:, at]), **options) for at in places]
-            for one in _directions(surface)
+            [
+                solve_rough_contact(rubber, Profile(turned.x, turned.z[:, row]), **options)
+                for row in rows
+            ]
+            for turned in _directions(surface)
         ]
     )
 
 
 def _directions(surface: HeightMap) -> list[HeightMap]:
+    """Return a square map and the map turned, so that both slide along x."""
     if surface.z.shape[0] != surface.z.shape[1]:
         raise InputError(f"surface must have equal points each way; got {surface.z.shape}")
     return [surface, HeightMap(surface.x, surface.y, surface.z.T)]
 
 
-def _both_ways(contacts: list[list[RoughContact]]) -> Solved:
+def _both_ways(contacts: list[list[RoughContact]]) -> TwoWayContact:
     along, across = (
         {name: WindowContacts(group).mean(name) for name in (*QUANTITIES, "friction")}
         for group in contacts
     )
-    every = [one for group in contacts for one in group]
-    bad = [str(one.status) for one in every if not one.converged]
-    return Solved(
+    every = [contact for group in contacts for contact in group]
+    bad = [str(contact.status) for contact in every if not contact.converged]
+    return TwoWayContact(
         {name: 0.5 * (along[name] + across[name]) for name in along},
         {name: _ratio(along[name], across[name]) for name in along},
         bad[0] if bad else "converged",
         of_sum(
-            [one.extrapolation for one in every],
-            [one.friction_from_dissipation for one in every],
+            [contact.extrapolation for contact in every],
+            [contact.friction_from_dissipation for contact in every],
         ),
         NOT_CONVERGED
         if bad
         else of_mean(
-            [one.cut_off_exponents for one in every],
-            *([getattr(one, name) for one in every] for name in QUANTITIES),
+            [contact.cut_off_exponents for contact in every],
+            *([getattr(contact, name) for contact in every] for name in QUANTITIES),
         ),
     )
 
 
 def _ratio(above: float, below: float) -> float:
-    """Return NaN where there is nothing to compare with: friction at rest, or of a flat line."""
+    """Return the ratio, NaN over zero: friction at rest, or of a flat line."""
     return above / below if below else math.nan
-
-
-def _measured(
-    rubber: Rubber,
-    profile: Profile | Sequence[Profile],
-    length: float,
-    tolerance: float,
-    load: dict[str, Any],
-) -> WindowContacts:
-    profiles = [profile] if isinstance(profile, Profile) else profile
-    parts = [solve_windows(rubber, one, length, tolerance=tolerance, **load) for one in profiles]
-    return WindowContacts([contact for part in parts for contact in part.contacts])
-
-
-KEPT = 16
-"""Maps kept in memory for whoever asks next: the map and its lines, another speed."""
 
 
 @dataclass(frozen=True)
 class SyntheticMap(model.Model):
-    """An isotropic map made from all cleaned profiles, see `gripscale.surface.isotropic_maps`.
+    """Model by an isotropic map of all cleaned profiles, see `gripscale.surface.isotropic_maps`.
 
-    The mean of sliding along x and along y.
+    The answer is the mean of sliding along x and along y.
 
     Parameters
     ----------
     seed : int
-        Which map.
+        Seed of the map.
     smallest_wavelength : float
         Smallest wave of the map [m]; its length is `points / 4` of them.
     lines : int
-        How many of its lines are solved each way; 0 for the map itself.
+        Number of solved lines along each axis; 0 solves the map itself.
     points, construction
         See `gripscale.surface.isotropic_maps`.
     tolerance : float
@@ -360,7 +354,7 @@ class SyntheticMap(model.Model):
         *,
         on_progress: Callable[[Any], None] | None = None,
     ) -> xr.Dataset:
-        """Return the answer; `on_progress` is called while the map is drawn.
+        """Return the answer; `on_progress` is called while the map is made.
 
         Raises
         ------
@@ -369,19 +363,26 @@ class SyntheticMap(model.Model):
         """
         import xarray as xr
 
-        key = (*_profiles(surface),), self.seed, self.smallest_wavelength
-        heights = _drawing(*key, self.points, self.construction).map(on_progress)
+        if surface.measured is None or surface.measured.map is not None:
+            raise InputError("a synthetic map is made from measured profiles; the surface has none")
+        heights = _map_of(
+            tuple(surface.measured.cleaned),
+            self.seed,
+            self.smallest_wavelength,
+            self.points,
+            self.construction,
+        ).heights(on_progress)
         arguments: dict[str, Any] = {
             "pressure": load.pressure,
             "speed": load.speed,
             "smallest_wavelength": self.smallest_wavelength,
         }
-        found: Solved = (
-            solve_lines_of(rubber, heights, lines=self.lines, tolerance=self.tolerance, **arguments)
-            if self.lines
-            else solve_whole(rubber, heights, workers=1, **arguments)
-        )
-        totals = {name: found.values[name.removeprefix("total_")] for name in model.TOTALS}
+        if self.lines:
+            arguments |= {"lines": self.lines, "tolerance": self.tolerance}
+            contact = solve_lines_of(rubber, heights, **arguments)
+        else:
+            contact = solve_whole(rubber, heights, workers=1, **arguments)
+        totals = {name: contact.values[name.removeprefix("total_")] for name in model.TOTALS}
         data = xr.Dataset().assign_attrs(
             title="Contact of a synthetic isotropic map",
             synthetic=heights.source,
@@ -390,49 +391,43 @@ class SyntheticMap(model.Model):
         return model.answer(
             data,
             totals,
-            found.status,
+            contact.status,
             self.name,
             load,
-            found.extrapolation,
-            found.cut_off_exponents,
+            contact.extrapolation,
+            contact.cut_off_exponents,
         )
 
 
 @dataclass(eq=False)
-class _Drawing:
-    """A map that is drawn once, by whoever asks first; the others wait."""
+class _SharedMap:
+    """A map that the first caller makes, while other threads wait."""
 
     profiles: tuple[Profile, ...]
     options: dict[str, Any]
     lock: threading.Lock = field(default_factory=threading.Lock)
-    drawn: HeightMap | None = None
+    made: HeightMap | None = None
 
-    def map(self, on_progress: Callable[[Any], None] | None) -> HeightMap:
-        def tell(seed: int, share: float) -> None:
+    def heights(self, on_progress: Callable[[Any], None] | None) -> HeightMap:
+        def on_batch(seed: int, share: float) -> None:
             if on_progress is not None:
                 on_progress(share)
 
         with self.lock:
-            if self.drawn is None:
-                maps = isotropic_maps(list(self.profiles), on_batch=tell, **self.options)
-                self.drawn = next(iter(maps))
-            return self.drawn
+            if self.made is None:
+                maps = isotropic_maps(list(self.profiles), on_batch=on_batch, **self.options)
+                self.made = next(iter(maps))
+            return self.made
 
 
 @lru_cache(maxsize=KEPT)
-def _drawing(
+def _map_of(
     profiles: tuple[Profile, ...], seed: int, smallest: float, points: int, construction: str
-) -> _Drawing:
+) -> _SharedMap:
     options = {
         "smallest_wavelength": smallest,
         "points": points,
         "construction": construction,
         "seeds": [seed],
     }
-    return _Drawing(profiles, options)
-
-
-def _profiles(surface: PreparedSurface) -> list[Profile]:
-    if surface.measured is None or surface.measured.map is not None:
-        raise InputError("a synthetic map is made from measured profiles; the surface has none")
-    return surface.measured.cleaned
+    return _SharedMap(profiles, options)

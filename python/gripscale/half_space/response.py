@@ -1,15 +1,15 @@
 """A sliding viscoelastic half-space on a periodic grid: from pressure to displacement, and back.
 
 Geometry: small strain, no friction in the contact; the rubber lies above and slides towards +x with
-speed v over a rigid surface at rest. A harmonic exp(i q . r) that stands still on the surface is
-met by the rubber at the angular frequency q_x v, so
+speed v over a rigid surface at rest. A harmonic exp(i q . r) at rest on the surface excites the
+rubber at the angular frequency q_x v, so
 
     u(q) = K(q) p(q),    K = 2 / (|q| M(q_x v)),    M = E*/(1 - nu^2),    M(-w) = conj M(w),
 
 with u positive where the pressure lifts the rubber: K. L. Johnson, Contact Mechanics (1985), sec.
 13.2, doi:10.1017/CBO9781139171731, with the complex modulus in place of the elastic one. A line is
-plane strain, a map three-dimensional: the same equation. The mean displacement is left open (it is
-the rigid approach). A wavenumber along x that is its own opposite on the grid has a real M.
+plane strain, a map three-dimensional: the same equation. The mean displacement is undetermined (it
+is the rigid approach). A wavenumber along x that is its own opposite on the grid has a real M.
 """
 
 from __future__ import annotations
@@ -23,19 +23,18 @@ from numpy.typing import NDArray
 
 from gripscale.conditions.conditions import RubberByScale
 from gripscale.core import checks
+from gripscale.core.arrays import Array, ComplexArray
 from gripscale.core.errors import InputError
-from gripscale.half_space.grid import Array, Grid, LineFilter, PeriodicHeights
+from gripscale.half_space.grid import Grid, LineConvolution, PeriodicHeights, SingleComplex
 from gripscale.rubber import Rubber
 
 AnyArray = NDArray[np.floating]
-ComplexArray = NDArray[np.complex128]
-SingleComplexArray = NDArray[np.complex64]
 AnyComplexArray = NDArray[np.complexfloating]
 
 
 @dataclass(frozen=True)
 class HalfSpace:
-    """Rubber at a speed, seen from the surface it slides over.
+    """Rubber that slides at a speed, by its response to the harmonics of a surface.
 
     Parameters
     ----------
@@ -44,9 +43,9 @@ class HalfSpace:
     speed : float
         Sliding speed [m/s]; zero is the relaxed rubber.
     loss : float
-        Share of the loss angle that is kept at unchanged |M|, 0 to 1; 1 is the rubber itself.
+        Factor of the loss angle at unchanged |M|, 0 to 1; 1 is the rubber itself.
     by_scale : RubberByScale, optional
-        What conditions have made of the rubber at each scale.
+        The rubber at each scale under conditions.
     """
 
     rubber: Rubber
@@ -76,23 +75,23 @@ class HalfSpace:
 
 @dataclass(frozen=True)
 class Response:
-    """The half-space on one grid, ready to be multiplied with.
+    """Products with the response of the half-space on one grid, and with its inverse.
 
-    Displacements are exact in the precision of the pressure they are asked for; pressures only
-    condition and start iterations and are in single precision.
+    Displacements have the precision of the pressure. Pressures only precondition and start
+    iterations and are in single precision.
     """
 
     grid: Grid
     workers: int
     compliance: ComplexArray = field(repr=False)
-    compliance_single: SingleComplexArray = field(repr=False)
-    stiffness: SingleComplexArray = field(repr=False)
+    compliance_single: SingleComplex = field(repr=False)
+    stiffness: SingleComplex = field(repr=False)
 
     @classmethod
     def of(cls, body: HalfSpace, grid: Grid, workers: int) -> Response:
         """Return the response of `body` on `grid`.
 
-        The mean, which has no stiffness, is given that of the softest wave.
+        The mean has no stiffness and gets that of the softest wave.
         """
         compliance = body.compliance(grid)
         softest = compliance.copy()
@@ -119,7 +118,7 @@ class Response:
         return self._filtered(pressure, self.compliance_single)
 
     def full_contact(self, height: Array, mean: float) -> Array:
-        """Return the pressure [Pa] of `mean` that follows `height` [m] everywhere, tension too."""
+        """Return the pressure [Pa] of mean `mean` that follows `height` [m], tension included."""
         spectrum = scipy.fft.rfftn(height, workers=self.workers)
         spectrum.flat[0] = 0.0
         np.divide(spectrum, self.compliance, out=spectrum, where=self.compliance != 0.0)
@@ -134,16 +133,16 @@ class Response:
         return self._filtered(single, self.stiffness)
 
     @cached_property
-    def _line_displacement(self) -> LineFilter | None:
+    def _line_displacement(self) -> LineConvolution | None:
         return self._line_filter(self.compliance_single)
 
     @cached_property
-    def _line_pressure(self) -> LineFilter | None:
+    def _line_pressure(self) -> LineConvolution | None:
         return self._line_filter(self.stiffness)
 
-    def _line_filter(self, transfer: SingleComplexArray) -> LineFilter | None:
+    def _line_filter(self, transfer: SingleComplex) -> LineConvolution | None:
         shape = self.grid.shape
-        return LineFilter.of(transfer, shape[0]) if len(shape) == 1 else None
+        return LineConvolution.of(transfer, shape[0]) if len(shape) == 1 else None
 
     def _filtered(self, values: AnyArray, transfer: AnyComplexArray) -> AnyArray:
         spectrum = scipy.fft.rfftn(values, workers=self.workers)
@@ -158,13 +157,10 @@ class Response:
         return np.asarray(scipy.fft.irfft(spectrum, points, overwrite_x=True, workers=self.workers))
 
 
-# What the solver can hold: sizes whose products stay within single precision, 1e-38 to 1e38.
-#
-# Its iterations are started and conditioned in single precision. The limits are far from any rubber
-# and any surface; beyond them a number has the wrong unit.
-
 LEAST, MOST = 1e-12, 1e15
-"""Of pressures [Pa] and lengths [m]."""
+"""Limits of pressures [Pa] and lengths [m]. The solver starts and preconditions in single
+precision,
+where products must stay within 1e-38 to 1e38. A number beyond these limits has the wrong unit."""
 
 
 def half_space(rubber: Rubber, speed: float) -> HalfSpace:
@@ -175,7 +171,7 @@ def half_space(rubber: Rubber, speed: float) -> HalfSpace:
 
 
 def check_magnitudes(body: HalfSpace, heights: PeriodicHeights, pressure: float) -> None:
-    """Raise `InputError` for what is too large or too small to be calculated with."""
+    """Raise `InputError` for sizes that overflow or underflow single precision."""
     grid = heights.grid
     _within("the step of the surface", min(grid.spacing), "m")
     _within("the length of the surface", max(grid.lengths), "m")

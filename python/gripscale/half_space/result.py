@@ -1,13 +1,27 @@
-"""What the direct contact answers, as numbers and as a Dataset."""
+"""Result of the direct contact, as numbers and as a labelled Dataset.
+
+By octave of wavelength, `wavelength` being its lower end, the Dataset holds
+
+- `friction`: the energy lost in the harmonics of the pressure of these wavelengths 2 pi/|q|, in
+  the contact with the whole surface. The octaves sum to `friction_from_dissipation` exactly. Waves
+  shorter than the smallest of the surface belong to the edges of the contact.
+- `contact_fraction`: of another contact, with only the waves of the surface not shorter than
+  `wavelength`, on a grid of four points in it; NaN where none was solved.
+
+The effect of the cut-off follows from the grids of the solution. A grid has four points in the
+shortest wave on it, and the next one twice as many with waves half as long: two solutions whose
+cut-offs are an octave apart, with the same resolution. The friction by octave of the last contact
+does not replace them: without its smallest waves the larger ones have more contact and lose more,
+so that without an octave friction changes by half of what is lost in it (docs/cut-off.md).
+"""
 
 from __future__ import annotations
 
-import dataclasses
 import json
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from dataclasses import fields as fields_of
 
 import numpy as np
 import xarray as xr
@@ -17,7 +31,8 @@ from scipy.sparse import csgraph
 
 from gripscale.conditions.conditions import Conditions, RubberByScale, StateByScale
 from gripscale.core import provenance
-from gripscale.half_space.grid import Array, Grid, Mask
+from gripscale.core.arrays import Array, Mask
+from gripscale.half_space.grid import Grid
 from gripscale.half_space.grid_sequence import GridRecord, lost_by_harmonic
 from gripscale.half_space.response import HalfSpace
 from gripscale.model import NOT_CONVERGED, OCTAVE, CutOffExponents, between
@@ -25,12 +40,6 @@ from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import NONE, Extrapolation, of_spectrum
 from gripscale.wave.problem import Status
 from gripscale.wave.result import labelled
-
-if TYPE_CHECKING:
-    import xarray as xr
-
-
-# Contact patches of a periodic line or map.
 
 
 def patch_points(active: Mask) -> NDArray[np.int64]:
@@ -42,23 +51,14 @@ def patch_points(active: Mask) -> NDArray[np.int64]:
     first, second = [], []
     for axis in range(active.ndim):
         ends = np.take(labels, 0, axis=axis), np.take(labels, -1, axis=axis)
-        touching = (ends[0] > 0) & (ends[1] > 0)
-        first.append(ends[0][touching])
-        second.append(ends[1][touching])
+        adjacent = (ends[0] > 0) & (ends[1] > 0)
+        first.append(ends[0][adjacent])
+        second.append(ends[1][adjacent])
     rows, columns = np.concatenate(first) - 1, np.concatenate(second) - 1
     joined = sparse.coo_array((np.ones(rows.size), (rows, columns)), shape=(count, count))
     number, patch = csgraph.connected_components(joined, directed=False)
     sizes = np.bincount(labels.reshape(-1), minlength=count + 1)[1:]
     return np.sort(np.bincount(patch, weights=sizes, minlength=number).astype(np.int64))[::-1]
-
-
-# What the last octave of waves does to a direct contact, from the grids it was solved on.
-#
-# A grid has four points in the shortest wave it is given, and the next one twice as many with waves
-# half as long. Two such grids are two solutions whose cut-offs are an octave apart, as well
-# resolved as each other. The friction by octave of the last contact does not serve: without its
-# smallest waves the larger ones touch more and lose more, so that leaving an octave out changes
-# friction by half of what is lost in it (docs/cut-off.md).
 
 
 def last_octave(grids: Sequence[GridRecord], *, moving: bool) -> CutOffExponents:
@@ -84,194 +84,8 @@ def last_octave(grids: Sequence[GridRecord], *, moving: bool) -> CutOffExponents
     )
 
 
-# Contact and friction of a whole surface, with the evidence for them.
-
 STEEP = 0.5
-"""Rms slope in the contact beyond which small strain is no longer fair."""
-
-
-@dataclass(frozen=True)
-class SolvedContact:
-    """Contact and friction of a whole surface (m, Pa, m/s); arrays have the shape of the grid."""
-
-    rubber: Rubber = field(repr=False)
-    nominal_pressure: float
-    speed: float
-    smallest_wavelength: float
-    """Of the surface as it was solved [m]."""
-    contact_fraction: float
-    """Real over nominal contact area, corrected for the grid [-]."""
-    friction: float
-    """Friction coefficient from the contact traction [-]."""
-    friction_from_dissipation: float
-    """Friction coefficient from the energy lost in the rubber per sliding distance [-]."""
-    contact_fraction_error: float
-    """Estimated error of the grid [-]; NaN if there is only one."""
-    friction_error: float
-    """Estimated error of the grid [-]; NaN if there is only one."""
-    status: Status
-    """`converged`, or why the numbers are not to be trusted."""
-    residuals: dict[str, float]
-    """`pressure`: missing over rms pressure; `gap`: largest left in contact or overlap outside it,
-    over the rms height; `load`: relative error of the mean pressure."""
-    full_contact: bool
-    """Whether nothing is out of contact; the answer then is in closed form."""
-    grid: Grid = field(repr=False)
-    origin: tuple[float, ...] = field(repr=False)
-    height: Array = field(repr=False)
-    """Of the surface as it was solved, mean zero [m]."""
-    pressure: Array = field(repr=False)
-    """Contact pressure [Pa], zero out of contact."""
-    gap: Array = field(repr=False)
-    """Between rubber and surface [m], zero in contact."""
-    measured: Mask = field(repr=False)
-    """Where heights were measured and not interpolated."""
-    grids: list[GridRecord] = field(repr=False)
-    """Numbers of every grid that was solved, in order."""
-    by_scale: RubberByScale | None = field(default=None, repr=False)
-    """The rubber at each scale, where conditions made it another; None: `rubber` at all."""
-    scales: StateByScale | None = field(default=None, repr=False)
-    """Temperature, strain and what is left of the moduli at each scale, if asked for."""
-    passes: int = 1
-    """Solutions until rubber, strains and heat agreed."""
-    coarse_passes: int = 0
-    """Beside them solutions on grids that only resolve the surface."""
-    surface_warming: Array | None = field(default=None, repr=False)
-    """Of the rubber's surface above its temperature before the contact [K]; None without heat."""
-
-    conditions: Conditions | None = None
-    """What changed the rubber on the way, and the area term."""
-
-    @property
-    def adhesive_friction(self) -> float:
-        """Friction coefficient of the area term [-], NaN where none was asked for or at rest."""
-        if self.conditions is None:
-            return math.nan
-        kelvin = self.conditions.temperature_of(self.rubber)
-        if kelvin is not None and self.surface_warming is not None:
-            kelvin += float(np.average(self.surface_warming, weights=self.pressure))
-        return self.conditions.adhesive_friction(
-            self.contact_fraction, self.nominal_pressure, self.speed, kelvin
-        )
-
-    @property
-    def total_friction(self) -> float:
-        """Hysteresis and area term together [-], NaN where no area term was asked for."""
-        return self.friction + self.adhesive_friction
-
-    @property
-    def converged(self) -> bool:
-        """Whether the solution may be used."""
-        return self.status == Status.CONVERGED
-
-    @property
-    def x(self) -> Array:
-        """Positions along the way of sliding [m], shape (nx,)."""
-        return self._positions(0)
-
-    @property
-    def y(self) -> Array:
-        """Positions across it [m], shape (ny,); empty for a line."""
-        return self._positions(1) if len(self.grid.shape) > 1 else np.empty(0)
-
-    @property
-    def active(self) -> Mask:
-        """Where the rubber touches."""
-        return np.asarray(self.pressure > 0.0)
-
-    @property
-    def friction_mismatch(self) -> float:
-        """Relative difference of the two friction measures, zero at rest."""
-        if self.speed == 0.0:
-            return 0.0
-        scale = max(abs(self.friction), abs(self.friction_from_dissipation))
-        difference = abs(self.friction - self.friction_from_dissipation)
-        return difference / scale if scale > 0.0 else 0.0
-
-    @property
-    def extrapolation(self) -> Extrapolation:
-        """What of the friction is lost in harmonics beyond the rubber's measured frequencies.
-
-        Heat moves them: each harmonic counts at a_T of its scale times its frequency.
-        """
-        if self.speed == 0.0:
-            return NONE
-        omega = np.broadcast_to(self.grid.along * self.speed, self.grid.spectrum_shape)
-        if self.by_scale is not None:
-            omega = omega * self.by_scale.shift(self.grid.wavenumber)
-        return of_spectrum(self.rubber, omega, self.lost_by_harmonic())
-
-    @property
-    def cut_off_exponents(self) -> CutOffExponents:
-        """How it changes with the cut-off length: of contacts solved with it and with twice it."""
-        return last_octave(self.grids, moving=self.speed > 0.0)
-
-    @property
-    def slope_in_contact(self) -> float:
-        """Rms of the surface's slope along x where the rubber touches [-]."""
-        slope = self.grid.slope(self.height)[self.active]
-        return float(np.sqrt(np.mean(slope**2)))
-
-    @property
-    def missing_share(self) -> float:
-        """Share of the contact that lies on heights which were missing and interpolated [-]."""
-        return float(1.0 - self.measured[self.active].mean())
-
-    @property
-    def patches(self) -> Array:
-        """Size of each contact patch, largest first: length [m] on a line, area [m^2] on a map."""
-        return np.asarray(patch_points(self.active) * math.prod(self.grid.spacing))
-
-    @property
-    def notes(self) -> list[str]:
-        """Sentences on what to be careful about; empty if nothing."""
-        out = []
-        if self.slope_in_contact > STEEP:
-            out.append(
-                f"The rms slope in the contact is {self.slope_in_contact:.2f}, above {STEEP:g}: "
-                "small strain is no longer fair."
-            )
-        if self.missing_share > 0.05:
-            out.append(f"{self.missing_share:.0%} of the contact lies on interpolated heights.")
-        return out
-
-    def pressure_quantiles(self, shares: ArrayLike) -> Array:
-        """Return the pressures [Pa] that the given shares [-] of the contact do not exceed."""
-        return np.asarray(np.quantile(self.pressure[self.active], np.asarray(shares, dtype=float)))
-
-    def lost_by_harmonic(self) -> Array:
-        """Return the friction each harmonic adds [-], over the half spectrum of the grid."""
-        body = HalfSpace(self.rubber, self.speed, by_scale=self.by_scale)
-        return lost_by_harmonic(body.compliance(self.grid), self.grid, self.pressure)
-
-    def _positions(self, axis: int) -> Array:
-        place = self.grid.spacing[axis] * np.arange(self.grid.shape[axis], dtype=float)
-        return np.asarray(self.origin[axis] + place)
-
-
-@dataclass(frozen=True)
-class RoughContact(SolvedContact):
-    """Contact and friction of a whole surface, with the evidence for them (m, Pa, m/s)."""
-
-    @property
-    def friction_by_wavelength(self) -> xr.Dataset:
-        """Friction and contact fraction by octave of wavelength, see `rough.dataset`."""
-        return by_wavelength(self)
-
-    def to_dataset(self, *, fields: bool = True) -> xr.Dataset:
-        """Return everything as a labelled Dataset, with `fields` what lies on the grid too."""
-        return to_dataset(self, fields=fields)
-
-
-# The direct contact as a labelled Dataset.
-#
-# By octave of wavelength, `wavelength` being its lower end:
-#
-# - `friction`: the energy lost in the harmonics of the pressure of these wavelengths 2 pi/|q|, in
-#   the contact with the whole surface. The octaves sum to `friction_from_dissipation` exactly.
-#   Waves shorter than the smallest of the surface belong to the edges of the contact.
-# - `contact_fraction`: of another contact, with only the waves of the surface not shorter than
-#   `wavelength`, on a grid of four points in it; NaN where none was solved.
+"""Rms slope in the contact beyond which small strain is not a good approximation."""
 
 SOURCE = "gripscale direct contact"
 SHARES = (0.05, 0.25, 0.5, 0.75, 0.95, 0.99)
@@ -295,16 +109,184 @@ OUTSIDE_BAND = {
     "decades_below_band": ("below", "decades by which excitation goes below it"),
     "decades_above_band": ("above", "decades by which excitation goes above it"),
 }
-"""What of the friction rests on the rubber beyond its measured frequencies."""
+"""Extrapolation of the rubber beyond its measured frequencies."""
 
 CUT_OFF_EXPONENTS = {
     "contact_fraction_cut_off_exponent": ("contact_fraction", "contact fraction"),
     "friction_cut_off_exponent": ("friction", "friction coefficient"),
 }
-"""How it changes with the cut-off length, over the last octave."""
+"""Change with the cut-off length, over the last octave."""
 
 
-def by_wavelength(contact: SolvedContact) -> xr.Dataset:
+@dataclass(frozen=True)
+class RoughContact:
+    """Contact and friction of a whole surface (m, Pa, m/s); arrays have the shape of the grid."""
+
+    rubber: Rubber = field(repr=False)
+    nominal_pressure: float
+    speed: float
+    smallest_wavelength: float
+    """Of the surface as it was solved [m]."""
+    contact_fraction: float
+    """Real over nominal contact area, corrected for the grid [-]."""
+    friction: float
+    """Friction coefficient from the contact traction [-]."""
+    friction_from_dissipation: float
+    """Friction coefficient from the energy lost in the rubber per sliding distance [-]."""
+    contact_fraction_error: float
+    """Estimated error of the grid [-]; NaN if there is only one."""
+    friction_error: float
+    """Estimated error of the grid [-]; NaN if there is only one."""
+    status: Status
+    """`converged`, or why the numbers are not to be trusted."""
+    residuals: dict[str, float]
+    """`pressure`: missing over rms pressure; `gap`: largest gap in contact or overlap outside it,
+    over the rms height; `load`: relative error of the mean pressure."""
+    full_contact: bool
+    """Whether every point is in contact; the solution then is in closed form."""
+    grid: Grid = field(repr=False)
+    origin: tuple[float, ...] = field(repr=False)
+    height: Array = field(repr=False)
+    """Of the surface as it was solved, mean zero [m]."""
+    pressure: Array = field(repr=False)
+    """Contact pressure [Pa], zero out of contact."""
+    gap: Array = field(repr=False)
+    """Between rubber and surface [m], zero in contact."""
+    measured: Mask = field(repr=False)
+    """Where heights were measured and not interpolated."""
+    grids: list[GridRecord] = field(repr=False)
+    """Numbers of every grid that was solved, in order."""
+    by_scale: RubberByScale | None = field(default=None, repr=False)
+    """The rubber at each scale under conditions; None: `rubber` at all scales."""
+    scales: StateByScale | None = field(default=None, repr=False)
+    """Temperature, strain and moduli at each scale under iterated conditions."""
+    passes: int = 1
+    """Solutions until rubber, strains and heat agreed."""
+    coarse_passes: int = 0
+    """Further solutions, on grids that only resolve the surface."""
+    surface_warming: Array | None = field(default=None, repr=False)
+    """Temperature rise of the rubber's surface over that before the contact [K]; None without
+    heat."""
+    conditions: Conditions | None = None
+    """Conditions of the rubber, and the area term."""
+
+    @property
+    def adhesive_friction(self) -> float:
+        """Friction coefficient of the area term [-]; NaN without an area term, and at rest."""
+        if self.conditions is None:
+            return math.nan
+        kelvin = self.conditions.temperature_of(self.rubber)
+        if kelvin is not None and self.surface_warming is not None:
+            kelvin += float(np.average(self.surface_warming, weights=self.pressure))
+        return self.conditions.adhesive_friction(
+            self.contact_fraction, self.nominal_pressure, self.speed, kelvin
+        )
+
+    @property
+    def total_friction(self) -> float:
+        """Sum of hysteresis and area term [-]; NaN without an area term."""
+        return self.friction + self.adhesive_friction
+
+    @property
+    def converged(self) -> bool:
+        """Whether the solution may be used."""
+        return self.status == Status.CONVERGED
+
+    @property
+    def x(self) -> Array:
+        """Positions along the sliding direction [m], shape (nx,)."""
+        return self._positions(0)
+
+    @property
+    def y(self) -> Array:
+        """Positions across it [m], shape (ny,); empty for a line."""
+        return self._positions(1) if len(self.grid.shape) > 1 else np.empty(0)
+
+    @property
+    def active(self) -> Mask:
+        """Where the rubber is in contact."""
+        return np.asarray(self.pressure > 0.0)
+
+    @property
+    def friction_mismatch(self) -> float:
+        """Relative difference of the two friction measures, zero at rest."""
+        if self.speed == 0.0:
+            return 0.0
+        scale = max(abs(self.friction), abs(self.friction_from_dissipation))
+        difference = abs(self.friction - self.friction_from_dissipation)
+        return difference / scale if scale > 0.0 else 0.0
+
+    @property
+    def extrapolation(self) -> Extrapolation:
+        """Share of the friction lost in harmonics beyond the rubber's measured frequencies.
+
+        Heat shifts them: each harmonic counts with a_T of its scale times its frequency.
+        """
+        if self.speed == 0.0:
+            return NONE
+        omega = np.broadcast_to(self.grid.along * self.speed, self.grid.spectrum_shape)
+        if self.by_scale is not None:
+            omega = omega * self.by_scale.shift(self.grid.wavenumber)
+        return of_spectrum(self.rubber, omega, self.lost_by_harmonic())
+
+    @property
+    def cut_off_exponents(self) -> CutOffExponents:
+        """Exponents of the cut-off, from contacts solved with this cut-off and with twice it."""
+        return last_octave(self.grids, moving=self.speed > 0.0)
+
+    @property
+    def slope_in_contact(self) -> float:
+        """Rms slope of the surface along x in the contact [-]."""
+        slope = self.grid.slope(self.height)[self.active]
+        return float(np.sqrt(np.mean(slope**2)))
+
+    @property
+    def missing_share(self) -> float:
+        """Share of the contact that lies on heights which were missing and interpolated [-]."""
+        return float(1.0 - self.measured[self.active].mean())
+
+    @property
+    def patches(self) -> Array:
+        """Size of each contact patch, largest first: length [m] on a line, area [m^2] on a map."""
+        return np.asarray(patch_points(self.active) * math.prod(self.grid.spacing))
+
+    @property
+    def notes(self) -> list[str]:
+        """Warnings, as sentences."""
+        out = []
+        if self.slope_in_contact > STEEP:
+            out.append(
+                f"The rms slope in the contact is {self.slope_in_contact:.2f}, above {STEEP:g}: "
+                "small strain is no longer fair."
+            )
+        if self.missing_share > 0.05:
+            out.append(f"{self.missing_share:.0%} of the contact lies on interpolated heights.")
+        return out
+
+    def pressure_quantiles(self, shares: ArrayLike) -> Array:
+        """Return the pressures [Pa] that the given shares [-] of the contact do not exceed."""
+        return np.asarray(np.quantile(self.pressure[self.active], np.asarray(shares, dtype=float)))
+
+    def lost_by_harmonic(self) -> Array:
+        """Return the friction each harmonic adds [-], over the half spectrum of the grid."""
+        body = HalfSpace(self.rubber, self.speed, by_scale=self.by_scale)
+        return lost_by_harmonic(body.compliance(self.grid), self.grid, self.pressure)
+
+    def _positions(self, axis: int) -> Array:
+        offset = self.grid.spacing[axis] * np.arange(self.grid.shape[axis], dtype=float)
+        return np.asarray(self.origin[axis] + offset)
+
+    @property
+    def friction_by_wavelength(self) -> xr.Dataset:
+        """Friction and contact fraction by octave of wavelength, see the module."""
+        return friction_by_octave(self)
+
+    def to_dataset(self, *, fields: bool = True) -> xr.Dataset:
+        """Return everything as a labelled Dataset, with `fields` the arrays on the grid too."""
+        return contact_dataset(self, fields=fields)
+
+
+def friction_by_octave(contact: RoughContact) -> xr.Dataset:
     """Return friction and contact fraction over `wavelength`, from long to short."""
     number = np.broadcast_to(contact.grid.wavenumber, contact.grid.spectrum_shape).reshape(-1)[1:]
     lost = contact.lost_by_harmonic().reshape(-1)[1:]
@@ -314,9 +296,9 @@ def by_wavelength(contact: SolvedContact) -> xr.Dataset:
     friction = np.bincount((octave.max() - octave).astype(int), weights=lost)
     fraction = np.full(order.size, np.nan)
     for grid in contact.grids:
-        place = round(float(octave.max() - np.log2(grid.cut_off / contact.smallest_wavelength)))
-        if grid.settled and 0 <= place < order.size:
-            fraction[place] = grid.contact_fraction
+        index = round(float(octave.max() - np.log2(grid.cut_off / contact.smallest_wavelength)))
+        if grid.settled and 0 <= index < order.size:
+            fraction[index] = grid.contact_fraction
     wavelength = contact.smallest_wavelength * 2.0**order
     return xr.Dataset(
         {
@@ -334,28 +316,24 @@ def by_wavelength(contact: SolvedContact) -> xr.Dataset:
     )
 
 
-def to_dataset(contact: SolvedContact, *, fields: bool) -> xr.Dataset:
+def contact_dataset(contact: RoughContact, *, fields: bool) -> xr.Dataset:
     """Return the numbers of `contact`, by octave and by grid, and its `fields` on the last grid."""
     data = {
         name: labelled((), float(getattr(contact, name)), unit, text, SOURCE)
         for name, (unit, text) in NUMBERS.items()
     }
-    beyond = contact.extrapolation
+    for name, (part, text) in OUTSIDE_BAND.items():
+        data[name] = labelled((), getattr(contact.extrapolation, part), "1", text, SOURCE)
+    for name, (part, text) in CUT_OFF_EXPONENTS.items():
+        words = f"d ln({text})/d ln(cut-off)"
+        data[name] = labelled((), getattr(contact.cut_off_exponents, part), "1", words, SOURCE)
+    octaves = friction_by_octave(contact)
     data |= {
-        name: labelled((), getattr(beyond, part), "1", text, SOURCE)
-        for name, (part, text) in OUTSIDE_BAND.items()
+        "octave_friction": octaves["friction"].variable,
+        "octave_running_friction": octaves["running_friction"].variable,
+        "contact_fraction_without_shorter": octaves["contact_fraction"].variable,
     }
-    exponents = contact.cut_off_exponents
-    data |= {
-        name: labelled((), getattr(exponents, part), "1", f"d ln({text})/d ln(cut-off)", SOURCE)
-        for name, (part, text) in CUT_OFF_EXPONENTS.items()
-    }
-    octaves = by_wavelength(contact).rename(contact_fraction="contact_fraction_without_shorter")
-    data |= {
-        (name if name.startswith("contact") else f"octave_{name}"): values
-        for name, values in ((str(key), octaves[key].variable) for key in octaves.data_vars)
-    }
-    for name in (entry.name for entry in dataclasses.fields(GridRecord)):
+    for name in (entry.name for entry in fields_of(GridRecord)):
         values = [float(getattr(grid, name)) for grid in contact.grids]
         data[f"grid_{name}"] = labelled("grid", values, "1", f"{name} on each grid", SOURCE)
     data["contact_pressure"] = labelled(
@@ -365,7 +343,14 @@ def to_dataset(contact: SolvedContact, *, fields: bool) -> xr.Dataset:
         "patch", contact.patches, "m" if contact.height.ndim == 1 else "m2", "patches", SOURCE
     )
     if fields:
-        data |= _fields(contact)
+        axes = ("x", "y")[: contact.height.ndim]
+        data |= {axis: labelled(axis, getattr(contact, axis), "m", axis, SOURCE) for axis in axes}
+        for name, unit, text in (
+            ("height", "m", "height of the surface as solved"),
+            ("pressure", "Pa", "contact pressure"),
+            ("gap", "m", "gap between rubber and surface"),
+        ):
+            data[name] = labelled(axes, getattr(contact, name), unit, text, SOURCE)
     for name, value in contact.residuals.items():
         data[f"residual_{name}"] = labelled((), value, "1", f"residual of the {name}", SOURCE)
     data["status"] = labelled((), np.array(str(contact.status), dtype=object), "1", "", SOURCE)
@@ -382,17 +367,3 @@ def to_dataset(contact: SolvedContact, *, fields: bool) -> xr.Dataset:
             **provenance.attributes(),
         },
     )
-
-
-def _fields(contact: SolvedContact) -> dict[str, xr.Variable]:
-    axes = ("x", "y")[: contact.height.ndim]
-    coords = {axis: labelled(axis, getattr(contact, axis), "m", axis, SOURCE) for axis in axes}
-    table = {
-        "height": ("m", "height of the surface as solved", contact.height),
-        "pressure": ("Pa", "contact pressure", contact.pressure),
-        "gap": ("m", "gap between rubber and surface", contact.gap),
-    }
-    return coords | {
-        name: labelled(axes, values, unit, text, SOURCE)
-        for name, (unit, text, values) in table.items()
-    }

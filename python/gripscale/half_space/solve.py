@@ -1,7 +1,9 @@
 """The direct contact: a whole measured surface in one contact problem.
 
-A linear viscoelastic half-space in steady sliding is one convolution (`half_space`), so that the
-contact with all waves of a surface at once can be solved: no random phases, no separate scales.
+A linear viscoelastic half-space in steady sliding is a convolution
+(`gripscale.half_space.response`), so that the contact with all waves of a surface is solved
+together: no random phases, no separation of scales. Grids are refined until the estimated errors
+meet the tolerance.
 """
 
 from __future__ import annotations
@@ -19,19 +21,18 @@ from gripscale.core.errors import InputError
 from gripscale.core.parallel import worker_count
 from gripscale.half_space.active_set import START_TOLERANCE, TOLERANCE
 from gripscale.half_space.conditions import GridSequenceResult, solve_coupled_contact
-from gripscale.half_space.grid import PeriodicHeights, periodic_heights
+from gripscale.half_space.grid import periodic_heights
 from gripscale.half_space.grid_sequence import (
-    JUDGED_BY,
+    ERROR_GRIDS,
     GridRecord,
     GridSequence,
     KnownLevels,
-    Level,
     LevelContact,
     errors,
     finer,
     levels,
 )
-from gripscale.half_space.response import HalfSpace, check_magnitudes, half_space
+from gripscale.half_space.response import check_magnitudes, half_space
 from gripscale.half_space.result import RoughContact
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import CHOICES, require_measured
@@ -41,7 +42,7 @@ from gripscale.wave.problem import Status
 
 FEWEST_IN_CONTACT = 8
 LEAST_FRICTION = 0.01
-"""Friction below which its error is compared with the tolerance times this."""
+"""Friction below which its error is relative to this value."""
 
 
 def solve_rough_contact(
@@ -94,14 +95,15 @@ def solve_rough_contact(
         Active-set iterations allowed on each grid.
     on_grid : callable, optional
         Called with the `GridRecord` of each grid as it is solved. A `KeyboardInterrupt` is raised
-        at the next return from compiled code; of a stopped solution these records are what is left.
+        at the next return from compiled code; only these records remain of a stopped solution.
     conditions : Conditions, optional
-        Temperature, softening, heat and area term; the contact is solved until they agree with it.
+        Temperature, softening, heat and area term. Softening and heat are iterated with the
+        contact.
     footprint : float, optional
         Length of the nominal contact [m]; needed with heat.
     extrapolate : "say" or "refuse"
-        "refuse": nothing is solved if the smallest wave excites the rubber, at the temperature
-        before the contact, beyond its `valid_band`. What of the friction comes from beyond it is in
+        "refuse": raise an error if the smallest wave excites the rubber, at the temperature before
+        the contact, beyond its `valid_band`. The share of the friction from beyond the band is in
         `extrapolation` of the result.
 
     Returns
@@ -112,17 +114,17 @@ def solve_rough_contact(
     Raises
     ------
     ExtrapolationError
-        An `InputError`: extrapolation is to be refused.
+        An `InputError`: the rubber would be extrapolated and `extrapolate` is "refuse".
     InputError
         If an argument is out of its range, the first full grid has more than `most_points`, a size
         is beyond what single precision can hold, or the rubber at rest is a melt: the pressure is
         more than ten times the equilibrium modulus.
     """
     load = checks.positive("pressure", pressure, unit="Pa")
-    under = Conditions() if conditions is None else conditions
-    own = under.before(rubber)
-    body = half_space(own, speed)
-    goal = math.inf if tolerance is None else _tolerance(tolerance)
+    effects = Conditions() if conditions is None else conditions
+    solid = effects.before(rubber)
+    body = half_space(solid, speed)
+    goal = relative_tolerance("tolerance", tolerance) or math.inf
     if body.speed == 0.0:
         require_solid(rubber, load, math.inf)
     heights = periodic_heights(
@@ -131,107 +133,124 @@ def solve_rough_contact(
         periodic=checks.flag("periodic", periodic),
     )
     if checks.one_of("extrapolate", extrapolate, CHOICES) == "refuse":
-        require_measured(own, heights.smallest_wavelength, body.speed)
+        require_measured(solid, heights.smallest_wavelength, body.speed)
     check_magnitudes(body, heights, load)
-    plan = levels(heights)
+    points = levels(heights)[-1].grid.points
     most = checks.whole("most_points", most_points, least=1, most=2**40)
-    _check_size(plan[-1].grid.points, most, heights.smallest_wavelength)
+    if points > most:
+        raise InputError(
+            f"most_points must be at least {points}, four points in each wave of "
+            f"{heights.smallest_wavelength:.4g} m; got {most}: raise it, take a larger "
+            "smallest_wavelength or a part of the surface"
+        )
     threads = worker_count(workers) if len(heights.grid.shape) > 1 else 1
     iterations = checks.whole("most_iterations", most_iterations, least=1, most=10**6)
     if on_grid is not None and not callable(on_grid):
         raise InputError(f"on_grid must be a function or None; got {checks.short_repr(on_grid)}")
 
     def solve(
-        by_scale: RubberByScale | None, known: KnownLevels, reach: float
+        by_scale: RubberByScale | None, start: KnownLevels, reach: float
     ) -> GridSequenceResult:
-        climb = GridSequence(
-            replace(body, by_scale=by_scale), heights, load, threads, iterations, known
+        sequence = GridSequence(
+            replace(body, by_scale=by_scale), heights, load, threads, iterations, start
         )
-        return _climbed(climb, most, reach, on_grid)
+        return _solve_sequence(sequence, most, reach, on_grid)
 
-    if not under.iterated:
+    if not effects.iterated:
         return replace(solve(None, {}, goal).contact, conditions=conditions)
-    time = _passage(under, speed, footprint)
+    time = 0.0
+    if effects.heat is not None and body.speed > 0.0:
+        if footprint is None:
+            raise InputError(
+                "footprint must be the length of the nominal contact [m] with heat; got none"
+            )
+        time = checks.positive("footprint", footprint, unit="m") / body.speed
     quick, whole = partial(solve, reach=math.inf), partial(solve, reach=goal)
-    return replace(solve_coupled_contact(whole, quick, rubber, under, time), conditions=conditions)
+    contact = solve_coupled_contact(whole, quick, rubber, effects, time)
+    return replace(contact, conditions=conditions)
 
 
-def _climbed(
-    climb: GridSequence, most: int, goal: float, on_grid: Callable[[GridRecord], None] | None
+def relative_tolerance(name: str, value: float | None) -> float | None:
+    """Return a relative tolerance, or None; raise `InputError` unless it is between 0 and 1."""
+    if value is None:
+        return None
+    tolerance = checks.positive(name, value)
+    if tolerance >= 1.0:
+        raise InputError(f"{name} must be below 1, being a relative error; got {tolerance:g}")
+    return tolerance
+
+
+def _solve_sequence(
+    sequence: GridSequence,
+    most: int,
+    goal: float,
+    on_grid: Callable[[GridRecord], None] | None,
 ) -> GridSequenceResult:
-    """Return the contact with one rubber, on finer and finer grids."""
-    plan, grids = _planned(climb, goal), list[GridRecord]()
+    """Return the contact with one rubber, on grids refined until the errors meet `goal`."""
+    body, heights, load = sequence.body, sequence.heights, sequence.pressure
+    # only the last levels of `start` with all waves: as many as the errors are estimated from
+    whole = [
+        contact.level
+        for contact in sequence.start.values()
+        if contact.level.cut_off == heights.smallest_wavelength
+    ]
+    plan = whole[-(1 if math.isinf(goal) else ERROR_GRIDS) :] or levels(heights)
+    grids: list[GridRecord] = []
     while plan:
         level = plan.pop(0)
-        solved = climb.solve(level, START_TOLERANCE if plan else TOLERANCE)
+        solved = sequence.solve(level, START_TOLERANCE if plan else TOLERANCE)
         grids.append(solved.record)
         if on_grid is not None:
             on_grid(solved.record)
         following = finer(solved.level)
-        if not plan and not _met(_same_surface(grids), goal):
-            plan += [following] if following.grid.points <= most else []
-    contact = _result(climb.body, climb.heights, climb.pressure, solved, grids, goal)
-    return GridSequenceResult(contact, {**climb.known, **climb.solved})
+        if not plan and not _met(_same_surface(grids), goal) and following.grid.points <= most:
+            plan.append(following)
 
-
-def _planned(climb: GridSequence, goal: float) -> list[Level]:
-    """Return the levels to the first that may do.
-
-    Of those known the last, with those before it that tell its errors if they are asked for.
-    """
-    known = [one.level for one in climb.known.values()]
-    whole = [level for level in known if level.cut_off == climb.heights.smallest_wavelength]
-    needed = 1 if math.isinf(goal) else JUDGED_BY
-    return whole[-needed:] or levels(climb.heights)
-
-
-def _passage(conditions: Conditions, speed: float, footprint: float | None) -> float:
-    """Return for how long the nominal contact lasts [s], where heat needs to know."""
-    if conditions.heat is None or speed == 0.0:
-        return 0.0
-    if footprint is None:
-        raise InputError(
-            "footprint must be the length of the nominal contact [m] with heat; got none"
-        )
-    return checks.positive("footprint", footprint, unit="m") / speed
-
-
-def _result(
-    body: HalfSpace,
-    heights: PeriodicHeights,
-    load: float,
-    solved: LevelContact,
-    grids: list[GridRecord],
-    goal: float,
-) -> RoughContact:
-    contact, found = solved.contact, solved.record
+    contact, record, height = solved.contact, solved.record, solved.height
     area_error, friction_error = errors(_same_surface(grids))
-    return RoughContact(
+    violation = np.where(contact.active, np.abs(contact.gap), np.maximum(-contact.gap, 0.0))
+    rms = float(np.sqrt(np.mean(height**2)))
+    result = RoughContact(
         rubber=body.rubber,
         nominal_pressure=load,
         speed=body.speed,
         smallest_wavelength=heights.smallest_wavelength,
-        contact_fraction=found.contact_fraction,
-        friction=found.friction,
-        friction_from_dissipation=found.friction_from_dissipation,
+        contact_fraction=record.contact_fraction,
+        friction=record.friction,
+        friction_from_dissipation=record.friction_from_dissipation,
         contact_fraction_error=area_error,
         friction_error=friction_error,
         status=_status(solved, grids, goal),
-        residuals=_residuals(solved, load),
-        full_contact=found.full,
+        residuals={
+            "pressure": contact.missing,
+            "gap": float(violation.max() / rms) if rms > 0.0 else 0.0,
+            "load": abs(float(contact.pressure.mean()) / load - 1.0),
+        },
+        full_contact=record.full,
         grid=solved.level.grid,
         origin=heights.origin,
-        height=solved.height,
+        height=height,
         pressure=np.maximum(contact.pressure, 0.0),
         gap=np.where(contact.active, 0.0, np.maximum(contact.gap, 0.0)),
         measured=heights.measured_on(solved.level.grid.shape),
         grids=grids,
         by_scale=body.by_scale,
     )
+    return GridSequenceResult(result, {**sequence.start, **sequence.solved})
+
+
+def _status(solved: LevelContact, grids: list[GridRecord], goal: float) -> Status:
+    if not np.isfinite(solved.contact.pressure).all():
+        return Status.NOT_FINITE
+    if not grids[-1].settled:
+        return Status.ACTIVE_SET_NOT_SETTLED
+    if grids[-1].in_contact < FEWEST_IN_CONTACT:
+        return Status.CONTACT_TOO_NARROW
+    return Status.CONVERGED if _met(_same_surface(grids), goal) else Status.TOLERANCE_NOT_MET
 
 
 def _same_surface(grids: list[GridRecord]) -> list[GridRecord]:
-    """Return the last grid, and those before it that settled with all waves on them."""
+    """Return the settled grids with the same waves as the last one, and the last one."""
     whole = [grid for grid in grids if grid.cut_off == grids[-1].cut_off]
     return [grid for grid in whole[:-1] if grid.settled] + whole[-1:]
 
@@ -247,39 +266,3 @@ def _met(same_surface: list[GridRecord], goal: float) -> bool:
         and friction <= goal * max(abs(last.friction_from_dissipation), LEAST_FRICTION)
         and last.in_contact >= FEWEST_IN_CONTACT
     )
-
-
-def _status(solved: LevelContact, grids: list[GridRecord], goal: float) -> Status:
-    pressure, last = solved.contact.pressure, grids[-1]
-    if not np.isfinite(pressure).all():
-        return Status.NOT_FINITE
-    if not last.settled:
-        return Status.ACTIVE_SET_NOT_SETTLED
-    if last.in_contact < FEWEST_IN_CONTACT:
-        return Status.CONTACT_TOO_NARROW
-    return Status.CONVERGED if _met(_same_surface(grids), goal) else Status.TOLERANCE_NOT_MET
-
-
-def _residuals(solved: LevelContact, load: float) -> dict[str, float]:
-    contact, size = solved.contact, float(np.sqrt(np.mean(solved.height**2)))
-    left = np.where(contact.active, np.abs(contact.gap), np.maximum(-contact.gap, 0.0))
-    return {
-        "pressure": contact.missing,
-        "gap": float(left.max() / size) if size > 0.0 else 0.0,
-        "load": abs(float(contact.pressure.mean()) / load - 1.0),
-    }
-
-
-def _check_size(points: int, most: int, smallest: float) -> None:
-    if points > most:
-        raise InputError(
-            f"most_points must be at least {points}, four points in each wave of {smallest:.4g} m; "
-            f"got {most}: raise it, take a larger smallest_wavelength or a part of the surface"
-        )
-
-
-def _tolerance(value: float) -> float:
-    goal = checks.positive("tolerance", value)
-    if goal >= 1.0:
-        raise InputError(f"tolerance must be below 1, being a relative error; got {goal:g}")
-    return goal

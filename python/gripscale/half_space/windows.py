@@ -1,4 +1,8 @@
-"""How far one measurement speaks for the surface: the contact of its windows, and their scatter."""
+"""Windows of a surface, the scatter of their contacts, and surfaces to compare with.
+
+Windows show how well one measurement represents the surface. Surfaces to compare with are one
+period of a line, superposed sines, and a surface with the same spectrum but random phases.
+"""
 
 from __future__ import annotations
 
@@ -12,8 +16,9 @@ import scipy.fft
 from scipy import stats
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
-from gripscale.half_space.grid import DEFAULT_STEPS, Array, joined, periodic_heights
+from gripscale.half_space.grid import DEFAULT_STEPS, joined, periodic_heights
 from gripscale.half_space.result import RoughContact
 from gripscale.half_space.solve import solve_rough_contact
 from gripscale.rubber import Rubber
@@ -22,15 +27,19 @@ from gripscale.surface.profile import FEWEST_POINTS
 from gripscale.surface.resampling import filled
 
 LEAST_VALID = 0.5
-"""Share of heights a window must have."""
+"""Share of heights that a window must have."""
+POINTS_IN_WAVE = 8
+MOST_POINTS = 10_000_000
+
+Surface = TypeVar("Surface", Profile, HeightMap)
 
 
 @dataclass(frozen=True)
 class WindowContacts:
-    """Contacts of the windows of one surface; those that did not converge count in no number.
+    """Contacts of the windows of one surface; statistics use those that converged.
 
-    A `name` below is that of a number of `RoughContact`, in its unit: `contact_fraction`,
-    `friction`, `friction_from_dissipation` and so on.
+    A `name` is that of a number of `RoughContact`, in its unit: `contact_fraction`, `friction`,
+    `friction_from_dissipation` and so on.
     """
 
     contacts: list[RoughContact]
@@ -43,7 +52,7 @@ class WindowContacts:
     def mean(self, name: str) -> float:
         """Return the mean over windows; NaN if none converged.
 
-        Pressure and size are the same, so it is the surface's.
+        All windows have the same pressure and size, so that this is the mean of the surface.
         """
         values = self.values(name)
         return float(values.mean()) if values.size else math.nan
@@ -79,14 +88,14 @@ class WindowContacts:
         values = self.values(name)
         if values.size < 3:
             return math.nan, math.nan
-        found = stats.bootstrap(
+        interval = stats.bootstrap(
             (values,),
             np.mean,
             confidence_level=level,
             method="percentile",
             rng=np.random.default_rng(seed),
-        )
-        return float(found.confidence_interval.low), float(found.confidence_interval.high)
+        ).confidence_interval
+        return float(interval.low), float(interval.high)
 
 
 def windows(
@@ -101,14 +110,14 @@ def windows(
     surface : Profile or HeightMap
         The surface.
     length : float or (float, float)
-        Length of the windows along x, and for a map along y [m]; of one length alone, the windows
-        of a map are as wide as the map.
+        Length of the windows along x, and for a map along y [m]. With one length the windows of a
+        map are as wide as the map.
 
     Raises
     ------
     InputError
-        If a window would have fewer than 16 points a way or be longer than the surface, or none is
-        left.
+        If a window would have fewer than 16 points along an axis or be longer than the surface, or
+        if no window has half of its heights.
     """
     lengths = tuple(length) if isinstance(length, tuple | list) else (length,)
     if not isinstance(surface, Profile | HeightMap):
@@ -118,34 +127,32 @@ def windows(
             f"length must be one of a profile, one or two of a map; got {checks.short_repr(length)}"
         )
     axes = [surface.x] if isinstance(surface, Profile) else [surface.x, surface.y]
-    cuts = [_cut(axis, part) for axis, part in zip(axes, lengths, strict=False)]
-    places = [
-        place for place in product(*cuts) if np.isfinite(surface.z[place]).mean() >= LEAST_VALID
-    ]
-    if not places:
+    cuts = []
+    for axis, part in zip(axes, lengths, strict=False):
+        step = float((axis[-1] - axis[0]) / (axis.size - 1))
+        wanted = checks.positive("length", part, unit="m")
+        points = round(min(wanted / step, 2.0 * axis.size))
+        if not FEWEST_POINTS <= points <= axis.size:
+            raise InputError(
+                f"length must be from {FEWEST_POINTS * step:.4g} m to {axis.size * step:.4g} m, "
+                f"the surface's; got {part:.4g} m"
+            )
+        number = axis.size // points
+        first = (axis.size - number * points) // 2
+        cuts.append([slice(first + i * points, first + (i + 1) * points) for i in range(number)])
+    out: list[Profile | HeightMap] = []
+    for cut in product(*cuts):
+        heights = surface.z[cut]
+        if np.isfinite(heights).mean() < LEAST_VALID:
+            continue
+        if isinstance(surface, Profile):
+            out.append(Profile(surface.x[cut[0]], heights, surface.name))
+        else:
+            across = cut[1] if len(cut) > 1 else slice(None)
+            out.append(HeightMap(surface.x[cut[0]], surface.y[across], heights, surface.name))
+    if not out:
         raise InputError(f"length {length} m leaves no window with half of its heights")
-    if isinstance(surface, Profile):
-        return [Profile(surface.x[p], surface.z[p], surface.name) for (p,) in places]
-    whole = slice(None)
-    return [
-        HeightMap(surface.x[p], surface.y[q], surface.z[p, q], surface.name)
-        for p, q in ((*place, whole)[:2] for place in places)
-    ]
-
-
-def _cut(axis: Array, length: float) -> list[slice]:
-    """Return the centred windows of `length` [m] along an axis."""
-    step = float((axis[-1] - axis[0]) / (axis.size - 1))
-    share = checks.positive("length", length, unit="m") / step
-    points = round(min(share, 2.0 * axis.size))
-    if not FEWEST_POINTS <= points <= axis.size:
-        raise InputError(
-            f"length must be from {FEWEST_POINTS * step:.4g} m to {axis.size * step:.4g} m, "
-            f"the surface's; got {length:.4g} m"
-        )
-    number = axis.size // points
-    first = (axis.size - number * points) // 2
-    return [slice(first + i * points, first + (i + 1) * points) for i in range(number)]
+    return out
 
 
 def solve_windows(
@@ -159,7 +166,7 @@ def solve_windows(
     Parameters
     ----------
     rubber, **load
-        As for `solve_rough_contact`; `periodic` makes no sense here.
+        As for `solve_rough_contact`, without `periodic`.
     surface, length
         As for `windows`.
 
@@ -173,20 +180,11 @@ def solve_windows(
     )
 
 
-# Surfaces to compare with: one period of a line, superposed sines, and random phases.
-
-Surface = TypeVar("Surface", Profile, HeightMap)
-
-POINTS_IN_WAVE = 8
-MOST_POINTS = 10_000_000
-
-
 def one_period(line: Profile, smallest_wavelength: float | None = None) -> Profile:
-    """Return a line as `solve_rough_contact` sees it, for any model to take with `periodic=True`.
+    """Return the periodic line of `solve_rough_contact`, for any model with `periodic=True`.
 
-    Missing heights are filled, ends joined, and waves left out that are shorter than
-    `smallest_wavelength` [m], by default four steps. The points are the fewest that carry the
-    waves that are left, four in the smallest.
+    Missing heights are filled, ends joined, and waves shorter than `smallest_wavelength` [m], by
+    default four steps, left out. The smallest wave has four points.
 
     Raises
     ------
@@ -208,8 +206,8 @@ def surface_of_sines(stack: SineStack, length: float, seed: int) -> Profile:
     Parameters
     ----------
     stack : SineStack
-        The waves; each wavelength is changed to the nearest that fits `length` a whole number of
-        times, its amplitude with it, so that slopes stay.
+        The waves. Each wavelength is changed to the nearest that divides `length`, and its
+        amplitude in proportion, so that slopes are kept.
     length : float
         Period [m], at least the largest wavelength.
     seed : int
@@ -235,21 +233,21 @@ def surface_of_sines(stack: SineStack, length: float, seed: int) -> Profile:
             f"got {int(counts.max())}"
         )
     random = np.random.default_rng(checks.whole("seed", seed, least=0, most=2**32 - 1))
-    place = np.arange(points) / points
+    position = np.arange(points) / points
     amplitudes = stack.amplitude * (period / counts) / stack.wavelength
     z = np.zeros(points)
     for count, amplitude in zip(counts, amplitudes, strict=True):
-        z += amplitude * np.cos(2.0 * np.pi * (count * place + random.random()))
-    return Profile(place * period, z, name=f"{len(stack)} sine waves", source=f"seed {seed}")
+        z += amplitude * np.cos(2.0 * np.pi * (count * position + random.random()))
+    return Profile(position * period, z, name=f"{len(stack)} sine waves", source=f"seed {seed}")
 
 
 def random_phases(surface: Surface, seed: int) -> Surface:
     """Return a periodic surface with the spectrum of `surface` and random phases.
 
     Missing heights are filled and ends joined as `solve_rough_contact` does. The height difference
-    correlation of that filled surface stays; where the roughness sits, and the distribution of
-    heights, do not. Steep lines that bridge gaps are in the spectrum of the filled surface: where
-    steep flanks are missing it is rougher than the pairs of measured heights say.
+    correlation of the filled surface is kept; positions of the roughness and the distribution of
+    heights are not. Steep lines that bridge gaps are part of the spectrum: where steep flanks are
+    missing, the surface is rougher than the pairs of measured heights.
 
     Raises
     ------
@@ -264,8 +262,8 @@ def random_phases(surface: Surface, seed: int) -> Surface:
     spectrum = scipy.fft.rfftn(random.standard_normal(z.shape))  # phases of a real surface
     size = np.abs(spectrum)
     spectrum *= np.abs(scipy.fft.rfftn(z)) / np.where(size > 0.0, size, 1.0)
-    drawn = scipy.fft.irfftn(spectrum, s=z.shape)
+    heights = scipy.fft.irfftn(spectrum, s=z.shape)
     name, source = f"{surface.name}, random phases".lstrip(", "), f"seed {seed}"
     if isinstance(surface, Profile):
-        return Profile(surface.x, drawn, name, source)
-    return HeightMap(surface.x, surface.y, drawn, name, source)
+        return Profile(surface.x, heights, name, source)
+    return HeightMap(surface.x, surface.y, heights, name, source)

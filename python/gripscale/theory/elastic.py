@@ -1,4 +1,6 @@
-"""A rigid cylinder pressed into an elastic half-plane: Hertz's line contact.
+"""Closed forms: Hertz, step relaxation, Westergaard, full contact of a sine, bonded slab.
+
+A rigid cylinder pressed into an elastic half-plane: Hertz's line contact.
 
 Geometry: plane strain, frictionless, radius R much larger than the contact half width a.
 
@@ -9,14 +11,74 @@ Nomenclature: P load per length [N/m], M = E/(1-nu^2) of the elastic side.
 Source: K. L. Johnson, Contact Mechanics (1985), sec. 4.2(c), eqs. 4.43-4.45,
 doi:10.1017/CBO9781139171731. The crest of a wave A cos(2 pi x/lambda) has R = lambda^2/(4 pi^2 A):
 Westergaard's contact tends to Hertz's as the load goes to zero.
+
+Stress relaxation of an incompressible rubber bar after a step to a finite stretch.
+
+Geometry: uniaxial tension or compression, stretch s held from t = 0 on.
+
+Nomenclature: G(t) = E(t)/3 the shear relaxation modulus, P the nominal stress (force over the
+undeformed cross-section).
+
+    P(t) = G(t) (s - s^-2) = G_inf (s - s^-2) (1 + sum beta_i exp(-t/tau_i)),  beta_i = G_i/G_inf
+
+A neo-Hookean base with linear evolution of the internal variables; the temporary network
+(J. Lubliner, Mech. Res. Commun. 12 (1985) 93, doi:10.1016/0093-6413(85)90075-8), the second
+Piola-Kirchhoff overstress (J. C. Simo, Comput. Methods Appl. Mech. Engrg. 60 (1987) 153,
+doi:10.1016/0045-7825(87)90107-1) and its mixed pull-back agree here: the strain is constant.
+
+An elastic half-plane pressed on a rigid sine in part: Westergaard's contact.
+
+Geometry: plane strain, frictionless, small slope, wave z = A cos(2 pi x/lambda), crest at x = 0.
+
+Nomenclature: p mean pressure, p* = pi E/(1-nu^2) A/lambda the pressure of full contact
+(`full_contact_pressure`), psi = pi x/lambda, psi_a the same at the contact edge.
+
+    sin^2(psi_a) = p/p*                              contact fraction = (2/pi) psi_a
+    p(x) = 2 p cos(psi) / sin^2(psi_a) sqrt(sin^2(psi_a) - sin^2(psi))
+    p(0) = 2 p / sin(psi_a)                          the largest pressure
+
+Source: H. M. Westergaard, J. Appl. Mech. 6 (1939) A49; in this form K. L. Johnson, Contact
+Mechanics (1985), sec. 13.2, doi:10.1017/CBO9781139171731.
+
+A rubber half-plane that fills a rigid sine completely: pressure and friction in closed form.
+
+Geometry: plane strain, wave z = A cos(k x), k = 2 pi/lambda, small slope, no adhesion; the rubber
+slides over it with speed v, so that every point is excited at w = k v.
+
+Nomenclature: M = E/(1-nu^2) the plane strain modulus, complex at w; p mean pressure; mu friction.
+
+    p_full = k A |M(w)| / 2
+    mu     = k^2 A^2 Im M(w) / (4 p)      for p >= p_full
+
+Source: one Fourier component of the half-plane, u_q = -2 p_q / (|q| M(q v)) (K. L. Johnson,
+Contact Mechanics, 1985, sec. 13.2, doi:10.1017/CBO9781139171731), with the elastic modulus
+replaced by the complex one as in B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840,
+doi:10.1063/1.1388626. The pressure then is p + k A |M| / 2 cos(k x + phase), which must not be
+negative.
+
+How an elastic slab bonded to a rigid base yields to a wavy pressure.
+
+Geometry: plane strain, thickness h, the lower face bonded, a pressure p cos(k x) without shear on
+the upper face; u is the normal displacement there.
+
+Nomenclature: kappa = 3 - 4 nu, c = k h.
+
+    u/p = 2 (1-nu^2)/(E k) * (2 kappa sinh 2c - 4 c) / (2 kappa cosh 2c + 1 + kappa^2 + 4 c^2)
+
+Limits: 2 (1-nu^2)/(E k), the half-plane, for c -> infinity; h (1+nu)(1-2nu)/(E (1-nu)), uniaxial
+strain, for c -> 0.
+
+Source: M. Hannah, Q. J. Mech. Appl. Math. 4 (1951) 94; F. Bentall & K. L. Johnson,
+Int. J. Mech. Sci. 10 (1968) 637 (bonded layer).
 """
 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.rubber import Rubber
 
@@ -69,23 +131,6 @@ def largest_pressure(
     return float(2.0 * load_per_length / (np.pi * half_width))
 
 
-# Stress relaxation of an incompressible rubber bar after a step to a finite stretch.
-#
-# Geometry: uniaxial tension or compression, stretch s held from t = 0 on.
-#
-# Nomenclature: G(t) = E(t)/3 the shear relaxation modulus, P the nominal stress (force over the
-# undeformed cross-section).
-#
-#     P(t) = G(t) (s - s^-2) = G_inf (s - s^-2) (1 + sum beta_i exp(-t/tau_i)),  beta_i = G_i/G_inf
-#
-# A neo-Hookean base with linear evolution of the internal variables; the temporary network
-# (J. Lubliner, Mech. Res. Commun. 12 (1985) 93, doi:10.1016/0093-6413(85)90075-8), the second
-# Piola-Kirchhoff overstress (J. C. Simo, Comput. Methods Appl. Mech. Engrg. 60 (1987) 153,
-# doi:10.1016/0045-7825(87)90107-1) and its mixed pull-back agree here: the strain is constant.
-
-Array = NDArray[np.float64]
-
-
 def step_relaxation_stress(rubber: Rubber, *, stretch: float, time: ArrayLike) -> Array:
     """Return the nominal stress [Pa] at `time` [s] after a step to `stretch` [-], shape of `time`.
 
@@ -106,21 +151,6 @@ def step_relaxation_stress(rubber: Rubber, *, stretch: float, time: ArrayLike) -
     checks.instance("rubber", rubber, Rubber)
     ratio = checks.positive("stretch", stretch)
     return np.asarray(rubber.relaxation_modulus(time) / 3.0 * (ratio - ratio**-2))
-
-
-# An elastic half-plane pressed on a rigid sine in part: Westergaard's contact.
-#
-# Geometry: plane strain, frictionless, small slope, wave z = A cos(2 pi x/lambda), crest at x = 0.
-#
-# Nomenclature: p mean pressure, p* = pi E/(1-nu^2) A/lambda the pressure of full contact
-# (`full_contact.full_contact_pressure`), psi = pi x/lambda, psi_a the same at the contact edge.
-#
-#     sin^2(psi_a) = p/p*                              contact fraction = (2/pi) psi_a
-#     p(x) = 2 p cos(psi) / sin^2(psi_a) sqrt(sin^2(psi_a) - sin^2(psi))
-#     p(0) = 2 p / sin(psi_a)                          the largest pressure
-#
-# Source: H. M. Westergaard, J. Appl. Mech. 6 (1939) A49; in this form K. L. Johnson, Contact
-# Mechanics (1985), sec. 13.2, doi:10.1017/CBO9781139171731.
 
 
 def contact_fraction(pressure_ratio: ArrayLike) -> Array:
@@ -164,23 +194,6 @@ def contact_pressure(
     edge = mean / full
     root = np.sqrt(np.maximum(edge - np.sin(psi) ** 2, 0.0))
     return np.asarray(2.0 * mean / edge * np.abs(np.cos(psi)) * root)
-
-
-# A rubber half-plane that fills a rigid sine completely: pressure and friction in closed form.
-#
-# Geometry: plane strain, wave z = A cos(k x), k = 2 pi/lambda, small slope, no adhesion; the rubber
-# slides over it with speed v, so that every point is excited at w = k v.
-#
-# Nomenclature: M = E/(1-nu^2) the plane strain modulus, complex at w; p mean pressure; mu friction.
-#
-#     p_full = k A |M(w)| / 2
-#     mu     = k^2 A^2 Im M(w) / (4 p)      for p >= p_full
-#
-# Source: one Fourier component of the half-plane, u_q = -2 p_q / (|q| M(q v)) (K. L. Johnson,
-# Contact Mechanics, 1985, sec. 13.2, doi:10.1017/CBO9781139171731), with the elastic modulus
-# replaced by the complex one as in B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840,
-# doi:10.1063/1.1388626. The pressure then is p + k A |M| / 2 cos(k x + phase), which must not be
-# negative.
 
 
 def plane_strain_modulus(youngs_modulus: complex, poisson_ratio: float) -> complex:
@@ -260,22 +273,6 @@ def _modulus(value: complex) -> complex:
             f"negative [Pa]; got {modulus}"
         )
     return modulus
-
-
-# How an elastic slab bonded to a rigid base yields to a wavy pressure.
-#
-# Geometry: plane strain, thickness h, the lower face bonded, a pressure p cos(k x) without shear on
-# the upper face; u is the normal displacement there.
-#
-# Nomenclature: kappa = 3 - 4 nu, c = k h.
-#
-#     u/p = 2 (1-nu^2)/(E k) * (2 kappa sinh 2c - 4 c) / (2 kappa cosh 2c + 1 + kappa^2 + 4 c^2)
-#
-# Limits: 2 (1-nu^2)/(E k), the half-plane, for c -> infinity; h (1+nu)(1-2nu)/(E (1-nu)), uniaxial
-# strain, for c -> 0.
-#
-# Source: M. Hannah, Q. J. Mech. Appl. Math. 4 (1951) 94; F. Bentall & K. L. Johnson,
-# Int. J. Mech. Sci. 10 (1968) 637 (bonded layer).
 
 
 def slab_compliance(

@@ -2,8 +2,7 @@
 
 Geometry: plane strain, frictionless, small slope; rigid wave w = A cos(k x) at rest,
 k = 2 pi/lambda, crest at x = 0; the rubber lies above and slides over it towards +x with speed v.
-A harmonic exp(i m k x) that stands still in this frame is seen by the rubber at the angular
-frequency m k v, so
+A harmonic exp(i m k x) at rest in this frame excites the rubber at the angular frequency m k v, so
 
     u_m = 2 p_m / (m k M(m k v)),        M = E*/(1-nu^2) = 4 G* (3K + G*) / (3K + 4 G*)
 
@@ -13,22 +12,36 @@ modulus in place of the elastic one (correspondence principle). Friction opposes
     mu = mean(p dw/dx) / mean(p)                            from the contact traction
     mu = (4 / mean(p)) sum_m |p_m|^2 Im M(m k v) / |M(m k v)|^2    from the energy lost
 
-A model independent of the finite-strain block, right where slopes are small. The mean state has
-no part in it: a mean pressure and shear only shift a linear half-plane, so the load time has no
-effect.
+A model independent of the finite-strain block, right where slopes are small. A mean pressure and a
+mean shear only shift a linear half-plane, so the load time has no effect.
+
+The contact is solved by boundary elements in dimensionless form: abscissa theta = k x in [-pi, pi),
+heights over the amplitude, pressures over the mean pressure. The pressure is piecewise linear on N
+equal elements; harmonic m of the pressure raises the surface by c(m) times itself (c complex: the
+surface lags behind). With hat functions, whose Fourier coefficients are sinc^2(m/N), a nodal
+pressure p_j gives at node i
+
+    u_i = d + sum_j K_(i-j) p_j,   K_j = (1/N) sum_(m != 0) c(m) sinc^2(m/N) exp(i m theta_j)
+
+and contact requires gap = u - w >= 0, p >= 0, gap p = 0 at every node, mean p = 1. Viscosity makes
+K unsymmetric, but its symmetric part is positive definite, so the solution is unique (R. W. Cottle,
+J.-S. Pang, R. E. Stone, The Linear Complementarity Problem, 1992, sec. 3.1). The active set is
+found by block pivoting, with single nodes where blocks make no progress (J. J. Judice & F. M.
+Pires, Comput. Oper. Res. 21 (1994) 587, doi:10.1016/0305-0548(94)90106-6).
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array, ComplexArray, Mask
+from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.rubber import Rubber
 from gripscale.rubber.material import require_solid
@@ -39,47 +52,35 @@ from gripscale.theory.elastic import (
     poisson,
 )
 from gripscale.wave.kernel import face_of
-from gripscale.wave.problem import Load, Sine, Status, WaveProblem
+from gripscale.wave.problem import Sine, Status, WaveLoad, WaveProblem
 from gripscale.wave.result import WaveResult
 
-# Frictionless contact of a linear half-plane with a periodic rigid surface, by boundary elements.
-#
-# Everything here is dimensionless: abscissa theta = k x in [-pi, pi), heights over the amplitude,
-# pressures over the mean pressure. The pressure is piecewise linear on N equal elements; harmonic m
-# of the pressure raises the surface by c(m) times itself (c complex: the surface lags behind). With
-# hat functions, whose Fourier coefficients are sinc^2(m/N), a nodal pressure p_j gives at node i
-#
-#     u_i = d + sum_j K_(i-j) p_j,   K_j = (1/N) sum_(m != 0) c(m) sinc^2(m/N) exp(i m theta_j)
-#
-# and contact asks for gap = u - w >= 0, p >= 0, gap p = 0 at every node, mean p = 1. Viscosity
-# makes K unsymmetric, but its symmetric part is positive definite, so the solution is unique (R. W.
-# Cottle, J.-S. Pang, R. E. Stone, The Linear Complementarity Problem, 1992, sec. 3.1). The active
-# set is found by block pivoting, and one node at a time where blocks stall (J. J. Judice & F. M.
-# Pires, Comput. Oper. Res. 21 (1994) 587, doi:10.1016/0305-0548(94)90106-6).
-
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
-Mask = NDArray[np.bool_]
 Compliance = Callable[[Array], ComplexArray]
 
 _ALIASES = 16
-"""Harmonics summed, in units of N; those left out fall off as m^-3."""
+"""Harmonics summed, in units of N; the neglected ones fall off as m^-3."""
 _PATIENCE = 5
+"""Iterations without fewer wrong nodes before single nodes change sides."""
 _COARSEST = 64
+_FEWEST_IN_CONTACT = 8
 
 
 @dataclass(frozen=True)
-class PeriodicContact:
-    """Solution on N nodes, theta = -pi + 2 pi i/N."""
+class GridContact:
+    """Contact on a periodic grid by an active set: arrays of the shape of the grid."""
 
     pressure: Array
-    """Over the mean pressure [-]."""
+    """In the unit of the solver: [Pa], or over the mean pressure."""
     gap: Array
-    """Over the amplitude [-]."""
+    """In the unit of the solver: [m], or over the amplitude."""
     active: Mask
     iterations: int
     settled: bool
-    """Whether the active set stopped changing."""
+    """Whether the active set stopped changing, with the linear system solved."""
+    products: int = 0
+    """Products with the influence matrix, of an iterative solver."""
+    missing: float = 0.0
+    """Residual of the linear system over the pressure [-], of an iterative solver."""
 
 
 def nodes(points: int) -> Array:
@@ -89,8 +90,8 @@ def nodes(points: int) -> Array:
 
 def solve_periodic_contact(
     compliance: Compliance, height: Callable[[Array], Array], points: int, most_iterations: int
-) -> PeriodicContact:
-    """Return the contact, found on ever finer grids that hand each other the active set.
+) -> GridContact:
+    """Return the contact, solved on nested grids that each start from the active set before.
 
     `compliance` gives c(m) for m = 1, 2, ...; `height` the rigid surface at angles [rad].
     """
@@ -103,12 +104,57 @@ def solve_periodic_contact(
         if len(active) != level:
             finer = np.repeat(active, 2)
             active = finer | np.roll(finer, -1)
-        contact = _solve_level(compliance, height(nodes(level)), active, most_iterations)
+        contact = _pivoted(compliance, height(nodes(level)), active, most_iterations)
         active = contact.active
         iterations += contact.iterations
-    return PeriodicContact(
-        contact.pressure, contact.gap, contact.active, iterations, contact.settled
-    )
+    return replace(contact, iterations=iterations)
+
+
+def _pivoted(
+    compliance: Compliance, height: Array, active: Mask, most_iterations: int
+) -> GridContact:
+    """Return the contact on one grid by block pivoting from the `active` nodes."""
+    points = len(height)
+    influence = influence_column(compliance, points)
+    transform = np.fft.fft(influence)
+    fewest, patience = points + 1, _PATIENCE
+    for iteration in range(1, most_iterations + 1):
+        # closes the gap at the active nodes; the border is the rigid offset d and the mean pressure
+        where = np.flatnonzero(active)
+        size = len(where)
+        system = np.zeros((size + 1, size + 1))
+        system[:size, :size] = influence[(where[:, None] - where[None, :]) % points]
+        system[:size, size] = 1.0
+        system[size, :size] = 1.0 / points
+        try:
+            solution = np.linalg.solve(system, np.append(height[where], 1.0))
+        except np.linalg.LinAlgError:  # no node is active, or compliances are lost in rounding
+            return GridContact(np.zeros(points), -height, active, iteration, settled=False)
+        pressure = np.zeros(points)
+        pressure[where], offset = solution[:size], float(solution[size])
+        gap = np.fft.ifft(transform * np.fft.fft(pressure)).real + offset - height
+        wrong = np.where(active, pressure < 0.0, gap < -1e-12)
+        count = int(wrong.sum())
+        if count == 0:
+            return GridContact(pressure, gap, active, iteration, settled=True)
+        if count < fewest:
+            fewest, patience = count, _PATIENCE
+        elif patience > 0:
+            patience -= 1
+        else:
+            wrong[: np.flatnonzero(wrong)[-1]] = False
+        active = active ^ wrong
+    return GridContact(pressure, gap, active ^ wrong, most_iterations, settled=False)
+
+
+def influence_column(compliance: Compliance, points: int) -> Array:
+    """Return K, the first column of the circulant influence matrix, shape (points,)."""
+    number = np.arange(1, _ALIASES * points + 1)
+    value = compliance(number.astype(float)) * np.sinc(number / points) ** 2
+    folded = np.zeros(points, dtype=np.complex128)
+    np.add.at(folded, number % points, value)
+    np.add.at(folded, -number % points, value.conj())
+    return np.asarray(np.fft.ifft(folded).real)
 
 
 def pressure_harmonics(pressure: Array) -> ComplexArray:
@@ -123,8 +169,8 @@ def pressure_harmonics(pressure: Array) -> ComplexArray:
     return np.asarray(at_nodes[number % points] * origin * np.sinc(number / points) ** 2)
 
 
-def contact_edges(contact: PeriodicContact) -> list[tuple[float, float]]:
-    """Return the contact patches as (start, end) angles [rad], located inside the elements.
+def contact_edges(contact: GridContact) -> list[tuple[float, float]]:
+    """Return the contact patches as (start, end) angles [rad], interpolated between nodes.
 
     Outside the edge of a smooth contact the gap grows as (distance)^(3/2), so gap^(2/3) at the two
     nearest open nodes is extrapolated to zero. A patch across +-pi has end > pi.
@@ -155,62 +201,11 @@ def _edge_offset(gap: Array, active: Mask, node: int, side: int) -> float:
     return float(np.clip(1.0 - here / (there - here), 0.0, 1.0))
 
 
-def influence_column(compliance: Compliance, points: int) -> Array:
-    """Return K, the first column of the circulant influence matrix, shape (points,)."""
-    number = np.arange(1, _ALIASES * points + 1)
-    value = compliance(number.astype(float)) * np.sinc(number / points) ** 2
-    folded = np.zeros(points, dtype=np.complex128)
-    np.add.at(folded, number % points, value)
-    np.add.at(folded, -number % points, value.conj())
-    return np.asarray(np.fft.ifft(folded).real)
+def _poisson_or_none(name: str, value: float | None) -> float | None:
+    return None if value is None else poisson(value)
 
 
-def _solve_level(
-    compliance: Compliance, height: Array, active: Mask, most_iterations: int
-) -> PeriodicContact:
-    influence = influence_column(compliance, len(height))
-    transform = np.fft.fft(influence)
-    fewest, patience = len(height) + 1, _PATIENCE
-    for iteration in range(1, most_iterations + 1):
-        try:
-            pressure, offset = _solve_active(influence, height, active)
-        except np.linalg.LinAlgError:  # no node is left, or compliances are lost in rounding
-            return PeriodicContact(np.zeros(len(height)), -height, active, iteration, False)
-        gap = np.fft.ifft(transform * np.fft.fft(pressure)).real + offset - height
-        wrong = np.where(active, pressure < 0.0, gap < -1e-12)
-        count = int(wrong.sum())
-        if count == 0:
-            return PeriodicContact(pressure, gap, active, iteration, True)
-        if count < fewest:
-            fewest, patience = count, _PATIENCE
-        elif patience > 0:
-            patience -= 1
-        else:
-            wrong[: np.flatnonzero(wrong)[-1]] = False
-        active = active ^ wrong
-    return PeriodicContact(pressure, gap, active ^ wrong, most_iterations, False)
-
-
-def _solve_active(influence: Array, height: Array, active: Mask) -> tuple[Array, float]:
-    """Return nodal pressures with the gap closed at all active nodes, and the rigid offset d."""
-    points = len(height)
-    where = np.flatnonzero(active)
-    size = len(where)
-    system = np.zeros((size + 1, size + 1))
-    system[:size, :size] = influence[(where[:, None] - where[None, :]) % points]
-    system[:size, size] = 1.0
-    system[size, :size] = 1.0 / points
-    solution = np.linalg.solve(system, np.append(height[where], 1.0))
-    pressure = np.zeros(points)
-    pressure[where] = solution[:size]
-    return pressure, float(solution[size])
-
-
-_FEWEST_IN_CONTACT = 8
-
-
-@dataclass(frozen=True)
-class HalfPlane:
+class HalfPlane(Checked):
     """Solver of one wave at small strain.
 
     Parameters
@@ -231,32 +226,21 @@ class HalfPlane:
 
     name: ClassVar[str] = "half_plane"
 
-    points: int = 1024
-    poisson_ratio: float | None = None
-    most_iterations: int = 200
-
-    def __post_init__(self) -> None:
-        checked: dict[str, Any] = {
-            "points": checks.whole("points", self.points, least=16, most=8192),
-            "most_iterations": checks.whole(
-                "most_iterations", self.most_iterations, least=1, most=100_000
-            ),
-        }
-        if self.poisson_ratio is not None:
-            checked["poisson_ratio"] = poisson(self.poisson_ratio)
-        for name, value in checked.items():
-            object.__setattr__(self, name, value)
+    points: int = checked(checks.whole, least=16, most=8192, default=1024)
+    poisson_ratio: float | None = checked(_poisson_or_none, default=None)
+    most_iterations: int = checked(checks.whole, least=1, most=100_000, default=200)
 
     @classmethod
     def of(cls, **options: Any) -> HalfPlane:
-        """Return the solver of keyword arguments; unknown ones are refused."""
+        """Return the solver of keyword arguments; raise `InputError` for an unknown one."""
         checks.allowed_names("option", options, cls.__dataclass_fields__)
         return cls(**options)
 
     def solve(self, problem: WaveProblem, start: WaveResult | None = None) -> WaveResult:
         """Return contact and friction of `problem`.
 
-        Raises `InputError` if there is a `start`: grids nested from coarse to fine need none.
+        Raises `InputError` for a `start`, which the nested grids do not use, and for a profile
+        other than a sine.
         """
         if start is not None:
             raise InputError(
@@ -268,16 +252,75 @@ class HalfPlane:
                 "profile must be a Sine for the half-plane model of one wave; "
                 f"got a {type(problem.profile).__name__}"
             )
-        wave = _Wave(problem.profile, problem.load, self.points)
+        load, wave = problem.load, problem.profile
+        k = 2.0 * np.pi / wave.wavelength
+        frequency = 2.0 * np.pi * load.speed / wave.wavelength
+        x = nodes(self.points) / k
 
         def modulus(number: Array) -> ComplexArray:
-            return _modulus(problem.rubber, number * wave.frequency, self.poisson_ratio)
+            """Return M [Pa] of the harmonics."""
+            omega = number * frequency
+            if self.poisson_ratio is None:
+                return problem.rubber.plane_strain_modulus(omega)
+            return problem.rubber.complex_modulus(omega) * plane_strain_modulus(
+                1.0, self.poisson_ratio
+            )
 
         first = complex(modulus(np.ones(1))[0])
-        full = full_contact_pressure(first, **wave.shape)
-        filled = wave.pressure >= full
-        found = _fill(wave, first) if filled else _touch(wave, modulus, self.most_iterations)
-        return _result(problem, wave, found, filled=filled)
+        sizes = {"wavelength": wave.wavelength, "amplitude": wave.amplitude}
+        swing = full_contact_pressure(first, **sizes)
+        full = load.pressure >= swing
+        status, iterations, residual = Status.CONVERGED, 0, 0.0
+        if full:
+            # one harmonic of pressure, ahead of the wave by the loss angle
+            edges, in_contact = [(-np.pi, np.pi)], self.points
+            friction = dissipated = full_contact_friction(first, pressure=load.pressure, **sizes)
+            pressure = load.pressure + swing * np.cos(k * x + float(np.angle(first)))
+        else:
+            slope = k * wave.amplitude
+
+            def compliance(number: Array) -> ComplexArray:
+                return 2.0 * load.pressure / (slope * number * modulus(number))
+
+            contact = solve_periodic_contact(compliance, np.cos, self.points, self.most_iterations)
+            edges, in_contact = contact_edges(contact), int(contact.active.sum())
+            harmonics = pressure_harmonics(contact.pressure)
+            stiffness = modulus(np.arange(1.0, len(harmonics) + 1.0))
+            lost = np.abs(harmonics) ** 2 * stiffness.imag / np.abs(stiffness) ** 2
+            friction = float(slope * harmonics[0].imag)
+            dissipated = float(4.0 * load.pressure * lost.sum())
+            pressure, iterations = load.pressure * contact.pressure, contact.iterations
+            tension = -np.minimum(contact.pressure, 0.0).mean()
+            residual = float(tension + abs(contact.pressure.mean() - 1.0))
+            if not contact.settled:
+                status = Status.ACTIVE_SET_NOT_SETTLED
+            elif in_contact < _FEWEST_IN_CONTACT:
+                status = Status.CONTACT_TOO_NARROW
+        return WaveResult(
+            wavelength=wave.wavelength,
+            amplitude=wave.amplitude,
+            pressure_received=load.pressure,
+            speed=load.speed,
+            load_time=load.load_time,
+            contact_fraction=sum(end - start for start, end in edges) / (2.0 * np.pi),
+            friction=friction,
+            friction_from_dissipation=dissipated,
+            status=status,
+            newton_iterations=iterations,
+            residual=residual,
+            min_stretch=math.nan,
+            max_stretch=math.nan,
+            x=x,
+            pressure=pressure,
+            rubber=problem.rubber,
+            model=HalfPlane.name,
+            details={
+                "points": self.points,
+                "points_in_contact": in_contact,
+                "contact_edges": [(start / k, end / k) for start, end in edges],
+                "full_contact": full,
+            },
+        )
 
 
 @face_of(HalfPlane)
@@ -323,141 +366,7 @@ def solve_half_plane(
         If an argument is out of its range, or the rubber at rest is a melt: the pressure is more
         than ten times the equilibrium modulus.
     """
-    problem = WaveProblem(rubber, Sine(wavelength, amplitude), Load(pressure, speed, load_time))
+    problem = WaveProblem(rubber, Sine(wavelength, amplitude), WaveLoad(pressure, speed, load_time))
     if problem.load.speed == 0.0:
         require_solid(rubber, problem.load.pressure, math.inf)
     return HalfPlane(points, poisson_ratio, most_iterations).solve(problem)
-
-
-def _result(problem: WaveProblem, wave: _Wave, found: _Found, *, filled: bool) -> WaveResult:
-    return WaveResult(
-        wavelength=wave.profile.wavelength,
-        amplitude=wave.profile.amplitude,
-        pressure_received=wave.pressure,
-        speed=wave.load.speed,
-        load_time=wave.load.load_time,
-        contact_fraction=sum(end - start for start, end in found.edges) / (2.0 * np.pi),
-        friction=found.friction,
-        friction_from_dissipation=found.friction_from_dissipation,
-        status=found.status,
-        newton_iterations=found.iterations,
-        residual=found.residual,
-        min_stretch=float("nan"),
-        max_stretch=float("nan"),
-        x=wave.x,
-        pressure=found.pressure,
-        rubber=problem.rubber,
-        model=HalfPlane.name,
-        details={
-            "points": wave.points,
-            "points_in_contact": found.points_in_contact,
-            "contact_edges": [
-                (start / wave.number, end / wave.number) for start, end in found.edges
-            ],
-            "full_contact": filled,
-        },
-    )
-
-
-@dataclass(frozen=True)
-class _Wave:
-    """What is asked, and on how many nodes."""
-
-    profile: Sine
-    load: Load
-    points: int
-
-    @property
-    def shape(self) -> dict[str, float]:
-        return {"wavelength": self.profile.wavelength, "amplitude": self.profile.amplitude}
-
-    @property
-    def pressure(self) -> float:
-        return self.load.pressure
-
-    @property
-    def number(self) -> float:
-        return 2.0 * np.pi / self.profile.wavelength
-
-    @property
-    def frequency(self) -> float:
-        """Angular frequency k v [rad/s]."""
-        return 2.0 * np.pi * self.load.speed / self.profile.wavelength
-
-    @property
-    def slope(self) -> float:
-        return self.number * self.profile.amplitude
-
-    @property
-    def x(self) -> Array:
-        return nodes(self.points) / self.number
-
-
-@dataclass(frozen=True)
-class _Found:
-    """What is answered; edges as angles k x [rad], pressure [Pa]."""
-
-    edges: list[tuple[float, float]]
-    friction: float
-    friction_from_dissipation: float
-    pressure: Array
-    points_in_contact: int
-    iterations: int = 0
-    residual: float = 0.0
-    status: Status = Status.CONVERGED
-
-
-def _fill(wave: _Wave, modulus: complex) -> _Found:
-    """Return full contact: one harmonic of pressure, ahead of the wave by the loss angle."""
-    friction = full_contact_friction(modulus, pressure=wave.pressure, **wave.shape)
-    swing = full_contact_pressure(modulus, **wave.shape)
-    phase = wave.number * wave.x + float(np.angle(modulus))
-    return _Found(
-        edges=[(-np.pi, np.pi)],
-        friction=friction,
-        friction_from_dissipation=friction,
-        pressure=wave.pressure + swing * np.cos(phase),
-        points_in_contact=wave.points,
-    )
-
-
-def _touch(wave: _Wave, modulus: Callable[[Array], ComplexArray], limit: int) -> _Found:
-    """Return partial contact, by boundary elements."""
-
-    def compliance(number: Array) -> ComplexArray:
-        return 2.0 * wave.pressure / (wave.slope * number * modulus(number))
-
-    contact = solve_periodic_contact(compliance, np.cos, wave.points, limit)
-    harmonics = pressure_harmonics(contact.pressure)
-    stiffness = modulus(np.arange(1.0, len(harmonics) + 1.0))
-    lost = np.abs(harmonics) ** 2 * stiffness.imag / np.abs(stiffness) ** 2
-    return _Found(
-        edges=contact_edges(contact),
-        friction=float(wave.slope * harmonics[0].imag),
-        friction_from_dissipation=float(4.0 * wave.pressure * lost.sum()),
-        pressure=wave.pressure * contact.pressure,
-        points_in_contact=int(contact.active.sum()),
-        iterations=contact.iterations,
-        residual=_residual(contact),
-        status=_status(contact),
-    )
-
-
-def _modulus(rubber: Rubber, omega: Array, poisson_ratio: float | None) -> ComplexArray:
-    """Return the plane strain modulus M [Pa] at `omega` [rad/s]."""
-    if poisson_ratio is None:
-        return rubber.plane_strain_modulus(omega)
-    return rubber.complex_modulus(omega) * plane_strain_modulus(1.0, poisson_ratio)
-
-
-def _status(contact: PeriodicContact) -> Status:
-    if not contact.settled:
-        return Status.ACTIVE_SET_NOT_SETTLED
-    narrow = int(contact.active.sum()) < _FEWEST_IN_CONTACT
-    return Status.CONTACT_TOO_NARROW if narrow else Status.CONVERGED
-
-
-def _residual(contact: PeriodicContact) -> float:
-    """Return the tension left in the contact and the load's error, over the applied force."""
-    tension = -np.minimum(contact.pressure, 0.0).mean()
-    return float(tension + abs(contact.pressure.mean() - 1.0))

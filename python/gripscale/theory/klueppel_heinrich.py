@@ -8,17 +8,17 @@ M. Klueppel & G. Heinrich, Rubber Chem. Technol. 73 (2000) 578, doi:10.5254/1.35
 mean thickness delta, b times the mean penetration depth z_p, is strained at random as the rubber
 passes the surface.
 
-What was confirmed and what was not: the integral and delta = b z_p are as the literature quotes
-them; the paper itself could not be consulted. The integral is a number only if S is the spectrum of
-a strain [s]. It is taken here as the one-sided spectrum of the heights over xi_par^2,
+The integral and delta = b z_p are as the literature quotes them; the paper itself could not be
+consulted. The integral is dimensionless only if S is the spectrum of a strain [s]. Here S is the
+one-sided spectrum of the heights over xi_par^2,
 
     int_(w_min)^inf S dw = (xi_perp^2/2)/xi_par^2,      xi_perp^2/2 the variance of the heights,
 
-which fixes S_0; another reference length changes mu by a factor that does not depend on load or
-speed, which b carries. The theory's own rules for z_p (Greenwood & Williamson) and for lambda_min
+which fixes S_0. Another reference length changes mu by a factor that does not depend on load or
+speed and is part of b. The theory's own rules for z_p (Greenwood & Williamson) and for lambda_min
 (the energy criterion of A. Le Gal & M. Klueppel, J. Phys.: Condens. Matter 20 (2008) 015007,
-doi:10.1088/0953-8984/20/01/015007) carry constants that could not be confirmed: both lengths are
-stated by the caller. Of contact area nothing is said here.
+doi:10.1088/0953-8984/20/01/015007) have constants that could not be confirmed: the caller gives
+both lengths. The theory has no contact area.
 """
 
 from __future__ import annotations
@@ -29,9 +29,9 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.model import NominalLoad
 from gripscale.rubber import Rubber
@@ -45,17 +45,15 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-Array = NDArray[np.float64]
-
 SOURCE = "Klueppel & Heinrich 2000, Rubber Chem. Technol. 73, 578"
 UPPER_SHARE = 0.5
-"""Share of the heights of a profile that counts, from the highest down: valleys touch nothing."""
+"""Share of the heights of a profile that counts, from the highest down: valleys have no contact."""
 
 TOLERANCE = 1e-6
-"""Error of the integral up to which a result is converged, relative."""
+"""Relative error of the integral below which a result is converged."""
 
 _NODES = 33
-"""Wavelengths at which the running friction is told."""
+"""Wavelengths of the running friction."""
 
 _COARSEST, _FINEST = 4, 1024
 """Intervals between them, doubled from the first to the last."""
@@ -67,7 +65,7 @@ _VARIABLES = (
     ("penetration_depth", (), "m", "mean penetration depth"),
     ("friction_error", (), "1", "estimated error of the friction coefficient"),
 )
-"""What a result is made of: name, dimension, unit, meaning."""
+"""Variables of a result: name, dimension, unit, meaning."""
 
 
 @dataclass(frozen=True)
@@ -104,7 +102,7 @@ class KlueppelHeinrichResult:
 
     @property
     def converged(self) -> bool:
-        """Whether the numbers may be used."""
+        """Whether the integral met the tolerance."""
         return self.status == Status.CONVERGED
 
     def to_dataset(self) -> xr.Dataset:
@@ -141,10 +139,9 @@ def klueppel_heinrich(
         Nominal pressure [Pa], above zero, and sliding speed [m/s]; at zero there is no friction.
     layer_ratio : float
         b, thickness of the strained layer over penetration depth [-]. A free parameter of the
-        theory: fitted to friction measured with the same rubber and surface, not known beforehand.
+        theory, fitted to friction measured with the same rubber and surface.
     penetration_depth : float
-        Mean depth z_p to which the surface's tops enter the rubber, under this load and at this
-        speed [m].
+        Mean depth z_p to which the summits enter the rubber, at this load and speed [m].
     smallest_wavelength : float
         Smallest wave that counts [m].
     footprint : float, optional
@@ -161,7 +158,7 @@ def klueppel_heinrich(
     InputError
         If an argument is out of its range, or the surface is not self-affine.
     """
-    fit = _self_affine(surface)
+    fit = surface if isinstance(surface, SelfAffineFit) else _fit(surface)
     checks.instance("rubber", rubber, Rubber)
     ratio = checks.positive("layer_ratio", layer_ratio)
     depth = checks.positive("penetration_depth", penetration_depth, unit="m")
@@ -178,25 +175,29 @@ def klueppel_heinrich(
         log_q = divided(np.log(2.0 * np.pi / wavelength), intervals)
         q = np.exp(log_q)
         loss = rubber.complex_modulus(q * load.speed).imag
-        # delta/(2 p v) w E'' S dw, with S dw = v S d q the share of strain at q, and w = q v
-        work = 0.5 * ratio * depth / load.pressure * q * loss * _strain_spectrum(q, fit)
+        # delta/(2 p v) w E'' S dw, with w = q v and the strain spectrum over q, S dw = v S dq
+        work = 0.5 * ratio * depth / load.pressure * q * loss * strain_spectrum(q, fit)
         return (running_integral(work * q, log_q)[::intervals],)
 
     (friction,), (error,) = refined(at, _COARSEST, _FINEST, TOLERANCE)
     return KlueppelHeinrichResult(rubber, fit, load, ratio, depth, wavelength, friction, error)
 
 
-def _self_affine(
-    surface: SelfAffineFit | HeightDifference | Profile | Sequence[Profile],
-) -> SelfAffineFit:
-    if isinstance(surface, SelfAffineFit):
-        return surface
+def strain_spectrum(q: Array, fit: SelfAffineFit) -> Array:
+    """Return v S [m] at wavenumbers `q` [rad/m]: the spectrum of the strain over the wavenumber."""
+    first = 2.0 * np.pi / fit.xi_parallel
+    level = fit.hurst * fit.xi_perpendicular**2 / (2.0 * np.pi * fit.xi_parallel)
+    return np.asarray(level * (q / first) ** (-(2.0 * fit.hurst + 1.0)))
+
+
+def _fit(surface: HeightDifference | Profile | Sequence[Profile]) -> SelfAffineFit:
+    """Return the self-affine fit of a correlation, or of the upper part of profiles."""
     if not isinstance(surface, HeightDifference):
         profiles = [surface] if isinstance(surface, Profile) else surface
         if (
             not isinstance(profiles, Sequence)
             or not profiles
-            or not all(isinstance(one, Profile) for one in profiles)
+            or not all(isinstance(profile, Profile) for profile in profiles)
         ):
             raise InputError(
                 "surface must be a SelfAffineFit, a HeightDifference or profiles; "
@@ -204,10 +205,3 @@ def _self_affine(
             )
         surface = height_difference(profiles, upper_share=UPPER_SHARE)
     return fit_self_affine(surface)
-
-
-def _strain_spectrum(q: Array, fit: SelfAffineFit) -> Array:
-    """Return v S at the frequency q v [m]: the spectrum of the strain over the wavenumber q."""
-    first = 2.0 * np.pi / fit.xi_parallel
-    level = fit.hurst * fit.xi_perpendicular**2 / (2.0 * np.pi * fit.xi_parallel)
-    return np.asarray(level * (q / first) ** (-(2.0 * fit.hurst + 1.0)))

@@ -1,12 +1,13 @@
-"""The theories as models over measured profiles, to be compared, varied, drawn and reported."""
+"""Models of measured profiles by theories: Persson, Klueppel & Heinrich."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from gripscale.core import checks
+from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.model import Model, NominalLoad
 from gripscale.rubber import Rubber
@@ -20,14 +21,13 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-@dataclass(frozen=True)
-class Persson(Model):
-    """Persson's theory, with the profiles as lines on an isotropic surface.
+class Persson(Checked, Model):
+    """Persson's theory; the profiles are lines on an isotropic surface.
 
     Parameters
     ----------
     smallest_wavelength : float, optional
-        Smallest wave that counts [m]; where the surface's sine waves end by default, see
+        Smallest wave that counts [m]; by default the end of the surface's sine waves, see
         `SineStack.cutoff_wavelength`.
     gamma : float
         See `persson`.
@@ -38,13 +38,9 @@ class Persson(Model):
     name: ClassVar[str] = "persson"
     needs: ClassVar[frozenset[SurfacePart]] = frozenset({"measurement", "cut_off"})
 
-    smallest_wavelength: float | None = None
-    gamma: float = 0.5
-    window: float | None = None
-
-    def __post_init__(self) -> None:
-        _check_lengths(self, "smallest_wavelength", "window")
-        checks.not_negative("gamma", self.gamma)
+    smallest_wavelength: float | None = checked(checks.positive, unit="m", default=None)
+    gamma: float = checked(checks.not_negative, default=0.5)
+    window: float | None = checked(checks.positive, unit="m", default=None)
 
     def predict(
         self,
@@ -63,36 +59,30 @@ class Persson(Model):
             profile_spectrum(_cleaned(surface, self.name), window=self.window),
             pressure=load.pressure,
             speed=load.speed,
-            smallest_wavelength=_smallest(self.smallest_wavelength, surface),
+            smallest_wavelength=self.smallest_wavelength or surface.cutoff_wavelength,
             gamma=self.gamma,
         )
         return _answered(replace(result, load=load), on_progress)
 
 
-@dataclass(frozen=True)
-class KlueppelHeinrich(Model):
-    """The theory of Klueppel and Heinrich, of the upper part of the profiles.
+class KlueppelHeinrich(Checked, Model):
+    """The theory of Klueppel and Heinrich for the upper part of the profiles.
 
     Parameters
     ----------
     layer_ratio, penetration_depth : float
         See `klueppel_heinrich`; the depth [m] is the same at every load.
     smallest_wavelength : float, optional
-        Smallest wave that counts [m]; where the surface's sine waves end by default, see
+        Smallest wave that counts [m]; by default the end of the surface's sine waves, see
         `SineStack.cutoff_wavelength`.
     """
 
     name: ClassVar[str] = "klueppel_heinrich"
     needs: ClassVar[frozenset[SurfacePart]] = frozenset({"measurement", "cut_off"})
 
-    layer_ratio: float
-    penetration_depth: float
-    smallest_wavelength: float | None = None
-
-    def __post_init__(self) -> None:
-        checks.positive("layer_ratio", self.layer_ratio)
-        checks.positive("penetration_depth", self.penetration_depth, unit="m")
-        _check_lengths(self, "smallest_wavelength")
+    layer_ratio: float = checked(checks.positive)
+    penetration_depth: float = checked(checks.positive, unit="m")
+    smallest_wavelength: float | None = checked(checks.positive, unit="m", default=None)
 
     def predict(
         self,
@@ -113,7 +103,7 @@ class KlueppelHeinrich(Model):
             speed=load.speed,
             layer_ratio=self.layer_ratio,
             penetration_depth=self.penetration_depth,
-            smallest_wavelength=_smallest(self.smallest_wavelength, surface),
+            smallest_wavelength=self.smallest_wavelength or surface.cutoff_wavelength,
         )
         return _answered(replace(result, load=load), on_progress)
 
@@ -125,20 +115,9 @@ def _answered(result: Any, on_progress: Callable[[Any], None] | None) -> xr.Data
     return data
 
 
-def _smallest(stated: float | None, surface: PreparedSurface) -> float:
-    return surface.cutoff_wavelength if stated is None else stated
-
-
 def _cleaned(surface: PreparedSurface, name: str) -> list[Profile]:
     if surface.measured is None:
         raise InputError(
             f"{name} needs measured profiles; got a surface of sine waves only ({surface.source})"
         )
     return surface.measured.cleaned
-
-
-def _check_lengths(model: object, *names: str) -> None:
-    """Refuse a length of a model that is given and not above zero."""
-    for name in names:
-        if getattr(model, name) is not None:
-            checks.positive(name, getattr(model, name), unit="m")

@@ -11,8 +11,10 @@ inside asperity contacts, M. Scaraggi & B. N. J. Persson, J. Phys.: Condens. Mat
 105102, doi:10.1088/0953-8984/27/10/105102, which finds gamma about 1/2.
 
 Exact limits: full contact (P = 1) is the sum of all waves, each with its closed form; light elastic
-contact is A/A_0 = sqrt(8/pi) p_0/(M h'), with h' the rms gradient of the surface, from
-G = (M h'/p_0)^2/8 and erf(x) = 2 x/sqrt(pi).
+contact is A/A_0 = sqrt(8/pi) p_0/(M h'), with h' the rms gradient of the surface, from G = (M
+h'/p_0)^2/8 and erf(x) = 2 x/sqrt(pi). The running integrals use the trapezoidal rule on grids
+refined until a tolerance is met. `theory_dataset` builds the Dataset of the results of all
+theories.
 """
 
 from __future__ import annotations
@@ -24,10 +26,10 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gripscale import model
 from gripscale.core import checks, provenance
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.model import NOT_CONVERGED, NominalLoad, of_curve
 from gripscale.rubber import Rubber
@@ -43,28 +45,23 @@ from gripscale.wave.problem import Status
 if TYPE_CHECKING:
     import xarray as xr
 
-    from gripscale.model import NominalLoad
-    from gripscale.rubber import Rubber
-    from gripscale.wave.problem import Status
 
-
-# What a theory answers as a Dataset, with the names every model has.
-
+Values = tuple[Array, ...]
 Variable = tuple[str, Any, str, str]
-"""Name, which is the attribute too, dimension, unit and meaning."""
+"""Name of variable and attribute, dimension, unit and meaning."""
 
 
 class TheoryResult(Protocol):
-    """What the results of all theories have."""
+    """Attributes of the results of all theories."""
 
     @property
     def rubber(self) -> Rubber: ...  # noqa: D102
     @property
     def load(self) -> NominalLoad: ...  # noqa: D102
     @property
-    def wavelength(self) -> NDArray[np.float64]: ...  # noqa: D102
+    def wavelength(self) -> Array: ...  # noqa: D102
     @property
-    def running_friction(self) -> NDArray[np.float64]: ...  # noqa: D102
+    def running_friction(self) -> Array: ...  # noqa: D102
     @property
     def contact_fraction(self) -> float: ...  # noqa: D102
     @property
@@ -96,7 +93,7 @@ def theory_dataset(
     }
     if not result.converged:
         totals = dict.fromkeys(totals, math.nan)
-    made = xr.Dataset(data, coords={"scale": coordinate}).assign_attrs(
+    out = xr.Dataset(data, coords={"scale": coordinate}).assign_attrs(
         title=title,
         rubber=f"{result.rubber.name}; {result.rubber.source}".strip("; "),
         rubber_parameters=json.dumps(result.rubber.to_dict()),
@@ -111,13 +108,7 @@ def theory_dataset(
     if result.converged:
         moving = result.load.speed > 0.0
         exponents = of_curve(result.wavelength, area, result.running_friction, moving=moving)
-    return model.answer(made, totals, str(result.status), name, result.load, beyond, exponents)
-
-
-# Running integrals by the trapezoidal rule, on grids refined until a tolerance is met.
-
-Array = NDArray[np.float64]
-Values = tuple[Array, ...]
+    return model.answer(out, totals, str(result.status), name, result.load, beyond, exponents)
 
 
 def divided(nodes: Array, intervals: int) -> Array:
@@ -142,7 +133,7 @@ def running_integral(values: Array, x: Array) -> Array:
 def refined(
     at: Callable[[int], Values], first: int, most: int, tolerance: float
 ) -> tuple[Values, tuple[float, ...]]:
-    """Return `at(intervals)` on a grid fine enough, and what the last doubling changed.
+    """Return `at(intervals)` on a fine grid, and its change by the last doubling.
 
     Intervals are doubled from `first` until the last entry of every array changes by less than
     `tolerance` of itself, or `most` is reached.
@@ -160,7 +151,7 @@ def refined(
 
 SOURCE = "Persson 2001, J. Chem. Phys. 115, 3840"
 TOLERANCE = 1e-4
-"""Error of the integrals up to which a result is converged, relative."""
+"""Relative error of the integrals below which a result is converged."""
 
 _VARIABLES = (
     ("wavelength", "scale", "m", "wavelength"),
@@ -172,7 +163,7 @@ _VARIABLES = (
     ("friction_error", (), "1", "estimated error of the friction coefficient"),
     ("gamma", (), "1", "share of the deformation left in small contacts"),
 )
-"""What a result is made of: name, dimension, unit, meaning."""
+"""Variables of a result: name, dimension, unit, meaning."""
 
 _COARSEST, _FINEST = 4, 128
 """Intervals between neighbouring points of the spectrum, doubled from the first to the last."""
@@ -228,7 +219,7 @@ class PerssonResult:
 
     @property
     def converged(self) -> bool:
-        """Whether the numbers may be used."""
+        """Whether the integrals met the tolerance."""
         return self.status == Status.CONVERGED
 
     def to_dataset(self) -> xr.Dataset:

@@ -3,11 +3,11 @@ from .block import solve_scale as solve_scale
 from .kernel import WaveSolver as WaveSolver
 from .kernel import default_settings as default_settings
 from .kernel import describe_settings as describe_settings
-from .problem import Load as Load
 from .problem import Mesh as Mesh
 from .problem import SampledProfile as SampledProfile
 from .problem import Sine as Sine
 from .problem import Status as Status
+from .problem import WaveLoad as WaveLoad
 from .problem import WaveProblem as WaveProblem
 from .profile import BlockOnProfile as BlockOnProfile
 from .profile import solve_profile as solve_profile

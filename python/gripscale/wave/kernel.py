@@ -1,4 +1,4 @@
-"""The only way to the compiled kernel: a problem in, its solution out, errors in our own words."""
+"""The only module that calls the compiled kernel, and the protocol of every solver of one wave."""
 
 from __future__ import annotations
 
@@ -30,16 +30,6 @@ def describe_settings() -> str:
     return "\n".join(f"{name} = {value:g}: {text}" for name, value, text in listed)
 
 
-def checked_settings(settings: Mapping[str, float]) -> Mapping[str, float]:
-    """Return what differs from the defaults; raise `InputError` for an unknown name or no number.
-
-    The kernel refuses what is out of its range.
-    """
-    checks.instance("settings", settings, Mapping)  # type: ignore[type-abstract]
-    checks.allowed_names("setting", settings, default_settings())
-    return {name: checks.number(name, value) for name, value in settings.items()}
-
-
 def solve_steady(
     problem: WaveProblem,
     mesh: Mesh,
@@ -51,8 +41,8 @@ def solve_steady(
 ) -> Solution:
     """Return the static or steadily sliding solution; `start` is a first guess.
 
-    Worked on by `workers` threads, of which none changes a bit of it. Ctrl-C and the end of a job
-    of `gripscale.core.parallel` are heeded on the way.
+    The number of `workers` threads does not change the solution by a bit. Ctrl-C and the end of a
+    job of `gripscale.core.parallel` interrupt it.
     """
     load = problem.load
     inputs: _kernel.Problem = {
@@ -60,10 +50,10 @@ def solve_steady(
         "load": {"pressure": load.pressure, "speed": load.speed, "load_time": load.load_time},
     }
     work = _work(workers, time_limit)
-    return _asked(lambda: _kernel.solve_steady(inputs, settings, tolerance, start, work))
+    return _checked_call(lambda: _kernel.solve_steady(inputs, settings, tolerance, start, work))
 
 
-def solve_transient(
+def solve_stages(
     rubber: Rubber,
     profile: Sine | SampledProfile,
     mesh: Mesh,
@@ -76,7 +66,7 @@ def solve_transient(
     """Return the moments of a programme in time, with status and iterations."""
     body = _body(rubber, profile, mesh)
     work = _work(workers, time_limit)
-    return _asked(lambda: _kernel.solve_transient(body, settings, list(stages), start, work))
+    return _checked_call(lambda: _kernel.solve_transient(body, settings, list(stages), start, work))
 
 
 def solution_of(start: WaveResult) -> Solution:
@@ -99,6 +89,19 @@ def _work(workers: int | None, time_limit: float | None) -> _kernel.Work:
 
 
 def _body(rubber: Rubber, profile: Sine | SampledProfile, mesh: Mesh) -> _kernel.Body:
+    heights: _kernel.Sine | _kernel.Sampled
+    if isinstance(profile, Sine):
+        heights = {
+            "kind": "sine",
+            "wavelength": profile.wavelength,
+            "amplitude": profile.amplitude,
+        }
+    else:
+        heights = {
+            "kind": "sampled",
+            "wavelength": profile.wavelength,
+            "heights": profile.heights.tolist(),
+        }
     return {
         "rubber": {
             "equilibrium_modulus": rubber.equilibrium_modulus / 3.0,
@@ -107,7 +110,7 @@ def _body(rubber: Rubber, profile: Sine | SampledProfile, mesh: Mesh) -> _kernel
             "bulk_modulus": rubber.bulk_modulus,
             "strain_energy": (rubber.strain_energy.kind, rubber.strain_energy.parameters()),
         },
-        "profile": _heights(profile),
+        "profile": heights,
         "mesh": {
             "columns": mesh.columns,
             "rows": mesh.rows,
@@ -117,48 +120,40 @@ def _body(rubber: Rubber, profile: Sine | SampledProfile, mesh: Mesh) -> _kernel
     }
 
 
-def _heights(profile: Sine | SampledProfile) -> _kernel.Sine | _kernel.Sampled:
-    wavelength = profile.wavelength
-    if isinstance(profile, Sine):
-        return {"kind": "sine", "wavelength": wavelength, "amplitude": profile.amplitude}
-    return {"kind": "sampled", "wavelength": wavelength, "heights": profile.heights.tolist()}
-
-
-def _asked(call: Callable[[], T]) -> T:
+def _checked_call(call: Callable[[], T]) -> T:
+    """Return what the kernel returns; its refusals are `InputError`s."""
     try:
         return call()
     except ValueError as error:
         raise InputError(str(error)) from error
 
 
-# What every solver of one wave looks like from outside.
-
 F = TypeVar("F", bound=Callable[..., WaveResult])
 
 
 @runtime_checkable
 class WaveSolver(Protocol):
-    """Solves one wave; how it does it (mesh, accuracy) is in its own fields.
+    """Solves one wave; the fields of the solver hold its mesh and accuracy.
 
-    A frozen dataclass whose fields decide its results together with the problem: studies name
-    their results by them.
+    A frozen dataclass. Its fields and the problem decide its results: stored results are named by
+    them.
     """
 
     @property
     def name(self) -> str:
-        """Word for it in results and case files."""
+        """Word for the solver in results and case files."""
 
     def solve(self, problem: WaveProblem, start: WaveResult | None = None) -> WaveResult:
         """Return contact and friction of `problem`.
 
-        `start`, the result of a neighbouring problem, makes it quicker and never changes the
-        answer by more than the residual; a solver that has no use for it raises `InputError`.
+        `start`, the result of a neighbouring problem, saves time and changes the result by the
+        residual at most. A solver that cannot start from a result raises `InputError`.
         """
 
 
 @runtime_checkable
 class RefinableSolver(WaveSolver, Protocol):
-    """A solver that starts from earlier results, and has a quicker one of its kind."""
+    """A solver that can start from results, and has a coarser version of itself."""
 
     def coarser(self) -> WaveSolver:
         """Return the solver on a mesh that takes a fraction of the time."""
@@ -167,7 +162,7 @@ class RefinableSolver(WaveSolver, Protocol):
 def face_of(solver: type) -> Callable[[F], F]:
     """Mark a function with keyword arguments as the face of `solver`.
 
-    `gripscale.predict` then takes the function in place of the solver.
+    `gripscale.predict` then accepts the function in place of the solver.
     """
 
     def mark(function: F) -> F:

@@ -12,17 +12,20 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from operator import attrgetter
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from gripscale.core.arrays import Array
 from gripscale.rubber import Rubber, extrapolation
 from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
 from gripscale.wave.problem import Status
 
-Array = NDArray[np.float64]
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 
 LARGE_MISMATCH = 0.05
 """Relative difference of the two frictions above which a result is in doubt."""
@@ -206,6 +209,12 @@ class WaveResult:
         harmonic = math.ceil(1.0 / self.contact_fraction) if self.contact_fraction > 0.0 else 1
         omega = self.angular_frequency * np.array([1.0, harmonic])
         return extrapolation.of_frequencies(self.rubber, omega)
+
+    def plot(self) -> Figure:
+        """Draw contact pressure and deformed mesh; see `gripscale.charts.block_figure`."""
+        from gripscale.charts import block_figure
+
+        return block_figure(waves_to_dataset([self]))
 
     def _complex_modulus(self) -> complex:
         if self.rubber is None:

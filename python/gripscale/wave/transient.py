@@ -12,9 +12,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
+from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.rubber import Rubber
 from gripscale.wave import kernel
@@ -22,41 +23,33 @@ from gripscale.wave.block import FiniteStrainBlock
 from gripscale.wave.problem import Sine, Status
 from gripscale.wave.result import WaveResult
 
-Array = NDArray[np.float64]
-
 DEFAULT_COLUMNS = 96
 DEFAULT_ROWS = 14
 
 
-@dataclass(frozen=True)
-class Stage:
-    """A stretch of time with constant speed and pressure.
+class Stage(Checked):
+    """A period of constant speed and pressure.
 
     Parameters
     ----------
     duration : float
-        How long it lasts [s]; while sliding it is rounded to whole columns of the mesh.
+        Duration [s]; a sliding stage is rounded to whole columns of the mesh.
     speed : float
         Speed of the rubber's surface over the wave [m/s]; negative slides backwards, 0 dwells.
     pressure : float
         Mean pressure [Pa].
     """
 
-    duration: float
-    speed: float
-    pressure: float
-
-    def __post_init__(self) -> None:
-        checks.positive("duration", self.duration, unit="s")
-        checks.number("speed", self.speed, unit="m/s")
-        checks.positive("pressure", self.pressure, unit="Pa")
+    duration: float = checked(checks.positive, unit="s")
+    speed: float = checked(checks.number, unit="m/s")
+    pressure: float = checked(checks.positive, unit="Pa")
 
 
 @dataclass(frozen=True, eq=False)
 class TransientResult:
     """Friction and contact against time; arrays of shape (moments,).
 
-    `status` is `converged`, or says why the run ended early: the moments before are valid.
+    `status` is `converged`, or the reason why the run ended early; its moments are valid.
     """
 
     time: Array
@@ -78,14 +71,14 @@ class TransientResult:
         return self.status == Status.CONVERGED
 
     def cycle(self, wavelengths: float = 1.0) -> dict[str, tuple[float, float, float]]:
-        """Return mean, least and largest friction and contact fraction of the last stretch.
+        """Return mean, least and largest friction and contact fraction at the end of the run.
 
         Parameters
         ----------
         wavelengths : float
-            Length of the stretch in wavelengths.
+            Sliding distance up to the end that counts, in wavelengths.
         """
-        last = self._way_to_the_end() <= wavelengths
+        last = self._distance_to_end() <= wavelengths
         return {
             name: (float(values[last].mean()), float(values[last].min()), float(values[last].max()))
             for name, values in (
@@ -94,19 +87,19 @@ class TransientResult:
             )
         }
 
-    def _way_to_the_end(self) -> Array:
-        """Return the way still to go at every moment, forth and back, in wavelengths."""
-        way = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(self.distance)))))
-        return np.asarray((way[-1] - way) / self.wavelength)
+    def _distance_to_end(self) -> Array:
+        """Return the sliding distance from every moment to the end, in wavelengths."""
+        path = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(self.distance)))))
+        return np.asarray((path[-1] - path) / self.wavelength)
 
     def verdict(self, tolerance: float = 0.01) -> str:
-        """Say whether friction has become `steady`, is `settling`, or runs a `limit cycle`.
+        """Return whether friction is `steady`, `settling` or a `limit cycle` at the end.
 
-        Judged by its range over the last wavelength: steady if below `tolerance` of the mean,
+        The criterion is its range over the last wavelength: steady below `tolerance` of the mean,
         settling if it still shrinks by a tenth per wavelength, else a limit cycle, whose mean and
-        range `cycle` gives. `too short` with less than two wavelengths since speed last changed.
+        range `cycle` returns. `too short` with less than two wavelengths at the last speed.
         """
-        back = self._way_to_the_end()
+        back = self._distance_to_end()
         changed = np.flatnonzero(self.speed != self.speed[-1])
         since = changed[-1] if len(changed) else 0
         if self.speed[-1] == 0.0 or back[since] < 2.0 - 1e-9:
@@ -143,7 +136,7 @@ def solve_transient(
     wavelength, amplitude : float
         Of the wave [m].
     stages : sequence of Stage
-        The programme. The first pressure is put on at once, on rubber at rest.
+        The programme. The first pressure acts at once, on rubber at rest.
     start : WaveResult, optional
         A static or steady state to start from, solved with the same rubber and wave.
     depth, columns, rows, workers, **options
@@ -169,7 +162,7 @@ def solve_transient(
     profile = Sine(wavelength, amplitude)
     block = FiniteStrainBlock.of(depth=depth, columns=columns, rows=rows, **options)
     programme = [(stage.duration, stage.speed, stage.pressure) for stage in stages]
-    run = kernel.solve_transient(
+    run = kernel.solve_stages(
         rubber, profile, block.mesh, block.settings, programme, first, block.time_limit, workers
     )
     return TransientResult(

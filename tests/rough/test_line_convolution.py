@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import scipy.fft
 
-from gripscale.half_space.grid import SHORTEST, LineFilter
+from gripscale.half_space.grid import SHORTEST, LineConvolution
 
 ROUNDING = 2e-6
 """Of transforms in single precision: 6e-8 in each of some log2(N) = 16 stages, and margin."""
@@ -27,7 +27,7 @@ def transfer_of(points: int) -> np.ndarray:
 def test_it_is_what_one_long_transform_does(points: int) -> None:
     transfer = transfer_of(points)
     values = np.random.default_rng(1).standard_normal(points).astype(np.float32)
-    short = LineFilter.of(transfer, points)
+    short = LineConvolution.of(transfer, points)
     assert short is not None
     spectrum = scipy.fft.rfft(values.astype(float)) * transfer
     expected = scipy.fft.irfft(spectrum, points)
@@ -35,5 +35,5 @@ def test_it_is_what_one_long_transform_does(points: int) -> None:
 
 
 def test_there_is_none_where_it_does_not_pay() -> None:
-    assert LineFilter.of(transfer_of(SHORTEST // 2), SHORTEST // 2) is None
-    assert LineFilter.of(transfer_of(4099), 4099) is None
+    assert LineConvolution.of(transfer_of(SHORTEST // 2), SHORTEST // 2) is None
+    assert LineConvolution.of(transfer_of(4099), 4099) is None
