@@ -103,7 +103,7 @@ def predict(
     start: Prediction | None = None,
     rubber_at: RubberAt | None = None,
     conditions: Conditions | None = None,
-    extrapolate: str = "say",
+    extrapolate: str = "warn",
     **options: Any,
 ) -> Prediction:
     """Run the chain over the waves of `sines`, largest first.
@@ -148,7 +148,7 @@ def predict(
         Temperature, softening, heat and area term; the chain is solved until they agree with it.
         Not together with `rubber_at`.
     extrapolate
-        "say": waves that excite the rubber beyond its `valid_band` are solved, and the result says
+        "warn": waves that excite the rubber beyond its `valid_band` are solved, and the result says
         so. "refuse": nothing is solved if one does, at its fundamental frequency.
     **options
         Of a solver given by name: columns, rows, depth, tolerance ...
@@ -290,7 +290,7 @@ class Chain(model.Model):
     pressure_classes : int
         In how many classes of equal load a wave hands its pressure down, see `predict`.
     extrapolate : str
-        "say" or "refuse", see `predict`.
+        "warn" or "refuse", see `predict`.
     conditions : Conditions, optional
         Temperature, softening, heat and area term, see `predict`.
 
@@ -307,7 +307,7 @@ class Chain(model.Model):
     solver: WaveSolver = field(default_factory=FiniteStrainBlock)
     rubber_at: RubberAt | None = None
     pressure_classes: int = 1
-    extrapolate: str = "say"
+    extrapolate: str = "warn"
     conditions: Conditions | None = None
 
     def __post_init__(self) -> None:

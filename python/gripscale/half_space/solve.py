@@ -59,7 +59,7 @@ def solve_rough_contact(
     on_grid: Callable[[GridRecord], None] | None = None,
     conditions: Conditions | None = None,
     footprint: float | None = None,
-    extrapolate: str = "say",
+    extrapolate: str = "warn",
 ) -> RoughContact:
     """Return contact and friction of a whole surface: small strain, frictionless contact.
 
@@ -99,7 +99,7 @@ def solve_rough_contact(
         Temperature, softening, heat and area term; the contact is solved until they agree with it.
     footprint : float, optional
         Length of the nominal contact [m]; needed with heat.
-    extrapolate : "say" or "refuse"
+    extrapolate : "warn" or "refuse"
         "refuse": nothing is solved if the smallest wave excites the rubber, at the temperature
         before the contact, beyond its `valid_band`. What of the friction comes from beyond it is in
         `extrapolation` of the result.

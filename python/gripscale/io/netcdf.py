@@ -97,7 +97,7 @@ def _with_new_names(data: xr.Dataset) -> xr.Dataset:
     return data.rename({name: RENAMED[name] for name in RENAMED if name in data.data_vars})
 
 
-def write_whole(path: str | Path, write: Callable[[Path], None]) -> Path:
+def write_whole(path: str | Path, write: Callable[[Path], object]) -> Path:
     """Let `write` fill a temporary neighbour of `path`, then rename it into place.
 
     Raises `FileError` if either fails; a file that was there before is then untouched.

@@ -12,14 +12,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gripscale.core.arrays import Array
 from gripscale.core.errors import ExtrapolationError
 from gripscale.rubber.material import Rubber
 
-Array = NDArray[np.float64]
-
-CHOICES = ("say", "refuse")
+CHOICES = ("warn", "refuse")
 """What may be done about excitation beyond the band."""
 
 WORTH_SAYING = 0.01

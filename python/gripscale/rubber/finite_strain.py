@@ -3,24 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array, Vector
+from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import FileError, InputError
 from gripscale.core.units import in_si
 from gripscale.io.text_table import file_path, read_sheets
 from gripscale.rubber.material import Rubber
 from gripscale.rubber.strain_energy import STRAIN_ENERGIES, StrainEnergy
 
-Array = NDArray[np.float64]
 
-
-@dataclass(frozen=True, init=False, eq=False)
-class UniaxialTest:
+class UniaxialTest(Checked, eq=False):
     """A measured history of stretch with its nominal stress.
 
     Parameters
@@ -40,22 +39,15 @@ class UniaxialTest:
         If the lengths differ or a value is out of range.
     """
 
-    name: str
-    time: Array = field(repr=False)
-    stretch: Array = field(repr=False)
-    stress: Array = field(repr=False)
+    name: str = checked(checks.text)
+    time: Vector = checked(checks.vector, unit="s", repr=False)
+    stretch: Vector = checked(checks.positive_vector, repr=False)
+    stress: Vector = checked(checks.vector, unit="Pa", repr=False)
 
-    def __init__(self, name: str, time: ArrayLike, stretch: ArrayLike, stress: ArrayLike) -> None:
-        object.__setattr__(self, "name", checks.text("name", name))
-        object.__setattr__(self, "time", checks.vector("time", time, unit="s"))
-        object.__setattr__(self, "stretch", checks.positive_vector("stretch", stretch))
-        object.__setattr__(self, "stress", checks.vector("stress", stress, unit="Pa"))
-        lengths = len(self.time), len(self.stretch), len(self.stress)
-        if len(set(lengths)) != 1 or lengths[0] < 2:
-            raise InputError(
-                f"{name}: time, stretch and stress must have the same length, at least 2; "
-                f"got {lengths[0]}, {lengths[1]} and {lengths[2]}"
-            )
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        name = self.name
+        checks.same_length(2, time=self.time, stretch=self.stretch, stress=self.stress)
         if (np.diff(self.time) <= 0.0).any():
             at = int(np.argmax(np.diff(self.time) <= 0.0)) + 1
             raise InputError(f"{name}: time must rise [s]; got {self.time[at]:g} at index {at}")

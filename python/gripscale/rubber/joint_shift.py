@@ -19,14 +19,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gripscale.core.arrays import Array
 from gripscale.rubber.sweeps import Sweeps
 
 # Smooth curves through scattered points: cubic B-splines with penalised second differences.
 #
 # Source: P. H. C. Eilers & B. D. Marx, Stat. Sci. 11 (1996) 89, doi:10.1214/ss/1038425655. The
 # weight of the penalty is that of least generalised cross-validation.
-
-Array = NDArray[np.float64]
 
 _DEGREE = 3
 _PENALTIES = tuple(10.0 ** np.arange(-2.0, 5.0))

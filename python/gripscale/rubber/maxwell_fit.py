@@ -29,9 +29,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array, Mask
 from gripscale.rubber.material import loss_shape, storage_shape
-
-Array = NDArray[np.float64]
 
 _LEAST_EQUILIBRIUM = 1e-3
 """E_inf is at least this share of the lowest storage modulus: a melt has none, a rubber must."""
@@ -67,7 +66,7 @@ class Curve:
     storage: Array
     loss: Array
 
-    def rows(self, chosen: NDArray[np.bool_]) -> Curve:
+    def rows(self, chosen: Mask) -> Curve:
         """Return the chosen rows."""
         return Curve(self.omega[chosen], self.storage[chosen], self.loss[chosen])
 
@@ -188,7 +187,7 @@ def _slopes(position: Array, value: Array) -> tuple[float, float]:
     return ends[0], ends[1]
 
 
-def _penalties(slow: NDArray[np.bool_], prior: Prior) -> Array:
+def _penalties(slow: Mask, prior: Prior) -> Array:
     """Return the rows of second differences and of shrinkage; those of E_inf and slack are zero."""
     terms = len(slow)
     differences = np.zeros((max(terms - 2, 0), terms + 2))
@@ -228,7 +227,7 @@ def choose_terms(
     omega: Array,
     storage: Array,
     loss: Array,
-    fit: Callable[[NDArray[np.bool_], int], Spectrum],
+    fit: Callable[[Mask, int], Spectrum],
 ) -> tuple[int, tuple[Candidate, ...]]:
     """Return the number of terms and all candidates tried.
 
@@ -258,7 +257,7 @@ def _cross_validate(
     omega: Array,
     storage: Array,
     loss: Array,
-    fit: Callable[[NDArray[np.bool_], int], Spectrum],
+    fit: Callable[[Mask, int], Spectrum],
     terms: int,
 ) -> Candidate:
     fold = np.arange(len(omega)) % _FOLDS
@@ -298,7 +297,7 @@ _FEWEST_ROWS = _NEIGHBOURS + 3
 class Screening:
     """Which rows are kept, and how far each is from its neighbours."""
 
-    kept: NDArray[np.bool_]
+    kept: Mask
     storage_deviation: Array
     """Log deviation of E' from the local trend [-], shape (rows,)."""
     loss_deviation: Array
@@ -317,7 +316,7 @@ def screen(
     omega: Array,
     storage: Array,
     loss: Array,
-    fit: Callable[[NDArray[np.bool_]], Spectrum],
+    fit: Callable[[Mask], Spectrum],
     threshold: float,
 ) -> Screening:
     """Return which rows belong to the curve; `fit` is the Maxwell fit to a choice of rows.
@@ -347,7 +346,7 @@ def screen(
     return Screening(kept, raw[0], raw[1], _spread(raw[0][kept]), _spread(raw[1][kept]))
 
 
-def _deviation(position: Array, value: Array, kept: NDArray[np.bool_]) -> Array:
+def _deviation(position: Array, value: Array, kept: Mask) -> Array:
     """Return each value minus the straight line through its nearest kept neighbours."""
     result = np.empty_like(value)
     members = np.flatnonzero(kept)

@@ -12,9 +12,9 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array, Mask
 from gripscale.core.errors import InputError
 from gripscale.rubber import material
 from gripscale.rubber.master_curve import MasterCurve
@@ -48,8 +48,6 @@ from gripscale.rubber.prony_report import PronyFit, exchange, report
 # data allow by more than a standard deviation; what bounds the extremes is that moduli are not
 # negative, relaxation times lie within two decades of the band, and the glassy modulus leaves
 # Poisson's ratio positive.
-
-Array = NDArray[np.float64]
 
 _RISE = 9.0
 """Allowed rise of the sum of squares in units of the scatter."""
@@ -326,9 +324,7 @@ def largest_modulus(measured: float, bulk: float) -> float:
     return min(_STIFFEST * bulk, max(_GLASS * bulk, _OVER_MEASURED * measured))
 
 
-def _fit(
-    curve: Curve, beyond: float, prior: Prior, rows: NDArray[np.bool_], terms: int
-) -> Spectrum:
+def _fit(curve: Curve, beyond: float, prior: Prior, rows: Mask, terms: int) -> Spectrum:
     times = relaxation_times(curve.omega, terms, beyond)
     return fit_spectrum(curve.rows(rows), times, prior)
 
@@ -341,12 +337,10 @@ def _screen(master: MasterCurve, curve: Curve, threshold: float) -> Screening:
     return screen(curve.omega, curve.storage, curve.loss, fit, threshold)
 
 
-def _choose(
-    curve: Curve, fit: partial[Spectrum], kept: NDArray[np.bool_]
-) -> tuple[int, tuple[Candidate, ...]]:
+def _choose(curve: Curve, fit: partial[Spectrum], kept: Mask) -> tuple[int, tuple[Candidate, ...]]:
     places = np.flatnonzero(kept)
 
-    def fit_among_kept(rows: NDArray[np.bool_], terms: int) -> Spectrum:
+    def fit_among_kept(rows: Mask, terms: int) -> Spectrum:
         chosen = np.zeros_like(kept)
         chosen[places[rows]] = True
         return fit(chosen, terms)

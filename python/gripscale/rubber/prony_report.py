@@ -13,8 +13,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gripscale.core.arrays import Array, ComplexArray, Mask
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.material import BEYOND, Rubber, fast_end, slow_end, too_compressible
 from gripscale.rubber.maxwell_fit import (
@@ -25,8 +25,6 @@ from gripscale.rubber.maxwell_fit import (
     fit_spectrum,
     relaxation_times,
 )
-
-Array = NDArray[np.float64]
 
 _WINDOW = 9
 _ALLOWED = 1.5
@@ -56,7 +54,7 @@ class Misfit:
 
 
 def local_misfits(
-    curve: Curve, modulus: NDArray[np.complex128], scatter: tuple[float, float]
+    curve: Curve, modulus: ComplexArray, scatter: tuple[float, float]
 ) -> tuple[Misfit, ...]:
     """Return where the local mean of `modulus` over `curve` less one exceeds the scatter [-].
 
@@ -76,7 +74,7 @@ def local_misfits(
 
 
 def end_misfits(
-    curve: Curve, modulus: NDArray[np.complex128], scatter: tuple[float, float]
+    curve: Curve, modulus: ComplexArray, scatter: tuple[float, float]
 ) -> tuple[Misfit | None, Misfit | None]:
     """Return the mean misfit of the first and of the last five rows, None within the scatter."""
     errors = _errors(curve, modulus)
@@ -90,7 +88,7 @@ def end_misfits(
     return found[0], found[1]
 
 
-def _errors(curve: Curve, modulus: NDArray[np.complex128]) -> tuple[Array, Array]:
+def _errors(curve: Curve, modulus: ComplexArray) -> tuple[Array, Array]:
     return modulus.real / curve.storage - 1.0, modulus.imag / curve.loss - 1.0
 
 
@@ -106,7 +104,7 @@ def _largest(values: Array) -> float:
     return float(values[np.argmax(np.abs(values))])
 
 
-def _runs(chosen: NDArray[np.bool_]) -> list[tuple[int, int]]:
+def _runs(chosen: Mask) -> list[tuple[int, int]]:
     """Return first and last row of each run, runs with at most two rows between as one."""
     rows = np.flatnonzero(chosen)
     if not rows.size:

@@ -20,11 +20,12 @@ from pathlib import Path
 import numpy as np
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.errors import FileError, InputError
 from gripscale.core.units import ZERO_CELSIUS, in_si, listed, spelled
 from gripscale.io.netcdf import write_whole
 from gripscale.io.text_table import TextTable, file_path, read_table, read_text
-from gripscale.rubber.shift import EDGE, GAS_CONSTANT, WLF, Array, Arrhenius, ShiftTable
+from gripscale.rubber.shift import EDGE, GAS_CONSTANT, WLF, Arrhenius, ShiftTable
 
 _LEAST_ERROR = 0.01
 """Standard error of log10 a_T below which none is believed [decades]."""

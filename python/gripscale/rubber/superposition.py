@@ -15,9 +15,10 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.core.units import ZERO_CELSIUS
-from gripscale.rubber.joint_shift import MODULI, Array, Joint, Rows, align, rows_of
+from gripscale.rubber.joint_shift import MODULI, Joint, Rows, align, rows_of
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.shift import Shift, ShiftTable
 from gripscale.rubber.sweeps import Sweeps
