@@ -114,8 +114,7 @@ def _keys(law: type, page: str) -> Iterator[Key]:
     meanings = {name: item.description for name, item in table.model_fields.items()}
     if table is not law:
         meanings = {"kind": _about(law), **_field_texts(law)}
-    own = table.__annotations__
-    for name in sorted(table.model_fields, key=lambda name: name not in own):
+    for name in sorted(table.model_fields, key=lambda name: name not in table.__annotations__):
         item = table.model_fields[name]
         default = NEEDED if item.is_required() else _written(item.default)
         chapter = CHAPTERS.get(name, page)

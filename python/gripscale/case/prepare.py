@@ -1,4 +1,4 @@
-"""From the surface a case names to what a model needs: cleaned profiles, sine waves."""
+"""From the surface, rubber and conditions a case names to what a model needs."""
 
 from __future__ import annotations
 
@@ -37,14 +37,11 @@ from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.softening import SofteningLaw, softening_of_sweeps
 from gripscale.rubber.sweeps import holds_sweeps
 from gripscale.surface import (
-    CleaningReport,
     CutOffRule,
-    HeightDifference,
     HeightMap,
     Measured,
     PreparedSurface,
     Profile,
-    SelfAffineFit,
     SineStack,
     clean,
     clean_map,
@@ -94,12 +91,14 @@ def prepare_surface(surface: Surface, resolve: Resolve = Path) -> PreparedSurfac
     measured = _map(surface, paths[0]) if surface.map else _profiles(surface, paths)
     counted = {key: getattr(surface, key) for key in COUNTED_KEYS}
     correlation = height_difference(measured.cleaned, **counted)
-    self_affine, why_not = _self_affine(correlation)
-    measured = replace(measured, self_affine=self_affine, no_self_affine=why_not)
+    try:
+        measured = replace(measured, self_affine=fit_self_affine(correlation))
+    except GripscaleError as error:  # the sine waves do not need a self-affine surface
+        measured = replace(measured, no_self_affine=str(error))
     fit = {key: getattr(surface, key) for key in FIT_KEYS}
     if surface.cut_off is not None:
         where = str(paths[0]) if len(paths) == 1 else f"{len(paths)} profiles"
-        fit["cut_off"] = _cut_off(measured, surface.cut_off, where)
+        fit["cut_off"] = _cut_off_wavelength(measured, surface.cut_off, where)
     return PreparedSurface(
         fit_sines(correlation, **fit),
         ", ".join(str(path) for path in paths),
@@ -111,7 +110,7 @@ def prepare_surface(surface: Surface, resolve: Resolve = Path) -> PreparedSurfac
     )
 
 
-def _cut_off(measured: Measured, rule: CutOffRule, where: str) -> float:
+def _cut_off_wavelength(measured: Measured, rule: CutOffRule, where: str) -> float:
     """Return where the roughness ends [m]; an error begins with `where`."""
     if isinstance(rule, float):
         return rule
@@ -134,7 +133,18 @@ def _profiles(surface: Surface, paths: list[Path]) -> Measured:
             sheet=surface.sheet,
             reader=surface.reader,
         )
-        cleaned, report = _clean(raw, surface, path)
+        try:
+            cleaned, report = clean(
+                raw,
+                crop=_pair(surface.crop),
+                valid_range=_pair(surface.valid_range),
+                remove_spikes=surface.remove_spikes,
+                spike_slope=surface.spike_slope,
+                across_gaps=surface.across_gaps,
+                detrend=surface.detrend,
+            )
+        except InputError as error:
+            raise InputError(f"{path}: {error}") from error
         profiles.append((raw, cleaned))
         reports.append(report)
     return Measured(profiles, reports, None, "")
@@ -167,38 +177,14 @@ def _map(surface: Surface, path: Path) -> Measured:
 
 
 def _middle(raw: HeightMap, cleaned: HeightMap) -> tuple[Profile, Profile]:
-    """Return one line as read and as cleaned: the fullest, nearest to the middle, to be shown."""
+    """Return a line as read and as cleaned: the fullest, nearest to the middle."""
     away = np.abs(np.arange(cleaned.y.size) - cleaned.y.size // 2)
     fullest = np.lexsort((away, np.isnan(cleaned.z).sum(axis=0)))[0]
-    one, other = (
+    before, after = (
         surface.line(int(np.argmin(np.abs(surface.y - cleaned.y[fullest]))))
         for surface in (raw, cleaned)
     )
-    return one, replace(other, name=one.name, source=one.source)
-
-
-def _clean(raw: Profile, surface: Surface, path: Path) -> tuple[Profile, CleaningReport]:
-    """Clean `raw`; an error names the file, which the cleaning does not know."""
-    try:
-        return clean(
-            raw,
-            crop=_pair(surface.crop),
-            valid_range=_pair(surface.valid_range),
-            remove_spikes=surface.remove_spikes,
-            spike_slope=surface.spike_slope,
-            across_gaps=surface.across_gaps,
-            detrend=surface.detrend,
-        )
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from error
-
-
-def _self_affine(hdc: HeightDifference) -> tuple[SelfAffineFit | None, str]:
-    """Fit what may not be there: the sine waves do not need a self-affine surface."""
-    try:
-        return fit_self_affine(hdc), ""
-    except GripscaleError as error:
-        return None, str(error)
+    return before, replace(after, name=before.name, source=before.source)
 
 
 def _pair(limits: list[float] | None) -> tuple[float, float] | None:
@@ -320,9 +306,6 @@ def _shift(source: RubberSource, resolve: Resolve) -> Shift | None:
     return source.shift
 
 
-# From the conditions a case names to what a model needs: laws with their numbers.
-
-
 @about_keys("conditions")
 def prepare_conditions(table: ConditionsTable, resolve: Resolve = Path) -> Conditions | None:
     """Return the conditions of a case, or None where it asks for no effect.
@@ -335,13 +318,13 @@ def prepare_conditions(table: ConditionsTable, resolve: Resolve = Path) -> Condi
         return None
     softening: SofteningLaw | None = None
     if isinstance(table.softening, StrainSweeps):
-        stated = table.softening
-        layout = stated.layout() | {"strain_unit": stated.strain_unit}
+        source = table.softening
+        layout = source.layout() | {"strain_unit": source.strain_unit}
         sweeps = [
-            read_strain_sweep(resolve(name), amplitude=stated.amplitude, **layout)
-            for name in stated.files
+            read_strain_sweep(resolve(name), amplitude=source.amplitude, **layout)
+            for name in source.files
         ]
-        softening = softening_of_sweeps(sweeps, measured_at=stated.measured_at)
+        softening = softening_of_sweeps(sweeps, measured_at=source.measured_at)
     else:
         softening = table.softening
     return Conditions(
@@ -351,9 +334,6 @@ def prepare_conditions(table: ConditionsTable, resolve: Resolve = Path) -> Condi
         heat=table.heat,
         shear_stress=table.shear_stress,
     )
-
-
-# The chain as a case asks for it: what solves a wave, and what goes on from wave to wave.
 
 
 def case_chain(file: CaseFile) -> Chain:

@@ -28,7 +28,7 @@ from gripscale.chain.prediction import Prediction
 from gripscale.core.errors import FileError, InputError, about_keys
 from gripscale.io import netcdf
 from gripscale.rubber.extrapolation import require_measured
-from gripscale.rubber.material import require_solid
+from gripscale.rubber.material import require_load_bearing
 from gripscale.wave.kernel import WaveSolver
 from gripscale.wave.problem import WaveProblem
 from gripscale.wave.result import WaveResult
@@ -189,7 +189,8 @@ def _require_solid(results: CaseResults) -> None:
     """Raise `InputError` before anything is solved or written if the rubber cannot carry a load."""
     for _, speed in results.planned():
         load = replace(results.load, speed=speed)
-        require_solid(results.rubber_before, load.pressure, load.time_under(load.footprint))
+        time = load.time_under(load.footprint)
+        require_load_bearing(results.rubber_before, load.pressure, time)
 
 
 def _require_measured(results: CaseResults) -> None:

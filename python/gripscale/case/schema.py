@@ -52,19 +52,21 @@ def expected(field: FieldInfo) -> str:
 
 
 def _of_type(annotation: Any, metadata: Iterable[Any] = ()) -> str:
-    stated = list(metadata)
-    for one in stated:
-        if isinstance(one, Words):
-            return one.words
+    marks = list(metadata)
+    for mark in marks:
+        if isinstance(mark, Words):
+            return mark.words
     if get_origin(annotation) is Annotated:
         inner, *more = get_args(annotation)
-        return _of_type(inner, [*more, *_unpacked(more), *stated])
-    return ", ".join([_of_plain(annotation, stated), *_limits(stated)])
-
-
-def _unpacked(metadata: Iterable[Any]) -> list[Any]:
-    """Return what pydantic's `Field` inside an annotation states."""
-    return [part for one in metadata if isinstance(one, FieldInfo) for part in one.metadata]
+        inside = [part for mark in more if isinstance(mark, FieldInfo) for part in mark.metadata]
+        return _of_type(inner, [*more, *inside, *marks])
+    limits = [
+        words.format(value)
+        for mark in marks
+        for name, words in _LIMITS.items()
+        if (value := getattr(mark, name, None)) is not None
+    ]
+    return ", ".join([_of_plain(annotation, marks), *limits])
 
 
 def _of_plain(annotation: Any, metadata: list[Any]) -> str:
@@ -72,7 +74,7 @@ def _of_plain(annotation: Any, metadata: list[Any]) -> str:
     if origin is Literal:
         return " or ".join(json.dumps(part) for part in parts)
     if origin is list:
-        least = max((getattr(one, "min_length", 1) for one in metadata), default=1)
+        least = max((getattr(mark, "min_length", 1) for mark in metadata), default=1)
         count = f" of {least}" if least > 1 else ""
         return f"a list{count}, each {_of_type(parts[0])}"
     if parts:
@@ -80,13 +82,6 @@ def _of_plain(annotation: Any, metadata: list[Any]) -> str:
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         return f"a table with {', '.join(annotation.model_fields)}"
     return _PLAIN.get(annotation, "a value")
-
-
-def _limits(metadata: list[Any]) -> list[str]:
-    found = (
-        (words, getattr(one, name, None)) for one in metadata for name, words in _LIMITS.items()
-    )
-    return [words.format(value) for words, value in found if value is not None]
 
 
 # What pydantic finds wrong with a table, as one sentence: key, value, expectation.
@@ -118,17 +113,29 @@ def sentence(error: ValidationError, model: type[BaseModel], *, in_table: bool =
     `in_table`: the model is a whole file, whose first names are those of tables.
     """
     first = first_complaint(error)
-    owner = _model_at(model, first["loc"])
-    where = _place(first["loc"], in_table=in_table)
-    kind, given = first["type"], first["input"]
+    owner, key = model, str(first["loc"][-1]) if first["loc"] else ""
+    for part in first["loc"][:-1]:
+        if isinstance(part, str):
+            owner = _model_in(owner.model_fields[part].annotation) or owner
+    where = _location(first["loc"], in_table=in_table)
+    kind, value = first["type"], first["input"]
     if kind == "extra_forbidden":
-        return f"unknown key {where}; {_suggestion(owner, first['loc'])}"
+        names = list(owner.model_fields)
+        near = difflib.get_close_matches(key, names, n=1)
+        hint = f"did you mean {near[0]}?" if near else f"expected one of {', '.join(names)}"
+        return f"unknown key {where}; {hint}"
     if kind == "missing":
-        return f"{where} is missing; expected {_wanted(owner, first['loc'])}"
-    expected = _expected(first)
-    if isinstance(given, dict):
-        return f"{where}: {expected}" if where else expected
-    return f"{where} = {_short(given)}: {expected}"
+        return f"{where} is missing; expected {expected(owner.model_fields[key])}"
+    context = first.get("ctx", {})
+    if kind == "value_error":
+        reason = str(context["error"])
+    else:
+        words = _EXPECTED[kind].format(**context)
+        reason = f"expected {words.removesuffix('s') if words.endswith(' 1 items') else words}"
+    if isinstance(value, dict):
+        return f"{where}: {reason}" if where else reason
+    text = repr(value)
+    return f"{where} = {text if len(text) <= 60 else f'{text[:57]}...'}: {reason}"
 
 
 def first_complaint(error: ValidationError) -> ErrorDetails:
@@ -138,7 +145,7 @@ def first_complaint(error: ValidationError) -> ErrorDetails:
     return (unknown or complaints)[0]
 
 
-def _place(loc: tuple[int | str, ...], *, in_table: bool) -> str:
+def _location(loc: tuple[int | str, ...], *, in_table: bool) -> str:
     """Return `[table] key[index]` or `[table.table] key` for pydantic's location."""
     if in_table and loc and all(isinstance(part, str) for part in loc):
         *tables, key = map(str, loc) if len(loc) > 1 else (*loc, "")
@@ -151,46 +158,11 @@ def _place(loc: tuple[int | str, ...], *, in_table: bool) -> str:
     return f"[{table}] {key}".strip()
 
 
-def _model_at(model: type[BaseModel], loc: tuple[int | str, ...]) -> type[BaseModel]:
-    """Return the model inside `model` that owns the last part of `loc`."""
-    for part in loc[:-1]:
-        if isinstance(part, str):
-            model = _model_in(model.model_fields[part].annotation) or model
-    return model
-
-
-def _wanted(owner: type[BaseModel], loc: tuple[int | str, ...]) -> str:
-    """Return what a missing key should have held."""
-    field = owner.model_fields[str(loc[-1])]
-    return expected(field)
-
-
-def _suggestion(owner: type[BaseModel], loc: tuple[int | str, ...]) -> str:
-    """Return the nearest valid name to the last part of `loc`, or all of them."""
-    names = list(owner.model_fields)
-    near = difflib.get_close_matches(str(loc[-1]), names, n=1)
-    return f"did you mean {near[0]}?" if near else f"expected one of {', '.join(names)}"
-
-
 def _model_in(annotation: Any) -> type[BaseModel] | None:
     """Return the model inside `annotation`, such as Wave in `list[Wave] | None`."""
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         return annotation
     return next((m for part in get_args(annotation) if (m := _model_in(part))), None)
-
-
-def _expected(complaint: Any) -> str:
-    """Return what was expected instead, in the words of this package."""
-    context = complaint.get("ctx", {})
-    if complaint["type"] == "value_error":
-        return str(context["error"])
-    words = _EXPECTED[complaint["type"]].format(**context)
-    return f"expected {words.removesuffix('s') if words.endswith(' 1 items') else words}"
-
-
-def _short(value: Any) -> str:
-    text = repr(value)
-    return text if len(text) <= 60 else f"{text[:57]}..."
 
 
 # Reading a value of the case file as a person writes it, before pydantic looks at its type.
@@ -352,12 +324,12 @@ def law_from_table(law: type, value: Any) -> Any:
     """Return the law that a table states; a `ValueError` is one sentence."""
     table = table_of(law)
     try:
-        stated = table.model_validate(dict(value))
+        read = table.model_validate(dict(value))
     except ValidationError as error:
         raise ValueError(sentence(error, table)) from error
     if table is law:
-        return stated
-    return law(**{item.name: getattr(stated, item.name) for item in fields(law)})
+        return read
+    return law(**{item.name: getattr(read, item.name) for item in fields(law)})
 
 
 @dataclass(frozen=True)

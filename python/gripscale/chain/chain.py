@@ -25,7 +25,7 @@ from gripscale.core.errors import ConvergenceError, ExtrapolationError, InputErr
 from gripscale.model import MOST_CLASSES, LoadTime, NominalLoad
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import CHOICES, require_measured
-from gripscale.rubber.material import require_solid
+from gripscale.rubber.material import require_load_bearing
 from gripscale.surface import PreparedSurface, SineStack, SurfacePart
 from gripscale.theory.half_plane import HalfPlane
 from gripscale.wave.block import FiniteStrainBlock
@@ -176,7 +176,7 @@ def predict(
     if conditions is not None and rubber_at is not None:
         raise InputError("rubber_at must be None with conditions, which give the rubber; got both")
     before = rubber if conditions is None else conditions.before(rubber)
-    require_solid(before, load.pressure, load.time_under(load.footprint))
+    require_load_bearing(before, load.pressure, load.time_under(load.footprint))
     if checks.one_of("extrapolate", extrapolate, CHOICES) == "refuse":
         require_measured(before, [wave.wavelength for wave in waves], load.speed)
     nothing = Prediction(rubber, sines, load, [], len(waves), conditions)

@@ -35,7 +35,7 @@ from gripscale.half_space.response import HalfSpace, check_magnitudes, half_spac
 from gripscale.half_space.result import RoughContact
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import CHOICES, require_measured
-from gripscale.rubber.material import require_solid
+from gripscale.rubber.material import require_load_bearing
 from gripscale.surface import HeightMap, Profile
 from gripscale.wave.problem import Status
 
@@ -124,7 +124,7 @@ def solve_rough_contact(
     body = half_space(own, speed)
     goal = math.inf if tolerance is None else _tolerance(tolerance)
     if body.speed == 0.0:
-        require_solid(rubber, load, math.inf)
+        require_load_bearing(rubber, load, math.inf)
     heights = periodic_heights(
         surface,
         smallest_wavelength=smallest_wavelength,

@@ -261,14 +261,14 @@ class FileLayout(Checked):
 
     def unit(self, table: TextTable, chosen: Sequence[int], kind: str) -> str:
         """Return the unit of the `chosen` columns; raise `InputError` if nothing states it."""
-        stated: str | None = getattr(self, f"{kind}_unit")
+        chosen_unit: str | None = getattr(self, f"{kind}_unit")
         written = {
             spelled(unit, kind) or unit for unit in (table.columns[at].unit for at in chosen)
         }
         header = next(iter(written)) if len(written) == 1 else None
         unit = spelled(header, kind)
-        if stated is not None and not (self.titles_first and unit):
-            return stated
+        if chosen_unit is not None and not (self.titles_first and unit):
+            return chosen_unit
         if unit is None:
             what = "no unit" if header is None else checks.short_repr(header)
             raise InputError(

@@ -112,7 +112,7 @@ def read_master_curve(
     reference_temperature: float | None = None,
     name: str | None = None,
     source: str = "",
-    **layout: Unpack[LayoutOptions],
+    **options: Unpack[LayoutOptions],
 ) -> MasterCurve:
     """Read storage and loss modulus against frequency from a text, CSV or Excel file.
 
@@ -129,7 +129,7 @@ def read_master_curve(
         T = 20 °C.
     name, source : str, optional
         Carried along; the file's stem by default, and nothing.
-    **layout
+    **options
         `columns`, `sheet`, `header`, `frequency_unit`, `modulus_unit`, `temperature_unit`,
         `modulus` and `titles_first`, as fields of `gripscale.rubber.FileLayout`. Without `columns`
         three columns without titles are frequency, storage and loss.
@@ -147,11 +147,11 @@ def read_master_curve(
         If a unit, the kind of modulus or the columns are neither stated nor given, or storage and
         loss are exchanged.
     """
-    file, stated = file_path(path), FileLayout(**layout)
-    unit = stated.temperature_unit
+    file, layout = file_path(path), FileLayout(**options)
+    unit = layout.temperature_unit
     if reference_temperature is not None and unit is None:
         unit = "K"  # a temperature is given: that of the file decides nothing
-    blocks = read_blocks(file, stated, temperature_unit=unit)
+    blocks = read_blocks(file, layout, temperature_unit=unit)
     table, above = blocks[0].table, blocks[0].temperature
     if len(blocks) > 1:
         raise FileError(
@@ -168,14 +168,14 @@ def read_master_curve(
             f"{file}: expected at least 2 rows of frequency, storage and loss; "
             f"got {len(table.rows)}"
         )
-    if not table.names and len(table.columns) == len(THREE) and stated.columns is None:
-        stated = replace(stated, columns=(1, 2, 3))
-    stated = stated.for_table(table)
-    column = stated.needed_column(table, "frequency")
-    _refuse_sweeps(table, column, with_columns=bool(stated.columns))
-    hertz = stated.quantities(table, column, "frequency", _positive(table, column, "frequency"))
-    storage, loss = young_moduli(table, stated, _positive)
-    if reference_temperature is None or (stated.titles_first and above is not None):
+    if not table.names and len(table.columns) == len(THREE) and layout.columns is None:
+        layout = replace(layout, columns=(1, 2, 3))
+    layout = layout.for_table(table)
+    column = layout.needed_column(table, "frequency")
+    _refuse_sweeps(table, column, with_columns=bool(layout.columns))
+    hertz = layout.quantities(table, column, "frequency", _positive(table, column, "frequency"))
+    storage, loss = young_moduli(table, layout, _positive)
+    if reference_temperature is None or (layout.titles_first and above is not None):
         reference_temperature = above
     return MasterCurve(
         hertz,

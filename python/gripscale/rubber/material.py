@@ -6,7 +6,18 @@
 Source: J. D. Ferry, Viscoelastic Properties of Polymers, 3rd ed. (1980), ch. 3.
 
 Only shear relaxes: G* = E*/3 and the bulk modulus K is constant. E is the modulus of the
-incompressible limit; the few per cent by which a finite K changes it enter through Poisson's ratio.
+incompressible limit; the few per cent by which a finite K changes it enter through Poisson's ratio
+nu = (3K - 2|G|) / (2 (3K + |G|)). One Maxwell element of unit modulus has, with x = w tau_i and
+without overflow at any x,
+
+    E'/E_i  = x^2 / (1 + x^2) = 1 / (1 + 1/x^2),   E''/E_i = x / (1 + x^2)
+
+A master curve fixes E*(w) within its band to about its noise, and beyond its ends less and less.
+The admissible series are extremes: each has the least or the largest E' or E'' at some frequency
+that the data allow. Their envelope is the uncertainty of E*(w); each of them is a rubber, so that
+the same uncertainty of a friction is the spread of its predictions. A plateau counts as measured
+where no admissible series leaves the modulus of the end of the data by more than a fifth within the
+two decades beyond it: only there is a modulus relaxed or glassy.
 """
 
 from __future__ import annotations
@@ -29,12 +40,6 @@ from gripscale.core.errors import InputError, RubberWarning
 from gripscale.core.units import ZERO_CELSIUS
 from gripscale.rubber.shift import Shift, shift_at, shift_from_dict
 from gripscale.rubber.strain_energy import NeoHookean, StrainEnergy, strain_energy_from_dict
-
-# What one Maxwell element of unit modulus has of E' and E'', at any w tau without overflow.
-#
-#     E'/E_i  = x^2 / (1 + x^2) = 1 / (1 + 1/x^2),   E''/E_i = x / (1 + x^2),   x = w tau
-#
-# Source: J. D. Ferry, Viscoelastic Properties of Polymers, 3rd ed. (1980), ch. 3.
 
 _BLOCK = 256
 """Frequencies at once: with a hundred terms an array of them is 200 kB."""
@@ -63,26 +68,18 @@ def complex_sum(omega: Array, times: Array, moduli: Array) -> ComplexArray:
     longer than the sums.
     """
     flat = np.abs(omega).reshape(-1)
-    found = np.empty(flat.size, dtype=np.complex128)
+    total = np.empty(flat.size, dtype=np.complex128)
     for first in range(0, flat.size, _BLOCK):
         phase = np.outer(flat[first : first + _BLOCK], times)
         smaller = np.minimum(phase, 1.0 / np.maximum(phase, 1.0))
         square = smaller * smaller
         below = 1.0 + square
-        part = found[first : first + _BLOCK]
+        part = total[first : first + _BLOCK]
         part.imag = (moduli * (smaller / below)).sum(-1)
         np.copyto(square, 1.0, where=phase > 1.0)
         part.real = (moduli * (square / below)).sum(-1)
-    found.imag = np.copysign(found.imag, np.reshape(omega, -1))
-    return found.reshape(np.shape(omega))
-
-
-# The Prony series that fit a master curve as well as the best one does: what the data leave open.
-#
-# A master curve fixes E*(w) within its band to about its noise, and beyond its ends less and less.
-# The series kept here are extremes: each has the least or the largest E' or E'' at some frequency
-# that the data allow. Their envelope is the uncertainty of E*(w); each of them is a rubber, so that
-# the same uncertainty of a friction is the spread of its predictions.
+    total.imag = np.copysign(total.imag, np.reshape(omega, -1))
+    return total.reshape(np.shape(omega))
 
 
 _SERIES = ("relaxation_times", "equilibrium_moduli", "moduli")
@@ -168,10 +165,6 @@ class AdmissibleSeries(Checked, eq=False):
             )
         return cls(**values)
 
-
-# A bulk modulus too small for the modulus it goes with: Poisson's ratio below that of any rubber.
-#
-# nu = (3K - 2|G|) / (2 (3K + |G|)),    K for nu: 2|G| (1 + nu) / (3 (1 - 2 nu))
 
 LEAST_POISSON_RATIO = 0.3
 """Below this no rubber and hardly a glassy polymer is: the bulk modulus is too small."""
@@ -378,7 +371,7 @@ class Rubber(Checked, eq=False):
         InputError
             If `omega` is not finite, or the rubber has no admissible series.
         """
-        own = self.complex_modulus(omega)
+        modulus = self.complex_modulus(omega)
         if self.admissible is None:
             raise InputError(
                 "admissible must be the series that also fit, as fit_prony finds them, for the "
@@ -386,7 +379,7 @@ class Rubber(Checked, eq=False):
             )
         others = self.admissible.complex_moduli(np.abs(np.asarray(omega, dtype=float)))
         others.imag *= np.sign(omega)
-        every = np.concatenate([own[None], others])
+        every = np.concatenate([modulus[None], others])
         low = every.real.min(axis=0) + 1j * every.imag.min(axis=0)
         high = every.real.max(axis=0) + 1j * every.imag.max(axis=0)
         return np.asarray(low), np.asarray(high)
@@ -497,11 +490,6 @@ class Rubber(Checked, eq=False):
         return np.asarray((frequency < low) | (frequency > high))
 
 
-# Whether a rubber's moduli level off within the data: only there is a modulus relaxed or glassy.
-#
-# A plateau counts as measured where no admissible series leaves the modulus of the end of the data
-# by more than a fifth within the two decades beyond it.
-
 BEYOND = 100.0
 """How far beyond the data uncertainty is stated: a factor of frequency, two decades."""
 _CHANGE = 1.25
@@ -546,19 +534,16 @@ def _end(rubber: Rubber, limit: float, side: int, factor: float) -> End:
     return End(limit if plateau else last, plateau)
 
 
-# Whether a rubber is still solid after a load has lasted: its relaxation modulus against pressure.
-#
-# A block under a mean pressure of many times its modulus is squeezed into full contact and beyond
-# what a solid can be: there is no partial contact to solve for, and no solution is found.
-
 MOST_PRESSURE = 10.0
 """Mean pressure over relaxation modulus that is let through; at slopes near one, three is full."""
 
 
-def require_solid(rubber: Rubber, pressure: float, load_time: float) -> None:
+def require_load_bearing(rubber: Rubber, pressure: float, load_time: float) -> None:
     """Raise `InputError` unless E(t) after `load_time` [s] can carry `pressure` [Pa].
 
-    At rest the time is infinite and E(t) the equilibrium modulus.
+    At rest the time is infinite and E(t) the equilibrium modulus. A block under a mean pressure of
+    many times its modulus is squeezed into full contact and beyond what a solid can be: there is no
+    partial contact to solve for.
     """
     checks.instance("rubber", rubber, Rubber)
     modulus = float(rubber.relaxation_modulus(load_time))
@@ -575,8 +560,6 @@ def require_solid(rubber: Rubber, pressure: float, load_time: float) -> None:
         f"got {modulus:.3g}"
     )
 
-
-# Whether rubbers that stand side by side hold for the same temperature.
 
 _SAME = 0.5
 """Temperatures that differ by less are one [K]: 20 °C and 293 K."""
@@ -596,21 +579,21 @@ def temperature_doubts(rubbers: Mapping[str, Rubber]) -> tuple[str, ...]:
         That they hold for different temperatures, that some have none stated beside others that
         do, or that a temperature lies beyond those its shift rests on.
     """
-    stated = {
+    kelvins = {
         name: rubber.reference_temperature
         for name, rubber in rubbers.items()
         if rubber.reference_temperature is not None
     }
     doubts = []
-    if stated and max(stated.values()) - min(stated.values()) > _SAME:
+    if kelvins and max(kelvins.values()) - min(kelvins.values()) > _SAME:
         each = ", ".join(
-            f"{name} {kelvin - ZERO_CELSIUS:.1f} °C" for name, kelvin in stated.items()
+            f"{name} {kelvin - ZERO_CELSIUS:.1f} °C" for name, kelvin in kelvins.items()
         )
         doubts.append(f"the rubbers hold for different temperatures: {each}")
-    if stated and len(stated) < len(rubbers):
-        others = ", ".join(name for name in rubbers if name not in stated)
+    if kelvins and len(kelvins) < len(rubbers):
+        others = ", ".join(name for name in rubbers if name not in kelvins)
         doubts.append(
-            f"the temperature of {others} is not known beside that of {', '.join(stated)}"
+            f"the temperature of {others} is not known beside that of {', '.join(kelvins)}"
         )
     beyond = [name for name, rubber in rubbers.items() if rubber.shift_extrapolated]
     if beyond:

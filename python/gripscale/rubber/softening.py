@@ -336,23 +336,23 @@ def softening_of_sweeps(sweeps: Sequence[StrainSweep], *, measured_at: float) ->
     sweeps = checks.instances("sweeps", sweeps, StrainSweep)
     kinds = sorted({sweep.deformation for sweep in sweeps})
     if len(kinds) != 1:
-        told = " and ".join(kinds) or "none"
-        raise InputError(f"sweeps must be at least one, all uniaxial or all shear; got {told}")
-    known = [sweep.temperature for sweep in sweeps]
-    if len(sweeps) > 1 and (None in known or len(set(known)) < len(known)):
+        raise InputError(f"sweeps must be all uniaxial or all shear; got {' and '.join(kinds)}")
+    kelvins = [sweep.temperature for sweep in sweeps]
+    if len(sweeps) > 1 and (None in kelvins or len(set(kelvins)) < len(kelvins)):
         raise InputError(
             "several strain sweeps must each be at a temperature of its own; got "
-            + ", ".join("none" if kelvin is None else f"{kelvin:g} K" for kelvin in known)
+            + ", ".join("none" if kelvin is None else f"{kelvin:g} K" for kelvin in kelvins)
         )
     ordered = sorted(sweeps, key=lambda sweep: sweep.temperature or 0.0)
     deformation: Deformation = "shear" if kinds[0] == "shear" else "tension"
+    temperatures = [kelvin for kelvin in kelvins if kelvin is not None]
     return SofteningTable(
         strain=[sweep.strain.tolist() for sweep in ordered],
         storage=[sweep.storage.tolist() for sweep in ordered],
         loss=[sweep.loss.tolist() for sweep in ordered],
         measured_at=measured_at,
         deformation=deformation,
-        temperature=None if None in known else [float(sweep.temperature or 0) for sweep in ordered],
+        temperature=sorted(temperatures) if len(temperatures) == len(sweeps) else None,
     )
 
 

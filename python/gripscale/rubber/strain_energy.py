@@ -58,9 +58,9 @@ class StrainEnergy(Checked, ABC):
         return [plain, *(other - plain for other in others)]
 
     @classmethod
-    def from_coefficients(cls, found: Sequence[float]) -> tuple[float, Self]:
+    def from_coefficients(cls, coefficients: Sequence[float]) -> tuple[float, Self]:
         """Return G [Pa] and the law of coefficients c_k [Pa]."""
-        shear, *others = found
+        shear, *others = coefficients
         return shear, cls._of(other / shear for other in others)
 
     @classmethod
@@ -123,10 +123,10 @@ class MooneyRivlin(StrainEnergy):
         return [cls(share).uniaxial_factor(stretch) for share in (0.0, 1.0)]
 
     @classmethod
-    def from_coefficients(cls, found: Sequence[float]) -> tuple[float, MooneyRivlin]:
+    def from_coefficients(cls, coefficients: Sequence[float]) -> tuple[float, MooneyRivlin]:
         """Return G = c1 + c2 and the law of s = c2/G."""
-        shear = sum(found)
-        return shear, cls(found[1] / shear)
+        shear = sum(coefficients)
+        return shear, cls(coefficients[1] / shear)
 
 
 class Yeoh(StrainEnergy):
@@ -177,10 +177,10 @@ class Isihara(StrainEnergy):
         return [first, second, cls(0.0, 1.0).uniaxial_factor(stretch) - first]
 
     @classmethod
-    def from_coefficients(cls, found: Sequence[float]) -> tuple[float, Isihara]:
+    def from_coefficients(cls, coefficients: Sequence[float]) -> tuple[float, Isihara]:
         """Return G = c1 + c2 and the law of s = c2/G and c3/G."""
-        shear = found[0] + found[1]
-        return shear, cls(found[1] / shear, found[2] / shear)
+        shear = coefficients[0] + coefficients[1]
+        return shear, cls(coefficients[1] / shear, coefficients[2] / shear)
 
 
 STRAIN_ENERGIES: dict[str, type[StrainEnergy]] = {

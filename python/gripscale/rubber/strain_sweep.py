@@ -94,7 +94,7 @@ def read_strain_sweep(
     frequency: float | None = None,
     name: str | None = None,
     source: str = "",
-    **layout: Unpack[LayoutOptions],
+    **options: Unpack[LayoutOptions],
 ) -> StrainSweep:
     """Read one strain sweep from a text, CSV or Excel file.
 
@@ -113,7 +113,7 @@ def read_strain_sweep(
         Frequency [Hz], if no column states it.
     name, source : str, optional
         Carried along; the file's stem by default, and nothing.
-    **layout
+    **options
         `columns`, `sheet`, `header`, `strain_unit`, `modulus_unit`, `temperature_unit`,
         `frequency_unit` and `modulus`, as fields of `gripscale.rubber.FileLayout`. Shear moduli (G)
         come with shear strain, Young's with that of length.
@@ -130,29 +130,29 @@ def read_strain_sweep(
     InputError
         If a unit, the kind of modulus or of amplitude, or a column is neither stated nor given.
     """
-    file, stated = file_path(path), FileLayout(**layout)
-    blocks = read_blocks(file, stated, temperature_unit=stated.temperature_unit)
+    file, layout = file_path(path), FileLayout(**options)
+    blocks = read_blocks(file, layout, temperature_unit=layout.temperature_unit)
     if len(blocks) > 1:
         raise FileError(f"{file}: expected one strain sweep; got {len(blocks)} tables")
     table = blocks[0].table
-    strain = _single_amplitude(table, stated, amplitude)
-    storage, loss = young_moduli(table, stated)
+    strain = _single_amplitude(table, layout, amplitude)
+    storage, loss = young_moduli(table, layout)
     complete = np.isfinite([strain, storage, loss]).all(axis=0)
-    moduli = [stated.column(table, name) for name in MODULI if name != "loss_factor"]
-    kind = stated.modulus_of(table, [column for column in moduli if column is not None])
-    column = stated.column(table, "temperature")
+    moduli = [layout.column(table, name) for name in MODULI if name != "loss_factor"]
+    kind = layout.modulus_of(table, [column for column in moduli if column is not None])
+    column = layout.column(table, "temperature")
     if temperature is None and (blocks[0].temperature is not None or column is not None):
-        kelvin = row_temperatures(blocks[0], stated, None)
+        kelvin = row_temperatures(blocks[0], layout, None)
         kelvin = kelvin[np.isfinite(kelvin)]
         if kelvin.size and np.ptp(kelvin) > 2.0 * TOLERANCE:
             raise FileError(
                 f"{file}: expected one temperature; got {kelvin.min():.2f} to {kelvin.max():.2f} K"
             )
         temperature = float(kelvin.mean()) if kelvin.size else None
-    column = stated.column(table, "frequency")
+    column = layout.column(table, "frequency")
     if frequency is None and column is not None:
         printed = above_zero(table, column, "frequency")
-        hertz = stated.quantities(table, column, "frequency", printed)
+        hertz = layout.quantities(table, column, "frequency", printed)
         hertz = hertz[np.isfinite(hertz)]
         if hertz.size and hertz.max() > (1.0 + _ONE_FREQUENCY) * hertz.min():
             raise FileError(

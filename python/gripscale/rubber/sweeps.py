@@ -179,13 +179,13 @@ def holds_sweeps(path: Path, layout: FileLayout = NO_LAYOUT) -> bool:
     temperatures over which the same frequencies come again. A master curve may say at what
     temperature each row was measured: its frequencies do not come again.
     """
-    stated = FileLayout(layout.columns, layout.sheet, layout.header)
+    layout = FileLayout(layout.columns, layout.sheet, layout.header)
     try:
-        blocks = read_blocks(path, stated, temperature_unit="C")
-        with_column = [stated.column(block.table, "temperature") is not None for block in blocks]
+        blocks = read_blocks(path, layout, temperature_unit="C")
+        with_column = [layout.column(block.table, "temperature") is not None for block in blocks]
         return (
             blocks[0].temperature is not None
-            or any(_repeats(block, stated) for block in blocks)
+            or any(_repeats(block, layout) for block in blocks)
             or (len(blocks) > 1 and all(with_column))
         )
     except GripscaleError:
@@ -239,9 +239,9 @@ def sweeps_from_ramps(
         As `Sweeps` does; if `step` is not above zero, or no frequency was measured at two
         temperatures with a nominal one in between.
     """
-    given = dict(zip(ROW, (temperature, frequency, storage, loss), strict=True))
+    columns = dict(zip(ROW, (temperature, frequency, storage, loss), strict=True))
     units = dict(zip(ROW, ("K", "Hz", "Pa", "Pa"), strict=True))
-    rows = {name: checks.in_limits(name, given[name], unit=units[name]) for name in ROW}
+    rows = {name: checks.in_limits(name, columns[name], unit=units[name]) for name in ROW}
     checks.same_length(1, **rows)
     step = checks.positive("step", step, unit="K")
     if step < _LEAST_STEP:
@@ -289,7 +289,7 @@ def read_sweeps(
     temperature_step: float | None = None,
     name: str | None = None,
     source: str = "",
-    **layout: Unpack[LayoutOptions],
+    **options: Unpack[LayoutOptions],
 ) -> Sweeps:
     """Read frequency sweeps at several temperatures from text, CSV, Excel or RepTate files.
 
@@ -310,7 +310,7 @@ def read_sweeps(
         multiples of this step [K] of degrees Celsius (see `gripscale.rubber.sweeps_from_ramps`).
     name, source : str, optional
         Carried along; the file's stem by default, and nothing.
-    **layout
+    **options
         `columns`, `sheet`, `header`, `frequency_unit`, `modulus_unit`, `temperature_unit`,
         `modulus` and `titles_first`, as fields of `gripscale.rubber.FileLayout`.
 
@@ -326,13 +326,13 @@ def read_sweeps(
     InputError
         If a unit, the kind of modulus, a column or a temperature is neither stated nor given.
     """
-    paths, stated = file_paths(path), FileLayout(**layout)
+    paths, layout = file_paths(path), FileLayout(**options)
     if temperature is not None:
         temperature = checks.positive("temperature", temperature, unit="K")
     parts = [
-        _rows(block, stated.for_table(block.table), temperature)
+        _rows(block, layout.for_table(block.table), temperature)
         for file in paths
-        for block in read_blocks(file, stated, temperature_unit=stated.temperature_unit)
+        for block in read_blocks(file, layout, temperature_unit=layout.temperature_unit)
     ]
     rows = np.concatenate(parts, axis=1)
     if not rows.size:

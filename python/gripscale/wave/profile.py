@@ -18,7 +18,7 @@ from gripscale import model
 from gripscale.core import checks, provenance
 from gripscale.core.errors import InputError
 from gripscale.rubber import Rubber
-from gripscale.rubber.material import require_solid
+from gripscale.rubber.material import require_load_bearing
 from gripscale.surface import PreparedSurface, Profile, SurfacePart
 from gripscale.surface.resampling import filled
 from gripscale.wave import kernel
@@ -140,7 +140,7 @@ def solve_profile(
     )
     problem = WaveProblem(rubber, heights, Load(pressure, speed, load_time))
     if problem.load.speed == 0.0:
-        require_solid(rubber, problem.load.pressure, math.inf)
+        require_load_bearing(rubber, problem.load.pressure, math.inf)
     result = block.solve(problem, start, workers=workers)
     pressed = result.x[result.pressure > 0.0]
     told = {
