@@ -145,7 +145,7 @@ def run_case(
     """
     results = case if isinstance(case, CaseResults) else prepare_case(case)
     emit = on_event or (lambda event: None)
-    _require_solid(results)
+    _require_load_bearing(results)
     _require_measured(results)
     if output is not None:
         results.folder = Path(output)
@@ -185,7 +185,7 @@ def _require_shift(results: CaseResults) -> None:
         raise InputError(f"{results.file.path}: [conditions] {error}") from error
 
 
-def _require_solid(results: CaseResults) -> None:
+def _require_load_bearing(results: CaseResults) -> None:
     """Raise `InputError` before anything is solved or written if the rubber cannot carry a load."""
     for _, speed in results.planned():
         load = replace(results.load, speed=speed)
