@@ -7,7 +7,7 @@ import json
 import re
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -17,6 +17,7 @@ from gripscale.case.schema import first_complaint, sentence
 from gripscale.case.tables import Case
 from gripscale.core.errors import FileError, InputError, about_keys
 from gripscale.core.provenance import software, versions
+from gripscale.core.units import stated_units
 from gripscale.io.text_table import read_bytes
 
 M = TypeVar("M", bound=BaseModel)
@@ -29,6 +30,8 @@ class CaseFile:
     case: Case
     path: Path
     text: str
+    units: Mapping[str, str] = field(default_factory=dict, compare=False)
+    """The units the case states, by key, in which results are shown."""
 
     def resolve(self, name: str) -> Path:
         """Return the path of a file named in the case, relative to the case file."""
@@ -63,7 +66,7 @@ def read_case(path: str | Path) -> CaseFile:
             f"{path}: an empty case; expected at least [surface], [rubber] and [load], as "
             "`gripscale init FOLDER` writes them"
         )
-    return CaseFile(validate(Case, tables, str(path)), path, text)
+    return CaseFile(validate(Case, tables, str(path)), path, text, stated_units(tables))
 
 
 def validate(model: type[M], values: Mapping[str, Any], where: str) -> M:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import re
 import tomllib
@@ -218,9 +219,12 @@ def such_as(kind: str) -> str:
 
 # The units in which results are shown: those the case gives its load and its lengths in.
 #
-# Inside, and in result files, all is in SI units. A result carries the text of its case, and an
-# axis of a study the unit its values were given in (`GIVEN`); what was a plain number is shown in
-# the usual unit.
+# Inside, and in result files, all is in SI units. A result carries the units its case states
+# (`DISPLAY_UNITS`), and an axis of a study the unit its values were given in (`GIVEN`); what was a
+# plain number is shown in the usual unit.
+
+DISPLAY_UNITS = "display_units"
+"""Attribute of a result: the units its case states, by key, as JSON."""
 
 GIVEN = "given_unit"
 """Attribute of a coordinate: the unit its values were given in, where they had one."""
@@ -257,7 +261,7 @@ class DisplayUnit:
         return f"{float(self.of(value)):.{digits}g} {self.unit}"
 
 
-def display_unit(name: str, case: str = "", unit: str = "") -> DisplayUnit:
+def display_unit(name: str, case: str | Mapping[str, Any] = "", unit: str = "") -> DisplayUnit:
     """Return how one of `KEYS` is shown.
 
     Parameters
@@ -265,12 +269,18 @@ def display_unit(name: str, case: str = "", unit: str = "") -> DisplayUnit:
     name
         The key.
     case
-        Text of the case, whose unit is taken where `unit` is empty.
+        Attributes of a result, or the text of its case, whose unit is taken where `unit` is empty.
     unit
         The unit it was given in.
     """
     kind = KEYS[name][1]
-    chosen = unit or given_units(case).get(name) or USUAL[kind]
+    if isinstance(case, str):
+        units = given_units(case)
+    elif DISPLAY_UNITS in case:
+        units = json.loads(case[DISPLAY_UNITS])
+    else:  # a result of an older version has but the text of its case
+        units = given_units(str(case.get("case", "")))
+    chosen = unit or units.get(name) or USUAL[kind]
     return DisplayUnit(chosen, UNITS[kind][chosen])
 
 
@@ -278,16 +288,20 @@ def display_unit(name: str, case: str = "", unit: str = "") -> DisplayUnit:
 def given_units(case: str) -> Mapping[str, str]:
     """Return the unit of each of `KEYS` that has one in the text of a case."""
     try:
-        tables = tomllib.loads(case)
+        return stated_units(tomllib.loads(case))
     except tomllib.TOMLDecodeError:
         return {}
-    found = {}
+
+
+def stated_units(tables: Mapping[str, Any]) -> dict[str, str]:
+    """Return the unit of each of `KEYS` that has one in the tables of a case."""
+    units = {}
     for name, (table, kind) in KEYS.items():
         keys = tables.get(table)
         unit = unit_of(keys.get(name), kind) if isinstance(keys, dict) else ""
         if unit:
-            found[name] = unit
-    return found
+            units[name] = unit
+    return units
 
 
 def significant(value: float, digits: int = 3) -> str:
