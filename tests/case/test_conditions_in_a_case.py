@@ -178,9 +178,9 @@ WRONG = [
     (
         '"1.15 g/cm^3"',
         '"1150 kg"',
-        "[conditions.heat] density = '1150 kg': unknown unit 'kg'; expected",
+        "[conditions] heat: density = '1150 kg': unknown unit 'kg'; expected",
     ),
-    ('"0.25 W/(m K)"', '"0.25 W/K"', "[conditions.heat] conductivity = '0.25 W/K': unknown unit"),
+    ('"0.25 W/(m K)"', '"0.25 W/K"', "[conditions] heat: conductivity = '0.25 W/K': unknown unit"),
     ('"5 MPa"', '"5 Mpa"', "[conditions] shear_stress: stress_0 = '5 Mpa': unknown unit 'Mpa'"),
     (
         '"6 mm/s"',
@@ -193,7 +193,7 @@ WRONG = [
     (
         'density = "1.15 g/cm^3"\n',
         "",
-        "[conditions.heat] density is missing; expected a density such as",
+        "[conditions] heat: density is missing; expected a density such as",
     ),
     ('measured_at = "0.1 %"\n', "", "[conditions] softening: measured_at is missing"),
     ("width = 0.1\n", "", "[conditions] shear_stress: width is missing"),
@@ -202,7 +202,11 @@ WRONG = [
         "",
         "[conditions] softening: kind is missing; expected one of kraus, table",
     ),
-    ('reference_temperature = "20 C"', "", "activation_energy and reference_temperature together"),
+    (
+        'reference_temperature = "20 C"',
+        "",
+        "reference_temperature must be given with an activation_energy",
+    ),
     (
         SOFTENING,
         'strain_norm = "slope"\n',

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from gripscale.core.units import GIVEN, display_unit, given_units
+from gripscale.core.units import DISPLAY_UNITS, GIVEN, display_unit, given_units
 from gripscale.experiment.axis import axes_of
 from gripscale.experiment.study import coordinates
 
@@ -23,6 +23,14 @@ def test_the_units_of_a_case() -> None:
     assert display_unit("pressure", CASE).text(3e5) == "300 kPa"
     assert display_unit("speed", CASE).text(10.0) == "36 km/h"
     assert display_unit("footprint", CASE).text(0.1) == "100 mm"
+
+
+def test_a_result_carries_the_units_of_its_case() -> None:
+    """One of an older version has but the text."""
+    stated = {DISPLAY_UNITS: '{"speed": "km/h"}', "case": "[load]\nspeed = '1 mm/s'"}
+    assert display_unit("speed", stated).text(10.0) == "36 km/h"
+    assert display_unit("pressure", stated).text(3e5) == "0.3 MPa"
+    assert display_unit("speed", {"case": CASE}).text(10.0) == "36 km/h"
 
 
 @pytest.mark.parametrize("case", ["", "no = toml = at all", "load = 3", "[load]\npressure = 3e5"])

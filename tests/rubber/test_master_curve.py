@@ -33,7 +33,7 @@ def test_rows_are_sorted_by_frequency():
 @pytest.mark.parametrize(
     ("frequency", "storage", "loss", "temperature", "message"),
     [
-        ([1.0, 2.0], [1e6], [1e5, 1e5], None, "same length of at least 2; got 2, 1 and 2"),
+        ([1.0, 2.0], [1e6], [1e5, 1e5], None, "same length, at least 2; got 2, 1 and 2"),
         ([1.0], [1e6], [1e5], None, "at least 2; got 1, 1 and 1"),
         ([1.0, 0.0], [1e6, 1e6], [1e5, 1e5], None, r"frequency must be greater .* index 1"),
         ([1.0, 2.0], [1e6, np.nan], [1e5, 1e5], None, "storage must be a list of finite"),

@@ -14,7 +14,7 @@ from gripscale.app.case import CaseState, field_text, field_value
 from gripscale.app.elements import PageElements, error_notice, in_worker, panes
 from gripscale.case import CaseFile
 from gripscale.case.keys import NEEDED, NOTHING, TABLES, Key, Section, sections
-from gripscale.case.schema import Table
+from gripscale.case.schema import table_of
 from gripscale.core.errors import GripscaleError
 
 BY_DEFAULT = "by default"
@@ -102,10 +102,8 @@ def field(state: CaseState, section: Section, key: Key) -> pn.widgets.Select | p
     """Return the widget that shows and changes one key of a table."""
     path = (*section.name.split("."), key.name)
     law = next(table for name, table, _ in TABLES if name == section.name)
-    table = law[section.kind] if isinstance(law, Mapping) else law
-    annotation: Any = float  # of the parameters of strain energies, which are dataclasses
-    if issubclass(table, Table):
-        annotation = table.model_fields[key.name].annotation
+    table = table_of(law[section.kind] if isinstance(law, Mapping) else law)
+    annotation = table.model_fields[key.name].annotation
     choices, is_text = list(literals(annotation)), annotation in (str, str | None)
     look = {
         "label": key.name.replace("_", " ") + (" *" if key.default == NEEDED else ""),

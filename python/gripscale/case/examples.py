@@ -11,11 +11,9 @@ from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
 
+from gripscale.case.folder import nearest_existing, write_bytes
 from gripscale.core import checks
 from gripscale.core.errors import FileError
-from gripscale.io.netcdf import write_whole
-
-# A made-up road as the text file a profilometer would write.
 
 
 def road_text() -> str:
@@ -89,44 +87,29 @@ def write_example(folder: str | Path, name: str = "road") -> list[Path]:
     """
     example = EXAMPLES[checks.one_of("example", name, tuple(EXAMPLES))]
     target = Path(folder)
-    contents = {CASE: _case(name).encode("utf-8")}
+    # A case of the source tree seeks its data in the folder above.
+    text = _packaged(f"cases/{name}.toml").decode("utf-8").replace('"../data/', '"data/')
+    contents = {CASE: text.encode("utf-8")}
     contents |= {path: _packaged(path) for path in example.files}
     contents |= {path: make().encode("utf-8") for path, make in example.made}
-    _require_free(target, contents)
-    return [_write(target / path, content) for path, content in contents.items()]
-
-
-def _case(name: str) -> str:
-    """Return the text of a case; that of the source tree seeks its data in the folder above."""
-    return _packaged(f"cases/{name}.toml").decode("utf-8").replace('"../data/', '"data/')
-
-
-def _packaged(path: str) -> bytes:
-    return files("gripscale.case").joinpath(*path.split("/")).read_bytes()
-
-
-def _require_free(target: Path, contents: dict[str, bytes]) -> None:
-    """Raise `FileError` if anything would be overwritten."""
-    there = target
-    while not there.exists() and there != there.parent:
-        there = there.parent
-    if not there.is_dir():
-        raise FileError(f"folder {target} cannot be made: {there} is not a folder")
+    parent = nearest_existing(target)
+    if not parent.is_dir():
+        raise FileError(f"folder {target} cannot be made: {parent} is not a folder")
     taken = [path for path in contents if (target / path).exists()]
     if taken:
         raise FileError(
             f"{target / taken[0]} is there already and is not overwritten; "
             "expected a folder without it"
         )
+    for path, content in contents.items():
+        written = target / path
+        try:
+            written.parent.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise FileError(f"folder {written.parent} cannot be made: {error.strerror}") from error
+        write_bytes(written, content)
+    return [target / path for path in contents]
 
 
-def _write(path: Path, content: bytes) -> Path:
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise FileError(f"folder {path.parent} cannot be made: {error.strerror}") from error
-
-    def write(part: Path) -> None:
-        part.write_bytes(content)
-
-    return write_whole(path, write)
+def _packaged(path: str) -> bytes:
+    return files("gripscale.case").joinpath(*path.split("/")).read_bytes()

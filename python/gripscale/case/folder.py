@@ -1,6 +1,9 @@
 """The results folder: checked before the long work, and cleared of an earlier run's results.
 
-Only files with the names of results, and copies that the saved case names, are ever removed.
+Only files with the names of results, and copies that the saved case names, are ever removed. The
+case is saved beside its results with copies of the files it names, so that the folder runs
+anywhere: its text is that of the case but for the names of files, which become those of the copies.
+Files too large to be copied are named where they are.
 """
 
 from __future__ import annotations
@@ -12,6 +15,7 @@ import time
 import tomllib
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
+from itertools import count
 from pathlib import Path
 
 from gripscale.case.read import CaseFile, read_case
@@ -19,11 +23,6 @@ from gripscale.case.tables import Case
 from gripscale.core.errors import FileError, GripscaleError
 from gripscale.io.netcdf import write_whole
 from gripscale.io.text_table import read_bytes
-
-# The case beside its results, with copies of the files it names: the folder runs anywhere.
-#
-# Its text is that of the case but for the names of files, which become those of the copies. Files
-# too large to be copied are named where they are.
 
 CASE, INPUTS = "case.toml", "inputs"
 COPIED_AT_MOST = 100e6
@@ -57,13 +56,13 @@ def saved_case(file: CaseFile, folder: Path) -> SavedCase:
     contents = {name: read_bytes(path) for name, path in paths.items()}
     if sum(map(len, contents.values())) > COPIED_AT_MOST:
         return SavedCase(renamed(file.text, {name: str(paths[name]) for name in names}), {})
-    places: dict[str, str] = {}
-    own = saved_inputs(folder)
+    targets: dict[str, str] = {}
+    earlier = saved_inputs(folder)
     for name, content in contents.items():
-        taken = set(places.values())
-        places[name] = _place(paths[name].name, content, taken, folder, own)
-    copies = {place: contents[name] for name, place in places.items()}
-    return SavedCase(renamed(file.text, places), copies)
+        taken = set(targets.values())
+        targets[name] = _free_target(paths[name], content, taken, folder, earlier)
+    copies = {target: contents[name] for name, target in targets.items()}
+    return SavedCase(renamed(file.text, targets), copies)
 
 
 def saved_inputs(folder: Path) -> set[str]:
@@ -75,18 +74,18 @@ def saved_inputs(folder: Path) -> set[str]:
     return {name for _, name in names if Path(name).parent == Path(INPUTS)}
 
 
-def renamed(text: str, places: Mapping[str, str]) -> str:
+def renamed(text: str, targets: Mapping[str, str]) -> str:
     """Return the text of a case with the files it names by other names, and nothing else changed.
 
     A string is the name of a file if the case would look for another file with another string.
     """
-    for found in reversed(list(_STRING.finditer(text))):
-        if found[0].startswith("#"):
+    for match in reversed(list(_STRING.finditer(text))):
+        if match[0].startswith("#"):
             continue
-        name = tomllib.loads(f"string = {found[0]}")["string"]
-        before, after = text[: found.start()], text[found.end() :]
-        if name in places and _names_a_file(f'{before}"{_MARK}"{after}'):
-            text = f"{before}{json.dumps(places[name], ensure_ascii=False)}{after}"
+        name = tomllib.loads(f"string = {match[0]}")["string"]
+        before, after = text[: match.start()], text[match.end() :]
+        if name in targets and _names_a_file(f'{before}"{_MARK}"{after}'):
+            text = f"{before}{json.dumps(targets[name], ensure_ascii=False)}{after}"
     return text
 
 
@@ -99,21 +98,19 @@ def _names_a_file(text: str) -> bool:
     return any(name == _MARK for _, name in case.named_files())
 
 
-def _place(name: str, content: bytes, taken: set[str], folder: Path, own: set[str]) -> str:
-    """Return a path in the folder for a copy, at which there is no file but its like or ours."""
-    stem, suffix = Path(name).stem, Path(name).suffix
-    number = 1
-    while True:
-        place = f"{INPUTS}/{stem}{'' if number == 1 else f'_{number}'}{suffix}"
-        there = folder / place
-        foreign = there.exists() and place not in own and not _holds(there, content)
-        if place not in taken and not foreign:
-            return place
-        number += 1
+def _free_target(
+    path: Path, content: bytes, taken: set[str], folder: Path, earlier: set[str]
+) -> str:
+    """Return a path in the folder for a copy, at which no file of somebody else would be lost."""
 
+    def is_free(target: str) -> bool:
+        present = folder / target
+        same = present.is_file() and present.read_bytes() == content
+        return target not in taken and (target in earlier or same or not present.exists())
 
-def _holds(path: Path, content: bytes) -> bool:
-    return path.is_file() and path.read_bytes() == content
+    endings = ("" if number == 1 else f"_{number}" for number in count(1))
+    targets = (f"{INPUTS}/{path.stem}{ending}{path.suffix}" for ending in endings)
+    return next(filter(is_free, targets))
 
 
 FIGURES = (
@@ -140,13 +137,16 @@ RESULTS = (
 
 def require_writable(folder: Path) -> None:
     """Raise `FileError` unless `folder` could be made and written; touch nothing."""
-    there = folder
-    while not there.exists() and there != there.parent:
-        there = there.parent
-    if not there.is_dir():
-        raise FileError(f"output folder {folder} cannot be made: {there} is not a folder")
-    if not os.access(there, os.W_OK | os.X_OK):
-        raise FileError(f"output folder {folder} cannot be written: no permission for {there}")
+    parent = nearest_existing(folder)
+    if not parent.is_dir():
+        raise FileError(f"output folder {folder} cannot be made: {parent} is not a folder")
+    if not os.access(parent, os.W_OK | os.X_OK):
+        raise FileError(f"output folder {folder} cannot be written: no permission for {parent}")
+
+
+def nearest_existing(path: Path) -> Path:
+    """Return `path`, or the nearest of its parents that exists."""
+    return next((step for step in (path, *path.parents) if step.exists()), path)
 
 
 def make(folder: Path) -> None:
@@ -194,8 +194,8 @@ def save_case(file: CaseFile, folder: Path) -> None:
 def _save(saved: SavedCase, folder: Path) -> None:
     if saved.copies:
         make(folder / INPUTS)
-    for place, content in saved.copies.items():
-        write_bytes(folder / place, content)
+    for target, content in saved.copies.items():
+        write_bytes(folder / target, content)
     write_text(folder / CASE, saved.text)
 
 
@@ -210,8 +210,4 @@ def write_text(path: Path, text: str) -> Path:
 
 def write_bytes(path: Path, content: bytes) -> Path:
     """Write `content` to `path`, completely or not at all."""
-    return write_whole(path, lambda part: _write(part, content))
-
-
-def _write(path: Path, content: bytes) -> None:
-    path.write_bytes(content)
+    return write_whole(path, lambda part: part.write_bytes(content))

@@ -5,22 +5,17 @@ Made from the tables that read the file: what they do not know is not listed, wh
 
 from __future__ import annotations
 
+import ast
+import inspect
 import json
+import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
-from pydantic.fields import FieldInfo
-
-from gripscale.case.rubber_tables import (
-    LAWS,
-    SHEAR_STRESS,
-    SOFTENING,
-    ConditionsTable,
-    Heat,
-    RubberSource,
-)
-from gripscale.case.schema import Table, expected
+from gripscale.case.rubber_tables import SHIFT_LAWS, SOFTENING, ConditionsTable, RubberSource
+from gripscale.case.schema import expected, table_of
 from gripscale.case.tables import (
     ChainOptions,
     Compare,
@@ -33,26 +28,26 @@ from gripscale.case.tables import (
     UncertaintyTable,
     Wave,
 )
+from gripscale.conditions.area_term import SHEAR_STRESSES
+from gripscale.conditions.flash_temperature import ThermalProperties
 from gripscale.rubber.strain_energy import STRAIN_ENERGIES, StrainEnergy
-
-Laws = Mapping[str, type[Table]] | Mapping[str, type[StrainEnergy]]
 
 NEEDED, NOTHING = "needed", "-"
 """The default of a key that must be there, and of one that may be left out for nothing."""
 
-TABLES: tuple[tuple[str, type[Table] | Laws, str], ...] = (
+TABLES: tuple[tuple[str, type | Mapping[str, type], str], ...] = (
     ("surface", Surface, "inputs.md"),
     ("surface.sines", Wave, "method.md"),
     ("rubber", RubberSource, "temperature.md"),
-    ("rubber.shift", LAWS, "temperature.md"),
+    ("rubber.shift", SHIFT_LAWS, "temperature.md"),
     ("rubber.strain_energy", STRAIN_ENERGIES, "material.md"),
     ("load", Load, "method.md"),
     ("solver", Solver, "method.md"),
     ("chain", ChainOptions, "chain-and-direct-contact.md"),
     ("conditions", ConditionsTable, "conditions.md"),
     ("conditions.softening", SOFTENING, "conditions.md"),
-    ("conditions.heat", Heat, "conditions.md"),
-    ("conditions.shear_stress", SHEAR_STRESS, "conditions.md"),
+    ("conditions.heat", ThermalProperties, "conditions.md"),
+    ("conditions.shear_stress", SHEAR_STRESSES, "conditions.md"),
     ("measured", MeasuredTable, "direct-contact.md"),
     ("output", Output, "reading-results.md"),
     ("compare", Compare, "theories.md"),
@@ -75,13 +70,6 @@ CHAPTERS = {
     "time_limit": "inputs.md",
 }
 """Chapters of keys that are explained elsewhere than their tables."""
-
-PARAMETERS = {
-    "share": "Share of the second invariant in the shear modulus, 0 to 1.",
-    "second": "Coefficient of (I1 - 3)^2 over G/2.",
-    "third": "Coefficient of (I1 - 3)^3 over G/2.",
-}
-"""Meaning of the parameters of strain energies."""
 
 
 @dataclass(frozen=True)
@@ -112,34 +100,41 @@ class Section:
 
 def sections() -> list[Section]:
     """Return all tables of a case with their keys, in the order of the documentation."""
-    return [section for name, table, page in TABLES for section in _sections(name, table, page)]
+    return [
+        Section(name, kind, _about(law), list(_keys(law, page)))
+        for name, table, page in TABLES
+        for kind, law in (table.items() if isinstance(table, Mapping) else [("", table)])
+    ]
 
 
-def _sections(name: str, table: type[Table] | Laws, page: str) -> Iterator[Section]:
-    laws = table.items() if isinstance(table, Mapping) else [("", table)]
-    for kind, law in laws:
-        yield Section(name, kind, _about(law), list(_keys(kind, law, page)))
+def _keys(law: type, page: str) -> Iterator[Key]:
+    """Yield the keys of a table or a law, its own before those it shares with others."""
+    table = table_of(law)
+    meanings: dict[str, str | None]
+    meanings = {name: item.description for name, item in table.model_fields.items()}
+    if table is not law:
+        meanings = {"kind": _about(law), **_field_texts(law)}
+    for name in sorted(table.model_fields, key=lambda name: name not in table.__annotations__):
+        item = table.model_fields[name]
+        default = NEEDED if item.is_required() else _written(item.default)
+        chapter = CHAPTERS.get(name, page)
+        yield Key(name, expected(item), default, meanings[name] or "", chapter)
 
 
-def _keys(kind: str, law: type[Table] | type[StrainEnergy], page: str) -> Iterator[Key]:
-    if issubclass(law, Table):
-        for name, field in law.model_fields.items():
-            meaning = field.description or ""
-            yield Key(name, expected(field), _default(field), meaning, CHAPTERS.get(name, page))
-        return
-    yield Key("kind", json.dumps(kind), NEEDED, _about(law), page)
-    for parameter in fields(law):
-        yield Key(parameter.name, "a number", NEEDED, PARAMETERS.get(parameter.name, ""), page)
+def _field_texts(law: type) -> dict[str, str]:
+    """Return the text below each field of a law, without units: a case states them as it likes."""
+    texts = {}
+    body = ast.parse(inspect.getsource(law)).body[0]
+    assert isinstance(body, ast.ClassDef)
+    for field, below in pairwise(body.body):
+        match field, below:
+            case ast.AnnAssign(target=ast.Name(id=name)), ast.Expr(value=ast.Constant(value=text)):
+                texts[name] = re.sub(r" \[[^\]]*\]", "", " ".join(str(text).split()))
+    return texts
 
 
 def _about(law: type) -> str:
     return (law.__doc__ or "").partition("\n")[0]
-
-
-def _default(field: FieldInfo) -> str:
-    if field.is_required():
-        return NEEDED
-    return _written(field.default)
 
 
 def _written(value: Any) -> str:

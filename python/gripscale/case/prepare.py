@@ -1,4 +1,4 @@
-"""From the surface a case names to what a model needs: cleaned profiles, sine waves."""
+"""From the surface, rubber and conditions a case names to what a model needs."""
 
 from __future__ import annotations
 
@@ -14,7 +14,6 @@ from gripscale.case.rubber_tables import ConditionsTable, RubberSource, StrainSw
 from gripscale.case.tables import Surface
 from gripscale.chain.chain import Chain, wave_solver
 from gripscale.conditions.conditions import Conditions
-from gripscale.conditions.flash_temperature import ThermalProperties
 from gripscale.core.errors import GripscaleError, InputError, about_keys
 from gripscale.rubber import (
     MasterCurve,
@@ -34,17 +33,15 @@ from gripscale.rubber import (
     styrene_butadiene,
     superpose_report,
 )
-from gripscale.rubber.softening import SofteningLaw, SofteningTable, softening_of_sweeps
+from gripscale.rubber.columns import FileLayout
+from gripscale.rubber.softening import SofteningLaw, softening_of_sweeps
 from gripscale.rubber.sweeps import holds_sweeps
 from gripscale.surface import (
-    CleaningReport,
     CutOffRule,
-    HeightDifference,
     HeightMap,
     Measured,
     PreparedSurface,
     Profile,
-    SelfAffineFit,
     SineStack,
     clean,
     clean_map,
@@ -94,12 +91,14 @@ def prepare_surface(surface: Surface, resolve: Resolve = Path) -> PreparedSurfac
     measured = _map(surface, paths[0]) if surface.map else _profiles(surface, paths)
     counted = {key: getattr(surface, key) for key in COUNTED_KEYS}
     correlation = height_difference(measured.cleaned, **counted)
-    self_affine, why_not = _self_affine(correlation)
-    measured = replace(measured, self_affine=self_affine, no_self_affine=why_not)
+    try:
+        measured = replace(measured, self_affine=fit_self_affine(correlation))
+    except GripscaleError as error:  # the sine waves do not need a self-affine surface
+        measured = replace(measured, no_self_affine=str(error))
     fit = {key: getattr(surface, key) for key in FIT_KEYS}
     if surface.cut_off is not None:
         where = str(paths[0]) if len(paths) == 1 else f"{len(paths)} profiles"
-        fit["cut_off"] = _cut_off(measured, surface.cut_off, where)
+        fit["cut_off"] = _cut_off_wavelength(measured, surface.cut_off, where)
     return PreparedSurface(
         fit_sines(correlation, **fit),
         ", ".join(str(path) for path in paths),
@@ -111,7 +110,7 @@ def prepare_surface(surface: Surface, resolve: Resolve = Path) -> PreparedSurfac
     )
 
 
-def _cut_off(measured: Measured, rule: CutOffRule, where: str) -> float:
+def _cut_off_wavelength(measured: Measured, rule: CutOffRule, where: str) -> float:
     """Return where the roughness ends [m]; an error begins with `where`."""
     if isinstance(rule, float):
         return rule
@@ -134,7 +133,18 @@ def _profiles(surface: Surface, paths: list[Path]) -> Measured:
             sheet=surface.sheet,
             reader=surface.reader,
         )
-        cleaned, report = _clean(raw, surface, path)
+        try:
+            cleaned, report = clean(
+                raw,
+                crop=_pair(surface.crop),
+                valid_range=_pair(surface.valid_range),
+                remove_spikes=surface.remove_spikes,
+                spike_slope=surface.spike_slope,
+                across_gaps=surface.across_gaps,
+                detrend=surface.detrend,
+            )
+        except InputError as error:
+            raise InputError(f"{path}: {error}") from error
         profiles.append((raw, cleaned))
         reports.append(report)
     return Measured(profiles, reports, None, "")
@@ -167,49 +177,19 @@ def _map(surface: Surface, path: Path) -> Measured:
 
 
 def _middle(raw: HeightMap, cleaned: HeightMap) -> tuple[Profile, Profile]:
-    """Return one line as read and as cleaned: the fullest, nearest to the middle, to be shown."""
+    """Return a line as read and as cleaned: the fullest, nearest to the middle."""
     away = np.abs(np.arange(cleaned.y.size) - cleaned.y.size // 2)
     fullest = np.lexsort((away, np.isnan(cleaned.z).sum(axis=0)))[0]
-    one, other = (
+    before, after = (
         surface.line(int(np.argmin(np.abs(surface.y - cleaned.y[fullest]))))
         for surface in (raw, cleaned)
     )
-    return one, replace(other, name=one.name, source=one.source)
-
-
-def _clean(raw: Profile, surface: Surface, path: Path) -> tuple[Profile, CleaningReport]:
-    """Clean `raw`; an error names the file, which the cleaning does not know."""
-    try:
-        return clean(
-            raw,
-            crop=_pair(surface.crop),
-            valid_range=_pair(surface.valid_range),
-            remove_spikes=surface.remove_spikes,
-            spike_slope=surface.spike_slope,
-            across_gaps=surface.across_gaps,
-            detrend=surface.detrend,
-        )
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from error
-
-
-def _self_affine(hdc: HeightDifference) -> tuple[SelfAffineFit | None, str]:
-    """Fit what may not be there: the sine waves do not need a self-affine surface."""
-    try:
-        return fit_self_affine(hdc), ""
-    except GripscaleError as error:
-        return None, str(error)
+    return before, replace(after, name=before.name, source=before.source)
 
 
 def _pair(limits: list[float] | None) -> tuple[float, float] | None:
     return None if limits is None else (limits[0], limits[1])
 
-
-# From the rubber a case names to what a model needs: a fitted series, and its shift.
-
-_LAYOUT = ("columns", "sheet", "header")
-_UNITS = ("temperature_unit", "frequency_unit", "modulus_unit", "modulus")
-"""Keys of the case's [rubber] that say where in a file the numbers are, and what they are."""
 
 OF_SWEEPS = ("temperature_step", "vertical")
 """Keys of the case's [rubber] that only sweeps at several temperatures have."""
@@ -235,12 +215,10 @@ class PreparedRubber:
         if self.master is None or not isinstance(self.master.shift, ShiftTable):
             return []
         try:
-            found = fit_wlf(
-                self.master.shift, reference_temperature=self.master.reference_temperature
-            )
+            reference = self.master.reference_temperature
+            return [fit_wlf(self.master.shift, reference_temperature=reference)]
         except InputError:
             return []
-        return [found]
 
 
 @about_keys("rubber")
@@ -260,14 +238,19 @@ def prepare_rubber(
     if source.file is None:
         rubber = replace(styrene_butadiene(**bulk), strain_energy=source.strain_energy)
         return PreparedRubber(_shifted(rubber, source, resolve), rubber.source)
-    path = resolve(source.file)
-    layout = {name: getattr(source, name) for name in _LAYOUT}
-    stated = {name: getattr(source, name) for name in _UNITS}
-    told = layout | stated | {"titles_first": titles_first, "source": source.source or str(path)}
-    if holds_sweeps(path, **layout):
-        sweeps, master, report = _superposed(path, source, resolve, told)
+    path, layout = resolve(source.file), source.layout()
+    reading = layout | {"titles_first": titles_first, "source": source.source or str(path)}
+    if holds_sweeps(path, FileLayout(**layout)):
+        sweeps, master, report = _superposed(path, source, resolve, reading)
     else:
-        sweeps, master, report = None, _master_curve(path, source, told), None
+        foreign = [name for name in OF_SWEEPS if name in source.model_fields_set]
+        if foreign:
+            raise InputError(
+                f"{path}: {foreign[0]} is for sweeps at several temperatures; got a master curve"
+            )
+        reference = source.reference_temperature
+        master = read_master_curve(path, reference_temperature=reference, **reading)
+        sweeps, report = None, None
     choice = (
         {} if source.outlier_threshold is None else {"outlier_threshold": source.outlier_threshold}
     )
@@ -281,23 +264,14 @@ def prepare_rubber(
     return PreparedRubber(rubber, master.source, master, fit, sweeps, report)
 
 
-def _master_curve(path: Path, source: RubberSource, told: dict[str, Any]) -> MasterCurve:
-    foreign = [name for name in OF_SWEEPS if name in source.model_fields_set]
-    if foreign:
-        raise InputError(
-            f"{path}: {foreign[0]} is for sweeps at several temperatures; got a master curve"
-        )
-    return read_master_curve(path, reference_temperature=source.reference_temperature, **told)
-
-
 def _superposed(
-    path: Path, source: RubberSource, resolve: Resolve, told: dict[str, Any]
+    path: Path, source: RubberSource, resolve: Resolve, reading: dict[str, Any]
 ) -> tuple[Sweeps, MasterCurve, Superposition]:
     """Return sweeps, the master curve they make, and how they meet."""
-    sweeps = read_sweeps(path, temperature_step=source.temperature_step, **told)
-    alone = len(sweeps) == 1
-    reference = None if alone and told["titles_first"] else source.reference_temperature
-    if reference is None and not alone:
+    sweeps = read_sweeps(path, temperature_step=source.temperature_step, **reading)
+    single = len(sweeps) == 1
+    reference = None if single and reading["titles_first"] else source.reference_temperature
+    if reference is None and not single:
         raise InputError(
             f'{path}: reference_temperature must be given, such as "20 C", for sweeps at '
             f"{len(sweeps)} temperatures to be shifted to"
@@ -329,10 +303,7 @@ def _shift(source: RubberSource, resolve: Resolve) -> Shift | None:
         return None
     if isinstance(source.shift, str):
         return read_shift_table(resolve(source.shift))
-    return source.shift.law()
-
-
-# From the conditions a case names to what a model needs: laws with their numbers.
+    return source.shift
 
 
 @about_keys("conditions")
@@ -345,30 +316,24 @@ def prepare_conditions(table: ConditionsTable, resolve: Resolve = Path) -> Condi
     """
     if table == ConditionsTable():
         return None
-    norm = {} if table.strain_norm is None else {"strain_norm": table.strain_norm}
+    softening: SofteningLaw | None = None
+    if isinstance(table.softening, StrainSweeps):
+        source = table.softening
+        layout = source.layout() | {"strain_unit": source.strain_unit}
+        sweeps = [
+            read_strain_sweep(resolve(name), amplitude=source.amplitude, **layout)
+            for name in source.files
+        ]
+        softening = softening_of_sweeps(sweeps, measured_at=source.measured_at)
+    else:
+        softening = table.softening
     return Conditions(
         temperature=table.temperature,
-        softening=None if table.softening is None else _softening(table.softening, resolve),
-        heat=None if table.heat is None else ThermalProperties(**table.heat.model_dump()),
-        shear_stress=None if table.shear_stress is None else table.shear_stress.law(),
-        **norm,
+        softening=softening,
+        strain_norm=table.strain_norm or "slope",
+        heat=table.heat,
+        shear_stress=table.shear_stress,
     )
-
-
-def _softening(stated: object, resolve: Resolve) -> SofteningLaw:
-    if not isinstance(stated, StrainSweeps):
-        law: SofteningLaw = stated.law()  # type: ignore[attr-defined]
-        return law
-    return _of_sweeps(stated, resolve)
-
-
-def _of_sweeps(stated: StrainSweeps, resolve: Resolve) -> SofteningTable:
-    given = stated.model_dump(exclude={"kind", "files", "measured_at"})
-    sweeps = [read_strain_sweep(resolve(name), **given) for name in stated.files]
-    return softening_of_sweeps(sweeps, measured_at=stated.measured_at)
-
-
-# The chain as a case asks for it: what solves a wave, and what goes on from wave to wave.
 
 
 def case_chain(file: CaseFile) -> Chain:

@@ -7,7 +7,7 @@ import json
 import re
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -17,6 +17,7 @@ from gripscale.case.schema import first_complaint, sentence
 from gripscale.case.tables import Case
 from gripscale.core.errors import FileError, InputError, about_keys
 from gripscale.core.provenance import software, versions
+from gripscale.core.units import stated_units
 from gripscale.io.text_table import read_bytes
 
 M = TypeVar("M", bound=BaseModel)
@@ -29,6 +30,8 @@ class CaseFile:
     case: Case
     path: Path
     text: str
+    units: Mapping[str, str] = field(default_factory=dict, compare=False)
+    """The units the case states, by key, in which results are shown."""
 
     def resolve(self, name: str) -> Path:
         """Return the path of a file named in the case, relative to the case file."""
@@ -47,7 +50,9 @@ def read_case(path: str | Path) -> CaseFile:
     except FileNotFoundError as error:
         raise FileError(f"case file {path} does not exist") from error
     except (OSError, UnicodeDecodeError) as error:
-        raise FileError(f"case file {path} cannot be read: {_reason(error)}") from error
+        undecodable = isinstance(error, UnicodeDecodeError)
+        reason = "it is not UTF-8 text" if undecodable else getattr(error, "strerror", "") or error
+        raise FileError(f"case file {path} cannot be read: {reason}") from error
     try:
         tables = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
@@ -61,7 +66,7 @@ def read_case(path: str | Path) -> CaseFile:
             f"{path}: an empty case; expected at least [surface], [rubber] and [load], as "
             "`gripscale init FOLDER` writes them"
         )
-    return CaseFile(validate(Case, tables, str(path)), path, text)
+    return CaseFile(validate(Case, tables, str(path)), path, text, stated_units(tables))
 
 
 def validate(model: type[M], values: Mapping[str, Any], where: str) -> M:
@@ -82,15 +87,15 @@ def _table_of(error: ValidationError) -> str:
     from gripscale.case.keys import TABLES  # all tables with it: not for reading a case
 
     names = {name for name, _, _ in TABLES}
-    place = [part for part in first_complaint(error)["loc"] if isinstance(part, str)]
-    longer_first = (".".join(place[:count]) for count in range(len(place), 0, -1))
+    location = [part for part in first_complaint(error)["loc"] if isinstance(part, str)]
+    longer_first = (".".join(location[:count]) for count in range(len(location), 0, -1))
     return next((name for name in longer_first if name in names), "")
 
 
 def _hint(text: str, error: tomllib.TOMLDecodeError) -> str:
     """Return what is usually meant by a line that is no TOML, with a semicolon before it."""
-    place = re.search(r"at line (\d+)", str(error))
-    line = text.splitlines()[int(place[1]) - 1] if place else ""
+    number = re.search(r"at line (\d+)", str(error))
+    line = text.splitlines()[int(number[1]) - 1] if number else ""
     if "\\" in line:
         return "; a path is written with / or in 'single quotation marks'"
     if re.search(r"=\s*[-+]?[\d.]+,\d", line):
@@ -100,20 +105,11 @@ def _hint(text: str, error: tomllib.TOMLDecodeError) -> str:
     return ""
 
 
-def _reason(error: OSError | UnicodeDecodeError) -> str:
-    if isinstance(error, UnicodeDecodeError):
-        return "it is not UTF-8 text"
-    return error.strerror or str(error)
-
-
-# The key of a prediction of a case: a hash of all it depends on.
-#
-# The text of the case, the bytes of the files it names and the software that solves it. Equal keys
-# mean equal results, to the last bit.
-
-
 def prediction_key(file: CaseFile, name: str) -> str:
     """Return the key of the prediction `name` ("dynamic" or "static") of a case.
+
+    It is a hash of all the prediction depends on: the text of the case, the bytes of the files it
+    names and the software that solves it. Equal keys mean equal results, to the last bit.
 
     Raises `FileError` if a file it names cannot be read.
     """

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -13,7 +14,7 @@ from gripscale.case.tables import Load
 from gripscale.chain.chain import Chain, ChainError
 from gripscale.chain.prediction import Prediction
 from gripscale.conditions.conditions import Conditions
-from gripscale.core.units import DisplayUnit, display_unit
+from gripscale.core.units import DISPLAY_UNITS, DisplayUnit, display_unit
 from gripscale.model import NominalLoad
 from gripscale.rubber import Rubber, temperature_doubts
 from gripscale.surface import PreparedSurface
@@ -75,6 +76,7 @@ class CaseResults:
             .assign_attrs(
                 case=self.file.text,
                 case_file=str(self.file.path),
+                **{DISPLAY_UNITS: json.dumps(self.file.units)},
                 surface_source=self.surface.source,
                 rubber_source=self.rubber.source,
             )
@@ -82,7 +84,7 @@ class CaseResults:
 
     def shown(self, name: str) -> DisplayUnit:
         """Return how `pressure`, `speed` or `footprint` is shown: as the case gives it."""
-        return display_unit(name, self.file.text)
+        return display_unit(name, unit=self.file.units.get(name, ""))
 
     @property
     def conditions(self) -> Conditions | None:

@@ -28,7 +28,7 @@ from gripscale.chain.prediction import Prediction
 from gripscale.core.errors import FileError, InputError, about_keys
 from gripscale.io import netcdf
 from gripscale.rubber.extrapolation import require_measured
-from gripscale.rubber.material import require_solid
+from gripscale.rubber.material import require_load_bearing
 from gripscale.wave.kernel import WaveSolver
 from gripscale.wave.problem import WaveProblem
 from gripscale.wave.result import WaveResult
@@ -145,7 +145,7 @@ def run_case(
     """
     results = case if isinstance(case, CaseResults) else prepare_case(case)
     emit = on_event or (lambda event: None)
-    _require_solid(results)
+    _require_load_bearing(results)
     _require_measured(results)
     if output is not None:
         results.folder = Path(output)
@@ -185,11 +185,12 @@ def _require_shift(results: CaseResults) -> None:
         raise InputError(f"{results.file.path}: [conditions] {error}") from error
 
 
-def _require_solid(results: CaseResults) -> None:
+def _require_load_bearing(results: CaseResults) -> None:
     """Raise `InputError` before anything is solved or written if the rubber cannot carry a load."""
     for _, speed in results.planned():
         load = replace(results.load, speed=speed)
-        require_solid(results.rubber_before, load.pressure, load.time_under(load.footprint))
+        time = load.time_under(load.footprint)
+        require_load_bearing(results.rubber_before, load.pressure, time)
 
 
 def _require_measured(results: CaseResults) -> None:

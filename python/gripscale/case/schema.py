@@ -5,17 +5,26 @@ from __future__ import annotations
 import difflib
 import json
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
-from typing import Annotated, Any, Literal, get_args, get_origin
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import MISSING, Field, dataclass, field, fields
+from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, GetCoreSchemaHandler, ValidationError
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    GetCoreSchemaHandler,
+    ValidationError,
+    create_model,
+)
+from pydantic import Field as PydanticField
 from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails, core_schema
 
+from gripscale.core import checks
 from gripscale.core.checks import short_repr
-from gripscale.core.units import listed, parse_quantity, spelled, such_as
-from gripscale.rubber.columns import columns_of
+from gripscale.core.units import UNITS, listed, parse_quantity, spelled, such_as
+from gripscale.rubber.columns import FileLayout
 
 # What a key of the case file takes, in words: for complaints and for the list of keys.
 
@@ -43,19 +52,21 @@ def expected(field: FieldInfo) -> str:
 
 
 def _of_type(annotation: Any, metadata: Iterable[Any] = ()) -> str:
-    stated = list(metadata)
-    for one in stated:
-        if isinstance(one, Words):
-            return one.words
+    marks = list(metadata)
+    for mark in marks:
+        if isinstance(mark, Words):
+            return mark.words
     if get_origin(annotation) is Annotated:
         inner, *more = get_args(annotation)
-        return _of_type(inner, [*more, *_unpacked(more), *stated])
-    return ", ".join([_of_plain(annotation, stated), *_limits(stated)])
-
-
-def _unpacked(metadata: Iterable[Any]) -> list[Any]:
-    """Return what pydantic's `Field` inside an annotation states."""
-    return [part for one in metadata if isinstance(one, FieldInfo) for part in one.metadata]
+        inside = [part for mark in more if isinstance(mark, FieldInfo) for part in mark.metadata]
+        return _of_type(inner, [*more, *inside, *marks])
+    limits = [
+        words.format(value)
+        for mark in marks
+        for name, words in _LIMITS.items()
+        if (value := getattr(mark, name, None)) is not None
+    ]
+    return ", ".join([_of_plain(annotation, marks), *limits])
 
 
 def _of_plain(annotation: Any, metadata: list[Any]) -> str:
@@ -63,7 +74,7 @@ def _of_plain(annotation: Any, metadata: list[Any]) -> str:
     if origin is Literal:
         return " or ".join(json.dumps(part) for part in parts)
     if origin is list:
-        least = max((getattr(one, "min_length", 1) for one in metadata), default=1)
+        least = max((getattr(mark, "min_length", 1) for mark in metadata), default=1)
         count = f" of {least}" if least > 1 else ""
         return f"a list{count}, each {_of_type(parts[0])}"
     if parts:
@@ -71,13 +82,6 @@ def _of_plain(annotation: Any, metadata: list[Any]) -> str:
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         return f"a table with {', '.join(annotation.model_fields)}"
     return _PLAIN.get(annotation, "a value")
-
-
-def _limits(metadata: list[Any]) -> list[str]:
-    found = (
-        (words, getattr(one, name, None)) for one in metadata for name, words in _LIMITS.items()
-    )
-    return [words.format(value) for words, value in found if value is not None]
 
 
 # What pydantic finds wrong with a table, as one sentence: key, value, expectation.
@@ -109,17 +113,29 @@ def sentence(error: ValidationError, model: type[BaseModel], *, in_table: bool =
     `in_table`: the model is a whole file, whose first names are those of tables.
     """
     first = first_complaint(error)
-    owner = _model_at(model, first["loc"])
-    where = _place(first["loc"], in_table=in_table)
-    kind, given = first["type"], first["input"]
+    owner, key = model, str(first["loc"][-1]) if first["loc"] else ""
+    for part in first["loc"][:-1]:
+        if isinstance(part, str):
+            owner = _model_in(owner.model_fields[part].annotation) or owner
+    where = _location(first["loc"], in_table=in_table)
+    kind, value = first["type"], first["input"]
     if kind == "extra_forbidden":
-        return f"unknown key {where}; {_suggestion(owner, first['loc'])}"
+        names = list(owner.model_fields)
+        near = difflib.get_close_matches(key, names, n=1)
+        hint = f"did you mean {near[0]}?" if near else f"expected one of {', '.join(names)}"
+        return f"unknown key {where}; {hint}"
     if kind == "missing":
-        return f"{where} is missing; expected {_wanted(owner, first['loc'])}"
-    expected = _expected(first)
-    if isinstance(given, dict):
-        return f"{where}: {expected}" if where else expected
-    return f"{where} = {_short(given)}: {expected}"
+        return f"{where} is missing; expected {expected(owner.model_fields[key])}"
+    context = first.get("ctx", {})
+    if kind == "value_error":
+        reason = str(context["error"])
+    else:
+        words = _EXPECTED[kind].format(**context)
+        reason = f"expected {words.removesuffix('s') if words.endswith(' 1 items') else words}"
+    if isinstance(value, dict):
+        return f"{where}: {reason}" if where else reason
+    text = repr(value)
+    return f"{where} = {text if len(text) <= 60 else f'{text[:57]}...'}: {reason}"
 
 
 def first_complaint(error: ValidationError) -> ErrorDetails:
@@ -129,7 +145,7 @@ def first_complaint(error: ValidationError) -> ErrorDetails:
     return (unknown or complaints)[0]
 
 
-def _place(loc: tuple[int | str, ...], *, in_table: bool) -> str:
+def _location(loc: tuple[int | str, ...], *, in_table: bool) -> str:
     """Return `[table] key[index]` or `[table.table] key` for pydantic's location."""
     if in_table and loc and all(isinstance(part, str) for part in loc):
         *tables, key = map(str, loc) if len(loc) > 1 else (*loc, "")
@@ -142,46 +158,11 @@ def _place(loc: tuple[int | str, ...], *, in_table: bool) -> str:
     return f"[{table}] {key}".strip()
 
 
-def _model_at(model: type[BaseModel], loc: tuple[int | str, ...]) -> type[BaseModel]:
-    """Return the model inside `model` that owns the last part of `loc`."""
-    for part in loc[:-1]:
-        if isinstance(part, str):
-            model = _model_in(model.model_fields[part].annotation) or model
-    return model
-
-
-def _wanted(owner: type[BaseModel], loc: tuple[int | str, ...]) -> str:
-    """Return what a missing key should have held."""
-    field = owner.model_fields[str(loc[-1])]
-    return expected(field)
-
-
-def _suggestion(owner: type[BaseModel], loc: tuple[int | str, ...]) -> str:
-    """Return the nearest valid name to the last part of `loc`, or all of them."""
-    names = list(owner.model_fields)
-    near = difflib.get_close_matches(str(loc[-1]), names, n=1)
-    return f"did you mean {near[0]}?" if near else f"expected one of {', '.join(names)}"
-
-
 def _model_in(annotation: Any) -> type[BaseModel] | None:
     """Return the model inside `annotation`, such as Wave in `list[Wave] | None`."""
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         return annotation
     return next((m for part in get_args(annotation) if (m := _model_in(part))), None)
-
-
-def _expected(complaint: Any) -> str:
-    """Return what was expected instead, in the words of this package."""
-    context = complaint.get("ctx", {})
-    if complaint["type"] == "value_error":
-        return str(context["error"])
-    words = _EXPECTED[complaint["type"]].format(**context)
-    return f"expected {words.removesuffix('s') if words.endswith(' 1 items') else words}"
-
-
-def _short(value: Any) -> str:
-    text = repr(value)
-    return text if len(text) <= 60 else f"{text[:57]}..."
 
 
 # Reading a value of the case file as a person writes it, before pydantic looks at its type.
@@ -211,45 +192,6 @@ class Table(BaseModel):
     model_config = ConfigDict(
         extra="forbid", strict=True, frozen=True, use_attribute_docstrings=True
     )
-
-
-@dataclass(frozen=True)
-class ByKind(Reading):
-    """Reads tables such as { kind = "wlf", c1 = 8.0, c2 = "120 K" }."""
-
-    tables: Mapping[str, type[Table]] = field(hash=False)
-
-    def read(self, value: Any) -> Any:
-        """Return the table of the kind that `value` names."""
-        kinds = ", ".join(self.tables)
-        if isinstance(value, Table):
-            return value
-        if not isinstance(value, Mapping):
-            raise ValueError(f"expected {self.words}")
-        if "kind" not in value:
-            raise ValueError(f"kind is missing; expected one of {kinds}")
-        kind = value["kind"]
-        if not isinstance(kind, str) or kind not in self.tables:
-            raise ValueError(f"kind = {short_repr(kind)}: expected one of {kinds}")
-        return checked(self.tables[kind], value)
-
-
-def by_kind(tables: Mapping[str, type[Table]]) -> ByKind:
-    """Return what reads one of `tables` by its kind."""
-    return ByKind(a_table(tables), tables)
-
-
-def a_table(tables: Mapping[str, type[Table]]) -> str:
-    """Return what is expected where one of `tables` is to be stated."""
-    return f"a table with kind (one of {', '.join(tables)}) and its keys"
-
-
-def checked(table: type[Table], value: Any) -> Table:
-    """Return `value` as a `table`; a `ValueError` is one sentence."""
-    try:
-        return table.model_validate(dict(value))
-    except ValidationError as error:
-        raise ValueError(sentence(error, table)) from error
 
 
 # Quantities a case file states with their unit, "3 bar" or "100 mm", or as plain SI numbers.
@@ -307,20 +249,137 @@ def unit_of_file(kind: str) -> Unit:
 
 
 Pressure = Annotated[float, _quantity("pressure", _positive)]
-Stress = Annotated[float, _quantity("pressure", _not_negative)]
 Length = Annotated[float, _quantity("length", _positive)]
 Position = Annotated[float, _quantity("length")]
 Duration = Annotated[float, _quantity("time", _positive)]
 Speed = Annotated[float, _quantity("speed", _not_negative)]
-MovingSpeed = Annotated[float, _quantity("speed", _positive)]
 Temperature = Annotated[float, _quantity("temperature", _positive)]
 TemperatureDifference = Annotated[float, _quantity("temperature difference", _positive)]
 Strain = Annotated[float, _quantity("strain", _positive)]
-Conductivity = Annotated[float, _quantity("conductivity", _positive)]
-Density = Annotated[float, _quantity("density", _positive)]
-SpecificHeat = Annotated[float, _quantity("specific heat", _positive)]
-MolarEnergy = Annotated[float, _quantity("molar energy", _positive)]
-BondEnergy = Annotated[float, _quantity("bond energy", _not_negative)]
+
+
+_KIND_OF = {next(iter(units)): kind for kind, units in reversed(UNITS.items())}
+"""Which quantity has a unit: the first kind of it, temperature and not its difference for K."""
+_QUANTITIES = {
+    checks.positive: _positive,
+    checks.positive_vector: _positive,
+    checks.interval: _positive,
+    checks.not_negative: _not_negative,
+}
+_NUMBERS: dict[Any, dict[str, Any]] = {
+    checks.positive: {"gt": 0.0},
+    checks.not_negative: {"ge": 0.0},
+    checks.fraction: {"gt": 0.0, "le": 1.0},
+}
+"""What checks of fields ask for, of quantities and of plain numbers."""
+
+
+def table_of(law: Any) -> type[Table]:
+    """Return the table that states a law: a key for each field, read as its check says.
+
+    The law is a `Checked` dataclass; the unit of a field says which quantity it is, and its check
+    which values it takes. A law with a kind has a key for it. A table is returned as it is.
+    """
+    table: type[Table]
+    if issubclass(law, Table):
+        table = law
+        return table
+    hints = get_type_hints(law)
+    keys: dict[str, Any] = {"kind": (Literal[law.kind], ...)} if hasattr(law, "kind") else {}
+    keys |= {
+        item.name: (
+            _type_of_key(item, hints[item.name]),
+            ... if item.default is MISSING else item.default,
+        )
+        for item in fields(law)
+    }
+    table = create_model(law.__name__, __base__=Table, **keys)
+    return table
+
+
+def _type_of_key(item: Field[Any], hint: Any) -> Any:
+    """Return what a case takes for a field of a law."""
+    check = item.metadata["check"]
+    rule = check.keywords.get("rule", check.func)
+    parts = [part for part in get_args(hint) if part is not type(None)]
+    optional = len(parts) < len(get_args(hint))
+    value = parts[0] if optional else hint
+    if value is float or get_origin(value) in (tuple, Sequence):
+        kind = item.metadata["quantity"] or _KIND_OF.get(check.keywords.get("unit", ""))
+        number: Any = (
+            Annotated[float, _quantity(kind, _QUANTITIES.get(rule, float))]
+            if kind
+            else Annotated[float, PydanticField(allow_inf_nan=False, **_NUMBERS.get(rule, {}))]
+        )
+        if get_origin(value) is tuple:
+            value = Annotated[list[number], PydanticField(min_length=2, max_length=2)]
+        elif get_origin(value) is Sequence:
+            value = Annotated[list[number], PydanticField(min_length=2)]
+        else:
+            value = number
+    return value | None if optional else value
+
+
+def law_from_table(law: type, value: Any) -> Any:
+    """Return the law that a table states; a `ValueError` is one sentence."""
+    table = table_of(law)
+    try:
+        read = table.model_validate(dict(value))
+    except ValidationError as error:
+        raise ValueError(sentence(error, table)) from error
+    if table is law:
+        return read
+    return law(**{item.name: getattr(read, item.name) for item in fields(law)})
+
+
+@dataclass(frozen=True)
+class StatedLaw(Reading):
+    """Reads the table of a law, such as { conductivity = "0.25 W/(m K)", ... }."""
+
+    law: type
+
+    def read(self, value: Any) -> Any:
+        """Return the law that `value` states."""
+        if isinstance(value, self.law):
+            return value
+        if not isinstance(value, Mapping):
+            raise ValueError(f"expected {self.words}")
+        return law_from_table(self.law, value)
+
+
+@dataclass(frozen=True)
+class ByKind(Reading):
+    """Reads tables such as { kind = "wlf", c1 = 8.0, c2 = "120 K" }, or the name of a file."""
+
+    laws: Mapping[str, type] = field(hash=False)
+    or_file: bool = False
+
+    def read(self, value: Any) -> Any:
+        """Return the law of the kind that `value` names."""
+        kinds = ", ".join(self.laws)
+        if isinstance(value, tuple(self.laws.values())):
+            return value
+        if self.or_file and isinstance(value, str):
+            return value
+        if not isinstance(value, Mapping):
+            raise ValueError(f"expected {self.words}")
+        if "kind" not in value:
+            raise ValueError(f"kind is missing; expected one of {kinds}")
+        kind = value["kind"]
+        if not isinstance(kind, str) or kind not in self.laws:
+            raise ValueError(f"kind = {short_repr(kind)}: expected one of {kinds}")
+        return law_from_table(self.laws[kind], value)
+
+
+def stated_law(law: type) -> StatedLaw:
+    """Return what reads the table of `law`."""
+    return StatedLaw(f"a table with {', '.join(table_of(law).model_fields)}", law)
+
+
+def by_kind(laws: Mapping[str, type], *, or_file: bool = False) -> ByKind:
+    """Return what reads the table of one of `laws` by its kind, or the name of a file."""
+    table = f"a table with kind (one of {', '.join(laws)}) and its keys"
+    return ByKind(f"the name of a file or {table}" if or_file else table, laws, or_file)
 
 
 # Columns, channels and sheets of a file, as a case names or counts them.
@@ -345,7 +404,7 @@ def _columns(value: Any) -> dict[str, str | int]:
     """Accept three columns, or a table of them by quantity."""
     if not isinstance(value, dict | list):
         raise ValueError(f"expected {COLUMNS}")
-    return {name: _column(column) for name, column in columns_of(value).items()}
+    return {name: _column(column) for name, column in FileLayout(columns=value).by_quantity.items()}
 
 
 Column = Annotated[str | int, BeforeValidator(_column), Words(COLUMN)]

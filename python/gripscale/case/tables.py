@@ -280,10 +280,10 @@ class Values(Reading):
         """Return rising numbers in SI units."""
         if not isinstance(value, list) or not value:
             raise ValueError(f"expected {self.words}")
-        found = [self._number(one) for one in value]
-        if found[0] <= 0.0 or any(b <= a for a, b in pairwise(found)):
+        numbers = [self._number(item) for item in value]
+        if numbers[0] <= 0.0 or any(b <= a for a, b in pairwise(numbers)):
             raise ValueError("expected rising values greater than zero")
-        return found
+        return numbers
 
     def _number(self, value: Any) -> float:
         if self.kind != FACTOR:
@@ -294,8 +294,8 @@ class Values(Reading):
 
 
 def _values(kind: str) -> Values:
-    one = f"a {kind}" if kind == FACTOR else f"a {kind} {such_as(kind)}"
-    return Values(f"a list of two ends or of equally likely values, each {one}", kind)
+    each = f"a {kind}" if kind == FACTOR else f"a {kind} {such_as(kind)}"
+    return Values(f"a list of two ends or of equally likely values, each {each}", kind)
 
 
 Moduli = Annotated[list[float], _values("pressure")]

@@ -28,7 +28,7 @@ from gripscale.core.errors import ConvergenceError, ExtrapolationError, InputErr
 from gripscale.model import MOST_CLASSES, LoadTime, NominalLoad
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import CHOICES, require_measured
-from gripscale.rubber.material import require_solid
+from gripscale.rubber.material import require_load_bearing
 from gripscale.surface import PreparedSurface, SineStack, SurfacePart
 from gripscale.theory.half_plane import HalfPlane
 from gripscale.wave.block import FiniteStrainBlock
@@ -93,7 +93,7 @@ def predict(
     start: Prediction | None = None,
     rubber_at: RubberAt | None = None,
     conditions: Conditions | None = None,
-    extrapolate: str = "say",
+    extrapolate: str = "warn",
     **options: Any,
 ) -> Prediction:
     """Predict contact and friction by the chain over the waves of `sines`, largest first.
@@ -138,8 +138,8 @@ def predict(
         Temperature, softening, heat and area term. Softening and heat are iterated with the chain.
         Not together with `rubber_at`.
     extrapolate
-        "say": waves that excite the rubber beyond its `valid_band` are solved, and the result warns
-        of them. "refuse": raise an error if a wave does, at its fundamental frequency.
+        "warn": waves that excite the rubber beyond its `valid_band` are solved, and the result
+        warns of them. "refuse": raise an error if a wave does, at its fundamental frequency.
     **options
         Of a solver given by name: columns, rows, depth, tolerance ...
 
@@ -264,7 +264,7 @@ class Chain(Checked, model.Model):
     pressure_classes : int
         Number of classes of equal load in the contact of a wave, see `predict`.
     extrapolate : str
-        "say" or "refuse", see `predict`.
+        "warn" or "refuse", see `predict`.
     conditions : Conditions, optional
         Temperature, softening, heat and area term, see `predict`.
 
@@ -281,7 +281,7 @@ class Chain(Checked, model.Model):
     solver: WaveSolver = field(default_factory=FiniteStrainBlock)
     rubber_at: RubberAt | None = None
     pressure_classes: int = checked(checks.whole, least=1, most=MOST_CLASSES, default=1)
-    extrapolate: str = checked(checks.one_of, choices=CHOICES, default="say")
+    extrapolate: str = checked(checks.one_of, choices=CHOICES, default="warn")
     conditions: Conditions | None = None
 
     def __post_init__(self) -> None:
@@ -311,7 +311,7 @@ class Chain(Checked, model.Model):
         waves = select_waves(sines, smallest_wavelength=smallest_wavelength, max_scales=max_scales)
         conditions = self.conditions
         before = rubber if conditions is None else conditions.before(rubber)
-        require_solid(before, load.pressure, load.time_under(load.footprint))
+        require_load_bearing(before, load.pressure, load.time_under(load.footprint))
         if self.extrapolate == "refuse":
             require_measured(before, [wave.wavelength for wave in waves], load.speed)
         empty = Prediction(rubber, sines, load, [], len(waves), conditions)

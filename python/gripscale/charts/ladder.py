@@ -142,7 +142,7 @@ def measured(data: xr.Dataset) -> Iterator[Series]:
     unknown = np.full(kelvin.size, np.nan)
     pascal = data.measured_pressure.values if "measured_pressure" in data else unknown
     several = np.unique(pascal).size > 1
-    how = display_unit("pressure", str(data.attrs.get("case", "")))
+    how = display_unit("pressure", data.attrs)
     for value in np.unique(kelvin):
         for load in np.unique(pascal):
             chosen = _same(kelvin, value) & _same(pascal, load)

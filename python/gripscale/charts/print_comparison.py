@@ -360,7 +360,7 @@ LEAST_WIDTH = 4.5
 
 def speeds_of(data: xr.Dataset) -> DisplayUnit:
     """Return how the speeds of a result with measured friction are shown."""
-    return display_unit("speed", str(data.attrs.get("case", "")))
+    return display_unit("speed", data.attrs)
 
 
 def panels_of(data: xr.Dataset, draw: Callable[[Axes, Series], None], head: float) -> Figure:

@@ -52,7 +52,7 @@ class PredictionView:
 
     def shown(self, name: str) -> DisplayUnit:
         """Return how its `pressure`, `speed` or `footprint` is shown: as its case gives it."""
-        return display_unit(name, str(self.data.attrs.get("case", "")))
+        return display_unit(name, self.data.attrs)
 
     @property
     def status(self) -> str:

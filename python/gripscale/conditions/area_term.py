@@ -40,17 +40,12 @@ class InterfacialShearStress(Protocol):
 
 
 class ConstantStress(Checked):
-    """The same shear stress at every speed and temperature.
-
-    Parameters
-    ----------
-    stress_0 : float
-        tau_f [Pa], not negative.
-    """
+    """The same at every speed and temperature."""
 
     kind: ClassVar[str] = "constant"
 
     stress_0: float = checked(checks.not_negative, unit="Pa")
+    """Interfacial shear stress [Pa]."""
 
     def stress(self, speed: ArrayLike, temperature: ArrayLike | None = None) -> Array:
         """Return tau_f [Pa] at speeds [m/s], same shape."""
@@ -58,34 +53,26 @@ class ConstantStress(Checked):
 
 
 class GaussianStress(Checked):
-    """A bell in the logarithm of the speed, which shifts with the temperature.
+    """A bell in the logarithm of the speed, which may shift with the temperature.
 
         tau_f = tau_0 exp(-c log10(v a_T / v_0)^2),   a_T = exp(eps/k_B (1/T - 1/T_0))
 
     Source: B. Lorenz, Y. R. Oh, S. K. Nam, S. H. Jeon & B. N. J. Persson, J. Chem. Phys. 142 (2015)
     194701, doi:10.1063/1.4919221.
-
-    Parameters
-    ----------
-    stress_0 : float
-        tau_0 [Pa], not negative.
-    width : float
-        c [-], above zero.
-    speed_0 : float
-        v_0 at T_0 [m/s], above zero.
-    activation_energy : float
-        eps [eV]; zero: the temperature does not matter.
-    reference_temperature : float, optional
-        T_0 [K]; needed with an activation energy.
     """
 
     kind: ClassVar[str] = "gaussian"
 
     stress_0: float = checked(checks.not_negative, unit="Pa")
+    """Largest interfacial shear stress tau_0 [Pa]."""
     width: float = checked(checks.positive)
+    """Factor c of the squared decades of speed: the larger, the narrower the bell [-]."""
     speed_0: float = checked(checks.positive, unit="m/s")
+    """Speed v_0 of the largest stress, at the reference temperature [m/s]."""
     activation_energy: float = checked(checks.not_negative, unit="eV", default=0.0)
+    """How that speed shifts with the temperature; 0: not at all [eV]."""
     reference_temperature: float | None = checked(checks.positive, unit="K", default=None)
+    """Temperature T_0 that speed_0 holds for; needed with an activation energy [K]."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -115,31 +102,24 @@ class GaussianStress(Checked):
 
 
 class LeGalKlueppelStress(Checked):
-    """A stress that rises from the rubbery to the glassy plateau of the interface.
+    """A rise from one plateau to another as the interface turns glassy (Le Gal and Klueppel).
 
         tau_f = tau_0 (1 + (E_glass/E_inf) / (1 + (v_c/v)^n))
 
     Source: A. Le Gal & M. Klueppel, J. Phys.: Condens. Matter 20 (2008) 015007,
     doi:10.1088/0953-8984/20/01/015007.
-
-    Parameters
-    ----------
-    stress_0 : float
-        tau_0, at slow sliding [Pa], not negative.
-    ratio : float
-        E_glass/E_inf, the increase of the stress at high speed over tau_0 [-].
-    critical_speed : float
-        v_c [m/s], above zero.
-    exponent : float
-        n [-], above zero.
     """
 
     kind: ClassVar[str] = "le_gal_klueppel"
 
     stress_0: float = checked(checks.not_negative, unit="Pa")
+    """Interfacial shear stress tau_0 at slow sliding [Pa]."""
     ratio: float = checked(checks.not_negative)
+    """Gain of the stress at high speed, over stress_0: glassy over relaxed modulus [-]."""
     critical_speed: float = checked(checks.positive, unit="m/s")
+    """Speed v_c at which half of that is gained [m/s]."""
     exponent: float = checked(checks.positive)
+    """Exponent n of the speed: how steeply it is gained [-]."""
 
     def stress(self, speed: ArrayLike, temperature: ArrayLike | None = None) -> Array:
         """Return tau_f [Pa] at speeds [m/s], same shape."""
@@ -154,20 +134,14 @@ def _numbers(name: str, value: Any, *, rule: Callable[..., Array], unit: str) ->
 
 
 class TableStress(Checked):
-    """A measured shear stress, interpolated in log speed; constant beyond the measured speeds.
-
-    Parameters
-    ----------
-    speed : sequence of floats
-        [m/s], rising.
-    stress_at : sequence of floats
-        tau_f there [Pa], not negative.
-    """
+    """Measured at some speeds; interpolated in log speed, constant beyond them."""
 
     kind: ClassVar[str] = "table"
 
     speed: Sequence[float] = checked(_numbers, rule=checks.positive_vector, unit="m/s")
+    """The speeds, rising [m/s]."""
     stress_at: Sequence[float] = checked(_numbers, rule=checks.vector, unit="Pa")
+    """Interfacial shear stress at each [Pa]."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -198,9 +172,7 @@ def shear_stress_from_dict(values: Mapping[str, Any]) -> InterfacialShearStress:
 
     Raises `InputError` if the kind is unknown, a parameter is missing, unknown or cannot be used.
     """
-    parameters = dict(values)
-    kind = checks.one_of("kind", parameters.pop("kind", None), SHEAR_STRESSES)
-    law: InterfacialShearStress = checks.from_mapping(SHEAR_STRESSES[kind], kind, parameters)
+    law: InterfacialShearStress = checks.of_kind(SHEAR_STRESSES, "shear_stress", values)
     return law
 
 

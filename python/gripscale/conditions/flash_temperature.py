@@ -75,26 +75,17 @@ from gripscale.core.errors import InputError
 
 
 class ThermalProperties(Checked):
-    """Thermal properties of a rubber. There are no defaults: they are measured or looked up.
+    """Thermal properties of a rubber, which warms by its own friction; there are no defaults.
 
-    Parameters
-    ----------
-    conductivity : float
-        Thermal conductivity [W/(m K)], above zero.
-    density : float
-        [kg/m^3], above zero.
-    specific_heat : float
-        [J/(kg K)], above zero.
-
-    Raises
-    ------
-    InputError
-        If a value is no finite number above zero.
+    Raises `InputError` if a value is no finite number above zero.
     """
 
     conductivity: float = checked(checks.positive, unit="W/(m K)")
+    """Thermal conductivity of the rubber [W/(m K)]."""
     density: float = checked(checks.positive, unit="kg/m^3")
+    """Its density [kg/m^3]."""
     specific_heat: float = checked(checks.positive, unit="J/(kg K)")
+    """Its specific heat [J/(kg K)]."""
 
     @property
     def diffusivity(self) -> float:

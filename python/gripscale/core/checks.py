@@ -160,16 +160,6 @@ def increasing_vector(name: str, value: ArrayLike, *, unit: str = "") -> Array:
     return result
 
 
-def same_length(least: int, **vectors: Array) -> None:
-    """Raise `InputError` unless the named arrays have the same length, `least` or more."""
-    sizes = [values.size for values in vectors.values()]
-    if min(sizes) < least or len(set(sizes)) > 1:
-        raise InputError(
-            f"{' and '.join(vectors)} must have the same length, at least {least}; "
-            f"got {' and '.join(map(str, sizes))}"
-        )
-
-
 def _above_zero(name: str, result: Array, unit: str) -> Array:
     if (result <= 0.0).any():
         at = int(np.argmax(result <= 0.0))
@@ -177,6 +167,40 @@ def _above_zero(name: str, result: Array, unit: str) -> Array:
             f"{name} must be greater than zero{_in(unit)}; got {result[at]:g} at index {at}"
         )
     return result
+
+
+def fraction(name: str, value: Any) -> float:
+    """Return `value` as a float; raise `InputError` unless it is above zero and at most one."""
+    result = positive(name, value)
+    if result > 1.0:
+        raise InputError(f"{name} must not exceed 1; got {result:g}")
+    return result
+
+
+def interval(name: str, value: ArrayLike, *, unit: str = "") -> tuple[float, float]:
+    """Return `value` as two rising numbers above zero; raise `InputError` if it is none."""
+    ends = in_limits(name, value, unit=unit)
+    if len(ends) != 2 or ends[0] >= ends[1]:
+        raise InputError(
+            f"{name}{_in(unit)} must be a lower and a higher value; got {short_repr(value)}"
+        )
+    return float(ends[0]), float(ends[1])
+
+
+def same_length(least: int, **vectors: Array) -> None:
+    """Raise `InputError` unless the named arrays have the same length, `least` or more."""
+    sizes = [values.size for values in vectors.values()]
+    if min(sizes) < least or len(set(sizes)) > 1:
+        raise InputError(
+            f"{enumerated(vectors)} must have the same length{f', at least {least}' * (least > 0)}"
+            f"; got {enumerated(sizes)}"
+        )
+
+
+def enumerated(items: Iterable[Any]) -> str:
+    """Return items as a sentence lists them: a, b and c."""
+    *others, last = map(str, items)
+    return f"{', '.join(others)} and {last}" if others else last
 
 
 def flag(name: str, value: Any) -> bool:
@@ -301,12 +325,34 @@ def from_mapping(law: type[T], kind: str, values: Mapping[str, Any]) -> T:
     return law(**values)
 
 
-def checked(check: Callable[..., Any], *, default: Any = MISSING, **options: Any) -> Any:
+def of_kind(laws: Mapping[str, type[T]], name: str, values: Any) -> T:
+    """Return the law of a mapping such as {"kind": "wlf", "c1": 8.0, "c2": 120.0}.
+
+    Raises `InputError`, which calls it `name`, if it is no mapping, its kind is not one of `laws`
+    or `from_mapping` refuses its parameters.
+    """
+    if not isinstance(values, Mapping):
+        raise InputError(f"{name} must be a mapping with its kind; got {short_repr(values)}")
+    parameters = dict(values)
+    kind = one_of("kind", parameters.pop("kind", None), laws)
+    return from_mapping(laws[kind], kind, parameters)
+
+
+def checked(
+    check: Callable[..., Any],
+    *,
+    default: Any = MISSING,
+    repr: bool = True,
+    quantity: str = "",
+    **options: Any,
+) -> Any:
     """Declare a field of a `Checked` class: it holds ``check(name, value, **options)``.
 
-    A value of None passes unchecked where None is the default.
+    A value of None passes unchecked where None is the default. `quantity` is the kind of quantity
+    a case file states the field in, where its unit does not say so.
     """
-    return field(default=default, metadata={"check": partial(check, **options)})
+    metadata = {"check": partial(check, **options), "quantity": quantity}
+    return field(default=default, repr=repr, metadata=metadata)
 
 
 @dataclass_transform(frozen_default=True, field_specifiers=(checked, field))
@@ -317,9 +363,10 @@ class Checked:
             radius: float = checked(positive, unit="m")
 
     A subclass is a frozen dataclass; keywords such as ``eq=False`` go to `dataclasses.dataclass`.
-    Checked arrays are read-only copies. A subclass with conditions between fields, or with fields
-    that follow from others, extends `__post_init__`, calls that of this class first and sets such
-    fields with `_set`.
+    One that holds arrays needs ``eq=False`` to be compared by its content. Checked arrays are
+    read-only copies. A subclass with conditions between fields, or with fields that follow from
+    others, extends `__post_init__`, calls that of this class first and sets such fields with
+    `_set`.
     """
 
     __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
@@ -340,3 +387,14 @@ class Checked:
             if isinstance(value, np.ndarray):
                 value.flags.writeable = False
             object.__setattr__(self, name, value)
+
+    def __eq__(self, other: object) -> bool:
+        """Compare all fields, arrays to the last bit."""
+        return type(other) is type(self) and self._content() == other._content()
+
+    def __hash__(self) -> int:
+        return hash(self._content())
+
+    def _content(self) -> tuple[Any, ...]:
+        values = (getattr(self, item.name) for item in fields(self) if item.compare)
+        return tuple(v.tobytes() if isinstance(v, np.ndarray) else v for v in values)

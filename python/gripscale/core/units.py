@@ -6,6 +6,7 @@ an axis of a study the unit of its values (`GIVEN`); plain numbers are shown in 
 
 from __future__ import annotations
 
+import json
 import math
 import re
 import tomllib
@@ -220,6 +221,9 @@ def such_as(kind: str) -> str:
     return f'such as "{_EXAMPLES[kind]}", or {plain}'
 
 
+DISPLAY_UNITS = "display_units"
+"""Attribute of a result: the units its case states, by key, as JSON."""
+
 GIVEN = "given_unit"
 """Attribute of a coordinate: the unit in which its values were stated, if any."""
 
@@ -255,7 +259,7 @@ class DisplayUnit:
         return f"{float(self.of(value)):.{digits}g} {self.unit}"
 
 
-def display_unit(name: str, case: str = "", unit: str = "") -> DisplayUnit:
+def display_unit(name: str, case: str | Mapping[str, Any] = "", unit: str = "") -> DisplayUnit:
     """Return the unit in which one of `KEYS` is shown.
 
     Parameters
@@ -263,12 +267,18 @@ def display_unit(name: str, case: str = "", unit: str = "") -> DisplayUnit:
     name
         The key.
     case
-        Text of the case, whose unit counts if `unit` is empty.
+        Attributes of a result, or the text of its case, whose unit counts if `unit` is empty.
     unit
         The stated unit.
     """
     kind = KEYS[name][1]
-    chosen = unit or given_units(case).get(name) or USUAL[kind]
+    if isinstance(case, str):
+        units = given_units(case)
+    elif DISPLAY_UNITS in case:
+        units = json.loads(case[DISPLAY_UNITS])
+    else:  # a result of an older version has but the text of its case
+        units = given_units(str(case.get("case", "")))
+    chosen = unit or units.get(name) or USUAL[kind]
     return DisplayUnit(chosen, UNITS[kind][chosen])
 
 
@@ -276,9 +286,13 @@ def display_unit(name: str, case: str = "", unit: str = "") -> DisplayUnit:
 def given_units(case: str) -> Mapping[str, str]:
     """Return the stated unit of each of `KEYS` in the text of a case."""
     try:
-        tables = tomllib.loads(case)
+        return stated_units(tomllib.loads(case))
     except tomllib.TOMLDecodeError:
         return {}
+
+
+def stated_units(tables: Mapping[str, Any]) -> dict[str, str]:
+    """Return the unit of each of `KEYS` that has one in the tables of a case."""
     units = {}
     for name, (table, kind) in KEYS.items():
         keys = tables.get(table)

@@ -36,7 +36,7 @@ from gripscale.half_space.response import check_magnitudes, half_space
 from gripscale.half_space.result import RoughContact
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import CHOICES, require_measured
-from gripscale.rubber.material import require_solid
+from gripscale.rubber.material import require_load_bearing
 from gripscale.surface import HeightMap, Profile
 from gripscale.wave.problem import Status
 
@@ -60,7 +60,7 @@ def solve_rough_contact(
     on_grid: Callable[[GridRecord], None] | None = None,
     conditions: Conditions | None = None,
     footprint: float | None = None,
-    extrapolate: str = "say",
+    extrapolate: str = "warn",
 ) -> RoughContact:
     """Return contact and friction of a whole surface: small strain, frictionless contact.
 
@@ -101,7 +101,7 @@ def solve_rough_contact(
         contact.
     footprint : float, optional
         Length of the nominal contact [m]; needed with heat.
-    extrapolate : "say" or "refuse"
+    extrapolate : "warn" or "refuse"
         "refuse": raise an error if the smallest wave excites the rubber, at the temperature before
         the contact, beyond its `valid_band`. The share of the friction from beyond the band is in
         `extrapolation` of the result.
@@ -126,7 +126,7 @@ def solve_rough_contact(
     body = half_space(solid, speed)
     goal = relative_tolerance("tolerance", tolerance) or math.inf
     if body.speed == 0.0:
-        require_solid(rubber, load, math.inf)
+        require_load_bearing(rubber, load, math.inf)
     heights = periodic_heights(
         surface,
         smallest_wavelength=smallest_wavelength,

@@ -68,7 +68,7 @@ def _opening(data: xr.Dataset, *, spread: bool) -> Iterator[str]:
 
 
 def _shown(data: xr.Dataset, name: str) -> DisplayUnit:
-    return display_unit(name, str(data.attrs.get("case", "")))
+    return display_unit(name, data.attrs)
 
 
 def _point(one: xr.Dataset, data: xr.Dataset) -> Iterator[str]:

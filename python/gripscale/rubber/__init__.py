@@ -1,5 +1,6 @@
 """Rubber: master curves, Prony series and the material they make."""
 
+from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.extrapolation import Extrapolation
 from gripscale.rubber.finite_strain import (
     FiniteStrainFit,
@@ -54,6 +55,7 @@ __all__ = [
     "Arrhenius",
     "Candidate",
     "Extrapolation",
+    "FileLayout",
     "FiniteStrainFit",
     "Isihara",
     "MasterCurve",

@@ -1,24 +1,43 @@
-"""Young's moduli of the rows of a table, from what instruments print of them.
+"""Tables of moduli as instruments print them: what their titles mean, and Young's moduli of rows.
 
-The modulus is told by two of E', E'', tan delta and |E*|:
+Titles are read in English and German:
+
+| quantity | titles |
+|---|---|
+| temperature | T, Temp., Temperature, Temperatur, Probentemperatur |
+| frequency | f, freq, Frequency, Frequenz, Angular frequency, Kreisfrequenz, omega |
+| storage | E', G', E_stor, Storage modulus, Speichermodul |
+| loss | E'', G'', E", E_loss, Loss modulus, Verlustmodul |
+| loss_factor | tan delta, tan(d), Loss factor, Verlustfaktor, Damping factor |
+| magnitude | E*, G*, |E*|, Complex modulus, Komplexer Modul |
+| strain | Strain, Shear strain, Strain amplitude, Dehnung, Verformung, Deformation, gamma |
+
+Logarithms are none of these. Two of E', E'', tan delta and |E*| state the modulus:
 
     E'' = E' tan d,   E' = E''/tan d,   E' = |E*|/sqrt(1 + tan^2 d)
 
 A shear modulus becomes the Young's modulus of the incompressible solid by E = 3 G.
+
+A text or Excel file may hold several tables, each with its temperature. Lines that are no rows of
+numbers part the tables where they hold titles or state a temperature; a table without titles has
+those of the table before. RepTate's files begin with a line of parameters such as T=-35;Mw=13.5;
+where T is in degrees Celsius; without titles their columns are angular frequency [rad/s], G' and
+G'' [Pa].
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TypedDict
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gripscale.core import checks
-from gripscale.core.checks import shortened
+from gripscale.core.arrays import Array, Mask
+from gripscale.core.checks import Checked, checked, shortened
 from gripscale.core.errors import FileError, InputError
 from gripscale.core.units import ZERO_CELSIUS, in_si, listed, spelled
 from gripscale.io.text_table import (
@@ -31,30 +50,18 @@ from gripscale.io.text_table import (
     table_in,
 )
 
-# What the titles of master curves and sweeps say, in the English and German of instruments.
-#
-# | quantity | titles |
-# |---|---|
-# | temperature | T, Temp., Temperature, Temperatur, Probentemperatur |
-# | frequency | f, freq, Frequency, Frequenz, Angular frequency, Kreisfrequenz, omega |
-# | storage | E', G', E_stor, Storage modulus, Speichermodul |
-# | loss | E'', G'', E", E_loss, Loss modulus, Verlustmodul |
-# | loss_factor | tan delta, tan(d), Loss factor, Verlustfaktor, Damping factor |
-# | magnitude | E*, G*, |E*|, Complex modulus, Komplexer Modul |
-# | strain | Strain, Shear strain, Strain amplitude, Dehnung, Verformung, Deformation, gamma |
-#
-# Logarithms are none of these.
-
-_PATTERNS = {
-    "loss_factor": r"tan\b|tan[\s_(]*(d|δ)|(loss|damping|dissipation) factor|verlustfaktor",
-    "temperature": r"temp|(sample|proben)\s*-?temp",
-    "frequency": r"omega|.*freq",
-    "magnitude": r"\|?[eg]\*|.*complex .*modulus|.*komplexer .*modul",
-    "storage": r"[eg]'(?!')|[eg][_ ]?stor|.*\bstor|.*speichermodul",
-    "loss": r"[eg]''|[eg][_ ]?loss|.*\bloss|.*verlustmodul",
-    "strain": r".*strain\b|.*dehnung|.*verformung|.*deformation|gamma\b|.*scherung",
+_TITLES = {
+    meaning: re.compile(pattern)
+    for meaning, pattern in {
+        "loss_factor": r"tan\b|tan[\s_(]*(d|δ)|(loss|damping|dissipation) factor|verlustfaktor",
+        "temperature": r"temp|(sample|proben)\s*-?temp",
+        "frequency": r"omega|.*freq",
+        "magnitude": r"\|?[eg]\*|.*complex .*modulus|.*komplexer .*modul",
+        "storage": r"[eg]'(?!')|[eg][_ ]?stor|.*\bstor|.*speichermodul",
+        "loss": r"[eg]''|[eg][_ ]?loss|.*\bloss|.*verlustmodul",
+        "strain": r".*strain\b|.*dehnung|.*verformung|.*deformation|gamma\b|.*scherung",
+    }.items()
 }
-_KNOWN = {name: re.compile(pattern) for name, pattern in _PATTERNS.items()}
 _OTHER = re.compile(
     r"log|ln\b|lg\b|eta\b|η|visco|visko|complian|torque|phase|rate\b|static|statisch"
 )
@@ -86,22 +93,18 @@ def quantity(name: str) -> str | None:
     low = text.lower()
     if _OTHER.search(low):
         return None
-    return next((one for one, pattern in _KNOWN.items() if pattern.match(low)), None)
+    return next((meaning for meaning, pattern in _TITLES.items() if pattern.match(low)), None)
 
 
 def modulus_kind(name: str) -> str | None:
     """Return `E` or `G` if the column `name` says which modulus it is, else None."""
     text = plain(name)
-    found = set()
-    if re.search(r"(?<![A-Za-z])E(?![A-Za-z])", text.replace("_", " ")):
-        found.add("E")
-    if re.search(r"(?<![A-Za-z])G(?![A-Za-z])", text.replace("_", " ")):
-        found.add("G")
-    if re.search(r"young|tensile", text, re.IGNORECASE):
-        found.add("E")
-    if re.search(r"shear|schub", text, re.IGNORECASE):
-        found.add("G")
-    return found.pop() if len(found) == 1 else None
+    kinds = set()
+    for kind, words in (("E", "young|tensile"), ("G", "shear|schub")):
+        letter = re.search(rf"(?<![A-Za-z]){kind}(?![A-Za-z])", text.replace("_", " "))
+        if letter or re.search(words, text, re.IGNORECASE):
+            kinds.add(kind)
+    return kinds.pop() if len(kinds) == 1 else None
 
 
 def plain(name: str) -> str:
@@ -115,8 +118,8 @@ def plain(name: str) -> str:
 def with_primes(line: str) -> str:
     """Return a line of titles with E'' and G'' where it has E" and G" outside quotation marks."""
     start = 0
-    while found := _BARE_PRIMES.search(line, start):
-        start = found.end()
+    while match := _BARE_PRIMES.search(line, start):
+        start = match.end()
         if line.count('"', 0, start) % 2:
             line = f"{line[: start - 1]}''{line[start:]}"
     return line
@@ -127,13 +130,9 @@ def stated_temperature(line: str) -> tuple[str, str | None] | None:
 
     The unit is None where the line has none. None if the line states no temperature.
     """
-    found = _STATED.search(line.strip())
-    if found is None:
-        return None
-    return found["number"], found["before"] or found["after"]
+    match = _STATED.search(line.strip())
+    return None if match is None else (match["number"], match["before"] or match["after"])
 
-
-# What a caller states of a file of moduli: its columns, units and kind of modulus.
 
 MODULI = ("storage", "loss", "loss_factor", "magnitude")
 PAIRS = (
@@ -142,8 +141,8 @@ PAIRS = (
     ("loss", "loss_factor"),
     ("magnitude", "loss_factor"),
 )
-"""Two that tell the modulus, the first choice first."""
-QUANTITIES = ("temperature", "frequency", *MODULI)
+"""Two that state the modulus, the first choice first."""
+QUANTITIES = ("temperature", "frequency", *MODULI, "strain")
 """What a column of a file of moduli may hold."""
 THREE = ("frequency", "storage", "loss")
 """What three columns without names hold, in this order."""
@@ -152,35 +151,86 @@ Columns = Mapping[str, str | int] | Sequence[str | int]
 """Columns by quantity, or three of them; each by its title or its number from 1."""
 
 
-@dataclass(frozen=True)
-class ColumnLayout:
-    """What is stated of a file; it goes before its titles, or after them if those come first."""
+def unit_name(name: str, value: object) -> str:
+    """Return a unit; raise `InputError` unless it is one of the kind `name` says: `strain_unit`."""
+    in_si(1.0, value, name.removesuffix("_unit"), name)  # type: ignore[arg-type]
+    return str(value)
 
-    columns: Mapping[str, str | int] = field(default_factory=dict)
-    """Title or number from 1 of the column of a quantity."""
-    units: Mapping[str, str | None] = field(default_factory=dict)
-    """Unit of each kind of quantity, None where not stated."""
-    modulus: str | None = None
-    """E or G."""
+
+class LayoutOptions(TypedDict, total=False):
+    """The fields of `FileLayout` as keyword arguments of a reader."""
+
+    columns: Columns | None
+    sheet: str | int | None
+    header: int | None
+    frequency_unit: str | None
+    modulus_unit: str | None
+    temperature_unit: str | None
+    strain_unit: str | None
+    modulus: str | None
+    titles_first: bool
+
+
+class FileLayout(Checked):
+    """Where the numbers of a file of moduli stand and what they are, as far as a caller states it.
+
+    What the file says itself need not be stated; what is stated goes before it.
+    """
+
+    columns: Columns | None = None
+    """Titles, or numbers from 1, of frequency, storage and loss; or a mapping to them from
+    `frequency`, `temperature`, `strain` and two of `storage`, `loss`, `loss_factor` and
+    `magnitude`. Without it recognised titles count."""
+    sheet: str | int | None = None
+    """Name of the Excel sheet or its number from 1, where several hold numbers."""
+    header: int | None = None
+    """Number of lines above the rows, where there are numbers among them."""
+    frequency_unit: str | None = checked(unit_name, default=None)
+    """Unit of the frequencies: Hz, kHz, MHz, GHz or rad/s."""
+    modulus_unit: str | None = checked(unit_name, default=None)
+    """Unit of the moduli: Pa, kPa, psi, MPa, N/mm2, GPa or dyn/cm2."""
+    temperature_unit: str | None = checked(unit_name, default=None)
+    """Unit of the temperatures: K, C or F."""
+    strain_unit: str | None = checked(unit_name, default=None)
+    """Unit of the strains: 1 or %."""
+    modulus: str | None = checked(checks.one_of, choices=("E", "G"), default=None)
+    """Whether they are Young's (E) or shear moduli (G, multiplied by 3)."""
     titles_first: bool = False
-    """Whether what the titles say goes before what is stated here."""
+    """Whether what the file says goes before what is stated here."""
 
     @property
-    def expected(self) -> list[str]:
-        """The titles to look for."""
-        return [column for column in self.columns.values() if isinstance(column, str)]
+    def by_quantity(self) -> Mapping[str, str | int]:
+        """Title or number of the column of each quantity that is stated.
 
-    def in_order(self) -> ColumnLayout:
-        """Return the same with frequency, storage and loss in the first three columns."""
-        return replace(self, columns={name: at for at, name in enumerate(THREE, start=1)})
+        Raises `InputError` if `columns` are neither three columns nor a mapping of quantities.
+        """
+        columns = self.columns
+        if columns is None:
+            return {}
+        if isinstance(columns, Mapping):
+            checks.allowed_names("quantity in columns", columns, QUANTITIES)
+            return columns
+        if (
+            not isinstance(columns, Sequence)
+            or isinstance(columns, str)
+            or not all(isinstance(column, str | int) for column in columns)
+            or len(columns) != len(THREE)
+            or len(set(columns)) != len(THREE)
+        ):
+            raise InputError(
+                "columns must be three different names or numbers from 1 for frequency, storage "
+                f"and loss, or map quantities ({', '.join(QUANTITIES)}) to them; "
+                f"got {checks.short_repr(columns)}"
+            )
+        return dict(zip(THREE, columns, strict=True))
 
-    def of(self, table: TextTable) -> ColumnLayout:
-        """Return what counts for a table: no columns where its titles come first and name them."""
+    def for_table(self, table: TextTable) -> FileLayout:
+        """Return the layout of one table: without columns where its titles count and suffice."""
         if not (self.titles_first and self.columns):
             return self
-        titles = replace(self, columns={})
-        told = {one for one in QUANTITIES if titles.column(table, one) is not None}
-        enough = "frequency" in told and any(told.issuperset(pair) for pair in PAIRS)
+        titles = replace(self, columns=None)
+        quantities = {name for name in QUANTITIES if titles.column(table, name) is not None}
+        enough = "frequency" in quantities and any(quantities.issuperset(pair) for pair in PAIRS)
         return titles if enough else self
 
     def column(self, table: TextTable, wanted: str) -> int | None:
@@ -188,11 +238,12 @@ class ColumnLayout:
 
         Raises `InputError` if several titles mean it, or there is no such column.
         """
-        if wanted in self.columns:
-            return position_of(table, self.columns[wanted])
-        taken = {position_of(table, column) for column in self.columns.values()}
-        named = [at for at, one in enumerate(table.columns) if quantity(one.name) == wanted]
-        hits = [at for at in named if at not in taken]
+        columns = self.by_quantity
+        if wanted in columns:
+            return position_of(table, columns[wanted])
+        taken = {position_of(table, column) for column in columns.values()}
+        titled = [at for at, title in enumerate(table.columns) if quantity(title.name) == wanted]
+        hits = [at for at in titled if at not in taken]
         first = [row[hits[0]] for row in table.rows] if hits else []
         if any([row[at] for row in table.rows] != first for at in hits[1:]):
             raise InputError(
@@ -201,68 +252,47 @@ class ColumnLayout:
             )
         return hits[0] if hits else None
 
+    def needed_column(self, table: TextTable, wanted: str, argument: str = "columns") -> int:
+        """Return the column of a quantity; raise `InputError`, which names `argument`, for none."""
+        column = self.column(table, wanted)
+        if column is None:
+            raise missing(table, wanted, argument)
+        return column
+
     def unit(self, table: TextTable, chosen: Sequence[int], kind: str) -> str:
         """Return the unit of the `chosen` columns; raise `InputError` if nothing states it."""
-        given = self.units.get(kind)
-        if given is not None:
-            in_si(1.0, given, kind, f"{kind}_unit")
+        chosen_unit: str | None = getattr(self, f"{kind}_unit")
         written = {
             spelled(unit, kind) or unit for unit in (table.columns[at].unit for at in chosen)
         }
-        one = next(iter(written)) if len(written) == 1 else None
-        known = spelled(one, kind)
-        if given is not None and not (self.titles_first and known):
-            return given
-        if known is None:
-            what = "no unit" if one is None else checks.short_repr(one)
+        header = next(iter(written)) if len(written) == 1 else None
+        unit = spelled(header, kind)
+        if chosen_unit is not None and not (self.titles_first and unit):
+            return chosen_unit
+        if unit is None:
+            what = "no unit" if header is None else checks.short_repr(header)
             raise InputError(
                 f"{table.path}: {kind}_unit must be given ({listed(kind)}), because the header "
                 f"states {what if len(written) == 1 else 'different units'}"
             )
-        return known
+        return unit
+
+    def quantities(self, table: TextTable, column: int, kind: str, values: Array) -> Array:
+        """Return the `values` of a column in SI units."""
+        return np.asarray(in_si(values, self.unit(table, [column], kind), kind))
 
     def modulus_of(self, table: TextTable, chosen: Sequence[int]) -> str:
         """Return E or G, whichever modulus the `chosen` columns hold."""
-        given = self.modulus
-        if given is not None:
-            checks.one_of("modulus", given, ("E", "G"))
         titled = {modulus_kind(table.columns[at].name) for at in chosen}
-        one = titled.pop() if len(titled) == 1 else None
-        if given is not None and not (self.titles_first and one):
-            return given
-        if one is None:
+        title = titled.pop() if len(titled) == 1 else None
+        if self.modulus is not None and not (self.titles_first and title):
+            return self.modulus
+        if title is None:
             raise InputError(
                 f"{table.path}: modulus must be given (E for Young's or G for shear), because the "
                 "header does not tell"
             )
-        return one
-
-
-def columns_of(
-    columns: Columns | None, quantities: Collection[str] = QUANTITIES
-) -> dict[str, str | int]:
-    """Return columns by quantity, of a mapping or of three in the order of a master curve.
-
-    Raises `InputError` if they are neither.
-    """
-    if columns is None:
-        return {}
-    if isinstance(columns, Mapping):
-        checks.allowed_names("quantity in columns", columns, quantities)
-        return dict(columns)
-    if (
-        not isinstance(columns, Sequence)
-        or isinstance(columns, str)
-        or not all(isinstance(column, str | int) for column in columns)
-        or len(columns) != len(THREE)
-        or len(set(columns)) != len(THREE)
-    ):
-        raise InputError(
-            "columns must be three different names or numbers from 1 for frequency, storage and "
-            f"loss, or map quantities ({', '.join(quantities)}) to them; "
-            f"got {checks.short_repr(columns)}"
-        )
-    return dict(zip(THREE, columns, strict=True))
+        return title
 
 
 def position_of(table: TextTable, column: str | int) -> int:
@@ -270,10 +300,9 @@ def position_of(table: TextTable, column: str | int) -> int:
     if not isinstance(column, str):
         return checks.counted(f"{table.path}: a column", column, len(table.columns))
     if table.names.count(column) != 1:
-        known = table.titles or "no names"
         raise InputError(
-            f"{table.path}: columns must be among the header's names ({known}); "
-            f"got {checks.short_repr(column)}"
+            f"{table.path}: columns must be among the header's names "
+            f"({table.titles or 'no names'}); got {checks.short_repr(column)}"
         )
     return table.names.index(column)
 
@@ -281,11 +310,9 @@ def position_of(table: TextTable, column: str | int) -> int:
 def missing(table: TextTable, what: str, argument: str) -> InputError:
     """Return the refusal of a table in which a quantity cannot be found."""
     names = shortened(", ".join(filter(None, table.names)))
-    known = f"the header has {names}" if names else "no header"
-    return InputError(f"{table.path}: {argument} must give the {what}; {known}")
+    header = f"the header has {names}" if names else "no header"
+    return InputError(f"{table.path}: {argument} must give the {what}; {header}")
 
-
-Array = NDArray[np.float64]
 
 _ROUNDING = 0.05
 """Relative error of a loss factor by the digits it is printed with."""
@@ -293,7 +320,7 @@ _ROUNDING = 0.05
 
 def young_moduli(
     table: TextTable,
-    stated: ColumnLayout,
+    layout: FileLayout,
     numbers: Callable[[TextTable, int, str], Array] | None = None,
 ) -> tuple[Array, Array]:
     """Return E' and E'' [Pa] of each row.
@@ -304,19 +331,22 @@ def young_moduli(
     beside E' and E'' is E'/E''.
     """
     read = above_zero if numbers is None else numbers
-    places = {one: stated.column(table, one) for one in MODULI}
-    there = {one: at for one, at in places.items() if at is not None}
-    pair = next((pair for pair in PAIRS if set(pair) <= set(there)), None)
+    positions = {name: layout.column(table, name) for name in MODULI}
+    at = {name: position for name, position in positions.items() if position is not None}
+    pair = next((pair for pair in PAIRS if set(pair) <= set(at)), None)
     if pair is None:
         raise missing(table, "modulus as two of storage, loss, loss_factor, magnitude", "columns")
-    in_pascal = [there[one] for one in pair if one != "loss_factor"]
-    size = in_si(1.0, stated.unit(table, in_pascal, "modulus"), "modulus")
-    size *= 3.0 if stated.modulus_of(table, in_pascal) == "G" else 1.0
+    in_pascal = [at[name] for name in pair if name != "loss_factor"]
+    size = in_si(1.0, layout.unit(table, in_pascal, "modulus"), "modulus")
+    size *= 3.0 if layout.modulus_of(table, in_pascal) == "G" else 1.0
     values = {
-        one: read(table, there[one], one) * (1.0 if one == "loss_factor" else size) for one in pair
+        name: read(table, at[name], name) * (1.0 if name == "loss_factor" else size)
+        for name in pair
     }
     if pair == ("storage", "loss"):
-        _check_factor(table, there, values["storage"], values["loss"])
+        if "loss_factor" in at:
+            printed = table.numbers(at["loss_factor"], "a finite number", missing=True)
+            _refuse_swapped(table, values["loss"] / values["storage"], printed)
         return values["storage"], values["loss"]
     factor = values["loss_factor"]
     if "storage" in values:
@@ -327,17 +357,14 @@ def young_moduli(
     return storage, storage * factor
 
 
-def _check_factor(table: TextTable, there: dict[str, int], storage: Array, loss: Array) -> None:
-    """Refuse a table whose loss factor is that of its storage and loss modulus exchanged."""
-    if "loss_factor" not in there:
+def _refuse_swapped(table: TextTable, quotient: Array, printed: Array) -> None:
+    """Refuse a table whose printed loss factor is that of its moduli the other way round."""
+    computed, factor = np.log(quotient), np.log(np.abs(printed))
+    both = np.isfinite(factor) & np.isfinite(computed)
+    if not both.any():
         return
-    printed = np.log(np.abs(table.numbers(there["loss_factor"], "a finite number", missing=True)))
-    own = np.log(loss / storage)
-    known = np.isfinite(printed) & np.isfinite(own)
-    if not known.any():
-        return
-    off, exchanged = (np.median(np.abs(printed + sign * own)[known]) for sign in (-1.0, 1.0))
-    if exchanged < _ROUNDING < off:
+    as_named, swapped = (np.median(np.abs(factor + sign * computed)[both]) for sign in (-1.0, 1.0))
+    if swapped < _ROUNDING < as_named:
         raise InputError(
             f"{table.path}: storage and loss modulus look exchanged, because the loss factor of "
             "the file is their quotient the other way round; columns must name them as they are"
@@ -354,9 +381,7 @@ def above_zero(table: TextTable, column: int, wanted: str) -> Array:
     return values
 
 
-def check_rows(
-    table: TextTable, column: int, good: NDArray[np.bool_], values: Array, expected: str
-) -> None:
+def check_rows(table: TextTable, column: int, good: Mask, values: Array, expected: str) -> None:
     """Raise `FileError`, naming the line, unless all `values` are `good` or missing."""
     bad = ~good & ~np.isnan(values)
     if bad.any():
@@ -367,14 +392,8 @@ def check_rows(
         )
 
 
-# Tables of one file of moduli: a text or Excel file may hold several, each with its temperature.
-#
-# Lines that are no rows of numbers part the tables where they hold titles or state a temperature; a
-# table without titles has those of the table before. RepTate's files begin with a line of
-# parameters such as T=-35;Mw=13.5; where T is in degrees Celsius; without titles their columns are
-# angular frequency [rad/s], G' and G'' [Pa].
-
 KINDS = ("temperature", "frequency", "modulus", "strain")
+"""Kinds of quantities whose units titles may hold."""
 _PARAMETERS = re.compile(r"(?:\s*\w+=[^;=]*;)+\s*")
 _REPTATE = (ColumnTitle("frequency", "rad/s"), ColumnTitle("G'", "Pa"), ColumnTitle("G''", "Pa"))
 
@@ -387,99 +406,85 @@ class Block:
     temperature: float | None = None
 
 
-def read_blocks(
-    path: Path,
-    *,
-    expected: list[str],
-    temperature_unit: str | None,
-    sheet: str | int | None = None,
-    header: int | None = None,
-) -> list[Block]:
-    """Return the tables of a file, in its order; `expected` are names of columns to look for.
+def read_blocks(path: Path, layout: FileLayout, *, temperature_unit: str | None) -> list[Block]:
+    """Return the tables of a file, in its order.
+
+    `temperature_unit` is that of temperatures above a table which have none.
 
     Raises `FileError` and `InputError` as `read_sweeps` does.
     """
-    read = read_lines(path, sheet=sheet, header=header)
-    lines = [(number, with_primes(line)) for number, line in read]
+    expected = [column for column in layout.by_quantity.values() if isinstance(column, str)]
+    lines = [
+        (number, with_primes(line))
+        for number, line in read_lines(path, sheet=layout.sheet, header=layout.header)
+    ]
     if lines and _PARAMETERS.fullmatch(lines[0][1]):
         return [_reptate(path, lines, expected)]
     blocks: list[Block] = []
     titles: list[Line] = []
-    for part in _parts(lines, expected):
-        above, rows = _above(part), part[len(_above(part)) :]
-        own = [line for line in above if _names(line[1], expected)]
-        stated = _stated(path, above, temperature_unit)
-        first = above.index(own[0]) if own else len(above)
-        titles = [line for line in above[first:] if stated_temperature(line[1]) is None] or titles
-        whole = [*titles, *rows] if own or titles else part
-        blocks.append(Block(_table(path, whole, expected), stated))
+    for above, rows in _parts(lines, expected):
+        first = next((n for n, (_, text) in enumerate(above) if _names(text, expected)), None)
+        temperature = _temperature_above(path, above, temperature_unit)
+        if first is not None:
+            here = [line for line in above[first:] if stated_temperature(line[1]) is None]
+            titles = here or titles
+        whole = [*titles, *rows] if first is not None or titles else [*above, *rows]
+        blocks.append(Block(_table(path, whole, expected), temperature))
     return blocks or [Block(_table(path, lines, expected))]
 
 
-def _parts(lines: list[Line], expected: list[str]) -> Iterator[list[Line]]:
-    """Yield the lines of each table: those above its rows, then the rows."""
-    part: list[Line] = []
+def _parts(lines: list[Line], expected: list[str]) -> Iterator[tuple[list[Line], list[Line]]]:
+    """Yield the lines of each table: those above its rows, then the rows and what is among them."""
+    above: list[Line] = []
+    rows: list[Line] = []
     between: list[Line] = []
     for line in lines:
-        if not is_row(line[1]) and not _is_broken(line[1], part):
+        # A line below rows that begins with a number is a row with a fault, to be named later.
+        first = parse_number(re.split(r"[\t;,\s]", line[1].strip(), maxsplit=1)[0])
+        broken = bool(rows) and first is not None and first == first
+        if not is_row(line[1]) and not broken:
             between.append(line)
             continue
-        begins = any(_begins(text, expected) for _, text in between)
-        if part and any(is_row(text) for _, text in part) and begins:
-            yield part
-            part = []
-        part += [*between, line]
+        begins = any(_names(text, expected) or stated_temperature(text) for _, text in between)
+        if rows and begins:
+            yield above, rows
+            rows = []
+        if rows:
+            rows += between
+        else:
+            above = between
+        rows.append(line)
         between = []
-    if part:
-        yield part
-
-
-def _begins(line: str, expected: list[str]) -> bool:
-    return _names(line, expected) or stated_temperature(line) is not None
-
-
-def _is_broken(line: str, part: list[Line]) -> bool:
-    """Return whether a line below rows begins with a number: a row with a fault, to be named."""
-    first = re.split(r"[\t;,\s]", line.strip(), maxsplit=1)[0]
-    number = parse_number(first)
-    return number is not None and number == number and any(is_row(text) for _, text in part)
+    if rows:
+        yield above, rows
 
 
 def _names(line: str, expected: list[str]) -> bool:
     """Return whether a line names two of the quantities, or one of the `expected` columns."""
     for separator in ("\t", ";", ",", r"\s{2,}", r"\s+"):
-        cells = [_bare(cell) for cell in re.split(separator, line.strip(" #%!"))]
-        found = {quantity(cell) for cell in cells} - {None}
-        if len(found) > 1 or any(cell in expected for cell in cells):
+        parts = re.split(separator, line.strip(" #%!"))
+        cells = [part.strip().strip('"').strip() for part in parts]
+        quantities = {quantity(cell) for cell in cells} - {None}
+        if len(quantities) > 1 or any(cell in expected for cell in cells):
             return True
     return False
 
 
-def _bare(cell: str) -> str:
-    return cell.strip().strip('"').strip()
-
-
-def _above(part: list[Line]) -> list[Line]:
-    first = next((at for at, (_, line) in enumerate(part) if is_row(line)), len(part))
-    return part[:first]
-
-
-def _stated(path: Path, above: list[Line], unit: str | None) -> float | None:
-    """Return the last temperature the lines above a table state [K]."""
+def _temperature_above(path: Path, above: list[Line], unit: str | None) -> float | None:
+    """Return the last temperature that the lines above a table state [K]."""
     for number, line in reversed(above):
-        found = stated_temperature(line)
-        if found is None:
+        statement = stated_temperature(line)
+        if statement is None:
             continue
-        value, written = found
-        known = unit if spelled(written, "temperature") is None else written
-        if known is None:
+        value, written = statement
+        chosen = unit if spelled(written, "temperature") is None else written
+        if chosen is None:
             raise InputError(
                 f"{path}, line {number}: temperature_unit must be given ({listed('temperature')}), "
                 f"because the line states none with {value}"
             )
-        return float(
-            in_si(float(value.replace(",", ".")), known, "temperature", "temperature_unit")
-        )
+        degrees = float(value.replace(",", "."))
+        return float(in_si(degrees, chosen, "temperature", "temperature_unit"))
     return None
 
 
@@ -496,12 +501,12 @@ def _table(path: Path, lines: list[Line], expected: list[str]) -> TextTable:
 def _reptate(path: Path, lines: list[Line], expected: list[str]) -> Block:
     """Return the table of a file of RepTate: the temperature is that of its parameters."""
     pairs = (pair.partition("=") for pair in lines[0][1].split(";"))
-    stated = {key.strip(): value.strip() for key, _, value in pairs}
-    celsius = parse_number(stated.get("T", ""))
+    parameters = {key.strip(): value.strip() for key, _, value in pairs}
+    celsius = parse_number(parameters.get("T", ""))
     if celsius is None or celsius != celsius:
         raise FileError(
             f"{path}, line {lines[0][0]}: expected T=... in degrees Celsius among the parameters; "
-            f"got {stated.get('T', 'none')}"
+            f"got {parameters.get('T', 'none')}"
         )
     table = _table(path, lines[1:], expected)
     if not table.names:

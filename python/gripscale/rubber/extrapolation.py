@@ -1,8 +1,8 @@
 """How much of a result rests on a rubber beyond its measured frequencies, and how far beyond.
 
 A rubber from a master curve is known within `Rubber.valid_band`; beyond it its series is an
-extrapolation. Whatever excites it there is told in the same three numbers by every model: the share
-of the friction that comes from there, and how many decades below and above the band it goes.
+extrapolation. Every model states excitation beyond the band in the same three numbers: the share of
+the friction that comes from there, and how many decades below and above the band it goes.
 """
 
 from __future__ import annotations
@@ -12,14 +12,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gripscale.core.arrays import Array
 from gripscale.core.errors import ExtrapolationError
 from gripscale.rubber.material import Rubber
 
-Array = NDArray[np.float64]
-
-CHOICES = ("say", "refuse")
+CHOICES = ("warn", "refuse")
 """What may be done about excitation beyond the band."""
 
 WORTH_SAYING = 0.01
@@ -131,12 +130,12 @@ def of_sum(parts: Sequence[Extrapolation], friction: ArrayLike) -> Extrapolation
     if not parts:
         return UNKNOWN
     weight = np.abs(np.asarray(friction, dtype=float))
-    share, below, above = np.array([(one.share, one.below, one.above) for one in parts]).T
+    share, below, above = np.array([(part.share, part.below, part.above) for part in parts]).T
     total = float(weight.sum())
     # a part without friction has no share to tell of, and adds none
-    told = float(weight @ np.where(weight > 0.0, share, 0.0))
+    beyond = float(weight @ np.where(weight > 0.0, share, 0.0))
     return Extrapolation(
-        0.0 if not share.any() else told / total if total > 0.0 else math.nan,
+        0.0 if not share.any() else beyond / total if total > 0.0 else math.nan,
         float(below.max()),
         float(above.max()),
     )

@@ -1,26 +1,50 @@
-"""Measured uniaxial tests: stretch and nominal stress against time."""
+"""Finite strain of a material point: its stress, measured tests, and a rubber fitted to them.
+
+The permanent network has the strain energy W; each Maxwell element is a temporary network:
+
+    tau_i dA_i/dt = C^-1 - A_i,   A_i = 1 before the first sample
+    S = G_inf b + sum_i G_i A_i - p C^-1,   b = 2/G_inf dW/dC,   p from the free side faces
+
+Source: J. Lubliner, Mech. Res. Commun. 12 (1985) 93, doi:10.1016/0093-6413(85)90075-8.
+The memory integral is exact for C^-1 linear in time between samples (R. L. Taylor, K. S. Pister &
+G. L. Goudreau, Int. J. Numer. Methods Eng. 2 (1970) 45, doi:10.1002/nme.1620020106):
+
+    A <- e^-x A + ((1 - e^-x)/x - e^-x) Y_old + (1 - (1 - e^-x)/x) Y_new,   Y = C^-1,  x = dt/tau
+
+Uniaxial stretch s:  P = dW/ds + sum_i G_i (s A_11 - s^-2 A_22),   Y_11 = s^-2,  Y_22 = s.
+Simple shear g:      T = dW/dg + sum_i G_i (g + A_12),             Y_12 = -g,  Y_22 = A_22 = 1.
+
+In simple shear the temporary networks are linear at any amplitude: T is then that of small strain.
+On given relaxation times the nominal stress is linear in the moduli,
+
+    P(t) = sum_k c_k P_k(s) + sum_i G_i (s A_i,11 - s^-2 A_i,22)
+
+(P_k and c_k are the strain energy's: `StrainEnergy.basis`), so that the least squares of P over
+the peak stress of each test, each test counting alike, is a convex problem with bounds and one
+minimum: no start values, no local minima. Bounded-variable least squares: P. B. Stark & R. L.
+Parker, Comput. Stat. 10 (1995) 129.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array, Vector
+from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import FileError, InputError
 from gripscale.core.units import in_si
 from gripscale.io.text_table import file_path, read_sheets
 from gripscale.rubber.material import Rubber
-from gripscale.rubber.strain_energy import STRAIN_ENERGIES, StrainEnergy
-
-Array = NDArray[np.float64]
+from gripscale.rubber.strain_energy import STRAIN_ENERGIES
 
 
-@dataclass(frozen=True, init=False, eq=False)
-class UniaxialTest:
+class UniaxialTest(Checked, eq=False):
     """A measured history of stretch with its nominal stress.
 
     Parameters
@@ -40,22 +64,15 @@ class UniaxialTest:
         If the lengths differ or a value is out of range.
     """
 
-    name: str
-    time: Array = field(repr=False)
-    stretch: Array = field(repr=False)
-    stress: Array = field(repr=False)
+    name: str = checked(checks.text)
+    time: Vector = checked(checks.vector, unit="s", repr=False)
+    stretch: Vector = checked(checks.positive_vector, repr=False)
+    stress: Vector = checked(checks.vector, unit="Pa", repr=False)
 
-    def __init__(self, name: str, time: ArrayLike, stretch: ArrayLike, stress: ArrayLike) -> None:
-        object.__setattr__(self, "name", checks.text("name", name))
-        object.__setattr__(self, "time", checks.vector("time", time, unit="s"))
-        object.__setattr__(self, "stretch", checks.positive_vector("stretch", stretch))
-        object.__setattr__(self, "stress", checks.vector("stress", stress, unit="Pa"))
-        lengths = len(self.time), len(self.stretch), len(self.stress)
-        if len(set(lengths)) != 1 or lengths[0] < 2:
-            raise InputError(
-                f"{name}: time, stretch and stress must have the same length, at least 2; "
-                f"got {lengths[0]}, {lengths[1]} and {lengths[2]}"
-            )
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        name = self.name
+        checks.same_length(2, time=self.time, stretch=self.stretch, stress=self.stress)
         if (np.diff(self.time) <= 0.0).any():
             at = int(np.argmax(np.diff(self.time) <= 0.0)) + 1
             raise InputError(f"{name}: time must rise [s]; got {self.time[at]:g} at index {at}")
@@ -101,25 +118,6 @@ def read_uniaxial_test(path: str | Path, *, stress_unit: str = "Pa") -> Uniaxial
     except (TypeError, ValueError) as error:
         raise FileError(f"{path}: expected rows of time, stretch, stress ({error})") from error
 
-
-# One incompressible material point of a rubber, driven through a history of stretch or shear.
-#
-# The permanent network with its strain energy W and one temporary network per Maxwell element:
-#
-#     tau_i dA_i/dt = C^-1 - A_i,   A_i = 1 before the first sample
-#     S = G_inf b + sum_i G_i A_i - p C^-1,   b = 2/G_inf dW/dC,   p from the free side faces
-#
-# Source: J. Lubliner, Mech. Res. Commun. 12 (1985) 93, doi:10.1016/0093-6413(85)90075-8.
-# The memory integral is exact for C^-1 linear in time between samples (R. L. Taylor, K. S. Pister &
-# G. L. Goudreau, Int. J. Numer. Methods Eng. 2 (1970) 45, doi:10.1002/nme.1620020106):
-#
-#     A <- e^-x A + ((1 - e^-x)/x - e^-x) Y_old + (1 - (1 - e^-x)/x) Y_new,   Y = C^-1,  x = dt/tau
-#
-# Uniaxial stretch s:  P = dW/ds + sum_i G_i (s A_11 - s^-2 A_22),   Y_11 = s^-2,  Y_22 = s.
-# Simple shear g:      T = dW/dg + sum_i G_i (g + A_12),             Y_12 = -g,  Y_22 = A_22 = 1.
-#
-# In simple shear the temporary networks are linear at any amplitude: T is then that of small
-# strain.
 
 _SMALL_STEP = 1e-3
 """Below this x = dt/tau the weights are taken from their power series (next term below 1e-14)."""
@@ -221,23 +219,19 @@ def network_states(
     ndarray, shape (samples, terms, components)
     """
     step = np.diff(time)[:, None] / relaxation_times
-    kept, (left, arrived) = np.exp(-step), _weights(step)
-    states = np.empty((len(time), len(relaxation_times), inverse.shape[1]))
-    states[0] = rest
-    new = left[..., None] * inverse[:-1, None, :] + arrived[..., None] * inverse[1:, None, :]
-    for sample in range(len(step)):
-        states[sample + 1] = kept[sample, :, None] * states[sample] + new[sample]
-    return states
-
-
-def _weights(step: Array) -> tuple[Array, Array]:
-    """Return the weights of Y at the start and at the end of steps x = dt/tau."""
+    kept = np.exp(-step)
+    # Weights of Y at the start and at the end of steps x = dt/tau.
     x = np.maximum(step, _SMALL_STEP)
     mean = -np.expm1(-x) / x
     small = step < _SMALL_STEP
-    left = np.where(small, step * (0.5 - step * (1 / 3 - step / 8)), mean - np.exp(-x))
-    arrived = np.where(small, step * (0.5 - step * (1 / 6 - step / 24)), 1.0 - mean)
-    return left, arrived
+    before = np.where(small, step * (0.5 - step * (1 / 3 - step / 8)), mean - np.exp(-x))
+    after = np.where(small, step * (0.5 - step * (1 / 6 - step / 24)), 1.0 - mean)
+    states = np.empty((len(time), len(relaxation_times), inverse.shape[1]))
+    states[0] = rest
+    new = before[..., None] * inverse[:-1, None, :] + after[..., None] * inverse[1:, None, :]
+    for sample in range(len(step)):
+        states[sample + 1] = kept[sample, :, None] * states[sample] + new[sample]
+    return states
 
 
 def _times(time: ArrayLike, driven: Array, name: str) -> Array:
@@ -253,17 +247,6 @@ def _times(time: ArrayLike, driven: Array, name: str) -> Array:
         raise InputError(f"time must not fall [s]; got {elapsed[at]:g} at index {at}")
     return elapsed
 
-
-# One finite-strain rubber fitted to several uniaxial tests together.
-#
-# On given relaxation times the nominal stress of a material point is linear in its moduli,
-#
-#     P(t) = sum_k c_k P_k(s) + sum_i G_i (s A_i,11 - s^-2 A_i,22)
-#
-# (P_k and c_k are the strain energy's: `StrainEnergy.basis`), so that the least squares of P over
-# the peak stress of each test, each test counting alike, is a convex problem with bounds and one
-# minimum: no start values, no local minima. Bounded-variable least squares: P. B. Stark & R. L.
-# Parker, Comput. Stat. 10 (1995) 129.
 
 _LEAST_EQUILIBRIUM = 1e-3
 """The fitted G_inf is at least this share of the smallest peak stress: a rubber must have one."""
@@ -355,12 +338,30 @@ def fit_finite_strain(
     tests = checks.instances("tests", tests, UniaxialTest)
     law = STRAIN_ENERGIES[checks.one_of("energy", energy, STRAIN_ENERGIES)]
     times = _relaxation_times(tests, checks.whole("terms", terms, least=1, most=40), band)
-    left = np.vstack([_columns(law, times, test) * _weight(test) for test in tests])
-    right = np.concatenate([test.stress * _weight(test) for test in tests])
-    lower = np.zeros(left.shape[1])
+    # Nominal stress per unit of each coefficient; the squares of a test sum to its rms_error^2.
+    columns, measured = [], []
+    for test in tests:
+        stretch, weight = test.stretch, 1.0 / (test.peak * np.sqrt(len(test.time)))
+        networks = uniaxial_network_stresses(times, test.time, stretch)
+        permanent = [(stretch - stretch**-2) * factor for factor in law.basis(stretch)]
+        columns.append(np.column_stack([*permanent, networks]) * weight)
+        measured.append(test.stress * weight)
+    matrix = np.vstack(columns)
+    lower = np.zeros(matrix.shape[1])
     lower[: len(law.least_coefficients)] = law.least_coefficients
     lower[0] = _LEAST_EQUILIBRIUM * min(test.peak for test in tests)
-    return FiniteStrainFit(_rubber(law, _solve(left, right, lower), times), tuple(tests))
+    from scipy.optimize import lsq_linear
+
+    scale = np.linalg.norm(matrix, axis=0)
+    bounds = (lower * scale, np.full(len(scale), np.inf))
+    fit = lsq_linear(matrix / scale, np.concatenate(measured), bounds, method="bvls", tol=1e-14)
+    coefficients = np.asarray(fit.x / scale, dtype=float)
+    count = len(coefficients) - len(times)
+    shear, strain_energy = law.from_coefficients(coefficients[:count].tolist())
+    moduli = coefficients[count:]
+    used = moduli > 1e-9 * (shear + moduli.sum())
+    rubber = Rubber(3.0 * shear, 3.0 * moduli[used], times[used], strain_energy=strain_energy)
+    return FiniteStrainFit(rubber, tuple(tests))
 
 
 def _relaxation_times(
@@ -376,35 +377,3 @@ def _relaxation_times(
         )
     low, high = ends
     return np.geomspace(low, high, terms) if terms > 1 else np.array([np.sqrt(low * high)])
-
-
-def _weight(test: UniaxialTest) -> float:
-    """Return what a sample counts [1/Pa]: the squares of a test then sum to its rms_error^2."""
-    return float(1.0 / (test.peak * np.sqrt(len(test.time))))
-
-
-def _columns(law: type[StrainEnergy], times: Array, test: UniaxialTest) -> Array:
-    """Return the nominal stress per unit of each fitted coefficient [-], shape (samples, all)."""
-    stretch = test.stretch
-    networks = uniaxial_network_stresses(times, test.time, stretch)
-    hooke = stretch - stretch**-2
-    return np.column_stack([*(hooke * factor for factor in law.basis(stretch)), networks])
-
-
-def _solve(left: Array, right: Array, lower: Array) -> Array:
-    """Return the bounded least-squares solution, columns scaled to unit length."""
-    from scipy.optimize import lsq_linear
-
-    scale = np.linalg.norm(left, axis=0)
-    bounds = (lower * scale, np.full(len(scale), np.inf))
-    found = lsq_linear(left / scale, right, bounds, method="bvls", tol=1e-14)
-    return np.asarray(found.x / scale, dtype=float)
-
-
-def _rubber(law: type[StrainEnergy], found: Array, times: Array) -> Rubber:
-    """Return the rubber of the fitted coefficients, without elements of zero modulus."""
-    count = len(found) - len(times)
-    shear, energy = law.from_coefficients(found[:count].tolist())
-    moduli = found[count:]
-    used = moduli > 1e-9 * (shear + moduli.sum())
-    return Rubber(3.0 * shear, 3.0 * moduli[used], times[used], strain_energy=energy)

@@ -10,6 +10,10 @@ Huber, Ann. Math. Stat. 35 (1964) 73, doi:10.1214/aoms/1177703732).
 The covariance of s and v is that of the least squares, times (1 + r)/(1 - r) where r is the
 correlation of neighbouring residuals: where a sweep as a whole does not follow the curve, its rows
 are no independent evidence.
+
+Smooth curves through scattered points are cubic B-splines with penalised second differences (P. H.
+C. Eilers & B. D. Marx, Stat. Sci. 11 (1996) 89, doi:10.1214/ss/1038425655). The weight of the
+penalty is that of least generalised cross-validation.
 """
 
 from __future__ import annotations
@@ -19,14 +23,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gripscale.core.arrays import Array
 from gripscale.rubber.sweeps import Sweeps
-
-# Smooth curves through scattered points: cubic B-splines with penalised second differences.
-#
-# Source: P. H. C. Eilers & B. D. Marx, Stat. Sci. 11 (1996) 89, doi:10.1214/ss/1038425655. The
-# weight of the penalty is that of least generalised cross-validation.
-
-Array = NDArray[np.float64]
 
 _DEGREE = 3
 _PENALTIES = tuple(10.0 ** np.arange(-2.0, 5.0))
@@ -85,21 +83,20 @@ def smooth(
     least = np.inf
     unit = float(trust.mean())
     ridge = _RIDGE * unit * np.eye(len(normal))
-    for tried in [unit * one for one in _PENALTIES] if weight is None else [weight]:
-        matrix = np.asarray(normal + tried * penalty.T @ penalty + ridge, dtype=np.float64)
+    candidates = [unit * factor for factor in _PENALTIES] if weight is None else [weight]
+    for candidate in candidates:
+        matrix = np.asarray(normal + candidate * penalty.T @ penalty + ridge, dtype=np.float64)
         both = np.column_stack([right, normal])
         solved = np.asarray(np.linalg.solve(matrix, both), dtype=np.float64)
         freedoms = float(np.trace(solved[:, 1:]))
         error = values - functions @ solved[:, 0]
-        left = max(float(trust.sum()) - freedoms, 1e-6)
-        score = float(trust @ error**2) / left**2
+        remaining = max(float(trust.sum()) - freedoms, 1e-6)
+        score = float(trust @ error**2) / remaining**2
         if score < least:
-            least, best = score, Smooth(solved[:, 0], matrix, float(tried), freedoms)
+            least, best = score, Smooth(solved[:, 0], matrix, float(candidate), freedoms)
     assert best is not None
     return best
 
-
-# Rows of sweeps in decades: what is shifted along log f until it is one curve.
 
 MODULI = {
     "both": ("storage", "loss"),
@@ -139,18 +136,18 @@ def rows_of(sweeps: Sweeps, moduli: str) -> Rows:
     names = MODULI[moduli]
     x = np.log10(sweeps.frequency)
     y = np.array([np.log10(getattr(sweeps, name)) for name in names])
-    counts = [len(one) for one in sweeps]
+    counts = [len(sweep) for sweep in sweeps]
     lifts = np.array([0.0 if name == "loss_factor" else 1.0 for name in names])
     return Rows(x, y, np.repeat(np.arange(len(counts)), counts), lifts)
 
 
 _SPACING = 0.5
 """Of the knots [decades]."""
-_PASSES = 60
-_SETTLING = 8
-"""Passes after which the weight of the penalty stays as it is."""
+_MOST_ITERATIONS = 60
+_FREE_PENALTY = 8
+"""Iterations after which the weight of the penalty stays as it is."""
 _LARGEST_STEP = 0.3
-"""By which a shift may change in a pass [decades]."""
+"""By which a shift may change in an iteration [decades]."""
 _CONVERGED = 1e-4
 _FAR = 2.0
 """Standard deviations from which a row counts less."""
@@ -182,21 +179,27 @@ def align(rows: Rows, log_a: Array, log_b: Array, lifted: bool) -> Joint:
     """Return the best shifts near a start against the middle sweep; log_b only if `lifted`."""
     held = rows.sweeps // 2
     shifts = np.concatenate([log_a - log_a[held], log_b - log_b[held]])
-    free = _free(rows.sweeps, held, lifted)
+    others = np.delete(np.arange(rows.sweeps, dtype=np.intp), held)
+    free = np.concatenate([others, others + rows.sweeps]) if lifted else others
     trust = np.ones_like(rows.y)
     scatter = np.ones_like(rows.y)
     weights: tuple[float | None, ...] = (None,) * len(rows.y)
-    for at in range(_PASSES):
-        last = _pass(rows, shifts, free, trust / scatter**2, weights)
+    for iteration in range(_MOST_ITERATIONS):
+        last = _gauss_newton_step(rows, shifts, free, trust / scatter**2, weights)
         largest = float(np.abs(last.step).max(initial=0.0))
         shifts[free] += last.step * min(1.0, _LARGEST_STEP / max(largest, 1e-300))
         shifts[: rows.sweeps] = _overlapping(rows, shifts[: rows.sweeps], held)
         scatter, trust = _scatter(rows, last, trust)
-        if at >= _SETTLING:
+        if iteration >= _FREE_PENALTY:
             weights = last.weights
             if largest < _CONVERGED:
                 break
-    r = _neighbour_correlation(rows, np.sqrt(trust) * last.residual / scatter)
+    residual = np.sqrt(trust) * last.residual / scatter
+    same = np.diff(rows.sweep) == 0
+    r = 0.0
+    if same.any():
+        product = (residual[:, 1:] * residual[:, :-1])[:, same].mean(axis=1)
+        r = float(np.mean(product / np.maximum((residual**2).mean(axis=1), 1e-30)))
     r = min(max(r, 0.0), _MOST_CORRELATED)
     covariance = np.zeros((2 * rows.sweeps, 2 * rows.sweeps))
     covariance[np.ix_(free, free)] = last.covariance * (1.0 + r) / (1.0 - r)
@@ -205,7 +208,7 @@ def align(rows: Rows, log_a: Array, log_b: Array, lifted: bool) -> Joint:
 
 
 @dataclass(frozen=True)
-class _Pass:
+class _Step:
     """Changes of the free shifts with their covariance, and the residuals before them."""
 
     step: Array
@@ -217,32 +220,34 @@ class _Pass:
     """Of the penalty of each spline over the scatter."""
 
 
-def _free(sweeps: int, held: int, lifted: bool) -> NDArray[np.intp]:
-    """Return the places of the shifts that are sought among log_a, then log_b."""
-    others = np.delete(np.arange(sweeps, dtype=np.intp), held)
-    return np.concatenate([others, others + sweeps]) if lifted else others
-
-
-def _pass(
+def _gauss_newton_step(
     rows: Rows,
     shifts: Array,
     free: NDArray[np.intp],
     trust: Array,
     weights: tuple[float | None, ...],
-) -> _Pass:
+) -> _Step:
+    """Return the step of the free shifts; the splines are eliminated."""
     s, v = np.split(shifts, 2)
     x = rows.x + s[rows.sweep]
     basis = Basis.over(float(x.min()), float(x.max()), _SPACING)
     functions, slopes, penalty = basis.at(x), basis.at(x, derivative=True), basis.penalty()
-    expected = _expected(rows.sweeps)
+    # Neighbours are expected to have nearly the same log_b.
+    apart = np.diff(np.eye(rows.sweeps), axis=0) / _LIFT
+    expected = np.zeros((2 * rows.sweeps, 2 * rows.sweeps))
+    expected[rows.sweeps :, rows.sweeps :] = apart.T @ apart
     normal = _SOFT * np.eye(len(free)) + expected[np.ix_(free, free)]
     right = -(expected @ shifts)[free]
-    residuals, curves = [], []
+    residuals, curves, each = [], [], np.arange(len(rows.x))
     for at, lift in enumerate(rows.lifts):
         y, count = rows.y[at] + lift * v[rows.sweep], trust[at]
         curve = smooth(functions, penalty, y, count, weights[at])
         residual = y - functions @ curve.coefficients
-        by_shift = _by_shift(rows, slopes @ curve.coefficients, lift)[:, free]
+        # Change of F_k - v with log_a and log_b of each sweep, shape (rows, 2 sweeps).
+        by_shift = np.zeros((len(rows.x), 2 * rows.sweeps))
+        by_shift[each, rows.sweep] = slopes @ curve.coefficients
+        by_shift[each, rows.sweep + rows.sweeps] = -lift
+        by_shift = by_shift[:, free]
         cross = functions.T @ (count[:, None] * by_shift)
         solved = np.linalg.solve(curve.matrix, cross)
         normal += by_shift.T @ (count[:, None] * by_shift) - cross.T @ solved
@@ -252,12 +257,12 @@ def _pass(
     inverse = np.asarray(np.linalg.pinv(normal, hermitian=True, rcond=1e-14), dtype=np.float64)
     freedoms = np.array([curve.freedoms for curve in curves]) + len(free) / len(curves)
     weight = tuple(curve.weight for curve in curves)
-    return _Pass(inverse @ right, inverse, np.array(residuals), freedoms, weight)
+    return _Step(inverse @ right, inverse, np.array(residuals), freedoms, weight)
 
 
 def _overlapping(rows: Rows, log_a: Array, held: int) -> Array:
     """Return the shifts, no neighbours farther apart than where they hardly overlap."""
-    ends = np.array([rows.of(one)[0][[0, -1]] for one in range(rows.sweeps)])
+    ends = np.array([rows.of(sweep)[0][[0, -1]] for sweep in range(rows.sweeps)])
     least = _LEAST_SHARE * np.minimum(np.ptp(ends[1:], axis=1), np.ptp(ends[:-1], axis=1))
     # Of the colder less the warmer: neither may begin where the other ends.
     low = ends[1:, 0] - ends[:-1, 1] + least
@@ -266,38 +271,12 @@ def _overlapping(rows: Rows, log_a: Array, held: int) -> Array:
     return np.asarray(total - total[held])
 
 
-def _expected(sweeps: int) -> Array:
-    """Return the weight of the expectation that neighbours have nearly the same log_b."""
-    apart = np.diff(np.eye(sweeps), axis=0) / _LIFT
-    weight = np.zeros((2 * sweeps, 2 * sweeps))
-    weight[sweeps:, sweeps:] = apart.T @ apart
-    return weight
-
-
-def _by_shift(rows: Rows, slope: Array, lift: float) -> Array:
-    """Return the change of F_k - v with log_a and log_b of each sweep, shape (rows, 2 sweeps)."""
-    change = np.zeros((len(rows.x), 2 * rows.sweeps))
-    each = np.arange(len(rows.x))
-    change[each, rows.sweep] = slope
-    change[each, rows.sweep + rows.sweeps] = -lift
-    return change
-
-
-def _scatter(rows: Rows, last: _Pass, trust: Array) -> tuple[Array, Array]:
+def _scatter(rows: Rows, last: _Step, trust: Array) -> tuple[Array, Array]:
     """Return the scatter about each row and how far the row is trusted, both like the residuals."""
     member = np.equal.outer(np.arange(rows.sweeps), rows.sweep).astype(float)
-    beside = np.abs(np.subtract.outer(np.arange(rows.sweeps), np.arange(rows.sweeps))) <= 1
-    left = np.maximum(1.0 - last.freedoms / len(rows.x), 0.1)
-    square = (trust * last.residual**2) @ member.T @ beside / (trust @ member.T @ beside)
-    scatter = np.sqrt(square / left[:, None])[:, rows.sweep]
+    near = np.abs(np.subtract.outer(np.arange(rows.sweeps), np.arange(rows.sweeps))) <= 1
+    independent = np.maximum(1.0 - last.freedoms / len(rows.x), 0.1)
+    square = (trust * last.residual**2) @ member.T @ near / (trust @ member.T @ near)
+    scatter = np.sqrt(square / independent[:, None])[:, rows.sweep]
     scatter = np.maximum(scatter, _LEAST_SCATTER)
     return scatter, 1.0 / np.maximum(np.abs(last.residual) / (_FAR * scatter), 1.0)
-
-
-def _neighbour_correlation(rows: Rows, residual: Array) -> float:
-    """Return the correlation of the residuals of neighbouring rows of a sweep."""
-    same = np.diff(rows.sweep) == 0
-    if not same.any():
-        return 0.0
-    product = (residual[:, 1:] * residual[:, :-1])[:, same].mean(axis=1)
-    return float(np.mean(product / np.maximum((residual**2).mean(axis=1), 1e-30)))

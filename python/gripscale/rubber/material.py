@@ -6,7 +6,18 @@
 Source: J. D. Ferry, Viscoelastic Properties of Polymers, 3rd ed. (1980), ch. 3.
 
 Only shear relaxes: G* = E*/3 and the bulk modulus K is constant. E is the modulus of the
-incompressible limit; the few per cent by which a finite K changes it enter through Poisson's ratio.
+incompressible limit; the few per cent by which a finite K changes it enter through Poisson's ratio
+nu = (3K - 2|G|) / (2 (3K + |G|)). One Maxwell element of unit modulus has, with x = w tau_i and
+without overflow at any x,
+
+    E'/E_i  = x^2 / (1 + x^2) = 1 / (1 + 1/x^2),   E''/E_i = x / (1 + x^2)
+
+A master curve fixes E*(w) within its band to about its noise, and beyond its ends less and less.
+The admissible series are extremes: each has the least or the largest E' or E'' at some frequency
+that the data allow. Their envelope is the uncertainty of E*(w); each of them is a rubber, so that
+the same uncertainty of a friction is the spread of its predictions. A plateau counts as measured
+where no admissible series leaves the modulus of the end of the data by more than a fifth within the
+two decades beyond it: only there is a modulus relaxed or glassy.
 """
 
 from __future__ import annotations
@@ -20,22 +31,15 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array, ComplexArray, Mask, Vector
+from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError, RubberWarning
 from gripscale.core.units import ZERO_CELSIUS
 from gripscale.rubber.shift import Shift, shift_at, shift_from_dict
 from gripscale.rubber.strain_energy import NeoHookean, StrainEnergy, strain_energy_from_dict
-
-# What one Maxwell element of unit modulus has of E' and E'', at any w tau without overflow.
-#
-#     E'/E_i  = x^2 / (1 + x^2) = 1 / (1 + 1/x^2),   E''/E_i = x / (1 + x^2),   x = w tau
-#
-# Source: J. D. Ferry, Viscoelastic Properties of Polymers, 3rd ed. (1980), ch. 3.
-
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 _BLOCK = 256
 """Frequencies at once: with a hundred terms an array of them is 200 kB."""
@@ -64,30 +68,25 @@ def complex_sum(omega: Array, times: Array, moduli: Array) -> ComplexArray:
     longer than the sums.
     """
     flat = np.abs(omega).reshape(-1)
-    found = np.empty(flat.size, dtype=np.complex128)
+    total = np.empty(flat.size, dtype=np.complex128)
     for first in range(0, flat.size, _BLOCK):
         phase = np.outer(flat[first : first + _BLOCK], times)
         smaller = np.minimum(phase, 1.0 / np.maximum(phase, 1.0))
         square = smaller * smaller
         below = 1.0 + square
-        part = found[first : first + _BLOCK]
+        part = total[first : first + _BLOCK]
         part.imag = (moduli * (smaller / below)).sum(-1)
         np.copyto(square, 1.0, where=phase > 1.0)
         part.real = (moduli * (square / below)).sum(-1)
-    found.imag = np.copysign(found.imag, np.reshape(omega, -1))
-    return found.reshape(np.shape(omega))
+    total.imag = np.copysign(total.imag, np.reshape(omega, -1))
+    return total.reshape(np.shape(omega))
 
 
-# The Prony series that fit a master curve as well as the best one does: what the data leave open.
-#
-# A master curve fixes E*(w) within its band to about its noise, and beyond its ends less and less.
-# The series kept here are extremes: each has the least or the largest E' or E'' at some frequency
-# that the data allow. Their envelope is the uncertainty of E*(w); each of them is a rubber, so that
-# the same uncertainty of a friction is the spread of its predictions.
+_SERIES = ("relaxation_times", "equilibrium_moduli", "moduli")
+"""What files hold of admissible series."""
 
 
-@dataclass(frozen=True, init=False, eq=False)
-class AdmissibleSeries:
+class AdmissibleSeries(Checked, eq=False):
     """Prony series on common relaxation times, one a row.
 
     Parameters
@@ -108,36 +107,21 @@ class AdmissibleSeries:
         If a value is not finite or out of its range, or the shapes do not match.
     """
 
-    relaxation_times: Array = field(repr=False)
-    equilibrium_moduli: Array = field(repr=False)
-    moduli: Array = field(repr=False)
-    belongs_to: str = field(default="", repr=False)
+    relaxation_times: Vector = checked(checks.in_limits, unit="s", repr=False)
+    equilibrium_moduli: Vector = checked(checks.in_limits, unit="Pa", repr=False)
+    moduli: Vector = field(repr=False)
+    belongs_to: str = field(default="", repr=False, compare=False)
 
-    def __init__(
-        self,
-        relaxation_times: ArrayLike,
-        equilibrium_moduli: ArrayLike,
-        moduli: ArrayLike,
-        belongs_to: str = "",
-    ) -> None:
-        times = checks.in_limits("relaxation_times", relaxation_times, unit="s")
-        equilibrium = checks.in_limits("equilibrium_moduli", equilibrium_moduli, unit="Pa")
-        shape = (len(equilibrium), len(times))
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        shape = (len(self.equilibrium_moduli), len(self.relaxation_times))
         expected = f"moduli must be {shape[0]} rows of {shape[1]} numbers [Pa]"
-        elements = checks.array(moduli, expected)
+        elements = checks.array(self.moduli, expected)
         if elements.size != math.prod(shape):
-            raise InputError(f"{expected}; got {checks.short_repr(moduli)}")
-        elements = elements.reshape(shape)
+            raise InputError(f"{expected}; got {checks.short_repr(self.moduli)}")
         if not ((elements >= 0.0) & (elements <= checks.MOST)).all():
             raise InputError(f"moduli must not be negative [Pa]; got {elements.min():g}")
-        for name, value in (
-            ("relaxation_times", times),
-            ("equilibrium_moduli", equilibrium),
-            ("moduli", elements),
-        ):
-            value.setflags(write=False)
-            object.__setattr__(self, name, value)
-        object.__setattr__(self, "belongs_to", str(belongs_to))
+        self._set(moduli=elements.reshape(shape))
 
     def given_to(self, fingerprint: str) -> AdmissibleSeries:
         """Return them as those of the series with this fingerprint.
@@ -149,27 +133,12 @@ class AdmissibleSeries:
                 "admissible must be what fits beside this series; got that of other moduli or "
                 "relaxation times: leave it out (admissible=None) where they are changed"
             )
-        if self.belongs_to:
-            return self
-        return AdmissibleSeries(
-            self.relaxation_times, self.equilibrium_moduli, self.moduli, fingerprint
-        )
+        return self if self.belongs_to else replace(self, belongs_to=fingerprint)
 
     def __len__(self) -> int:
         return len(self.equilibrium_moduli)
 
-    def __eq__(self, other: object) -> bool:
-        """Compare all numbers."""
-        return isinstance(other, AdmissibleSeries) and self._key() == other._key()
-
-    def __hash__(self) -> int:
-        return hash(self._key())
-
-    def _key(self) -> tuple[bytes, ...]:
-        columns = self.relaxation_times, self.equilibrium_moduli, self.moduli
-        return tuple(column.tobytes() for column in columns)
-
-    def complex_moduli(self, omega: Array) -> NDArray[np.complex128]:
+    def complex_moduli(self, omega: Array) -> ComplexArray:
         """Return E*(w) of each series [Pa] at `omega` [rad/s], shape (series, *omega.shape)."""
         phase = omega[..., None] * self.relaxation_times
         storage = storage_shape(phase) @ self.moduli.T + self.equilibrium_moduli
@@ -183,27 +152,19 @@ class AdmissibleSeries:
         )
 
     def to_dict(self) -> dict[str, Any]:
-        """Return all numbers as lists; whose they are is told by the rubber they stand beside."""
-        return {
-            "relaxation_times": self.relaxation_times.tolist(),
-            "equilibrium_moduli": self.equilibrium_moduli.tolist(),
-            "moduli": self.moduli.tolist(),
-        }
+        """Return all numbers as lists; the rubber they belong to is not stored."""
+        return {name: getattr(self, name).tolist() for name in _SERIES}
 
     @classmethod
     def from_dict(cls, values: Mapping[str, Any]) -> AdmissibleSeries:
         """Return the series of `to_dict`; raise `InputError` if a key is another."""
-        known = {"relaxation_times", "equilibrium_moduli", "moduli"}
-        if not isinstance(values, Mapping) or set(values) != known:
+        if not isinstance(values, Mapping) or set(values) != set(_SERIES):
             raise InputError(
-                f"admissible must have the keys {', '.join(known)}; got {checks.short_repr(values)}"
+                f"admissible must have the keys {', '.join(_SERIES)}; "
+                f"got {checks.short_repr(values)}"
             )
         return cls(**values)
 
-
-# A bulk modulus too small for the modulus it goes with: Poisson's ratio below that of any rubber.
-#
-# nu = (3K - 2|G|) / (2 (3K + |G|)),    K for nu: 2|G| (1 + nu) / (3 (1 - 2 nu))
 
 LEAST_POISSON_RATIO = 0.3
 """Below this no rubber and hardly a glassy polymer is: the bulk modulus is too small."""
@@ -236,66 +197,24 @@ def warn_once(sentence: str) -> None:
     warnings.warn(sentence, RubberWarning, stacklevel=4)
 
 
-# What the numbers of a rubber must be.
-
-
-def read_only(values: Array) -> Array:
-    """Return `values`, which nobody can change any more."""
-    values.setflags(write=False)
-    return values
-
-
-def finite(name: str, value: ArrayLike, unit: str) -> Array:
-    """Return `value` as an array of floats; raise `InputError` unless finite and in reason."""
-    return checks.real(name, value, unit=unit)
-
-
 def check_modulus(name: str, value: float) -> float:
     """Return one modulus [Pa] within reason."""
     return float(checks.in_limits(name, [checks.number(name, value, unit="Pa")], unit="Pa")[0])
 
 
-def check_admissible(value: AdmissibleSeries | None) -> AdmissibleSeries | None:
-    """Return `value`; raise `InputError` if it is something else."""
-    if not isinstance(value, AdmissibleSeries | None):
-        raise InputError(
-            f"admissible must be an AdmissibleSeries or None; got {checks.short_repr(value)}"
-        )
-    return value
-
-
-def check_temperature(value: float | None) -> float | None:
-    """Return a reference temperature [K]; raise `InputError` unless above zero or None."""
-    return None if value is None else checks.positive("reference_temperature", value, unit="K")
-
-
-def check_strain_energy(value: StrainEnergy) -> StrainEnergy:
+def check_strain_energy(name: str, value: StrainEnergy) -> StrainEnergy:
     """Return `value`; raise `InputError` if it is something else."""
     if not isinstance(value, StrainEnergy):
         raise InputError(
-            f"strain_energy must be a StrainEnergy, such as Yeoh; got {checks.short_repr(value)}"
+            f"{name} must be a StrainEnergy, such as Yeoh; got {checks.short_repr(value)}"
         )
     return value
-
-
-def check_band(value: tuple[float, float] | None) -> tuple[float, float] | None:
-    """Return a band of angular frequencies [rad/s]; raise `InputError` if it is none."""
-    if value is None:
-        return None
-    band = checks.in_limits("valid_band", value, unit="rad/s")
-    if len(band) != 2 or band[0] >= band[1]:
-        raise InputError(
-            f"valid_band [rad/s] must be a lower and a higher frequency; "
-            f"got {checks.short_repr(value)}"
-        )
-    return float(band[0]), float(band[1])
 
 
 DEFAULT_ENERGY = NeoHookean()
 
 
-@dataclass(frozen=True, init=False, eq=False)
-class Rubber:
+class Rubber(Checked, eq=False):
     """Generalized Maxwell solid with constant bulk modulus.
 
     Parameters
@@ -337,79 +256,43 @@ class Rubber:
         without one. Of a rubber with `admissible` the report on its fit says so.
     """
 
-    equilibrium_modulus: float
-    moduli: Array = field(repr=False)
-    relaxation_times: Array = field(repr=False)
-    bulk_modulus: float = 2e9
-    name: str = ""
-    source: str = ""
-    valid_band: tuple[float, float] | None = None
-    strain_energy: StrainEnergy = DEFAULT_ENERGY
-    admissible: AdmissibleSeries | None = field(default=None, repr=False)
-    reference_temperature: float | None = None
+    equilibrium_modulus: float = checked(check_modulus)
+    moduli: Vector = checked(checks.in_limits, unit="Pa", default=(), repr=False)
+    relaxation_times: Vector = checked(checks.in_limits, unit="s", default=(), repr=False)
+    bulk_modulus: float = checked(check_modulus, default=2e9)
+    name: str = checked(checks.text, default="")
+    source: str = checked(checks.text, default="")
+    valid_band: tuple[float, float] | None = checked(checks.interval, unit="rad/s", default=None)
+    strain_energy: StrainEnergy = checked(check_strain_energy, default=DEFAULT_ENERGY)
+    admissible: AdmissibleSeries | None = checked(
+        checks.instance, kind=AdmissibleSeries, default=None, repr=False
+    )
+    reference_temperature: float | None = checked(checks.positive, unit="K", default=None)
     shift: Shift | None = field(default=None, repr=False)
 
-    def __init__(
-        self,
-        equilibrium_modulus: float,
-        moduli: ArrayLike = (),
-        relaxation_times: ArrayLike = (),
-        bulk_modulus: float = 2e9,
-        name: str = "",
-        source: str = "",
-        valid_band: tuple[float, float] | None = None,
-        strain_energy: StrainEnergy = DEFAULT_ENERGY,
-        admissible: AdmissibleSeries | None = None,
-        reference_temperature: float | None = None,
-        shift: Shift | None = None,
-    ) -> None:
-        values = {
-            "equilibrium_modulus": check_modulus("equilibrium_modulus", equilibrium_modulus),
-            "moduli": read_only(checks.in_limits("moduli", moduli, unit="Pa")),
-            "relaxation_times": read_only(
-                checks.in_limits("relaxation_times", relaxation_times, unit="s")
-            ),
-            "bulk_modulus": check_modulus("bulk_modulus", bulk_modulus),
-            "name": checks.text("name", name),
-            "source": checks.text("source", source),
-            "valid_band": check_band(valid_band),
-            "strain_energy": check_strain_energy(strain_energy),
-            "admissible": check_admissible(admissible),
-            "reference_temperature": check_temperature(reference_temperature),
-            "shift": shift_at(shift, reference_temperature),
-        }
-        self._set(**values)
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        self._set(shift=shift_at(self.shift, self.reference_temperature))
         self._check_together()
-        if self.admissible is None:
-            self._warn_of_compressibility()
-        else:
+        if self.admissible is not None:
             self._set(admissible=self.admissible.given_to(self._fingerprint()))
-
-    def _set(self, **values: Any) -> None:
-        for key, value in values.items():
-            object.__setattr__(self, key, value)
+            return
+        if self.valid_band is None:
+            modulus, where = self.glassy_modulus, "at high frequency"
+        else:
+            fast = self.valid_band[1]
+            modulus, where = abs(complex(self.complex_modulus(fast))), f"at {fast:.3g} rad/s"
+        doubt = too_compressible(self.bulk_modulus, modulus, where)
+        if doubt:
+            warn_once(doubt)
 
     def _fingerprint(self) -> str:
         """Return a text that only this series has: its moduli and times, to the last bit."""
         series = np.array([self.equilibrium_modulus, *self.moduli, *self.relaxation_times])
         return hashlib.sha256(series.tobytes()).hexdigest()
 
-    def _warn_of_compressibility(self) -> None:
-        if self.valid_band is None:
-            modulus, where = self.glassy_modulus, "at high frequency"
-        else:
-            fast = self.valid_band[1]
-            modulus, where = abs(complex(self.complex_modulus(fast))), f"at {fast:.3g} rad/s"
-        told = too_compressible(self.bulk_modulus, modulus, where)
-        if told:
-            warn_once(told)
-
     def _check_together(self) -> None:
-        if len(self.moduli) != len(self.relaxation_times):
-            raise InputError(
-                "moduli and relaxation_times must have the same length; "
-                f"got {len(self.moduli)} and {len(self.relaxation_times)}"
-            )
+        checks.same_length(0, moduli=self.moduli, relaxation_times=self.relaxation_times)
         least = 2.0 / 9.0 * self.glassy_modulus
         if self.bulk_modulus <= least:
             raise InputError(
@@ -417,31 +300,9 @@ class Rubber:
                 f"to keep Poisson's ratio positive; got {self.bulk_modulus:g}"
             )
 
-    def __eq__(self, other: object) -> bool:
-        """Compare all numbers and names."""
-        return isinstance(other, Rubber) and self._key() == other._key()
-
-    def __hash__(self) -> int:
-        return hash(self._key())
-
-    def _key(self) -> tuple[object, ...]:
-        return (
-            self.equilibrium_modulus,
-            self.moduli.tobytes(),
-            self.relaxation_times.tobytes(),
-            self.bulk_modulus,
-            self.name,
-            self.source,
-            self.valid_band,
-            self.strain_energy,
-            self.admissible,
-            self.reference_temperature,
-            self.shift,
-        )
-
     def to_dict(self) -> dict[str, Any]:
         """Return all numbers and names, arrays as lists and the strain energy by its kind."""
-        values = {field.name: getattr(self, field.name) for field in fields(self)}
+        values = {item.name: getattr(self, item.name) for item in fields(self)}
         energy = self.strain_energy
         return values | {
             "moduli": self.moduli.tolist(),
@@ -459,9 +320,9 @@ class Rubber:
         `admissible`, `reference_temperature` and `shift` may be absent, as in files of older
         versions.
         """
-        known = [field.name for field in fields(cls)]
-        if set(values) | {"admissible", "reference_temperature", "shift"} != set(known):
-            raise InputError(f"values must have the keys {', '.join(known)}; got {list(values)}")
+        names = [item.name for item in fields(cls)]
+        if set(values) | {"admissible", "reference_temperature", "shift"} != set(names):
+            raise InputError(f"values must have the keys {', '.join(names)}; got {list(values)}")
         others, shift = values.get("admissible"), values.get("shift")
         parts = {
             "strain_energy": strain_energy_from_dict(values["strain_energy"]),
@@ -494,7 +355,7 @@ class Rubber:
         A negative frequency gives the complex conjugate. Raises `InputError` unless finite and
         below 1e100.
         """
-        frequency = finite("omega", omega, "rad/s")
+        frequency = checks.real("omega", omega, unit="rad/s")
         relaxing = complex_sum(frequency, self.relaxation_times, self.moduli)
         return np.asarray(self.equilibrium_modulus + relaxing)
 
@@ -510,7 +371,7 @@ class Rubber:
         InputError
             If `omega` is not finite, or the rubber has no admissible series.
         """
-        own = self.complex_modulus(omega)
+        modulus = self.complex_modulus(omega)
         if self.admissible is None:
             raise InputError(
                 "admissible must be the series that also fit, as fit_prony finds them, for the "
@@ -518,7 +379,7 @@ class Rubber:
             )
         others = self.admissible.complex_moduli(np.abs(np.asarray(omega, dtype=float)))
         others.imag *= np.sign(omega)
-        every = np.concatenate([own[None], others])
+        every = np.concatenate([modulus[None], others])
         low = every.real.min(axis=0) + 1j * every.imag.min(axis=0)
         high = every.real.max(axis=0) + 1j * every.imag.max(axis=0)
         return np.asarray(low), np.asarray(high)
@@ -537,11 +398,11 @@ class Rubber:
     def _with_series(self, equilibrium: float, moduli: Array, times: Array) -> Rubber:
         """Return this rubber with another series that fits; what it warned of is said already."""
         other = object.__new__(Rubber)
-        other._set(**{field.name: getattr(self, field.name) for field in fields(self)})
+        other._set(**{item.name: getattr(self, item.name) for item in fields(self)})
         other._set(
             equilibrium_modulus=equilibrium,
-            moduli=read_only(moduli),
-            relaxation_times=read_only(times),
+            moduli=moduli,
+            relaxation_times=times,
             admissible=None,
         )
         other._check_together()
@@ -620,19 +481,14 @@ class Rubber:
         bulk = 3.0 * self.bulk_modulus
         return np.asarray(4.0 * shear * (bulk + shear) / (bulk + 4.0 * shear))
 
-    def outside_band(self, omega: ArrayLike) -> NDArray[np.bool_]:
+    def outside_band(self, omega: ArrayLike) -> Mask:
         """Return whether each `omega` [rad/s] lies outside `valid_band`; False if none is known."""
-        frequency = np.abs(finite("omega", omega, "rad/s"))
+        frequency = np.abs(checks.real("omega", omega, unit="rad/s"))
         if self.valid_band is None:
             return np.zeros(frequency.shape, dtype=bool)
         low, high = self.valid_band
         return np.asarray((frequency < low) | (frequency > high))
 
-
-# Whether a rubber's moduli level off within the data: only there is a modulus relaxed or glassy.
-#
-# A plateau counts as measured where no admissible series leaves the modulus of the end of the data
-# by more than a fifth within the two decades beyond it.
 
 BEYOND = 100.0
 """How far beyond the data uncertainty is stated: a factor of frequency, two decades."""
@@ -678,19 +534,16 @@ def _end(rubber: Rubber, limit: float, side: int, factor: float) -> End:
     return End(limit if plateau else last, plateau)
 
 
-# Whether a rubber is still solid after a load has lasted: its relaxation modulus against pressure.
-#
-# A block under a mean pressure of many times its modulus is squeezed into full contact and beyond
-# what a solid can be: there is no partial contact to solve for, and no solution is found.
-
 MOST_PRESSURE = 10.0
 """Mean pressure over relaxation modulus that is let through; at slopes near one, three is full."""
 
 
-def require_solid(rubber: Rubber, pressure: float, load_time: float) -> None:
+def require_load_bearing(rubber: Rubber, pressure: float, load_time: float) -> None:
     """Raise `InputError` unless E(t) after `load_time` [s] can carry `pressure` [Pa].
 
-    At rest the time is infinite and E(t) the equilibrium modulus.
+    At rest the time is infinite and E(t) the equilibrium modulus. A block under a mean pressure of
+    many times its modulus is squeezed into full contact and beyond what a solid can be: there is no
+    partial contact to solve for.
     """
     checks.instance("rubber", rubber, Rubber)
     modulus = float(rubber.relaxation_modulus(load_time))
@@ -707,8 +560,6 @@ def require_solid(rubber: Rubber, pressure: float, load_time: float) -> None:
         f"got {modulus:.3g}"
     )
 
-
-# Whether rubbers that stand side by side hold for the same temperature.
 
 _SAME = 0.5
 """Temperatures that differ by less are one [K]: 20 °C and 293 K."""
@@ -728,21 +579,21 @@ def temperature_doubts(rubbers: Mapping[str, Rubber]) -> tuple[str, ...]:
         That they hold for different temperatures, that some have none stated beside others that
         do, or that a temperature lies beyond those its shift rests on.
     """
-    stated = {
+    kelvins = {
         name: rubber.reference_temperature
         for name, rubber in rubbers.items()
         if rubber.reference_temperature is not None
     }
     doubts = []
-    if stated and max(stated.values()) - min(stated.values()) > _SAME:
+    if kelvins and max(kelvins.values()) - min(kelvins.values()) > _SAME:
         each = ", ".join(
-            f"{name} {kelvin - ZERO_CELSIUS:.1f} °C" for name, kelvin in stated.items()
+            f"{name} {kelvin - ZERO_CELSIUS:.1f} °C" for name, kelvin in kelvins.items()
         )
         doubts.append(f"the rubbers hold for different temperatures: {each}")
-    if stated and len(stated) < len(rubbers):
-        others = ", ".join(name for name in rubbers if name not in stated)
+    if kelvins and len(kelvins) < len(rubbers):
+        others = ", ".join(name for name in rubbers if name not in kelvins)
         doubts.append(
-            f"the temperature of {others} is not known beside that of {', '.join(stated)}"
+            f"the temperature of {others} is not known beside that of {', '.join(kelvins)}"
         )
     beyond = [name for name, rubber in rubbers.items() if rubber.shift_extrapolated]
     if beyond:

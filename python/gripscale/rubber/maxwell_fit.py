@@ -17,6 +17,24 @@ data have to ask for a relaxation slower than what was measured.
 by a slack variable. Sources: M. Baumgaertel & H. H. Winter, Rheol. Acta 28 (1989) 511,
 doi:10.1007/BF01332922 (relative errors of E' and E'' together); J. Honerkamp & J. Weese, Continuum
 Mech. Thermodyn. 2 (1990) 17, doi:10.1007/BF01170953 (second differences as regularisation).
+
+The number of terms comes from cross-validation over five folds, each holding out every fifth row;
+the error is the relative error of E' and E'' at the rows held out. It is the smallest number within
+one standard error of the best (T. Hastie, R. Tibshirani, J. Friedman, The Elements of Statistical
+Learning, 2nd ed. 2009, sec. 7.10), but not fewer than 1.25 per decade: for a smooth spectrum,
+elements log-spaced by d (in natural logarithm) make E'' ripple by 2 sech(pi^2/d), 6 % at one per
+decade and 2 % at 1.25 per decade (first Fourier coefficient of the periodic sum of sech).
+
+A row is an outlier if its storage or its loss modulus leaves the local trend of its neighbours by
+more than `threshold` times the typical scatter, both
+
+- in the data themselves (log-log straight line through the neighbours), and
+- in the data divided by a Maxwell fit (so that curvature of a smooth spectrum is no outlier).
+
+The line is the median of pairwise slopes (P. K. Sen, J. Am. Stat. Assoc. 63 (1968) 1379,
+doi:10.1080/01621459.1968.10480934); the scatter is 1.4826 times the median distance from it.
+The fit alone would not do: measured E' and E'' are often not Kramers-Kronig consistent, and the
+joint fit then misses both by more than their scatter.
 """
 
 from __future__ import annotations
@@ -26,12 +44,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array, Mask
 from gripscale.rubber.material import loss_shape, storage_shape
-
-Array = NDArray[np.float64]
 
 _LEAST_EQUILIBRIUM = 1e-3
 """E_inf is at least this share of the lowest storage modulus: a melt has none, a rubber must."""
@@ -67,7 +83,7 @@ class Curve:
     storage: Array
     loss: Array
 
-    def rows(self, chosen: NDArray[np.bool_]) -> Curve:
+    def rows(self, chosen: Mask) -> Curve:
         """Return the chosen rows."""
         return Curve(self.omega[chosen], self.storage[chosen], self.loss[chosen])
 
@@ -133,14 +149,21 @@ def non_negative(matrix: Array, right: Array) -> Array:
 def equations(curve: Curve, times: Array, prior: Prior) -> Equations:
     """Return the least-squares problem of a fit to `curve` on the given `times` [s]."""
     floor, unit = _LEAST_EQUILIBRIUM * float(curve.storage.min()), float(curve.storage.min())
-    scale = np.minimum(_scale(curve, -np.log(times)), prior.largest_modulus)
+    scale = np.minimum(_expected_modulus(curve, -np.log(times)), prior.largest_modulus)
     nothing = np.zeros((len(curve.omega), 1))
     phase = np.outer(curve.omega, times)
     storage = np.hstack([nothing + unit, storage_shape(phase) * scale, nothing])
     loss = np.hstack([nothing, loss_shape(phase) * scale, nothing])
     limit = np.concatenate([[unit], scale, [prior.largest_modulus]]) / prior.largest_modulus
     slow = -np.log(times) < np.log(curve.omega[0]) - 1e-9
-    penalties = _penalties(slow, prior)
+    # Second differences within the data, shrinkage beyond the slow end; E_inf and slack are free.
+    terms = len(times)
+    differences = np.zeros((max(terms - 2, 0), terms + 2))
+    for row in range(len(differences)):
+        differences[row, row + 1 : row + 4] = 1.0, -2.0, 1.0
+    within = ~slow[2:] if terms > 2 else np.zeros(0, dtype=bool)
+    shrinking = np.eye(terms, terms + 2, 1)[slow]
+    penalties = np.vstack([prior.smoothing * differences[within], prior.shrinkage * shrinking])
     matrix = np.vstack(
         [
             storage * (prior.storage_weight / curve.storage)[:, None],
@@ -160,53 +183,29 @@ def equations(curve: Curve, times: Array, prior: Prior) -> Equations:
     return Equations(matrix, right, floor, unit, scale, times)
 
 
-def _scale(curve: Curve, position: Array) -> Array:
+def _expected_modulus(curve: Curve, position: Array) -> Array:
     """Return m(w) at log w = `position`: E' in the band, beyond it with the slope of E''."""
     measured = np.log(curve.omega)
     inside = np.interp(position, measured, curve.storage)
-    low, high = _slopes(measured, np.log(curve.loss))
+    low, high = (_end_slope(measured, np.log(curve.loss), end) for end in (0, -1))
     below = np.minimum(position - measured[0], 0.0)
     above = np.maximum(position - measured[-1], 0.0)
     return np.asarray(inside * np.exp(low * below + high * above))
 
 
-def _slopes(position: Array, value: Array) -> tuple[float, float]:
-    """Return the slopes of `value` over the first and the last decade, between -1 and 1.
+def _end_slope(position: Array, value: Array, end: int) -> float:
+    """Return the slope of `value` over the first (0) or the last (-1) decade, between -1 and 1.
 
     One is the steepest a Maxwell element's E'' can be.
     """
-    decade = math.log(10.0)
-    ends = []
-    for at in (0, -1):
-        near = np.abs(position - position[at]) <= decade
-        order = np.argsort(np.abs(position - position[at]), kind="stable")
-        near[order[:_FEWEST_FOR_SLOPE]] = True
-        run = position[near] - position[near].mean()
-        square = float(run @ run)
-        slope = float(run @ value[near]) / square if square > 0.0 else 0.0
-        ends.append(min(max(slope, -1.0), 1.0))
-    return ends[0], ends[1]
+    away = np.abs(position - position[end])
+    near = away <= math.log(10.0)
+    near[np.argsort(away, kind="stable")[:_FEWEST_FOR_SLOPE]] = True
+    run = position[near] - position[near].mean()
+    square = float(run @ run)
+    slope = float(run @ value[near]) / square if square > 0.0 else 0.0
+    return min(max(slope, -1.0), 1.0)
 
-
-def _penalties(slow: NDArray[np.bool_], prior: Prior) -> Array:
-    """Return the rows of second differences and of shrinkage; those of E_inf and slack are zero."""
-    terms = len(slow)
-    differences = np.zeros((max(terms - 2, 0), terms + 2))
-    for row in range(len(differences)):
-        differences[row, row + 1 : row + 4] = 1.0, -2.0, 1.0
-    within = ~slow[2:] if terms > 2 else np.zeros(0, dtype=bool)
-    shrinking = np.eye(terms, terms + 2, 1)[slow]
-    return np.vstack([prior.smoothing * differences[within], prior.shrinkage * shrinking])
-
-
-# How many Maxwell elements a master curve supports, by cross-validation.
-#
-# Five folds, each holding out every fifth row; the error is the relative error of E' and E'' at the
-# rows held out. Taken is the smallest number within one standard error of the best (T. Hastie, R.
-# Tibshirani, J. Friedman, The Elements of Statistical Learning, 2nd ed. 2009, sec. 7.10), but not
-# fewer than 1.25 per decade: for a smooth spectrum, elements log-spaced by d (in natural logarithm)
-# make E'' ripple by 2 sech(pi^2/d), 6 % at one per decade and 2 % at 1.25 per decade (first Fourier
-# coefficient of the periodic sum of sech).
 
 _PER_DECADE = (0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0)
 _LEAST_PER_DECADE = 1.25
@@ -228,7 +227,7 @@ def choose_terms(
     omega: Array,
     storage: Array,
     loss: Array,
-    fit: Callable[[NDArray[np.bool_], int], Spectrum],
+    fit: Callable[[Mask, int], Spectrum],
 ) -> tuple[int, tuple[Candidate, ...]]:
     """Return the number of terms and all candidates tried.
 
@@ -258,7 +257,7 @@ def _cross_validate(
     omega: Array,
     storage: Array,
     loss: Array,
-    fit: Callable[[NDArray[np.bool_], int], Spectrum],
+    fit: Callable[[Mask, int], Spectrum],
     terms: int,
 ) -> Candidate:
     fold = np.arange(len(omega)) % _FOLDS
@@ -274,19 +273,6 @@ def _cross_validate(
     return Candidate(terms, error, 0.5 * spread / error if error > 0.0 else 0.0)
 
 
-# Finding rows of a master curve that do not belong to it.
-#
-# A row is an outlier if its storage or its loss modulus leaves the local trend of its neighbours by
-# more than `threshold` times the typical scatter, both
-#
-# - in the data themselves (log-log straight line through the neighbours), and
-# - in the data divided by a Maxwell fit (so that curvature of a smooth spectrum is no outlier).
-#
-# The line is the median of pairwise slopes (P. K. Sen, J. Am. Stat. Assoc. 63 (1968) 1379,
-# doi:10.1080/01621459.1968.10480934); the scatter is 1.4826 times the median distance from it.
-# The fit alone would not do: measured E' and E'' are often not Kramers-Kronig consistent, and the
-# joint fit then misses both by more than their scatter.
-
 _NEIGHBOURS = 8
 _PASSES = 10
 LEAST_SCATTER = 0.02
@@ -298,7 +284,7 @@ _FEWEST_ROWS = _NEIGHBOURS + 3
 class Screening:
     """Which rows are kept, and how far each is from its neighbours."""
 
-    kept: NDArray[np.bool_]
+    kept: Mask
     storage_deviation: Array
     """Log deviation of E' from the local trend [-], shape (rows,)."""
     loss_deviation: Array
@@ -317,7 +303,7 @@ def screen(
     omega: Array,
     storage: Array,
     loss: Array,
-    fit: Callable[[NDArray[np.bool_]], Spectrum],
+    fit: Callable[[Mask], Spectrum],
     threshold: float,
 ) -> Screening:
     """Return which rows belong to the curve; `fit` is the Maxwell fit to a choice of rows.
@@ -347,34 +333,29 @@ def screen(
     return Screening(kept, raw[0], raw[1], _spread(raw[0][kept]), _spread(raw[1][kept]))
 
 
-def _deviation(position: Array, value: Array, kept: NDArray[np.bool_]) -> Array:
+def _deviation(position: Array, value: Array, kept: Mask) -> Array:
     """Return each value minus the straight line through its nearest kept neighbours."""
     result = np.empty_like(value)
     members = np.flatnonzero(kept)
     for row in range(len(value)):
-        near = _nearest(members[members != row], row)
+        others = members[members != row]
+        # Half of the neighbours on each side, more where one side ends.
+        split = int(np.searchsorted(others, row))
+        start = min(max(split - _NEIGHBOURS // 2, 0), max(len(others) - _NEIGHBOURS, 0))
+        near = others[start : start + _NEIGHBOURS]
         run, rise = position[near] - position[row], value[near]
-        result[row] = value[row] - np.median(rise - _median_slope(run, rise) * run)
+        across = run[:, None] - run
+        pairs = across > 0.0
+        slope = (
+            float(np.median((rise[:, None] - rise)[pairs] / across[pairs])) if pairs.any() else 0.0
+        )
+        result[row] = value[row] - np.median(rise - slope * run)
     return result
-
-
-def _median_slope(run: Array, rise: Array) -> float:
-    """Return the median of all slopes between two points; 0 if all stand at one place."""
-    across = run[:, None] - run
-    apart = across > 0.0
-    return float(np.median((rise[:, None] - rise)[apart] / across[apart])) if apart.any() else 0.0
 
 
 def _log_ratio(measured: Array, fitted: Array) -> Array:
     """Return log(measured/fitted); a fit may have no loss at all where it is far off."""
     return np.asarray(np.log(measured) - np.log(np.maximum(fitted, checks.LEAST)))
-
-
-def _nearest(members: NDArray[np.intp], row: int) -> NDArray[np.intp]:
-    """Return up to eight members around `row`: half on each side, more where one side ends."""
-    split = int(np.searchsorted(members, row))
-    start = min(max(split - _NEIGHBOURS // 2, 0), max(len(members) - _NEIGHBOURS, 0))
-    return members[start : start + _NEIGHBOURS]
 
 
 def _spread(deviation: Array) -> float:

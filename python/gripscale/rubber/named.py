@@ -5,15 +5,14 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from gripscale.core import checks
+from gripscale.core.arrays import ComplexArray
 from gripscale.core.errors import InputError
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.material import Rubber
 from gripscale.rubber.prony import fit_prony
-
-ComplexArray = NDArray[np.complex128]
 
 _REFERENCE_FREQUENCY = 2.0 * np.pi * 6.94e7
 _RUBBERY = 1.76e6, 2.3 / 90.0

@@ -1,8 +1,20 @@
 """From a master curve to a Prony series, with what the data leave open and a report on both.
 
 Relaxation times are log-spaced over the measured band and two decades beyond its ends. Moduli are
-the non-negative least squares of `maxwell_fit`, their number comes from `term_choice`, rows that do
-not belong to the curve are found by `outliers`, the other series that fit by `extremes`.
+the non-negative least squares of `maxwell_fit`.
+
+The other series that fit are extremes: how far E*(w) may go before the data object. With A z = b
+the equations of the fit in units of the scatter, and f(z) one of E', E'' at one frequency, an
+extreme is the z >= 0 with the largest (or least) f(z) for which
+
+    |A z - b|^2 <= min |A z - b|^2 + 9,
+
+three standard deviations of f alone (profile likelihood; D. J. Venzon & S. H. Moolgavkar, Appl.
+Stat. 37 (1988) 87, doi:10.2307/2347496). f is held at a value by one heavy row, and the value is
+moved until the limit is met. The smoothing is so weak that it cannot rule out any spectrum the
+data allow by more than a standard deviation; what bounds the extremes is that moduli are not
+negative, relaxation times lie within two decades of the band, and the glassy modulus leaves
+Poisson's ratio positive.
 """
 
 from __future__ import annotations
@@ -12,9 +24,9 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array, Mask
 from gripscale.core.errors import InputError
 from gripscale.rubber import material
 from gripscale.rubber.master_curve import MasterCurve
@@ -24,7 +36,6 @@ from gripscale.rubber.maxwell_fit import (
     Curve,
     Equations,
     Prior,
-    Screening,
     Spectrum,
     choose_terms,
     equations,
@@ -33,23 +44,7 @@ from gripscale.rubber.maxwell_fit import (
     relaxation_times,
     screen,
 )
-from gripscale.rubber.prony_report import PronyFit, exchange, report
-
-# The extremes among the Prony series that fit: how far E*(w) may go before the data object.
-#
-# With A z = b the equations of the fit in units of the scatter, and f(z) one of E', E'' at one
-# frequency, an extreme is the z >= 0 with the largest (or least) f(z) for which
-#
-#     |A z - b|^2 <= min |A z - b|^2 + 9,
-#
-# three standard deviations of f alone (profile likelihood; D. J. Venzon & S. H. Moolgavkar, Appl.
-# Stat. 37 (1988) 87, doi:10.2307/2347496). f is held at a value by one heavy row, and the value is
-# moved until the limit is met. The smoothing is so weak that it cannot rule out any spectrum the
-# data allow by more than a standard deviation; what bounds the extremes is that moduli are not
-# negative, relaxation times lie within two decades of the band, and the glassy modulus leaves
-# Poisson's ratio positive.
-
-Array = NDArray[np.float64]
+from gripscale.rubber.prony_report import PronyFit, report, swapped_moduli
 
 _RISE = 9.0
 """Allowed rise of the sum of squares in units of the scatter."""
@@ -101,11 +96,23 @@ def extremes(
     orthogonal, triangle = np.linalg.qr(problem.matrix)
     right = orthogonal.T @ problem.right
     reduced = _Reduced(triangle, right, non_negative(triangle, right))
-    found, least = [reduced.best], _LEAST_SHARE * float(curve.loss.min())
-    for omega in _frequencies(curve.omega, decades, beyond):
-        for row, offset in _functionals(problem, omega):
-            found += [_furthest(reduced, row, offset, sign, least) for sign in (1.0, -1.0)]
-    return _series(problem, found)
+    solutions, least = [reduced.best], _LEAST_SHARE * float(curve.loss.min())
+    # Sought in the band, and once and twice half-way beyond it.
+    low, high = curve.omega[0], curve.omega[-1]
+    inside = np.geomspace(low, high, max(1, round(decades / _INSIDE)) + 1)
+    outside = 10.0 ** (beyond * np.array([0.5, 1.0])) if beyond > 0.0 else np.zeros(0)
+    for omega in np.concatenate([low / outside, inside, high * outside]):
+        phase = omega * problem.times
+        storage = np.concatenate([[problem.unit], storage_shape(phase) * problem.scale, [0.0]])
+        loss = np.concatenate([[0.0], loss_shape(phase) * problem.scale, [0.0]])
+        for row, offset in ((storage, problem.floor), (loss, 0.0)):
+            solutions += [_furthest(reduced, row, offset, sign, least) for sign in (1.0, -1.0)]
+    spectra = [problem.spectrum(solution) for solution in solutions]
+    moduli = np.array([spectrum.moduli for spectrum in spectra])
+    equilibrium = np.array([spectrum.equilibrium for spectrum in spectra])
+    # Elements of no weight count as zero.
+    moduli[moduli <= 1e-9 * (moduli.sum(axis=1, keepdims=True) + equilibrium[:, None])] = 0.0
+    return AdmissibleSeries(problem.times, _rounded(equilibrium), _rounded(moduli))
 
 
 def open_equations(
@@ -122,21 +129,6 @@ def open_equations(
     return equations(
         curve, times, Prior(EXTREME_SMOOTHING, EXTREME_SMOOTHING, largest_modulus, *weights)
     )
-
-
-def _frequencies(omega: Array, decades: float, beyond: float) -> Array:
-    """Return where extremes are sought: in the band, and once and twice half-way beyond."""
-    inside = np.geomspace(omega[0], omega[-1], max(1, round(decades / _INSIDE)) + 1)
-    outside = 10.0 ** (beyond * np.array([0.5, 1.0])) if beyond > 0.0 else np.zeros(0)
-    return np.concatenate([omega[0] / outside, inside, omega[-1] * outside])
-
-
-def _functionals(problem: Equations, omega: float) -> list[tuple[Array, float]]:
-    """Return E' and E'' at `omega` [rad/s] as rows of z, with the part that is not free."""
-    phase = omega * problem.times
-    storage = np.concatenate([[problem.unit], storage_shape(phase) * problem.scale, [0.0]])
-    loss = np.concatenate([[0.0], loss_shape(phase) * problem.scale, [0.0]])
-    return [(storage, problem.floor), (loss, 0.0)]
 
 
 def _furthest(
@@ -168,19 +160,11 @@ def _furthest(
     return best
 
 
-def _series(problem: Equations, found: list[Array]) -> AdmissibleSeries:
-    """Return the solutions as series, to six digits, elements of no weight as zero."""
-    spectra = [problem.spectrum(solution) for solution in found]
-    moduli = np.array([spectrum.moduli for spectrum in spectra])
-    equilibrium = np.array([spectrum.equilibrium for spectrum in spectra])
-    moduli[moduli <= 1e-9 * (moduli.sum(axis=1, keepdims=True) + equilibrium[:, None])] = 0.0
-    return AdmissibleSeries(problem.times, _rounded(equilibrium), _rounded(moduli))
-
-
 def _rounded(values: Array) -> Array:
+    """Return values to six digits."""
     with np.errstate(divide="ignore"):
-        place = 10.0 ** (np.floor(np.log10(np.where(values > 0.0, values, 1.0))) - _DIGITS + 1)
-    return np.asarray(np.round(values / place) * place)
+        digit = 10.0 ** (np.floor(np.log10(np.where(values > 0.0, values, 1.0))) - _DIGITS + 1)
+    return np.asarray(np.round(values / digit) * digit)
 
 
 _FEWEST_ROWS = 4
@@ -281,11 +265,19 @@ def fit_prony_report(
     smoothing = _option("smoothing", smoothing, _MOST_WEIGHT)
     loss_weight = checks.positive("loss_weight", _option("loss_weight", loss_weight, _MOST_WEIGHT))
     bulk = material.check_modulus("bulk_modulus", bulk_modulus)
-    exchanged = exchange(master)
-    if exchanged.certain:
-        raise InputError(str(exchanged))
+    swapped = swapped_moduli(master)
+    if swapped.certain:
+        raise InputError(str(swapped))
     curve = Curve(master.angular_frequency, master.storage, master.loss)
-    screening = _screen(master, curve, outlier_threshold)
+    # Outliers are found with one fixed fit, so that they do not depend on the series wanted.
+    screened_by = partial(
+        _fit,
+        curve,
+        0.0,
+        Prior(SMOOTHING, 0.0, 2.0 * float(master.storage.max())),
+        terms=max(4, min(round(2.0 * master.decades), 60)),
+    )
+    screening = screen(curve.omega, curve.storage, curve.loss, screened_by, outlier_threshold)
     kept = screening.kept
     rows = curve.rows(kept)
     limit = largest_modulus(float(rows.storage.max()), bulk)
@@ -293,15 +285,30 @@ def fit_prony_report(
     fit = partial(_fit, curve, beyond, prior)
     candidates: tuple[Candidate, ...] = ()
     if terms is None:
-        terms, candidates = _choose(curve, fit, kept)
+        positions = np.flatnonzero(kept)
+
+        def fit_among_kept(chosen: Mask, terms: int) -> Spectrum:
+            among_all = np.zeros_like(kept)
+            among_all[positions[chosen]] = True
+            return fit(among_all, terms)
+
+        terms, candidates = choose_terms(rows.omega, rows.storage, rows.loss, fit_among_kept)
     spectrum = fit(kept, terms)
-    scatter = _scatter(rows, spectrum, screening)
-    others = extremes(rows, scatter, beyond, _STIFFEST * bulk)
+    # The scatter about the fit: what any series has to live with.
+    errors = (
+        spectrum.storage(rows.omega) / rows.storage - 1.0,
+        spectrum.loss(rows.omega) / rows.loss - 1.0,
+    )
+    storage_scatter, loss_scatter = (
+        max(least, float(np.sqrt(np.mean(error**2))))
+        for least, error in zip(screening.believed_scatter, errors, strict=True)
+    )
+    others = extremes(rows, (storage_scatter, loss_scatter), beyond, _STIFFEST * bulk)
     rubber = _rubber(master, rows, spectrum, bulk, others)
-    found = report(master, rows, screening, candidates, rubber)
-    if exchanged.likely:
-        found = replace(found, findings=(str(exchanged), *found.findings))
-    return rubber, found
+    fit_report = report(master, rows, screening, candidates, rubber)
+    if swapped.likely:
+        fit_report = replace(fit_report, findings=(str(swapped), *fit_report.findings))
+    return rubber, fit_report
 
 
 def _option(name: str, value: float, most: float) -> float:
@@ -326,44 +333,9 @@ def largest_modulus(measured: float, bulk: float) -> float:
     return min(_STIFFEST * bulk, max(_GLASS * bulk, _OVER_MEASURED * measured))
 
 
-def _fit(
-    curve: Curve, beyond: float, prior: Prior, rows: NDArray[np.bool_], terms: int
-) -> Spectrum:
+def _fit(curve: Curve, beyond: float, prior: Prior, rows: Mask, terms: int) -> Spectrum:
     times = relaxation_times(curve.omega, terms, beyond)
     return fit_spectrum(curve.rows(rows), times, prior)
-
-
-def _screen(master: MasterCurve, curve: Curve, threshold: float) -> Screening:
-    """Find outliers with one fixed fit, so that they do not depend on how the series is wanted."""
-    terms = max(4, min(round(2.0 * master.decades), 60))
-    prior = Prior(SMOOTHING, 0.0, 2.0 * float(master.storage.max()))
-    fit = partial(_fit, curve, 0.0, prior, terms=terms)
-    return screen(curve.omega, curve.storage, curve.loss, fit, threshold)
-
-
-def _choose(
-    curve: Curve, fit: partial[Spectrum], kept: NDArray[np.bool_]
-) -> tuple[int, tuple[Candidate, ...]]:
-    places = np.flatnonzero(kept)
-
-    def fit_among_kept(rows: NDArray[np.bool_], terms: int) -> Spectrum:
-        chosen = np.zeros_like(kept)
-        chosen[places[rows]] = True
-        return fit(chosen, terms)
-
-    rows = curve.rows(kept)
-    return choose_terms(rows.omega, rows.storage, rows.loss, fit_among_kept)
-
-
-def _scatter(rows: Curve, spectrum: Spectrum, screening: Screening) -> tuple[float, float]:
-    """Return the relative scatter of E' and E'' about the fit: what any series has to live with."""
-    storage = spectrum.storage(rows.omega) / rows.storage - 1.0
-    loss = spectrum.loss(rows.omega) / rows.loss - 1.0
-    own = screening.believed_scatter
-    return (
-        max(own[0], float(np.sqrt(np.mean(storage**2)))),
-        max(own[1], float(np.sqrt(np.mean(loss**2)))),
-    )
 
 
 def _rubber(

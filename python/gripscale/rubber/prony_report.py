@@ -1,9 +1,15 @@
-"""Where a Prony series misses its master curve by more than the scatter, and by how much.
+"""How well a Prony series fits its master curve, and what is doubtful about it.
 
-Local: means over nine neighbouring rows, whose own scatter is a third of a row's. Where even the
-best non-negative series misses them, the measured E' and E'' are not those of one linear solid (the
-Kramers-Kronig relation ties each to the other): vertical shifts left out, strain amplitudes that
-differ between sets, or a non-linear filler network are the usual causes.
+Local misfits are means over nine neighbouring rows, whose own scatter is a third of a row's. Where
+even the best non-negative series misses them, the measured E' and E'' are not those of one linear
+solid (the Kramers-Kronig relation ties each to the other): vertical shifts left out, strain
+amplitudes that differ between sets, or a non-linear filler network are the usual causes.
+
+Swapped moduli: a linear solid that relaxes has E' = E_inf + sum E_i x^2/(1 + x^2) and E'' = sum E_i
+x/(1 + x^2), with x = w tau_i and no negative modulus (Ferry, Viscoelastic Properties of Polymers,
+3rd ed. (1980), ch. 3). The best such series is fitted to the two curves as they are and the other
+way round. Rubbers miss the first by their scatter; swapped, E' would fall beyond the transition
+while E'' rises, or E'' exceed E' many times on a plateau, which no such series does.
 """
 
 from __future__ import annotations
@@ -13,8 +19,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gripscale.core.arrays import Array, ComplexArray, Mask
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.material import BEYOND, Rubber, fast_end, slow_end, too_compressible
 from gripscale.rubber.maxwell_fit import (
@@ -25,8 +31,6 @@ from gripscale.rubber.maxwell_fit import (
     fit_spectrum,
     relaxation_times,
 )
-
-Array = NDArray[np.float64]
 
 _WINDOW = 9
 _ALLOWED = 1.5
@@ -56,14 +60,21 @@ class Misfit:
 
 
 def local_misfits(
-    curve: Curve, modulus: NDArray[np.complex128], scatter: tuple[float, float]
+    curve: Curve, modulus: ComplexArray, scatter: tuple[float, float]
 ) -> tuple[Misfit, ...]:
     """Return where the local mean of `modulus` over `curve` less one exceeds the scatter [-].
 
     `modulus` is E* of the fit [Pa] at the rows of the curve.
     """
-    local = [_local_mean(error) for error in _errors(curve, modulus)]
-    beyond = [np.abs(mean) > _ALLOWED * one for mean, one in zip(local, scatter, strict=True)]
+    size = min(_WINDOW, len(curve.omega))
+    # The mean of each row and its neighbours, of as many near the ends.
+    start = np.arange(len(curve.omega)) - size // 2
+    inside = np.clip(start, 0, len(curve.omega) - size)
+    local = [
+        np.convolve(error, np.full(size, 1.0 / size), mode="valid")[inside]
+        for error in _errors(curve, modulus)
+    ]
+    beyond = [np.abs(mean) > _ALLOWED * width for mean, width in zip(local, scatter, strict=True)]
     return tuple(
         Misfit(
             float(curve.omega[first]),
@@ -76,37 +87,29 @@ def local_misfits(
 
 
 def end_misfits(
-    curve: Curve, modulus: NDArray[np.complex128], scatter: tuple[float, float]
+    curve: Curve, modulus: ComplexArray, scatter: tuple[float, float]
 ) -> tuple[Misfit | None, Misfit | None]:
     """Return the mean misfit of the first and of the last five rows, None within the scatter."""
     errors = _errors(curve, modulus)
-    found: list[Misfit | None] = []
+    ends: list[Misfit | None] = []
     for rows in (slice(None, END_ROWS), slice(-END_ROWS, None)):
         omega = curve.omega[rows]
         storage, loss = (float(error[rows].mean()) for error in errors)
         missed = abs(storage) > scatter[0] or abs(loss) > scatter[1]
-        one = Misfit(float(omega[0]), float(omega[-1]), storage, loss)
-        found.append(one if missed else None)
-    return found[0], found[1]
+        misfit = Misfit(float(omega[0]), float(omega[-1]), storage, loss)
+        ends.append(misfit if missed else None)
+    return ends[0], ends[1]
 
 
-def _errors(curve: Curve, modulus: NDArray[np.complex128]) -> tuple[Array, Array]:
+def _errors(curve: Curve, modulus: ComplexArray) -> tuple[Array, Array]:
     return modulus.real / curve.storage - 1.0, modulus.imag / curve.loss - 1.0
-
-
-def _local_mean(error: Array) -> Array:
-    """Return the mean of each row and its neighbours, of as many near the ends."""
-    size = min(_WINDOW, len(error))
-    means = np.convolve(error, np.full(size, 1.0 / size), mode="valid")
-    start = np.arange(len(error)) - size // 2
-    return np.asarray(means[np.clip(start, 0, len(means) - 1)])
 
 
 def _largest(values: Array) -> float:
     return float(values[np.argmax(np.abs(values))])
 
 
-def _runs(chosen: NDArray[np.bool_]) -> list[tuple[int, int]]:
+def _runs(chosen: Mask) -> list[tuple[int, int]]:
     """Return first and last row of each run, runs with at most two rows between as one."""
     rows = np.flatnonzero(chosen)
     if not rows.size:
@@ -117,18 +120,10 @@ def _runs(chosen: NDArray[np.bool_]) -> list[tuple[int, int]]:
     return list(zip(first.tolist(), last.tolist(), strict=True))
 
 
-# Whether storage and loss modulus of a master curve stand in each other's place.
-#
-# A linear solid that relaxes has E' = E_inf + sum E_i x^2/(1 + x^2), E'' = sum E_i x/(1 + x^2),
-# with x = w tau_i and no negative modulus (Ferry, Viscoelastic Properties of Polymers, 3rd ed.
-# (1980), ch. 3). The best such series is fitted to the two curves as they are and the other way
-# round. Rubbers miss the first by their scatter; exchanged, E' would fall beyond the transition
-# while E'' rises, or E'' exceed E' many times on a plateau, which no such series does.
-
 _CERTAIN, _CERTAIN_RATIO = 0.5, 3.0
 _LIKELY, _LIKELY_RATIO = 0.25, 2.0
-"""Misfit as the curves are, and its ratio to that of the exchanged ones. Measured and synthetic
-rubbers with ten per cent of noise and loss factors up to 2.7 have at most 0.16; exchanged, they
+"""Misfit as the curves are, and its ratio to that of the swapped ones. Measured and synthetic
+rubbers with ten per cent of noise and loss factors up to 2.7 have at most 0.16; swapped, they
 have 0.37 to 2.6, those with a loss factor of one all over less."""
 _WORST = 3.0
 """Log error of a row that counts, at most: a modulus of zero has no logarithm."""
@@ -140,36 +135,38 @@ _OVER_MEASURED = 100.0
 
 
 @dataclass(frozen=True)
-class Exchange:
+class SwappedModuli:
     """Root mean square log misfit [-] of the best series to E' and E''."""
 
     as_given: float
-    exchanged: float
+    """To the moduli as they are."""
+    swapped: float
+    """To the moduli the other way round."""
 
     @property
     def certain(self) -> bool:
-        """Whether the two are exchanged for sure."""
-        return self.as_given > max(_CERTAIN, _CERTAIN_RATIO * self.exchanged)
+        """Whether the two are swapped for sure."""
+        return self.as_given > max(_CERTAIN, _CERTAIN_RATIO * self.swapped)
 
     @property
     def likely(self) -> bool:
         """Whether it looks as if they were."""
-        return self.as_given > max(_LIKELY, _LIKELY_RATIO * self.exchanged)
+        return self.as_given > max(_LIKELY, _LIKELY_RATIO * self.swapped)
 
     def __str__(self) -> str:
         """Return both misfits in a sentence that says what to do."""
         return (
             "storage and loss modulus look exchanged: the nearest linear solid misses them by a "
             f"factor of {math.exp(self.as_given):.2f} as they are, by "
-            f"{math.exp(self.exchanged):.2f} the other way round; look at the titles of the "
+            f"{math.exp(self.swapped):.2f} the other way round; look at the titles of the "
             "file, or name its columns (columns)"
         )
 
 
-def exchange(master: MasterCurve) -> Exchange:
-    """Return how well a linear solid has the moduli of `master` as they are, and exchanged."""
+def swapped_moduli(master: MasterCurve) -> SwappedModuli:
+    """Return how well a linear solid has the moduli of `master` as they are, and swapped."""
     omega = master.angular_frequency
-    return Exchange(
+    return SwappedModuli(
         _misfit(Curve(omega, master.storage, master.loss)),
         _misfit(Curve(omega, master.loss, master.storage)),
     )
@@ -180,94 +177,68 @@ def _misfit(curve: Curve) -> float:
     terms = min(max(4, round(_TIMES_PER_DECADE * decades) + 1), _MOST_TIMES)
     limit = _OVER_MEASURED * float(max(curve.storage.max(), curve.loss.max()))
     times = relaxation_times(curve.omega, terms, _BEYOND)
-    found = fit_spectrum(curve, times, Prior(0.0, 0.0, limit))
+    spectrum = fit_spectrum(curve, times, Prior(0.0, 0.0, limit))
     with np.errstate(divide="ignore"):
         errors = np.log(
-            [found.storage(curve.omega) / curve.storage, found.loss(curve.omega) / curve.loss]
+            [spectrum.storage(curve.omega) / curve.storage, spectrum.loss(curve.omega) / curve.loss]
         )
     return float(np.sqrt(np.mean(np.clip(errors, -_WORST, _WORST) ** 2)))
 
 
-# What is doubtful about a rubber from a master curve, a sentence each.
-
-
-def findings(
+def fit_warnings(
     rubber: Rubber,
     inconsistencies: tuple[Misfit, ...],
     ends: tuple[Misfit | None, Misfit | None],
-) -> tuple[str, ...]:
-    """Return what a reader must know before the rubber is used."""
-    return (*_consistency(inconsistencies), *_ends(ends), *_slow(rubber), *_fast(rubber))
-
-
-def _consistency(inconsistencies: tuple[Misfit, ...]) -> Iterator[str]:
+) -> Iterator[str]:
+    """Yield what a reader must know before the rubber is used, a sentence each."""
     if inconsistencies:
-        places = "; ".join(str(one) for one in inconsistencies)
         yield (
             "E' and E'' break the Kramers-Kronig relation (no linear solid has both) where the "
-            f"best series misses them by more than their scatter, at most by: {places}"
+            "best series misses them by more than their scatter, at most by: "
+            + "; ".join(map(str, inconsistencies))
         )
-
-
-def _ends(ends: tuple[Misfit | None, Misfit | None]) -> Iterator[str]:
     for name, misfit in zip(("slowest", "fastest"), ends, strict=True):
         if misfit is not None:
             yield (
                 f"the series misses the {END_ROWS} {name} rows by more than the scatter, in the "
                 f"mean by: {misfit}"
             )
-
-
-def _slow(rubber: Rubber) -> Iterator[str]:
-    end = slow_end(rubber)
     assert rubber.valid_band is not None
-    if _flows(rubber, rubber.valid_band[0]):
+    low, high = rubber.valid_band
+    slow, fast = slow_end(rubber), fast_end(rubber)
+    # In a melt E' falls with the square of the frequency, at a plateau not at all.
+    here, twice = (complex(rubber.complex_modulus(factor * low)) for factor in (1.0, 2.0))
+    if here.imag > here.real and twice.real > 2.0 * here.real:
         yield (
-            f"no equilibrium modulus: {_mega(end.modulus)} MPa are left at the slow end and fall "
+            f"no equilibrium modulus: {_mega(slow.modulus)} MPa are left at the slow end and fall "
             f"with the frequency, {_mega(rubber.equilibrium_modulus)} MPa in the end; the data are "
             "those of a melt, which carries no load at rest"
         )
-    elif not end.plateau:
+    elif not slow.plateau:
         yield (
             "no plateau at the slow end: the equilibrium modulus, "
             f"{_mega(rubber.equilibrium_modulus)} MPa, is an extrapolation; two decades slower E' "
-            f"may be {_span(rubber, False)} MPa"
+            f"may be {_span(rubber, low / BEYOND)} MPa"
         )
-
-
-def _flows(rubber: Rubber, omega: float) -> bool:
-    """Return whether E'' exceeds E' and E' falls faster than the frequency: w^2 in a melt."""
-    here, twice = (complex(rubber.complex_modulus(factor * omega)) for factor in (1.0, 2.0))
-    return here.imag > here.real and twice.real > 2.0 * here.real
-
-
-def _fast(rubber: Rubber) -> Iterator[str]:
-    end = fast_end(rubber)
-    if not end.plateau:
+    if not fast.plateau:
         yield (
-            f"no plateau at the fast end: E' is still {_mega(end.modulus)} MPa there; two decades "
-            f"faster it may be {_span(rubber, True)} MPa"
+            f"no plateau at the fast end: E' is still {_mega(fast.modulus)} MPa there; two decades "
+            f"faster it may be {_span(rubber, high * BEYOND)} MPa"
         )
-    assert rubber.valid_band is not None
-    omega = rubber.valid_band[1]
-    modulus = abs(complex(rubber.complex_modulus(omega)))
-    told = too_compressible(rubber.bulk_modulus, modulus, f"at {omega:.3g} rad/s")
-    if told:
-        yield told
+    modulus = abs(complex(rubber.complex_modulus(high)))
+    doubt = too_compressible(rubber.bulk_modulus, modulus, f"at {high:.3g} rad/s")
+    if doubt:
+        yield doubt
 
 
-def _span(rubber: Rubber, fast: bool) -> str:
-    assert rubber.valid_band is not None
-    omega = rubber.valid_band[1] * BEYOND if fast else rubber.valid_band[0] / BEYOND
+def _span(rubber: Rubber, omega: float) -> str:
+    """Return how low and how high E' may be at `omega` [rad/s], in MPa."""
     low, high = rubber.complex_modulus_band(omega)
     return f"{_mega(float(low.real))} to {_mega(float(high.real))}"
 
 
 def _mega(modulus: float) -> str:
     return f"{modulus / 1e6:.4g}"
-
-
-# How a Prony series came about, how well it fits, and what is doubtful about it.
 
 
 @dataclass(frozen=True)
@@ -359,7 +330,7 @@ def report(
         inconsistencies=inconsistencies,
         slow_end=slow,
         fast_end=fast,
-        findings=findings(rubber, inconsistencies, (slow, fast)),
+        findings=tuple(fit_warnings(rubber, inconsistencies, (slow, fast))),
     )
 
 

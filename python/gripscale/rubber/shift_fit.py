@@ -8,6 +8,13 @@ the formula misses the rows by more than their errors, the errors of its constan
 proportion.
 Sources: M. L. Williams, R. F. Landel & J. D. Ferry, J. Am. Chem. Soc. 77 (1955) 3701,
 doi:10.1021/ja01619a008; J. D. Ferry, Viscoelastic Properties of Polymers, 3rd ed. (1980), ch. 11.
+
+Shift tables are CSV files, to be looked at, edited and given back:
+
+    # reference temperature (C): 20
+    temperature (C),log10 a_T,standard error of log10 a_T,b_T,standard error of log10 b_T
+
+Only the first two columns are needed; the sign is that of E*(w, T) = E*(a_T w, T_ref)/b_T.
 """
 
 from __future__ import annotations
@@ -20,11 +27,12 @@ from pathlib import Path
 import numpy as np
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.errors import FileError, InputError
 from gripscale.core.units import ZERO_CELSIUS, in_si, listed, spelled
 from gripscale.io.netcdf import write_whole
-from gripscale.io.text_table import TextTable, file_path, read_table, read_text
-from gripscale.rubber.shift import EDGE, GAS_CONSTANT, WLF, Array, Arrhenius, ShiftTable
+from gripscale.io.text_table import file_path, read_table, read_text
+from gripscale.rubber.shift import EDGE, GAS_CONSTANT, WLF, Arrhenius, ShiftTable
 
 _LEAST_ERROR = 0.01
 """Standard error of log10 a_T below which none is believed [decades]."""
@@ -106,21 +114,21 @@ def fit_wlf(
     def weighted(constants: Array) -> Array:
         return np.asarray((law(constants) - log_a) / error)
 
-    found = least_squares(
+    optimum = least_squares(
         weighted,
         [first, begin],
         bounds=([0.0, coldest * (1.0 + 1e-6) + 1e-6], [np.inf, 1e4]),
         x_scale=[10.0, 50.0],
     )
-    c1, c2 = map(float, found.x)
-    if not (found.success and c1 > 0.0 and c2 < 0.99e4 and c2 > coldest + 0.01):
+    c1, c2 = map(float, optimum.x)
+    if not (optimum.success and c1 > 0.0 and c2 < 0.99e4 and c2 > coldest + 0.01):
         raise InputError(
             "table must follow WLF, log10 a_T falling ever more slowly with temperature; the best "
             f"constants found are c1 = {c1:.3g}, c2 = {c2:.3g} K"
         )
     shift = WLF(c1, c2, reference, _span(kelvin))
-    residual = log_a - law(found.x)
-    errors = _errors(np.asarray(found.jac), residual / error)
+    residual = log_a - law(optimum.x)
+    errors = _errors(np.asarray(optimum.jac), residual / error)
     return ShiftFit(shift, dict(zip(("c1", "c2"), errors, strict=True)), kelvin, residual)
 
 
@@ -174,9 +182,9 @@ def fit_arrhenius(
     )
 
 
-def _reference(table: ShiftTable, given: float | None) -> float:
+def _reference(table: ShiftTable, temperature: float | None) -> float:
     checks.instance("table", table, ShiftTable)
-    reference = table.reference_temperature if given is None else given
+    reference = table.reference_temperature if temperature is None else temperature
     if reference is None:
         raise InputError("reference_temperature [K] must be given, because the table states none")
     reference = checks.positive("reference_temperature", reference, unit="K")
@@ -207,18 +215,11 @@ def _span(kelvin: Array) -> tuple[float, float] | None:
 
 def _errors(matrix: Array, residual: Array) -> list[float]:
     """Return standard errors from the weighted Jacobian and residuals."""
-    left = len(residual) - matrix.shape[1]
-    excess = float(residual @ residual) / left if left > 0 else 1.0
+    freedoms = len(residual) - matrix.shape[1]
+    excess = float(residual @ residual) / freedoms if freedoms > 0 else 1.0
     covariance = np.linalg.pinv(matrix.T @ matrix)
     return [float(v) for v in np.sqrt(np.diag(covariance) * max(excess, 1.0))]
 
-
-# Shift tables as CSV files, to be looked at, edited and given back.
-#
-#     # reference temperature (C): 20
-#     temperature (C),log10 a_T,standard error of log10 a_T,b_T,standard error of log10 b_T
-#
-# Only the first two columns are needed; the sign is that of E*(w, T) = E*(a_T w, T_ref)/b_T.
 
 _TITLES = (
     "temperature (C)",
@@ -252,11 +253,7 @@ def write_shift_table(path: str | Path, table: ShiftTable) -> Path:
     lines.append(",".join(_TITLES))
     lines += [",".join(repr(float(v)) for v in row) for row in zip(*columns, strict=True)]
     text = "\n".join(lines) + "\n"
-    return write_whole(file_path(path), lambda part: _write(part, text))
-
-
-def _write(path: Path, text: str) -> None:
-    path.write_text(text, encoding="utf-8")
+    return write_whole(file_path(path), lambda part: part.write_bytes(text.encode("utf-8")))
 
 
 def read_shift_table(path: str | Path, *, temperature_unit: str | None = None) -> ShiftTable:
@@ -284,26 +281,34 @@ def read_shift_table(path: str | Path, *, temperature_unit: str | None = None) -
     InputError
         If the unit of the temperatures is neither stated nor given, or the numbers are no table.
     """
-    place = file_path(path)
+    file = file_path(path)
     table = read_table(
-        place,
+        file,
         "rows of temperature and log10 a_T",
         kinds=("temperature",),
         named=lambda name: _meaning(name) is not None,
     )
-    found = {_meaning(name): at for at, name in enumerate(table.names)}
-    if not {"temperature", "log_a"} <= set(found):
+    titles = {_meaning(name): at for at, name in enumerate(table.names)}
+    if not {"temperature", "log_a"} <= set(titles):
         raise FileError(
-            f"{place}: expected columns of temperature and log10 a_T; the header has "
+            f"{file}: expected columns of temperature and log10 a_T; the header has "
             f"{', '.join(table.names) or 'no names'}"
         )
-    columns = {str(name): table.numbers(at, "a number", missing=True) for name, at in found.items()}
-    kelvin = in_si(
-        columns["temperature"], _unit(table, found["temperature"], temperature_unit), "temperature"
-    )
+    columns = {
+        str(name): table.numbers(at, "a number", missing=True) for name, at in titles.items()
+    }
+    unit = temperature_unit or table.columns[titles["temperature"]].unit
+    if unit is None or spelled(unit, "temperature") is None:
+        raise InputError(
+            f"{file}: temperature_unit must be given ({listed('temperature')}), because the "
+            f"header states {'none' if unit is None else repr(unit)}"
+        )
+    kelvin = in_si(columns["temperature"], unit, "temperature")
     vertical = columns.get("log_b")
     if vertical is None and "b" in columns:
-        vertical = _logarithm(place, columns["b"])
+        if not (columns["b"] > 0.0).all():
+            raise FileError(f"{file}: expected b_T above zero; got {np.nanmin(columns['b']):g}")
+        vertical = np.log10(columns["b"])
     try:
         return ShiftTable(
             kelvin,
@@ -311,10 +316,10 @@ def read_shift_table(path: str | Path, *, temperature_unit: str | None = None) -
             columns.get("log_a_error"),
             vertical,
             columns.get("log_b_error"),
-            _read_reference(place),
+            _read_reference(file),
         )
     except InputError as error:
-        raise InputError(f"{place}: {error}") from error
+        raise InputError(f"{file}: {error}") from error
 
 
 def _meaning(name: str) -> str | None:
@@ -322,7 +327,7 @@ def _meaning(name: str) -> str | None:
     low = re.sub(r"[\s_]+", "", name.lower())
     if low.startswith("t") and (low == "t" or low.startswith("temp")):
         return "temperature"
-    factor = next((one for one in "ab" if re.search(rf"(^|log(10)?|of|error){one}t?$", low)), None)
+    factor = next((f for f in "ab" if re.search(rf"(^|log(10)?|of|error){f}t?$", low)), None)
     if factor is None:
         return None
     if "error" in low or "uncertainty" in low:
@@ -330,29 +335,13 @@ def _meaning(name: str) -> str | None:
     return f"log_{factor}" if "log" in low else (factor if factor == "b" else None)
 
 
-def _unit(table: TextTable, column: int, given: str | None) -> str:
-    written = given or table.columns[column].unit
-    if written is None or spelled(written, "temperature") is None:
-        raise InputError(
-            f"{table.path}: temperature_unit must be given ({listed('temperature')}), because the "
-            f"header states {'none' if written is None else repr(written)}"
-        )
-    return written
-
-
-def _logarithm(path: Path, b: Array) -> Array:
-    if not (b > 0.0).all():
-        raise FileError(f"{path}: expected b_T above zero; got {np.nanmin(b):g}")
-    return np.asarray(np.log10(b))
-
-
 def _read_reference(path: Path) -> float | None:
-    found = _REFERENCE.search(read_text(path))
-    if found is None:
+    match = _REFERENCE.search(read_text(path))
+    if match is None:
         return None
     try:
-        return float(in_si(float(found[2]), found[1], "temperature"))
+        return float(in_si(float(match[2]), match[1], "temperature"))
     except ValueError as error:
         raise FileError(
-            f"{path}: expected a number as reference temperature; got {found[2]}"
+            f"{path}: expected a number as reference temperature; got {match[2]}"
         ) from error

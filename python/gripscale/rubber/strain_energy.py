@@ -5,27 +5,35 @@ A law states the slopes of 2 W/G, w1 by I1 and w2 by I2, with w1 + w2 = 1 at res
     uniaxial stretch s   P = dW/ds = G (s - s^-2) (w1 + w2/s),   I1 = s^2 + 2/s, I2 = 2 s + s^-2
     simple shear g       T = dW/dg = G g (w1 + w2),              I1 = I2 = 3 + g^2
 
-Source: R. S. Rivlin, Phil. Trans. R. Soc. A 241 (1948) 379, doi:10.1098/rsta.1948.0024.
+Source: R. S. Rivlin, Phil. Trans. R. Soc. A 241 (1948) 379, doi:10.1098/rsta.1948.0024. The
+temporary networks of the rubber stay neo-Hookean.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from typing import Any, ClassVar, Self
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
+from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 
-Array = NDArray[np.float64]
+
+def modulus_share(name: str, value: float) -> float:
+    """Return a share of a shear modulus [-]; raise `InputError` unless it is from 0 to 1."""
+    result = checks.number(name, value)
+    if not 0.0 <= result <= 1.0:
+        raise InputError(f"{name} must be from 0 to 1; got {result:g}")
+    return result
 
 
-@dataclass(frozen=True)
-class StrainEnergy(ABC):
+class StrainEnergy(Checked, ABC):
     """A law of the permanent network; its dataclass fields are its parameters, all numbers.
 
     A fit takes G times the law as linear in coefficients c_k [Pa]. Here they are G and G times each
@@ -37,10 +45,6 @@ class StrainEnergy(ABC):
 
     least_coefficients: ClassVar[tuple[float, ...]]
     """Lower bounds of c_k [Pa]; the first is raised to where a rubber begins."""
-
-    def __post_init__(self) -> None:
-        for name, value in self.parameters().items():
-            object.__setattr__(self, name, checks.number(name, value))
 
     @abstractmethod
     def slopes(self, first: Array, second: Array) -> tuple[Array, Array]:
@@ -54,9 +58,9 @@ class StrainEnergy(ABC):
         return [plain, *(other - plain for other in others)]
 
     @classmethod
-    def from_coefficients(cls, found: Sequence[float]) -> tuple[float, Self]:
+    def from_coefficients(cls, coefficients: Sequence[float]) -> tuple[float, Self]:
         """Return G [Pa] and the law of coefficients c_k [Pa]."""
-        shear, *others = found
+        shear, *others = coefficients
         return shear, cls._of(other / shear for other in others)
 
     @classmethod
@@ -81,12 +85,11 @@ class StrainEnergy(ABC):
         return np.asarray(w1 + w2)
 
 
-# The Gaussian network, W = G/2 (I1 - 3).
-
-
-@dataclass(frozen=True)
 class NeoHookean(StrainEnergy):
-    """Gaussian network: energy in the first invariant alone."""
+    """Gaussian network: energy in the first invariant alone.
+
+    W = G/2 (I1 - 3)
+    """
 
     kind: ClassVar[str] = "neo_hookean"
     least_coefficients: ClassVar[tuple[float, ...]] = (0.0,)
@@ -96,31 +99,19 @@ class NeoHookean(StrainEnergy):
         return np.ones_like(first), np.zeros_like(second)
 
 
-# Mooney and Rivlin's network, W = G/2 ((1 - s) (I1 - 3) + s (I2 - 3)).
-#
-# Sources: M. Mooney, J. Appl. Phys. 11 (1940) 582, doi:10.1063/1.1712836; R. S. Rivlin, Phil.
-# Trans. R. Soc. A 241 (1948) 379, doi:10.1098/rsta.1948.0024.
-
-
-@dataclass(frozen=True)
 class MooneyRivlin(StrainEnergy):
     """Energy linear in both invariants.
 
-    Parameters
-    ----------
-    share : float
-        Share s of the second invariant in the shear modulus, 0 to 1 [-].
+    W = G/2 ((1 - s) (I1 - 3) + s (I2 - 3)). Sources: M. Mooney, J. Appl. Phys. 11 (1940) 582,
+    doi:10.1063/1.1712836; R. S. Rivlin, Phil. Trans. R. Soc. A 241 (1948) 379,
+    doi:10.1098/rsta.1948.0024.
     """
 
-    share: float
+    share: float = checked(modulus_share)
+    """Share s of the second invariant in the shear modulus, 0 to 1 [-]."""
 
     kind: ClassVar[str] = "mooney_rivlin"
     least_coefficients: ClassVar[tuple[float, ...]] = (0.0, 0.0)
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if not 0.0 <= self.share <= 1.0:
-            raise InputError(f"share must be from 0 to 1; got {self.share:g}")
 
     def slopes(self, first: Array, second: Array) -> tuple[Array, Array]:
         """Return w1 = 1 - s and w2 = s."""
@@ -132,34 +123,23 @@ class MooneyRivlin(StrainEnergy):
         return [cls(share).uniaxial_factor(stretch) for share in (0.0, 1.0)]
 
     @classmethod
-    def from_coefficients(cls, found: Sequence[float]) -> tuple[float, MooneyRivlin]:
+    def from_coefficients(cls, coefficients: Sequence[float]) -> tuple[float, MooneyRivlin]:
         """Return G = c1 + c2 and the law of s = c2/G."""
-        shear = sum(found)
-        return shear, cls(found[1] / shear)
+        shear = sum(coefficients)
+        return shear, cls(coefficients[1] / shear)
 
 
-# Yeoh's network, W = G/2 ((I1 - 3) + c2 (I1 - 3)^2 + c3 (I1 - 3)^3).
-#
-# Source: O. H. Yeoh, Rubber Chem. Technol. 66 (1993) 754, doi:10.5254/1.3538343.
-
-
-@dataclass(frozen=True)
 class Yeoh(StrainEnergy):
     """Cubic in the first invariant; `second` softens (negative) and `third` stiffens (positive).
 
-    Parameters
-    ----------
-    second, third : float
-        c2 and c3, the coefficients of (I1 - 3)^2 and (I1 - 3)^3 over G/2 [-].
-
-    Raises
-    ------
-    InputError
-        If one is not a finite number.
+    W = G/2 ((I1 - 3) + c2 (I1 - 3)^2 + c3 (I1 - 3)^3). Source: O. H. Yeoh, Rubber Chem. Technol. 66
+    (1993) 754, doi:10.5254/1.3538343.
     """
 
-    second: float
-    third: float
+    second: float = checked(checks.number)
+    """Coefficient c2 of (I1 - 3)^2 over G/2 [-]."""
+    third: float = checked(checks.number)
+    """Coefficient c3 of (I1 - 3)^3 over G/2 [-]."""
 
     kind: ClassVar[str] = "yeoh"
     least_coefficients: ClassVar[tuple[float, ...]] = (0.0, -np.inf, 0.0)
@@ -170,33 +150,20 @@ class Yeoh(StrainEnergy):
         return w1, np.zeros_like(second)
 
 
-# Isihara's network, W = G/2 ((1 - s) (I1 - 3) + s (I2 - 3) + c2 (I1 - 3)^2).
-#
-# Source: A. Isihara, N. Hashitsume & M. Tatibana, J. Chem. Phys. 19 (1951) 1508.
-
-
-@dataclass(frozen=True)
 class Isihara(StrainEnergy):
     """Linear in both invariants, with a quadratic term in the first.
 
-    Parameters
-    ----------
-    share : float
-        Share s of the second invariant in the shear modulus, 0 to 1 [-].
-    second : float
-        c2, the coefficient of (I1 - 3)^2 over G/2 [-].
+    W = G/2 ((1 - s) (I1 - 3) + s (I2 - 3) + c2 (I1 - 3)^2). Source: A. Isihara, N. Hashitsume & M.
+    Tatibana, J. Chem. Phys. 19 (1951) 1508.
     """
 
-    share: float
-    second: float
+    share: float = checked(modulus_share)
+    """Share s of the second invariant in the shear modulus, 0 to 1 [-]."""
+    second: float = checked(checks.number)
+    """Coefficient c2 of (I1 - 3)^2 over G/2 [-]."""
 
     kind: ClassVar[str] = "isihara"
     least_coefficients: ClassVar[tuple[float, ...]] = (0.0, 0.0, -np.inf)
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if not 0.0 <= self.share <= 1.0:
-            raise InputError(f"share must be from 0 to 1; got {self.share:g}")
 
     def slopes(self, first: Array, second: Array) -> tuple[Array, Array]:
         """Return w1 = 1 - s + 2 c2 (I1 - 3) and w2 = s."""
@@ -206,17 +173,15 @@ class Isihara(StrainEnergy):
     @classmethod
     def basis(cls, stretch: Array) -> list[Array]:
         """Return the factors of c = G (1 - s), G s, G c2."""
-        one, other = (cls(share, 0.0).uniaxial_factor(stretch) for share in (0.0, 1.0))
-        return [one, other, cls(0.0, 1.0).uniaxial_factor(stretch) - one]
+        first, second = (cls(share, 0.0).uniaxial_factor(stretch) for share in (0.0, 1.0))
+        return [first, second, cls(0.0, 1.0).uniaxial_factor(stretch) - first]
 
     @classmethod
-    def from_coefficients(cls, found: Sequence[float]) -> tuple[float, Isihara]:
+    def from_coefficients(cls, coefficients: Sequence[float]) -> tuple[float, Isihara]:
         """Return G = c1 + c2 and the law of s = c2/G and c3/G."""
-        shear = found[0] + found[1]
-        return shear, cls(found[1] / shear, found[2] / shear)
+        shear = coefficients[0] + coefficients[1]
+        return shear, cls(coefficients[1] / shear, coefficients[2] / shear)
 
-
-# Strain energies of the permanent network; the temporary networks stay neo-Hookean.
 
 STRAIN_ENERGIES: dict[str, type[StrainEnergy]] = {
     law.kind: law for law in (NeoHookean, MooneyRivlin, Yeoh, Isihara)
@@ -229,12 +194,7 @@ def strain_energy(kind: str, **parameters: float) -> StrainEnergy:
 
     Raises `InputError` if the kind is unknown, or has other parameters.
     """
-    law = STRAIN_ENERGIES[checks.one_of("kind", kind, STRAIN_ENERGIES)]
-    wanted = [field.name for field in fields(law)]
-    if set(parameters) != set(wanted):
-        takes = f"the parameters {', '.join(wanted)}" if wanted else "no parameters"
-        raise InputError(f"{kind} takes {takes}; got {', '.join(parameters) or 'none'}")
-    return law(**parameters)
+    return strain_energy_from_dict({"kind": kind, **parameters})
 
 
 def strain_energy_from_dict(values: Mapping[str, Any]) -> StrainEnergy:
@@ -242,8 +202,4 @@ def strain_energy_from_dict(values: Mapping[str, Any]) -> StrainEnergy:
 
     Raises `InputError` as `strain_energy` does, or if `values` is no such mapping.
     """
-    if not isinstance(values, Mapping):
-        raise InputError(
-            f"strain_energy must be a mapping with its kind; got {checks.short_repr(values)}"
-        )
-    return strain_energy(**{"kind": None, **values})
+    return checks.of_kind(STRAIN_ENERGIES, "strain_energy", values)

@@ -2,8 +2,13 @@
 
     E*(w, T) = E*(a_T w, T_ref) / b_T
 
-A start pair by pair from E' (`neighbours`), then all sweeps at once with their uncertainty
-(`joint`), then the reference temperature, and a report on how they meet (`report`).
+A start pair by pair, then all sweeps at once with their uncertainty (`joint_shift`), then the
+reference temperature, and a report on how they meet.
+
+For the start each sweep is taken as straight lines between its rows in log-log axes, and the
+difference of two neighbours is read at the rows of both within the overlap. The shift of a pair is
+the largest likelihood of the difference where the scatter of each modulus is unknown: the least sum
+of the logarithms of its mean squares.
 """
 
 from __future__ import annotations
@@ -15,19 +20,13 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.core.units import ZERO_CELSIUS
-from gripscale.rubber.joint_shift import MODULI, Array, Joint, Rows, align, rows_of
+from gripscale.rubber.joint_shift import MODULI, Joint, Rows, align, rows_of
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.shift import Shift, ShiftTable
 from gripscale.rubber.sweeps import Sweeps
-
-# How far two neighbouring sweeps are apart on log f: a start for all of them, and how they meet.
-#
-# Each sweep is taken as straight lines between its rows in log-log axes, and the difference of the
-# two is read at the rows of both within the overlap. The start is the largest likelihood of the
-# difference where the scatter of each modulus is unknown: the least sum of the logarithms of its
-# mean squares.
 
 _STEP = 0.02
 """Steps of the shifts that are tried [decades]."""
@@ -68,11 +67,16 @@ class Overlap:
 def start(rows: Rows, lifted: bool) -> tuple[Array, Array]:
     """Return log10 a and log10 b of each sweep against the warmest, pair by pair."""
     noise = np.array([_roughness(rows, at) for at in range(len(rows.y))])
-    steps = [
-        _apart(rows.of(colder), rows.of(colder + 1), noise, rows.lifts if lifted else None)
-        for colder in range(rows.sweeps - 1)
-    ]
-    pairs = np.array([*steps, (0.0, 0.0)])
+    lifts = rows.lifts if lifted else np.zeros_like(rows.lifts)
+    pairs = np.array(
+        [
+            *(
+                _distance(rows.of(colder), rows.of(colder + 1), noise, lifts)
+                for colder in range(rows.sweeps - 1)
+            ),
+            (0.0, 0.0),
+        ]
+    )
     total = np.cumsum(pairs[::-1], axis=0)[::-1]
     return total[:, 0], total[:, 1]
 
@@ -92,8 +96,8 @@ def difference(cold: Points, warm: Points) -> Array:
     x = x[(x >= low - 1e-12) & (x <= high + 1e-12)]
     return np.array(
         [
-            np.interp(x, cold[0], one) - np.interp(x, warm[0], other)
-            for one, other in zip(cold[1], warm[1], strict=True)
+            np.interp(x, cold[0], colder) - np.interp(x, warm[0], warmer)
+            for colder, warmer in zip(cold[1], warm[1], strict=True)
         ]
     )
 
@@ -103,8 +107,9 @@ def overlap_width(cold: Array, warm: Array) -> float:
     return float(min(cold[-1], warm[-1]) - max(cold[0], warm[0]))
 
 
-def _apart(cold: Points, warm: Points, noise: Array, lifts: Array | None) -> tuple[float, float]:
+def _distance(cold: Points, warm: Points, noise: Array, lifts: Array) -> tuple[float, float]:
     """Return by how much the colder sweep is to be shifted against the warmer one."""
+    weight = lifts / noise**2
     spans = np.ptp(cold[0]), np.ptp(warm[0])
     furthest = cold[0][-1] - warm[0][0]
     least = _LEAST_SHARE * min(spans)
@@ -114,17 +119,12 @@ def _apart(cold: Points, warm: Points, noise: Array, lifts: Array | None) -> tup
         apart = difference((cold[0] + shift, cold[1]), warm)
         if apart.shape[1] < 2:
             continue
-        lift = 0.0 if lifts is None else _lift(apart, noise, lifts)
-        left = apart + (0.0 if lifts is None else lift * lifts[:, None])
-        cost = float(np.log((left**2).mean(axis=1) + noise**2).sum())
+        lift = -float(weight @ apart.mean(axis=1) / weight.sum()) if weight.any() else 0.0
+        rest = apart + lift * lifts[:, None]
+        cost = float(np.log((rest**2).mean(axis=1) + noise**2).sum())
         if cost < least_cost:
             best, least_cost = (float(shift), lift), cost
     return best
-
-
-def _lift(apart: Array, noise: Array, lifts: Array) -> float:
-    weight = lifts / noise**2
-    return -float(weight @ apart.mean(axis=1) / weight.sum()) if weight.any() else 0.0
 
 
 def _roughness(rows: Rows, modulus: int) -> float:
@@ -132,7 +132,7 @@ def _roughness(rows: Rows, modulus: int) -> float:
 
     From the distance of each row to the straight line between its neighbours.
     """
-    found = []
+    distances = []
     for sweep in range(rows.sweeps):
         x, y = rows.of(sweep)
         if len(x) < 3:
@@ -140,11 +140,11 @@ def _roughness(rows: Rows, modulus: int) -> float:
         run = np.maximum(x[2:] - x[:-2], 1e-12)
         share = (x[1:-1] - x[:-2]) / run
         middle = y[modulus, 1:-1] - (1.0 - share) * y[modulus, :-2] - share * y[modulus, 2:]
-        found.append(middle / np.sqrt(1.0 + share**2 + (1.0 - share) ** 2))
-    return max(float(1.4826 * np.median(np.abs(np.concatenate(found)))), 2e-3) if found else 2e-3
+        distances.append(middle / np.sqrt(1.0 + share**2 + (1.0 - share) ** 2))
+    if not distances:
+        return 2e-3
+    return max(float(1.4826 * np.median(np.abs(np.concatenate(distances)))), 2e-3)
 
-
-# How well sweeps superpose: where neighbours meet, how they differ, and what is doubtful.
 
 _LITTLE = 0.5
 """Overlap below which a shift rests on a few rows [decades]."""
@@ -176,12 +176,18 @@ class Superposition:
         how = "found from the sweeps" if self.fitted else "as given"
         lines = [f"{len(self.temperatures)} sweeps superposed, shift {how}"]
         if self.overlaps:
-            width = [one.decades for one in self.overlaps]
+            width = [pair.decades for pair in self.overlaps]
+            storage, loss = (self._median(name) for name in ("storage", "loss"))
             lines.append(
                 f"neighbours overlap by {min(width):.2f} to {max(width):.2f} decades and differ in "
-                f"the median by E' {_median(self, 'storage'):.1%}, E'' {_median(self, 'loss'):.1%}"
+                f"the median by E' {storage:.1%}, E'' {loss:.1%}"
             )
         return "\n".join([*lines, *self.findings])
+
+    def _median(self, name: str) -> float:
+        values = np.array([getattr(pair, name) for pair in self.overlaps])
+        finite = values[np.isfinite(values)]
+        return float(10.0 ** np.median(finite) - 1.0) if finite.size else float("nan")
 
 
 def report(
@@ -191,16 +197,23 @@ def report(
 
     `joint` is the scatter of each modulus about the smooth curve, empty if the shift was given.
     """
-    places = temperatures_in(shift, sweeps.temperatures, sweeps.tolerance)
-    a, b = shift.log_a(places, reference), shift.log_b(places, reference)
-    shifted = [
-        _points(one.frequency, one.storage, one.loss, along, up)
-        for one, along, up in zip(sweeps, a, b, strict=True)
-    ]
-    pairs = zip(places, places[1:], shifted, shifted[1:], strict=False)
+    kelvin = temperatures_in(shift, sweeps.temperatures, sweeps.tolerance)
+    a, b = shift.log_a(kelvin, reference), shift.log_b(kelvin, reference)
+    shifted = []
+    for sweep, along, up in zip(sweeps, a, b, strict=True):
+        y = np.log10([sweep.storage, sweep.loss, sweep.loss / sweep.storage])
+        y[:2] += up
+        shifted.append((np.log10(sweep.frequency) + along, y))
+    pairs = zip(kelvin, kelvin[1:], shifted, shifted[1:], strict=False)
     overlaps = tuple(overlap(float(t), float(u), cold, warm) for t, u, cold, warm in pairs)
-    found = (*_findings(overlaps, shift), *_lifted(shift, bool(joint)))
-    return Superposition(sweeps.temperatures, overlaps, bool(joint), joint, found)
+    warnings = list(superposition_warnings(overlaps, shift))
+    if joint and isinstance(shift, ShiftTable) and (shift.vertical != 0.0).any():
+        warnings.append(
+            "a_T and b_T were found together: where E' and E'' are nearly one power law, as on a "
+            "rubbery plateau, one stands for the other, and both may be worse than their "
+            "standard errors"
+        )
+    return Superposition(sweeps.temperatures, overlaps, bool(joint), joint, tuple(warnings))
 
 
 def temperatures_in(shift: Shift, temperatures: Array, tolerance: float) -> Array:
@@ -210,8 +223,8 @@ def temperatures_in(shift: Shift, temperatures: Array, tolerance: float) -> Arra
     """
     if not isinstance(shift, ShiftTable):
         return temperatures
-    own = shift.temperature
-    nearest = own[np.abs(np.subtract.outer(temperatures, own)).argmin(axis=1)]
+    rows = shift.temperature
+    nearest = rows[np.abs(np.subtract.outer(temperatures, rows)).argmin(axis=1)]
     return np.where(np.abs(nearest - temperatures) <= tolerance, nearest, temperatures)
 
 
@@ -223,26 +236,15 @@ def overlap(colder: float, warmer: float, cold: Points, warm: Points) -> Overlap
     return Overlap(colder, warmer, width, apart.shape[1], *map(float, rms))
 
 
-def _points(frequency: Array, storage: Array, loss: Array, along: float, up: float) -> Points:
-    y = np.log10([storage, loss, loss / storage])
-    y[:2] += up
-    return np.log10(frequency) + along, y
-
-
-def _median(superposition: Superposition, name: str) -> float:
-    values = np.array([getattr(one, name) for one in superposition.overlaps])
-    known = values[np.isfinite(values)]
-    return float(10.0 ** np.median(known) - 1.0) if known.size else float("nan")
-
-
-def _findings(overlaps: tuple[Overlap, ...], shift: Shift) -> Iterator[str]:
-    little = [one for one in overlaps if one.decades < _LITTLE]
+def superposition_warnings(overlaps: tuple[Overlap, ...], shift: Shift) -> Iterator[str]:
+    """Yield what is doubtful about how sweeps meet, a sentence each."""
+    little = [str(pair) for pair in overlaps if pair.decades < _LITTLE]
     if little:
-        yield "neighbours hardly overlap, so that their shift is uncertain: " + _listed(little)
+        yield f"neighbours hardly overlap, so that their shift is uncertain: {'; '.join(little)}"
     for name, words in (("storage", "E'"), ("loss", "E''")):
-        apart = [one for one in overlaps if getattr(one, name) > _MISFIT]
+        apart = [pair for pair in overlaps if getattr(pair, name) > _MISFIT]
         if apart:
-            worst = max(getattr(one, name) for one in apart)
+            worst = max(getattr(pair, name) for pair in apart)
             yield (
                 f"{words} of {len(apart)} of {len(overlaps)} neighbours does not superpose (apart "
                 f"by up to {10.0**worst - 1.0:.0%} in the root mean square), from "
@@ -256,19 +258,6 @@ def _findings(overlaps: tuple[Overlap, ...], shift: Shift) -> Iterator[str]:
             f"the standard error of log10 a_T reaches {shift.horizontal_error[at]:.2f}, at "
             f"{shift.temperature[at] - ZERO_CELSIUS:.1f} °C"
         )
-
-
-def _lifted(shift: Shift, fitted: bool) -> Iterator[str]:
-    if fitted and isinstance(shift, ShiftTable) and (shift.vertical != 0.0).any():
-        yield (
-            "a_T and b_T were found together: where E' and E'' are nearly one power law, as on a "
-            "rubbery plateau, one stands for the other, and both may be worse than their "
-            "standard errors"
-        )
-
-
-def _listed(overlaps: list[Overlap]) -> str:
-    return "; ".join(map(str, overlaps))
 
 
 _NOISE = 0.01
@@ -341,21 +330,28 @@ def superpose_report(
     checks.one_of("moduli", moduli, MODULI)
     scatter: dict[str, float] = {}
     if shift is None:
-        shift, scatter = _found(sweeps, reference, lifted, moduli)
-    else:
-        shift = _given(shift, reference, lifted)
-    return _master(sweeps, shift, reference), report(sweeps, shift, reference, scatter)
-
-
-def _given(shift: Shift, reference: float, lifted: bool) -> Shift:
-    if not isinstance(shift, Shift):
+        shift, scatter = _fitted_shift(sweeps, reference, lifted, moduli)
+    elif not isinstance(shift, Shift):
         raise InputError(f"shift must be a Shift, such as WLF; got {checks.short_repr(shift)}")
-    if lifted:
+    elif lifted:
         raise InputError("vertical must be False with a shift that is given; got True")
-    return shift.bound(reference)
+    shift = shift.bound(reference)
+    kelvin = temperatures_in(shift, sweeps.temperatures, sweeps.tolerance)
+    rows = [len(sweep) for sweep in sweeps]
+    a, b = (np.repeat(part(kelvin, reference), rows) for part in (shift.a, shift.b))
+    master = MasterCurve(
+        sweeps.frequency * a,
+        sweeps.storage * b,
+        sweeps.loss * b,
+        reference_temperature=reference,
+        name=sweeps.name,
+        source=sweeps.source,
+        shift=shift,
+    )
+    return master, report(sweeps, shift, reference, scatter)
 
 
-def _found(
+def _fitted_shift(
     sweeps: Sweeps, reference: float, lifted: bool, moduli: str
 ) -> tuple[ShiftTable, dict[str, float]]:
     """Return the shift of the sweeps, and the scatter of each modulus."""
@@ -384,21 +380,18 @@ def _require_common(sweeps: Sweeps, rows: Rows) -> None:
     for colder in range(rows.sweeps - 1):
         cold, warm = rows.of(colder), rows.of(colder + 1)
         if min(len(cold[0]), len(warm[0])) < 2 or no_common_modulus(cold, warm, _NOISE):
-            raise _nothing_common(sweeps, colder)
-
-
-def _nothing_common(sweeps: Sweeps, colder: int) -> InputError:
-    low, high = sweeps.temperatures[colder : colder + 2] - ZERO_CELSIUS
-    return InputError(
-        f"sweeps at neighbouring temperatures must overlap for a shift to be found; those at "
-        f"{low:.2f} and {high:.2f} °C do not: give the shift, or superpose either side alone"
-    )
+            low, high = sweeps.temperatures[colder : colder + 2] - ZERO_CELSIUS
+            raise InputError(
+                "sweeps at neighbouring temperatures must overlap for a shift to be found; those "
+                f"at {low:.2f} and {high:.2f} °C do not: give the shift, or superpose either side "
+                "alone"
+            )
 
 
 def _table(kelvin: Array, reference: float, joint: Joint, lifted: bool) -> ShiftTable:
     """Return the shifts against the reference temperature, with their errors."""
     count = len(kelvin)
-    share = np.array([np.interp(reference, kelvin, one) for one in np.eye(count)])
+    share = np.array([np.interp(reference, kelvin, unit) for unit in np.eye(count)])
     against = np.eye(count) - share
     error = [
         np.sqrt(np.maximum(np.diag(against @ block @ against.T), 0.0))
@@ -412,19 +405,4 @@ def _table(kelvin: Array, reference: float, joint: Joint, lifted: bool) -> Shift
         held.log_b(kelvin, reference) if lifted else None,
         error[1] if lifted else None,
         reference_temperature=reference,
-    )
-
-
-def _master(sweeps: Sweeps, shift: Shift, reference: float) -> MasterCurve:
-    kelvin = temperatures_in(shift, sweeps.temperatures, sweeps.tolerance)
-    rows = [len(one) for one in sweeps]
-    a, b = (np.repeat(part(kelvin, reference), rows) for part in (shift.a, shift.b))
-    return MasterCurve(
-        sweeps.frequency * a,
-        sweeps.storage * b,
-        sweeps.loss * b,
-        reference_temperature=reference,
-        name=sweeps.name,
-        source=sweeps.source,
-        shift=shift,
     )

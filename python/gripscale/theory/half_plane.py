@@ -44,7 +44,7 @@ from gripscale.core.arrays import Array, ComplexArray, Mask
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.rubber import Rubber
-from gripscale.rubber.material import require_solid
+from gripscale.rubber.material import require_load_bearing
 from gripscale.theory.elastic import (
     full_contact_friction,
     full_contact_pressure,
@@ -368,5 +368,5 @@ def solve_half_plane(
     """
     problem = WaveProblem(rubber, Sine(wavelength, amplitude), WaveLoad(pressure, speed, load_time))
     if problem.load.speed == 0.0:
-        require_solid(rubber, problem.load.pressure, math.inf)
+        require_load_bearing(rubber, problem.load.pressure, math.inf)
     return HalfPlane(points, poisson_ratio, most_iterations).solve(problem)

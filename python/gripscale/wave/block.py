@@ -19,7 +19,7 @@ import numpy as np
 from gripscale.core import checks
 from gripscale.core.checks import Checked, checked
 from gripscale.rubber import Rubber
-from gripscale.rubber.material import require_solid
+from gripscale.rubber.material import require_load_bearing
 from gripscale.wave import kernel
 from gripscale.wave.kernel import face_of
 from gripscale.wave.problem import Mesh, Sine, Status, WaveLoad, WaveProblem
@@ -257,7 +257,7 @@ def solve_scale(
     """
     problem = WaveProblem(rubber, Sine(wavelength, amplitude), WaveLoad(pressure, speed, load_time))
     if problem.load.speed == 0.0:
-        require_solid(rubber, problem.load.pressure, math.inf)
+        require_load_bearing(rubber, problem.load.pressure, math.inf)
     block = FiniteStrainBlock.of(
         columns=columns,
         rows=rows,

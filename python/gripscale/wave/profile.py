@@ -18,7 +18,7 @@ from gripscale.core import checks, provenance
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.rubber import Rubber
-from gripscale.rubber.material import require_solid
+from gripscale.rubber.material import require_load_bearing
 from gripscale.surface import PreparedSurface, Profile, SurfacePart
 from gripscale.surface.resampling import filled
 from gripscale.wave import kernel
@@ -151,7 +151,7 @@ def solve_profile(
     )
     problem = WaveProblem(rubber, heights, WaveLoad(pressure, speed, load_time))
     if problem.load.speed == 0.0:
-        require_solid(rubber, problem.load.pressure, math.inf)
+        require_load_bearing(rubber, problem.load.pressure, math.inf)
     result = block.solve(problem, start, workers=workers)
     in_contact = result.x[result.pressure > 0.0]
     further = {
