@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import re
 import tomllib
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -21,6 +20,7 @@ from gripscale.conditions import (
 )
 from gripscale.core.errors import InputError
 from gripscale.io import netcdf
+from tests.samples import DOCS
 
 from .synthetic import REFERENCE, TRUE, measurement
 
@@ -241,7 +241,7 @@ def test_what_does_not_suffice_is_one_sentence(
 
 
 def test_the_page_lists_every_variable() -> None:
-    page = (Path(__file__).parents[2] / "docs" / "measured-friction.md").read_text(encoding="utf-8")
+    page = (DOCS / "measured-friction.md").read_text(encoding="utf-8")
     listed = set(re.findall(r"`(\w+)`", page))
     data = calibrate(*measurement(), hold_out="speed").to_dataset()
     assert set(map(str, data.variables)) <= listed

@@ -18,9 +18,9 @@ from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Measured, PreparedSurface, SineStack, self_affine_profile
 from gripscale.theory import HalfPlane
 from gripscale.wave import BlockOnProfile, Status
+from tests.samples import GENTLE_SINES as STACK
 
 RUBBER = Rubber(1e6, [9e6], [0.01])
-STACK = SineStack([10e-3, 4e-3], [2e-4, 5e-5])
 LINE = surface_of_sines(STACK, 20e-3, 1)
 SURFACE = PreparedSurface(STACK, "", measured=Measured.of([LINE]))
 LOAD = NominalLoad(5e4, 0.1, 0.1, math.inf)

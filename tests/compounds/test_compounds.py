@@ -14,25 +14,15 @@ from gripscale.io import netcdf
 from gripscale.report import write_report
 from gripscale.report.tables_comparison import compounds_sentences
 from gripscale.rubber import WLF, MasterCurve, fit_prony
+from tests.samples import HALF_PLANE, case_text
 
 COLD, ROOM, WARM = 273.15, 293.15, 313.15
 
-CASE = """\
-[surface]
-sines = [
-  { wavelength = "10 mm", amplitude = "1 mm" },
-  { wavelength = "2 mm", amplitude = "0.2 mm" },
-]
-[rubber]
-name = "styrene_butadiene"
-[load]
-pressure = "3 bar"
-speed = "0.3 m/s"
-footprint = "100 mm"
-[solver]
-model = "half_plane"
-points = 128
-"""
+CASE = case_text(
+    'sines = [{ wavelength = "10 mm", amplitude = "1 mm" }, '
+    '{ wavelength = "2 mm", amplitude = "0.2 mm" }]',
+    solver=HALF_PLANE.replace("64", "128"),
+)
 
 
 def solid(kelvin: float | None, *, shift: bool) -> gs.Rubber:

@@ -13,32 +13,24 @@ import gripscale as gs
 from gripscale.analysis import effect_tasks, effects
 from gripscale.chain import Chain
 from gripscale.charts import effects_figure
-from gripscale.conditions import Conditions, ConstantStress, ThermalProperties
+from gripscale.conditions import Conditions, ConstantStress
 from gripscale.core.errors import InputError
 from gripscale.experiment import Progress
 from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
-from gripscale.model import NominalLoad
 from gripscale.report.tables_comparison import effects_table
 from gripscale.report.tables_run import as_text
-from gripscale.rubber import WLF
 from gripscale.rubber.softening import Kraus
 from gripscale.surface import Measured, PreparedSurface
 from gripscale.theory import HalfPlane, Persson
+from tests.samples import SHIFTED_LOAD as LOAD
+from tests.samples import SHIFTED_RUBBER as RUBBER
+from tests.samples import SHIFTED_SINES as SINES
+from tests.samples import THERMAL as HEAT
 
-RUBBER = gs.Rubber(
-    5e6,
-    np.geomspace(3e6, 3e8, 10),
-    np.geomspace(1e-1, 1e-9, 10),
-    reference_temperature=293.15,
-    shift=WLF(c1=8.86, c2=101.6),
-)
-SINES = gs.SineStack([4e-3, 1e-3], [2e-4, 6e-5])
-LOAD = NominalLoad(3e5, 1.0, 0.05)
 KRAUS = Kraus(
     storage_ratio=0.3, loss_ratio=0.2, critical_strain=0.02, measured_at=1e-3, deformation="shear"
 )
-HEAT = ThermalProperties(conductivity=0.25, density=1150.0, specific_heat=1500.0)
 EVERYTHING = Conditions(
     temperature=313.15, softening=KRAUS, heat=HEAT, shear_stress=ConstantStress(2e6)
 )

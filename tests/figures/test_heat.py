@@ -12,18 +12,11 @@ from gripscale.charts import direct_heat_figure, heat_figure
 from gripscale.conditions import Conditions, ThermalProperties
 from gripscale.core.errors import InputError
 from gripscale.report.tables_run import as_text, heat_table
-from gripscale.rubber import WLF
 from gripscale.surface import HeightMap
+from tests.samples import SHIFTED_RUBBER as RUBBER
+from tests.samples import SHIFTED_VALUES as LOAD
 
-RUBBER = gs.Rubber(
-    5e6,
-    np.geomspace(3e6, 3e8, 10),
-    np.geomspace(1e-1, 1e-9, 10),
-    reference_temperature=293.15,
-    shift=WLF(c1=8.86, c2=101.6),
-)
 HEAT = Conditions(heat=ThermalProperties(conductivity=0.25, density=1150.0, specific_heat=1500.0))
-LOAD = {"pressure": 3e5, "speed": 1.0, "footprint": 0.05}
 STEP = 1e-5
 
 

@@ -17,6 +17,7 @@ from gripscale.io import netcdf
 from gripscale.model import TOTALS
 from gripscale.report import write_report
 from gripscale.rubber import WLF, Rubber
+from tests.samples import DOCS
 
 RUBBER = Rubber(5e6, [4e6], [1e-2], reference_temperature=293.15, shift=WLF(c1=8.0, c2=120.0))
 SPEED = np.geomspace(1e-2, 10.0, 25)
@@ -56,7 +57,7 @@ def test_the_collapse_of_one_curve_is_below_a_thousandth(study: xr.Dataset) -> N
 
 
 def test_the_variables_are_listed_with_their_units(study: xr.Dataset) -> None:
-    text = (Path(__file__).parents[2] / "docs" / "conditions.md").read_text(encoding="utf-8")
+    text = (DOCS / "conditions.md").read_text(encoding="utf-8")
     listed = dict(re.findall(r"^\| `(\w+)` \| (\S+) \|", text, re.MULTILINE))
     known = {"speed", "temperature", "prediction_status", *TOTALS}
     assert listed == {

@@ -12,6 +12,7 @@ import xarray as xr
 from gripscale.core.errors import FileError
 from gripscale.export import write_tables
 from gripscale.rubber import read_master_curve
+from tests.samples import ROOT
 
 EXTRA = "export"
 HINT = f"needs openpyxl, which is not installed; install it with: pip install 'gripscale[{EXTRA}]'"
@@ -33,6 +34,6 @@ def test_reading_and_writing_give_the_same_hint(tmp_path: Path) -> None:
 
 
 def test_the_extra_has_it() -> None:
-    project = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text())
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())
     extras = project["project"]["optional-dependencies"]
     assert any(needed.startswith("openpyxl") for needed in extras[EXTRA])

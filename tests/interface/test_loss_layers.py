@@ -7,7 +7,6 @@ import gripscale as gs
 from gripscale.chain.heat import WaveHeat
 from gripscale.conditions import (
     LossDepth,
-    ThermalProperties,
     harmonic_at_surface,
     harmonic_decay,
     harmonic_where_lost,
@@ -15,8 +14,8 @@ from gripscale.conditions import (
     uniform_where_lost,
 )
 from gripscale.conditions.flash_temperature import LossLayers
+from tests.samples import THERMAL
 
-THERMAL = ThermalProperties(conductivity=0.25, density=1150.0, specific_heat=1500.0)
 WAVELENGTH = 1e-3
 K = 2.0 * np.pi / WAVELENGTH
 PLANE = LossDepth.under(K)

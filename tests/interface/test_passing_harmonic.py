@@ -9,7 +9,6 @@ from scipy.special import gamma
 
 from gripscale.conditions import (
     LossDepth,
-    ThermalProperties,
     harmonic_at_surface,
     harmonic_decay,
     harmonic_where_lost,
@@ -17,8 +16,7 @@ from gripscale.conditions import (
     uniform_where_lost,
 )
 from gripscale.conditions.flash_temperature import passing_at_surface, passing_where_lost
-
-THERMAL = ThermalProperties(conductivity=0.25, density=1150.0, specific_heat=1500.0)
+from tests.samples import THERMAL
 
 
 def integrated(m: complex, time: float, depth: LossDepth, of: str) -> complex:

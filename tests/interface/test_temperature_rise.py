@@ -18,8 +18,8 @@ from gripscale.conditions import (
     uniform_where_lost,
 )
 from gripscale.conditions.flash_temperature import ierfc
+from tests.samples import THERMAL
 
-THERMAL = ThermalProperties(conductivity=0.25, density=1150.0, specific_heat=1500.0)
 KAPPA, D = 0.25, THERMAL.diffusivity
 SURFACE = LossDepth(0.0)
 

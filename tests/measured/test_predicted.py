@@ -22,11 +22,12 @@ from gripscale.half_space.model import DirectContact
 from gripscale.model import NominalLoad
 from gripscale.surface import Measured, PreparedSurface
 from gripscale.theory.half_plane import HalfPlane
-from tests.conditions.shifted import RUBBER, SINES
+from tests.samples import SHIFTED_LOAD as LOAD
+from tests.samples import SHIFTED_RUBBER as RUBBER
+from tests.samples import SHIFTED_SINES as SINES
 
 LAW = GaussianStress(6e6, 0.1, 6e-3, 0.97, 293.15)
 HEAT = ThermalProperties(0.25, 1150.0, 1500.0)
-LOAD = NominalLoad(3e5, 1.0, 0.05)
 MEASURED = MeasuredFriction(
     [0.1, 1.0, 1.0],
     [0.5, 0.6, 0.7],

@@ -16,23 +16,11 @@ from gripscale.cli import app
 from gripscale.core.errors import InputError
 from gripscale.report.tables_comparison import roads_sentences
 from gripscale.surface import Profile, self_affine_profile
-from tests.written import write_road
+from tests.samples import HALF_PLANE, case_text, write_road
 
-CASE = """\
-[surface]
-files = ["road.txt"]
-scales = 4
-smallest_wavelength = "1 mm"
-[rubber]
-name = "styrene_butadiene"
-[load]
-pressure = "3 bar"
-speed = "0.3 m/s"
-footprint = "100 mm"
-[solver]
-model = "half_plane"
-points = 64
-"""
+CASE = case_text(
+    'files = ["road.txt"]\nscales = 4\nsmallest_wavelength = "1 mm"', solver=HALF_PLANE
+)
 
 
 @pytest.fixture(scope="module")

@@ -12,10 +12,10 @@ from gripscale.half_space.grid import Grid, periodic_heights
 from gripscale.half_space.grid_sequence import GridSequence, Level, finer, levels
 from gripscale.half_space.response import HalfSpace
 from gripscale.surface import HeightMap, Profile
+from tests.samples import ZENER
 
 WAVELENGTH, AMPLITUDE, RELAXED, TIME = 1e-3, 1e-5, 3e6, 1e-2
 SLOPE = 2.0 * np.pi * AMPLITUDE / WAVELENGTH
-ZENER = gs.Rubber(1e6, [9e6], [1e-3])
 
 
 def sine(points: int = 256) -> Profile:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,6 +16,7 @@ from gripscale.theory import (
     plane_strain_modulus,
     solve_half_plane,
 )
+from tests.samples import ROOT
 
 from .rough_cases import (
     AMPLITUDE,
@@ -33,7 +33,7 @@ from .rough_cases import (
     solve,
 )
 
-REFERENCE = Path(__file__).parents[1] / "reference"
+REFERENCE = ROOT / "tests" / "reference"
 FULL = full_contact_pressure(
     plane_strain_modulus(RELAXED, 0.5), wavelength=WAVELENGTH, amplitude=AMPLITUDE
 )

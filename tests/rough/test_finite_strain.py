@@ -13,11 +13,11 @@ from gripscale.half_space import one_period, solve_both_ways, spread_windows, su
 from gripscale.half_space.grid import periodic_heights
 from gripscale.surface import Profile, SineStack, self_affine_profile
 from gripscale.wave import Status
+from tests.samples import GENTLE_SINES as GENTLE
 
 from .rough_cases import ZENER
 
 LINE = self_affine_profile(0.8, 5e-3, 1e-3, 0.2, 1e-4, seed=4)
-GENTLE = SineStack([10e-3, 4e-3], [2e-4, 5e-5])
 LOAD = {"pressure": 5e4, "speed": 0.1}
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.conditions import LossDepth, ThermalProperties, harmonic_at_surface, harmonic_decay
+from gripscale.conditions import LossDepth, harmonic_at_surface, harmonic_decay
 from gripscale.half_space.conditions import (
     OctaveHeat,
     grid_temperature,
@@ -12,8 +12,8 @@ from gripscale.half_space.conditions import (
     strain_by_scale,
 )
 from gripscale.half_space.grid import Grid
+from tests.samples import THERMAL
 
-THERMAL = ThermalProperties(conductivity=0.25, density=1150.0, specific_heat=1500.0)
 RUBBER = gs.Rubber(5e6, np.geomspace(3e6, 3e8, 8), np.geomspace(1e-1, 1e-8, 8))
 
 

@@ -8,34 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-from typer.testing import CliRunner, Result
 
-from gripscale.cli import app
+from tests.samples import THREE_WAVES, case_text
 
-CASE = """\
-[[surface.sines]]
-wavelength = "10 mm"
-amplitude = "0.8 mm"
-[[surface.sines]]
-wavelength = "3 mm"
-amplitude = "0.25 mm"
-[[surface.sines]]
-wavelength = "1 mm"
-amplitude = "0.08 mm"
-
-[rubber]
-name = "styrene_butadiene"
-
-[load]
-pressure = "3 bar"
-speed = "0.3 m/s"
-footprint = "100 mm"
-static = false
-
-[solver]
-columns = 32
-rows = 8
-"""
+CASE = case_text(THREE_WAVES, static=False)
 
 
 @pytest.fixture
@@ -43,17 +19,6 @@ def case(tmp_path: Path) -> Path:
     path = tmp_path / "case.toml"
     path.write_text(CASE)
     return path
-
-
-@pytest.fixture
-def shell() -> Callable[..., Result]:
-    """Run the command line in this process, as if its output went to a file."""
-
-    def run(*arguments: object) -> Result:
-        environment = {"COLUMNS": "100", "NO_COLOR": "1", "TERM": "dumb"}
-        return CliRunner().invoke(app, [str(a) for a in arguments], env=environment)
-
-    return run
 
 
 @pytest.fixture

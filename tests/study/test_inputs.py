@@ -12,9 +12,9 @@ import gripscale as gs
 from gripscale.case import read_case
 from gripscale.core.errors import FileError, InputError
 from gripscale.experiment.inputs import case_surface, rubber_of, surface_of
-from tests.written import write_road
+from tests.samples import EXAMPLES, write_road
 
-EXAMPLE = Path(__file__).parents[2] / "examples" / "road_and_tread" / "case.toml"
+EXAMPLE = EXAMPLES / "road_and_tread" / "case.toml"
 STACK = gs.SineStack(wavelength=20e-3 / 3.0 ** np.arange(5), amplitude=2e-3 / 2.2 ** np.arange(5))
 
 

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from typer.testing import Result
 
 from gripscale.io import netcdf
 from gripscale.wave import FiniteStrainBlock, Status, WaveProblem, WaveResult
-
-Shell = Callable[..., Result]
+from tests.samples import Shell
 
 
 def test_command_solves_prints_draws_and_resumes(shell: Shell, case: Path) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -10,12 +9,11 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
-from typer.testing import Result
 
 import gripscale as gs
 from gripscale.analysis import compare_case
 from gripscale.chain import Chain
-from gripscale.conditions import Conditions, ConstantStress, ThermalProperties
+from gripscale.conditions import Conditions, ConstantStress
 from gripscale.core.errors import InputError
 from gripscale.experiment import Study
 from gripscale.half_space.model import DirectContact
@@ -24,8 +22,8 @@ from gripscale.report.tables_study import collapse_sentences, shift_sentence, st
 from gripscale.rubber import ShiftTable
 from gripscale.surface import self_affine_profile
 from gripscale.theory import HalfPlane, Persson
-
-Shell = Callable[..., Result]
+from tests.samples import THERMAL as HEAT
+from tests.samples import Shell
 
 CASE = """
 [surface]
@@ -46,7 +44,6 @@ static = false
 model = "half_plane"
 points = 256
 """
-HEAT = ThermalProperties(conductivity=0.25, density=1150.0, specific_heat=1500.0)
 SPEEDS = "0.1:10:log9"
 """Four in a decade."""
 

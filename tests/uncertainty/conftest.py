@@ -11,25 +11,14 @@ from gripscale import Rubber
 from gripscale.analysis.sampled_inputs import Inputs, Measurement
 from gripscale.case import prepare_case
 from gripscale.surface import self_affine_profile
-from tests.written import write_master_curve, write_road
+from tests.samples import HALF_PLANE, case_text, write_master_curve, write_road
 
-CASE = """\
-[surface]
-files = ["road.txt"]
-scales = 4
-smallest_wavelength = "1 mm"
-[rubber]
-file = "dma.txt"
-terms = 8
-[load]
-pressure = "3 bar"
-speed = "0.3 m/s"
-footprint = "100 mm"
-static = false
-[solver]
-model = "half_plane"
-points = 64
-"""
+CASE = case_text(
+    'files = ["road.txt"]\nscales = 4\nsmallest_wavelength = "1 mm"',
+    'file = "dma.txt"\nterms = 8',
+    HALF_PLANE,
+    static=False,
+)
 
 
 @pytest.fixture(scope="session")

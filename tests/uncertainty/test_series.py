@@ -5,12 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gripscale import MasterCurve, Rubber
+from gripscale import MasterCurve
 from gripscale.analysis import SeriesScatter
 from gripscale.rubber import fit_prony_report
+from tests.samples import POWER_LAW as TRUE
 
-TIMES = np.geomspace(1e-8, 1e2, 41)
-TRUE = Rubber(6e6, 1e6 * (TIMES / 1e-2) ** -0.3, TIMES)
 FREQUENCY = np.geomspace(1e-1, 1e6, 60)
 OMEGA = 2 * np.pi * np.geomspace(1.0, 1e5, 6)
 
