@@ -14,7 +14,7 @@ import pytest
 
 from gripscale.core.checks import short_repr
 from gripscale.core.errors import ConvergenceError, FileError, InputError
-from tests.ground.doors import Door, doors
+from tests.core.doors import Door, doors
 
 FOLLOWS = ("omega", "wavelength", "amplitude", "load_time", "profile", "heights")
 """What else a sentence may name: it follows from the arguments."""
