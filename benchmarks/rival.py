@@ -24,7 +24,7 @@ import gripscale as gs
 from benchmarks.table import show
 from gripscale.half_space.grid_sequence import LevelContact
 from gripscale.surface import HeightMap, Profile
-from tests.rough.rough_cases import isotropic_map, on_grid
+from tests.half_space.rough_cases import isotropic_map, on_grid
 
 RELAXED, ELEMENT, TIME = 1e6, 9e6, 2e-3
 """Young's moduli [Pa] and relaxation time [s] of a Zener solid."""

@@ -1,4 +1,4 @@
-"""What all tests stand on: the cores of their process, and the browser of those that open pages."""
+"""What all tests stand on: the cores of their process, the command line, and the browser."""
 
 from __future__ import annotations
 
@@ -8,9 +8,12 @@ from contextlib import nullcontext
 from typing import Any
 
 import pytest
+from typer.testing import CliRunner, Result
 
+from gripscale.cli import app
 from gripscale.core.parallel import sharing
 from tests.browsing import started_browser
+from tests.samples import Shell
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -18,6 +21,17 @@ def _own_core() -> Iterator[None]:
     """Let a process of pytest-xdist use one core: the others have theirs."""
     with sharing(1) if "PYTEST_XDIST_WORKER" in os.environ else nullcontext():
         yield
+
+
+@pytest.fixture
+def shell() -> Shell:
+    """Run the command line in this process, as if its output went to a file."""
+
+    def run(*arguments: object, columns: int = 100) -> Result:
+        environment = {"COLUMNS": str(columns), "NO_COLOR": "1", "TERM": "dumb"}
+        return CliRunner().invoke(app, [str(argument) for argument in arguments], env=environment)
+
+    return run
 
 
 @pytest.fixture(scope="module")

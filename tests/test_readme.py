@@ -1,11 +1,11 @@
 """The README's Python example runs, prints what the README says, and its links lead somewhere."""
 
 import re
-from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parents[1]
+from tests.samples import ROOT
+
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?")
 
 

@@ -7,28 +7,9 @@ from pathlib import Path
 import pytest
 
 from tests.cli.conftest import inputs as inputs
+from tests.samples import TWO_WAVES, case_text
 
-CASE = """\
-[[surface.sines]]
-wavelength = "10 mm"
-amplitude = "0.8 mm"
-[[surface.sines]]
-wavelength = "3 mm"
-amplitude = "0.25 mm"
-
-[rubber]
-name = "styrene_butadiene"
-
-[load]
-pressure = "3 bar"
-speed = "0.3 m/s"
-footprint = "100 mm"
-static = true
-
-[solver]
-columns = 32
-rows = 8
-"""
+CASE = case_text(TWO_WAVES, static=True)
 
 
 @pytest.fixture

@@ -30,6 +30,7 @@ from gripscale.core.units import parse_quantity
 from gripscale.rubber import NeoHookean, Yeoh
 from gripscale.surface import fit_sines, height_difference, self_affine_profile
 from tests.case.cases import refusal, written
+from tests.samples import DOCS, EXAMPLES
 
 GOOD = """
 [surface]
@@ -54,7 +55,7 @@ def test_quantities_become_si_and_defaults_are_filled_in(tmp_path: Path) -> None
 
 
 def test_the_closer_chain_of_the_documentation_is_a_case(tmp_path: Path) -> None:
-    page = Path(__file__).parents[2] / "docs" / "chain-and-direct-contact.md"
+    page = DOCS / "chain-and-direct-contact.md"
     [stated] = re.findall(r"```toml\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
     file = read_case(written(tmp_path, stated + GOOD[GOOD.index("[rubber]") :]))
     case = file.case
@@ -350,7 +351,7 @@ def test_case_in_another_encoding_is_refused(tmp_path: Path) -> None:
 
 
 def test_shipped_case_is_valid_and_its_files_are_there() -> None:
-    shipped = Path(__file__).parents[2] / "examples" / "road_and_tread" / "case.toml"
+    shipped = EXAMPLES / "road_and_tread" / "case.toml"
     file = read_case(shipped)
     surface, rubber = file.case.surface, file.case.rubber
     assert len(surface.files or []) == 2

@@ -15,27 +15,9 @@ from gripscale.case import prepare_case, read_case, run_case
 from gripscale.cli import app
 from gripscale.experiment import Study
 from gripscale.io import netcdf
-from tests.written import write_road
+from tests.samples import HALF_PLANE, case_text, write_road
 
-CASE = """\
-[surface]
-files = ["road.txt"]
-scales = 3
-{end}
-
-[rubber]
-name = "styrene_butadiene"
-
-[load]
-pressure = "3 bar"
-speed = "0.3 m/s"
-footprint = "100 mm"
-static = false
-
-[solver]
-model = "half_plane"
-points = 64
-"""
+CASE = case_text('files = ["road.txt"]\nscales = 3\n{end}', solver=HALF_PLANE, static=False)
 ROAD = surface.self_affine_profile(0.8, 3e-3, 6e-4, length=0.1, step=1e-4, seed=1)
 
 

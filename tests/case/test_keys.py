@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import fields
-from pathlib import Path
 from typing import Any, get_args
 
 import pytest
@@ -16,8 +15,7 @@ from gripscale.case.keys import NEEDED, sections
 from gripscale.case.schema import ByKind, StatedLaw, table_of
 from gripscale.cli import app
 from gripscale.rubber.strain_energy import STRAIN_ENERGIES
-
-DOCS = Path(__file__).parents[2] / "docs"
+from tests.samples import DOCS
 
 
 def nested(annotation: Any, metadata: Any = ()) -> Iterator[type[BaseModel]]:

@@ -18,7 +18,7 @@ from gripscale.half_space import DirectContact
 from gripscale.model import NominalLoad
 from gripscale.report.inputs_text import surface_lines
 from gripscale.theory import HalfPlane
-from tests.rough.rough_cases import ZENER, isotropic_heights
+from tests.half_space.rough_cases import ZENER, isotropic_heights
 
 LOAD = NominalLoad(3e5, 0.3, 0.1)
 STATED = """

@@ -8,7 +8,6 @@ from typing import Any, ClassVar
 import numpy as np
 
 from gripscale.rubber import Rubber
-from gripscale.surface import SineStack
 from gripscale.wave import Status, WaveProblem, WaveResult
 
 
@@ -20,9 +19,6 @@ class Spring(Rubber):
 
     def complex_modulus(self, omega: Any) -> Any:
         return np.full(np.shape(omega), 4e6 + 3e6j)
-
-
-THREE = SineStack(wavelength=[16e-3, 4e-3, 1e-3], amplitude=[1e-3, 0.5e-3, 0.125e-3])
 
 
 @dataclass

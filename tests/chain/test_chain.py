@@ -13,8 +13,9 @@ from gripscale.rubber import Rubber
 from gripscale.surface import SineStack
 from gripscale.theory import HalfPlane, solve_half_plane
 from gripscale.wave import Sine
+from tests.samples import THREE_SINES as THREE
 
-from .stand_ins import THREE, Scripted, Spring
+from .stand_ins import Scripted, Spring
 
 LOAD = {"pressure": 2.0**18, "speed": 0.25, "footprint": 0.125}
 

@@ -14,8 +14,9 @@ from gripscale.core.errors import FileError, InputError
 from gripscale.io import netcdf
 from gripscale.rubber import Rubber, Yeoh
 from gripscale.surface import SineStack
+from tests.samples import THREE_SINES as THREE
 
-from .stand_ins import THREE, Scripted, Spring
+from .stand_ins import Scripted, Spring
 
 
 @pytest.fixture

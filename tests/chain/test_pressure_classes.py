@@ -17,8 +17,9 @@ from gripscale.rubber import Rubber
 from gripscale.surface import SineStack
 from gripscale.theory import HalfPlane
 from gripscale.wave import Status, WaveProblem, WaveResult
+from tests.samples import THREE_SINES as THREE
 
-from .stand_ins import THREE, Scripted, Spring
+from .stand_ins import Scripted, Spring
 
 RUBBER = Rubber(6e6, [12e6, 40e6], [1e-3, 1e-5], bulk_modulus=2e9)
 SINES = SineStack([12e-3, 4e-3, 1.3e-3], [0.6e-3, 0.15e-3, 0.04e-3])

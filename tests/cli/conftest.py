@@ -4,38 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
-from typer.testing import CliRunner, Result
 
-from gripscale.cli import app
-from tests.written import three_waves, write_maxwell, write_road
+from tests.samples import HALF_PLANE, case_text, three_waves, write_maxwell, write_road
 
-CASE = """\
-[surface]
-files = ["road.txt"]
-crop = ["10 mm", "390 mm"]
-scales = 3
-s_wavelength = 3
-
-[rubber]
-file = "dma.txt"
-terms = 6
-
-[load]
-pressure = "3 bar"
-speed = "0.3 m/s"
-footprint = "100 mm"
-static = true
-
-[solver]
-model = "half_plane"
-points = 128
-
-[output]
-folder = "results"
-"""
+CASE = case_text(
+    'files = ["road.txt"]\ncrop = ["10 mm", "390 mm"]\nscales = 3\ns_wavelength = 3',
+    'file = "dma.txt"\nterms = 6',
+    HALF_PLANE.replace("64", "128") + '\n\n[output]\nfolder = "results"',
+    static=True,
+)
 
 
 @pytest.fixture(scope="session")
@@ -46,17 +25,6 @@ def inputs(tmp_path_factory: pytest.TempPathFactory) -> Path:
     write_maxwell(folder / "dma.txt")
     (folder / "case.toml").write_text(CASE)
     return folder
-
-
-@pytest.fixture
-def shell() -> Callable[..., Result]:
-    """Run the command line in this process, as if its output went to a file."""
-
-    def run(*arguments: Any, columns: int = 100) -> Result:
-        environment = {"COLUMNS": str(columns), "NO_COLOR": "1", "TERM": "dumb"}
-        return CliRunner().invoke(app, [str(a) for a in arguments], env=environment)
-
-    return run
 
 
 @pytest.fixture

@@ -12,8 +12,7 @@ import pytest
 from typer.testing import Result
 
 from gripscale.theory import HalfPlane
-
-Shell = Callable[..., Result]
+from tests.samples import Shell
 
 
 def refused(result: Result, *words: str) -> None:

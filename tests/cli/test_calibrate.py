@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import json
 import shutil
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner, Result
+from typer.testing import CliRunner
 
 from gripscale.analysis import calibrate_case
 from gripscale.analysis.calibration import parse_fixed
@@ -18,9 +17,9 @@ from gripscale.cli import app
 from gripscale.conditions import GaussianStress, shear_stress_from_dict
 from gripscale.core.errors import ExtrapolationError, InputError
 from gripscale.io import netcdf
+from tests.samples import EXAMPLES, Shell
 
-Shell = Callable[..., Result]
-FOLDER = Path(__file__).parents[2] / "examples" / "measured_friction"
+FOLDER = EXAMPLES / "measured_friction"
 FIGURES = {"measured_and_fitted", "residuals", "profiles"}
 
 

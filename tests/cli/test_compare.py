@@ -8,7 +8,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-from typer.testing import Result
 
 import gripscale as gs
 from gripscale.analysis import Comparison, Sample, SolvedRung, compare_case, solve_reference
@@ -19,8 +18,8 @@ from gripscale.charts.view import PredictionView
 from gripscale.io import netcdf
 from gripscale.report.tables_comparison import comparison_table, judgement, remarks
 from gripscale.report.tables_run import as_text
+from tests.samples import Shell
 
-Shell = Callable[..., Result]
 FORMATS = ("png", "pdf")
 RUNGS = ["chain_half_plane", "chain_upper", "sines", "random_phases", "direct", "persson"]
 

@@ -8,9 +8,8 @@ from pathlib import Path
 
 import openpyxl
 import pytest
-from typer.testing import Result
 
-Shell = Callable[..., Result]
+from tests.samples import Shell
 
 
 @dataclass(frozen=True)

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
-from typer.testing import Result
 
 from gripscale.rubber import WLF, Rubber, read_master_curve, read_shift_table, springpot_modulus
+from tests.samples import Shell
 
-Shell = Callable[..., Result]
 ROOM = 293.15
 TRUE = WLF(8.86, 101.6, ROOM)
 

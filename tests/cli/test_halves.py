@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from typer.testing import Result
 
 from gripscale.core.provenance import versions
-
-Shell = Callable[..., Result]
+from tests.samples import Shell
 
 
 def test_surface_half_prints_the_waves(shell: Shell, inputs: Path, tmp_path: Path) -> None:

@@ -4,19 +4,16 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from typer.testing import Result
 
 import gripscale
 from gripscale.case import EXAMPLES, prepare_case, read_case, write_example
 from gripscale.cli.inputs import Choice
 from gripscale.core.errors import FileError, InputError
+from tests.samples import ROOT, Shell
 
-Shell = Callable[..., Result]
-ROOT = Path(__file__).parents[2]
 COARSE = "\n[solver]\ncolumns = 16\nrows = 4\n"
 """Added to a case to have it solved in a second; so is it with fewer waves."""
 

@@ -17,8 +17,7 @@ from gripscale.cli import app
 from gripscale.io import netcdf
 from gripscale.theory import HalfPlane
 from gripscale.wave import Status, WaveProblem, WaveResult
-
-Shell = Callable[..., Result]
+from tests.samples import Shell
 
 
 @pytest.fixture(scope="module")

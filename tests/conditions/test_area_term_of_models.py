@@ -8,8 +8,9 @@ import pytest
 import gripscale as gs
 from gripscale.conditions import Conditions, ConstantStress, GaussianStress, ThermalProperties
 from gripscale.rubber.softening import Kraus
-
-from .shifted import LOAD, RUBBER, SINES
+from tests.samples import SHIFTED_RUBBER as RUBBER
+from tests.samples import SHIFTED_SINES as SINES
+from tests.samples import SHIFTED_VALUES as LOAD
 
 TURNS = 2.0 * np.pi * np.arange(512) / 512
 LINE = gs.Profile(np.arange(512) * 2e-5, 2e-4 * np.cos(3 * TURNS) + 3e-5 * np.cos(17 * TURNS))

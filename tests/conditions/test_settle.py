@@ -5,15 +5,15 @@ import pytest
 
 import gripscale as gs
 from gripscale.chain.heat import WaveHeat, strains, warming
-from gripscale.conditions import Conditions, ThermalProperties
+from gripscale.conditions import Conditions
 from gripscale.conditions.conditions import rubber_under
 from gripscale.half_space.conditions import strain_by_scale, temperature
 from gripscale.rubber.softening import Kraus
+from tests.samples import KRAUS, THERMAL
+from tests.samples import SHIFTED_RUBBER as RUBBER
+from tests.samples import SHIFTED_SINES as SINES
+from tests.samples import SHIFTED_VALUES as LOAD
 
-from .shifted import LOAD, RUBBER, SINES
-
-KRAUS = Kraus(0.3, 0.15, 0.02, 1e-3, "shear")
-THERMAL = ThermalProperties(conductivity=0.25, density=1150.0, specific_heat=1500.0)
 BOTH = Conditions(softening=KRAUS, heat=THERMAL)
 SOLVERS = [
     ("half_plane", {"points": 256}),

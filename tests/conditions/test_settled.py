@@ -4,16 +4,18 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.conditions import Conditions, ThermalProperties, fixed_point
+from gripscale.conditions import Conditions, fixed_point
 from gripscale.rubber.softening import Kraus
 from gripscale.theory.half_plane import HalfPlane
 from gripscale.wave import FiniteStrainBlock
+from tests.samples import KRAUS as SOFTENING
+from tests.samples import SHIFTED_RUBBER as RUBBER
+from tests.samples import SHIFTED_SINES as SINES
+from tests.samples import SHIFTED_VALUES as LOAD
+from tests.samples import THERMAL as HEAT
 
-from .shifted import LOAD, RUBBER, SINES
 from .test_settle import DIRECT, LINE
 
-SOFTENING = Kraus(0.3, 0.15, 0.02, 1e-3, "shear")
-HEAT = ThermalProperties(conductivity=0.25, density=1150.0, specific_heat=1500.0)
 EFFECTS = [
     Conditions(softening=SOFTENING),
     Conditions(heat=HEAT),

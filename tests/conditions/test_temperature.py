@@ -7,8 +7,8 @@ import pytest
 
 import gripscale as gs
 from gripscale.conditions import Conditions, ThermalProperties
-
-from .shifted import RUBBER, SINES
+from tests.samples import SHIFTED_RUBBER as RUBBER
+from tests.samples import SHIFTED_SINES as SINES
 
 LOAD = {"pressure": 3e5, "footprint": 0.05}
 WARM = 313.15

@@ -1,11 +1,10 @@
 """CITATION.cff states what the format requires and the version of the package."""
 
 import tomllib
-from pathlib import Path
 
 import yaml
 
-ROOT = Path(__file__).parents[2]
+from tests.samples import ROOT
 
 
 def test_citation_has_the_required_keys_and_the_version_of_the_package():

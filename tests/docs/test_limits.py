@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import fields
-from pathlib import Path
 
 import pytest
 
 from gripscale.conditions import Conditions
+from tests.samples import DOCS
 
-PAGE = " ".join((Path(__file__).parents[2] / "docs/limits.md").read_text(encoding="utf-8").split())
+PAGE = " ".join((DOCS / "limits.md").read_text(encoding="utf-8").split())
 WORDS = {
     "temperature": "temperature of the rubber",
     "softening": "Payne effect",

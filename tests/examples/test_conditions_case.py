@@ -13,8 +13,9 @@ from gripscale.case import prepare_case
 from gripscale.cli import app
 from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
+from tests.samples import EXAMPLES
 
-EXAMPLE = Path(__file__).parents[2] / "examples" / "conditions" / "case.toml"
+EXAMPLE = EXAMPLES / "conditions" / "case.toml"
 COARSE = """
 [solver]
 model = "half_plane"

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from gripscale.io import netcdf
+from tests.samples import EXAMPLES
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
 COARSE = "64"
 """Columns of the mesh where an example takes them."""
 TESTED_ELSEWHERE = {"finite_strain_rubber"}

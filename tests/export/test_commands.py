@@ -16,7 +16,7 @@ from gripscale.io import netcdf
 from gripscale.rubber import WLF, Rubber, fit_prony, read_master_curve
 from gripscale.surface import SineStack
 from tests.export.readers import READERS, read_abaqus
-from tests.written import MAXWELL, write_maxwell
+from tests.samples import MAXWELL, write_maxwell
 
 CASE = """\
 [surface]

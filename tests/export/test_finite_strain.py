@@ -14,14 +14,12 @@ between samples, as FEBio takes them.
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from gripscale.rubber import Rubber, fit_prony, read_master_curve, uniaxial_stress
+from tests.samples import MEASURED_DMA as DMA
 
-DMA = Path(__file__).parents[2] / "examples" / "data" / "rubber" / "measured_dma.txt"
 OMEGA, SAMPLES, CYCLES = 10.0, 400, 4
 
 

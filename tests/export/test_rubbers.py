@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import ClassVar
 from xml.etree import ElementTree as ET
 
@@ -27,8 +26,8 @@ from gripscale.rubber import (
     read_master_curve,
 )
 from tests.export.readers import READERS, read_abaqus, read_ansys
+from tests.samples import MEASURED_DMA as DMA
 
-DMA = Path(__file__).parents[2] / "examples" / "data" / "rubber" / "measured_dma.txt"
 ENERGIES = (NeoHookean(), MooneyRivlin(0.3), Yeoh(-0.05, 0.004), Isihara(0.2, -0.02))
 
 

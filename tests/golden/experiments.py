@@ -21,7 +21,7 @@ from typer.testing import CliRunner
 
 import gripscale as gs
 from gripscale.cli import app
-from tests.written import write_road
+from tests.samples import write_road
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

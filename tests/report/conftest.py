@@ -27,33 +27,14 @@ from gripscale.case import prepare_case, run_case
 from gripscale.experiment.axis import axes_of
 from gripscale.io import netcdf
 from gripscale.model import TOTALS
-from tests.written import three_waves, write_maxwell, write_road
+from tests.samples import COARSE_BLOCK, case_text, three_waves, write_maxwell, write_road
 
-CASE = """\
-# A small case <b>with</b> "marks" & signs
-[surface]
-files = ["road.txt", "lane.txt"]
-crop = ["10 mm", "390 mm"]
-scales = 3
-s_wavelength = 3
-
-[rubber]
-file = "dma.txt"
-terms = 6
-
-[load]
-pressure = "3 bar"
-speed = "0.3 m/s"
-footprint = "100 mm"
-static = true
-
-[solver]
-columns = 32
-rows = 8
-
-[output]
-folder = "results"
-"""
+CASE = '# A small case <b>with</b> "marks" & signs\n' + case_text(
+    'files = ["road.txt", "lane.txt"]\ncrop = ["10 mm", "390 mm"]\nscales = 3\ns_wavelength = 3',
+    'file = "dma.txt"\nterms = 6',
+    COARSE_BLOCK + '\n\n[output]\nfolder = "results"',
+    static=True,
+)
 WAVES = 3
 
 

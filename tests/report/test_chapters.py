@@ -10,8 +10,7 @@ import pytest
 from gripscale.core.errors import ExtrapolationError, InputError
 from gripscale.report.notices import STATUS_CHAPTERS, pointer
 from gripscale.wave.problem import Status
-
-DOCS = Path(__file__).parents[2] / "docs"
+from tests.samples import DOCS
 
 BEYOND = ExtrapolationError.see.removeprefix("docs/")
 

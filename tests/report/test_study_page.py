@@ -13,6 +13,7 @@ from gripscale.charts.page_study import study_charts
 from gripscale.experiment import Study
 from gripscale.io import netcdf
 from gripscale.report import source, write_report
+from tests.samples import EXAMPLES
 
 from .reading import Page
 
@@ -76,7 +77,7 @@ def test_page_speaks_in_words_and_has_its_inputs(page: Page) -> None:
 def solved(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A study over seven speeds at two pressures, of a case with the half-plane."""
     folder = tmp_path_factory.mktemp("solved")
-    case = Path(__file__).parents[2] / "examples" / "measured_friction" / "case.toml"
+    case = EXAMPLES / "measured_friction" / "case.toml"
     vary = {"speed": "0.01:10:log7", "pressure": "1 bar,3 bar"}
     return netcdf.save(Study(case, vary).run(folder), folder / "study.nc")
 

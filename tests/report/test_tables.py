@@ -16,9 +16,9 @@ from gripscale.core.units import significant
 from gripscale.model import TOTALS, NominalLoad, answer
 from gripscale.report.tables_run import as_text, prediction_table, totals
 from gripscale.rubber import Rubber
-from gripscale.surface import SineStack
 from gripscale.wave import WaveResult
 from gripscale.wave.problem import Status
+from tests.samples import THREE_SINES as SINES
 
 
 class Spring(Rubber):
@@ -29,7 +29,6 @@ class Spring(Rubber):
 
 
 RUBBER = Spring(5e6, [1e6], [1.0], valid_band=(1.0, 2 * np.pi * 100.0))
-SINES = SineStack(wavelength=[16e-3, 4e-3, 1e-3], amplitude=[1e-3, 0.5e-3, 0.125e-3])
 
 
 def wave(i: int, speed: float, status: str = "converged") -> WaveResult:

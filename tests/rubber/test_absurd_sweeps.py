@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 import gripscale as gs
 from gripscale import rubber as gr
 from gripscale.core.errors import GripscaleError
+from tests.samples import EXAMPLES
 
-FILE = (
-    Path(__file__).parents[2] / "examples/data/rubber/multi_temperature_polymer/freq_user_raw.csv"
-)
+FILE = EXAMPLES / "data/rubber/multi_temperature_polymer/freq_user_raw.csv"
 ABSURD = [10**400, 1e308, -1e308, 1e-320, float("nan"), float("inf"), None, "x", True, 1 + 2j]
 ABSURD += [[], [[]], np.array(3.0), {}, b"x", 0, -1]
 TABLE = gr.ShiftTable([280.0, 300.0, 320.0], [1.0, 0.0, -1.0], reference_temperature=300.0)

@@ -2,7 +2,6 @@
 
 import contextlib
 import random
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,8 +10,9 @@ from hypothesis import strategies as st
 
 from gripscale.core.errors import FileError, InputError
 from gripscale.rubber import MasterCurve, Rubber, fit_prony, read_master_curve, read_uniaxial_test
+from tests.samples import EXAMPLES
 
-DATA = Path(__file__).parents[2] / "examples/data/rubber"
+DATA = EXAMPLES / "data/rubber"
 TREAD = DATA / "measured_dma.txt"
 LONG = 10**400
 HUGE = 10**5000

@@ -2,7 +2,6 @@
 
 import re
 import runpy
-from pathlib import Path
 
 import numpy as np
 import openpyxl
@@ -21,8 +20,8 @@ from gripscale.rubber import (
     uniaxial_stress,
     work_error,
 )
+from tests.samples import ROOT
 
-ROOT = Path(__file__).parents[2]
 LOOPS = ROOT / "examples/data/rubber/finite_strain_vhb"
 TIMES = np.geomspace(0.5, 500.0, 4)
 

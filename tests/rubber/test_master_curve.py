@@ -10,8 +10,7 @@ from hypothesis import strategies as st
 
 from gripscale.core.errors import FileError, InputError
 from gripscale.rubber import MasterCurve, read_master_curve
-
-TREAD = Path(__file__).parents[2] / "examples/data/rubber/measured_dma.txt"
+from tests.samples import MEASURED_DMA as TREAD
 
 
 def write(folder: Path, text: str, name: str = "curve.txt") -> Path:

@@ -1,7 +1,5 @@
 """The Prony fit on series known beforehand, with noise and planted outliers, and on real data."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -9,8 +7,7 @@ from hypothesis import strategies as st
 
 from gripscale.core.errors import InputError
 from gripscale.rubber import MasterCurve, Rubber, fit_prony, fit_prony_report, read_master_curve
-
-TREAD = Path(__file__).parents[2] / "examples/data/rubber/measured_dma.txt"
+from tests.samples import MEASURED_DMA as TREAD
 
 
 def broad_rubber() -> Rubber:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -20,13 +18,14 @@ from gripscale.rubber import (
     write_master_curve,
 )
 from gripscale.rubber.joint_shift import Basis, smooth
+from tests.samples import EXAMPLES
 
 ROOM = 293.15
 TRUE = WLF(8.86, 101.6, ROOM)
 HERTZ = np.geomspace(0.1, 50.0, 12)
 TRANSITION = np.linspace(-15.0, 21.0, 10)
 """Temperatures at which the springpots are on their flank within the frequencies measured [C]."""
-POLYMER = Path(__file__).parents[2] / "examples/data/rubber/multi_temperature_polymer"
+POLYMER = EXAMPLES / "data/rubber/multi_temperature_polymer"
 
 
 def measured(

@@ -13,8 +13,9 @@ from gripscale.core.errors import FileError, InputError
 from gripscale.rubber import Sweeps, read_strain_sweep, sweeps_from_ramps
 from gripscale.rubber.columns import quantity, stated_temperature, with_primes
 from gripscale.rubber.sweeps import holds_sweeps
+from tests.samples import EXAMPLES
 
-DATA = Path(__file__).parents[2] / "examples/data/rubber"
+DATA = EXAMPLES / "data/rubber"
 POLYMER = DATA / "multi_temperature_polymer" / "freq_user_raw.csv"
 CELSIUS = (19.9, 20.1, 40.0, 40.2)
 HERTZ = (1.0, 10.0, 1.0, 10.0)

@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gripscale.rubber import MasterCurve, Rubber, fit_prony, read_master_curve, springpot_modulus
-
-TREAD = Path(__file__).parents[2] / "examples/data/rubber/measured_dma.txt"
+from tests.samples import MEASURED_DMA as TREAD
 
 Modulus = Callable[[NDArray[np.float64]], NDArray[np.complex128]]
 

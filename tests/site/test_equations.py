@@ -10,9 +10,9 @@ from xml.etree import ElementTree
 
 import pytest
 
-pytest.importorskip("latex2mathml", reason="needs gripscale[docs]")
+from tests.samples import DOCS
 
-DOCS = Path(__file__).parents[2] / "docs"
+pytest.importorskip("latex2mathml", reason="needs gripscale[docs]")
 
 
 @pytest.fixture(scope="module")

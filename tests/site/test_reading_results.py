@@ -3,39 +3,24 @@
 from __future__ import annotations
 
 import re
-from pathlib import Path
 
-import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from gripscale import Rubber, surface
 from gripscale.cli import app
 from gripscale.io import netcdf
 from gripscale.report import tables_run
 from gripscale.wave import Status
-from tests.written import write_master_curve, write_road
+from tests.samples import ROOT, case_text, write_short_road
 
-ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "reading-results.md").read_text(encoding="utf-8")
 
-CASE = """\
-[surface]
-files = ["road.txt"]
-scales = 2
-smallest_wavelength = "2 mm"
-[rubber]
-file = "dma.txt"
-terms = 4
-[load]
-pressure = "3 bar"
-speed = "0.3 m/s"
-footprint = "100 mm"
-static = false
-[solver]
-columns = 64
-rows = 10
-"""
+CASE = case_text(
+    'files = ["road.txt"]\nscales = 2\nsmallest_wavelength = "2 mm"',
+    'file = "dma.txt"\nterms = 4',
+    "columns = 64\nrows = 10",
+    static=False,
+)
 
 
 def section(title: str) -> str:
@@ -67,11 +52,7 @@ def written(data) -> dict[str, str]:
 def folder(tmp_path_factory):
     """A run and a study of a made-up road and rubber."""
     folder = tmp_path_factory.mktemp("case")
-    road = surface.self_affine_profile(0.8, 3e-3, 8e-4, length=0.1, step=1e-4, seed=1)
-    write_road(folder / "road.txt", road)
-    frequency = np.geomspace(1e-1, 1e5, 30)
-    modulus = Rubber(6e6, [3e6, 5e6], [1e-1, 1e-4]).complex_modulus(2 * np.pi * frequency)
-    write_master_curve(folder / "dma.txt", frequency, modulus)
+    write_short_road(folder)
     (folder / "case.toml").write_text(CASE)
     (folder / "mu.csv").write_text("speed,friction\n0.1,0.3\n1,0.4\n")
     for arguments in (

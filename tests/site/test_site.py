@@ -15,8 +15,8 @@ import yaml
 import gripscale
 from gripscale import chain
 from gripscale.case.keys import sections
+from tests.samples import ROOT
 
-ROOT = Path(__file__).parents[2]
 LOADING = {"script": "src", "img": "src", "iframe": "src", "source": "src", "video": "src"}
 """Tags that make a browser fetch, with the attribute that says what; links are looked at apart."""
 

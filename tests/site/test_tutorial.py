@@ -10,8 +10,9 @@ import pytest
 from typer.testing import CliRunner
 
 from gripscale.cli import app
+from tests.samples import DOCS
 
-TUTORIAL = Path(__file__).parents[2] / "docs" / "tutorial.md"
+TUTORIAL = DOCS / "tutorial.md"
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", flags=re.DOTALL | re.MULTILINE)
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 ITERATIONS = re.compile(r"\d+(?= converged)")

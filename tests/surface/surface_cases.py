@@ -1,12 +1,11 @@
 """Curves and profiles the surface tests share."""
 
-from pathlib import Path
-
 import numpy as np
 
 from gripscale.surface import HeightDifference, Profile, SineStack
+from tests.samples import EXAMPLES
 
-DATA = Path(__file__).parents[2] / "examples" / "data"
+DATA = EXAMPLES / "data"
 ROAD = [DATA / "road" / f"20211011_aylesbury_dec_station_{station}.dat" for station in (0, 1)]
 ROAD_ONLY = (0.120, 1.780)  # m, between the reference plates (SOURCE.txt)
 

@@ -6,7 +6,6 @@ import csv
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,8 +13,8 @@ from numpy.typing import NDArray
 import gripscale as gs
 from gripscale import theory
 from gripscale.wave import FiniteStrainBlock, Mesh, Sine, WaveLoad, WaveProblem, WaveResult
+from tests.samples import ROOT
 
-ROOT = Path(__file__).parents[2]
 WAVELENGTH = 1e-3
 AMPLITUDE = 1e-6
 """Of waves of small slope: finite strain is worth (k A)^2 = 4e-5 there."""

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 
 import gripscale as gs
+from tests.samples import EXAMPLES
 from tests.verification.families import tread
 
-ROAD = Path(__file__).parents[2] / "examples" / "data" / "road"
+ROAD = EXAMPLES / "data" / "road"
 WINDOW = 38e-3
 MARGIN = 0.02
 """Share of the record at each end that holds the transition into the surface."""

@@ -19,8 +19,9 @@ from gripscale.case import read_case
 from gripscale.io import netcdf
 from gripscale.rubber import read_uniaxial_test
 from gripscale.surface import read_profiles
+from tests.samples import EXAMPLES
 
-DATA = Path(__file__).parents[2] / "examples/data"
+DATA = EXAMPLES / "data"
 HEIGHTS = np.random.default_rng(7).normal(size=(18, 17)).round(3)
 LINE = HEIGHTS.ravel()[:40]
 STEPS = np.arange(40)
@@ -236,8 +237,8 @@ def readers(folder: Path) -> list[Reader]:
     mm = {"x_unit": "mm", "z_unit": "um"}
     table = text("", *HEIGHTS.T).lstrip()
     bare = text("", STEPS, LINE, separator=";").lstrip()
-    case = Path(__file__).parents[2] / "examples/road_and_tread/case.toml"
-    waves = Path(__file__).parents[2] / "examples/three_waves/case.toml"
+    case = EXAMPLES / "road_and_tread/case.toml"
+    waves = EXAMPLES / "three_waves/case.toml"
     line, surface = check_line, check_map
     step = {"step": 1e-4, "z_unit": "um"}
     return [

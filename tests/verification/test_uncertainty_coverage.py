@@ -30,6 +30,7 @@ from gripscale.surface import (
     self_affine_profile,
 )
 from gripscale.theory.half_plane import HalfPlane
+from tests.samples import POWER_LAW as TRUE_RUBBER
 
 REPEATS, SAMPLES = 40, 60
 HURST, CUT_OFF, HEIGHT = 0.8, 3e-3, 0.8e-3
@@ -38,8 +39,6 @@ FIT = {"scales": 5, "first_wavelength": 20e-3, "smallest_wavelength": 0.6e-3}
 NOISE = 0.04
 LOAD = NominalLoad(pressure=3e5, speed=0.3, footprint=0.1)
 CHAIN = Chain(HalfPlane(points=128))
-TIMES = np.geomspace(1e-8, 1e2, 41)
-TRUE_RUBBER = Rubber(6e6, 1e6 * (TIMES / 1e-2) ** -0.3, TIMES)
 FREQUENCY = np.geomspace(1e-1, 1e6, 50)
 
 

@@ -11,8 +11,8 @@ import gripscale as gs
 from gripscale.model import Model, NominalLoad
 from gripscale.surface import Measured, PreparedSurface, Profile, SineStack
 from gripscale.wave import BlockOnProfile, Status, profile
+from tests.samples import ZENER as RUBBER
 
-RUBBER = gs.Rubber(1e6, [9e6], [1e-3])
 LOAD = NominalLoad(5e4, 0.1, 0.1)
 X = np.arange(64) * (20e-3 / 64)
 

@@ -1,7 +1,6 @@
 """The finite-strain block on one period of sampled heights: known sines, half-plane, road."""
 
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,9 +8,10 @@ import pytest
 import gripscale as gs
 from gripscale.theory.half_plane import HalfPlane, contact_edges, nodes, solve_periodic_contact
 from gripscale.wave import SampledProfile, WaveLoad, WaveProblem
+from tests.samples import EXAMPLES
+from tests.samples import FAST_RUBBER as RUBBER
 
-DATA = Path(__file__).parents[2] / "examples" / "data"
-RUBBER = gs.Rubber(3e6, [6e6, 9e6], [2e-5, 2e-4], bulk_modulus=1e9)
+DATA = EXAMPLES / "data"
 WAVE = {"wavelength": 1e-3, "amplitude": 1.5e-4}
 MESH = {"columns": 64, "rows": 14}
 PERIOD = 38.4e-3

@@ -14,8 +14,8 @@ import pytest
 
 import gripscale as gs
 from gripscale.core.parallel import Stopped, in_threads
+from tests.samples import FAST_RUBBER as RUBBER
 
-RUBBER = gs.Rubber(3e6, [6e6, 9e6], [2e-5, 2e-4], bulk_modulus=1e9)
 LOAD = {"wavelength": 1e-3, "amplitude": 1.5e-4, "pressure": 3e6, "speed": 1.0, "load_time": 1e-3}
 
 LATE = 1.0

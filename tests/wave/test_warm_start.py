@@ -3,8 +3,7 @@
 import pytest
 
 import gripscale as gs
-
-RUBBER = gs.Rubber(3e6, [6e6, 9e6], [2e-5, 2e-4], bulk_modulus=1e9)
+from tests.samples import FAST_RUBBER as RUBBER
 
 
 @pytest.mark.parametrize("varied", ["speed", "pressure", "amplitude"])

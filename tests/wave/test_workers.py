@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 import gripscale as gs
+from tests.samples import FAST_RUBBER as RUBBER
 
-RUBBER = gs.Rubber(3e6, [6e6, 9e6], [2e-5, 2e-4], bulk_modulus=1e9)
 LOAD = {"pressure": 3e6, "load_time": 1e-3}
 WAVE = {"wavelength": 1e-3, "amplitude": 1.5e-4}
 

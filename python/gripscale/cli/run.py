@@ -76,55 +76,8 @@ def run(
     ] = ProgressFormat.TEXT,
 ) -> None:
     """Predict contact area and friction of a case; goes on where it was stopped."""
-    from gripscale.analysis.comparison import FILE as DIRECT
-    from gripscale.analysis.comparison import save_reference
-    from gripscale.analysis.effects import FILE as EFFECTS
-    from gripscale.analysis.effects import case_effects
-    from gripscale.analysis.measured_comparison import friction_of_case
-    from gripscale.case import folder, prepare_case, read_case, run_case
-    from gripscale.case.events import (
-        DirectContactSolved,
-        EffectsSolved,
-        FileWritten,
-        WaveSolved,
-    )
-    from gripscale.charts.print_run import background_figures
-
-    console = screen(stderr=progress == ProgressFormat.JSON)
     with _json_events(progress) as emit:
-        file = read_case(case)
-        target = output if output is not None else file.resolve(file.case.output.folder)
-        folder.require_writable(target)
-        friction = friction_of_case(file)
-        results = prepare_case(file)
-        opening = _opening(results)
-        for line in opening:
-            print_wrapped(console, line)
-        print_event = _event_printer(console, results.shown("speed"))
-        with background_figures(results, target / "figures") as draw_solved:
-
-            def on_event(event: Event) -> None:
-                emit(event)
-                print_event(event)
-                if isinstance(event, WaveSolved):
-                    draw_solved(event.prediction)
-
-            with console.status("solving") if console.is_terminal else nullcontext():
-                run_case(results, output=target, on_event=on_event, fresh=fresh)
-                direct = save_reference(results, target)
-                if direct is not None:
-                    emit(DirectContactSolved.of(direct))
-                    emit(FileWritten(str(target / DIRECT)))
-                effects = case_effects(results, results.chain, target, target / "effects")
-                if effects is not None:
-                    emit(EffectsSolved.of(effects))
-                    emit(FileWritten(str(target / EFFECTS.format(model=results.chain.name))))
-            _conclude_run(console, target, opening, results, RunExtras(direct, effects, friction))
-            emit(FileWritten(str(target / "report.txt")))
-        console.print()
-        print_wrapped(console, f"Results, report and figures are in {target}")
-        _tell_old_page(console, target, results)
-        _fail_if_any(results)
+        _run(screen(stderr=progress == ProgressFormat.JSON), emit, case, output, fresh)
 
 
 @contextmanager
@@ -142,6 +95,57 @@ def _json_events(progress: ProgressFormat) -> Iterator[OnEvent]:
         emit(RunFailed(*failure_of(error)))
         raise
     emit(RunFinished())
+
+
+def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh: bool) -> None:
+    """Prepare, solve, print and write a case, with an event for each step."""
+    from gripscale.analysis.comparison import FILE as DIRECT
+    from gripscale.analysis.comparison import save_reference
+    from gripscale.analysis.effects import FILE as EFFECTS
+    from gripscale.analysis.effects import case_effects
+    from gripscale.analysis.measured_comparison import friction_of_case
+    from gripscale.case import folder, prepare_case, read_case, run_case
+    from gripscale.case.events import (
+        DirectContactSolved,
+        EffectsSolved,
+        FileWritten,
+        WaveSolved,
+    )
+    from gripscale.charts.print_run import background_figures
+
+    file = read_case(case)
+    target = output if output is not None else file.resolve(file.case.output.folder)
+    folder.require_writable(target)
+    friction = friction_of_case(file)
+    results = prepare_case(file)
+    opening = _opening(results)
+    for line in opening:
+        print_wrapped(console, line)
+    print_event = _event_printer(console, results.shown("speed"))
+    with background_figures(results, target / "figures") as draw_solved:
+
+        def on_event(event: Event) -> None:
+            emit(event)
+            print_event(event)
+            if isinstance(event, WaveSolved):
+                draw_solved(event.prediction)
+
+        with console.status("solving") if console.is_terminal else nullcontext():
+            run_case(results, output=target, on_event=on_event, fresh=fresh)
+            direct = save_reference(results, target)
+            if direct is not None:
+                emit(DirectContactSolved.of(direct))
+                emit(FileWritten(str(target / DIRECT)))
+            effects = case_effects(results, results.chain, target, target / "effects")
+            if effects is not None:
+                emit(EffectsSolved.of(effects))
+                emit(FileWritten(str(target / EFFECTS.format(model=results.chain.name))))
+        _conclude_run(console, target, opening, results, RunExtras(direct, effects, friction))
+        emit(FileWritten(str(target / "report.txt")))
+    console.print()
+    print_wrapped(console, f"Results, report and figures are in {target}")
+    _tell_old_page(console, target, results)
+    _fail_if_any(results)
 
 
 def _opening(results: CaseResults) -> list[str]:

@@ -1,0 +1,174 @@
+"""Roads side by side: a twin differs by nothing, a rougher road by more, octaves add up."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+from typer.testing import CliRunner
+
+import gripscale as gs
+from gripscale.analysis import Roads, compare_surfaces
+from gripscale.analysis.roads import octave_ends, running_friction
+from gripscale.cli import app
+from gripscale.core.errors import InputError
+from gripscale.report.tables_comparison import roads_sentences
+from gripscale.surface import Profile, self_affine_profile
+from tests.samples import HALF_PLANE, case_text, write_road
+
+CASE = case_text(
+    'files = ["road.txt"]\nscales = 4\nsmallest_wavelength = "1 mm"', solver=HALF_PLANE
+)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A case on a gentle road, the same road again, and three times as high."""
+    folder = tmp_path_factory.mktemp("roads")
+    road = self_affine_profile(0.8, 3e-3, 2e-4, length=0.4, step=2e-4, seed=1)
+    for name, factor in (("road", 1.0), ("twin", 1.0), ("rough", 3.0)):
+        write_road(folder / f"{name}.txt", Profile(road.x, factor * road.z))
+    (folder / "case.toml").write_text(CASE)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def solves() -> list[str]:
+    """What was solved for `made`, a label each."""
+    return []
+
+
+@pytest.fixture(scope="module")
+def made(folder: Path, solves: list[str]) -> Roads:
+    surfaces = {name: str(folder / f"{name}.txt") for name in ("road", "twin", "rough")}
+    return compare_surfaces(
+        folder / "case.toml",
+        surfaces,
+        folder / "out",
+        samples=10,
+        on_task=lambda one: solves.append(one.label),
+    )
+
+
+def test_a_twin_differs_by_nothing_and_a_rough_road_by_more_than_its_stretches(made: Roads) -> None:
+    data = made.data
+    twin, rough = data.sel(surface="twin"), data.sel(surface="rough")
+    assert (twin.total_friction_difference == 0.0).all()
+    assert (twin.total_friction_difference_low < 0.0).all()
+    assert (twin.total_friction_difference_high > 0.0).all()
+    assert (rough.total_friction_difference_low > 0.0).all()
+    assert (rough.total_contact_fraction_difference_high < 0.0).all()
+    said = list(roads_sentences(data))
+    assert len(said) == 4
+    assert [", beyond what" in text for text in said] == [False, True, False, True]
+
+
+def test_octaves_add_up_to_the_totals(made: Roads) -> None:
+    """Chain and direct contact end within the last octave, whose end is not below theirs."""
+    data = made.data
+    running = data.friction_running.isel(octave=-1)
+    totals = {"chain": data.total_friction, "direct": data.total_friction_from_dissipation}
+    for model, total in totals.items():
+        np.testing.assert_allclose(running.sel(model=model), total.sel(model=model), rtol=1e-9)
+    np.testing.assert_allclose(
+        data.friction_difference.sum("octave"),
+        running - running.isel(surface=0, drop=True),
+        atol=1e-12,
+    )
+
+
+def test_the_direct_contact_is_solved_once_for_itself_and_for_its_samples(
+    made: Roads, solves: list[str]
+) -> None:
+    """The chain twice: its samples are half-planes, and so is what they are compared with."""
+    assert np.isfinite(made.data.total_friction_low).all()
+    for model, beside_the_samples in (("chain", 2), ("direct", 1)):
+        told = [label for label in solves if label.startswith(f"{model}, rough, ")]
+        assert len(told) == beside_the_samples + 10
+
+
+def test_ranges_are_of_the_drawn_blocks(folder: Path, made: Roads) -> None:
+    """With half-planes as its solver the chain's range is that of its uncertainty by profiles."""
+    sources = ["modulus", "bulk_modulus", "load_time", "cut_off", "waves"]
+    choice = gs.analysis.Uncertainty(sources)
+    case = folder / "case.toml"
+    case_of = case.with_name("fine.toml")
+    case_of.write_text(case.read_text().replace("points = 64", "points = 128"))
+    told = gs.analysis.propagate(case_of, choice, samples=10)
+    ratio = told.friction_quantile.values[0, [0, -1]] / float(told.friction_case[0])
+    one = made.data.sel(surface="road", model="chain")
+    assert float(one.total_friction_low / one.total_friction) == pytest.approx(ratio[0])
+    assert float(one.total_friction_high / one.total_friction) == pytest.approx(ratio[1])
+
+
+def test_statistics_of_the_rough_road_are_nine_times_those_of_the_other(made: Roads) -> None:
+    for name in ("correlation", "spectrum"):
+        curve = made.data[name]
+        ratio = (curve.sel(surface="rough") / curve.sel(surface="road")).dropna(curve.dims[-1])
+        assert ratio.size > 20
+        np.testing.assert_allclose(ratio, 9.0, rtol=1e-3)  # heights are written to a nanometre
+
+
+def test_friction_between_waves_is_linear_in_the_logarithm() -> None:
+    ends = octave_ends(8e-3, 1e-3)
+    np.testing.assert_allclose(ends, [8e-3, 4e-3, 2e-3, 1e-3])
+    answer = gs.predict(
+        gs.Rubber(2e6, [4e6], [1e-3]),
+        gs.SineStack([8e-3, 2e-3], [4e-4, 1e-4]),
+        pressure=3e5,
+        speed=0.3,
+        footprint=0.1,
+        solver=gs.theory.HalfPlane(points=64),
+    ).to_dataset()
+    first, second = answer.friction.values
+    expected = [first, first + 0.5 * second, first + second, first + second]
+    np.testing.assert_allclose(running_friction(answer, ends), expected)
+
+
+def test_octaves_of_profiles_count_by_their_length() -> None:
+    """One of them a quarter of the length, and without the shortest octave."""
+    parts = [[0.1, 0.2, np.nan], [0.3, 0.1, 0.2]]
+    answer = xr.Dataset(
+        {
+            "octave_friction": (("profile", "wavelength"), parts),
+            "weight": ("profile", [0.25, 0.75]),
+        },
+        {"wavelength": [4e-3, 2e-3, 1e-3]},
+    )
+    running = running_friction(answer, octave_ends(8e-3, 1e-3))
+    np.testing.assert_allclose(running, [0.0, 0.25, 0.375, 0.525])
+
+
+def test_waves_by_hand_have_no_direct_contact_and_no_range(folder: Path, tmp_path: Path) -> None:
+    stated = {"road": "case", "waves": gs.SineStack([5e-3, 1e-3], [2e-4, 4e-5])}
+    made = compare_surfaces(folder / "case.toml", stated, tmp_path, samples=10)
+    assert made.notes == (
+        "waves, chain: no range; no profile was measured",
+        "waves was not measured: no direct contact",
+    )
+    waves = made.data.sel(surface="waves")
+    assert np.isfinite(waves.total_friction.sel(model="chain"))
+    assert np.isnan(waves.total_friction.sel(model="direct"))
+
+
+def test_the_command_writes_table_figures_and_page(folder: Path, tmp_path: Path) -> None:
+    given = [str(folder / "case.toml"), str(folder / "rough.txt")]
+    options = ["--samples", "10", "--output", str(tmp_path)]
+    outcome = CliRunner().invoke(app, ["compare-surfaces", *given, *options])
+    assert outcome.exit_code == 0, outcome.output
+    assert "direct: rough has" in (tmp_path / "surfaces.txt").read_text()
+    figures = {path.stem for path in tmp_path.glob("*.p*")}
+    assert figures == {"roads_statistics", "roads_friction"}
+    page = (tmp_path / "report.html").read_text()
+    assert "Roads side by side" in page
+    assert "direct: rough has" in page
+    assert f"gripscale compare-surfaces {given[0]} {given[1]} --case case.toml" in page
+
+
+def test_two_to_six_roads(folder: Path, tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="surfaces must be 2 to 6 roads to be compared; got 1"):
+        compare_surfaces(folder / "case.toml", {"one": "case"}, tmp_path)
+    with pytest.raises(InputError, match="samples"):
+        compare_surfaces(folder / "case.toml", {"a": "case", "b": "case"}, tmp_path, samples=3)

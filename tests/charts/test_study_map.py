@@ -1,0 +1,110 @@
+"""The map over speed and temperature, and all temperatures over a_T v, on paper and on the page."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+import xarray as xr
+
+from gripscale.charts import friction_master_figure, map_figure
+from gripscale.charts.print_study import draw
+from gripscale.experiment.speed_and_temperature import BEYOND_SHIFT, with_master_curve
+from gripscale.io import netcdf
+from gripscale.model import TOTALS
+from gripscale.report import write_report
+from gripscale.rubber import WLF, Rubber
+from tests.samples import DOCS
+
+RUBBER = Rubber(5e6, [4e6], [1e-2], reference_temperature=293.15, shift=WLF(c1=8.0, c2=120.0))
+SPEED = np.geomspace(1e-2, 10.0, 25)
+KELVIN = np.array([283.15, 293.15, 313.15])
+
+
+@pytest.fixture
+def study() -> xr.Dataset:
+    """A study whose friction is a function of a_T v alone, one prediction of which failed."""
+    reduced = SPEED[:, None] * RUBBER.shift.a(KELVIN, 293.15)
+    friction = 0.5 + 0.1 * np.tanh(np.log10(reduced))
+    friction[3, 1] = np.nan
+    status = np.full(friction.shape, "converged", dtype=object)
+    status[3, 1] = "iteration limit"
+    axes = ("speed", "temperature")
+    data = xr.Dataset(
+        {
+            "total_friction": (axes, friction),
+            "total_friction_from_dissipation": (axes, friction),
+            "total_contact_fraction": (axes, 0.1 / friction),
+            "prediction_status": (axes, status),
+            BEYOND_SHIFT: (axes, np.broadcast_to(KELVIN > 300.0, friction.shape)),
+        },
+        coords={"speed": SPEED, "temperature": KELVIN},
+        attrs={"title": "Study", "case": "", "version_gripscale": "0.1.0", "model": "direct"},
+    )
+    data["speed"].attrs |= {"units": "m/s", "long_name": "sliding speed"}
+    data["temperature"].attrs |= {"units": "K", "long_name": "temperature"}
+    for name in data.data_vars:
+        data[name].attrs |= {"units": "1", "long_name": str(name)}
+    return with_master_curve(data, RUBBER)
+
+
+def test_the_collapse_of_one_curve_is_below_a_thousandth(study: xr.Dataset) -> None:
+    assert float(study.friction_collapse) < 1e-3
+    assert study.friction_collapse.attrs["points"] > 40
+
+
+def test_the_variables_are_listed_with_their_units(study: xr.Dataset) -> None:
+    text = (DOCS / "conditions.md").read_text(encoding="utf-8")
+    listed = dict(re.findall(r"^\| `(\w+)` \| (\S+) \|", text, re.MULTILINE))
+    known = {"speed", "temperature", "prediction_status", *TOTALS}
+    assert listed == {
+        str(name): study[name].attrs["units"] for name in study.variables if name not in known
+    }
+
+
+def test_map_marks_what_was_solved_by_what_it_rests_on(study: xr.Dataset) -> None:
+    figure = map_figure(study)
+    friction, area = figure.axes[:2]
+    marks = {str(one.get_label()): np.asarray(one.get_xydata()) for one in friction.lines}
+    assert {name: len(xy) for name, xy in marks.items()} == {
+        "solved": 49,
+        "beyond the temperatures of the shift": 25,
+    }
+    assert set(marks["beyond the temperatures of the shift"][:, 1]) == {40.0}
+    assert friction.get_ylabel() == "temperature $T$ [°C]"
+    assert area.get_xscale() == "log"
+
+
+def test_temperatures_are_drawn_over_reduced_speed(study: xr.Dataset) -> None:
+    friction = friction_master_figure(study).axes[0]
+    assert len(friction.lines) == 3
+    for i, one in enumerate(friction.lines):
+        np.testing.assert_allclose(one.get_xdata(), study.reduced_speed.isel(temperature=i))
+        np.testing.assert_allclose(one.get_ydata(), study.total_friction.isel(temperature=i))
+    assert len({mpl.colors.to_hex(one.get_color()) for one in friction.lines}) == 3
+
+
+def test_both_are_among_the_figures_of_a_study(study: xr.Dataset, tmp_path: Path) -> None:
+    draw(study, tmp_path)
+    assert {path.stem for path in tmp_path.glob("*.png")} == {
+        "totals",
+        "map",
+        "friction_master_curve",
+    }
+    (alone := tmp_path / "alone").mkdir()
+    draw(study.isel(temperature=[0]), alone)
+    assert {path.stem for path in alone.glob("*.png")} == {"totals", "friction_master_curve"}
+
+
+def test_page_shows_celsius_and_the_command_with_units(study: xr.Dataset, tmp_path: Path) -> None:
+    page = write_report(netcdf.save(study, tmp_path / "study.nc")).read_text(encoding="utf-8")
+    assert "temperature=283.15 K,293.15 K,313.15 K" in page.replace("&#39;", "'")
+    assert "--model direct" in page
+    assert "40 °C lies beyond the temperatures that the shift" in page
+    assert "friction over a_T v" in page
+    assert "one curve, temperatures up to" in page
+    assert 'id="figure-total_friction-over-reduced_speed"' in page
+    assert "temperature [°C]" in page.replace("\\u00b0", "°")

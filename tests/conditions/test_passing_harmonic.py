@@ -1,0 +1,82 @@
+"""Harmonics of heat switched on when a contact begins: against time integrals and both limits."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+from scipy.special import gamma
+
+from gripscale.conditions import (
+    LossDepth,
+    harmonic_at_surface,
+    harmonic_decay,
+    harmonic_where_lost,
+    uniform_at_surface,
+    uniform_where_lost,
+)
+from gripscale.conditions.flash_temperature import passing_at_surface, passing_where_lost
+from tests.samples import THERMAL
+
+
+def integrated(m: complex, time: float, depth: LossDepth, of: str) -> complex:
+    """Return D/kappa times the integral of E exp(-d^2/(4 D s) - D m^2 s) / sqrt(pi D s) over s."""
+    diffusivity, rate = THERMAL.diffusivity, depth.rate
+
+    def met(s: float) -> float:
+        length = 2.0 * np.sqrt(diffusivity * s)
+        if of == "between":
+            own = lambda d: rate * (3 + 3 * rate * d + (rate * d) ** 2) / 8 * np.exp(-rate * d)  # noqa: E731
+        else:
+            n = 3 if of == "one" else 6
+            own = lambda d: rate**n * d ** (n - 1) * np.exp(-rate * d) / gamma(n)  # noqa: E731
+        end = min(60.0 / rate, 7.0 * length)
+        return float(quad(lambda d: own(d) * np.exp(-((d / length) ** 2)), 0.0, end, limit=200)[0])
+
+    def part(unit: complex) -> float:
+        def at(root: float) -> float:
+            wave = np.exp(-diffusivity * m**2 * root**2)
+            return float(2.0 * (unit * wave).real / np.sqrt(np.pi * diffusivity) * met(root**2))
+
+        return float(quad(at, 1e-9, np.sqrt(time), limit=300)[0])
+
+    return diffusivity / THERMAL.conductivity * (part(1.0) + 1j * part(-1j))
+
+
+@pytest.mark.parametrize(
+    ("speed", "along", "number", "time", "mean"),
+    [(1.0, 0.0, 1e3, 0.1, 1e-3), (1.0, 50.0, 300.0, 0.1, 1e-4), (0.3, 60.0, 60.0, 0.3, 1e-3)],
+)
+def test_slow_harmonics_are_the_integral_over_the_time_of_contact(
+    speed: float, along: float, number: float, time: float, mean: float
+) -> None:
+    m, depth = harmonic_decay([number], [along], speed, THERMAL), LossDepth(mean)
+    [surface] = passing_at_surface(m, time, depth, THERMAL)
+    assert surface == pytest.approx(integrated(m[0], time, depth, "one"), rel=1e-8)
+    [lost] = passing_where_lost(m, time, depth, THERMAL)
+    both = (integrated(m[0], time, depth, of) for of in ("between", "sum"))
+    assert lost == pytest.approx(0.5 * sum(both), rel=1e-8)
+
+
+def test_no_wavenumber_is_uniform_heat_and_a_long_time_is_steady() -> None:
+    depth, time = LossDepth(2e-4), 0.1
+    still = np.array([0.1 + 0j])
+    [surface] = passing_at_surface(still, time, depth, THERMAL)
+    [lost] = passing_where_lost(still, time, depth, THERMAL)
+    assert surface.real == pytest.approx(uniform_at_surface(time, depth, THERMAL), rel=1e-6)
+    assert lost.real == pytest.approx(uniform_where_lost(time, depth, THERMAL), rel=1e-6)
+    m = harmonic_decay(np.geomspace(50.0, 1e5, 30), np.linspace(0.0, 40.0, 30), 1.0, THERMAL)
+    long = 1e6
+    steady = harmonic_at_surface(m, depth, THERMAL)
+    np.testing.assert_allclose(passing_at_surface(m, long, depth, THERMAL), steady, rtol=1e-7)
+    where = harmonic_where_lost(m, depth, THERMAL)
+    np.testing.assert_allclose(passing_where_lost(m, long, depth, THERMAL), where, rtol=1e-7)
+
+
+def test_across_the_way_of_sliding_a_short_contact_warms_no_more_than_its_energy() -> None:
+    """It is no warmer than under the same heat everywhere; the steady one would be four times."""
+    number, time, depth = 2.0 * np.pi / 6e-3, 0.1, LossDepth(0.0)
+    m = np.array([number + 0j])
+    [risen] = passing_at_surface(m, time, depth, THERMAL)
+    assert risen.real <= uniform_at_surface(time, depth, THERMAL)
+    assert harmonic_at_surface(m, depth, THERMAL)[0].real > 4.0 * risen.real

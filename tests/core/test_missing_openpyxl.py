@@ -1,0 +1,39 @@
+"""Without openpyxl both reading and writing a workbook name the same extra, one that has it."""
+
+from __future__ import annotations
+
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+import xarray as xr
+
+from gripscale.core.errors import FileError
+from gripscale.export import write_tables
+from gripscale.rubber import read_master_curve
+from tests.samples import ROOT
+
+EXTRA = "export"
+HINT = f"needs openpyxl, which is not installed; install it with: pip install 'gripscale[{EXTRA}]'"
+
+
+@pytest.fixture(autouse=True)
+def _no_openpyxl(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "openpyxl", None)
+
+
+def test_reading_and_writing_give_the_same_hint(tmp_path: Path) -> None:
+    (tmp_path / "curve.xlsx").write_bytes(b"PK")
+    with pytest.raises(FileError) as reading:
+        read_master_curve(tmp_path / "curve.xlsx")
+    with pytest.raises(FileError) as writing:
+        write_tables(xr.Dataset({"friction": 0.5}), tmp_path / "out", format="xlsx")
+    assert HINT in str(reading.value)
+    assert HINT in str(writing.value)
+
+
+def test_the_extra_has_it() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())
+    extras = project["project"]["optional-dependencies"]
+    assert any(needed.startswith("openpyxl") for needed in extras[EXTRA])

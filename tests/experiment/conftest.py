@@ -1,0 +1,39 @@
+"""A case of three small waves by hand on a coarse mesh, which solves in a fraction of a second."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from tests.samples import THREE_WAVES, case_text
+
+CASE = case_text(THREE_WAVES, static=False)
+
+
+@pytest.fixture
+def case(tmp_path: Path) -> Path:
+    path = tmp_path / "case.toml"
+    path.write_text(CASE)
+    return path
+
+
+@pytest.fixture
+def same_bytes() -> Callable[[xr.Dataset, xr.Dataset], None]:
+    """Assert that two Datasets hold the same, to the last bit."""
+
+    def compare(one: xr.Dataset, other: xr.Dataset) -> None:
+        assert list(one.variables) == list(other.variables)
+        assert one.attrs == other.attrs
+        for name in one.variables:
+            a, b = one[name], other[name]
+            assert (a.dims, a.dtype, a.attrs) == (b.dims, b.dtype, b.attrs), name
+            if a.dtype == object:
+                assert a.values.tolist() == b.values.tolist(), name
+            else:
+                assert np.ascontiguousarray(a).tobytes() == np.ascontiguousarray(b).tobytes(), name
+
+    return compare

@@ -1,0 +1,174 @@
+"""Surfaces and rubbers by name and file; measured surfaces are fitted anew where waves vary."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import gripscale as gs
+from gripscale.case import read_case
+from gripscale.core.errors import FileError, InputError
+from gripscale.experiment.inputs import case_surface, rubber_of, surface_of
+from tests.samples import EXAMPLES, write_road
+
+EXAMPLE = EXAMPLES / "road_and_tread" / "case.toml"
+STACK = gs.SineStack(wavelength=20e-3 / 3.0 ** np.arange(5), amplitude=2e-3 / 2.2 ** np.arange(5))
+
+
+@pytest.fixture
+def measured(tmp_path: Path) -> Path:
+    """A case on a made-up road of five waves, and a copy of the road under another name."""
+    profile = gs.surface.sine_profile(STACK, length=0.5, step=1e-4, seed=3)
+    for name in ("road.txt", "other.txt"):
+        write_road(tmp_path / name, profile)
+    path = tmp_path / "case.toml"
+    path.write_text(
+        '[surface]\nfiles = ["road.txt"]\nremove_spikes = false\nscales = 5\n'
+        'smallest_wavelength = "0.25 mm"\n'
+        '[rubber]\nname = "styrene_butadiene"\nbulk_modulus = "1.5 GPa"\n'
+        '[load]\npressure = "3 bar"\nspeed = 0.3\nfootprint = 0.1\n'
+    )
+    return path
+
+
+def test_measured_surface_is_fitted_anew(measured: Path) -> None:
+    road = case_surface(read_case(measured))
+    base = road.varied().sines
+    assert (len(base), base.wavelength[-1]) == (5, pytest.approx(0.25e-3))
+    four = road.varied(waves=4).sines
+    assert (len(four), four.wavelength[-1]) == (4, pytest.approx(0.25e-3))
+    finer = road.varied(smallest_wavelength=0.1e-3).sines
+    assert (len(finer), finer.wavelength[-1]) == (5, pytest.approx(0.1e-3))
+    pair = road.varied(factors=(3.5, 2.4)).sines
+    assert pair.wavelength[0] == pytest.approx(base.wavelength[0], rel=1e-12)
+    assert pair.amplitude[0] == pytest.approx(base.amplitude[0], rel=1e-12)
+    assert pair.wavelength[-1] >= base.wavelength[-1] > pair.wavelength[-1] / 3.5
+    assert (pair.s_wavelength, pair.s_amplitude) == pytest.approx((3.5, 2.4))
+    assert pair.residual is not None
+    assert base.residual is not None
+    assert pair.residual > base.residual
+
+
+def test_fixed_factor_leaves_room_for_what_varies(measured: Path) -> None:
+    text = measured.read_text().replace('smallest_wavelength = "0.25 mm"', "s_wavelength = 3")
+    measured.write_text(text)
+    road = case_surface(read_case(measured))
+    assert len(road.varied(waves=3).sines) == 3
+    finer = road.varied(smallest_wavelength=1e-4).sines
+    assert finer.s_wavelength == pytest.approx(3.0)
+    assert 1e-4 <= finer.wavelength[-1] < 3e-4
+
+
+def test_cut_off_and_upper_share_are_fitted_anew(measured: Path) -> None:
+    road = case_surface(read_case(measured))
+    assert road.measured is not None
+    assert road.correlation is not None
+    cut = road.varied(cut_off=0.2e-3, waves=4).sines
+    own = gs.fit_sines(road.correlation, scales=4, cut_off=0.2e-3)
+    np.testing.assert_array_equal(cut.amplitude, own.amplitude)
+    half = road.varied(upper_share=0.5, cut_off=0.2e-3)
+    upper = gs.height_difference(road.measured.cleaned, upper_share=0.5)
+    np.testing.assert_array_equal(half.correlation.value, upper.value)
+    own = gs.fit_sines(upper, scales=5, cut_off=0.2e-3)
+    np.testing.assert_array_equal(half.sines.amplitude, own.amplitude)
+    assert half.counted["upper_share"] == 0.5
+    # back from a cut-off to a last wave, and other factors down to the same cut-off
+    back = replace(
+        road, waves=cut, fit={**road.fit, "smallest_wavelength": None, "cut_off": 0.2e-3}
+    )
+    assert back.varied(smallest_wavelength=0.3e-3).sines.wavelength[-1] == pytest.approx(0.3e-3)
+    for factor in (2.2, 3.5, 6.5):
+        pair = back.varied(factors=(factor, 2.0)).sines
+        assert pair.cut_off == pytest.approx(pair.wavelength[-1] / np.sqrt(factor))
+        assert 0.2e-3 <= pair.cut_off < 0.2e-3 * factor
+        assert pair.residual is not None
+
+
+def test_what_needs_a_measured_surface_says_so() -> None:
+    by_hand = surface_of(STACK, read_case(EXAMPLE))
+    with pytest.raises(InputError, match="cut_off varies waves that were fitted"):
+        by_hand.varied(cut_off=1e-3)
+    with pytest.raises(InputError, match="upper_share varies a measured surface; got sine waves"):
+        by_hand.varied(upper_share=0.5)
+    with pytest.raises(InputError, match=r"smallest_wavelength .* or cut_off .*, not both"):
+        by_hand.varied(cut_off=1e-3, smallest_wavelength=1e-3)
+
+
+def test_surface_by_name_file_or_case(measured: Path, tmp_path: Path) -> None:
+    file = read_case(measured)
+    own = surface_of("case", file)
+    beside = surface_of("other.txt", file)
+    other_case = surface_of(str(measured), file)
+    for road in (beside, other_case):
+        np.testing.assert_array_equal(road.sines.wavelength, own.sines.wavelength)
+    assert beside.source.endswith("other.txt")
+    made = surface_of("synthetic_dense_asphalt", file)
+    assert "synthetic, self-affine, H = 0.8" in made.source
+    assert made.sines.wavelength[-1] == pytest.approx(0.1e-3)
+    assert len(made.varied(waves=4).sines) == 4
+    with pytest.raises(FileError, match="nor one of case, synthetic_dense_asphalt"):
+        surface_of("synthetic_lawn", file)
+
+
+def test_rubber_by_name_file_or_case(measured: Path) -> None:
+    file = read_case(measured)
+    assert rubber_of("case", file).bulk_modulus == 1.5e9
+    assert rubber_of("styrene_butadiene", file) == rubber_of("case", file)
+    tread = rubber_of(str(EXAMPLE), file)
+    assert tread.bulk_modulus == 2e9
+    dma = EXAMPLE.parents[1] / "data" / "rubber" / "measured_dma.txt"
+    again = rubber_of(str(dma), file)
+    assert again.bulk_modulus == 1.5e9
+    np.testing.assert_array_equal(again.relaxation_times, tread.relaxation_times)
+
+
+def test_waves_by_hand_are_cut_off() -> None:
+    road = surface_of(STACK, read_case(EXAMPLE))
+    assert len(road.varied(waves=2).sines) == 2
+    assert len(road.varied(smallest_wavelength=1e-3).sines) == 3
+    assert road.varied(factors=(3.0, 2.0)).sines.residual is None
+
+
+def test_varied_rubber_keeps_what_the_case_says_beside_its_curve(measured: Path) -> None:
+    energy = 'strain_energy = { kind = "yeoh", second = -0.1, third = 0.02 }\n[load]'
+    measured.write_text(measured.read_text().replace("[load]", energy))
+    file = read_case(measured)
+    dma = EXAMPLE.parents[1] / "data" / "rubber" / "measured_dma.txt"
+    for value in ("case", "styrene_butadiene", str(dma)):
+        rubber = rubber_of(value, file)
+        assert rubber.strain_energy == gs.rubber.Yeoh(-0.1, 0.02)
+        assert rubber.bulk_modulus == 1.5e9
+
+
+def test_varied_file_is_read_like_that_of_the_case_where_it_does_not_say(measured: Path) -> None:
+    """One curve three times: bare numbers, titles that contradict the case, a loss factor."""
+    omega = np.geomspace(1e-2, 1e6, 40)
+    modulus = gs.rubber.springpot_modulus(omega)
+    hertz, storage, loss = omega / 2 / np.pi, modulus.real, modulus.imag
+    files = {
+        "own.txt": ("", (omega, loss / 1e6 / 3, storage / 1e6 / 3)),
+        "bare.txt": ("", (omega, loss / 1e6 / 3, storage / 1e6 / 3)),
+        "told.txt": (
+            "T = 40 °C\nf (Hz)\tE' (kPa)\tE'' (kPa)\n",
+            (hertz, storage / 1e3, loss / 1e3),
+        ),
+        "tan.txt": ("f (Hz)\tE' (kPa)\ttan d\n", (hertz, storage / 1e3, loss / storage)),
+    }
+    for name, (titles, columns) in files.items():
+        rows = ["\t".join(f"{v:.9e}" for v in row) for row in zip(*columns, strict=True)]
+        measured.with_name(name).write_text(titles + "\n".join(rows) + "\n", encoding="utf-8")
+    stated = (
+        'file = "own.txt"\nfrequency_unit = "rad/s"\nmodulus_unit = "MPa"\nmodulus = "G"\n'
+        'columns = [1, 3, 2]\nreference_temperature = "20 C"\n'
+    )
+    measured.write_text(measured.read_text().replace('name = "styrene_butadiene"\n', stated))
+    file = read_case(measured)
+    own, *others = (rubber_of(name, file) for name in ("case", "bare.txt", "told.txt", "tan.txt"))
+    for other in others:
+        at = [other.complex_modulus(w) / own.complex_modulus(w) for w in (1.0, 1e4)]
+        np.testing.assert_allclose(at, 1.0, rtol=1e-6)
+    assert [one.reference_temperature for one in others] == [293.15, 313.15, 293.15]
+    assert "read like the rubber of the case where it does not say: freq" in others[0].source

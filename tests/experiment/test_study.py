@@ -1,0 +1,322 @@
+"""A study holds exactly the chains of `predict` over its axes."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import gripscale as gs
+from gripscale.chain import Chain
+from gripscale.core.errors import FileError, InputError
+from gripscale.core.provenance import fingerprint
+from gripscale.experiment import Progress, Study, Task, task
+from gripscale.experiment import study as study_module
+from gripscale.half_space.model import DirectContact
+from gripscale.io import netcdf
+from gripscale.model import NominalLoad
+from gripscale.surface import PreparedSurface
+from gripscale.theory import HalfPlane
+from gripscale.wave import FiniteStrainBlock, Mesh, Sine, Status, WaveProblem, WaveResult
+
+Compare = Callable[[xr.Dataset, xr.Dataset], None]
+SPEEDS = [0.01, 1.0]
+
+
+@dataclass(frozen=True)
+class Warmer:
+    """A condition that does nothing, with a number that counts."""
+
+    temperature: float
+
+    def __call__(self, wave: Sine, so_far: gs.Prediction) -> gs.Rubber:
+        return so_far.rubber
+
+
+WAVES = gs.SineStack(wavelength=[10e-3, 3e-3, 1e-3], amplitude=[0.8e-3, 0.25e-3, 0.08e-3])
+
+
+def test_crossed_study_is_predict_at_every_point(case: Path, tmp_path: Path) -> None:
+    told: list[Progress] = []
+    study = Study(case, {"speed": SPEEDS, "pressure": "1 bar, 3 bar"}, static=True)
+    result = study.run(tmp_path / "out", on_task=told.append)
+    alone = gs.predict(
+        gs.rubber.styrene_butadiene(),
+        WAVES,
+        pressure=3e5,
+        speed=1.0,
+        footprint=0.1,
+        columns=32,
+        rows=8,
+    )
+    there = result.sel(speed=1.0, pressure=3e5)
+    assert there.total_friction == alone.friction
+    assert there.total_contact_fraction == alone.contact_fraction
+    np.testing.assert_array_equal(there.running_friction, alone.running_friction)
+    assert result.total_friction.dims == ("speed", "pressure")
+    assert result.static_total_contact_fraction.dims == ("pressure",)
+    assert (result.static_total_contact_fraction > result.total_contact_fraction).all()
+    assert (result.prediction_status == "converged").all()
+    assert [t.done for t in told] == [1, 2, 3, 4, 5, 6]
+    assert {t.label for t in told} >= {"speed 0.01 m/s, pressure 1 bar"}
+
+
+def test_result_file_is_labelled_with_units_and_provenance(case: Path, tmp_path: Path) -> None:
+    result = Study(case, {"speed": SPEEDS}).run(tmp_path)
+    kept = netcdf.load(tmp_path / "study.nc")
+    assert kept.identical(result)
+    assert all({"units", "long_name"} <= set(kept[name].attrs) for name in kept.variables)
+    assert kept.speed.attrs["units"] == "m/s"
+    assert kept.attrs["case"] == case.read_text()
+    assert kept.attrs["software"].startswith("gripscale ")
+    assert "static_contact_fraction" not in kept
+
+
+def test_speed_zero_is_static_contact(case: Path, tmp_path: Path) -> None:
+    result = Study(case, {"speed": [0.0, 0.3]}, static=True).run(tmp_path)
+    assert result.total_contact_fraction[0] == result.static_total_contact_fraction
+    assert len(list((tmp_path / "predictions").iterdir())) == 2
+
+
+def test_number_of_workers_changes_nothing(case: Path, tmp_path: Path, same_bytes: Compare) -> None:
+    study = Study(case, {"speed": "0.01:1:log4"})
+    same_bytes(study.run(tmp_path / "one", workers=1), study.run(tmp_path / "three", workers=3))
+
+
+def test_factors_keep_the_first_wave_and_waves_are_counted(case: Path, tmp_path: Path) -> None:
+    study = Study(case, {"factors": "3/3.2,10/10", "rubber": ["styrene_butadiene"]})
+    result = study.run(tmp_path)
+    assert result.wavelength.dims == ("factors", "rubber", "scale")
+    np.testing.assert_allclose(
+        result.wavelength.isel(rubber=0),
+        [[10e-3, 10e-3 / 3, 10e-3 / 9], [10e-3, 1e-3, np.nan]],
+        rtol=1e-14,
+    )
+    np.testing.assert_allclose(result.amplitude[:, 0, 1], [0.25e-3, 0.08e-3], rtol=1e-14)
+    assert result.s_amplitude.values.tolist() == [3.2, 10.0]
+    assert np.isfinite(result.total_friction).all()
+
+
+def test_pressure_classes_are_of_the_chain(case: Path, tmp_path: Path) -> None:
+    study = Study(case, {"pressure_classes": [1, 4]})
+    result = study.run(tmp_path)
+    assert isinstance(study.model, Chain)
+    for count in (1, 4):
+        alone = replace(study.model, pressure_classes=count).predict(
+            study.rubbers[0], study.surfaces[0], study.points[0].task.load
+        )
+        assert result.total_friction.sel(pressure_classes=count) == alone.total_friction
+    assert len(set(result.total_friction.values)) == 2
+    with pytest.raises(InputError, match="belongs to the chain; got the model direct"):
+        Study(case, {"pressure_classes": [1, 4]}, model=DirectContact())
+
+
+def test_rubbers_and_surfaces_may_be_given_as_objects(case: Path, tmp_path: Path) -> None:
+    elastic = gs.Rubber(equilibrium_modulus=5e6)
+    study = Study(
+        case,
+        {"rubber": {"elastic": elastic, "lossy": "styrene_butadiene"}, "surface": {"hand": WAVES}},
+    )
+    result = study.run(tmp_path)
+    assert result.rubber.values.tolist() == ["elastic", "lossy"]
+    assert abs(result.total_friction.sel(rubber="elastic", surface="hand")) < 1e-9
+    assert result.total_friction.sel(rubber="lossy", surface="hand") > 0.01
+
+
+@pytest.mark.parametrize(
+    ("vary", "error", "words"),
+    [
+        ({"rubber": "nowhere.txt"}, FileError, "rubber nowhere.txt is neither a file here or"),
+        ({"surface": "nowhere.txt"}, FileError, "surface nowhere.txt is neither a file"),
+        ({"waves": "4"}, InputError, "waves must be at most 3"),
+        ({"smallest_wavelength": "1 m"}, InputError, "smallest_wavelength must not exceed"),
+    ],
+)
+def test_what_is_not_there_is_one_sentence(
+    case: Path, vary: dict[str, Any], error: type[Exception], words: str
+) -> None:
+    with pytest.raises(error, match=words):
+        _ = Study(case, vary).points
+
+
+def test_failed_chain_is_a_status(
+    case: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    solve = FiniteStrainBlock.solve
+
+    def lame(
+        self: FiniteStrainBlock, problem: WaveProblem, start: WaveResult | None = None
+    ) -> WaveResult:
+        good = solve(self, problem, start)
+        if problem.load.speed < 1.0 or problem.profile.wavelength > 5e-3:
+            return good
+        return replace(good, status=Status.ITERATION_LIMIT)
+
+    monkeypatch.setattr(FiniteStrainBlock, "solve", lame)
+    result = Study(case, {"speed": SPEEDS}).run(tmp_path)
+    assert result.prediction_status[0] == "converged"
+    assert "wave 2 of 3" in str(result.prediction_status[1].item())
+    assert "iteration limit" in str(result.prediction_status[1].item())
+    assert np.isnan(result.total_friction).values.tolist() == [False, True]
+    assert np.isnan(result.running_friction[1]).values.tolist() == [False, True, True]
+    assert np.isnan(result.wavelength[1]).values.tolist() == [False, False, True]
+    told: list[Progress] = []
+    Study(case, {"speed": SPEEDS}).run(tmp_path, on_task=told.append)
+    assert [t.stored for t in told] == [True, True]
+
+
+def test_key_changes_with_every_input_and_the_software(monkeypatch: pytest.MonkeyPatch) -> None:
+    surface = PreparedSurface(WAVES, "by hand")
+    inputs: dict[str, Any] = {
+        "rubber": gs.Rubber(5e6, [1e6], [1e-3]),
+        "surface": surface,
+        "load": NominalLoad(3e5, 0.3, 0.1),
+    }
+    changes: list[dict[str, Any]] = [
+        {"rubber": gs.Rubber(5e6, [1e6], [math.nextafter(1e-3, 1)])},
+        {"rubber": gs.Rubber(5e6, [1e6], [1e-3], valid_band=(1.0, 2.0))},
+        {"rubber": gs.Rubber(5e6, [1e6], [1e-3], bulk_modulus=1e9)},
+        {"rubber": gs.Rubber(5e6, [1e6], [1e-3], strain_energy=gs.rubber.Yeoh(-0.1, 0.02))},
+        {"surface": PreparedSurface(gs.SineStack(WAVES.wavelength[:2], WAVES.amplitude[:2]), "")},
+        {"load": NominalLoad(math.nextafter(3e5, 1e6), 0.3, 0.1)},
+        {"load": NominalLoad(3e5, 0.31, 0.1)},
+        {"load": NominalLoad(3e5, 0.3, 0.11)},
+        {"load": NominalLoad(3e5, 0.3, 0.1, math.inf)},
+        {"model": Chain(HalfPlane())},
+        {"model": Chain(FiniteStrainBlock(Mesh(columns=64)))},
+        {"model": Chain(FiniteStrainBlock(tolerance=0.01))},
+        {"model": Chain(rubber_at=Warmer(300.0))},
+        {"model": Chain(rubber_at=Warmer(301.0))},
+    ]
+    keys = [Task(**{**inputs, **change}).key for change in [{}, *changes]]
+    assert len(set(keys)) == len(keys)
+    assert Task(**inputs).key == keys[0]
+    elsewhere = {**inputs, "surface": PreparedSurface(WAVES, "the same waves from elsewhere")}
+    assert Task(**elsewhere).key == keys[0]
+    monkeypatch.setattr(task, "software", lambda: "gripscale 99")
+    assert Task(**inputs).key != keys[0]
+
+
+def test_model_that_cannot_be_written_down_is_refused() -> None:
+    odd = Chain(rubber_at=lambda wave, so_far: so_far.rubber)
+    made = Task(gs.Rubber(5e6), PreparedSurface(WAVES, ""), NominalLoad(3e5, 0.3, 0.1), odd)
+    with pytest.raises(InputError, match="models and conditions must be dataclasses"):
+        _ = made.key
+
+
+@pytest.mark.parametrize(
+    ("module", "counts"),
+    [
+        ("rubber/material.py", True),
+        ("rubber/strain_energy.py", True),
+        ("theory/half_plane.py", True),
+        ("wave/result.py", True),
+        ("chain/chain.py", True),
+        ("core/checks.py", True),
+        ("a_room_of_tomorrow/new.py", True),
+        ("charts/blocks.py", False),
+        ("app/forms.py", False),
+        ("report/tables.py", False),
+        ("cli/run.py", False),
+    ],
+)
+def test_changed_module_changes_the_fingerprint(module: str, counts: bool, tmp_path: Path) -> None:
+    home, kernel = tmp_path / "gripscale", tmp_path / "_kernel.so"
+    (home / module).parent.mkdir(parents=True)
+    (home / module).write_text("number = 1\n")
+    kernel.write_bytes(b"compiled")
+    before = fingerprint(home, kernel)
+    (home / module).write_text("number = 2\n")
+    assert (fingerprint(home, kernel) != before) == counts
+    kernel.write_bytes(b"compiled anew")
+    assert fingerprint(home, kernel) != before
+
+
+def test_study_found_whole_is_not_prepared_again(
+    case: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    first = Study(case, {"speed": SPEEDS}).run(tmp_path)
+    monkeypatch.setattr(study_module, "case_rubber", lambda _: pytest.fail("fitted again"))
+    again = Study(case, {"speed": SPEEDS})
+    assert again.run(tmp_path).identical(first)
+    assert json.loads(first.attrs["description"])[1].endswith("2 different predictions")
+    for other in (
+        Study(case, {"speed": [0.01, 2.0]}),
+        Study(case, {"speed": SPEEDS}, static=True),
+        Study(case, {"speed": SPEEDS}, model=Chain(HalfPlane())),
+    ):
+        assert other.stored(tmp_path) is None
+    case.write_text(case.read_text() + "# a word more\n")
+    assert Study(case, {"speed": SPEEDS}).stored(tmp_path) is None
+
+
+def test_study_is_not_the_same_with_another_file_behind_it(case: Path, tmp_path: Path) -> None:
+    curve = tmp_path / "dma.txt"
+    rows = [f"{10.0**n} {5 + n} {0.5 + 0.1 * n}" for n in range(6)]
+    curve.write_text("\n".join(["f (Hz) E' (MPa) E'' (MPa)", *rows]) + "\n")
+    key = Study(case, {"rubber": str(curve)}).key
+    assert Study(case, {"rubber": str(curve)}).key == key
+    curve.write_text(curve.read_text().replace("7 0.7", "7 0.8"))
+    assert Study(case, {"rubber": str(curve)}).key != key
+
+
+def test_changed_material_is_never_served_old_results(
+    case: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    study = Study(case, {"speed": [1.0]})
+    study.run(tmp_path)
+    for module in (task, study_module):
+        monkeypatch.setattr(module, "software", lambda: "gripscale with another material.py")
+    told: list[Progress] = []
+    Study(case, {"speed": [1.0]}).run(tmp_path, on_task=told.append)
+    assert [t.stored for t in told] == [False]
+
+
+def test_decades_of_relaxation_share_out_the_friction(case: Path, tmp_path: Path) -> None:
+    one = gs.Rubber(5e6, [5e6], [2e-3])
+    two = gs.Rubber(5e6, [2.5e6, 2.5e6], [2e-3, 2e-3])
+    far = gs.Rubber(5e6, [5e6, 1.0], [2e-3, 2e-1])
+    study = Study(case, {"rubber": {"one": one, "two": two, "far": far}, "speed": [0.01, 0.3]})
+    result = study.run(tmp_path)
+    by_decade = result.friction_by_decade
+    np.testing.assert_allclose(by_decade.decade, [1e-3, 1e-2, 1e-1])
+    np.testing.assert_allclose(by_decade.sum("decade"), result.total_friction, rtol=1e-12)
+    np.testing.assert_allclose(by_decade.isel(decade=1), 0.0, atol=1e-15)
+    shares = (by_decade.isel(decade=2) / result.total_friction).sel(rubber="far")
+    # E'' of both elements at the fundamental of the largest wave, where the slow one leads most.
+    phase = 2 * np.pi * result.speed.values / 10e-3
+    slow, fast = (g * phase * t / (1 + (phase * t) ** 2) for g, t in ((1.0, 0.2), (5e6, 2e-3)))
+    assert (shares.values > 0.0).all()
+    assert (shares.values < slow / (slow + fast)).all()
+
+
+def test_a_refused_point_says_why_and_the_others_stand(case: Path, shell: Any) -> None:
+    """The named rubber is known from 0.01 rad/s; 10 mm at 1e-6 m/s is 6e-4 rad/s."""
+    case.write_text(case.read_text().replace("[rubber]", '[rubber]\nextrapolate = "refuse"'))
+    done = shell("study", case, "--vary", "speed=0.000001,0.3", "--output", case.parent / "study")
+    assert done.exit_code == 3
+    assert "1 of 2 predictions have no totals" in done.stderr
+    result = netcdf.load(case.parent / "study" / "study.nc")
+    assert np.isfinite(result.total_friction.values).tolist() == [False, True]
+    assert "below the measured band" in str(result.prediction_status.values[0])
+    assert result.prediction_status.values[1] == "converged"
+
+
+def test_a_study_says_what_lies_beyond_the_band(case: Path, shell: Any) -> None:
+    done = shell("study", case, "--vary", "speed=0.000001,0.3", "--output", case.parent / "study")
+    assert done.exit_code == 0
+    sentence = "1 of 2 predictions, up to 100 % of their friction, lie up to 1.2 decades below the"
+    for text in (done.stdout, (case.parent / "study" / "study.txt").read_text()):
+        assert sentence in " ".join(text.split())
+    result = netcdf.load(case.parent / "study" / "study.nc")
+    assert result.total_friction_outside_band.values.tolist() == [1.0, 0.0]
+    assert result.total_decades_below_band.values[0] == pytest.approx(
+        np.log10(0.01 / (2e-4 * np.pi))
+    )

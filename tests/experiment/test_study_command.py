@@ -1,0 +1,103 @@
+"""`gripscale study` from the command line to table, figures and result file."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from gripscale.io import netcdf
+from gripscale.wave import FiniteStrainBlock, Status, WaveProblem, WaveResult
+from tests.samples import Shell
+
+
+def test_command_solves_prints_draws_and_resumes(shell: Shell, case: Path) -> None:
+    asked = ("study", case, "--vary", "speed=0.01:1:log3", "--vary", "pressure=1 bar,3 bar")
+    result = shell(*asked, "--static")
+    assert result.exit_code == 0, result.output
+    target = case.parent / "results" / "study"
+    written = {
+        str(p.relative_to(target)) for p in target.rglob("*.*") if "predictions" not in p.parts
+    }
+    figures = {
+        "totals",
+        *(
+            f"{name}_{end}"
+            for end in ("1_bar", "3_bar")
+            for name in ("wavelength", "stacked", "shares", "decades")
+        ),
+    }
+    files = {f"figures/{name}.{kind}" for name in figures for kind in ("png", "pdf")}
+    assert written == files | {"case.toml", "study.nc", "study.txt"}
+    for words in ("speed (3) x pressure (2); 8 different predictions", "[8/8] static, pressure"):
+        assert words in result.stdout
+    data = netcdf.load(target / "study.nc")
+    assert f"{float(data.total_friction[2, 1]):.3f}" in result.stdout
+    assert result.stdout.count("converged") == 6
+    assert max(len(line) for line in result.stdout.splitlines() if "in /" not in line) <= 100
+    again = shell(*asked, "--static")
+    assert again.stdout.count("already solved") == 8
+
+
+def test_names_are_drawn_as_points(shell: Shell, case: Path, tmp_path: Path) -> None:
+    result = shell(
+        "study", case, "--vary", "rubber=case", "--vary", "factors=3/3,4/4", "--output", tmp_path
+    )
+    assert result.exit_code == 0, result.output
+    names = {path.stem for path in (tmp_path / "figures").glob("*.png")}
+    assert names == {"totals", "wavelength_3_3", "wavelength_4_4"}
+
+
+def test_table_keeps_its_status_beside_long_names(shell: Shell, case: Path, tmp_path: Path) -> None:
+    named = "surface=case,synthetic_dense_asphalt"
+    asked = ("study", case, "--vary", "rubber=styrene_butadiene", "--vary", named, "--static")
+    result = shell(*asked, "--output", tmp_path)
+    assert result.exit_code == 0, result.output
+    rows = [line for line in result.stdout.splitlines() if line.startswith(" styrene butadiene")]
+    assert len(rows) == 2
+    assert all(row.rstrip().endswith("converged") for row in rows)
+    assert "…" not in result.stdout
+
+
+def test_failed_chain_ends_with_its_own_code(
+    shell: Shell, case: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    solve = FiniteStrainBlock.solve
+
+    def lame(
+        self: FiniteStrainBlock, problem: WaveProblem, start: WaveResult | None = None
+    ) -> WaveResult:
+        good = solve(self, problem, start)
+        failed = problem.load.speed > 0.5 and problem.profile.wavelength < 2e-3
+        return replace(good, status=Status.ITERATION_LIMIT) if failed else good
+
+    monkeypatch.setattr(FiniteStrainBlock, "solve", lame)
+    result = shell("study", case, "--vary", "speed=0.1,1")
+    assert result.exit_code == 3
+    assert len(result.stderr.splitlines()) == 1
+    assert "1 of 2 predictions have no totals; the first: wave 3" in result.stderr
+    assert (case.parent / "results" / "study" / "study.nc").exists()
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["--vary", "sped=1"], "vary must be one of speed"),
+        (["--vary", "speed=1", "--vary", "speed=2"], "vary must name different inputs"),
+        (["--vary", "speed=1", "--workers", "0"], "workers must be a whole number from 1"),
+        (["--vary", "rubber=none.txt"], "rubber none.txt is neither a file here"),
+        (["--vary", "speed=1", "--cluster", "nonsense"], 'cluster must be "local" or the address'),
+    ],
+)
+def test_bad_option_is_refused(shell: Shell, case: Path, options: list[str], words: str) -> None:
+    result = shell("study", case, *options)
+    assert result.exit_code == 2, result.output
+    assert len(result.stderr.splitlines()) == 1
+    assert words in result.stderr
+
+
+def test_file_in_place_of_the_folder_is_refused(shell: Shell, case: Path) -> None:
+    result = shell("study", case, "--vary", "speed=1", "--output", case)
+    assert result.exit_code == 2
+    assert "is not a folder" in result.stderr

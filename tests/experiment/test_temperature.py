@@ -1,0 +1,232 @@
+"""Temperature and effects as axes: one curve over a_T v with nothing else on, none with heat."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import gripscale as gs
+from gripscale.analysis import compare_case
+from gripscale.chain import Chain
+from gripscale.conditions import Conditions, ConstantStress
+from gripscale.core.errors import InputError
+from gripscale.experiment import Study
+from gripscale.half_space.model import DirectContact
+from gripscale.report.tables_run import as_text
+from gripscale.report.tables_study import collapse_sentences, shift_sentence, study_table
+from gripscale.rubber import ShiftTable
+from gripscale.surface import self_affine_profile
+from gripscale.theory import HalfPlane, Persson
+from tests.samples import THERMAL as HEAT
+from tests.samples import Shell
+
+CASE = """
+[surface]
+files = ["road.dat"]
+x_unit = "m"
+z_unit = "m"
+scales = 2
+smallest_wavelength = "1 mm"
+[rubber]
+name = "styrene_butadiene"
+shift = { kind = "wlf", c1 = 8.0, c2 = "120 K", valid_range = ["0 C", "50 C"] }
+[load]
+pressure = "3 bar"
+speed = "0.1 m/s"
+footprint = "50 mm"
+static = false
+[solver]
+model = "half_plane"
+points = 256
+"""
+SPEEDS = "0.1:10:log9"
+"""Four in a decade."""
+
+
+def shifted_by(decades: float) -> float:
+    """Return the temperature of the case's shift at which a_T is 10^decades [K]."""
+    return 293.15 - 120.0 * decades / (8.0 + decades)
+
+
+COMMON = [shifted_by(4.0), shifted_by(2.5), shifted_by(2.0)]
+"""Cold, so that this rubber is lossy; a_T v at each is one of those at the others."""
+
+
+@pytest.fixture
+def case(tmp_path: Path) -> Path:
+    road = self_affine_profile(0.8, 5e-3, 0.3e-3, 0.1, 1e-4, seed=4)
+    np.savetxt(tmp_path / "road.dat", np.column_stack([road.x, road.z]))
+    path = tmp_path / "case.toml"
+    path.write_text(CASE)
+    return path
+
+
+def direct(**conditions: Any) -> DirectContact:
+    return DirectContact(tolerance=None, periodic=True, conditions=Conditions(**conditions))
+
+
+def over(case: Path, model: Any, temperatures: Any = COMMON, speeds: str = SPEEDS) -> xr.Dataset:
+    vary = {"speed": speeds, "temperature": temperatures}
+    return Study(case, vary, model=model).run(case.parent / "study")
+
+
+@pytest.mark.parametrize("model", ["chain", direct()], ids=["chain", "direct"])
+def test_temperatures_are_one_curve_over_reduced_speed(case: Path, model: Any) -> None:
+    """To the residual of the solvers where points are common: nothing is interpolated."""
+    result = over(case, model)
+    assert result.reduced_speed.dims == ("speed", "temperature")
+    np.testing.assert_allclose(result.reduced_speed[:, 1], result.speed * 10**2.5, rtol=1e-9)
+    np.testing.assert_allclose(result.vertical_shift_factor, 1.0)
+    assert float(np.ptp(result.total_friction.values)) > 0.05
+    for name in ("friction_collapse", "contact_fraction_collapse"):
+        assert float(result[name]) < 1e-5
+        assert int(result[name].attrs["points"]) > 20
+    told = dict(collapse_sentences(result))
+    assert {*told} == {"friction", "A_r/A_0"}
+    assert all(text.startswith("one curve") for text in told.values())
+
+
+@pytest.mark.parametrize(
+    "model",
+    [Chain(HalfPlane(points=256), conditions=Conditions(heat=HEAT)), direct(heat=HEAT)],
+    ids=["chain", "direct"],
+)
+def test_heat_makes_them_several(case: Path, model: Any) -> None:
+    result = over(case, model, COMMON[1:], "0.1:10:log5")
+    assert float(result.friction_collapse) > 5e-3
+    assert all(not text.startswith("one curve") for _, text in collapse_sentences(result))
+
+
+def test_a_theory_takes_the_rubber_at_the_temperature_of_the_case(case: Path) -> None:
+    """As a comparison does: a model that knows no conditions is given the shifted rubber."""
+    case.write_text(f'{CASE}\n[conditions]\ntemperature = "40 C"\n')
+    result = Study(case, {"speed": [0.1]}, model=Persson()).run(case.parent / "study")
+    compared = compare_case(case, rungs=["persson"]).to_dataset()
+    friction = float(compared.total_friction.sel(rung="persson"))
+    assert float(result.total_friction[0]) == pytest.approx(friction, rel=1e-12)
+
+
+def test_a_vertical_shift_makes_them_several(case: Path) -> None:
+    """Moduli a tenth higher where it is warmer: another contact at the same a_T v."""
+    study = Study(case, {"speed": "0.1:10:log5", "temperature": COMMON[1:]})
+    table = ShiftTable(
+        temperature=[COMMON[1], COMMON[2], 293.15],
+        horizontal=[2.5, 2.0, 0.0],
+        vertical=[np.log10(1.1), 0.0, 0.0],
+    )
+    study.rubbers = [replace(study.rubbers[0], shift=table)]
+    result = study.run(case.parent / "study")
+    np.testing.assert_allclose(result.vertical_shift_factor, [1.1, 1.0], rtol=1e-9)
+    assert float(result.contact_fraction_collapse) > 0.02
+
+
+def test_any_temperatures_are_one_curve_by_interpolation(case: Path) -> None:
+    result = over(case, Chain(HalfPlane(points=512)), "-5.5 C, -4 C", "0.1:1:log9")
+    assert float(result.friction_collapse) < 1e-3
+    assert float(result.friction_collapse.attrs["interpolation_error"]) > 0.0
+    assert int(result.friction_collapse.attrs["points"]) > 5
+
+
+def test_too_few_speeds_are_said_to_be_so(case: Path) -> None:
+    result = over(case, "chain", "20 C, 27 C", "0.1:1:log3")
+    assert np.isnan(result.friction_collapse)
+    assert all("cannot be compared" in text for _, text in collapse_sentences(result))
+
+
+def test_temperature_is_that_of_the_conditions(case: Path, tmp_path: Path) -> None:
+    study = Study(case, {"temperature": ["40 C"]})
+    result = study.run(tmp_path / "out")
+    task = study.points[0].task
+    model = Chain(HalfPlane(points=256), conditions=Conditions(temperature=313.15))
+    alone = model.predict(task.rubber, task.surface, task.load)
+    assert result.temperature.values.tolist() == [313.15]
+    assert float(result.total_friction[0]) == float(alone.total_friction)
+
+
+def test_friction_by_decade_is_of_the_rubber_as_warm_as_it_is(case: Path) -> None:
+    """Relaxation times a hundred times shorter, speed a hundred times higher: two decades off."""
+    result = over(case, "chain", [shifted_by(4.0), shifted_by(2.0)], "0.01,1")
+    cold, warm = (
+        result.friction_by_decade.isel(speed=i, temperature=i).dropna("decade") for i in (0, 1)
+    )
+    shifted = warm.assign_coords(decade=warm.decade * 100.0)
+    there = shifted.reindex(decade=cold.decade, method="nearest", tolerance=1e-9 * cold.decade)
+    where = there.notnull() & (cold > 1e-4)
+    assert int(where.sum()) > 3
+    np.testing.assert_allclose(there.where(where, 0.0), cold.where(where, 0.0), atol=1e-5)
+
+
+def test_temperatures_beyond_the_shift_are_flagged_and_said(case: Path, tmp_path: Path) -> None:
+    result = Study(case, {"temperature": "10 C, 60 C"}).run(tmp_path / "out")
+    assert result.rubber_temperature_extrapolated.values.tolist() == [False, True]
+    assert shift_sentence(result).startswith("60 °C lies beyond the temperatures")
+    text = as_text(study_table(result))
+    assert "60 °C *" in text
+    assert "10 °C *" not in text
+
+
+def test_effects_are_left_out_by_name(case: Path, tmp_path: Path) -> None:
+    conditions = Conditions(temperature=313.15, heat=HEAT, shear_stress=ConstantStress(2e6))
+    model = Chain(HalfPlane(points=256), conditions=conditions)
+    study = Study(case, {"effects": "all, no_heat, no temperature, none"}, model=model)
+    result = study.run(tmp_path / "out")
+    task = study.points[0].task
+    assert result.effects.values.tolist() == ["all", "no heat", "no temperature", "none"]
+    for i, left_out in enumerate(({}, {"heat": None}, {"temperature": None})):
+        own = replace(model, conditions=replace(conditions, **left_out))
+        alone = own.predict(task.rubber, task.surface, task.load)
+        assert float(result.total_friction[i]) == float(alone.total_friction)
+        assert float(result.total_adhesive_friction[i]) == float(alone.total_adhesive_friction)
+    text = as_text(study_table(result))
+    assert "μ area" in text
+    assert "no effects" in text
+
+
+@pytest.mark.parametrize(
+    ("vary", "model", "words"),
+    [
+        ({"temperature": "20, 30"}, "chain", 'temperature must have a unit, such as "20 C"'),
+        ({"temperature": "20:60:lin3"}, "chain", "temperature must have a unit"),
+        ({"temperature": "-300 C"}, "chain", "temperature must be greater than zero"),
+        ({"temperature": ["20 C"]}, Persson(), "such as chain and direct; got the model persson"),
+        ({"temperature": "20 C, -150 C"}, "chain", "temperature must lie within"),
+        ({"temperature": "20 C"}, "toy", "model must be one of chain, direct; got 'toy'"),
+        ({"effects": "all, no luck"}, "chain", "effects must be one of all, no temperature"),
+        ({"effects": "no heat"}, "chain", "left out of those the conditions have, none; got"),
+    ],
+)
+def test_what_cannot_be_varied_is_one_sentence(
+    case: Path, vary: dict[str, Any], model: Any, words: str
+) -> None:
+    with pytest.raises(InputError, match=words) as caught:
+        _ = Study(case, vary, model=model).points
+    assert "\n" not in str(caught.value)
+
+
+def test_rubber_without_shift_is_refused_before_anything_is_solved(case: Path) -> None:
+    case.write_text(case.read_text().replace("shift =", "# shift ="))
+    study = Study(case, {"temperature": "20 C, 40 C"})
+    with pytest.raises(InputError, match="shift and reference_temperature must be those of the"):
+        study.run(case.parent / "out")
+    assert not list((case.parent / "out").rglob("*.nc"))
+
+
+def test_kelvin_from_python_and_units_from_texts() -> None:
+    axis = gs.experiment.axis.axes_of({"temperature": [293.15, "40 C"]})[0]
+    assert axis.values == (293.15, 313.15)
+    assert axis.labels == ("20 C", "40 C")
+
+
+def test_command_draws_map_and_master_curve_of_the_direct_contact(shell: Shell, case: Path) -> None:
+    asked = ("--vary", "speed=0.1:1:log3", "--vary", "temperature=20 C:60 C:lin2")
+    result = shell("study", case, "--model", "direct", *asked)
+    assert result.exit_code == 0, result.output
+    figures = {path.stem for path in (case.parent / "results/study/figures").glob("*.png")}
+    assert {"map", "friction_master_curve", "totals"} <= figures
+    for words in ("temperature 60 C", "* 60 °C lies beyond", "Over a_T v, friction: cannot be"):
+        assert words in result.stdout

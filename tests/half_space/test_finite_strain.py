@@ -1,0 +1,110 @@
+"""The same lines in the block and in the half-space: what finite strain changes."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import gripscale as gs
+from gripscale.core.errors import InputError
+from gripscale.half_space import one_period, solve_both_ways, spread_windows, surface_of_sines
+from gripscale.half_space.grid import periodic_heights
+from gripscale.surface import Profile, SineStack, self_affine_profile
+from gripscale.wave import Status
+from tests.samples import GENTLE_SINES as GENTLE
+
+from .rough_cases import ZENER
+
+LINE = self_affine_profile(0.8, 5e-3, 1e-3, 0.2, 1e-4, seed=4)
+LOAD = {"pressure": 5e4, "speed": 0.1}
+
+
+@pytest.fixture(scope="module")
+def pairs():
+    lines = [surface_of_sines(GENTLE, 20e-3, seed) for seed in range(4)]
+    return solve_both_ways(ZENER, lines, **LOAD)
+
+
+def test_one_period_is_what_the_direct_contact_sees():
+    period = one_period(LINE, 2e-3)
+    there = periodic_heights(LINE, smallest_wavelength=2e-3, periodic=False)
+    here = periodic_heights(period, smallest_wavelength=None, periodic=True)
+    assert here.grid.lengths == pytest.approx(there.grid.lengths, rel=1e-12)
+    np.testing.assert_allclose(here.on((800,)), there.on((800,)), atol=1e-12 * np.ptp(LINE.z))
+
+
+def test_gentle_lines_touch_as_small_strain_says(pairs):
+    """Slopes of 0.15: finite strain changes some per cent (second order in the slope)."""
+    assert len(pairs.converged) == 4
+    for name in ("contact_fraction", "friction_from_dissipation"):
+        found = pairs.correction(name)
+        assert abs(found.factor - 1.0) < 0.04
+        assert found.low <= found.factor <= found.high
+        assert 0.0 <= found.log_error < 0.02
+
+
+def test_gentler_lines_touch_more_as_small_strain_says(pairs):
+    """A tenth of heights and pressure, nearly the same contact: the correction must fade."""
+    stack = SineStack(GENTLE.wavelength, 0.1 * GENTLE.amplitude)
+    lines = [surface_of_sines(stack, 20e-3, seed) for seed in range(4)]
+    faint = solve_both_ways(ZENER, lines, pressure=5e3, speed=0.1)
+    deviation = faint.mean("contact_fraction") / faint.mean("contact_fraction", "half_space") - 1
+    assert abs(deviation) < 0.01
+
+
+def test_what_did_not_converge_does_not_count(pairs):
+    first, *rest = pairs.pairs
+    failed = replace(first, block=replace(first.block, status="iteration limit"))
+    useless = replace(first, block=replace(first.block, status=Status.FRICTIONS_DISAGREE))
+    changed = replace(pairs, pairs=[failed, useless, *rest])
+    assert [pair.converged for pair in changed.pairs] == [False, False, True, True, True]
+    assert "iteration limit" in failed.status
+    assert "frictions disagree" in useless.status
+    assert changed.mean("friction") == np.mean([pair.block.friction for pair in rest])
+    data = changed.to_dataset()
+    found = changed.correction("friction_from_dissipation")
+    assert list(data.status.values[2:]) == ["converged"] * 3
+    assert data.attrs["friction_from_dissipation_correction"] == found.factor
+
+
+def test_few_pairs_have_no_interval(pairs):
+    found = replace(pairs, pairs=pairs.pairs[:2]).correction("friction")
+    assert np.isfinite(found.factor)
+    assert np.isnan([found.low, found.high]).all()
+
+
+def test_workers_change_nothing(pairs):
+    lines = [pair.line for pair in pairs.pairs]
+    told = []
+    alone = solve_both_ways(ZENER, lines, workers=1, on_pair=told.append, **LOAD)
+    assert len(told) == len(lines)
+    for one, other in zip(alone.pairs, pairs.pairs, strict=True):
+        assert one.block.friction == other.block.friction
+        assert one.half_space.friction == other.half_space.friction
+
+
+def test_windows_are_spread_over_all_profiles():
+    other = Profile(LINE.x + 1.0, LINE.z)
+    found = spread_windows([LINE, other], 0.02, 5, 2e-3)
+    assert len(found) == 5
+    assert found[0].x[0] < 0.02
+    assert found[-1].x[0] > 1.15
+    assert len(spread_windows([LINE], 0.02, 1000, 2e-3)) == 10
+
+
+@pytest.mark.parametrize("most", [0, 2.5])
+def test_the_number_of_windows_is_a_whole_one(most):
+    with pytest.raises(InputError, match="most"):
+        spread_windows([LINE], 0.02, most, 2e-3)
+
+
+def test_no_lines():
+    with pytest.raises(InputError, match="lines"):
+        solve_both_ways(ZENER, [], **LOAD)
+
+
+def test_bad_load_is_one_sentence(pairs):
+    with pytest.raises(gs.InputError, match="pressure"):
+        solve_both_ways(ZENER, [pairs.pairs[0].line], pressure=-1.0, speed=0.1)
