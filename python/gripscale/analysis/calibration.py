@@ -28,7 +28,7 @@ from gripscale.analysis.measured_comparison import (
     friction_of_case,
     in_spread,
     measured_variables,
-    predictions_at,
+    predict_points,
 )
 from gripscale.analysis.measured_friction import MeasuredFriction
 from gripscale.analysis.profile_likelihood import (
@@ -48,8 +48,7 @@ from gripscale.conditions.area_term import shear_stress_to_dict
 from gripscale.core import checks, provenance
 from gripscale.core.errors import InputError
 from gripscale.core.units import ZERO_CELSIUS, parse_quantity
-from gripscale.experiment.solve import OnTask
-from gripscale.experiment.task import store_in
+from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.half_space.model import DirectContact
 from gripscale.model import Model
 from gripscale.rubber.extrapolation import WORTH_SAYING, require_measured
@@ -187,17 +186,14 @@ def calibrate_case(
     found = measured or measured_of(results.file)
     if results.file.case.rubber.extrapolate == "refuse":
         _require_measured(results, found)
-    with store_in(folder) as store:
-        predicted = predictions_at(
+    with bench_in(folder, workers, client, on_task) as bench:
+        predicted = predict_points(
             found,
             _model(model, results),
             results.rubber.rubber,
             results.surface,
             results.load,
-            store,
-            workers=workers,
-            client=client,
-            on_task=on_task,
+            bench,
         )
     return calibrate(found, predicted, law=law, fixed=fixed, hold_out=hold_out)
 

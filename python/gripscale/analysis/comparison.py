@@ -32,9 +32,9 @@ from gripscale.case.run import prepare_case
 from gripscale.chain.chain import Chain
 from gripscale.core import checks
 from gripscale.core.errors import InputError
-from gripscale.experiment.solve import OnTask, solve_all
+from gripscale.experiment.solve import Bench, OnTask, bench_in
 from gripscale.experiment.study import Study
-from gripscale.experiment.task import Store, Task, store_in
+from gripscale.experiment.task import Store, Task
 from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
 from gripscale.model import TOTALS, answer, with_area_term
@@ -118,8 +118,8 @@ def compare_case(
     results = case if isinstance(case, CaseResults) else prepare_case(case)
     choice = Choice(seeds, tolerance, rungs, measured, factors)
     task = Task(results.rubber.rubber, results.surface, results.load, results.chain)
-    with store_in(folder) as store:
-        made = _compared(results.file, {"": task}, choice, store, workers, client, on_task)
+    with bench_in(folder, workers, client, on_task) as bench:
+        made = _compared(results.file, {"": task}, choice, bench)
     return made[0]
 
 
@@ -162,8 +162,8 @@ def compare_over(
         raise InputError(f"{axis.name} must have at least two values; got {axis.labels[0]}")
     choice = Choice(seeds, tolerance, rungs, measured, factors)
     tasks = {point.label: point.task for point in study.points}
-    with store_in(folder) as store:
-        made = _compared(study.file, tasks, choice, store, workers, client, on_task)
+    with bench_in(folder, workers, client, on_task) as bench:
+        made = _compared(study.file, tasks, choice, bench)
     return ComparisonOverAxis(axis, made)
 
 
@@ -171,10 +171,7 @@ def _compared(
     file: CaseFile,
     places: Mapping[str, Task],
     choice: Choice,
-    store: Store,
-    workers: int | None,
-    client: Any,
-    on_task: OnTask | None,
+    bench: Bench,
 ) -> list[Comparison]:
     """Return the comparison of each rubber, surface and load in `places`."""
     ladder = chosen(choice.rungs)
@@ -196,7 +193,7 @@ def _compared(
         for (place, name), draws in drawn.items()
         for at in range(len(draws))
     }
-    solved = solve_all(named, store, workers=workers, client=client, on_task=on_task)
+    solved = bench.solve(named)
 
     def rung_at(place: str, rung: Rung) -> SolvedRung:
         pairs = zip(drawn[place, rung.name], tasks[place, rung.name], strict=True)

@@ -22,7 +22,7 @@ from gripscale.conditions.conditions import Conditions
 from gripscale.core import checks
 from gripscale.core.errors import InputError, about_keys
 from gripscale.core.units import ZERO_CELSIUS
-from gripscale.experiment.solve import OnTask, solve_all
+from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.task import Store, Task
 from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, Model, NominalLoad
 from gripscale.rubber import Rubber
@@ -187,6 +187,19 @@ def predictions_at(
     InputError, FileError
         As the model and `solve_all` do; a temperature other than that of the rubber needs a shift.
     """
+    bench = Bench(store, workers, client, on_task)
+    return predict_points(measured, model, rubber, surface, load, bench)
+
+
+def predict_points(
+    measured: MeasuredFriction,
+    model: Model,
+    rubber: Rubber,
+    surface: PreparedSurface,
+    load: NominalLoad,
+    bench: Bench,
+) -> Predicted:
+    """Return what `model` predicts at each measured point, see `predictions_at`."""
     pressure = np.where(np.isnan(measured.pressure), load.pressure, measured.pressure)
     own = _temperature(model, rubber)
     kelvin = [own if math.isnan(one) else float(one) for one in measured.temperature]
@@ -198,7 +211,7 @@ def predictions_at(
         f"point {at}, {_label(task.load, one)}": task
         for at, (task, one) in enumerate(zip(tasks, kelvin, strict=True), start=1)
     }
-    solved = solve_all(named, store, workers=workers, client=client, on_task=on_task)
+    solved = bench.solve(named)
     answers = [solved[task.key] for task in tasks]
     before = [math.nan if one is None else one for one in kelvin]
     return Predicted(

@@ -38,8 +38,8 @@ from gripscale.core.provenance import software
 from gripscale.core.units import GIVEN
 from gripscale.experiment.axis import LONG_NAMES, UNITS, Axis, axes_of
 from gripscale.experiment.inputs import contents, digest
-from gripscale.experiment.solve import OnTask, solve_all
-from gripscale.experiment.task import Store, Task, canonical_json, store_in
+from gripscale.experiment.solve import Bench, OnTask, bench_in
+from gripscale.experiment.task import Task, canonical_json
 from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
 from gripscale.model import FRICTION_OUTSIDE_BAND, Model, NominalLoad
@@ -451,9 +451,9 @@ def propagate(
         return known
     results = prepare_case(plan.file)
     chosen = plan.uncertainty.of(Measurement.of(results), plan.models)
-    with store_in(folder) as store, warnings.catch_warnings():
+    with bench_in(folder, workers, client, on_task) as bench, warnings.catch_warnings():
         warnings.simplefilter("ignore", RubberWarning)  # drawn rubbers are not made by hand
-        data = _solved(plan, results, chosen, store, workers, client, on_task)
+        data = _solved(plan, results, chosen, bench)
     if folder is None:
         return data
     return netcdf.load(netcdf.save(data, Path(folder) / RESULT))
@@ -493,10 +493,7 @@ def _solved(
     plan: Plan,
     results: CaseResults,
     chosen: Chosen,
-    store: Store,
-    workers: int | None,
-    client: Any,
-    on_task: OnTask | None,
+    bench: Bench,
 ) -> xr.Dataset:
     case = Inputs.of(Measurement.of(results))
     drawn = list(draws(case, chosen.sources, plan.samples, plan.seed))
@@ -512,7 +509,7 @@ def _solved(
             except InputError as refusal:
                 status |= dict.fromkeys(places, str(refusal))
     labels = {_label(place, plan.axis): task for place, task in tasks.items()}
-    answers = solve_all(labels, store, workers=workers, client=client, on_task=on_task)
+    answers = bench.solve(labels)
     solved = {place: answers[task.key] for place, task in tasks.items()}
     data = dataset(plan.models, plan.axis, drawn, chosen, solved, status)
     return data.assign_attrs(
