@@ -1,8 +1,5 @@
-from .best_estimate import BestEstimate as BestEstimate
 from .best_estimate import Factor as Factor
 from .best_estimate import LogNormalValue as LogNormalValue
-from .best_estimate import Sample as Sample
-from .best_estimate import SolvedRung as SolvedRung
 from .calibration import Calibration as Calibration
 from .calibration import calibrate as calibrate
 from .calibration import calibrate_case as calibrate_case
@@ -11,7 +8,6 @@ from .comparison import compare_case as compare_case
 from .comparison import compare_over as compare_over
 from .comparison import solve_reference as solve_reference
 from .comparison_dataset import Comparison as Comparison
-from .comparison_dataset import ComparisonOverAxis as ComparisonOverAxis
 from .compounds import Compounds as Compounds
 from .compounds import at_one_temperature as at_one_temperature
 from .compounds import compare_compounds as compare_compounds

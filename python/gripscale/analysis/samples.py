@@ -19,6 +19,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from gripscale.conditions.conditions import Conditions
 from gripscale.experiment.design import CONVERGED
 from gripscale.experiment.task import Task
 from gripscale.model import (
@@ -46,12 +47,15 @@ SMOOTH = {"contact_fraction": 1.0, "friction": 0.0}
 # What is kept of an answer.
 
 
-def sample_numbers(answer: xr.Dataset, _: Task | None = None) -> xr.Dataset:
-    """Return totals, their estimated errors, and curves by wavelength, of one answer.
+def sample_numbers(
+    answer: xr.Dataset, task: Task, conditions: Conditions | None = None
+) -> xr.Dataset:
+    """Return totals, their estimated errors, and curves by wavelength, of the answer of a task.
 
     Totals are named without `total_`; `curve_contact_fraction` and `curve_friction` over `curve`
     are those of all waves not shorter than `curve_wavelength`. At rest friction is zero: what
-    rounding leaves of it counts for nothing.
+    rounding leaves of it counts for nothing. Where the model does not know the area term of
+    `conditions`, it is that of its contact area at the temperature before the contact.
     """
     rest = float(answer["nominal_speed"]) == 0.0
     numbers: dict[str, Any] = {name: float(answer[f"total_{name}"]) for name in QUANTITIES}
@@ -59,7 +63,13 @@ def sample_numbers(answer: xr.Dataset, _: Task | None = None) -> xr.Dataset:
     if rest:
         numbers |= {name: 0.0 * numbers[name] for name in QUANTITIES if "friction" in name}
         numbers["friction_error"] = math.nan
-    numbers["adhesive_friction"] = float(answer.get(ADHESIVE_FRICTION, math.nan))
+    if ADHESIVE_FRICTION in answer or conditions is None:
+        numbers["adhesive_friction"] = float(answer.get(ADHESIVE_FRICTION, math.nan))
+    else:
+        load, kelvin = task.load, task.rubber.reference_temperature
+        numbers["adhesive_friction"] = conditions.adhesive_friction(
+            numbers["contact_fraction"], load.pressure, load.speed, kelvin
+        )
     beyond, exponents = extrapolation_of(answer), cut_off_exponents_of(answer)
     numbers |= {name: getattr(beyond, part) for name, (part, _) in OUTSIDE_BAND.items()}
     numbers |= {name: getattr(exponents, part) for name, (part, _) in CUT_OFF_EXPONENTS.items()}
@@ -197,7 +207,7 @@ def spread(values: xr.DataArray) -> xr.DataArray:
     """Return the standard deviation over the samples; NaN for fewer than two."""
     count = values.count("sample")
     squares = ((values - values.mean("sample")) ** 2).sum("sample")
-    return np.sqrt(squares / (count - 1).where(count > 1))
+    return (squares / (count - 1).where(count > 1)) ** 0.5
 
 
 def log_error_of_mean(values: xr.DataArray) -> xr.DataArray:
@@ -206,14 +216,14 @@ def log_error_of_mean(values: xr.DataArray) -> xr.DataArray:
     NaN for fewer than two values and for values not above zero.
     """
     positive = ((values > 0.0) | values.isnull()).all("sample")
-    error = spread(values) / np.sqrt(values.count("sample")) / values.mean("sample")
+    error = spread(values) / values.count("sample") ** 0.5 / values.mean("sample")
     return error.where(positive)
 
 
 def in_quadrature(*parts: xr.DataArray) -> xr.DataArray:
     """Return the root of the sum of squares of what is not NaN; NaN if everything is."""
     squares = xr.concat([part**2 for part in parts], "part")
-    return np.sqrt(squares.sum("part", min_count=1))
+    return squares.sum("part", min_count=1) ** 0.5
 
 
 def estimated_error(samples: xr.Dataset, name: str) -> xr.DataArray:
@@ -242,9 +252,7 @@ def relative_uncertainty(samples: xr.Dataset, name: str) -> xr.DataArray:
     return in_quadrature(scatter, estimated_error(samples, name))
 
 
-def ratio(
-    over: xr.Dataset, under: xr.Dataset, name: str
-) -> tuple[xr.DataArray, xr.DataArray]:
+def ratio(over: xr.Dataset, under: xr.Dataset, name: str) -> tuple[xr.DataArray, xr.DataArray]:
     """Return the ratio of the means of two rungs, and its relative uncertainty.
 
     Where both have one sample each of the same subjects, only subjects that both have count, and
@@ -283,15 +291,19 @@ def outside_band(samples: xr.Dataset) -> xr.Dataset:
     there = converged(samples)
     total = weight.where(there, 0.0).sum("sample", skipna=False)
     # a sample without friction has no share, and adds none
-    told = (weight * share.where(weight > 0.0, 0.0)).where(there, 0.0).sum("sample", skipna=False)
-    mean = (told / total.where(total > 0.0)).where((share.fillna(1.0) != 0.0).any("sample"), 0.0)
+    parts = (weight * share.where(weight > 0.0, 0.0)).where(there, 0.0).sum("sample", skipna=False)
+    mean = parts / total.where(total > 0.0)
+    mean = mean.where(((share != 0.0) & there).any("sample"), 0.0)
     names = list(OUTSIDE_BAND)
     data = {names[0]: mean, names[1]: below.max("sample"), names[2]: above.max("sample")}
     return xr.Dataset(data).where(there.any("sample"))
 
 
 def cut_off_exponents(samples: xr.Dataset) -> xr.Dataset:
-    """Return how the means change with the smallest wavelength: d ln(sum x) = sum x d ln x/sum x."""
+    """Return how the means change with the smallest wavelength.
+
+    d ln(sum x_i) = sum x_i d ln x_i / sum x_i.
+    """
     there = converged(samples)
     data: dict[str, Any] = {}
     for name, (quantity, _) in CUT_OFF_EXPONENTS.items():
@@ -299,12 +311,10 @@ def cut_off_exponents(samples: xr.Dataset) -> xr.Dataset:
         parts = (weight * samples[name]).where(there, 0.0).sum("sample", skipna=False)
         total = weight.where(there, 0.0).sum("sample", skipna=False)
         data[name] = (parts / total.where(total != 0.0)).where(there.any("sample"))
-    why = [text.where(there.isel(sample=at), "") for at, text in enumerate(
-        samples[WHY_NO_EXPONENT].isel(sample=at) for at in range(samples.sizes["sample"])
-    )]
-    first = why[0]
-    for text in why[1:]:
-        first = first.where(first != "", text)
+    texts = samples[WHY_NO_EXPONENT].where(there, "").transpose(..., "sample")
+    first = texts.isel(sample=0).copy(deep=True)
+    for at in np.ndindex(first.shape):
+        first.values[at] = next(filter(None, texts.values[at]), "")
     data[WHY_NO_EXPONENT] = first.where(there.any("sample"), NOT_TOLD.why_not)
     return xr.Dataset(data)
 

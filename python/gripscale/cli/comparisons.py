@@ -29,10 +29,9 @@ if TYPE_CHECKING:
     import xarray as xr
     from rich.console import Console
 
-    from gripscale.analysis.comparison_dataset import Comparison, ComparisonOverAxis
+    from gripscale.analysis.comparison_dataset import Comparison
     from gripscale.case import CaseResults
 
-    Made = Comparison | ComparisonOverAxis
     from rich.table import Table
 
     from gripscale.analysis.compounds import Compounds
@@ -95,7 +94,7 @@ def compare(
         "client": cluster,
         "on_task": progress_printer(console),
     }
-    made: Made
+    made: Comparison
     worth: list[xr.Dataset] = []
     beside: xr.Dataset | None = None
     if axes is None:
