@@ -16,7 +16,8 @@ from gripscale.analysis.ladder import DIRECT, ComparisonSetup, chosen, each_meas
 from gripscale.analysis.measured_comparison import (
     averaged,
     friction_of_case,
-    predict_points,
+    points_of,
+    predicted_of,
     residuals,
 )
 from gripscale.analysis.measured_friction import MeasuredFriction
@@ -35,7 +36,7 @@ from gripscale.chain.chain import Chain
 from gripscale.core import checks
 from gripscale.core.errors import InputError
 from gripscale.experiment.axis import Axis
-from gripscale.experiment.design import Design, Point, solve_design
+from gripscale.experiment.design import Design, Point, solve_design, surface_numbers
 from gripscale.experiment.solve import Bench, OnTask, bench_in
 from gripscale.experiment.study import Study
 from gripscale.experiment.task import Store, Task
@@ -255,26 +256,34 @@ def at_measured(
     measured, setup = comparison.measured, comparison.setups[0]
     if measured is None:
         return None
-    bench = Bench(Store(store), workers, client, on_task)
-    predicted = {
-        rung.name: averaged(
-            [
-                predict_points(
-                    measured,
-                    spec.model,
-                    setup.rubber_for(spec.model),
-                    spec.surface,
-                    setup.load,
-                    bench,
-                )
-                for spec in rung.draws(setup)
-            ]
-        )
+    designs = {
+        rung.name: [
+            points_of(
+                measured,
+                spec.model,
+                setup.rubber_for(spec.model),
+                spec.surface,
+                setup.load,
+                f"{rung.label}{f' {number}' if spec.subject else ''}, ",
+            )
+            for number, spec in enumerate(rung.draws(setup), start=1)
+        ]
         for rung in comparison.rungs
         if rung.name in PREDICTING
     }
-    if not predicted:
+    if not designs:
         return None
+    tasks = {
+        label: task
+        for parts in designs.values()
+        for design in parts
+        for label, task in design.tasks.items()
+    }
+    answers = Bench(Store(store), workers, client, on_task).solve(tasks, surface_numbers)
+    predicted = {
+        name: averaged([predicted_of(design.dataset(answers)) for design in parts])
+        for name, parts in designs.items()
+    }
     law = None if setup.conditions is None else setup.conditions.shear_stress
     data = residuals(measured, predicted, law)
     return data.assign_attrs(case=comparison.file.text, measured_source=measured.source)

@@ -13,7 +13,6 @@ from numpy.typing import ArrayLike, NDArray
 from gripscale.analysis.measured_friction import (
     MeasuredFriction,
     TemperatureProbe,
-    probed_temperature,
     read_measured_friction,
 )
 from gripscale.case.read import CaseFile
@@ -22,6 +21,7 @@ from gripscale.conditions.conditions import Conditions
 from gripscale.core import checks
 from gripscale.core.errors import InputError, about_keys
 from gripscale.core.units import ZERO_CELSIUS
+from gripscale.experiment.design import Design, Point, solve_design
 from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.task import Store, Task
 from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, Model, NominalLoad
@@ -200,27 +200,52 @@ def predict_points(
     bench: Bench,
 ) -> Predicted:
     """Return what `model` predicts at each measured point, see `predictions_at`."""
+    return predicted_of(solve_design(points_of(measured, model, rubber, surface, load), bench))
+
+
+def points_of(
+    measured: MeasuredFriction,
+    model: Model,
+    rubber: Rubber,
+    surface: PreparedSurface,
+    load: NominalLoad,
+    label: str = "",
+) -> Design:
+    """Return the design over `measurement` that `predictions_at` solves; labels begin with one."""
     pressure = np.where(np.isnan(measured.pressure), load.pressure, measured.pressure)
-    own = _temperature(model, rubber)
-    kelvin = [own if math.isnan(one) else float(one) for one in measured.temperature]
-    tasks = [
-        _task(model, rubber, surface, replace(load, pressure=float(p), speed=float(v)), own, one)
-        for p, v, one in zip(pressure, measured.speed, kelvin, strict=True)
-    ]
-    named = {
-        f"point {at}, {_label(task.load, one)}": task
-        for at, (task, one) in enumerate(zip(tasks, kelvin, strict=True), start=1)
+    case = _temperature(model, rubber)
+    kelvin = np.where(
+        np.isnan(measured.temperature), math.nan if case is None else case, measured.temperature
+    )
+    points = []
+    for at, (p, v, t) in enumerate(zip(pressure, measured.speed, kelvin, strict=True)):
+        point_load = replace(load, pressure=float(p), speed=float(v))
+        temperature = None if math.isnan(t) else float(t)
+        task = _task(model, rubber, surface, point_load, case, temperature)
+        name = f"{label}point {at + 1}, {_label(point_load, temperature)}"
+        points.append(Point((at,), name, task))
+    coords = {
+        "nominal_pressure": ("measurement", pressure, {"units": "Pa"}),
+        "temperature": ("measurement", kelvin, {"units": "K"}),
     }
-    solved = bench.solve(named)
-    answers = [solved[task.key] for task in tasks]
-    before = [math.nan if one is None else one for one in kelvin]
+    return Design({"measurement": len(points)}, points, coords)
+
+
+def predicted_of(data: xr.Dataset) -> Predicted:
+    """Return the predictions in the solved Dataset of `points_of`."""
+    area, pressure = data["total_contact_fraction"], data["nominal_pressure"]
+    kelvin = data["temperature"]
+    if ADHESIVE_FRICTION in data:  # what the probe says
+        term = data[ADHESIVE_FRICTION]
+        contact = (term * pressure / area.where(area > 0.0)).where(lambda t: t > 0.0)
+        kelvin = contact.where(term.notnull(), kelvin)
     return Predicted(
-        np.array([_number(one, "total_friction") for one in answers]),
-        np.array([_number(one, "total_contact_fraction") for one in answers]),
-        pressure,
-        np.array([_contact_temperature(*both) for both in zip(answers, before, strict=True)]),
-        np.array([_number(one, FRICTION_OUTSIDE_BAND) for one in answers]),
-        [str(one.prediction_status.item()) for one in answers],
+        data["total_friction"].values,
+        area.values,
+        pressure.values,
+        kelvin.values,
+        data.get(FRICTION_OUTSIDE_BAND, area * math.nan).values,
+        data["prediction_status"].values.tolist(),
     )
 
 
@@ -249,21 +274,6 @@ def _task(
 def _label(load: NominalLoad, kelvin: float | None) -> str:
     at = "" if kelvin is None else f", {kelvin - ZERO_CELSIUS:.4g} C"
     return f"speed {load.speed:.4g} m/s{at}, pressure {load.pressure / 1e5:.4g} bar"
-
-
-def _contact_temperature(answer: xr.Dataset, before: float) -> float:
-    """Return the temperature the probe tells [K], or that before the contact without one."""
-    if ADHESIVE_FRICTION not in answer:
-        return before
-    return probed_temperature(
-        _number(answer, ADHESIVE_FRICTION),
-        _number(answer, "total_contact_fraction"),
-        _number(answer, "nominal_pressure"),
-    )
-
-
-def _number(answer: xr.Dataset, name: str) -> float:
-    return float(answer[name]) if name in answer else math.nan
 
 
 # How far predictions are from measured friction, point by point and as a root mean square.

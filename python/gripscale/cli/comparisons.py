@@ -28,14 +28,12 @@ from gripscale.core.errors import InputError
 if TYPE_CHECKING:
     import xarray as xr
     from rich.console import Console
-
-    from gripscale.analysis.comparison_dataset import Comparison
-    from gripscale.case import CaseResults
-
     from rich.table import Table
 
+    from gripscale.analysis.comparison_dataset import Comparison
     from gripscale.analysis.compounds import Compounds
     from gripscale.analysis.roads import Roads
+    from gripscale.case import CaseResults
 
 
 @command
