@@ -1,6 +1,7 @@
 from .best_estimate import Factor as Factor
 from .best_estimate import LogNormalValue as LogNormalValue
 from .calibration import Calibration as Calibration
+from .calibration import Estimate as Estimate
 from .calibration import calibrate as calibrate
 from .calibration import calibrate_case as calibrate_case
 from .comparison import at_measured as at_measured
@@ -26,7 +27,6 @@ from .measured_comparison import residuals as residuals
 from .measured_friction import MeasuredFriction as MeasuredFriction
 from .measured_friction import read_measured_friction as read_measured_friction
 from .profile_blocks import ProfileBlocks as ProfileBlocks
-from .profile_likelihood import Estimate as Estimate
 from .profile_likelihood import HeldOut as HeldOut
 from .propagation import of_same_inputs as of_same_inputs
 from .propagation import propagate as propagate

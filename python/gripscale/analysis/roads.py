@@ -266,7 +266,7 @@ def compare_surfaces(
     notes: list[str] = []
     for (i, name), (j, (road, surface)) in product(enumerate(MODELS), enumerate(roads.items())):
         model = _model(name, file)
-        if "measured" in model.needs and surface.measured is None:
+        if "measurement" in model.needs and surface.measured is None:
             notes.append(f"{road} was not measured: no direct contact")
             continue
         task = Task(rubber, surface, load, FailSafeModel(model))

@@ -186,6 +186,6 @@ def stack(parts: Mapping[Index, xr.Dataset], sizes: Mapping[str, int]) -> xr.Dat
                 for dim in inner
             ]
             where: Any = (*at, *np.ix_(*positions))
-            values[where] = variable.transpose(*inner).values
+            values[where] = variable.transpose(*inner).values if inner else variable.values.item()
         data[name] = xr.Variable((*sizes, *inner), values, example.attrs)
     return xr.Dataset(data, labels)
