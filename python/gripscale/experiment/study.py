@@ -403,6 +403,7 @@ def _at_rest(data: xr.Dataset) -> xr.Dataset:
         "friction",
         "angular_frequency",
         "loss_factor",
+        "loss_modulus_ratio",
         "load_time",
         "speed",
         "_band",
