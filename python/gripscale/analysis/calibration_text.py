@@ -31,15 +31,15 @@ def parse_fixed(texts: Iterable[str]) -> dict[str, float]:
 
     Raises `InputError` if one cannot be understood.
     """
-    found: dict[str, float] = {}
+    parameters: dict[str, float] = {}
     for text in texts:
         name, sign, value = (part.strip() for part in text.partition("="))
-        if not sign or not name or name in found:
+        if not sign or not name or name in parameters:
             raise InputError(
                 f"fixed must be name=value, each name once; got {checks.short_repr(text)}"
             )
-        found[name] = _value(name, value)
-    return found
+        parameters[name] = _value(name, value)
+    return parameters
 
 
 def _value(name: str, text: str) -> float:
@@ -79,13 +79,13 @@ def notes(calibration: Calibration) -> Iterator[str]:
             f"{calibration.problem.points.temperature_range:.2g} K apart do not determine one, and "
             "the law holds at the temperature measured."
         )
-    for one in calibration.estimates:
-        ends = {"lower": one.low, "upper": one.high}
+    for estimate in calibration.estimates:
+        ends = {"lower": estimate.low, "upper": estimate.high}
         missing = [word for word, end in ends.items() if not np.isfinite(end)]
         if len(missing) == 2:
-            yield f"{one.name} is not determined by the data."
+            yield f"{estimate.name} is not determined by the data."
         elif missing:
-            yield f"The {missing[0]} end of {one.name} is not determined by the data."
+            yield f"The {missing[0]} end of {estimate.name} is not determined by the data."
     predicted = calibration.predicted
     without = int((~predicted.known).sum())
     if without:
@@ -126,7 +126,7 @@ HELD_UNITS = {
 def shear_stress_table(calibration: Calibration) -> str:
     """Return the table [conditions.shear_stress] of the fitted law, with its intervals."""
     law = shear_stress_to_dict(calibration.law)
-    estimates = {one.name: one for one in calibration.estimates}
+    estimates = {estimate.name: estimate for estimate in calibration.estimates}
     source = Path(calibration.measured.source).name or "a measurement"
     lines = [
         f"# Fitted to {calibration.problem.points.speed.size} points of {source};",

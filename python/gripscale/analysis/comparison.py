@@ -256,6 +256,7 @@ def at_measured(
     measured, setup = comparison.measured, comparison.setups[0]
     if measured is None:
         return None
+    draws = {rung: rung.draws(setup) for rung in comparison.rungs if rung.name in PREDICTING}
     designs = {
         rung.name: [
             points_of(
@@ -264,12 +265,11 @@ def at_measured(
                 setup.rubber_for(spec.model),
                 spec.surface,
                 setup.load,
-                f"{rung.label}{f' {number}' if spec.subject else ''}, ",
+                f"{rung.label}{f' {number} of {len(specs)}' if len(specs) > 1 else ''}: ",
             )
-            for number, spec in enumerate(rung.draws(setup), start=1)
+            for number, spec in enumerate(specs, start=1)
         ]
-        for rung in comparison.rungs
-        if rung.name in PREDICTING
+        for rung, specs in draws.items()
     }
     if not designs:
         return None

@@ -252,8 +252,8 @@ def each_measured(surface: PreparedSurface) -> list[tuple[str, PreparedSurface]]
     """Return `surface` with one profile after the other, or its map, and what it is called."""
     measured: Sequence[Profile | HeightMap] = surface.measured.surfaces if surface.measured else []
     return [
-        (one.name or f"profile {i}", with_single_measurement(surface, one))
-        for i, one in enumerate(measured, 1)
+        (part.name or f"profile {i}", with_single_measurement(surface, part))
+        for i, part in enumerate(measured, 1)
     ]
 
 
@@ -315,21 +315,21 @@ def _random_phases(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     model, surface = _direct_of(setup), setup.surface
     measured = [] if surface.measured is None else surface.measured.surfaces
     return [
-        SampleSpec(model, with_single_measurement(surface, _shuffled(one, seed)), one.name)
-        for one in measured
+        SampleSpec(model, with_single_measurement(surface, _shuffled(part, seed)), part.name)
+        for part in measured
         for seed in range(setup.seeds)
     ]
 
 
 def _direct(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     model = _direct_of(setup)
-    return [SampleSpec(model, one, name) for name, one in each_measured(setup.surface)]
+    return [SampleSpec(model, part, name) for name, part in each_measured(setup.surface)]
 
 
 def _persson(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     return [
-        SampleSpec(Persson(smallest_wavelength=_last_known(one)), one, name)
-        for name, one in each_measured(setup.surface)
+        SampleSpec(Persson(smallest_wavelength=_last_known(part)), part, name)
+        for name, part in each_measured(setup.surface)
     ]
 
 
@@ -344,7 +344,7 @@ def _klueppel_heinrich(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     theory = setup.klueppel_heinrich
     if theory is None:
         return []
-    return [SampleSpec(theory, one, name) for name, one in each_measured(setup.surface)]
+    return [SampleSpec(theory, part, name) for name, part in each_measured(setup.surface)]
 
 
 @lru_cache(maxsize=16)

@@ -65,31 +65,31 @@ class Profile:
     ----------
     problem, optimum
         What is fitted, and its least sum of squares.
-    place : int
+    index : int
         Which free parameter.
     """
 
     problem: Problem
     optimum: Optimum
-    place: int
+    index: int
 
     @property
     def centre(self) -> float:
         """Where the sum of squares is least."""
-        return float(self.optimum.theta[self.place])
+        return float(self.optimum.theta[self.index])
 
     def excess(self, scaled: float, start: Array | None = None) -> tuple[float, Array]:
         """Return E at a value, and what the others are there.
 
         Raises `BetterMinimumFound` where E is below zero.
         """
-        held = self.problem.holding(self.place, scaled)
-        others = np.delete(self.optimum.theta, self.place) if start is None else start
-        found = refined(held, others)
-        apart = found.sum_of_squares - self.optimum.sum_of_squares
+        held = self.problem.holding(self.index, scaled)
+        others = np.delete(self.optimum.theta, self.index) if start is None else start
+        optimum = refined(held, others)
+        apart = optimum.sum_of_squares - self.optimum.sum_of_squares
         if apart < -LESS * self.optimum.sum_of_squares - 1e-12:
-            raise BetterMinimumFound(np.insert(found.theta, self.place, scaled))
-        return max(apart, 0.0), found.theta
+            raise BetterMinimumFound(np.insert(optimum.theta, self.index, scaled))
+        return max(apart, 0.0), optimum.theta
 
     def end(self, way: int, threshold: float) -> float:
         """Return where E reaches `threshold` below (`way` -1) or above (1) the centre.
@@ -97,8 +97,8 @@ class Profile:
         Infinite where it does not before the limit of the search, or only because another
         parameter is held back by its own.
         """
-        limit = free_limits(self.problem, self.place)[(way + 1) // 2]
-        near, others = self.centre, np.delete(self.optimum.theta, self.place)
+        limit = free_limits(self.problem, self.index)[(way + 1) // 2]
+        near, others = self.centre, np.delete(self.optimum.theta, self.index)
         below = 0.0
         if way * (limit - near) <= 0.0:
             return way * math.inf
@@ -125,33 +125,33 @@ class Profile:
             others = None
             for at in way:
                 rise, others = self.excess(float(values[at]), others)
-                held_back = self.problem.holding(self.place, values[at]).at_limit(others)
+                held_back = self.problem.holding(self.index, values[at]).at_limit(others)
                 excess[at] = math.nan if held_back else rise
         return values, excess
 
     def _first_step(self, threshold: float) -> float:
         """Return how far the end would be on a parabola, within reason."""
         errors = scaled_errors(self.optimum.jacobian)
-        low, high = free_limits(self.problem, self.place)
-        return float(np.clip(errors[self.place] * math.sqrt(threshold), 1e-6, 0.02 * (high - low)))
+        low, high = free_limits(self.problem, self.index)
+        return float(np.clip(errors[self.index] * math.sqrt(threshold), 1e-6, 0.02 * (high - low)))
 
-    def _crossing(self, known: dict[float, tuple[float, Array]], threshold: float) -> float:
+    def _crossing(self, solved: dict[float, tuple[float, Array]], threshold: float) -> float:
         """Return where E crosses the threshold between two values, before and behind it.
 
-        By its root, nearly a straight line; `known` holds E and the others at the two values.
+        By its root, nearly a straight line; `solved` holds E and the others at the two values.
         """
-        near, far = known
-        start = known[near][1]
+        near, far = solved
+        start = solved[near][1]
 
         def above(scaled: float) -> float:
-            if scaled not in known:
-                known[scaled] = self.excess(scaled, start)
-            return math.sqrt(known[scaled][0]) - math.sqrt(threshold)
+            if scaled not in solved:
+                solved[scaled] = self.excess(scaled, start)
+            return math.sqrt(solved[scaled][0]) - math.sqrt(threshold)
 
         fine = FINE * abs(far - self.centre)
         end = float(scipy.optimize.brentq(above, near, far, xtol=fine, rtol=1e-9))
         above(end)
-        if self.problem.holding(self.place, end).at_limit(known[end][1]):
+        if self.problem.holding(self.index, end).at_limit(solved[end][1]):
             return math.copysign(math.inf, far - near)
         return end
 
@@ -240,7 +240,7 @@ def held_out(
         raise InputError(
             f"hold_out needs at least two groups to leave one of them out; got {values.size}"
         )
-    wanted = {one.name for one in family_of(kind, points, fixed).free}
+    wanted = {parameter.name for parameter in family_of(kind, points, fixed).free}
     return tuple(
         _without(points, groups == value, float(value), kind, fixed, wanted) for value in values
     )
@@ -274,7 +274,7 @@ def _without(
         family = family_of(kind, rest, fixed)
     except InputError as error:
         return HeldOut(value, count, math.nan, math.nan, math.nan, str(error))
-    missing = wanted - {one.name for one in family.free}
+    missing = wanted - {parameter.name for parameter in family.free}
     if missing:
         why = f"the other points do not determine {', '.join(sorted(missing))}"
         return HeldOut(value, count, math.nan, math.nan, math.nan, why)

@@ -168,8 +168,9 @@ def uncertainty_dataset(
         about = f"estimated relative error of the grid of a direct contact, {text}"
         add(f"{name}_grid_error", samples[f"{name}_grid_error"], about)
         add(f"{name}_quantile", quantiles(samples[name]), text)
-        for part, values in _shares(samples[name], coordinates).items():
-            add(f"{name}_{part}", values, SHARES[str(part)][1].format(text))
+        parts = _shares(samples[name], coordinates, name)
+        for part, (_, meaning) in SHARES.items():
+            add(f"{name}_{part}", parts[f"{name}_{part}"], meaning.format(text))
     sources = chosen.sources
     return xr.Dataset(
         data,
@@ -221,8 +222,8 @@ SHARES = {
 """What is kept of the shares of the sources in a variance: dimensions and meaning."""
 
 
-def _shares(samples: xr.DataArray, coordinates: Mapping[str, Array]) -> xr.Dataset:
-    """Return share, errors and ends of each source at every model and value of the axis."""
+def _shares(samples: xr.DataArray, coordinates: Mapping[str, Array], name: str) -> xr.Dataset:
+    """Return `SHARES` of a quantity at every model and value of the axis, as `<name>_share`..."""
     outer = samples.isel(sample=0)
     parts: dict[tuple[int, ...], xr.Dataset] = {}
     for at in np.ndindex(outer.shape):
@@ -234,7 +235,9 @@ def _shares(samples: xr.DataArray, coordinates: Mapping[str, Array]) -> xr.Datas
             ends = np.stack([fit.low, fit.high], axis=-1)
             numbers = (fit.share, fit.error, fit.apart, ends, fit.unexplained)
         columns = zip(SHARES.items(), numbers, strict=True)
-        parts[at] = xr.Dataset({name: (dims, values) for (name, (dims, _)), values in columns})
+        parts[at] = xr.Dataset(
+            {f"{name}_{part}": (dims, values) for (part, (dims, _)), values in columns}
+        )
     return stack(parts, dict(zip(map(str, outer.dims), outer.shape, strict=True)))
 
 
@@ -316,7 +319,7 @@ class Plan:
     @property
     def key(self) -> str:
         """A hash of all the result depends on."""
-        stated = {
+        content = {
             "software": software(),
             "case": contents(self.file),
             "uncertainty": canonical_json(self.uncertainty),
@@ -327,7 +330,7 @@ class Plan:
             if self.axis is None
             else [self.axis.name, canonical_json(self.axis.values)],
         }
-        return hashlib.sha256(json.dumps(stated, sort_keys=True).encode()).hexdigest()
+        return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
 
 def propagate(
@@ -384,21 +387,21 @@ def propagate(
         If an argument or a file cannot be used, or a result cannot be written.
     """
     file = case if isinstance(case, CaseFile) else read_case(case)
-    stated = file.case.uncertainty
-    accuracy = stated.tolerance if tolerance is None else checks.positive("tolerance", tolerance)
-    number = stated.samples if samples is None else samples
+    table = file.case.uncertainty
+    accuracy = table.tolerance if tolerance is None else checks.positive("tolerance", tolerance)
+    number = table.samples if samples is None else samples
     plan = Plan(
         file,
-        Uncertainty.of_case(stated) if uncertainty is None else uncertainty,
+        Uncertainty.of_case(table) if uncertainty is None else uncertainty,
         checks.whole("samples", number, least=FEWEST_SAMPLES, most=MOST_SAMPLES),
-        checks.whole("seed", stated.seed if seed is None else seed, least=0, most=MOST_SEED),
-        _models(BOTH[stated.model] if models is None else models),
+        checks.whole("seed", table.seed if seed is None else seed, least=0, most=MOST_SEED),
+        _models(BOTH[table.model] if models is None else models),
         _axis(vary),
         accuracy,
     )
-    known = None if folder is None else stored(plan, folder)
-    if known is not None:
-        return known
+    data = None if folder is None else stored(plan, folder)
+    if data is not None:
+        return data
     results = prepare_case(plan.file)
     chosen = plan.uncertainty.of(Measurement.of(results), plan.models)
     with bench_in(folder, workers, client, on_task) as bench, warnings.catch_warnings():
@@ -412,21 +415,21 @@ def propagate(
 def stored(plan: Plan, folder: str | Path) -> xr.Dataset | None:
     """Return the Dataset an earlier run of just this plan left in `folder`, or None."""
     try:
-        found = netcdf.load(Path(folder) / RESULT)
+        data = netcdf.load(Path(folder) / RESULT)
     except FileError:
         return None
-    return found if found.attrs.get("plan_key") == plan.key else None
+    return data if data.attrs.get("plan_key") == plan.key else None
 
 
-def _models(given: Sequence[str]) -> tuple[str, ...]:
-    names = [given] if isinstance(given, str) else list(given)
-    for name in names:
+def _models(names: Sequence[str]) -> tuple[str, ...]:
+    chosen = [names] if isinstance(names, str) else list(names)
+    for name in chosen:
         checks.one_of("model", name, MODELS)
-    if not names or len(set(names)) < len(names):
+    if not chosen or len(set(chosen)) < len(chosen):
         raise InputError(
-            f"models must be one or both of chain, direct; got {checks.short_repr(given)}"
+            f"models must be one or both of chain, direct; got {checks.short_repr(names)}"
         )
-    return tuple(name for name in MODELS if name in names)
+    return tuple(name for name in MODELS if name in chosen)
 
 
 def _axis(vary: Mapping[str, Any] | None) -> Axis | None:
