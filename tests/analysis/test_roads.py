@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 
 import gripscale as gs
 from gripscale.analysis import Roads, compare_surfaces
-from gripscale.analysis.roads import octave_ends, running_friction
+from gripscale.analysis.roads import friction_curve, octave_ends, running_friction
 from gripscale.cli import app
 from gripscale.core.errors import InputError
 from gripscale.report.tables_comparison import roads_sentences
@@ -21,6 +21,11 @@ from tests.samples import HALF_PLANE, case_text, write_road
 CASE = case_text(
     'files = ["road.txt"]\nscales = 4\nsmallest_wavelength = "1 mm"', solver=HALF_PLANE
 )
+
+
+def running(answer: xr.Dataset, ends: np.ndarray) -> np.ndarray:
+    curve = friction_curve(answer)
+    return running_friction(curve.curve_wavelength.values, curve.curve_friction.values, ends)
 
 
 @pytest.fixture(scope="module")
@@ -124,7 +129,7 @@ def test_friction_between_waves_is_linear_in_the_logarithm() -> None:
     ).to_dataset()
     first, second = answer.friction.values
     expected = [first, first + 0.5 * second, first + second, first + second]
-    np.testing.assert_allclose(running_friction(answer, ends), expected)
+    np.testing.assert_allclose(running(answer, ends), expected)
 
 
 def test_octaves_of_profiles_count_by_their_length() -> None:
@@ -137,8 +142,8 @@ def test_octaves_of_profiles_count_by_their_length() -> None:
         },
         {"wavelength": [4e-3, 2e-3, 1e-3]},
     )
-    running = running_friction(answer, octave_ends(8e-3, 1e-3))
-    np.testing.assert_allclose(running, [0.0, 0.25, 0.375, 0.525])
+    found = running(answer, octave_ends(8e-3, 1e-3))
+    np.testing.assert_allclose(found, [0.0, 0.25, 0.375, 0.525])
 
 
 def test_waves_by_hand_have_no_direct_contact_and_no_range(folder: Path, tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,8 +11,9 @@ import pytest
 import xarray as xr
 
 import gripscale as gs
-from gripscale.analysis import Comparison, Sample, SolvedRung, compare_case, solve_reference
+from gripscale.analysis import compare_case, solve_reference
 from gripscale.analysis.comparison import FILE, reference_totals
+from gripscale.analysis.samples import curve_at
 from gripscale.case import prepare_case
 from gripscale.charts.print_comparison import comparison_axis_figure, comparison_figure
 from gripscale.charts.view import PredictionView
@@ -92,7 +94,8 @@ def test_factors_lead_from_the_chain_to_the_profile_as_measured(inputs: Path) ->
 def test_rungs_are_the_models_themselves(inputs: Path) -> None:
     results = prepare_case(inputs / "case.toml")
     asked = ["chain_half_plane", "direct"]
-    rungs = compare_case(results, seeds=1, tolerance=0.02, rungs=asked).by_name
+    made = compare_case(results, seeds=1, tolerance=0.02, rungs=asked)
+    means = made.data.total_friction
     measured = results.surface.measured
     assert measured is not None
     load = {"pressure": 3e5, "speed": 0.3}
@@ -100,7 +103,7 @@ def test_rungs_are_the_models_themselves(inputs: Path) -> None:
     alone = gs.solve_rough_contact(
         results.rubber.rubber, measured.profiles[0][1], smallest_wavelength=smallest, **load
     )
-    (direct,) = rungs["direct"].samples
+    direct = made.samples.sel(rung="direct").isel(sample=0)
     for name in (
         "contact_fraction",
         "friction",
@@ -108,11 +111,11 @@ def test_rungs_are_the_models_themselves(inputs: Path) -> None:
         "contact_fraction_error",
         "friction_error",
     ):
-        assert getattr(direct, name) == getattr(alone, name), name
-    assert direct.curve is not None
+        assert direct[name] == getattr(alone, name), name
     octaves = alone.friction_by_wavelength
-    found = direct.curve.at("friction", octaves.wavelength.values)
-    assert found == pytest.approx(octaves.running_friction.values)
+    curve = direct.curve_wavelength.values, direct.curve_friction.values
+    friction = curve_at("friction", octaves.wavelength.values, *curve)
+    assert friction == pytest.approx(octaves.running_friction.values)
     chain = gs.predict(
         results.rubber.rubber,
         results.surface.sines,
@@ -121,11 +124,11 @@ def test_rungs_are_the_models_themselves(inputs: Path) -> None:
         points=128,
         **load,
     )
-    assert rungs["chain_half_plane"].mean("friction") == chain.friction
+    assert means.sel(rung="chain_half_plane") == chain.friction
     quick = solve_reference(results)
     assert quick is not None
     # Estimated errors of 10 % and 2 %.
-    assert quick.mean("friction") == pytest.approx(rungs["direct"].mean("friction"), rel=0.12)
+    assert float(quick.friction.mean()) == pytest.approx(float(means.sel(rung="direct")), rel=0.12)
 
 
 def test_chain_of_the_upper_half_is_left_out_where_the_case_is_one(
@@ -135,25 +138,25 @@ def test_chain_of_the_upper_half_is_left_out_where_the_case_is_one(
         "scales = 3\ns_wavelength = 3", 'scales = 4\nupper_share = 0.5\ncut_off = "4 mm"'
     )
     results = prepare_case(case)
-    direct = compare_case(results, rungs=["direct"], tolerance=0.02).by_name["direct"]
+    direct = compare_case(results, rungs=["direct"], tolerance=0.02).data.isel(rung=0)
     measured = results.surface.measured
     assert measured is not None
     load = {"pressure": 3e5, "speed": 0.3}
     alone = gs.solve_rough_contact(
         results.rubber.rubber, measured.cleaned[0], smallest_wavelength=4e-3, **load
     )
-    assert direct.mean("friction") == pytest.approx(alone.friction, rel=1e-9)
-    (upper,) = compare_case(results, rungs=["chain_upper"]).rungs
+    assert float(direct.total_friction) == pytest.approx(alone.friction, rel=1e-9)
+    upper = compare_case(results, rungs=["chain_upper"]).data.squeeze("rung")
     own = {"footprint": 0.1, "solver": "half_plane", "points": 256, "pressure_classes": 8}
     chain = gs.predict(results.rubber.rubber, results.surface.sines, **load, **own)
-    assert upper.mean("friction") == pytest.approx(chain.friction, rel=1e-6)
-    assert upper.mean("contact_fraction") == pytest.approx(chain.contact_fraction, rel=1e-6)
+    assert float(upper.total_friction) == pytest.approx(chain.friction, rel=1e-6)
+    assert float(upper.total_contact_fraction) == pytest.approx(chain.contact_fraction, rel=1e-6)
     case.write_text(case.read_text() + "[chain]\npressure_classes = 4\n")
-    rungs = compare_case(case, rungs=["waves"]).by_name
-    assert list(rungs) == ["chain_half_plane", "sines"]
+    rungs = compare_case(case, rungs=["waves"]).data
+    assert rungs.rung.values.tolist() == ["chain_half_plane", "sines"]
     own |= {"points": 128, "pressure_classes": 4}
     chain = gs.predict(results.rubber.rubber, results.surface.sines, **load, **own)
-    assert rungs["chain_half_plane"].mean("friction") == chain.friction
+    assert rungs.total_friction.sel(rung="chain_half_plane") == chain.friction
 
 
 def test_over_speed_is_each_speed_alone_and_is_not_solved_twice(
@@ -172,8 +175,8 @@ def test_over_speed_is_each_speed_alone_and_is_not_solved_twice(
     }
     data = netcdf.load(tmp_path / "out" / "over_speed.nc")
     assert data.total_friction.dims == ("speed", "rung")
-    alone = compare_case(inputs / "case.toml", rungs=["direct"]).by_name["direct"]
-    assert data.total_friction.sel(speed=0.3, rung="direct") == alone.mean("friction")
+    alone = compare_case(inputs / "case.toml", rungs=["direct"]).data.isel(rung=0)
+    assert data.total_friction.sel(speed=0.3, rung="direct") == alone.total_friction
     friction = comparison_axis_figure(data).axes[1]
     lines = [line.get_ydata() for line in friction.lines if len(line.get_ydata()) == 2]
     for rung in data.rung.values:
@@ -222,7 +225,7 @@ def test_case_names_its_measurement_and_the_fits_of_a_theory(changed: Callable[.
     made = compare_case(case, rungs=["theory"])
     assert made.measured is not None
     assert [rung.name for rung in made.rungs] == ["persson", "klueppel_heinrich"]
-    theory = made.by_name["klueppel_heinrich"]
+    theory = made.data.sel(rung="klueppel_heinrich")
     results = prepare_case(case)
     assert results.surface.measured is not None
     alone = gs.theory.klueppel_heinrich(
@@ -234,8 +237,8 @@ def test_case_names_its_measurement_and_the_fits_of_a_theory(changed: Callable[.
         penetration_depth=0.5e-3,
         smallest_wavelength=float(results.surface.sines.wavelength[-1]),
     )
-    assert theory.mean("friction") == alone.friction
-    assert np.isnan(theory.mean("contact_fraction"))
+    assert theory.total_friction == alone.friction
+    assert np.isnan(theory.total_contact_fraction)
 
 
 def test_waves_by_hand_have_no_profile_to_judge_by(tmp_path: Path) -> None:
@@ -243,7 +246,8 @@ def test_waves_by_hand_have_no_profile_to_judge_by(tmp_path: Path) -> None:
     case.write_text(WAVES_BY_HAND)
     results = prepare_case(case)
     assert solve_reference(results) is None
-    assert list(compare_case(results, seeds=1).by_name) == ["chain_half_plane", "sines"]
+    rungs = compare_case(results, seeds=1).rungs
+    assert [rung.name for rung in rungs] == ["chain_half_plane", "sines"]
 
 
 def test_nothing_rubs_at_rest(tmp_path: Path) -> None:
@@ -258,15 +262,16 @@ def test_nothing_rubs_at_rest(tmp_path: Path) -> None:
 
 def test_rung_that_failed_is_open_and_says_why(inputs: Path) -> None:
     made = compare_case(inputs / "case.toml", seeds=1, rungs=["chain_half_plane", "direct"])
-    chain, direct = made.rungs
-    bad = Sample(np.nan, np.nan, np.nan, "tolerance not met")
-    failed = SolvedRung(direct.rung, [*direct.samples, bad])
-    none = SolvedRung(chain.rung, [bad])
-    broken = Comparison(made.file, made.subject, [none, failed])
+    direct = made.rungs[1]
+    second = made.samples.isel(sample=[0])
+    second["prediction_status"] = second.prediction_status.where(False, "tolerance not met")
+    samples = xr.concat([made.samples, second], "sample")
+    samples["prediction_status"].values[0] = ["tolerance not met", ""]
+    broken = replace(made, samples=samples)
     assert not broken.converged
     data = broken.to_dataset()
     assert np.isnan(data.total_friction.values[0])
-    assert data.total_friction.values[1] == direct.mean("friction")
+    assert data.total_friction[1] == made.data.total_friction[1]
     told = "1 of 2 samples failed: tolerance not met"
     assert data.status.values.tolist() == ["tolerance not met", told]
     assert f"{direct.label}: {told}." in list(remarks(data))
@@ -298,5 +303,5 @@ def test_a_run_says_what_its_chain_is_worth(shell: Shell, inputs: Path, tmp_path
     words = " ".join(result.stdout.split())
     assert first in words
     assert second in words
-    assert f"{chain.friction / direct.mean('friction'):.2g} times its friction" in second
+    assert f"{chain.friction / float(direct.friction.mean()):.2g} times its friction" in second
     assert second in " ".join((tmp_path / "report.txt").read_text().split())

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import shutil
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -14,13 +13,9 @@ import pytest
 import xarray as xr
 
 from gripscale.analysis import (
-    Comparison,
-    ComparisonOverAxis,
     Factor,
     LogNormalValue,
     MeasuredFriction,
-    Sample,
-    SolvedRung,
     compare_case,
 )
 from gripscale.case import prepare_case, run_case
@@ -142,26 +137,22 @@ def compared(run_folder: Path) -> list[xr.Dataset]:
     measured = MeasuredFriction([0.1, 1.0], [0.3, 0.4], [0.02, 0.03], source="mu.csv")
     options: dict[str, Any] = {"rungs": ["chain_half_plane", "direct", "persson"]}
     made = compare_case(results, measured=measured, tolerance=0.2, **options)
-    chain, direct, persson = made.rungs
-    bad = Sample(math.nan, math.nan, math.nan, "tolerance not met", "<i>lane</i>")
-    failed = SolvedRung(direct.rung, [direct.samples[0], bad])
     factors = [
         Factor(
             "finite_strain", "finite strain", LogNormalValue(1.02, 0.01), LogNormalValue(0.98, 0.1)
         )
     ]
-    alone, fast = (
-        Comparison(
-            made.file,
-            replace(made.subject, load=replace(made.subject.load, speed=speed)),
-            rungs,
-            measured,
-            factors,
-        )
-        for speed, rungs in ((0.3, made.rungs), (3.0, [chain, failed, persson]))
-    )
+    alone = replace(made, factors=factors)
     (axis,) = axes_of({"speed": [0.3, 3.0]})
-    return [alone.to_dataset(), ComparisonOverAxis(axis, [alone, fast]).to_dataset()]
+    setups = [
+        replace(made.setups[0], load=replace(made.setups[0].load, speed=speed))
+        for speed in axis.values
+    ]
+    failed = made.samples.copy(deep=True)
+    failed["prediction_status"].values[1, 1] = "tolerance not met"
+    both = xr.concat([made.samples, failed], "speed")
+    over = replace(alone, axis=axis, setups=setups, samples=both)
+    return [alone.to_dataset(), over.to_dataset()]
 
 
 @pytest.fixture

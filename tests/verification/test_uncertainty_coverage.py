@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from gripscale.analysis import Uncertainty
 from gripscale.analysis.propagation import quantiles
@@ -84,7 +85,8 @@ def interval(seed: int) -> np.ndarray:
         assert one.inputs is not None, one.why_not
         surface, _ = one.inputs.for_model(CHAIN)
         answers.append(predicted(one.inputs.rubber, surface.sines))
-    return quantiles(np.array(answers).T)[[0, 4]]
+    samples = xr.DataArray(np.array(answers), dims=("sample", "quantity"))
+    return quantiles(samples).transpose("quantile", ...).values[[0, 4]]
 
 
 @pytest.mark.verification

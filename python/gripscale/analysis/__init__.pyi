@@ -1,9 +1,7 @@
-from .best_estimate import BestEstimate as BestEstimate
 from .best_estimate import Factor as Factor
 from .best_estimate import LogNormalValue as LogNormalValue
-from .best_estimate import Sample as Sample
-from .best_estimate import SolvedRung as SolvedRung
 from .calibration import Calibration as Calibration
+from .calibration import Estimate as Estimate
 from .calibration import calibrate as calibrate
 from .calibration import calibrate_case as calibrate_case
 from .comparison import at_measured as at_measured
@@ -11,7 +9,6 @@ from .comparison import compare_case as compare_case
 from .comparison import compare_over as compare_over
 from .comparison import solve_reference as solve_reference
 from .comparison_dataset import Comparison as Comparison
-from .comparison_dataset import ComparisonOverAxis as ComparisonOverAxis
 from .compounds import Compounds as Compounds
 from .compounds import at_one_temperature as at_one_temperature
 from .compounds import compare_compounds as compare_compounds
@@ -30,7 +27,6 @@ from .measured_comparison import residuals as residuals
 from .measured_friction import MeasuredFriction as MeasuredFriction
 from .measured_friction import read_measured_friction as read_measured_friction
 from .profile_blocks import ProfileBlocks as ProfileBlocks
-from .profile_likelihood import Estimate as Estimate
 from .profile_likelihood import HeldOut as HeldOut
 from .propagation import of_same_inputs as of_same_inputs
 from .propagation import propagate as propagate

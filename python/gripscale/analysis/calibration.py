@@ -7,13 +7,16 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import scipy.stats
 import xarray as xr
+from numpy.typing import NDArray
 
 from gripscale.analysis.calibration_law import (
     Optimum,
@@ -28,14 +31,15 @@ from gripscale.analysis.measured_comparison import (
     friction_of_case,
     in_spread,
     measured_variables,
-    predictions_at,
+    predict_points,
 )
 from gripscale.analysis.measured_friction import MeasuredFriction
 from gripscale.analysis.profile_likelihood import (
     LEVEL,
     WAYS,
-    FittedLaw,
+    HeldOut,
     Profile,
+    covariance,
     groups_of,
     held_out,
     settled,
@@ -44,33 +48,184 @@ from gripscale.analysis.profile_likelihood import (
 from gripscale.case.read import CaseFile
 from gripscale.case.results import CaseResults
 from gripscale.case.run import prepare_case
-from gripscale.conditions.area_term import shear_stress_to_dict
+from gripscale.conditions.area_term import InterfacialShearStress, shear_stress_to_dict
 from gripscale.core import checks, provenance
 from gripscale.core.errors import InputError
-from gripscale.core.units import ZERO_CELSIUS, parse_quantity
-from gripscale.experiment.solve import OnTask
-from gripscale.experiment.task import store_in
+from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.half_space.model import DirectContact
-from gripscale.model import Model
-from gripscale.rubber.extrapolation import WORTH_SAYING, require_measured
+from gripscale.rubber.extrapolation import require_measured
 from gripscale.wave.result import labelled
 
-if TYPE_CHECKING:
-    import xarray as xr
+Array = NDArray[np.float64]
 
-    from gripscale.analysis.profile_likelihood import Estimate, FittedLaw
+FACTORS_SHOWN = 3.0
+"""How far the profile of an end that is not determined is kept, in the numbers of the search."""
+
+NO_INFLUENCE = 1e-12
+"""Relative size of a singular value below which its direction changes nothing."""
 
 
-# What a calibration answers, as numbers and as a Dataset.
+@dataclass(frozen=True)
+class Estimate:
+    """A fitted parameter, in the unit of the law."""
+
+    name: str
+    unit: str
+    value: float
+    standard_error: float
+    """From the Jacobian: what a parabola would say."""
+    low: float
+    """Lower end of the interval by profile likelihood; NaN where the data do not determine it."""
+    high: float
+    """Upper end; NaN likewise."""
+
+    @property
+    def determined(self) -> bool:
+        """Whether both ends are."""
+        return math.isfinite(self.low) and math.isfinite(self.high)
 
 
 @dataclass(frozen=True, eq=False)
-class Calibration(FittedLaw):
+class Calibration:
     """A law of the area term fitted to measured friction beside a predicted hysteresis."""
 
+    measured: MeasuredFriction
+    predicted: Predicted
+    """The hysteresis and the contact at the measured points, which are not fitted."""
+    problem: Problem
+    """What was fitted: the points that have an answer, and the law with its free parameters."""
+    optimum: Optimum
+    """The least sum of squares."""
+    ends: tuple[tuple[float, float], ...]
+    """Of each interval in the numbers of the search; infinite where not determined."""
+    held_out: tuple[HeldOut, ...] = ()
+    """What the law says of points it was not fitted to, where asked for."""
+    held_out_by: str = ""
+    """Whether a temperature or a decade of speed was left out; empty for neither."""
+
+    @property
+    def law(self) -> InterfacialShearStress:
+        """The law with the best parameters."""
+        return self.problem.family.law(self.optimum.theta)
+
+    @property
+    def spread_known(self) -> bool:
+        """Whether the spread was stated, and not taken from the residuals."""
+        return self.problem.points.spread is not None
+
+    @property
+    def freedom(self) -> int:
+        """Degrees of freedom: points less parameters."""
+        return self.problem.points.speed.size - len(self.problem.family.free)
+
+    @property
+    def scatter(self) -> float:
+        """Root of the sum of squares over the degrees of freedom.
+
+        In units of the spread where it is stated, else the spread the residuals imply [-].
+        """
+        return math.sqrt(self.optimum.sum_of_squares / self.freedom)
+
+    @property
+    def chance(self) -> float:
+        """Probability of a sum of squares so large if law, hysteresis and spreads were right.
+
+        NaN where no spread is stated.
+        """
+        if not self.spread_known:
+            return math.nan
+        return float(scipy.stats.chi2.sf(self.optimum.sum_of_squares, self.freedom))
+
+    @property
+    def threshold(self) -> float:
+        """By how much the sum of squares rises at the ends of an interval, as in `profiles`."""
+        scale = 1.0 if self.spread_known else self.scatter**2
+        return threshold_of(self.optimum, known=self.spread_known) / scale
+
+    @property
+    def estimates(self) -> list[Estimate]:
+        """The free parameters."""
+        errors = np.sqrt(np.diag(self._covariance))
+        estimates = []
+        for at, parameter in enumerate(self.problem.family.free):
+            value = parameter.value(float(self.optimum.theta[at]))
+            error = float(errors[at]) * (value if parameter.log else 1.0)
+            low, high = (
+                parameter.value(end) if math.isfinite(end) else math.nan for end in self.ends[at]
+            )
+            name, unit = parameter.name, parameter.unit
+            estimates.append(Estimate(name, unit, value, error, low, high))
+        return estimates
+
+    @property
+    def correlation(self) -> Array:
+        """Of the estimates, shape (free, free), of logarithms where they are positive."""
+        errors = np.sqrt(np.diag(self._covariance))
+        return np.asarray(self._covariance / np.outer(errors, errors))
+
+    @property
+    def area_term(self) -> Array:
+        """Friction of the area term at the measured points [-], NaN without an answer."""
+        return self.predicted.area_term(self.law, self.measured.speed)
+
+    @property
+    def friction(self) -> Array:
+        """Hysteresis and area term at the measured points [-]."""
+        return self.predicted.friction + self.area_term
+
+    @property
+    def friction_error(self) -> Array:
+        """Standard error of that by the fit [-]: the root of the diagonal of the hat matrix."""
+        directions, sizes, _ = np.linalg.svd(self.optimum.jacobian, full_matrices=False)
+        felt = directions[:, sizes > NO_INFLUENCE * sizes.max()]
+        share = np.sqrt((felt**2).sum(axis=1))
+        spread = self.problem.points.spread
+        error = np.full(self.measured.speed.size, np.nan)
+        error[self.predicted.known] = share * (self.scatter if spread is None else spread)
+        return error
+
+    @property
+    def band(self) -> Array:
+        """Half of the interval of the friction at the measured points [-], at `LEVEL`."""
+        tail = 0.5 * (1.0 + LEVEL)
+        known = self.spread_known
+        return self.friction_error * float(
+            scipy.stats.norm.ppf(tail) if known else scipy.stats.t.ppf(tail, self.freedom)
+        )
+
+    @cached_property
+    def profiles(self) -> dict[str, tuple[Array, Array]]:
+        """Values of each free parameter and how much the sum of squares exceeds its least there.
+
+        In units of what one standard error adds: over the interval and a little beyond, and a
+        factor of 20 where an end is not determined.
+        """
+        scale = 1.0 if self.spread_known else self.scatter**2
+        profiles = {}
+        for at, parameter in enumerate(self.problem.family.free):
+            centre, limits = float(self.optimum.theta[at]), parameter.limits
+            ends = []
+            for way, end in zip((-1, 1), self.ends[at], strict=True):
+                away = 1.3 * abs(end - centre) if math.isfinite(end) else FACTORS_SHOWN
+                ends.append(float(np.clip(centre + way * away, *limits)))
+            values, excess = Profile(self.problem, self.optimum, at).curve(*ends)
+            in_units = np.array([parameter.value(float(value)) for value in values])
+            profiles[parameter.name] = in_units, excess / scale
+        return profiles
+
+    @property
+    def _covariance(self) -> Array:
+        scale = 1.0 if self.spread_known else self.scatter**2
+        return scale * covariance(self.optimum.jacobian)
+
     def to_dataset(self) -> xr.Dataset:
-        """Return all of it as a labelled Dataset, see `gripscale.analysis.calibration`."""
-        return to_dataset(self)
+        """Return the calibration as a labelled Dataset.
+
+        Over `measurement`: what was measured, the hysteresis, the area term, their sum and its
+        band. Over `parameter`: estimate, standard error, interval (NaN where not determined),
+        profile. Over `left_out`: the errors of the law fitted to the other points.
+        """
+        return calibration_dataset(self)
 
 
 def calibrate(
@@ -108,38 +263,29 @@ def calibrate(
     """
     checks.instance("measured", measured, MeasuredFriction)
     checks.instance("predicted", predicted, Predicted)
-    known = {} if fixed is None else dict(checks.instance("fixed", fixed, Mapping))  # type: ignore[type-abstract]
+    held = {} if fixed is None else dict(checks.instance("fixed", fixed, Mapping))  # type: ignore[type-abstract]
     points = points_of(measured, predicted)
-    problem = Problem(points, family_of(law, points, known))
+    problem = Problem(points, family_of(law, points, held))
     groups = None
     if hold_out is not None:
         groups = groups_of(hold_out, measured.speed, measured.temperature)[predicted.known]
-    optimum, ends = settled(
-        problem, best(problem), lambda found: _ends(problem, found, points.spread is not None)
+
+    def intervals(optimum: Optimum) -> list[tuple[float, float]]:
+        threshold = threshold_of(optimum, known=points.spread is not None)
+        profiles = [Profile(problem, optimum, at) for at in range(len(problem.family.free))]
+        return [(profile.end(-1, threshold), profile.end(1, threshold)) for profile in profiles]
+
+    optimum, ends = settled(problem, best(problem), intervals)
+    groups_out = () if groups is None else held_out(points, groups, law, held)
+    return Calibration(
+        measured, predicted, problem, optimum, tuple(ends), groups_out, hold_out or ""
     )
-    out = () if groups is None else held_out(points, groups, law, known)
-    return Calibration(measured, predicted, problem, optimum, tuple(ends), out, hold_out or "")
-
-
-def _ends(problem: Problem, optimum: Optimum, known: bool) -> list[tuple[float, float]]:
-    threshold = threshold_of(optimum, known=known)
-    profiles = [Profile(problem, optimum, place) for place in range(len(problem.family.free))]
-    return [(one.end(-1, threshold), one.end(1, threshold)) for one in profiles]
 
 
 # The area term of a case: its measured friction beside the hysteresis of one of the models.
 
 MODELS = ("direct", "chain")
 """Models whose hysteresis an area term can be put beside."""
-
-KINDS_OF_QUANTITY = {
-    "stress_0": "pressure",
-    "speed_0": "speed",
-    "critical_speed": "speed",
-    "activation_energy": "bond energy",
-    "reference_temperature": "temperature",
-}
-"""What the parameters of the laws are, those that are no plain numbers."""
 
 
 def calibrate_case(
@@ -184,209 +330,39 @@ def calibrate_case(
     if hold_out is not None:
         checks.one_of("hold_out", hold_out, WAYS)
     results = case if isinstance(case, CaseResults) else prepare_case(case)
-    found = measured or measured_of(results.file)
+    friction = measured or measured_of(results.file)
+    rubber, surface = results.rubber.rubber, results.surface
     if results.file.case.rubber.extrapolate == "refuse":
-        _require_measured(results, found)
-    with store_in(folder) as store:
-        predicted = predictions_at(
-            found,
-            _model(model, results),
-            results.rubber.rubber,
-            results.surface,
-            results.load,
-            store,
-            workers=workers,
-            client=client,
-            on_task=on_task,
-        )
-    return calibrate(found, predicted, law=law, fixed=fixed, hold_out=hold_out)
+        for speed, kelvin in zip(friction.speed, friction.temperature, strict=True):
+            warm = results.rubber_before if np.isnan(kelvin) else rubber.at(float(kelvin))
+            require_measured(warm, surface.sines.wavelength, float(speed))
+    predicting = results.chain if model == "chain" else DirectContact(conditions=results.conditions)
+    with bench_in(folder, workers, client, on_task) as bench:
+        predicted = predict_points(friction, predicting, rubber, surface, results.load, bench)
+    return calibrate(friction, predicted, law=law, fixed=fixed, hold_out=hold_out)
 
 
 def measured_of(file: CaseFile) -> MeasuredFriction:
     """Return the friction a case names; raise `InputError` if it names none."""
-    found = friction_of_case(file)
-    if found is None:
+    measured = friction_of_case(file)
+    if measured is None:
         raise InputError(
             f"{file.path}: [measured] friction must name a table of measured friction; got none"
         )
-    return found
+    return measured
 
 
-def parse_fixed(texts: Iterable[str]) -> dict[str, float]:
-    """Return parameters stated as "width=0.1" or "stress_0=5 MPa" [SI units, eV].
-
-    Raises `InputError` if one cannot be understood.
-    """
-    found: dict[str, float] = {}
-    for text in texts:
-        name, sign, value = (part.strip() for part in text.partition("="))
-        if not sign or not name or name in found:
-            raise InputError(
-                f"fixed must be name=value, each name once; got {checks.short_repr(text)}"
-            )
-        found[name] = _value(name, value)
-    return found
-
-
-def _value(name: str, text: str) -> float:
-    try:
-        if name in KINDS_OF_QUANTITY:
-            return parse_quantity(text, KINDS_OF_QUANTITY[name])
-        return float(text)
-    except ValueError as error:
-        why = str(error) if name in KINDS_OF_QUANTITY else "expected a number"
-        raise InputError(f"fixed {name} = {checks.short_repr(text)}: {why}") from error
-
-
-def _model(name: str, results: CaseResults) -> Model:
-    return results.chain if name == "chain" else DirectContact(conditions=results.conditions)
-
-
-def _require_measured(results: CaseResults, measured: MeasuredFriction) -> None:
-    for speed, kelvin in zip(measured.speed, measured.temperature, strict=True):
-        before = results.rubber_before
-        rubber = before if np.isnan(kelvin) else results.rubber.rubber.at(float(kelvin))
-        require_measured(rubber, results.surface.sines.wavelength, float(speed))
-
-
-# What must be said of a calibration beside its numbers.
-
-UNLIKELY = 0.01
-"""Chance of the sum of squares below which something must be wrong."""
-
-
-def notes(calibration: FittedLaw) -> Iterator[str]:
-    """Yield a sentence on each thing to know before the numbers are used."""
-    yield from _of_fit(calibration)
-    yield from _parameter_notes(calibration)
-    yield from _of_predictions(calibration)
-
-
-def _of_fit(calibration: FittedLaw) -> Iterator[str]:
-    if not calibration.spread_known:
-        yield (
-            f"No spread is stated: the scatter of the residuals, {calibration.scatter:.2g}, "
-            "is taken for it, whatever makes it."
-        )
-    elif calibration.chance < UNLIKELY:
-        yield (
-            f"The residuals are {calibration.scatter:.2g} times the stated spread: law, hysteresis "
-            "or spread is wrong, and the intervals are too narrow."
-        )
-    yield (
-        "The intervals hold for the spread of the measurement alone: an error of the predicted "
-        "contact area is an error of the shear stress."
-    )
-
-
-def _parameter_notes(calibration: FittedLaw) -> Iterator[str]:
-    held = calibration.problem.family.held
-    if calibration.law.kind == "gaussian" and held.get("activation_energy") == 0.0:
-        yield (
-            "No activation energy: temperatures in the contact "
-            f"{calibration.problem.points.temperature_range:.2g} K apart do not determine one, and "
-            "the law holds at the temperature measured."
-        )
-    for one in calibration.estimates:
-        ends = {"lower": one.low, "upper": one.high}
-        missing = [word for word, end in ends.items() if not np.isfinite(end)]
-        if len(missing) == 2:
-            yield f"{one.name} is not determined by the data."
-        elif missing:
-            yield f"The {missing[0]} end of {one.name} is not determined by the data."
-
-
-def _of_predictions(calibration: FittedLaw) -> Iterator[str]:
-    predicted = calibration.predicted
-    without = int((~predicted.known).sum())
-    if without:
-        why = next(s for s, k in zip(predicted.status, predicted.known, strict=True) if not k)
-        yield f"Measured points without a prediction, which do not count: {without}, as {why}."
-    below = int((calibration.problem.points.difference < 0.0).sum())
-    if below:
-        yield f"Measured points below the hysteresis alone: {below}."
-    beyond = int((predicted.outside_band > WORTH_SAYING).sum())
-    if beyond:
-        yield (
-            f"Points where more than {WORTH_SAYING:.0%} of the hysteresis rests on the rubber "
-            f"outside its measured frequencies: {beyond}."
-        )
-
-
-# The fitted law as the table of a case file, ready to be pasted.
-
-WRITTEN: Mapping[str, tuple[Callable[[float], float], str]] = {
-    "Pa": (lambda value: value / 1e6, "MPa"),
-    "m/s": (lambda value: value, "m/s"),
-    "eV": (lambda value: value, "eV"),
-    "K": (lambda value: value - ZERO_CELSIUS, "C"),
-    "": (lambda value: value, ""),
-}
-"""How a number in a unit of the law is written: conversion and unit."""
-
-HELD_UNITS = {
-    "stress_0": "Pa",
-    "speed_0": "m/s",
-    "critical_speed": "m/s",
-    "activation_energy": "eV",
-    "reference_temperature": "K",
-}
-"""Units of parameters that may be held; the others have none."""
-
-
-def shear_stress_table(calibration: FittedLaw) -> str:
-    """Return the table [conditions.shear_stress] of the fitted law, with its intervals."""
-    law = shear_stress_to_dict(calibration.law)
-    estimates = {one.name: one for one in calibration.estimates}
-    source = Path(calibration.measured.source).name or "a measurement"
-    lines = [
-        f"# Fitted to {calibration.problem.points.speed.size} points of {source};",
-        f"# intervals of {LEVEL:.0%} by profile likelihood, for this rubber on this surface.",
-        "[conditions.shear_stress]",
-        f'kind = "{law.pop("kind")}"',
-    ]
-    if calibration.law.kind == "gaussian" and law["activation_energy"] == 0.0:
-        del law["activation_energy"], law["reference_temperature"]
-        lines.insert(2, "# No activation energy: it holds at the temperature measured.")
-    for name, value in law.items():
-        lines.append(" ".join(_line(name, float(value), estimates.get(name))))
-    return "\n".join(lines) + "\n"
-
-
-def written(value: float, unit: str, digits: int | None = None) -> str:
-    """Return a number of the law with its unit: six digits as far as they count, or `digits`."""
-    convert, name = WRITTEN[unit]
-    number = convert(value)
-    text = f"{number:.6g}" if digits is None else f"{number:#.{digits}g}".rstrip(".")
-    return f"{text} {name}".strip()
-
-
-def interval(estimate: Estimate) -> str:
-    """Return the interval of a parameter in words, in the unit it is written in."""
-    low, high = (f"{written(end, estimate.unit, 3)}" for end in (estimate.low, estimate.high))
-    if estimate.determined:
-        return f"{low} to {high}"
-    if math.isfinite(estimate.low):
-        return f"from {low}, upper end not determined"
-    if math.isfinite(estimate.high):
-        return f"up to {high}, lower end not determined"
-    return "not determined"
-
-
-def _line(name: str, value: float, estimate: Estimate | None) -> Iterator[str]:
-    unit = estimate.unit if estimate is not None else HELD_UNITS.get(name, "")
-    text = written(value, unit)
-    yield f"{name} = {text}" if not unit else f'{name} = "{text}"'
-    yield f" # {'held' if estimate is None else interval(estimate)}"
-
-
-# A calibration as a labelled Dataset: over measured points, parameters and what is left out.
-#
-# - over `measurement`: what was measured, the hysteresis, the area term, their sum and its band;
-# - over `parameter`: estimate, standard error, interval (NaN where not determined), profile;
-# - over `left_out`: the errors of the law fitted to the other points.
+# The calibration as a Dataset.
 
 SOURCE = "gripscale calibrate"
+
+ESTIMATE = {
+    "estimate": "best value of the parameter, in its unit",
+    "standard_error": "its standard error by the Jacobian",
+    "low": "lower end of its interval by profile likelihood, NaN where not determined",
+    "high": "upper end of it, NaN where not determined",
+}
+"""Numbers of a parameter, with their meaning."""
 
 HELD_OUT = {
     "points": "measured points left out",
@@ -398,42 +374,11 @@ HELD_OUT = {
 """Numbers of what was left out, with their meaning."""
 
 
-def to_dataset(calibration: FittedLaw) -> xr.Dataset:
-    """Return `calibration` as a Dataset."""
-    data = {
-        **measured_variables(calibration.measured),
-        **_at_points(calibration),
-        **_parameter_variables(calibration),
-        **_left_out(calibration),
-    }
-    words = {
-        "parameter": [one.name for one in calibration.estimates],
-        "other_parameter": [one.name for one in calibration.estimates],
-    }
-    return xr.Dataset(
-        data,
-        coords=words,
-        attrs={
-            "title": "Area term fitted to measured friction",
-            "law": json.dumps(shear_stress_to_dict(calibration.law)),
-            "held": json.dumps(dict(calibration.problem.family.held)),
-            "measured_source": calibration.measured.source,
-            "level": LEVEL,
-            "threshold": calibration.threshold,
-            "held_out_by": calibration.held_out_by,
-            "spread_known": int(calibration.spread_known),
-            "sum_of_squares": calibration.optimum.sum_of_squares,
-            "degrees_of_freedom": calibration.freedom,
-            "scatter": calibration.scatter,
-            **provenance.attributes(),
-        },
-    )
-
-
-def _at_points(calibration: FittedLaw) -> dict[str, Any]:
+def calibration_dataset(calibration: Calibration) -> xr.Dataset:
+    """Return what `Calibration.to_dataset` promises."""
     predicted, measured = calibration.predicted, calibration.measured
     apart = calibration.friction - measured.friction
-    columns = {
+    at_points = {
         "nominal_pressure": (predicted.pressure, "Pa", "nominal pressure of the prediction"),
         "contact_temperature": (predicted.temperature, "K", "temperature in the contact"),
         "contact_fraction": (predicted.contact_fraction, "1", "real over nominal contact area"),
@@ -454,52 +399,47 @@ def _at_points(calibration: FittedLaw) -> dict[str, Any]:
             "the same over the spread",
         ),
     }
-    return {
-        name: labelled("measurement", values, unit, text, SOURCE)
-        for name, (values, unit, text) in columns.items()
-    }
-
-
-def _parameter_variables(calibration: FittedLaw) -> dict[str, Any]:
+    data: dict[str, xr.Variable] = measured_variables(measured)
+    for name, (values, unit, text) in at_points.items():
+        data[name] = labelled("measurement", values, unit, text, SOURCE)
     estimates, profiles = calibration.estimates, calibration.profiles
-    columns = {
-        "estimate": "best value of the parameter, in its unit",
-        "standard_error": "its standard error by the Jacobian",
-        "low": "lower end of its interval by profile likelihood, NaN where not determined",
-        "high": "upper end of it, NaN where not determined",
+    for name, text in ESTIMATE.items():
+        field = "value" if name == "estimate" else name
+        numbers = [getattr(estimate, field) for estimate in estimates]
+        data[name] = labelled("parameter", numbers, "1", text, SOURCE)
+    units = np.array([estimate.unit or "1" for estimate in estimates], dtype=object)
+    data["unit"] = labelled("parameter", units, "1", "its unit", SOURCE)
+    square = ("parameter", "other_parameter")
+    data["correlation"] = labelled(square, calibration.correlation, "1", "of the estimates", SOURCE)
+    texts = {
+        "profile_value": "value at which the parameter is held",
+        "profile_excess": "rise of the sum of squares, NaN where another parameter has no room",
     }
-    values = {
-        name: [getattr(one, "value" if name == "estimate" else name) for one in estimates]
-        for name in columns
-    }
-    data = {
-        name: labelled("parameter", values[name], "1", columns[name], SOURCE) for name in values
-    }
-    units = [one.unit or "1" for one in estimates]
-    data["unit"] = labelled("parameter", np.array(units, dtype=object), "1", "its unit", SOURCE)
-    data["correlation"] = labelled(
-        ("parameter", "other_parameter"), calibration.correlation, "1", "of the estimates", SOURCE
-    )
-    for at, (name, text) in enumerate(
-        {
-            "profile_value": "value at which the parameter is held",
-            "profile_excess": "rise of the sum of squares, NaN where another parameter has no room",
-        }.items()
-    ):
-        rows = [profiles[one.name][at] for one in estimates]
+    for part, (name, text) in enumerate(texts.items()):
+        rows = [profiles[estimate.name][part] for estimate in estimates]
         data[name] = labelled(("parameter", "step"), rows, "1", text, SOURCE)
-    return data
-
-
-def _left_out(calibration: FittedLaw) -> dict[str, Any]:
-    groups = calibration.held_out
-    if not groups:
-        return {}
-    data = {
-        name: labelled("left_out", [getattr(one, name) for one in groups], "1", text, SOURCE)
-        for name, text in HELD_OUT.items()
-    }
-    data["left_out"] = labelled(
-        "left_out", [one.value for one in groups], "1", "temperature [K] or decade [m/s]", SOURCE
+    if calibration.held_out:
+        columns = HELD_OUT | {"value": "temperature [K] or decade [m/s]"}
+        for name, text in columns.items():
+            column = [getattr(group, name) for group in calibration.held_out]
+            variable = "left_out" if name == "value" else name
+            data[variable] = labelled("left_out", column, "1", text, SOURCE)
+    names = [estimate.name for estimate in estimates]
+    return xr.Dataset(
+        data,
+        coords=dict.fromkeys(square, names),
+        attrs={
+            "title": "Area term fitted to measured friction",
+            "law": json.dumps(shear_stress_to_dict(calibration.law)),
+            "held": json.dumps(dict(calibration.problem.family.held)),
+            "measured_source": calibration.measured.source,
+            "level": LEVEL,
+            "threshold": calibration.threshold,
+            "held_out_by": calibration.held_out_by,
+            "spread_known": int(calibration.spread_known),
+            "sum_of_squares": calibration.optimum.sum_of_squares,
+            "degrees_of_freedom": calibration.freedom,
+            "scatter": calibration.scatter,
+            **provenance.attributes(),
+        },
     )
-    return data

@@ -188,7 +188,7 @@ class Family:
 def check_names(kind: str, fixed: Iterable[str]) -> None:
     """Raise `InputError` unless a law can be fitted and names of what is fixed belong to it."""
     checks.one_of("law", kind, KINDS)
-    names = [one.name for one in fields(SHEAR_STRESSES[kind])]
+    names = [parameter.name for parameter in fields(SHEAR_STRESSES[kind])]
     checks.allowed_names("parameter", fixed, names)
 
 
@@ -210,16 +210,19 @@ def family_of(kind: str, points: Points, fixed: Mapping[str, float]) -> Family:
     held: dict[str, Any] = {name: checks.number(name, value) for name, value in fixed.items()}
     if kind == "gaussian":
         held |= _temperature_of(points, held)
-    free = tuple(one for one in every if one.name not in held)
+    free = tuple(parameter for parameter in every if parameter.name not in held)
     if not free:
         raise InputError(f"fixed must leave a parameter of the law {kind} to be fitted; got all")
     if points.speed.size <= len(free):
+        names = ", ".join(parameter.name for parameter in free)
         raise InputError(
-            f"fitting {', '.join(one.name for one in free)} needs more than {len(free)} measured "
+            f"fitting {names} needs more than {len(free)} measured "
             f"point{'s' * (len(free) > 1)}; got {points.speed.size}"
         )
     family = Family(kind, free, held)
-    family.law(np.array([one.scaled(one.starts[0]) for one in free]))  # the law checks what is held
+    family.law(
+        np.array([parameter.scaled(parameter.starts[0]) for parameter in free])
+    )  # the law checks what is held
     return family
 
 
@@ -312,25 +315,25 @@ class Problem:
         """Return whether a parameter has gone as far as it is sought; zero itself is no limit."""
         pairs = zip(self.family.free, theta, strict=True)
         return any(
-            abs(x - end) < AT_LIMIT * (one.limits[1] - one.limits[0])
-            for one, x in pairs
-            for end, value in zip(one.limits, (one.low, one.high), strict=True)
+            abs(x - end) < AT_LIMIT * (parameter.limits[1] - parameter.limits[0])
+            for parameter, x in pairs
+            for end, value in zip(parameter.limits, (parameter.low, parameter.high), strict=True)
             if value != 0.0
         )
 
-    def holding(self, place: int, scaled: float) -> Problem:
-        """Return the problem with the free parameter at `place` held."""
-        one = self.family.free[place]
-        free = self.family.free[:place] + self.family.free[place + 1 :]
-        held = {**self.family.held, one.name: one.value(scaled)}
+    def holding(self, index: int, scaled: float) -> Problem:
+        """Return the problem with the free parameter at `index` held."""
+        parameter = self.family.free[index]
+        free = self.family.free[:index] + self.family.free[index + 1 :]
+        held = {**self.family.held, parameter.name: parameter.value(scaled)}
         return replace(self, family=replace(self.family, free=free, held=held))
 
 
 def best(problem: Problem) -> Optimum:
     """Return the least sum of squares over a grid of starts."""
-    starts = sorted(map(tuple, _starts(problem)), key=lambda one: _cost(problem, np.array(one)))
-    found = [refined(problem, np.array(one)) for one in starts[:BEST_STARTS]]
-    return min(found, key=lambda one: one.sum_of_squares)
+    starts = sorted(map(tuple, _starts(problem)), key=lambda start: _cost(problem, np.array(start)))
+    optima = [refined(problem, np.array(start)) for start in starts[:BEST_STARTS]]
+    return min(optima, key=lambda optimum: optimum.sum_of_squares)
 
 
 def refined(problem: Problem, start: Array) -> Optimum:
@@ -340,7 +343,7 @@ def refined(problem: Problem, start: Array) -> Optimum:
         return Optimum(start, float(residuals @ residuals), np.empty((residuals.size, 0)))
     low, high = _limits(problem.family.free)
     inside = np.clip(start, low, high)
-    found = scipy.optimize.least_squares(
+    solution = scipy.optimize.least_squares(
         problem.residuals,
         inside,
         bounds=(low, high),
@@ -348,18 +351,18 @@ def refined(problem: Problem, start: Array) -> Optimum:
         ftol=TOLERANCE,
         gtol=TOLERANCE,
     )
-    return Optimum(found.x, 2.0 * float(found.cost), np.asarray(found.jac))
+    return Optimum(solution.x, 2.0 * float(solution.cost), np.asarray(solution.jac))
 
 
 def _starts(problem: Problem) -> list[Array]:
     """Return every combination of starts; the stress, which is a factor, the best for each."""
     free = problem.family.free
-    grid = [[one.scaled(value) for value in one.starts] for one in free]
+    grid = [[parameter.scaled(value) for value in parameter.starts] for parameter in free]
     return [_with_best_stress(problem, np.array(theta)) for theta in product(*grid)]
 
 
 def _with_best_stress(problem: Problem, theta: Array) -> Array:
-    names = [one.name for one in problem.family.free]
+    names = [parameter.name for parameter in problem.family.free]
     if "stress_0" not in names:
         return theta
     at = names.index("stress_0")
@@ -372,13 +375,13 @@ def _with_best_stress(problem: Problem, theta: Array) -> Array:
     return theta
 
 
-def free_limits(problem: Problem, place: int) -> tuple[float, float]:
+def free_limits(problem: Problem, index: int) -> tuple[float, float]:
     """Return between which numbers a free parameter is sought."""
-    return problem.family.free[place].limits
+    return problem.family.free[index].limits
 
 
 def _limits(free: tuple[Parameter, ...]) -> tuple[Array, Array]:
-    low, high = zip(*(one.limits for one in free), strict=True)
+    low, high = zip(*(parameter.limits for parameter in free), strict=True)
     return np.array(low), np.array(high)
 
 

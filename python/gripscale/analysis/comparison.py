@@ -2,48 +2,49 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Mapping, Sequence
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
-from gripscale.analysis.best_estimate import Factor, Sample, SolvedRung, sample_of
-from gripscale.analysis.comparison_dataset import Comparison, ComparisonOverAxis
-from gripscale.analysis.ladder import (
-    DIRECT,
-    LADDER,
-    ComparisonSetup,
-    Rung,
-    SampleSpec,
-    chosen,
-    each_measured,
-)
+import numpy as np
+import xarray as xr
+
+from gripscale.analysis.best_estimate import Factor
+from gripscale.analysis.comparison_dataset import Comparison
+from gripscale.analysis.ladder import DIRECT, ComparisonSetup, chosen, each_measured
 from gripscale.analysis.measured_comparison import (
-    Predicted,
     averaged,
     friction_of_case,
-    predictions_at,
+    points_of,
+    predicted_of,
     residuals,
 )
 from gripscale.analysis.measured_friction import MeasuredFriction
+from gripscale.analysis.samples import (
+    QUANTITIES,
+    cut_off_exponents,
+    outside_band,
+    sample_numbers,
+    status,
+    usable,
+)
 from gripscale.case.read import CaseFile
 from gripscale.case.results import CaseResults
 from gripscale.case.run import prepare_case
 from gripscale.chain.chain import Chain
 from gripscale.core import checks
 from gripscale.core.errors import InputError
-from gripscale.experiment.solve import OnTask, solve_all
+from gripscale.experiment.axis import Axis
+from gripscale.experiment.design import Design, Point, solve_design, surface_numbers
+from gripscale.experiment.solve import Bench, OnTask, bench_in
 from gripscale.experiment.study import Study
-from gripscale.experiment.task import Store, Task, store_in
+from gripscale.experiment.task import Store, Task
 from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
-from gripscale.model import TOTALS, answer, with_area_term
+from gripscale.model import answer, cut_off_exponents_of, extrapolation_of, with_area_term
 from gripscale.rubber.extrapolation import require_measured
 from gripscale.theory.models import KlueppelHeinrich
-
-if TYPE_CHECKING:
-    import xarray as xr
-
 
 VARIED = (
     "speed",
@@ -118,9 +119,8 @@ def compare_case(
     results = case if isinstance(case, CaseResults) else prepare_case(case)
     choice = Choice(seeds, tolerance, rungs, measured, factors)
     task = Task(results.rubber.rubber, results.surface, results.load, results.chain)
-    with store_in(folder) as store:
-        made = _compared(results.file, {"": task}, choice, store, workers, client, on_task)
-    return made[0]
+    with bench_in(folder, workers, client, on_task) as bench:
+        return _compared(results.file, {"": task}, choice, None, bench)
 
 
 def compare_over(
@@ -136,7 +136,7 @@ def compare_over(
     workers: int | None = None,
     client: Any = None,
     on_task: OnTask | None = None,
-) -> ComparisonOverAxis:
+) -> Comparison:
     """Put the models side by side over one varied input of a case, such as the speed.
 
     Parameters
@@ -154,7 +154,7 @@ def compare_over(
     study = Study(case, vary, static=False)
     axis = study.axes[0]
     if len(study.axes) > 1 or axis.name not in VARIED:
-        names = ", ".join(one.name for one in study.axes)
+        names = ", ".join(other.name for other in study.axes)
         raise InputError(f"a comparison varies one of {', '.join(VARIED)}; got {names}")
     if not axis.numeric:
         raise InputError(f"a comparison varies {axis.name} by numbers; got {axis.labels[0]}")
@@ -162,60 +162,44 @@ def compare_over(
         raise InputError(f"{axis.name} must have at least two values; got {axis.labels[0]}")
     choice = Choice(seeds, tolerance, rungs, measured, factors)
     tasks = {point.label: point.task for point in study.points}
-    with store_in(folder) as store:
-        made = _compared(study.file, tasks, choice, store, workers, client, on_task)
-    return ComparisonOverAxis(axis, made)
+    with bench_in(folder, workers, client, on_task) as bench:
+        return _compared(study.file, tasks, choice, axis, bench)
 
 
 def _compared(
-    file: CaseFile,
-    places: Mapping[str, Task],
-    choice: Choice,
-    store: Store,
-    workers: int | None,
-    client: Any,
-    on_task: OnTask | None,
-) -> list[Comparison]:
-    """Return the comparison of each rubber, surface and load in `places`."""
-    ladder = chosen(choice.rungs)
-    subjects = {place: _subject(file, task, choice) for place, task in places.items()}
+    file: CaseFile, tasks: Mapping[str, Task], choice: Choice, axis: Axis | None, bench: Bench
+) -> Comparison:
+    """Return the comparison of the rubber, surface and load of each of `tasks`, by its label."""
+    setups = [_setup(file, task, choice) for task in tasks.values()]
     if file.case.rubber.extrapolate == "refuse":
-        for place, task in places.items():
-            require_measured(
-                subjects[place].rubber_before, task.surface.sines.wavelength, task.load.speed
-            )
-    drawn = {
-        (place, rung.name): rung.draws(subject)
-        for place, subject in subjects.items()
-        for rung in ladder
-    }
-    tasks = {key: [_task(subjects[key[0]], draw) for draw in draws] for key, draws in drawn.items()}
-    labels = {rung.name: rung.label for rung in ladder}
-    named = {
-        _label(place, labels[name], draws, at): tasks[place, name][at]
-        for (place, name), draws in drawn.items()
-        for at in range(len(draws))
-    }
-    solved = solve_all(named, store, workers=workers, client=client, on_task=on_task)
-
-    def rung_at(place: str, rung: Rung) -> SolvedRung:
-        pairs = zip(drawn[place, rung.name], tasks[place, rung.name], strict=True)
-        subject = subjects[place]
-        known = (subject.conditions, subject.rubber_before.reference_temperature)
-        samples = [sample_of(solved[task.key], draw.of, *known) for draw, task in pairs]
-        return SolvedRung(rung, samples)
-
-    measured = choice.measured or friction_of_case(file)
-    out = []
-    for place, subject in subjects.items():
-        met = [rung_at(place, rung) for rung in ladder if drawn[place, rung.name]]
-        out.append(Comparison(file, subject, met, measured, choice.factors))
-    if not out[0].rungs:
+        for setup in setups:
+            wavelength, speed = setup.surface.sines.wavelength, setup.load.speed
+            require_measured(setup.rubber_before, wavelength, speed)
+    draws = {rung: [rung.draws(setup) for setup in setups] for rung in chosen(choice.rungs)}
+    draws = {rung: specs for rung, specs in draws.items() if any(specs)}
+    if not draws:
         raise InputError(f"no rung of {', '.join(choice.rungs)} has anything to say of this case")
-    return out
+    most = max(len(specs) for by_load in draws.values() for specs in by_load)
+    subjects = np.full((len(draws), most), "", dtype=object)
+    points = []
+    for load, (label, setup) in enumerate(zip(tasks, setups, strict=True)):
+        for at, (rung, by_load) in enumerate(draws.items()):
+            for number, spec in enumerate(by_load[load]):
+                subjects[at, number] = spec.subject
+                count = f" {number + 1} of {len(by_load[load])}" if len(by_load[load]) > 1 else ""
+                name = ": ".join(filter(None, [label, f"{rung.label}{count}"]))
+                task = Task(setup.rubber_for(spec.model), spec.surface, setup.load, spec.model)
+                index = (at, number) if axis is None else (load, at, number)
+                points.append(Point(index, name, task))
+    sizes = {"rung": len(draws), "sample": most}
+    coords = {"rung": [rung.name for rung in draws], "subject": (("rung", "sample"), subjects)}
+    design = Design(({} if axis is None else {axis.name: len(setups)}) | sizes, points, coords)
+    samples = solve_design(design, bench, partial(sample_numbers, conditions=setups[0].conditions))
+    measured = choice.measured or friction_of_case(file)
+    return Comparison(file, setups, list(draws), samples, axis, measured, choice.factors)
 
 
-def _subject(file: CaseFile, task: Task, choice: Choice) -> ComparisonSetup:
+def _setup(file: CaseFile, task: Task, choice: Choice) -> ComparisonSetup:
     theory = file.case.compare
     chain = checks.instance("model", task.model, Chain)
     return ComparisonSetup(
@@ -233,24 +217,14 @@ def _subject(file: CaseFile, task: Task, choice: Choice) -> ComparisonSetup:
     )
 
 
-def _task(subject: ComparisonSetup, draw: SampleSpec) -> Task:
-    return Task(subject.rubber_for(draw.model), draw.surface, subject.load, draw.model)
-
-
-def _label(place: str, label: str, draws: Sequence[SampleSpec], at: int) -> str:
-    """Return what one sample is called while it is solved."""
-    number = f" {at + 1} of {len(draws)}" if len(draws) > 1 else ""
-    return ": ".join(filter(None, [place, f"{label}{number}"]))
-
-
 # The models of a comparison at the points of a measurement: predicted beside measured friction.
 
-ASKED = ("chain", "chain_half_plane", "chain_upper", "direct", "persson", "klueppel_heinrich")
+PREDICTING = ("chain", "chain_half_plane", "chain_upper", "direct", "persson", "klueppel_heinrich")
 """Rungs that predict; the others take a step from one of them to the next."""
 
 
 def at_measured(
-    made: Comparison,
+    comparison: Comparison,
     store: str | Path,
     *,
     workers: int | None = None,
@@ -261,57 +235,58 @@ def at_measured(
 
     Parameters
     ----------
-    made : Comparison
-        With the rungs that were asked for, and measured friction.
+    comparison : Comparison
+        Under one load, with what was measured.
     store : path
-        Folder of finished predictions: what it has is not solved again.
+        Folder of the finished predictions.
     workers, client, on_task
-        As for `gripscale.experiment.solve_all`.
+        As for `gripscale.experiment.Bench`.
 
     Returns
     -------
     xarray.Dataset or None
-        As `gripscale.analysis.residuals`, over `model`; None without measured friction. The total
-        is the hysteresis where a model knows no contact area.
+        As `gripscale.analysis.residuals`, with the area term of the case's conditions; None where
+        no friction was measured or no rung predicts. Of several samples of a rung the means.
 
     Raises
     ------
-    InputError
-        If a temperature was measured and the rubber has no shift to it.
+    InputError, FileError
+        As `predictions_at`.
     """
-    measured, subject = made.measured, made.subject
+    measured, setup = comparison.measured, comparison.setups[0]
     if measured is None:
         return None
-    options: dict[str, Any] = {"workers": workers, "client": client, "on_task": on_task}
-    there = [rung for rung in LADDER if rung.name in ASKED and rung.name in made.by_name]
-    predicted = {
-        rung.name: averaged(
-            [
-                predictions_at(
-                    measured,
-                    draw.model,
-                    subject.rubber_for(draw.model),
-                    draw.surface,
-                    subject.load,
-                    Store(store),
-                    **options,
-                )
-                for draw in rung.draws(subject)
-            ]
-        )
-        for rung in there
+    draws = {rung: rung.draws(setup) for rung in comparison.rungs if rung.name in PREDICTING}
+    designs = {
+        rung.name: [
+            points_of(
+                measured,
+                spec.model,
+                setup.rubber_for(spec.model),
+                spec.surface,
+                setup.load,
+                f"{rung.label}{f' {number} of {len(specs)}' if len(specs) > 1 else ''}: ",
+            )
+            for number, spec in enumerate(specs, start=1)
+        ]
+        for rung, specs in draws.items()
     }
-    if not predicted:
+    if not designs:
         return None
-    return _told(measured, subject, predicted, made.file.text)
-
-
-def _told(
-    measured: MeasuredFriction, subject: ComparisonSetup, predicted: dict[str, Predicted], case: str
-) -> xr.Dataset:
-    law = None if subject.conditions is None else subject.conditions.shear_stress
+    tasks = {
+        label: task
+        for parts in designs.values()
+        for design in parts
+        for label, task in design.tasks.items()
+    }
+    answers = Bench(Store(store), workers, client, on_task).solve(tasks, surface_numbers)
+    predicted = {
+        name: averaged([predicted_of(design.dataset(answers)) for design in parts])
+        for name, parts in designs.items()
+    }
+    law = None if setup.conditions is None else setup.conditions.shear_stress
     data = residuals(measured, predicted, law)
-    return data.assign_attrs(case=case, measured_source=measured.source)
+    return data.assign_attrs(case=comparison.file.text, measured_source=measured.source)
 
 
 # What a run can afford to know of its chain: the direct contact of the measured profiles.
@@ -322,7 +297,7 @@ FILE = "direct.nc"
 """What it is kept in, beside the result."""
 
 
-def solve_reference(results: CaseResults) -> SolvedRung | None:
+def solve_reference(results: CaseResults) -> xr.Dataset | None:
     """Return the direct contact of the measured profiles, at the speed of the case.
 
     Parameters
@@ -332,25 +307,26 @@ def solve_reference(results: CaseResults) -> SolvedRung | None:
 
     Returns
     -------
-    SolvedRung or None
-        A sample for each profile, solved to an estimated relative error of `JUDGED_TO`, 10 %; None
-        if no profile was measured.
+    xarray.Dataset or None
+        Over `sample`, one for each profile, solved to an estimated relative error of `JUDGED_TO`,
+        10 %, see `gripscale.analysis.samples`; None if no profile was measured.
 
     Raises
     ------
     InputError
         If the direct contact cannot use the rubber or a profile.
     """
-    rung = next(one for one in LADDER if one.name == DIRECT)
+    profiles = each_measured(results.surface)
+    if not profiles:
+        return None
     model = DirectContact(tolerance=JUDGED_TO, conditions=results.conditions)
     rubber, load = results.rubber.rubber, results.load
-    samples: list[Sample] = []
-    for name, surface in each_measured(results.surface):
-        clock = time.perf_counter()
-        answer = model.predict(rubber, surface, load)
-        answer.attrs["seconds"] = time.perf_counter() - clock
-        samples.append(sample_of(answer, name))
-    return SolvedRung(rung, samples) if samples else None
+    points = [
+        Point((at,), name, Task(rubber, surface, load, model))
+        for at, (name, surface) in enumerate(profiles)
+    ]
+    with bench_in(None) as bench:
+        return solve_design(Design({"sample": len(points)}, points), bench, sample_numbers)
 
 
 def save_reference(results: CaseResults, folder: str | Path) -> xr.Dataset | None:
@@ -358,23 +334,26 @@ def save_reference(results: CaseResults, folder: str | Path) -> xr.Dataset | Non
 
     Raises `FileError` if it cannot be written.
     """
-    direct = solve_reference(results)
-    if direct is None:
+    samples = solve_reference(results)
+    if samples is None:
         return None
-    data = reference_totals(direct, results)
+    data = reference_totals(samples, results)
     netcdf.save(data, Path(folder) / FILE)
     results.direct = data
     return data
 
 
-def reference_totals(direct: SolvedRung, results: CaseResults) -> xr.Dataset:
-    """Return the means of `direct` over the profiles as a model answers with its totals."""
-    import xarray as xr
-
-    totals = {name: direct.mean(name.removeprefix("total_")) for name in TOTALS}
-    found = answer(
-        xr.Dataset(), totals, direct.status, direct.name, results.load, direct.extrapolation,
-        direct.cut_off_exponents,
-    )  # fmt: skip
-    named = found.assign_attrs(case=results.file.text, tolerance=JUDGED_TO)
-    return with_area_term(named, direct.mean("adhesive_friction"))
+def reference_totals(samples: xr.Dataset, results: CaseResults) -> xr.Dataset:
+    """Return the means of `samples` over the profiles as a model answers with its totals."""
+    means = {name: float(usable(samples, name).mean("sample")) for name in QUANTITIES}
+    beyond, exponents = outside_band(samples), cut_off_exponents(samples)
+    totals = answer(
+        xr.Dataset(),
+        {f"total_{name}": value for name, value in means.items()},
+        str(status(samples).item()),
+        DIRECT,
+        results.load,
+        extrapolation_of(beyond),
+        cut_off_exponents_of(exponents),
+    ).assign_attrs(case=results.file.text, tolerance=JUDGED_TO)
+    return with_area_term(totals, float(usable(samples, "adhesive_friction").mean("sample")))

@@ -3,29 +3,32 @@
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
-from gripscale.analysis.best_estimate import (
-    QUANTITIES,
-    UNKNOWN_VALUE,
-    BestEstimate,
-    Factor,
-    LogNormalValue,
-    SolvedRung,
-    best_estimate,
-    octaves,
-)
-from gripscale.analysis.ladder import ComparisonSetup
+from gripscale.analysis.best_estimate import Factor, best_estimate
+from gripscale.analysis.ladder import ComparisonSetup, Rung
 from gripscale.analysis.measured_comparison import measured_variables
 from gripscale.analysis.measured_friction import MeasuredFriction
+from gripscale.analysis.samples import (
+    QUANTITIES,
+    SMOOTH,
+    converged,
+    cut_off_exponents,
+    octaves,
+    outside_band,
+    ratio,
+    relative_uncertainty,
+    running,
+    spread,
+    status,
+    usable,
+)
 from gripscale.case.read import CaseFile
 from gripscale.core import provenance
 from gripscale.experiment.axis import Axis
@@ -37,247 +40,184 @@ from gripscale.model import (
     TOTALS,
     WHY_NO_EXPONENT,
 )
-from gripscale.wave.result import labelled
-
-if TYPE_CHECKING:
-    import xarray as xr
-
-
-# The solved rungs of one case under one load, and what follows from them.
-
-
-@dataclass(frozen=True, eq=False)
-class SolvedLadder:
-    """The rungs of one case under one load, in order."""
-
-    file: CaseFile
-    subject: ComparisonSetup
-    rungs: Sequence[SolvedRung]
-    measured: MeasuredFriction | None = None
-    """Friction measured elsewhere, to be put beside the models."""
-    factors: Sequence[Factor] = field(default=())
-    """Factors of the best estimate known from elsewhere."""
-
-    @property
-    def by_name(self) -> dict[str, SolvedRung]:
-        """The rungs by name."""
-        return {rung.name: rung for rung in self.rungs}
-
-    @property
-    def converged(self) -> bool:
-        """Whether every sample of every rung may be used."""
-        return all(len(rung.converged) == len(rung.samples) for rung in self.rungs)
-
-    @cached_property
-    def best_estimate(self) -> BestEstimate | None:
-        """The best estimate, or None without a direct contact that converged."""
-        measured = self.subject.surface.measured
-        of_map = measured is not None and measured.map is not None
-        return best_estimate(self.by_name, self.factors, of_map=of_map)
-
-    def factor(self, rung: SolvedRung, name: str) -> LogNormalValue:
-        """Return the factor on `name` from the rung that `rung` follows; NaN if it is not there."""
-        before = self.by_name.get(rung.rung.follows)
-        return UNKNOWN_VALUE if before is None else rung.over(before, name)
-
 
 SOURCE = "gripscale compare"
-WORDS = {"contact_fraction": "contact fraction", "friction": "friction coefficient"}
+WORDS = dict(zip(SMOOTH, ("contact fraction", "friction coefficient"), strict=True))
 """The two numbers that are compared."""
 
 
-def to_dataset(comparisons: Sequence[SolvedLadder], axis: Axis | None = None) -> xr.Dataset:
-    """Return the comparisons over `axis` and `rung`, or a single one over `rung`."""
-    first = comparisons[0]
-    wavelength = _wavelengths(comparisons)
-    most = max(len(rung.samples) for one in comparisons for rung in one.rungs)
-    parts = [xr.Dataset(_numbers(one, wavelength, most)) for one in comparisons]
-    data = parts[0]
-    if axis is not None:
-        data = xr.concat(parts, dim=axis.name).assign_coords(coordinates([axis], first.file.text))
-    data = data.assign(_words(first)).assign_coords(
-        rung=[rung.name for rung in first.rungs],
-        wavelength=labelled("wavelength", wavelength, "m", "lower end of the octave", SOURCE),
-    )
-    conditions = first.subject.conditions
-    if first.measured is not None:
-        data = data.assign(measured_variables(first.measured))
-    return data.assign_attrs(
-        title="Contact and friction by model",
-        case=first.file.text,
-        case_file=str(first.file.path),
-        conditions=json.dumps(conditions and conditions.to_dict()),
-        seeds=first.subject.seeds,
-        tolerance=first.subject.tolerance,
-        measured_source="" if first.measured is None else first.measured.source,
-        **provenance.attributes(),
-    )
-
-
-def _numbers(one: SolvedLadder, wavelength: NDArray[np.float64], most: int) -> dict[str, Any]:
-    """Return what belongs to one load."""
-    rungs, load = one.rungs, one.subject.load
-    data: dict[str, Any] = {}
-    for name in QUANTITIES:
-        data[f"total_{name}"] = _by_rung(
-            [rung.mean(name) for rung in rungs], f"{TOTALS[f'total_{name}']}, mean of the samples"
-        )
-    for name, text in WORDS.items():
-        data |= _of_quantity(one, name, text, wavelength, most)
-    adhesive = [rung.mean("adhesive_friction") for rung in rungs]
-    if np.isfinite(adhesive).any():
-        data[ADHESIVE_FRICTION] = _by_rung(adhesive, "friction coefficient of the area term")
-    beyond = [rung.extrapolation for rung in rungs]
-    for name, (part, text) in OUTSIDE_BAND.items():
-        data[name] = _by_rung([getattr(each, part) for each in beyond], text)
-    exponents = [rung.cut_off_exponents for rung in rungs]
-    for name, (part, text) in CUT_OFF_EXPONENTS.items():
-        data[name] = _by_rung([getattr(each, part) for each in exponents], text)
-    data[WHY_NO_EXPONENT] = _by_rung(
-        [each.why_not for each in exponents], "why an exponent of the cut-off is not known"
-    )
-    excited = 2.0 * np.pi * load.speed / wavelength
-    data["outside_band"] = labelled(
-        "wavelength",
-        one.subject.rubber.outside_band(excited).astype(np.int8),
-        "1",
-        "1 where the wavelength excites the rubber outside the measured frequencies",
-        SOURCE,
-    )
-    data["samples"] = _by_rung([len(rung.samples) for rung in rungs], "number of samples")
-    data["converged_samples"] = _by_rung(
-        [len(rung.converged) for rung in rungs], "number of samples that converged"
-    )
-    data["status"] = _by_rung([rung.status for rung in rungs], "converged, or what failed")
-    seconds = [rung.seconds for rung in rungs]
-    data["seconds"] = labelled("rung", seconds, "s", "time its samples took", SOURCE)
-    data["nominal_pressure"] = labelled((), load.pressure, "Pa", "nominal pressure", SOURCE)
-    data["nominal_speed"] = labelled((), load.speed, "m/s", "sliding speed", SOURCE)
-    return data
-
-
-def _of_quantity(
-    one: SolvedLadder, name: str, text: str, wavelength: NDArray[np.float64], most: int
-) -> dict[str, Any]:
-    """Return samples, spread, errors, factors, curve and best estimate of a quantity."""
-    rungs = one.rungs
-    factors = [one.factor(rung, name) for rung in rungs]
-    uncertain = [rung.uncertain(name).uncertainty for rung in rungs]
-    curves = [_running(rung, name, wavelength) for rung in rungs]
-    errors = [_mean_of_known(rung.values(f"{name}_error")) for rung in rungs]
-    padded = [_padded(rung, name, most) for rung in rungs]
-    best = one.best_estimate
-    mine = best and getattr(best, name)
-    steps = best.factors if best else []
-    about = "relative standard uncertainty of the"
-    return {
-        f"{name}_spread": _by_rung(
-            [rung.spread(name) for rung in rungs], f"standard deviation of the {text}"
-        ),
-        f"{name}_error": _by_rung(errors, f"error of the {text} as the model estimates it"),
-        f"{name}_uncertainty": _by_rung(uncertain, f"{about} mean {text}"),
-        f"{name}_factor": _by_rung(
-            [one.value for one in factors], f"{text} over that of the rung it follows"
-        ),
-        f"{name}_factor_uncertainty": _by_rung(
-            [one.uncertainty for one in factors], f"{about} factor on the {text}"
-        ),
-        f"sample_{name}": labelled(("rung", "sample"), padded, "1", f"{text} by sample", SOURCE),
-        f"running_{name}": labelled(
-            ("rung", "wavelength"), curves, "1", f"{text} down to the wavelength", SOURCE
-        ),
-        f"best_{name}": labelled(
-            (), mine.value if mine else math.nan, "1", f"best estimate of the {text}", SOURCE
-        ),
-        f"best_{name}_uncertainty": labelled(
-            (), mine.uncertainty if mine else math.nan, "1", f"{about} best estimate", SOURCE
-        ),
-        f"best_{name}_factor": _by_factor(
-            [_of(step, name).value for step in steps], f"factor on the {text}, NaN if not included"
-        ),
-        f"best_{name}_factor_uncertainty": _by_factor(
-            [_of(step, name).uncertainty for step in steps], f"{about} factor"
-        ),
-    }
-
-
-def _words(one: SolvedLadder) -> dict[str, Any]:
-    """Return what the rungs and factors are called, which no load changes."""
-    rungs = [rung.rung for rung in one.rungs]
-    best = one.best_estimate
-    return {
-        "label": _by_rung([rung.label for rung in rungs], "the model in words"),
-        "group": _by_rung([rung.group for rung in rungs], "what it can be asked for with"),
-        "follows": _by_rung([rung.follows for rung in rungs], "rung it is compared with"),
-        "change": _by_rung([rung.change for rung in rungs], "what changes from that rung"),
-        "factor_label": _by_factor(
-            [factor.label for factor in (best.factors if best else [])],
-            "factors of the best estimate",
-        ),
-    }
-
-
-def _wavelengths(comparisons: Sequence[SolvedLadder]) -> NDArray[np.float64]:
-    smallest = min(one.subject.surface.cutoff_wavelength for one in comparisons)
-    samples = [s for one in comparisons for rung in one.rungs for s in rung.converged]
-    return octaves((s.curve for s in samples if s.curve is not None), smallest)
-
-
-def _running(rung: SolvedRung, name: str, wavelength: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the mean over the samples down to each wavelength; NaN where one does not tell it."""
-    curves = [sample.curve for sample in rung.converged]
-    told = [curve.at(name, wavelength) for curve in curves if curve is not None]
-    return np.mean(told, axis=0) if told else np.full(wavelength.size, np.nan)
-
-
-def _padded(rung: SolvedRung, name: str, most: int) -> NDArray[np.float64]:
-    """Return each sample, NaN for those that failed and beyond the last."""
-    out = np.full(most, np.nan)
-    for at, sample in enumerate(rung.samples):
-        out[at] = getattr(sample, name) if sample.converged else np.nan
-    return out
-
-
-def _of(factor: Factor, name: str) -> Any:
-    return getattr(factor, name) if factor.included else UNKNOWN_VALUE
-
-
-def _mean_of_known(values: NDArray[np.float64]) -> float:
-    known = values[np.isfinite(values)]
-    return float(known.mean()) if known.size else math.nan
-
-
-def _by_rung(values: Sequence[object], long_name: str) -> xr.Variable:
-    return labelled("rung", values, "1", long_name, SOURCE)
-
-
-def _by_factor(values: Sequence[object], long_name: str) -> xr.Variable:
-    return labelled("factor", values, "1", long_name, SOURCE)
-
-
-# What a comparison gives: the solved ladder of one load, or one for each value of an axis.
-
-
-class Comparison(SolvedLadder):
-    """The rungs of one case under one load, in order, and what follows from them."""
-
-    def to_dataset(self) -> xr.Dataset:
-        """Return everything as a labelled Dataset over `rung`, see `comparison.dataset`."""
-        return to_dataset([self])
-
-
 @dataclass(frozen=True, eq=False)
-class ComparisonOverAxis:
-    """Comparisons over a varied input of the case."""
+class Comparison:
+    """The rungs of one case, under one load or over a varied input.
 
-    axis: Axis
-    comparisons: Sequence[Comparison]
+    Parameters
+    ----------
+    file : CaseFile
+        The case.
+    setups : sequence of ComparisonSetup
+        What was compared: one, or one a value of `axis`.
+    rungs : sequence of Rung
+        Those with samples, in order.
+    samples : xarray.Dataset
+        Their answers over the axis, `rung` and `sample`, see `gripscale.analysis.samples`.
+    axis : Axis, optional
+        The varied input.
+    measured : MeasuredFriction, optional
+        Friction measured elsewhere, to be put beside the models.
+    factors : sequence of Factor
+        Factors of the best estimate known from elsewhere.
+    """
+
+    file: CaseFile
+    setups: Sequence[ComparisonSetup]
+    rungs: Sequence[Rung]
+    samples: xr.Dataset
+    axis: Axis | None = None
+    measured: MeasuredFriction | None = None
+    factors: Sequence[Factor] = ()
 
     @property
     def converged(self) -> bool:
         """Whether every sample of every rung may be used."""
-        return all(one.converged for one in self.comparisons)
+        return bool((converged(self.samples) | (self.samples.prediction_status == "")).all())
+
+    @cached_property
+    def data(self) -> xr.Dataset:
+        """Everything as a labelled Dataset over the axis and `rung`."""
+        return comparison_dataset(self)
 
     def to_dataset(self) -> xr.Dataset:
-        """Return everything as a labelled Dataset over the axis and `rung`."""
-        return to_dataset(self.comparisons, self.axis)
+        """Return `data`."""
+        return self.data
+
+
+def comparison_dataset(comparison: Comparison) -> xr.Dataset:
+    """Return means, scatter, factors and the best estimate of the rungs of a comparison."""
+    samples, setups, axis = comparison.samples, comparison.setups, comparison.axis
+    outer = () if axis is None else (axis.name,)
+    loads = [setup.load for setup in setups]
+    wavelength = _wavelength(comparison)
+    data: dict[str, xr.Variable] = {}
+
+    def add(name: str, values: xr.DataArray, long_name: str, *dims: str, unit: str = "1") -> None:
+        ordered = values.transpose(*outer, *dims)
+        attrs = {"units": unit, "long_name": long_name, "source": SOURCE}
+        data[name] = xr.Variable(ordered.dims, ordered.values, attrs)
+
+    def add_by_load(name: str, values: Any, long_name: str, *dims: str, unit: str = "1") -> None:
+        array = np.asarray(values if outer else values[0])
+        add(name, xr.DataArray(array, dims=(*outer, *dims)), long_name, *dims, unit=unit)
+
+    for name in QUANTITIES:
+        text = f"{TOTALS[f'total_{name}']}, mean of the samples"
+        add(f"total_{name}", usable(samples, name).mean("sample"), text, "rung")
+    best = best_estimate(samples, comparison.factors, of_map=setups[0].of_map)
+    for name, text in WORDS.items():
+        values = usable(samples, name)
+        about = "relative standard uncertainty of the"
+        add(f"{name}_spread", spread(values), f"standard deviation of the {text}", "rung")
+        error = usable(samples, f"{name}_error").mean("sample")
+        add(f"{name}_error", error, f"error of the {text} as the model estimates it", "rung")
+        rungs = [samples.isel(rung=at) for at in range(samples.sizes["rung"])]
+        uncertainty = xr.concat([relative_uncertainty(rung, name) for rung in rungs], "rung")
+        add(f"{name}_uncertainty", uncertainty, f"{about} mean {text}", "rung")
+        factors = [_factor(comparison, at, name) for at in range(len(rungs))]
+        value, uncertainty = (xr.concat(parts, "rung") for parts in zip(*factors, strict=True))
+        add(f"{name}_factor", value, f"{text} over that of the rung it follows", "rung")
+        text_of_factor = f"{about} factor on the {text}"
+        add(f"{name}_factor_uncertainty", uncertainty, text_of_factor, "rung")
+        add(f"sample_{name}", values, f"{text} by sample", "rung", "sample")
+        curves = running(samples, name, wavelength)
+        add(f"running_{name}", curves, f"{text} down to the wavelength", "rung", "wavelength")
+        add(f"best_{name}", best[f"best_{name}"], f"best estimate of the {text}")
+        add(f"best_{name}_uncertainty", best[f"best_{name}_uncertainty"], f"{about} best estimate")
+        text = f"factor on the {text}, NaN if not included"
+        add(f"best_{name}_factor", best[f"best_{name}_factor"], text, "factor")
+        uncertainty = best[f"best_{name}_factor_uncertainty"]
+        add(f"best_{name}_factor_uncertainty", uncertainty, f"{about} factor", "factor")
+    adhesive = usable(samples, "adhesive_friction").mean("sample")
+    if adhesive.notnull().any():
+        add(ADHESIVE_FRICTION, adhesive, "friction coefficient of the area term", "rung")
+    beyond, exponents = outside_band(samples), cut_off_exponents(samples)
+    for name, (_, text) in OUTSIDE_BAND.items():
+        add(name, beyond[name], text, "rung")
+    for name, (_, text) in CUT_OFF_EXPONENTS.items():
+        add(name, exponents[name], text, "rung")
+    text = "why an exponent of the cut-off is not known"
+    add(WHY_NO_EXPONENT, exponents[WHY_NO_EXPONENT], text, "rung")
+    add_by_load(
+        "outside_band",
+        [
+            setup.rubber.outside_band(2.0 * np.pi * setup.load.speed / wavelength).astype(np.int8)
+            for setup in setups
+        ],
+        "1 where the wavelength excites the rubber outside the measured frequencies",
+        "wavelength",
+    )
+    count = (samples.prediction_status != "").sum("sample")
+    add("samples", count, "number of samples", "rung")
+    count = converged(samples).sum("sample")
+    add("converged_samples", count, "number of samples that converged", "rung")
+    add("status", status(samples), "converged, or what failed", "rung")
+    add("seconds", samples.seconds.sum("sample"), "time its samples took", "rung", unit="s")
+    pressure, speed = ([getattr(load, name) for load in loads] for name in ("pressure", "speed"))
+    add_by_load("nominal_pressure", pressure, "nominal pressure", unit="Pa")
+    add_by_load("nominal_speed", speed, "sliding speed", unit="m/s")
+    words = {
+        "label": "the model in words",
+        "group": "what it can be asked for with",
+        "follows": "rung it is compared with",
+        "change": "what changes from that rung",
+    }
+    for name, text in words.items():
+        column = [getattr(rung, name) for rung in comparison.rungs]
+        data[name] = _variable("rung", np.array(column, dtype=object), text)
+    data["factor_label"] = _variable(
+        "factor", best.factor_label.values, "factors of the best estimate"
+    )
+    measured = comparison.measured
+    if measured is not None:
+        data |= measured_variables(measured)
+    coords = {} if axis is None else coordinates([axis], comparison.file.text)
+    conditions = setups[0].conditions
+    return xr.Dataset(
+        data,
+        {
+            "rung": [rung.name for rung in comparison.rungs],
+            "wavelength": _variable("wavelength", wavelength, "lower end of the octave", "m"),
+            **coords,
+        },
+        {
+            "title": "Contact and friction by model",
+            "case": comparison.file.text,
+            "case_file": str(comparison.file.path),
+            "conditions": json.dumps(conditions and conditions.to_dict()),
+            "seeds": setups[0].seeds,
+            "tolerance": setups[0].tolerance,
+            "measured_source": "" if measured is None else measured.source,
+            **provenance.attributes(),
+        },
+    )
+
+
+def _wavelength(comparison: Comparison) -> np.ndarray[Any, np.dtype[np.float64]]:
+    """Return the lower ends of octaves that hold the curves of all samples [m], falling."""
+    smallest = min(setup.surface.cutoff_wavelength for setup in comparison.setups)
+    if "curve_wavelength" not in comparison.samples:
+        return np.empty(0)
+    curves = usable(comparison.samples, "curve_wavelength")
+    return octaves(float(curves.max()), float(curves.min()), smallest)
+
+
+def _factor(comparison: Comparison, at: int, name: str) -> tuple[xr.DataArray, xr.DataArray]:
+    """Return the factor from the rung that the one at `at` follows; NaN if it is not there."""
+    samples = comparison.samples
+    before = comparison.rungs[at].follows
+    if before not in samples["rung"].values:
+        unknown = usable(samples.isel(rung=at, drop=True), name).mean("sample") * np.nan
+        return unknown, unknown
+    return ratio(samples.isel(rung=at, drop=True), samples.sel(rung=before, drop=True), name)
+
+
+def _variable(dim: str, values: Any, long_name: str, unit: str = "1") -> xr.Variable:
+    return xr.Variable(dim, values, {"units": unit, "long_name": long_name, "source": SOURCE})

@@ -12,20 +12,21 @@ best one by the model of the case. The DMAs are independent of each other, see
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import xarray as xr
 
 from gripscale.case.read import CaseFile, read_case
 from gripscale.chain.chain import Chain
+from gripscale.core import checks
 from gripscale.core.errors import InputError
 from gripscale.core.units import ZERO_CELSIUS
+from gripscale.experiment.design import Design, Point, solve_design
 from gripscale.experiment.inputs import rubber_of
-from gripscale.experiment.solve import OnTask, solve_all
+from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.study import Study
 from gripscale.experiment.task import PREDICTIONS, Store, Task
 from gripscale.io import netcdf
@@ -147,17 +148,15 @@ def to_first(values: xr.DataArray, dim: str, long_name: str) -> xr.DataArray:
 
 
 def ranges(
-    data: xr.Dataset, dims: Sequence[str], ends: Mapping[str, Any], text: str
-) -> dict[str, Any]:
+    data: xr.Dataset, ends: Mapping[str, tuple[xr.DataArray, xr.DataArray]], text: str
+) -> dict[str, xr.DataArray]:
     """Return `total_friction_low` and so on: totals times the `ends` of each, low and high."""
     return {
-        f"{quantity}_{end}": (
-            tuple(dims),
-            data[quantity].values * factor,
-            attributes(f"{end}est {data[quantity].attrs['long_name']} {text}"),
+        f"{quantity}_{end}": (data[quantity] * factor).assign_attrs(
+            attributes(f"{end}est {data[quantity].attrs['long_name']} {text}")
         )
-        for quantity, (low, high) in ends.items()
-        for end, factor in (("low", low), ("high", high))
+        for quantity, factors in ends.items()
+        for end, factor in zip(("low", "high"), factors, strict=True)
     }
 
 
@@ -228,40 +227,34 @@ def compare_compounds(
     """
     require_some("rubbers", rubbers, "compounds")
     file = case if isinstance(case, CaseFile) else read_case(case)
-    given = {name: rubber_of(value, file) for name, value in rubbers.items()}
+    compounds = {name: rubber_of(value, file) for name, value in rubbers.items()}
     if temperature is None:
         temperature = file.case.conditions.temperature
-    together, notes = at_one_temperature(given, temperature)
+    together, notes = at_one_temperature(compounds, temperature)
     study = Study(file, {"rubber": together}, static=False)
     data = study.run(folder, workers=workers, on_task=on_task)
     if uncertainty:
-        data = data.assign(_ranges(study, data, Path(folder), workers))
+        bench = Bench(Store(Path(folder) / PREDICTIONS), workers)
+        data = data.assign(_ranges(study, data, bench))
     data = data.assign(_differences(data)).assign_attrs(notes="\n".join(notes))
     return Compounds(together, notes, netcdf.load(netcdf.save(data, Path(folder) / RESULT)))
 
 
-def _ranges(study: Study, data: xr.Dataset, folder: Path, workers: int | None) -> dict[str, Any]:
+def _ranges(study: Study, data: xr.Dataset, bench: Bench) -> dict[str, xr.DataArray]:
     """Return the lowest and highest totals of each compound over its admissible series."""
-    assert isinstance(study.model, Chain)
     load = study.file.case.load.nominal
-    model = replace(study.model, solver=HalfPlane(points=POINTS))
-    tasks = {
-        (name, i): Task(rubber, study.surfaces[0], load, model)
-        for name, best in zip(data.rubber.values.tolist(), study.rubbers, strict=True)
+    model = replace(checks.instance("model", study.model, Chain), solver=HalfPlane(points=POINTS))
+    points = [
+        Point((at, i), f"{name}, series {i}", Task(rubber, study.surfaces[0], load, model))
+        for at, (name, best) in enumerate(zip(data.rubber.values, study.rubbers, strict=True))
         for i, rubber in enumerate([best, *best.admissible_rubbers()])
-    }
-    labels = {f"{name}, series {i}": task for (name, i), task in tasks.items()}
-    solved = solve_all(labels, Store(folder / PREDICTIONS), workers=workers)
-    found: dict[str, Any] = {}
-    for quantity in TOTALS:
-        ends = np.full((2, data.sizes["rubber"]), np.nan)
-        for at, name in enumerate(data.rubber.values.tolist()):
-            each = [float(solved[t.key][quantity]) for (n, _), t in tasks.items() if n == name]
-            ratio = np.array(each[1:]) / each[0]
-            if np.isfinite(ratio).any():
-                ends[:, at] = np.nanmin([*ratio, 1.0]), np.nanmax([*ratio, 1.0])
-        found[quantity] = ends
-    return ranges(data, ["rubber"], found, "that the measured moduli leave open")
+    ]
+    sizes = {"rubber": data.sizes["rubber"], "series": 1 + max(p.index[1] for p in points)}
+    solved = solve_design(Design(sizes, points, {"rubber": data.rubber}), bench)
+    ratio = solved[list(TOTALS)] / solved[list(TOTALS)].isel(series=0)
+    ratio = ratio.where(ratio.count("series") > 1)  # the best series alone gives no range
+    ends = {name: (ratio[name].min("series"), ratio[name].max("series")) for name in TOTALS}
+    return ranges(data, ends, "that the measured moduli leave open")
 
 
 def _differences(data: xr.Dataset) -> dict[str, Any]:

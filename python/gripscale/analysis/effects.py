@@ -8,19 +8,18 @@ The area term does nothing to the rubber: it needs no answer of its own, and sta
 from __future__ import annotations
 
 import json
-import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from contextlib import nullcontext
+from dataclasses import replace
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
-import numpy as np
 import xarray as xr
 
 from gripscale.case.results import CaseResults
 from gripscale.core import provenance
 from gripscale.core.errors import FileError, InputError
+from gripscale.experiment.design import Design, Point, solve_design
 from gripscale.experiment.inputs import (
     ALL,
     NONE,
@@ -29,7 +28,7 @@ from gripscale.experiment.inputs import (
     rubber_before,
     with_effects,
 )
-from gripscale.experiment.solve import OnTask, solve_all
+from gripscale.experiment.solve import Bench, OnTask, bench_in
 from gripscale.experiment.task import Store, Task
 from gripscale.io import netcdf
 from gripscale.model import ADHESIVE_FRICTION, OUTSIDE_BAND, TOTALS, Model, NominalLoad
@@ -65,9 +64,9 @@ def effect_tasks(
         )
     tasks = {}
     for selection in (ALL, *(f"no {effect}" for effect in asked), NONE):
-        own = with_effects(model, selection)
-        rubber_before(rubber, own)  # nothing is solved if one of them is impossible
-        tasks[selection] = Task(rubber, surface, load, own)
+        changed = with_effects(model, selection)
+        rubber_before(rubber, changed)  # nothing is solved if one of them is impossible
+        tasks[selection] = Task(rubber, surface, load, changed)
     return tasks
 
 
@@ -111,18 +110,13 @@ def effects(
         If a result cannot be written.
     """
     tasks = effect_tasks(model, rubber, surface, load)
-    with nullcontext(folder) if folder is not None else TemporaryDirectory() as place:
-        solved = solve_all(tasks, Store(place), workers=workers, client=client, on_task=on_task)
-    found = [solved[task.key] for task in tasks.values()]
-    data = xr.Dataset(
-        {name: _over(found, name) for name in KEPT if name in found[0]},
-        coords={"effect": ("effect", list(tasks), _attrs("effects that count"))},
-        attrs=_provenance(model, rubber, surface, load),
-    )
-    for name in ("prediction_status", "prediction_key"):
-        texts = [str(one[name].item() if name in one else one.attrs[name]) for one in found]
-        data[name] = ("effect", np.array(texts, dtype=object), _attrs(name.replace("_", " ")))
-    return _with_changes(data)
+    points = [Point((at,), selection, task) for at, (selection, task) in enumerate(tasks.items())]
+    coords = {"effect": ("effect", list(tasks), _attrs("effects that count"))}
+    design = Design({"effect": len(tasks)}, points, coords)
+    with bench_in(None) if folder is None else nullcontext(Bench(Store(folder))) as bench:
+        data = solve_design(design, replace(bench, workers=workers, client=client, on_task=on_task))
+    kept = [name for name in (*KEPT, "prediction_status", "prediction_key") if name in data]
+    return _with_changes(data[kept].assign_attrs(_provenance(model, rubber, surface, load)))
 
 
 def _with_changes(data: xr.Dataset) -> xr.Dataset:
@@ -137,11 +131,6 @@ def _with_changes(data: xr.Dataset) -> xr.Dataset:
             words = f"what the effects left out change in {data[name].attrs['long_name']}"
             data[change] = relative.where(data.effect != ALL).assign_attrs(_attrs(words))
     return data
-
-
-def _over(found: Sequence[xr.Dataset], name: str) -> xr.Variable:
-    values = [float(one[name]) if name in one else math.nan for one in found]
-    return xr.Variable("effect", values, _attrs(str(found[0][name].attrs["long_name"])))
 
 
 def _attrs(long_name: str) -> dict[str, str]:
@@ -209,27 +198,27 @@ def case_effects(
     asked, load = effects_asked(model), results.load
     if not asked or load.speed == 0.0:
         return None
-    given = (model, results.rubber.rubber, results.surface, load)
+    setup = (model, results.rubber.rubber, results.surface, load)
     if model == results.chain and results.dynamic is not None and results.dynamic.converged:
-        key = effect_tasks(*given)[ALL].key
+        key = effect_tasks(*setup)[ALL].key
         solved = results.dynamic.to_dataset().assign_attrs(prediction_key=key)
         Store(store).put(key, solved)
-    found = effects(*given, folder=store, workers=workers, client=client, on_task=on_task)
-    found = found.assign_attrs(case=results.file.text)
-    netcdf.save(found, Path(folder) / FILE.format(model=model.name))
-    return found
+    data = effects(*setup, folder=store, workers=workers, client=client, on_task=on_task)
+    data = data.assign_attrs(case=results.file.text)
+    netcdf.save(data, Path(folder) / FILE.format(model=model.name))
+    return data
 
 
 def stored_effects(folders: Iterable[Path], case: object) -> list[xr.Dataset]:
     """Return what the first of `folders` that has effects of this text of a case keeps."""
     for folder in folders:
-        found = []
+        kept = []
         for path in sorted(folder.glob(FILE.format(model="*"))):
             try:
-                found.append(netcdf.load(path))
+                kept.append(netcdf.load(path))
             except FileError:
                 continue
-        same = [one for one in found if one.attrs.get("case") == case]
+        same = [data for data in kept if data.attrs.get("case") == case]
         if same:
             return same
     return []

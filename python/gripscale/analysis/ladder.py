@@ -76,6 +76,11 @@ class ComparisonSetup:
     conditions: Conditions | None = None
 
     @property
+    def of_map(self) -> bool:
+        """Whether a map was measured."""
+        return self.surface.measured is not None and self.surface.measured.map is not None
+
+    @property
     def rubber_before(self) -> Rubber:
         """The rubber at the temperature before the contact, for models that know no more."""
         return self.rubber if self.conditions is None else self.conditions.before(self.rubber)
@@ -90,7 +95,7 @@ class SampleSpec(NamedTuple):
 
     model: Model
     surface: PreparedSurface
-    of: str = ""
+    subject: str = ""
     """What it is a sample of, such as a profile; samples of the same are compared in pairs."""
 
 
@@ -144,34 +149,34 @@ MAP, WAVES_IN_MAP, MAPS, LINES = 1.8, 128, 2, 10
 kept, how many, and how many lines of each are solved each way."""
 
 
-def windows_half_plane(subject: ComparisonSetup) -> Sequence[SampleSpec]:
+def windows_half_plane(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     """Return windows of the profiles for the half-space."""
-    return _on_windows(subject, DirectContact(tolerance=subject.tolerance, periodic=True))
+    return _on_windows(setup, DirectContact(tolerance=setup.tolerance, periodic=True))
 
 
-def windows_finite_strain(subject: ComparisonSetup) -> Sequence[SampleSpec]:
+def windows_finite_strain(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     """Return the same windows for the block."""
-    return _on_windows(subject, BlockOnProfile(periodic=True))
+    return _on_windows(setup, BlockOnProfile(periodic=True))
 
 
-def maps(subject: ComparisonSetup) -> Sequence[SampleSpec]:
+def maps(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     """Return synthetic isotropic maps of the profiles."""
-    return _on_maps(subject, 0)
+    return _on_maps(setup, 0)
 
 
-def lines_of_maps(subject: ComparisonSetup) -> Sequence[SampleSpec]:
+def lines_of_maps(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     """Return lines of the same maps."""
-    return _on_maps(subject, LINES)
+    return _on_maps(setup, LINES)
 
 
-def _on_windows(subject: ComparisonSetup, model: Model) -> Sequence[SampleSpec]:
-    measured, sines = subject.surface.measured, subject.surface.sines
+def _on_windows(setup: ComparisonSetup, model: Model) -> Sequence[SampleSpec]:
+    measured, sines = setup.surface.measured, setup.surface.sines
     lines = () if measured is None else tuple(measured.cleaned)
     length = WINDOW * float(sines.wavelength[0])
     return [
         SampleSpec(
             model,
-            with_single_measurement(subject.surface, line),
+            with_single_measurement(setup.surface, line),
             f"{line.name} from {line.x[0]:.4g} m",
         )
         for line in _windows(lines, length, float(sines.cutoff_wavelength))
@@ -192,11 +197,11 @@ def _windows(lines: tuple[Profile, ...], length: float, end: float) -> list[Prof
     return spread_windows(enough, length, WINDOWS, smallest)
 
 
-def _on_maps(subject: ComparisonSetup, lines: int) -> Sequence[SampleSpec]:
+def _on_maps(setup: ComparisonSetup, lines: int) -> Sequence[SampleSpec]:
     """Return the maps; none of a surface that is a map, or whose profiles are too short."""
     from gripscale.half_space.maps import SyntheticMap
 
-    surface = subject.surface
+    surface = setup.surface
     if surface.measured is None or surface.measured.map is not None:
         return []
     cleaned, sines = surface.measured.cleaned, surface.sines
@@ -208,7 +213,7 @@ def _on_maps(subject: ComparisonSetup, lines: int) -> Sequence[SampleSpec]:
         return []
     return [
         SampleSpec(
-            SyntheticMap(seed, float(smallest), lines, tolerance=subject.tolerance),
+            SyntheticMap(seed, float(smallest), lines, tolerance=setup.tolerance),
             surface,
             f"map {seed}",
         )
@@ -247,36 +252,36 @@ def each_measured(surface: PreparedSurface) -> list[tuple[str, PreparedSurface]]
     """Return `surface` with one profile after the other, or its map, and what it is called."""
     measured: Sequence[Profile | HeightMap] = surface.measured.surfaces if surface.measured else []
     return [
-        (one.name or f"profile {i}", with_single_measurement(surface, one))
-        for i, one in enumerate(measured, 1)
+        (part.name or f"profile {i}", with_single_measurement(surface, part))
+        for i, part in enumerate(measured, 1)
     ]
 
 
-def _chain(subject: ComparisonSetup) -> Sequence[SampleSpec]:
-    small_strain = isinstance(subject.solver, HalfPlane)
+def _chain(setup: ComparisonSetup) -> Sequence[SampleSpec]:
+    small_strain = isinstance(setup.solver, HalfPlane)
     if small_strain:
         return []
-    return [SampleSpec(_chain_of(subject, subject.solver), subject.surface)]
+    return [SampleSpec(_chain_of(setup, setup.solver), setup.surface)]
 
 
-def _chain_of(subject: ComparisonSetup, solver: WaveSolver) -> Chain:
-    return Chain(solver, pressure_classes=subject.pressure_classes, conditions=subject.conditions)
+def _chain_of(setup: ComparisonSetup, solver: WaveSolver) -> Chain:
+    return Chain(solver, pressure_classes=setup.pressure_classes, conditions=setup.conditions)
 
 
-def _direct_of(subject: ComparisonSetup) -> DirectContact:
-    return DirectContact(tolerance=subject.tolerance, conditions=subject.conditions)
+def _direct_of(setup: ComparisonSetup) -> DirectContact:
+    return DirectContact(tolerance=setup.tolerance, conditions=setup.conditions)
 
 
-def _chain_half_plane(subject: ComparisonSetup) -> Sequence[SampleSpec]:
-    solver = subject.solver if isinstance(subject.solver, HalfPlane) else HalfPlane()
-    return [SampleSpec(_chain_of(subject, solver), subject.surface)]
+def _chain_half_plane(setup: ComparisonSetup) -> Sequence[SampleSpec]:
+    solver = setup.solver if isinstance(setup.solver, HalfPlane) else HalfPlane()
+    return [SampleSpec(_chain_of(setup, solver), setup.surface)]
 
 
-def _chain_upper(subject: ComparisonSetup) -> Sequence[SampleSpec]:
-    surface = subject.surface
+def _chain_upper(setup: ComparisonSetup) -> Sequence[SampleSpec]:
+    surface = setup.surface
     upper_already = surface.counted.get("upper_share", 1.0) < 1.0
     cut_off_already = surface.sines.cut_off is not None
-    if upper_already and cut_off_already and subject.pressure_classes > 1:
+    if upper_already and cut_off_already and setup.pressure_classes > 1:
         return []
     lines = () if surface.measured is None else tuple(surface.measured.cleaned)
     end = surface.cutoff_wavelength
@@ -284,7 +289,7 @@ def _chain_upper(subject: ComparisonSetup) -> Sequence[SampleSpec]:
     if sines is None:
         return []
     solver = HalfPlane(points=POINTS_OF_A_CLASS)
-    chain = Chain(solver, pressure_classes=CLASSES, conditions=subject.conditions)
+    chain = Chain(solver, pressure_classes=CLASSES, conditions=setup.conditions)
     return [SampleSpec(chain, PreparedSurface(sines, "waves of the upper half"))]
 
 
@@ -300,31 +305,31 @@ def _of_upper_half(
         return None
 
 
-def _sines(subject: ComparisonSetup) -> Sequence[SampleSpec]:
-    model, surface = _direct_of(subject), subject.surface
-    lines = (_of_sines(surface.sines, seed) for seed in range(subject.seeds))
+def _sines(setup: ComparisonSetup) -> Sequence[SampleSpec]:
+    model, surface = _direct_of(setup), setup.surface
+    lines = (_of_sines(surface.sines, seed) for seed in range(setup.seeds))
     return [SampleSpec(model, with_single_measurement(surface, line)) for line in lines]
 
 
-def _random_phases(subject: ComparisonSetup) -> Sequence[SampleSpec]:
-    model, surface = _direct_of(subject), subject.surface
+def _random_phases(setup: ComparisonSetup) -> Sequence[SampleSpec]:
+    model, surface = _direct_of(setup), setup.surface
     measured = [] if surface.measured is None else surface.measured.surfaces
     return [
-        SampleSpec(model, with_single_measurement(surface, _shuffled(one, seed)), one.name)
-        for one in measured
-        for seed in range(subject.seeds)
+        SampleSpec(model, with_single_measurement(surface, _shuffled(part, seed)), part.name)
+        for part in measured
+        for seed in range(setup.seeds)
     ]
 
 
-def _direct(subject: ComparisonSetup) -> Sequence[SampleSpec]:
-    model = _direct_of(subject)
-    return [SampleSpec(model, one, name) for name, one in each_measured(subject.surface)]
+def _direct(setup: ComparisonSetup) -> Sequence[SampleSpec]:
+    model = _direct_of(setup)
+    return [SampleSpec(model, part, name) for name, part in each_measured(setup.surface)]
 
 
-def _persson(subject: ComparisonSetup) -> Sequence[SampleSpec]:
+def _persson(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     return [
-        SampleSpec(Persson(smallest_wavelength=_last_known(one)), one, name)
-        for name, one in each_measured(subject.surface)
+        SampleSpec(Persson(smallest_wavelength=_last_known(part)), part, name)
+        for name, part in each_measured(setup.surface)
     ]
 
 
@@ -335,11 +340,11 @@ def _last_known(surface: PreparedSurface) -> float:
     return max(surface.cutoff_wavelength, *ends)
 
 
-def _klueppel_heinrich(subject: ComparisonSetup) -> Sequence[SampleSpec]:
-    theory = subject.klueppel_heinrich
+def _klueppel_heinrich(setup: ComparisonSetup) -> Sequence[SampleSpec]:
+    theory = setup.klueppel_heinrich
     if theory is None:
         return []
-    return [SampleSpec(theory, one, name) for name, one in each_measured(subject.surface)]
+    return [SampleSpec(theory, part, name) for name, part in each_measured(setup.surface)]
 
 
 @lru_cache(maxsize=16)

@@ -13,7 +13,6 @@ from numpy.typing import ArrayLike, NDArray
 from gripscale.analysis.measured_friction import (
     MeasuredFriction,
     TemperatureProbe,
-    probed_temperature,
     read_measured_friction,
 )
 from gripscale.case.read import CaseFile
@@ -22,7 +21,8 @@ from gripscale.conditions.conditions import Conditions
 from gripscale.core import checks
 from gripscale.core.errors import InputError, about_keys
 from gripscale.core.units import ZERO_CELSIUS
-from gripscale.experiment.solve import OnTask, solve_all
+from gripscale.experiment.design import CONVERGED, Design, Point, solve_design
+from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.task import Store, Task
 from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, Model, NominalLoad
 from gripscale.rubber import Rubber
@@ -35,8 +35,6 @@ if TYPE_CHECKING:
 
 
 Array = NDArray[np.float64]
-
-CONVERGED = "converged"
 
 
 @dataclass(frozen=True, init=False, eq=False)
@@ -81,8 +79,11 @@ class Predicted:
         status: Sequence[str] | None = None,
     ) -> None:
         size = np.size(friction)
-        found: dict[str, Any] = {
-            "pressure": checks.positive_vector("pressure", pressure, unit="Pa")
+        columns: dict[str, Any] = {
+            "pressure": checks.positive_vector("pressure", pressure, unit="Pa"),
+            "status": [CONVERGED] * size
+            if status is None
+            else checks.instances("status", status, str),
         }
         numbers = {
             "friction": friction,
@@ -90,14 +91,13 @@ class Predicted:
             "temperature": temperature,
             "outside_band": np.full(size, np.nan) if outside_band is None else outside_band,
         }
-        for name, given in numbers.items():
-            found[name] = checks.vector(name, given, missing=True)
-        found["status"] = [CONVERGED] * size if status is None else _words("status", status)
-        sizes = {name: len(values) for name, values in found.items()}
-        if len(set(sizes.values())) > 1:
-            told = ", ".join(f"{count} of {name}" for name, count in sizes.items())
-            raise InputError(f"a prediction needs as many values of each; got {told}")
-        for name, values in found.items():
+        for name, values in numbers.items():
+            columns[name] = checks.vector(name, values, missing=True)
+        order = ["pressure", *numbers, "status"]
+        if len({len(values) for values in columns.values()}) > 1:
+            counts = ", ".join(f"{len(columns[name])} of {name}" for name in order)
+            raise InputError(f"a prediction needs as many values of each; got {counts}")
+        for name, values in columns.items():
             object.__setattr__(self, name, values)
 
     @property
@@ -123,10 +123,6 @@ class Predicted:
         return out
 
 
-def _words(name: str, given: Sequence[str]) -> list[str]:
-    return checks.instances(name, given, str)
-
-
 def averaged(parts: Sequence[Predicted]) -> Predicted:
     """Return the mean of the predictions of several samples of one model at the same points.
 
@@ -136,20 +132,22 @@ def averaged(parts: Sequence[Predicted]) -> Predicted:
     Raises `InputError` if there is none, or their points differ in number or pressure.
     """
     checks.instances("parts", parts, Predicted)
-    first = parts[0]
-    for one in parts:
-        if not np.array_equal(one.pressure, first.pressure):
-            raise InputError("parts must be predicted at the same pressures; got others")
-    area = np.array([one.contact_fraction for one in parts])
-    kelvin = np.array([one.temperature for one in parts])
-    statuses = zip(*(one.status for one in parts), strict=True)
+    pressure = parts[0].pressure
+    if any(not np.array_equal(part.pressure, pressure) for part in parts):
+        raise InputError("parts must be predicted at the same pressures; got others")
+    area = np.array([part.contact_fraction for part in parts])
+    kelvin = np.array([part.temperature for part in parts])
+    statuses = zip(*(part.status for part in parts), strict=True)
     return Predicted(
-        np.mean([one.friction for one in parts], axis=0),
+        np.mean([part.friction for part in parts], axis=0),
         area.mean(axis=0),
-        first.pressure,
+        pressure,
         (area * kelvin).sum(axis=0) / area.sum(axis=0),
-        np.mean([one.outside_band for one in parts], axis=0),
-        [next((one for one in each if one != CONVERGED), CONVERGED) for each in statuses],
+        np.mean([part.outside_band for part in parts], axis=0),
+        [
+            next((status for status in point if status != CONVERGED), CONVERGED)
+            for point in statuses
+        ],
     )
 
 
@@ -187,32 +185,68 @@ def predictions_at(
     InputError, FileError
         As the model and `solve_all` do; a temperature other than that of the rubber needs a shift.
     """
+    bench = Bench(store, workers, client, on_task)
+    return predict_points(measured, model, rubber, surface, load, bench)
+
+
+def predict_points(
+    measured: MeasuredFriction,
+    model: Model,
+    rubber: Rubber,
+    surface: PreparedSurface,
+    load: NominalLoad,
+    bench: Bench,
+) -> Predicted:
+    """Return what `model` predicts at each measured point, see `predictions_at`."""
+    return predicted_of(solve_design(points_of(measured, model, rubber, surface, load), bench))
+
+
+def points_of(
+    measured: MeasuredFriction,
+    model: Model,
+    rubber: Rubber,
+    surface: PreparedSurface,
+    load: NominalLoad,
+    label: str = "",
+) -> Design:
+    """Return the design over `measurement` that `predictions_at` solves; labels begin with one."""
     pressure = np.where(np.isnan(measured.pressure), load.pressure, measured.pressure)
-    own = _temperature(model, rubber)
-    kelvin = [own if math.isnan(one) else float(one) for one in measured.temperature]
-    tasks = [
-        _task(model, rubber, surface, replace(load, pressure=float(p), speed=float(v)), own, one)
-        for p, v, one in zip(pressure, measured.speed, kelvin, strict=True)
-    ]
-    named = {
-        f"point {at}, {_label(task.load, one)}": task
-        for at, (task, one) in enumerate(zip(tasks, kelvin, strict=True), start=1)
-    }
-    solved = solve_all(named, store, workers=workers, client=client, on_task=on_task)
-    answers = [solved[task.key] for task in tasks]
-    before = [math.nan if one is None else one for one in kelvin]
-    return Predicted(
-        np.array([_number(one, "total_friction") for one in answers]),
-        np.array([_number(one, "total_contact_fraction") for one in answers]),
-        pressure,
-        np.array([_contact_temperature(*both) for both in zip(answers, before, strict=True)]),
-        np.array([_number(one, FRICTION_OUTSIDE_BAND) for one in answers]),
-        [str(one.prediction_status.item()) for one in answers],
+    case = (model.conditions or Conditions()).temperature_of(rubber)
+    kelvin = np.where(
+        np.isnan(measured.temperature), math.nan if case is None else case, measured.temperature
     )
+    points = []
+    for at, (p, v, t) in enumerate(zip(pressure, measured.speed, kelvin, strict=True), start=1):
+        point_load = replace(load, pressure=float(p), speed=float(v))
+        temperature = None if math.isnan(t) else float(t)
+        other = temperature is not None and temperature != case
+        task = _task(model, rubber, surface, point_load, temperature, other)
+        celsius = "" if temperature is None else f", {t - ZERO_CELSIUS:.4g} C"
+        words = f"speed {v:.4g} m/s{celsius}, pressure {p / 1e5:.4g} bar"
+        points.append(Point((at - 1,), f"{label}point {at}, {words}", task))
+    coords = {
+        "nominal_pressure": ("measurement", pressure, {"units": "Pa"}),
+        "temperature": ("measurement", kelvin, {"units": "K"}),
+    }
+    return Design({"measurement": len(points)}, points, coords)
 
 
-def _temperature(model: Model, rubber: Rubber) -> float | None:
-    return (model.conditions or Conditions()).temperature_of(rubber)
+def predicted_of(data: xr.Dataset) -> Predicted:
+    """Return the predictions in the solved Dataset of `points_of`."""
+    area, pressure = data["total_contact_fraction"], data["nominal_pressure"]
+    kelvin = data["temperature"]
+    if ADHESIVE_FRICTION in data:  # what the probe says
+        term = data[ADHESIVE_FRICTION]
+        contact = (term * pressure / area.where(area > 0.0)).where(lambda t: t > 0.0)
+        kelvin = contact.where(term.notnull(), kelvin)
+    return Predicted(
+        data["total_friction"].values,
+        area.values,
+        pressure.values,
+        kelvin.values,
+        data.get(FRICTION_OUTSIDE_BAND, area * math.nan).values,
+        data["prediction_status"].values.tolist(),
+    )
 
 
 def _task(
@@ -220,37 +254,16 @@ def _task(
     rubber: Rubber,
     surface: PreparedSurface,
     load: NominalLoad,
-    own: float | None,
     kelvin: float | None,
+    other: bool,
 ) -> Task:
-    """Return what is to be solved at one point; `own` is the temperature of the case."""
-    elsewhere = kelvin is not None and kelvin != own
+    """Return what is to be solved at one point; `other` than the temperature of the case or not."""
     if not model.takes_conditions:
-        return Task(rubber.at(kelvin) if elsewhere and kelvin else rubber, surface, load, model)
+        return Task(rubber.at(kelvin) if other and kelvin else rubber, surface, load, model)
     conditions = replace(model.conditions or Conditions(), shear_stress=TemperatureProbe())
-    if elsewhere:
+    if other:
         conditions = replace(conditions, temperature=kelvin)
     return Task(rubber, surface, load, model.with_conditions(conditions))
-
-
-def _label(load: NominalLoad, kelvin: float | None) -> str:
-    at = "" if kelvin is None else f", {kelvin - ZERO_CELSIUS:.4g} C"
-    return f"speed {load.speed:.4g} m/s{at}, pressure {load.pressure / 1e5:.4g} bar"
-
-
-def _contact_temperature(answer: xr.Dataset, before: float) -> float:
-    """Return the temperature the probe tells [K], or that before the contact without one."""
-    if ADHESIVE_FRICTION not in answer:
-        return before
-    return probed_temperature(
-        _number(answer, ADHESIVE_FRICTION),
-        _number(answer, "total_contact_fraction"),
-        _number(answer, "nominal_pressure"),
-    )
-
-
-def _number(answer: xr.Dataset, name: str) -> float:
-    return float(answer[name]) if name in answer else math.nan
 
 
 # How far predictions are from measured friction, point by point and as a root mean square.
@@ -301,42 +314,43 @@ def residuals(
 
     checks.instance("measured", measured, MeasuredFriction)
     if not isinstance(predicted, Mapping) or not predicted:
-        found = checks.short_repr(predicted)
-        raise InputError(f"predicted must hold the prediction of at least one model; got {found}")
+        short = checks.short_repr(predicted)
+        raise InputError(f"predicted must hold the prediction of at least one model; got {short}")
     if shear_stress is not None and not isinstance(shear_stress, InterfacialShearStress):
         raise InputError(
             "shear_stress must be a law of gripscale.conditions; "
             f"got {checks.short_repr(shear_stress)}"
         )
-    for name, one in predicted.items():
-        checks.instance("each of predicted", one, Predicted)
-        if one.friction.size != measured.speed.size:
+    for name, prediction in predicted.items():
+        checks.instance("each of predicted", prediction, Predicted)
+        if prediction.friction.size != measured.speed.size:
             raise InputError(
                 f"{name} must be predicted at the {measured.speed.size} points measured; "
-                f"got {one.friction.size}"
+                f"got {prediction.friction.size}"
             )
     grid = ("model", "measurement")
-    hysteresis = np.array([one.friction for one in predicted.values()])
+    predictions = predicted.values()
+    hysteresis = np.array([prediction.friction for prediction in predictions])
     data = {"hysteresis": labelled(grid, hysteresis, "1", "friction of the hysteresis", SOURCE)}
     total = hysteresis
     if shear_stress is not None:
-        terms = [one.area_term(shear_stress, measured.speed) for one in predicted.values()]
+        law, speed = shear_stress, measured.speed
+        terms = np.array([prediction.area_term(law, speed) for prediction in predictions])
         data["area_term"] = labelled(grid, terms, "1", "friction of the area term", SOURCE)
-        total = hysteresis + np.array(terms)
+        total = hysteresis + terms
     difference = total - measured.friction
     relative = in_spread(difference, measured.spread)
     about = "predicted less measured friction"
-    data |= {
-        "friction": labelled(grid, total, "1", "predicted friction coefficient", SOURCE),
-        "difference": labelled(grid, difference, "1", about, SOURCE),
-        "difference_in_spread": labelled(grid, relative, "1", f"{about}, over its spread", SOURCE),
-        "rms_difference": labelled("model", rms(difference), "1", f"rms of {about}", SOURCE),
-        "rms_difference_in_spread": labelled(
-            "model", rms(relative), "1", f"rms of {about}, over its spread", SOURCE
-        ),
+    columns = {
+        "friction": (grid, total, "predicted friction coefficient"),
+        "difference": (grid, difference, about),
+        "difference_in_spread": (grid, relative, f"{about}, over its spread"),
+        "rms_difference": ("model", rms(difference), f"rms of {about}"),
+        "rms_difference_in_spread": ("model", rms(relative), f"rms of {about}, over its spread"),
     }
-    data |= measured_variables(measured)
-    return xr.Dataset(data, coords={"model": list(predicted)})
+    for name, (dims, values, text) in columns.items():
+        data[name] = labelled(dims, values, "1", text, SOURCE)
+    return xr.Dataset(data | measured_variables(measured), coords={"model": list(predicted)})
 
 
 def measured_variables(measured: MeasuredFriction) -> dict[str, xr.Variable]:

@@ -232,9 +232,3 @@ class TemperatureProbe:
         """Return T in K as a stress [Pa], shape of the speeds [m/s] and temperatures [K]."""
         kelvin = 0.0 if temperature is None else np.asarray(temperature, dtype=float)
         return np.asarray(np.zeros(np.shape(speed)) + kelvin)
-
-
-def probed_temperature(friction: float, contact_fraction: float, pressure: float) -> float:
-    """Return the temperature in the contact [K] of the probe's friction [-], NaN if not known."""
-    kelvin = friction * pressure / contact_fraction if contact_fraction > 0.0 else 0.0
-    return kelvin if kelvin > 0.0 else float("nan")

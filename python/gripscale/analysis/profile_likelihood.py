@@ -14,9 +14,8 @@ its Applications (1988), sec. 6.1, doi:10.1002/9780470316757.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 import scipy.optimize
@@ -25,7 +24,6 @@ from numpy.typing import NDArray
 
 from gripscale.analysis.calibration_law import (
     Optimum,
-    Parameter,
     Points,
     Problem,
     best,
@@ -33,9 +31,7 @@ from gripscale.analysis.calibration_law import (
     free_limits,
     refined,
 )
-from gripscale.analysis.measured_comparison import Predicted, rms
-from gripscale.analysis.measured_friction import MeasuredFriction
-from gripscale.conditions.area_term import InterfacialShearStress
+from gripscale.analysis.measured_comparison import rms
 from gripscale.core import checks
 from gripscale.core.errors import InputError
 
@@ -69,31 +65,31 @@ class Profile:
     ----------
     problem, optimum
         What is fitted, and its least sum of squares.
-    place : int
+    index : int
         Which free parameter.
     """
 
     problem: Problem
     optimum: Optimum
-    place: int
+    index: int
 
     @property
     def centre(self) -> float:
         """Where the sum of squares is least."""
-        return float(self.optimum.theta[self.place])
+        return float(self.optimum.theta[self.index])
 
     def excess(self, scaled: float, start: Array | None = None) -> tuple[float, Array]:
         """Return E at a value, and what the others are there.
 
         Raises `BetterMinimumFound` where E is below zero.
         """
-        held = self.problem.holding(self.place, scaled)
-        others = np.delete(self.optimum.theta, self.place) if start is None else start
-        found = refined(held, others)
-        apart = found.sum_of_squares - self.optimum.sum_of_squares
+        held = self.problem.holding(self.index, scaled)
+        others = np.delete(self.optimum.theta, self.index) if start is None else start
+        optimum = refined(held, others)
+        apart = optimum.sum_of_squares - self.optimum.sum_of_squares
         if apart < -LESS * self.optimum.sum_of_squares - 1e-12:
-            raise BetterMinimumFound(np.insert(found.theta, self.place, scaled))
-        return max(apart, 0.0), found.theta
+            raise BetterMinimumFound(np.insert(optimum.theta, self.index, scaled))
+        return max(apart, 0.0), optimum.theta
 
     def end(self, way: int, threshold: float) -> float:
         """Return where E reaches `threshold` below (`way` -1) or above (1) the centre.
@@ -101,8 +97,8 @@ class Profile:
         Infinite where it does not before the limit of the search, or only because another
         parameter is held back by its own.
         """
-        limit = free_limits(self.problem, self.place)[(way + 1) // 2]
-        near, others = self.centre, np.delete(self.optimum.theta, self.place)
+        limit = free_limits(self.problem, self.index)[(way + 1) // 2]
+        near, others = self.centre, np.delete(self.optimum.theta, self.index)
         below = 0.0
         if way * (limit - near) <= 0.0:
             return way * math.inf
@@ -129,33 +125,33 @@ class Profile:
             others = None
             for at in way:
                 rise, others = self.excess(float(values[at]), others)
-                held_back = self.problem.holding(self.place, values[at]).at_limit(others)
+                held_back = self.problem.holding(self.index, values[at]).at_limit(others)
                 excess[at] = math.nan if held_back else rise
         return values, excess
 
     def _first_step(self, threshold: float) -> float:
         """Return how far the end would be on a parabola, within reason."""
         errors = scaled_errors(self.optimum.jacobian)
-        low, high = free_limits(self.problem, self.place)
-        return float(np.clip(errors[self.place] * math.sqrt(threshold), 1e-6, 0.02 * (high - low)))
+        low, high = free_limits(self.problem, self.index)
+        return float(np.clip(errors[self.index] * math.sqrt(threshold), 1e-6, 0.02 * (high - low)))
 
-    def _crossing(self, known: dict[float, tuple[float, Array]], threshold: float) -> float:
+    def _crossing(self, solved: dict[float, tuple[float, Array]], threshold: float) -> float:
         """Return where E crosses the threshold between two values, before and behind it.
 
-        By its root, nearly a straight line; `known` holds E and the others at the two values.
+        By its root, nearly a straight line; `solved` holds E and the others at the two values.
         """
-        near, far = known
-        start = known[near][1]
+        near, far = solved
+        start = solved[near][1]
 
         def above(scaled: float) -> float:
-            if scaled not in known:
-                known[scaled] = self.excess(scaled, start)
-            return math.sqrt(known[scaled][0]) - math.sqrt(threshold)
+            if scaled not in solved:
+                solved[scaled] = self.excess(scaled, start)
+            return math.sqrt(solved[scaled][0]) - math.sqrt(threshold)
 
         fine = FINE * abs(far - self.centre)
         end = float(scipy.optimize.brentq(above, near, far, xtol=fine, rtol=1e-9))
         above(end)
-        if self.problem.holding(self.place, end).at_limit(known[end][1]):
+        if self.problem.holding(self.index, end).at_limit(solved[end][1]):
             return math.copysign(math.inf, far - near)
         return end
 
@@ -244,7 +240,7 @@ def held_out(
         raise InputError(
             f"hold_out needs at least two groups to leave one of them out; got {values.size}"
         )
-    wanted = {one.name for one in family_of(kind, points, fixed).free}
+    wanted = {parameter.name for parameter in family_of(kind, points, fixed).free}
     return tuple(
         _without(points, groups == value, float(value), kind, fixed, wanted) for value in values
     )
@@ -278,7 +274,7 @@ def _without(
         family = family_of(kind, rest, fixed)
     except InputError as error:
         return HeldOut(value, count, math.nan, math.nan, math.nan, str(error))
-    missing = wanted - {one.name for one in family.free}
+    missing = wanted - {parameter.name for parameter in family.free}
     if missing:
         why = f"the other points do not determine {', '.join(sorted(missing))}"
         return HeldOut(value, count, math.nan, math.nan, math.nan, why)
@@ -293,169 +289,3 @@ def _without(
 
 def _apart(problem: Problem, theta: Array) -> Array:
     return problem.friction(theta) - problem.points.difference
-
-
-# A fitted law of the area term: its parameters, how well each is known, what it says of points.
-
-FACTORS_SHOWN = 3.0
-"""How far the profile of an end that is not determined is kept, in the numbers of the search."""
-
-NO_INFLUENCE = 1e-12
-"""Relative size of a singular value below which its direction changes nothing."""
-
-
-@dataclass(frozen=True)
-class Estimate:
-    """A fitted parameter, in the unit of the law."""
-
-    name: str
-    unit: str
-    value: float
-    standard_error: float
-    """From the Jacobian: what a parabola would say."""
-    low: float
-    """Lower end of the interval by profile likelihood; NaN where the data do not determine it."""
-    high: float
-    """Upper end; NaN likewise."""
-
-    @property
-    def determined(self) -> bool:
-        """Whether both ends are."""
-        return math.isfinite(self.low) and math.isfinite(self.high)
-
-
-@dataclass(frozen=True, eq=False)
-class FittedLaw:
-    """A law of the area term fitted to measured friction beside a predicted hysteresis."""
-
-    measured: MeasuredFriction
-    predicted: Predicted
-    """The hysteresis and the contact at the measured points, which are not fitted."""
-    problem: Problem
-    """What was fitted: the points that have an answer, and the law with its free parameters."""
-    optimum: Optimum
-    """The least sum of squares."""
-    ends: tuple[tuple[float, float], ...]
-    """Of each interval in the numbers of the search; infinite where not determined."""
-    held_out: tuple[HeldOut, ...] = ()
-    """What the law says of points it was not fitted to, where asked for."""
-    held_out_by: str = ""
-    """Whether a temperature or a decade of speed was left out; empty for neither."""
-
-    @property
-    def law(self) -> InterfacialShearStress:
-        """The law with the best parameters."""
-        return self.problem.family.law(self.optimum.theta)
-
-    @property
-    def spread_known(self) -> bool:
-        """Whether the spread was stated, and not taken from the residuals."""
-        return self.problem.points.spread is not None
-
-    @property
-    def freedom(self) -> int:
-        """Degrees of freedom: points less parameters."""
-        return self.problem.points.speed.size - len(self.problem.family.free)
-
-    @property
-    def scatter(self) -> float:
-        """Root of the sum of squares over the degrees of freedom.
-
-        In units of the spread where it is stated, else the spread the residuals imply [-].
-        """
-        return math.sqrt(self.optimum.sum_of_squares / self.freedom)
-
-    @property
-    def chance(self) -> float:
-        """Probability of a sum of squares so large if law, hysteresis and spreads were right.
-
-        NaN where no spread is stated.
-        """
-        if not self.spread_known:
-            return math.nan
-        return float(scipy.stats.chi2.sf(self.optimum.sum_of_squares, self.freedom))
-
-    @property
-    def threshold(self) -> float:
-        """By how much the sum of squares rises at the ends of an interval, as in `profiles`."""
-        scale = 1.0 if self.spread_known else self.scatter**2
-        return threshold_of(self.optimum, known=self.spread_known) / scale
-
-    @property
-    def estimates(self) -> list[Estimate]:
-        """The free parameters."""
-        errors = np.sqrt(np.diag(self._covariance))
-        return list(self._estimates(errors))
-
-    @property
-    def correlation(self) -> Array:
-        """Of the estimates, shape (free, free), of logarithms where they are positive."""
-        errors = np.sqrt(np.diag(self._covariance))
-        return np.asarray(self._covariance / np.outer(errors, errors))
-
-    @property
-    def area_term(self) -> Array:
-        """Friction of the area term at the measured points [-], NaN without an answer."""
-        return self.predicted.area_term(self.law, self.measured.speed)
-
-    @property
-    def friction(self) -> Array:
-        """Hysteresis and area term at the measured points [-]."""
-        return self.predicted.friction + self.area_term
-
-    @property
-    def friction_error(self) -> Array:
-        """Standard error of that by the fit [-]: the root of the diagonal of the hat matrix."""
-        directions, sizes, _ = np.linalg.svd(self.optimum.jacobian, full_matrices=False)
-        felt = directions[:, sizes > NO_INFLUENCE * sizes.max()]
-        share = np.sqrt((felt**2).sum(axis=1))
-        spread = self.problem.points.spread
-        return self._at_measured(share * (self.scatter if spread is None else spread))
-
-    @property
-    def band(self) -> Array:
-        """Half of the interval of the friction at the measured points [-], at `LEVEL`."""
-        tail = 0.5 * (1.0 + LEVEL)
-        known = self.spread_known
-        return self.friction_error * float(
-            scipy.stats.norm.ppf(tail) if known else scipy.stats.t.ppf(tail, self.freedom)
-        )
-
-    @cached_property
-    def profiles(self) -> dict[str, tuple[Array, Array]]:
-        """Values of each free parameter and how much the sum of squares exceeds its least there.
-
-        In units of what one standard error adds: over the interval and a little beyond, and a
-        factor of 20 where an end is not determined.
-        """
-        scale = 1.0 if self.spread_known else self.scatter**2
-        return {
-            one.name: self._profile(place, one, scale)
-            for place, one in enumerate(self.problem.family.free)
-        }
-
-    @property
-    def _covariance(self) -> Array:
-        scale = 1.0 if self.spread_known else self.scatter**2
-        return scale * covariance(self.optimum.jacobian)
-
-    def _estimates(self, errors: Array) -> Iterator[Estimate]:
-        for at, one in enumerate(self.problem.family.free):
-            value = one.value(float(self.optimum.theta[at]))
-            error = float(errors[at]) * (value if one.log else 1.0)
-            low, high = (one.value(x) if math.isfinite(x) else math.nan for x in self.ends[at])
-            yield Estimate(one.name, one.unit, value, error, low, high)
-
-    def _profile(self, place: int, one: Parameter, scale: float) -> tuple[Array, Array]:
-        centre, limits = float(self.optimum.theta[place]), one.limits
-        shown = []
-        for way, end in zip((-1, 1), self.ends[place], strict=True):
-            away = 1.3 * abs(end - centre) if math.isfinite(end) else FACTORS_SHOWN
-            shown.append(float(np.clip(centre + way * away, *limits)))
-        values, excess = Profile(self.problem, self.optimum, place).curve(*shown)
-        return np.array([one.value(float(x)) for x in values]), excess / scale
-
-    def _at_measured(self, values: Array) -> Array:
-        out = np.full(self.measured.speed.size, np.nan)
-        out[self.predicted.known] = values
-        return out

@@ -18,7 +18,7 @@ import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -37,14 +37,24 @@ from gripscale.core.errors import FileError, InputError, RubberWarning
 from gripscale.core.provenance import software
 from gripscale.core.units import GIVEN
 from gripscale.experiment.axis import LONG_NAMES, UNITS, Axis, axes_of
+from gripscale.experiment.design import (
+    CONVERGED,
+    Design,
+    Index,
+    Point,
+    solve_design,
+    stack,
+)
 from gripscale.experiment.inputs import contents, digest
-from gripscale.experiment.solve import OnTask, solve_all
-from gripscale.experiment.task import Store, Task, canonical_json, store_in
+from gripscale.experiment.solve import Bench, OnTask, bench_in
+from gripscale.experiment.task import Task, canonical_json
 from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
 from gripscale.model import FRICTION_OUTSIDE_BAND, Model, NominalLoad
 
 # Quantiles of what the samples answered, and the sentence on them that other reports quote.
+
+Array = NDArray[np.float64]
 
 LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
 """The quantiles that are told."""
@@ -56,18 +66,16 @@ QUANTITIES = {
 """What each sample answers: its letters and its name."""
 
 
-def quantiles(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the quantiles over the last axis, shape (levels, ...), NaN not counting.
+def quantiles(values: xr.DataArray) -> xr.DataArray:
+    """Return the quantiles over `sample`, last dimension `quantile`; NaN samples do not count.
 
     Median-unbiased (R. J. Hyndman & Y. Fan, Am. Stat. 50 (1996) 361,
     doi:10.1080/00031305.1996.10473566, their number 8): the ends of few samples are not drawn in.
+    NaN for fewer than two samples.
     """
-    found = np.full((len(LEVELS), *values.shape[:-1]), np.nan)
-    for place in np.ndindex(values.shape[:-1]):
-        known = values[place][np.isfinite(values[place])]
-        if known.size > 1:
-            found[(slice(None), *place)] = np.quantile(known, LEVELS, method="median_unbiased")
-    return found
+    enough = values.count("sample") > 1
+    levels = values.where(enough, 0.0).quantile(LEVELS, "sample", method="median_unbiased")
+    return levels.where(enough).drop_vars("quantile").transpose(..., "quantile")
 
 
 def summary(data: xr.Dataset) -> str:
@@ -81,17 +89,17 @@ def summary(data: xr.Dataset) -> str:
     return "; ".join(_of_model(data.sel(model=name)) for name in data.model.values)
 
 
-def _of_model(one: xr.Dataset) -> str:
-    failed, number = int(one.failed), one.sizes["sample"]
+def _of_model(data: xr.Dataset) -> str:
+    failed, number = int(data.failed), data.sizes["sample"]
     count = f"{number} samples" if not failed else f"{number - failed} of {number} samples"
-    told = [
-        _interval(letters, one[f"{name}_quantile"].values)
+    intervals = [
+        _interval(letters, data[f"{name}_quantile"].values)
         for name, (letters, _) in QUANTITIES.items()
-        if np.isfinite(one[f"{name}_quantile"].values).all()
+        if np.isfinite(data[f"{name}_quantile"].values).all()
     ]
-    if not told:
-        return f"{one.model.item()}: none of {number} samples has an answer"
-    text = f"{one.model.item()}: {', '.join(told)} in 90 % of {count}"
+    if not intervals:
+        return f"{data.model.item()}: none of {number} samples has an answer"
+    text = f"{data.model.item()}: {', '.join(intervals)} in 90 % of {count}"
     return f"{text}, {failed} failed" if failed else text
 
 
@@ -100,192 +108,137 @@ def _interval(letters: str, values: NDArray[np.float64]) -> str:
     return f"{letters} = {middle} ({low} to {high})"
 
 
-# From the answers of all samples to one Dataset: what was drawn beside what came of it.
+# From the answers of all samples to one Dataset: what was drawn, and the numbers that follow.
 
-Array = NDArray[np.float64]
-
-CONVERGED = "converged"
 NUMBERS = {
-    "friction": ("total_friction", "1", "friction coefficient"),
-    "contact_fraction": ("total_contact_fraction", "1", "real over nominal contact area"),
+    "friction": ("total_friction", "friction coefficient"),
+    "contact_fraction": ("total_contact_fraction", "real over nominal contact area"),
     "outside_band": (
         FRICTION_OUTSIDE_BAND,
-        "1",
         "share of the friction that rests on the rubber outside the measured frequencies",
     ),
 }
-"""What is kept of each answer: its name there, unit and meaning."""
+"""What is kept of each answer: its name there and its meaning."""
 
 
-class TaskKey(NamedTuple):
-    """One prediction: of which model, at which value of the axis, of which sample.
+def sampled_numbers(answer: xr.Dataset, _: Task) -> xr.Dataset:
+    """Return what is kept of an answer; the error of its grid where a direct contact has one."""
+    numbers = {name: float(answer[key]) for name, (key, _) in NUMBERS.items()}
+    for name in QUANTITIES:
+        numbers[f"{name}_grid_error"] = math.nan
+        if {"weight", f"{name}_error"} <= set(answer.data_vars):
+            error = float((answer["weight"] * answer[f"{name}_error"]).sum())
+            total = abs(numbers[name])
+            numbers[f"{name}_grid_error"] = error / total if total > 0.0 else math.nan
+    return xr.Dataset(numbers).assign(prediction_status=answer["prediction_status"].variable)
 
-    The case itself is sample -1.
-    """
 
-    model: str
-    value: int
-    sample: int
-
-
-def dataset(
-    models: Sequence[str],
-    axis: Axis | None,
-    drawn: Sequence[SampledInputs],
-    chosen: Chosen,
-    solved: Mapping[TaskKey, xr.Dataset],
-    refused: Mapping[TaskKey, str],
+def uncertainty_dataset(
+    solved: xr.Dataset, drawn: Sequence[SampledInputs], chosen: Chosen
 ) -> xr.Dataset:
-    """Return all samples over model, axis and sample, with quantiles and shares.
+    """Return all samples with their quantiles and shares.
 
     Parameters
     ----------
-    models, axis
-        The dimensions beside `sample`; no axis for one load.
+    solved : xarray.Dataset
+        Answers over model, axis and `sample`, of which the first is the case itself.
     drawn, chosen
-        What was drawn in each sample, and of which sources.
-    solved, refused
-        The answers, and why there is none.
+        What was drawn in each other sample, and of which sources.
     """
-    values = 1 if axis is None else len(axis.values)
-    shape = (len(models), values, len(drawn) + 1)
-    errors = [f"{name}_grid_error" for name in QUANTITIES]
-    kept = {name: np.full(shape, np.nan) for name in (*NUMBERS, *errors, "seconds")}
-    status = np.full(shape, "", dtype=object)
-    for at in np.ndindex(shape):
-        place = TaskKey(models[at[0]], at[1], at[2] - 1)
-        status[at] = refused.get(place, "")
-        if place in solved:
-            answer = solved[place]
-            status[at] = str(answer["prediction_status"].item())
-            kept["seconds"][at] = float(answer.attrs.get("seconds", math.nan))
-            if status[at] == CONVERGED:
-                for name, (theirs, *_) in NUMBERS.items():
-                    kept[name][at] = float(answer[theirs])
-                for name in QUANTITIES:
-                    kept[f"{name}_grid_error"][at] = _grid_error(answer, name)
-    named = _Named(axis)
-    samples = {name: values[..., 1:] for name, values in kept.items()}
-    data: dict[str, Any] = {
-        name: named(samples[name], ("sample",), unit, text)
-        for name, (_, unit, text) in NUMBERS.items()
-    }
-    data |= {
-        f"{name}_case": named(kept[name][..., 0], (), "1", f"{text} of the case itself")
-        for name, (_, text) in QUANTITIES.items()
-    }
+    usable = solved.drop_vars(["prediction_key", "seconds", "prediction_status"])
+    usable = usable.where(solved.prediction_status == CONVERGED)
+    case, samples = usable.isel(sample=0), usable.isel(sample=slice(1, None))
+    status = solved.prediction_status.isel(sample=slice(1, None))
+    data: dict[str, xr.DataArray] = {}
+
+    def add(name: str, values: xr.DataArray, long_name: str, unit: str = "1") -> None:
+        data[name] = values.drop_attrs().assign_attrs(units=unit, long_name=long_name)
+
+    for name, (_, text) in NUMBERS.items():
+        add(name, samples[name], text)
+    add("status", status, "converged, or why the sample has no answer")
+    case_status = solved.prediction_status.isel(sample=0)
+    add("status_case", case_status, "converged, or why not, of the case itself")
+    add("seconds", solved.seconds.isel(sample=slice(1, None)), "time to solve the sample", "s")
+    failed = (status != CONVERGED).sum("sample")
+    add("failed", failed, "samples without an answer; they count in no quantile")
+    coordinates = _coordinates(drawn, chosen.sources)
     for name, (_, text) in QUANTITIES.items():
+        add(f"{name}_case", case[name], f"{text} of the case itself")
         about = f"estimated relative error of the grid of a direct contact, {text}"
-        error = samples[f"{name}_grid_error"]
-        data[f"{name}_grid_error"] = named(error, ("sample",), "1", about)
-    data["seconds"] = named(samples["seconds"], ("sample",), "s", "time it took to solve")
-    data["status"] = named(status[..., 1:], ("sample",), "1", "converged, or why not")
-    data["status_case"] = named(status[..., 0], (), "1", "converged, or why not, the case itself")
-    failed = (status[..., 1:] != CONVERGED).sum(axis=-1)
-    data["failed"] = named(failed, (), "1", "samples without an answer; they count in no quantile")
-    for name, (_, text) in QUANTITIES.items():
-        found = np.moveaxis(quantiles(samples[name]), 0, -1)
-        data[f"{name}_quantile"] = named(found, ("quantile",), "1", text)
-        data |= _shares(named, name, samples[name], _coordinates(drawn, chosen.sources))
-    coordinates: dict[str, Any] = {
-        "model": list(models),
-        "quantile": ("quantile", list(LEVELS), {"units": "1", "long_name": "share below"}),
-        "source": ("source", [s.name for s in chosen.sources], {"long_name": "source"}),
-        "label": ("source", [s.label for s in chosen.sources], {"long_name": "source in words"}),
-        "end": ("end", ["low", "high"]),
-        **_drawn(drawn, chosen.sources),
-    }
-    if axis is not None:
-        attrs = {"units": UNITS[axis.name], "long_name": LONG_NAMES[axis.name], GIVEN: axis.unit}
-        coordinates[axis.name] = (axis.name, list(axis.values), attrs)
-    return xr.Dataset(data, coordinates).assign_attrs(
-        title="Uncertainty of real contact area and friction of rubber on a rough surface",
-        left_out=json.dumps(chosen.left_out),
-        **provenance.attributes(),
+        add(f"{name}_grid_error", samples[f"{name}_grid_error"], about)
+        add(f"{name}_quantile", quantiles(samples[name]), text)
+        parts = _shares(samples[name], coordinates, name)
+        for part, (_, meaning) in SHARES.items():
+            add(f"{name}_{part}", parts[f"{name}_{part}"], meaning.format(text))
+    sources = chosen.sources
+    return xr.Dataset(
+        data,
+        {
+            "quantile": ("quantile", list(LEVELS), {"units": "1", "long_name": "share below"}),
+            "source": ("source", [s.name for s in sources], {"long_name": "source"}),
+            "label": ("source", [s.label for s in sources], {"long_name": "source in words"}),
+            "end": ("end", ["low", "high"]),
+            **{
+                name: (
+                    "sample",
+                    [inputs.coordinates[name] for inputs in drawn],
+                    {"units": number.unit, "long_name": number.long_name, "source": source.name},
+                )
+                for source in sources
+                for name, number in source.coordinates.items()
+            },
+        },
+        {
+            "title": "Uncertainty of real contact area and friction of rubber on a rough surface",
+            "left_out": json.dumps(chosen.left_out),
+            **provenance.attributes(),
+        },
     )
-
-
-def _grid_error(answer: xr.Dataset, name: str) -> float:
-    """Return the relative error a direct contact estimates of its grid, NaN of other models."""
-    if not {"weight", f"{name}_error"} <= set(answer.data_vars):
-        return math.nan
-    total = abs(float(answer[f"total_{name}"]))
-    error = float((answer["weight"] * answer[f"{name}_error"]).sum())
-    return error / total if total > 0.0 else math.nan
-
-
-class _Named:
-    """Makes variables over model and axis; without an axis its dimension of one is dropped."""
-
-    def __init__(self, axis: Axis | None) -> None:
-        self.axis = axis
-
-    def __call__(
-        self, values: NDArray[Any], dims: tuple[str, ...], unit: str, long_name: str
-    ) -> xr.Variable:
-        attrs = {"units": unit, "long_name": long_name}
-        if self.axis is None:
-            return xr.Variable(("model", *dims), values[:, 0], attrs)
-        return xr.Variable(("model", self.axis.name, *dims), values, attrs)
-
-
-def _drawn(drawn: Sequence[SampledInputs], sources: Sequence[Source]) -> dict[str, Any]:
-    """Return the coordinates of the draws over `sample`, each with its source."""
-    return {
-        name: (
-            "sample",
-            [one.coordinates[name] for one in drawn],
-            {"units": told.unit, "long_name": told.long_name, "source": source.name},
-        )
-        for source in sources
-        for name, told in source.coordinates.items()
-    }
 
 
 def _coordinates(drawn: Sequence[SampledInputs], sources: Sequence[Source]) -> dict[str, Array]:
     """Return the logarithms that describe the draws of each source, shape (samples, numbers)."""
-    found = {}
+    logarithms = {}
     for source in sources:
-        columns = [
-            np.array([one.coordinates[name] for one in drawn], dtype=float)
-            for name in source.coordinates
-        ]
-        logs = [told.logarithm for told in source.coordinates.values()]
-        found[source.name] = np.stack(
-            [c if is_log else np.log(c) for c, is_log in zip(columns, logs, strict=True)], axis=-1
+        columns = []
+        for name, number in source.coordinates.items():
+            column = np.array([inputs.coordinates[name] for inputs in drawn], dtype=float)
+            columns.append(column if number.logarithm else np.log(column))
+        logarithms[source.name] = np.stack(columns, axis=-1)
+    return logarithms
+
+
+SHARES = {
+    "share": (("source",), "share of each source in the variance of the logarithm of {}"),
+    "share_error": (("source",), "standard error of the share"),
+    "share_difference_error": (
+        ("source", "other_source"),
+        "standard error of the difference of two shares",
+    ),
+    "end": (("source", "end"), "{}, at 5 and 95 % of what a source alone does"),
+    "unexplained": ((), "share of no source in the variance of the logarithm of {}"),
+}
+"""What is kept of the shares of the sources in a variance: dimensions and meaning."""
+
+
+def _shares(samples: xr.DataArray, coordinates: Mapping[str, Array], name: str) -> xr.Dataset:
+    """Return `SHARES` of a quantity at every model and value of the axis, as `<name>_share`..."""
+    outer = samples.isel(sample=0)
+    parts: dict[tuple[int, ...], xr.Dataset] = {}
+    for at in np.ndindex(outer.shape):
+        fit = shares(samples.values[at], coordinates)
+        row = np.full(len(coordinates), np.nan)
+        square, ends = np.full((row.size, row.size), np.nan), np.full((row.size, 2), np.nan)
+        numbers = (row, row, square, ends, math.nan)
+        if fit is not None:
+            ends = np.stack([fit.low, fit.high], axis=-1)
+            numbers = (fit.share, fit.error, fit.apart, ends, fit.unexplained)
+        columns = zip(SHARES.items(), numbers, strict=True)
+        parts[at] = xr.Dataset(
+            {f"{name}_{part}": (dims, values) for (part, (dims, _)), values in columns}
         )
-    return found
-
-
-def _shares(
-    named: _Named, name: str, samples: Array, coordinates: dict[str, Array]
-) -> dict[str, xr.Variable]:
-    """Return share, its error, the error of differences and the ends of each source."""
-    outer, count = samples.shape[:-1], len(coordinates)
-    share, error = np.full((*outer, count), np.nan), np.full((*outer, count), np.nan)
-    apart, ends = np.full((*outer, count, count), np.nan), np.full((*outer, count, 2), np.nan)
-    unexplained = np.full(outer, np.nan)
-    for place in np.ndindex(outer):
-        found = shares(samples[place], coordinates)
-        if found is not None:
-            share[place], error[place], apart[place] = found.share, found.error, found.apart
-            ends[place] = np.stack([found.low, found.high], axis=-1)
-            unexplained[place] = found.unexplained
-    of = f"in the variance of the logarithm of {QUANTITIES[name][1]}"
-    return {
-        f"{name}_share": named(share, ("source",), "1", f"share of each source {of}"),
-        f"{name}_share_error": named(error, ("source",), "1", "standard error of the share"),
-        f"{name}_share_difference_error": named(
-            apart, ("source", "other_source"), "1", "standard error of the difference of two shares"
-        ),
-        f"{name}_end": named(
-            ends,
-            ("source", "end"),
-            "1",
-            f"{QUANTITIES[name][1]}, at 5 and 95 % of what a source alone does",
-        ),
-        f"{name}_unexplained": named(unexplained, (), "1", f"share of no source {of}"),
-    }
+    return stack(parts, dict(zip(map(str, outer.dims), outer.shape, strict=True)))
 
 
 # The uncertainty that was sampled of a case, found again beside its other results.
@@ -366,7 +319,7 @@ class Plan:
     @property
     def key(self) -> str:
         """A hash of all the result depends on."""
-        stated = {
+        content = {
             "software": software(),
             "case": contents(self.file),
             "uncertainty": canonical_json(self.uncertainty),
@@ -377,7 +330,7 @@ class Plan:
             if self.axis is None
             else [self.axis.name, canonical_json(self.axis.values)],
         }
-        return hashlib.sha256(json.dumps(stated, sort_keys=True).encode()).hexdigest()
+        return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
 
 def propagate(
@@ -434,26 +387,26 @@ def propagate(
         If an argument or a file cannot be used, or a result cannot be written.
     """
     file = case if isinstance(case, CaseFile) else read_case(case)
-    stated = file.case.uncertainty
-    accuracy = stated.tolerance if tolerance is None else checks.positive("tolerance", tolerance)
-    number = stated.samples if samples is None else samples
+    table = file.case.uncertainty
+    accuracy = table.tolerance if tolerance is None else checks.positive("tolerance", tolerance)
+    number = table.samples if samples is None else samples
     plan = Plan(
         file,
-        Uncertainty.of_case(stated) if uncertainty is None else uncertainty,
+        Uncertainty.of_case(table) if uncertainty is None else uncertainty,
         checks.whole("samples", number, least=FEWEST_SAMPLES, most=MOST_SAMPLES),
-        checks.whole("seed", stated.seed if seed is None else seed, least=0, most=MOST_SEED),
-        _models(BOTH[stated.model] if models is None else models),
+        checks.whole("seed", table.seed if seed is None else seed, least=0, most=MOST_SEED),
+        _models(BOTH[table.model] if models is None else models),
         _axis(vary),
         accuracy,
     )
-    known = None if folder is None else stored(plan, folder)
-    if known is not None:
-        return known
+    data = None if folder is None else stored(plan, folder)
+    if data is not None:
+        return data
     results = prepare_case(plan.file)
     chosen = plan.uncertainty.of(Measurement.of(results), plan.models)
-    with store_in(folder) as store, warnings.catch_warnings():
+    with bench_in(folder, workers, client, on_task) as bench, warnings.catch_warnings():
         warnings.simplefilter("ignore", RubberWarning)  # drawn rubbers are not made by hand
-        data = _solved(plan, results, chosen, store, workers, client, on_task)
+        data = _solved(plan, results, chosen, bench)
     if folder is None:
         return data
     return netcdf.load(netcdf.save(data, Path(folder) / RESULT))
@@ -462,21 +415,21 @@ def propagate(
 def stored(plan: Plan, folder: str | Path) -> xr.Dataset | None:
     """Return the Dataset an earlier run of just this plan left in `folder`, or None."""
     try:
-        found = netcdf.load(Path(folder) / RESULT)
+        data = netcdf.load(Path(folder) / RESULT)
     except FileError:
         return None
-    return found if found.attrs.get("plan_key") == plan.key else None
+    return data if data.attrs.get("plan_key") == plan.key else None
 
 
-def _models(given: Sequence[str]) -> tuple[str, ...]:
-    names = [given] if isinstance(given, str) else list(given)
-    for name in names:
+def _models(names: Sequence[str]) -> tuple[str, ...]:
+    chosen = [names] if isinstance(names, str) else list(names)
+    for name in chosen:
         checks.one_of("model", name, MODELS)
-    if not names or len(set(names)) < len(names):
+    if not chosen or len(set(chosen)) < len(chosen):
         raise InputError(
-            f"models must be one or both of chain, direct; got {checks.short_repr(given)}"
+            f"models must be one or both of chain, direct; got {checks.short_repr(names)}"
         )
-    return tuple(name for name in MODELS if name in names)
+    return tuple(name for name in MODELS if name in chosen)
 
 
 def _axis(vary: Mapping[str, Any] | None) -> Axis | None:
@@ -489,32 +442,35 @@ def _axis(vary: Mapping[str, Any] | None) -> Axis | None:
     return axes[0]
 
 
-def _solved(
-    plan: Plan,
-    results: CaseResults,
-    chosen: Chosen,
-    store: Store,
-    workers: int | None,
-    client: Any,
-    on_task: OnTask | None,
-) -> xr.Dataset:
+def _solved(plan: Plan, results: CaseResults, chosen: Chosen, bench: Bench) -> xr.Dataset:
     case = Inputs.of(Measurement.of(results))
     drawn = list(draws(case, chosen.sources, plan.samples, plan.seed))
-    loads = _loads(results.load, plan.axis)
-    tasks: dict[TaskKey, Task] = {}
-    status: dict[TaskKey, str] = {}
-    for name in plan.models:
+    axis, loads = plan.axis, [results.load]
+    if axis is not None:
+        loads = [replace(results.load, **{axis.name: value}) for value in axis.values]
+    points: list[Point] = []
+    refused: dict[Index, str] = {}
+    for at, name in enumerate(plan.models):
         model = results.chain if name == "chain" else _direct(results, plan.tolerance)
-        for sample, one in enumerate([SampledInputs(case, {}), *drawn], start=-1):
-            places = [TaskKey(name, value, sample) for value in range(len(loads))]
+        for sample, inputs in enumerate([SampledInputs(case, {}), *drawn]):
+            by_load = [(at, sample) if axis is None else (at, i, sample) for i in range(len(loads))]
             try:
-                tasks |= dict(zip(places, _tasks(one, model, loads), strict=True))
+                tasks = _tasks(inputs, model, loads)
             except InputError as refusal:
-                status |= dict.fromkeys(places, str(refusal))
-    labels = {_label(place, plan.axis): task for place, task in tasks.items()}
-    answers = solve_all(labels, store, workers=workers, client=client, on_task=on_task)
-    solved = {place: answers[task.key] for place, task in tasks.items()}
-    data = dataset(plan.models, plan.axis, drawn, chosen, solved, status)
+                refused |= dict.fromkeys(by_load, str(refusal))
+                continue
+            for i, (index, task) in enumerate(zip(by_load, tasks, strict=True)):
+                at_value = "" if axis is None else f", {axis.name} {axis.labels[i]}"
+                subject = f"sample {sample}" if sample else "the case itself"
+                points.append(Point(index, f"{name}{at_value}, {subject}", task))
+    sizes = {"model": len(plan.models)}
+    coords: dict[str, Any] = {"model": list(plan.models)}
+    if axis is not None:
+        attrs = {"units": UNITS[axis.name], "long_name": LONG_NAMES[axis.name], GIVEN: axis.unit}
+        sizes[axis.name] = len(loads)
+        coords[axis.name] = (axis.name, list(axis.values), attrs)
+    design = Design(sizes | {"sample": len(drawn) + 1}, points, coords, refused)
+    data = uncertainty_dataset(solve_design(design, bench, sampled_numbers), drawn, chosen)
     return data.assign_attrs(
         {FILES: json.dumps(input_digests(plan.file))},
         case=plan.file.text,
@@ -524,26 +480,16 @@ def _solved(
     )
 
 
-def _loads(load: NominalLoad, axis: Axis | None) -> list[NominalLoad]:
-    return [load] if axis is None else [replace(load, **{axis.name: v}) for v in axis.values]
-
-
 def _direct(results: CaseResults, tolerance: float | None) -> DirectContact:
     if results.surface.measured is None:
         raise InputError("the direct contact needs a measured profile; got waves stated by hand")
     return DirectContact(tolerance=tolerance, conditions=results.conditions)
 
 
-def _tasks(one: SampledInputs, model: Model, loads: Sequence[NominalLoad]) -> list[Task]:
+def _tasks(sample: SampledInputs, model: Model, loads: Sequence[NominalLoad]) -> list[Task]:
     """Return the tasks of a sample; raise `InputError` if it cannot be made."""
-    if one.inputs is None:
-        raise InputError(one.why_not)
-    surface, own = one.inputs.for_model(model)
-    relevant = surface.only(own.needs)
-    return [Task(one.inputs.rubber, relevant, load, FailSafeModel(own)) for load in loads]
-
-
-def _label(place: TaskKey, axis: Axis | None) -> str:
-    where = "" if axis is None else f", {axis.name} {axis.labels[place.value]}"
-    what = "the case itself" if place.sample < 0 else f"sample {place.sample + 1}"
-    return f"{place.model}{where}, {what}"
+    if sample.inputs is None:
+        raise InputError(sample.why_not)
+    surface, changed = sample.inputs.for_model(model)
+    relevant = surface.only(changed.needs)
+    return [Task(sample.inputs.rubber, relevant, load, FailSafeModel(changed)) for load in loads]

@@ -17,7 +17,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import product
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -39,8 +39,9 @@ from gripscale.case.read import CaseFile, read_case
 from gripscale.chain.chain import Chain
 from gripscale.core import checks, provenance
 from gripscale.core.errors import InputError
+from gripscale.experiment.design import Design, Point, solve_design, surface_numbers
 from gripscale.experiment.inputs import case_rubber, model_of, surface_of
-from gripscale.experiment.solve import OnTask, solve_all
+from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.task import PREDICTIONS, Store, Task
 from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
@@ -64,10 +65,10 @@ def octave_ends(longest: float, shortest: float) -> Array:
     return np.asarray(1e-3 * 2.0 ** np.arange(first, last - 1.0, -1.0))
 
 
-def running_friction(answer: xr.Dataset, ends: Array) -> Array:
-    """Return the friction [-] of all waves longer than each of `ends` [m], which fall.
+def friction_curve(answer: xr.Dataset) -> xr.Dataset:
+    """Return the friction of all waves not shorter than each `curve_wavelength`, over `curve`.
 
-    Of an answer of the chain, or of the direct contact; NaN without its parts by wavelength.
+    Of an answer of the chain, or of the direct contact; empty without its parts by wavelength.
     """
     if "octave_friction" in answer:
         parts = (answer["octave_friction"].fillna(0.0) * answer["weight"]).sum("profile")
@@ -76,51 +77,66 @@ def running_friction(answer: xr.Dataset, ends: Array) -> Array:
     elif "friction" in answer and answer["friction"].dims == ("scale",):
         wavelength, friction = answer["wavelength"].values, answer["friction"].values
     else:
+        return xr.Dataset()
+    columns = {"curve_wavelength": wavelength, "curve_friction": np.cumsum(friction)}
+    return xr.Dataset({name: ("curve", values) for name, values in columns.items()})
+
+
+def running_friction(wavelength: Array, friction: Array, ends: Array) -> Array:
+    """Return the friction [-] of all waves longer than each of `ends` [m], which fall.
+
+    Of a curve as in `friction_curve`; what is NaN in it does not count, NaN without a curve.
+    """
+    known = np.isfinite(wavelength)
+    if not known.any():
         return np.full(ends.shape, np.nan)
-    running = np.cumsum(friction)
-    place = -np.log(wavelength)
-    return np.asarray(np.interp(-np.log(ends), place, running, left=0.0, right=running[-1]))
+    running = friction[known]
+    return np.asarray(
+        np.interp(-np.log(ends), -np.log(wavelength[known]), running, left=0.0, right=running[-1])
+    )
 
 
 # From the answers on all roads to one Dataset: totals, ranges, differences, and where they are.
 
 MODELS = ("chain", "direct")
-AS_MEASURED, TO_COMPARE = "as measured", "what its samples are compared with"
 PER_DECADE = 12
 """Lags and wavenumbers at which roads are drawn together."""
 
-
-Answers = Mapping[tuple[str, str], xr.Dataset]
-"""Answers by model and road."""
-
-
-class RoadTaskKey(NamedTuple):
-    """One prediction: of which model on which road, and what of it."""
-
-    model: str
-    surface: str
-    part: str
+AS_MEASURED, REFERENCE = 0, 1
+"""Samples before the drawn ones: the road, and what its drawn samples are compared with."""
 
 
-def roads_dataset(
-    surfaces: Mapping[str, PreparedSurface], solved: Mapping[RoadTaskKey, xr.Dataset]
-) -> xr.Dataset:
-    """Return what `gripscale.analysis.compare_surfaces` promises."""
-    own = {(p.model, p.surface): answer for p, answer in solved.items() if p.part == AS_MEASURED}
+def road_numbers(answer: xr.Dataset, task: Task) -> xr.Dataset:
+    """Return what is kept of the answer on one road: totals and friction by wavelength."""
+    kept = surface_numbers(answer, task)[[*OF_ALL, "prediction_status"]]
+    return kept.assign(friction_curve(answer))
+
+
+def roads_dataset(surfaces: Mapping[str, PreparedSurface], solved: xr.Dataset) -> xr.Dataset:
+    """Return what `gripscale.analysis.compare_surfaces` promises, of answers by sample."""
+    roads = solved.isel(sample=AS_MEASURED)
+    words = OF_ALL | {"prediction_status": "converged, why not, or empty if it was not asked"}
     data = xr.Dataset(
         {
-            **{name: _totals(own, list(surfaces), name) for name in OF_ALL},
-            "prediction_status": _status(own, list(surfaces)),
+            name: roads[name].drop_attrs().assign_attrs(attributes(text))
+            for name, text in words.items()
         },
-        {"model": list(MODELS), "surface": list(surfaces)},
-        {"title": "Contact and friction of one rubber on several roads"},
+        attrs={"title": "Contact and friction of one rubber on several roads"},
     )
-    factors = {name: _factors(solved, list(surfaces), name) for name in TOTALS}
-    if any(np.isfinite(found).any() for found in factors.values()):
-        text = "that another stretch of the road might give"
-        data = data.assign(ranges(data, ["model", "surface"], factors, text))
+    if solved.sizes["sample"] > REFERENCE:
+        drawn = solved.isel(sample=slice(REFERENCE + 1, None))
+        reference = solved.isel(sample=REFERENCE)
+        ends = {}
+        for name in TOTALS:
+            levels = quantiles(drawn[name] / reference[name])
+            ends[name] = (
+                levels.isel(quantile=0).clip(max=1.0),
+                levels.isel(quantile=-1).clip(min=1.0),
+            )
+        if any(low.notnull().any() for low, _ in ends.values()):
+            data = data.assign(ranges(data, ends, "that another stretch of the road might give"))
     data = data.assign(total_differences(data, "surface"))
-    data = data.assign(_by_octave(own, list(surfaces)))
+    data = data.assign(friction_running=_by_octave(roads))
     text = "difference to the first, friction of the octave"
     parts = data.friction_running.diff("octave", label="upper")
     first = data.friction_running.isel(octave=[0])
@@ -129,62 +145,21 @@ def roads_dataset(
     return data.assign(_measured(surfaces))
 
 
-def _totals(own: Answers, names: list[str], quantity: str) -> xr.Variable:
-    values = [
-        [float(own[m, name][quantity]) if (m, name) in own else np.nan for name in names]
-        for m in MODELS
-    ]
-    return xr.Variable(("model", "surface"), values, attributes(OF_ALL[quantity]))
-
-
-def _status(own: Answers, names: list[str]) -> xr.Variable:
-    values = [
-        [str(own[m, n].prediction_status.item()) if (m, n) in own else "" for n in names]
-        for m in MODELS
-    ]
-    told = attributes("converged, why not, or empty if it was not asked")
-    return xr.Variable(("model", "surface"), np.array(values, dtype=object), told)
-
-
-def _factors(
-    solved: Mapping[RoadTaskKey, xr.Dataset], names: list[str], quantity: str
-) -> NDArray[np.float64]:
-    """Return the ends of 90 % of the samples over what they are compared with.
-
-    Shape (2, models, roads), with 1 between the ends.
-    """
-    ends = np.full((2, len(MODELS), len(names)), np.nan)
-    for i, model in enumerate(MODELS):
-        for j, name in enumerate(names):
-            base = solved.get(RoadTaskKey(model, name, TO_COMPARE))
-            if base is None:
-                continue
-            samples = [
-                float(answer[quantity])
-                for place, answer in solved.items()
-                if place[:2] == (model, name) and place.part not in (AS_MEASURED, TO_COMPARE)
-            ]
-            found = quantiles(np.array(samples) / float(base[quantity]))
-            ends[:, i, j] = min(found[0], 1.0), max(found[-1], 1.0)
-    return ends
-
-
-def _by_octave(own: Answers, names: list[str]) -> dict[str, xr.DataArray]:
+def _by_octave(roads: xr.Dataset) -> xr.DataArray:
     """Return the friction of all longer waves over octaves that all models and roads share."""
-    lengths = [one["wavelength"].values for one in own.values() if "wavelength" in one]
-    known = np.concatenate(lengths)
-    ends = octave_ends(2.0 * float(np.nanmax(known)), float(np.nanmin(known)) * (1.0 + 1e-9))
-    values = np.full((len(MODELS), len(names), ends.size), np.nan)
-    for (model, name), answer in own.items():
-        values[MODELS.index(model), names.index(name)] = running_friction(answer, ends)
-    octave = xr.Variable("octave", ends, {"units": "m", "long_name": "shortest wave of the octave"})
-    running = xr.DataArray(
-        values,
-        coords={"model": list(MODELS), "surface": names, "octave": octave},
-        dims=("model", "surface", "octave"),
-        attrs=attributes("friction coefficient of the octave and all longer waves"),
+    longest, shortest = float(roads.curve_wavelength.max()), float(roads.curve_wavelength.min())
+    ends = octave_ends(2.0 * longest, shortest * (1.0 + 1e-9))
+    running: xr.DataArray = xr.apply_ufunc(
+        lambda wavelength, friction: running_friction(wavelength, friction, ends),
+        roads.curve_wavelength,
+        roads.curve_friction,
+        input_core_dims=[["curve"], ["curve"]],
+        output_core_dims=[["octave"]],
+        vectorize=True,
     )
-    return {"friction_running": running}
+    octave = xr.Variable("octave", ends, {"units": "m", "long_name": "shortest wave of the octave"})
+    text = "friction coefficient of the octave and all longer waves"
+    return running.assign_coords(octave=octave).assign_attrs(attributes(text))
 
 
 def _measured(surfaces: Mapping[str, PreparedSurface]) -> dict[str, Any]:
@@ -285,39 +260,44 @@ def compare_surfaces(
     if samples is not None:
         checks.whole("samples", samples, least=FEWEST_SAMPLES, most=MOST_SAMPLES)
     file = case if isinstance(case, CaseFile) else read_case(case)
-    given = {name: _surface(value, file) for name, value in surfaces.items()}
-    load = file.case.load.nominal
-    rubber, models = case_rubber(file), [_model(name, file) for name in MODELS]
-    tasks: dict[RoadTaskKey, Task] = {}
+    roads = {name: _surface(value, file) for name, value in surfaces.items()}
+    load, rubber = file.case.load.nominal, case_rubber(file)
+    points: list[Point] = []
     notes: list[str] = []
-    for model, (name, surface) in product(models, given.items()):
-        if isinstance(model, DirectContact) and surface.measured is None:
-            notes.append(f"{name} was not measured: no direct contact")
+    for (i, name), (j, (road, surface)) in product(enumerate(MODELS), enumerate(roads.items())):
+        model = _model(name, file)
+        if "measurement" in model.needs and surface.measured is None:
+            notes.append(f"{road} was not measured: no direct contact")
             continue
-        tasks[RoadTaskKey(model.name, name, AS_MEASURED)] = Task(
-            rubber, surface, load, FailSafeModel(model)
-        )
+        task = Task(rubber, surface, load, FailSafeModel(model))
+        points.append(Point((i, j, AS_MEASURED), f"{name}, {road}, as measured", task))
         if samples is None:
             continue
-        known = Measurement(surface, rubber, speed=load.speed, load_time=load.load_time)
+        measurement = Measurement(surface, rubber, speed=load.speed, load_time=load.load_time)
         try:
-            drawn = _drawn(known, model, load, samples)
+            tasks = _drawn(measurement, model, load, samples)
         except InputError as why:
-            notes.append(f"{name}, {model.name}: no range; {why}")
+            notes.append(f"{road}, {name}: no range; {why}")
             continue
-        tasks |= {RoadTaskKey(model.name, name, part): task for part, task in drawn.items()}
-    labels = {", ".join(place): task for place, task in tasks.items()}
-    answers = solve_all(labels, Store(Path(folder) / PREDICTIONS), workers=workers, on_task=on_task)
-    solved = {place: answers[task.key] for place, task in tasks.items()}
+        for sample, task in tasks.items():
+            part = f"sample {sample - REFERENCE}"
+            if sample == REFERENCE:
+                part = "what its samples are compared with"
+            points.append(Point((i, j, sample), f"{name}, {road}, {part}", task))
+    sizes = {"model": len(MODELS), "surface": len(roads)}
+    sizes["sample"] = 1 if samples is None else REFERENCE + 1 + samples
+    design = Design(sizes, points, {"model": list(MODELS), "surface": list(roads)})
+    bench = Bench(Store(Path(folder) / PREDICTIONS), workers, None, on_task)
+    solved = solve_design(design, bench, road_numbers)
     words = [value if isinstance(value, str) else name for name, value in surfaces.items()]
-    data = roads_dataset(given, solved).assign_attrs(
+    data = roads_dataset(roads, solved).assign_attrs(
         notes="\n".join(notes),
         surfaces=shlex.join(words),
         case=file.text,
         case_file=str(file.path),
         **provenance.attributes(),
     )
-    return Roads(given, tuple(notes), netcdf.load(netcdf.save(data, Path(folder) / RESULT)))
+    return Roads(roads, tuple(notes), netcdf.load(netcdf.save(data, Path(folder) / RESULT)))
 
 
 def _surface(value: Any, file: CaseFile) -> PreparedSurface:
@@ -333,23 +313,26 @@ def _model(name: str, file: CaseFile) -> Model:
     return replace(model, tolerance=None) if isinstance(model, DirectContact) else model
 
 
-def _drawn(known: Measurement, model: Model, load: NominalLoad, samples: int) -> dict[str, Task]:
-    """Return the tasks of a road's samples, and the one they are compared with, by their part.
+def _drawn(
+    measurement: Measurement, model: Model, load: NominalLoad, samples: int
+) -> dict[int, Task]:
+    """Return the tasks of a road's samples, and the one they are compared with, by their number.
 
     Raises `InputError` if no samples can be drawn.
     """
-    source = ProfileSource.of(known, SourceOptions(models=(model.name,)))
-    case = Inputs.of(known)
+    source = ProfileSource.of(measurement, SourceOptions(models=(model.name,)))
+    case = Inputs.of(measurement)
     if isinstance(model, Chain):
         model = replace(model, solver=HalfPlane(points=POINTS))
     else:  # no waves are fitted: the roughness ends where it does as measured, to the last bit
         case = replace(case, fit={})
-    parts = {TO_COMPARE: case}
-    for number, one in enumerate(draws(case, [source], samples, SEED), start=1):
-        if one.inputs is not None:
-            parts[f"sample {number}"] = one.inputs
+    inputs_by_sample = {REFERENCE: case}
+    for number, sample in enumerate(draws(case, [source], samples, SEED), start=REFERENCE + 1):
+        if sample.inputs is not None:
+            inputs_by_sample[number] = sample.inputs
     tasks = {}
-    for part, inputs in parts.items():
-        surface, own = inputs.for_model(model)
-        tasks[part] = Task(known.rubber, surface.only(own.needs), load, FailSafeModel(own))
+    for number, inputs in inputs_by_sample.items():
+        surface, changed = inputs.for_model(model)
+        relevant = surface.only(changed.needs)
+        tasks[number] = Task(measurement.rubber, relevant, load, FailSafeModel(changed))
     return tasks

@@ -151,10 +151,10 @@ class Inputs:
     load_time_factor: float = 1.0
 
     @classmethod
-    def of(cls, known: Measurement) -> Inputs:
+    def of(cls, measurement: Measurement) -> Inputs:
         """Return the inputs of the case itself."""
-        surface = known.surface
-        return cls(surface, known.rubber, surface.correlation, surface.fit)
+        surface = measurement.surface
+        return cls(surface, measurement.rubber, surface.correlation, surface.fit)
 
     @property
     def end(self) -> float:
@@ -264,12 +264,12 @@ class Range:
         except InputError as error:
             raise InputError(f"{name}: {error}") from error
 
-    def at(self, place: float) -> float:
-        """Return the value below which a share `place` [0 to 1] of all lie."""
+    def at(self, quantile: float) -> float:
+        """Return the value below which a share `quantile` [0 to 1] of all lie."""
         if not self.between:
-            return self.values[min(int(place * len(self.values)), len(self.values) - 1)]
+            return self.values[min(int(quantile * len(self.values)), len(self.values) - 1)]
         low, high = np.log(self.values)
-        return float(np.exp(low + place * (high - low)))
+        return float(np.exp(low + quantile * (high - low)))
 
 
 # Numbers that a user states for a source: with a unit, in SI units without.

@@ -84,7 +84,7 @@ class Uncertainty:
         length = table.block_length if block_length is None else block_length
         return cls(tuple(left), {**kept, **now}, length)
 
-    def of(self, known: Measurement, models: Sequence[str]) -> Chosen:
+    def of(self, measurement: Measurement, models: Sequence[str]) -> Chosen:
         """Return the sources of a case that have an effect on one of `models`.
 
         Raises `InputError` if a source that is given has nothing to draw, or none is left.
@@ -96,8 +96,8 @@ class Uncertainty:
                     raise SourceNotApplicable("left out as asked")
                 if not set(maker.models) & set(models):
                     raise SourceNotApplicable(f"no effect on the model {' or '.join(models)}")
-                stated = SourceOptions(self.given.get(name), self.block_length, models)
-                chosen.sources.append(maker.of(known, stated))
+                options = SourceOptions(self.given.get(name), self.block_length, models)
+                chosen.sources.append(maker.of(measurement, options))
             except SourceNotApplicable as why:
                 if name in self.given:
                     raise InputError(f"{name} is given and has nothing to draw: {why}") from None
@@ -134,10 +134,10 @@ def draws(
         for source in sources:
             random = np.random.default_rng([seed, _number(source.name), sample])
             try:
-                inputs, told = source.draw(columns[source.name][sample], random, inputs)
+                inputs, drawn = source.draw(columns[source.name][sample], random, inputs)
             except InputError as error:
-                told, why_not = dict.fromkeys(source.coordinates, np.nan), str(error)
-            coordinates |= told
+                drawn, why_not = dict.fromkeys(source.coordinates, np.nan), str(error)
+            coordinates |= drawn
         yield SampledInputs(None if why_not else inputs, coordinates, why_not)
 
 

@@ -42,7 +42,7 @@ class Coordinate(NamedTuple):
 class Source(Protocol):
     """Something that is not known, and draws of it.
 
-    Whatever it draws is a function of `place` and `random` alone, so that the sources are
+    Whatever it draws is a function of `quantile` and `random` alone, so that the sources are
     independent of each other; and of the inputs it changes what is its own.
     """
 
@@ -54,12 +54,12 @@ class Source(Protocol):
     coordinates: ClassVar[Mapping[str, Coordinate]]
 
     def draw(
-        self, place: float, random: np.random.Generator, inputs: Inputs
+        self, quantile: float, random: np.random.Generator, inputs: Inputs
     ) -> tuple[Inputs, Mapping[str, float]]:
         """Return the inputs with one draw, and the coordinates of the draw.
 
-        `place`, above 0 and below 1, is spread evenly over all samples; `random` is this sample's
-        own.
+        `quantile`, above 0 and below 1, is spread evenly over all samples; `random` belongs to
+        this sample.
         """
 
 
@@ -96,33 +96,33 @@ class ProfileSource:
     blocks: ProfileBlocks
 
     @classmethod
-    def of(cls, known: Measurement, stated: SourceOptions) -> ProfileSource:
+    def of(cls, measurement: Measurement, options: SourceOptions) -> ProfileSource:
         """Return the source of a case.
 
         Raises `SourceNotApplicable` without a measured profile, `InputError` if its profiles
         are too short, or if the direct contact of a map is asked for.
         """
-        if not known.fitted or not known.profiles:
+        if not measurement.fitted or not measurement.profiles:
             raise SourceNotApplicable("no profile was measured")
-        if "direct" in stated.models and known.is_map:
+        if "direct" in options.models and measurement.is_map:
             raise InputError(
                 "the direct contact of a map has no blocks of profiles to draw; leave out the "
                 "source profile (without), or ask for the chain only"
             )
         blocks = ProfileBlocks(
-            known.profiles,
-            float(known.surface.sines.wavelength[0]),
-            stated.block_length,
-            known.surface.counted,
+            measurement.profiles,
+            float(measurement.surface.sines.wavelength[0]),
+            options.block_length,
+            measurement.surface.counted,
         )
-        if "direct" in stated.models:
+        if "direct" in options.models:
             blocks.require_lines()
         return cls(blocks)
 
     def draw(
-        self, place: float, random: np.random.Generator, inputs: Inputs
+        self, quantile: float, random: np.random.Generator, inputs: Inputs
     ) -> tuple[Inputs, Mapping[str, float]]:
-        """Return the inputs on drawn blocks; blocks have no order that `place` could follow."""
+        """Return the inputs on drawn blocks; blocks have no order that `quantile` could follow."""
         drawn = self.blocks.draw(random)
         changed = replace(
             inputs,
@@ -156,29 +156,29 @@ class ModulusSource:
     """Where the draws are told apart [rad/s]: excitation by the largest and the smallest wave."""
 
     @classmethod
-    def of(cls, known: Measurement, stated: SourceOptions) -> ModulusSource:
+    def of(cls, measurement: Measurement, options: SourceOptions) -> ModulusSource:
         """Return the source; raise `SourceNotApplicable` without a measured master curve."""
-        if known.master is None or known.fit is None:
+        if measurement.master is None or measurement.fit is None:
             raise SourceNotApplicable("no moduli were measured")
-        sines, band = known.surface.sines, known.fit.measured_band
-        excited = 2.0 * np.pi * known.speed / sines.wavelength[[0, -1]]
+        sines, band = measurement.surface.sines, measurement.fit.measured_band
+        excited = 2.0 * np.pi * measurement.speed / sines.wavelength[[0, -1]]
         return cls(
-            SeriesScatter.of(known.master, known.fit, known.rubber.bulk_modulus),
-            excited if known.speed > 0.0 else np.array(band),
+            SeriesScatter.of(measurement.master, measurement.fit, measurement.rubber.bulk_modulus),
+            excited if measurement.speed > 0.0 else np.array(band),
         )
 
     def draw(
-        self, place: float, random: np.random.Generator, inputs: Inputs
+        self, quantile: float, random: np.random.Generator, inputs: Inputs
     ) -> tuple[Inputs, Mapping[str, float]]:
-        """Return the inputs with a series; series have no order that `place` could follow."""
+        """Return the inputs with a series; series have no order that `quantile` could follow."""
         drawn = with_series(inputs.rubber, self.series.draw(random))
-        ratios = (_told(drawn, self.omega) - _told(inputs.rubber, self.omega)).ravel()
+        ratios = (_log_ratios(drawn, self.omega) - _log_ratios(inputs.rubber, self.omega)).ravel()
         return replace(inputs, rubber=drawn), dict(
             zip(self.coordinates, map(float, ratios), strict=True)
         )
 
 
-def _told(rubber: Rubber, omega: Array) -> Array:
+def _log_ratios(rubber: Rubber, omega: Array) -> Array:
     """Return ln |E*| and ln E''/E' at each frequency, shape (frequencies, 2)."""
     modulus = rubber.complex_modulus(omega)
     parts = np.stack([np.abs(modulus), modulus.imag / modulus.real], axis=-1)
@@ -207,17 +207,17 @@ class BulkModulusSource:
     range: Range
 
     @classmethod
-    def of(cls, known: Measurement, stated: SourceOptions) -> BulkModulusSource:
+    def of(cls, measurement: Measurement, options: SourceOptions) -> BulkModulusSource:
         """Return the source of a case."""
-        if stated.values is None:
-            return cls(Range.about(known.rubber.bulk_modulus, BULK_MODULUS_FACTOR))
-        return cls(Range.read(cls.name, stated.values, modulus))
+        if options.values is None:
+            return cls(Range.about(measurement.rubber.bulk_modulus, BULK_MODULUS_FACTOR))
+        return cls(Range.read(cls.name, options.values, modulus))
 
     def draw(
-        self, place: float, random: np.random.Generator, inputs: Inputs
+        self, quantile: float, random: np.random.Generator, inputs: Inputs
     ) -> tuple[Inputs, Mapping[str, float]]:
-        """Return the inputs with the bulk modulus at `place` of its range."""
-        value = self.range.at(place)
+        """Return the inputs with the bulk modulus at `quantile` of its range."""
+        value = self.range.at(quantile)
         rubber = replace(inputs.rubber, bulk_modulus=value)
         return replace(inputs, rubber=rubber), {self.name: value}
 
@@ -242,19 +242,19 @@ class EquilibriumModulusSource:
     range: Range
 
     @classmethod
-    def of(cls, known: Measurement, stated: SourceOptions) -> EquilibriumModulusSource:
+    def of(cls, measurement: Measurement, options: SourceOptions) -> EquilibriumModulusSource:
         """Return the source of a case; raise `SourceNotApplicable` where nobody states it."""
-        if stated.values is None:
+        if options.values is None:
             raise SourceNotApplicable(
                 "no range is given; modulus varies it as far as the data leave it open"
             )
-        return cls(Range.read(cls.name, stated.values, modulus))
+        return cls(Range.read(cls.name, options.values, modulus))
 
     def draw(
-        self, place: float, random: np.random.Generator, inputs: Inputs
+        self, quantile: float, random: np.random.Generator, inputs: Inputs
     ) -> tuple[Inputs, Mapping[str, float]]:
-        """Return the inputs with the equilibrium modulus at `place` of its range."""
-        value = self.range.at(place)
+        """Return the inputs with the equilibrium modulus at `quantile` of its range."""
+        value = self.range.at(quantile)
         rubber = replace(inputs.rubber, equilibrium_modulus=value, admissible=None)
         return replace(inputs, rubber=rubber), {self.name: value}
 
@@ -281,21 +281,21 @@ class LoadTimeSource:
     range: Range
 
     @classmethod
-    def of(cls, known: Measurement, stated: SourceOptions) -> LoadTimeSource:
+    def of(cls, measurement: Measurement, options: SourceOptions) -> LoadTimeSource:
         """Return the source; raise `SourceNotApplicable` at rest or with a stated load time."""
-        if known.speed == 0.0:
+        if measurement.speed == 0.0:
             raise SourceNotApplicable("at rest it is infinite")
-        if stated.values is not None:
-            return cls(Range.read(cls.name, stated.values, factor))
-        if known.load_time != "passage":
+        if options.values is not None:
+            return cls(Range.read(cls.name, options.values, factor))
+        if measurement.load_time != "passage":
             raise SourceNotApplicable("the case states it")
         return cls(Range.about(1.0, LOAD_TIME_FACTOR))
 
     def draw(
-        self, place: float, random: np.random.Generator, inputs: Inputs
+        self, quantile: float, random: np.random.Generator, inputs: Inputs
     ) -> tuple[Inputs, Mapping[str, float]]:
-        """Return the inputs with the factor at `place` of its range."""
-        value = self.range.at(place)
+        """Return the inputs with the factor at `quantile` of its range."""
+        value = self.range.at(quantile)
         return replace(inputs, load_time_factor=value), {"load_time_factor": value}
 
 
@@ -319,26 +319,26 @@ class CutOffSource:
     range: Range
 
     @classmethod
-    def of(cls, known: Measurement, stated: SourceOptions) -> CutOffSource:
+    def of(cls, measurement: Measurement, options: SourceOptions) -> CutOffSource:
         """Return the source; raise `SourceNotApplicable` if the waves are stated by hand."""
-        if not known.fitted:
+        if not measurement.fitted:
             raise SourceNotApplicable("the waves are stated by hand")
-        if stated.values is not None:
-            return cls(Range.read(cls.name, stated.values, length))
-        return cls(Range.about(known.surface.cutoff_wavelength, math.sqrt(2.0)))
+        if options.values is not None:
+            return cls(Range.read(cls.name, options.values, length))
+        return cls(Range.about(measurement.surface.cutoff_wavelength, math.sqrt(2.0)))
 
     def draw(
-        self, place: float, random: np.random.Generator, inputs: Inputs
+        self, quantile: float, random: np.random.Generator, inputs: Inputs
     ) -> tuple[Inputs, Mapping[str, float]]:
-        """Return the inputs with the end of the roughness at `place` of its range."""
-        value = self.range.at(place)
+        """Return the inputs with the end of the roughness at `quantile` of its range."""
+        value = self.range.at(quantile)
         return inputs.ended_at(value), {self.name: value}
 
 
 # The source `waves`: which of the stacks that follow C_z as well as it is known.
 #
 # `gripscale.surface.sine_ambiguity` finds their numbers of waves and first wavelengths. All of them
-# count alike; they are drawn in the order of their rms slope, so that `place` spreads them evenly.
+# count alike; they are drawn by their rms slope, so that `quantile` spreads them evenly.
 
 CHOSEN = ("s_wavelength", "s_amplitude", "first_wavelength", "first_amplitude")
 """Arguments of a fit that leave no choice of waves."""
@@ -359,13 +359,13 @@ class WavesSource:
     choices: tuple[tuple[int, float], ...]
 
     @classmethod
-    def of(cls, known: Measurement, stated: SourceOptions) -> WavesSource:
+    def of(cls, measurement: Measurement, options: SourceOptions) -> WavesSource:
         """Return the source of a case.
 
         Raises `SourceNotApplicable` if the case leaves no choice, `InputError` if none of the
         stated numbers of waves follows C_z.
         """
-        surface = known.surface
+        surface = measurement.surface
         if surface.correlation is None or not surface.fit:
             raise SourceNotApplicable("the waves are stated by hand")
         fixed = [key for key in CHOSEN if surface.fit.get(key) is not None]
@@ -374,38 +374,38 @@ class WavesSource:
                 f"the case states {fixed[0] if fixed else 'one factor or one wave'}"
             )
         stacks = sine_ambiguity(surface.correlation, surface.sines).stacks
-        wanted = _numbers(stated)
+        wanted = _numbers(options)
         good = [stack for stack in stacks if wanted is None or len(stack) in wanted]
         if not good:
-            found = sorted({len(stack) for stack in stacks})
+            numbers = sorted({len(stack) for stack in stacks})
             raise InputError(
                 f"waves must be among the numbers that follow C_z as well as it is known, "
-                f"{found[0]} to {found[-1]}; got {stated.values}"
+                f"{numbers[0]} to {numbers[-1]}; got {options.values}"
             )
         return cls(_choices(good))
 
     def draw(
-        self, place: float, random: np.random.Generator, inputs: Inputs
+        self, quantile: float, random: np.random.Generator, inputs: Inputs
     ) -> tuple[Inputs, Mapping[str, float]]:
-        """Return the inputs with the stack at `place`; one wave fewer where factors get too small.
+        """Return the inputs with the stack at `quantile`; fewer waves where factors get too small.
 
         The cut-off of the sample may leave no room for as many waves.
         """
-        number, first = self.choices[min(int(place * len(self.choices)), len(self.choices) - 1)]
+        number, first = self.choices[min(int(quantile * len(self.choices)), len(self.choices) - 1)]
         ended = inputs.ended_at(inputs.end)
         half = 0.5 if ended.fit["cut_off"] is not None else 0.0
         most = 1.0 - half + math.log(first / ended.end) / math.log(FACTOR_RANGE[0])
         fit = {**ended.fit, "scales": min(number, int(most)), "first_wavelength": first}
-        told = {"waves": float(number), "first_wavelength": first}
-        return replace(inputs, fit=fit), told
+        coordinates = {"waves": float(number), "first_wavelength": first}
+        return replace(inputs, fit=fit), coordinates
 
 
-def _numbers(stated: SourceOptions) -> Sequence[int] | None:
-    if stated.values is None:
+def _numbers(options: SourceOptions) -> Sequence[int] | None:
+    if options.values is None:
         return None
-    given = Range.read(WavesSource.name, stated.values, count)
-    low, high = int(given.values[0]), int(given.values[-1])
-    return range(low, high + 1) if given.between else [int(value) for value in given.values]
+    values = Range.read(WavesSource.name, options.values, count)
+    low, high = int(values.values[0]), int(values.values[-1])
+    return range(low, high + 1) if values.between else [int(value) for value in values.values]
 
 
 def _choices(stacks: Sequence[SineStack]) -> tuple[tuple[int, float], ...]:

@@ -72,8 +72,8 @@ class Shares:
     @property
     def apart(self) -> Array:
         """Standard errors of the differences between shares [-], shape (sources, sources)."""
-        own = np.diag(self.covariance)
-        return np.sqrt(np.maximum(own[:, None] + own - 2.0 * self.covariance, 0.0))
+        variance = np.diag(self.covariance)
+        return np.sqrt(np.maximum(variance[:, None] + variance - 2.0 * self.covariance, 0.0))
 
 
 def shares(answer: Array, coordinates: Mapping[str, Array]) -> Shares | None:
@@ -103,7 +103,7 @@ def shares(answer: Array, coordinates: Mapping[str, Array]) -> Shares | None:
     y = np.log(y)
     matrix, ends = np.hstack(blocks), np.cumsum([0, *widths])
     variances, parts = _fit(matrix, y, ends)
-    found = variances[:-1] / variances.sum()
+    share = variances[:-1] / variances.sum()
     rest = np.arange(len(y))
     others = np.array([_fit(matrix[rest != i], y[rest != i], ends)[0] for i in rest])
     others = (others / others.sum(axis=1, keepdims=True))[:, :-1]
@@ -113,15 +113,15 @@ def shares(answer: Array, coordinates: Mapping[str, Array]) -> Shares | None:
         np.maximum(variances[:-1], 0.0) / np.maximum(parts.var(axis=0), np.finfo(float).tiny)
     )
     low, high = np.exp(y.mean() + moved)
-    return Shares(tuple(coordinates), found, covariance, low, high, float(1.0 - found.sum()))
+    return Shares(tuple(coordinates), share, covariance, low, high, float(1.0 - share.sum()))
 
 
 def _terms(values: Array) -> Array:
     """Return the terms of one source, each of mean zero and variance one; none if it is fixed."""
     values = values[:, np.ptp(values, axis=0) > 0.0]
     if values.shape[1] == 1:
-        one = _standard(values)
-        values = np.hstack([one, one**2]) if len(np.unique(one)) > 2 else one
+        column = _standard(values)
+        values = np.hstack([column, column**2]) if len(np.unique(column)) > 2 else column
     return _standard(values)
 
 
@@ -138,7 +138,7 @@ def _fit(matrix: Array, y: Array, ends: NDArray[np.intp]) -> tuple[Array, Array]
     noise = float(np.sum((about - centred @ factors) ** 2)) / free
     parts, by_chance = np.zeros((len(y), len(ends) - 1)), np.zeros(len(ends) - 1)
     for k, (first, end) in enumerate(pairwise(ends)):
-        own = centred[:, first:end]
-        parts[:, k] = own @ factors[first:end]
-        by_chance[k] = np.sum(inverse[first:end, first:end] * (own.T @ own)) / len(y)
+        columns = centred[:, first:end]
+        parts[:, k] = columns @ factors[first:end]
+        by_chance[k] = np.sum(inverse[first:end, first:end] * (columns.T @ columns)) / len(y)
     return np.append(parts.var(axis=0) - noise * by_chance, noise), parts

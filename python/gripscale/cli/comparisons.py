@@ -28,15 +28,12 @@ from gripscale.core.errors import InputError
 if TYPE_CHECKING:
     import xarray as xr
     from rich.console import Console
-
-    from gripscale.analysis.comparison_dataset import Comparison, ComparisonOverAxis
-    from gripscale.case import CaseResults
-
-    Made = Comparison | ComparisonOverAxis
     from rich.table import Table
 
+    from gripscale.analysis.comparison_dataset import Comparison
     from gripscale.analysis.compounds import Compounds
     from gripscale.analysis.roads import Roads
+    from gripscale.case import CaseResults
 
 
 @command
@@ -95,7 +92,7 @@ def compare(
         "client": cluster,
         "on_task": progress_printer(console),
     }
-    made: Made
+    made: Comparison
     worth: list[xr.Dataset] = []
     beside: xr.Dataset | None = None
     if axes is None:

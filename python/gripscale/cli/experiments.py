@@ -311,7 +311,8 @@ def calibrate(
     cluster: Cluster = None,
 ) -> None:
     """Fit the area term, never the hysteresis, to measured friction; resumes where stopped."""
-    from gripscale.analysis.calibration import calibrate_case, measured_of, parse_fixed
+    from gripscale.analysis.calibration import calibrate_case, measured_of
+    from gripscale.analysis.calibration_text import parse_fixed
     from gripscale.analysis.measured_friction import read_measured_friction
     from gripscale.case import folder, read_case
 
@@ -351,7 +352,7 @@ def calibrate(
 
 def _parts(made: Calibration, model: str, case: str) -> list[Any]:
     """Return the tables and sentences of a calibration."""
-    from gripscale.analysis.calibration import notes
+    from gripscale.analysis.calibration_text import notes
     from gripscale.analysis.measured_comparison import residuals
     from gripscale.report.tables_measured import residual_table
     from gripscale.report.tables_uncertainty import correlations, held_out_table, parameter_table
@@ -365,7 +366,7 @@ def _parts(made: Calibration, model: str, case: str) -> list[Any]:
 
 def _keep(made: Calibration, file: CaseFile, parts: list[Any], target: Path) -> None:
     """Write result, tables, figures and the table of the law into the folder."""
-    from gripscale.analysis.calibration import shear_stress_table
+    from gripscale.analysis.calibration_text import shear_stress_table
     from gripscale.case import folder
     from gripscale.charts.print_uncertainty import draw_calibration
     from gripscale.io import netcdf

@@ -1,3 +1,7 @@
+from .design import Design as Design
+from .design import Point as Point
+from .design import solve_design as solve_design
+from .solve import Bench as Bench
 from .solve import Progress as Progress
 from .solve import solve_all as solve_all
 from .study import Study as Study

@@ -1,12 +1,16 @@
-"""Solving many tasks: what the store has is read, the rest is solved and stored as it comes.
+"""The bench: what its store has is read, all other tasks are solved and stored as they come.
 
-Results are written by the calling thread only, in whatever order they come; a result depends on
+Answers are written by the calling thread only, in whatever order they come; an answer depends on
 its task alone, so neither the order nor the number of workers changes a bit of it.
 
 On one machine the workers are threads: nearly all time is spent in the compiled kernel, which
 leaves Python's lock free. Measured on two cores with six chains of eight waves: one thread 7.8 s,
 two threads 4.6 s, two processes 3.9 s once they have started, which takes them 1 to 2 s. Threads
 need no guard in the caller's script; `client="local"` gives processes.
+
+On a Dask cluster (`pip install gripscale[cluster]`) tasks go to whatever workers there are and
+answers come back to the caller, which stores them: the workers need gripscale but no common file
+system. A worker that dies loses only the prediction it was solving; its tasks go to the others.
 """
 
 from __future__ import annotations
@@ -15,6 +19,8 @@ import importlib
 from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
 from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import xarray as xr
@@ -22,24 +28,112 @@ import xarray as xr
 from gripscale.core.errors import ConvergenceError, InputError
 from gripscale.core.parallel import in_threads, sharing, worker_count
 from gripscale.core.provenance import software
-from gripscale.experiment.task import Solved, Store, Task
+from gripscale.experiment.task import PREDICTIONS, Solved, Store, Task
 
 
 @dataclass(frozen=True)
 class Progress:
-    """What became of one task, as `on_task` is told."""
+    """One finished task, as `on_task` gets it."""
 
     done: int
     total: int
     label: str
     result: xr.Dataset
     seconds: float
-    """Time it took to solve [s]; zero if it was found in the store."""
+    """Time to solve it [s]; zero if it was in the store."""
     stored: bool
-    """Whether it was found in the store."""
+    """Whether it was in the store."""
 
 
 OnTask = Callable[[Progress], None]
+Pick = Callable[[xr.Dataset, Task], xr.Dataset]
+"""Reduces the answer of a task to what is kept in memory."""
+
+
+@dataclass(frozen=True)
+class Bench:
+    """Where tasks are solved.
+
+    Parameters
+    ----------
+    store : Store
+        Keeps every answer as soon as it is there.
+    workers : int, optional
+        Threads, or processes of a local cluster; one per core by default.
+    client
+        None: threads of this process. "local": a Dask cluster of processes on this machine.
+        "tcp://...": the address of a Dask scheduler. Or a `distributed.Client`.
+    on_task : callable, optional
+        Called after each task with its `Progress`.
+    """
+
+    store: Store
+    workers: int | None = None
+    client: Any = None
+    on_task: OnTask | None = None
+
+    def solve(self, tasks: Mapping[str, Task], pick: Pick | None = None) -> dict[str, xr.Dataset]:
+        """Return the answer of every task by its key; only what the store lacks is solved.
+
+        Parameters
+        ----------
+        tasks : mapping
+            Tasks by label. Equal tasks are solved once.
+        pick : callable, optional
+            What is kept of an answer; all of it by default. The attributes `prediction_key` and
+            `seconds` are always kept.
+
+        Raises
+        ------
+        InputError
+            If an input cannot be used, or the cluster cannot be reached.
+        FileError
+            If an answer cannot be written.
+        """
+        wanted: dict[str, tuple[str, Task]] = {}
+        for label, task in tasks.items():
+            wanted.setdefault(task.key, (label, task))
+        answers: dict[str, xr.Dataset] = {}
+
+        def finish(key: str, answer: xr.Dataset, seconds: float, *, stored: bool) -> None:
+            label, task = wanted[key]
+            kept = answer
+            if pick is not None:
+                names = ("prediction_key", "seconds")
+                attrs = {name: answer.attrs[name] for name in names if name in answer.attrs}
+                kept = pick(answer, task).assign_attrs(attrs)
+            answers[key] = kept
+            if self.on_task is not None:
+                count = len(answers), len(wanted)
+                self.on_task(Progress(*count, label, answer, seconds, stored))
+
+        for key in wanted:
+            answer = self.store.get(key)
+            if answer is not None:
+                finish(key, answer, 0.0, stored=True)
+        missing = [task for key, (_, task) in wanted.items() if key not in answers]
+        with _solver(missing, self.workers, self.client) as stream:
+            for key, solved, seconds in stream:
+                answer = self.store.put(key, solved.assign_attrs(seconds=seconds))
+                finish(key, answer, seconds, stored=False)
+        return answers
+
+
+@contextmanager
+def bench_in(
+    folder: str | Path | None,
+    workers: int | None = None,
+    client: Any = None,
+    on_task: OnTask | None = None,
+) -> Iterator[Bench]:
+    """Give a bench with its store in the folder of a result; a temporary store without a folder.
+
+    Raises `FileError` if the store cannot be made.
+    """
+    with ExitStack() as ending:
+        if folder is None:
+            folder = ending.enter_context(TemporaryDirectory(prefix="gripscale-"))
+        yield Bench(Store(Path(folder) / PREDICTIONS), workers, client, on_task)
 
 
 def solve_all(
@@ -50,55 +144,26 @@ def solve_all(
     client: Any = None,
     on_task: OnTask | None = None,
 ) -> dict[str, xr.Dataset]:
-    """Return the result of every task by its key, solving only what `store` does not have.
+    """Return the answer of every task by its key, solving only what `store` does not have.
 
     Parameters
     ----------
     tasks
         Tasks by label. Equal tasks are solved once.
-    store
-        Where finished tasks are kept.
-    workers
-        Threads, or processes of a local cluster; one per core by default.
-    client
-        None: threads of this process. "local": a Dask cluster of processes on this machine.
-        "tcp://...": the address of a Dask scheduler. Or a `distributed.Client`.
-    on_task
-        Called after each task with its `Progress`.
+    store, workers, client, on_task
+        As for `Bench`.
 
     Raises
     ------
-    InputError
-        If an input cannot be used, or the cluster cannot be reached.
-    FileError
-        If a result cannot be written.
+    InputError, FileError
+        As `Bench.solve`.
     """
-    wanted: dict[str, tuple[str, Task]] = {}
-    for label, task in tasks.items():
-        wanted.setdefault(task.key, (label, task))
-    results: dict[str, xr.Dataset] = {}
-
-    def tell(key: str, seconds: float, *, stored: bool) -> None:
-        if on_task is not None:
-            label = wanted[key][0]
-            on_task(Progress(len(results), len(wanted), label, results[key], seconds, stored))
-
-    for key in wanted:
-        found = store.get(key)
-        if found is not None:
-            results[key] = found
-            tell(key, 0.0, stored=True)
-    missing = [task for key, (_, task) in wanted.items() if key not in results]
-    with _solver(missing, workers, client) as stream:
-        for key, solved, seconds in stream:
-            results[key] = store.put(key, solved.assign_attrs(seconds=seconds))
-            tell(key, seconds, stored=False)
-    return results
+    return Bench(store, workers, client, on_task).solve(tasks)
 
 
 @contextmanager
 def _solver(tasks: list[Task], workers: int | None, client: Any) -> Iterator[Iterable[Solved]]:
-    """Give the results of `tasks` as they come, from threads or from a cluster."""
+    """Give the answers of `tasks` as they come, from threads or from a cluster."""
     count = worker_count(workers)
     if not tasks:
         yield ()
@@ -109,12 +174,6 @@ def _solver(tasks: list[Task], workers: int | None, client: Any) -> Iterator[Ite
         with cluster(client, count) as solve, closing(solve(tasks)) as stream:
             yield stream
 
-
-# The same tasks on a Dask cluster: `pip install gripscale[cluster]`.
-#
-# Tasks go to whatever workers there are and results come back to the caller, which stores them: the
-# workers need gripscale but no common file system. A worker that dies takes nothing with it but the
-# wave it was solving; its tasks go to the others.
 
 Solve = Callable[[list[Task]], Generator[Solved, None, None]]
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from itertools import product
 from pathlib import Path
@@ -30,6 +30,7 @@ from gripscale.core.errors import FileError, InputError
 from gripscale.core.provenance import software
 from gripscale.core.units import GIVEN
 from gripscale.experiment.axis import LONG_NAMES, UNITS, Axis, axes_of
+from gripscale.experiment.design import SURFACE, Design, Index, Point
 from gripscale.experiment.inputs import (
     at_temperature,
     case_rubber,
@@ -42,7 +43,7 @@ from gripscale.experiment.inputs import (
     surface_of,
     with_effects,
 )
-from gripscale.experiment.solve import OnTask, Progress, solve_all
+from gripscale.experiment.solve import Bench, OnTask, Progress
 from gripscale.experiment.speed_and_temperature import (
     beyond_shift,
     friction_by_decade,
@@ -51,113 +52,65 @@ from gripscale.experiment.speed_and_temperature import (
 from gripscale.experiment.task import PREDICTIONS, Store, Task, canonical_json
 from gripscale.io import netcdf
 from gripscale.model import (
-    ADHESIVE_FRICTION,
-    CUT_OFF_EXPONENTS,
-    OUTSIDE_BAND,
-    TOTALS,
-    WHY_NO_EXPONENT,
     Model,
 )
 from gripscale.rubber import Rubber
 from gripscale.surface import PreparedSurface
 
-# From the finished predictions of a study to one Dataset over the axes that were varied.
-
 RENAMED = {"temperature": "wave_temperature"}
 """Variables over waves that have the name of an axis."""
 
-Index = tuple[int, ...]
-Predictions = dict[Index, xr.Dataset]
 
-OF_ALL = (
-    *TOTALS,
-    ADHESIVE_FRICTION,
-    *OUTSIDE_BAND,
-    *CUT_OFF_EXPONENTS,
-    WHY_NO_EXPONENT,
-    "prediction_status",
-)
-"""What every model says of the whole surface."""
-
-
-def combined(predictions: Predictions, axes: Sequence[Axis]) -> xr.Dataset:
-    """Return every number the predictions have, in total and per wave, over `axes`.
-
-    Predictions with fewer waves, and waves after one that failed, are NaN.
-    """
-    kept = {index: _kept(data) for index, data in predictions.items()}
-    nested: Any = np.empty(tuple(len(axis.values) for axis in axes), dtype=object)
-    for index, data in kept.items():
-        nested[index] = data
-    names = [axis.name for axis in axes]
-    together: xr.Dataset = xr.combine_nested(
-        nested.tolist(),
-        concat_dim=names,
-        data_vars="all",
-        coords="minimal",
-        compat="override",
-        join="outer",
-        combine_attrs="override",
-    )
-    result: xr.Dataset = together.transpose(*names, ...).drop_attrs(deep=False)
-    return result
+def study_numbers(answer: xr.Dataset, task: Task) -> xr.Dataset:
+    """Return what a study keeps of an answer: numbers by wave and of the whole surface."""
+    names = [
+        name
+        for name, variable in answer.data_vars.items()
+        if name in SURFACE
+        or (variable.dims == ("scale",) and np.issubdtype(variable.dtype, np.number))
+    ]
+    parts = friction_by_decade(answer, task.rubber)
+    decades = xr.DataArray(list(parts.values()), {"decade": list(parts)}) if parts else None
+    kept = answer[names].rename({old: new for old, new in RENAMED.items() if old in names})
+    return kept if decades is None else kept.assign(friction_by_decade=decades)
 
 
-def by_decade(
-    predictions: Predictions, axes: Sequence[Axis], rubbers: dict[Index, Rubber]
-) -> dict[str, xr.DataArray]:
-    """Return the friction by decade of relaxation time, over `axes` and `decade`."""
-    parts = {index: friction_by_decade(one, rubbers[index]) for index, one in predictions.items()}
-    found = sorted({n for part in parts.values() for n in part})
-    if not found:
-        return {}
-    decades = range(found[0], found[-1] + 1)
-    values = np.full((*(len(axis.values) for axis in axes), len(decades)), np.nan)
-    for index, part in parts.items():
-        if part:
-            values[index] = [part.get(n, 0.0) for n in decades]
-    dims = (*(axis.name for axis in axes), "decade")
-    array = _labelled(
-        dims, values, "1", "friction coefficient by relaxation time, split as at small strain"
-    )
+def with_decades(data: xr.Dataset) -> xr.Dataset:
+    """Return a study with the friction of all decades of relaxation time from first to last."""
+    if "friction_by_decade" not in data:
+        return data
+    first, last = int(data.decade[0]), int(data.decade[-1])
+    data = data.reindex(decade=range(first, last + 1))
+    parts = data.friction_by_decade.transpose(..., "decade")
+    parts = parts.fillna(0.0).where(parts.notnull().any("decade"))
+    text = "friction coefficient by relaxation time, split as at small strain"
     time = _labelled(
-        "decade", [10.0**n for n in decades], "s", "shortest relaxation time of the decade"
+        "decade",
+        [10.0**n for n in data.decade.values.tolist()],
+        "s",
+        "shortest relaxation time of the decade",
     )
-    return {"friction_by_decade": array.assign_coords(decade=time)}
+    return data.assign(
+        friction_by_decade=parts.assign_attrs(units="1", long_name=text)
+    ).assign_coords(decade=time)
 
 
 def coordinates(axes: Iterable[Axis], case: str) -> dict[str, xr.DataArray]:
     """Return the coordinates of the axes of a study of this text of a case."""
-    out = {}
+    coords = {}
     for axis in axes:
         values = np.array(axis.coordinate, dtype=None if axis.numeric else object)
-        out[axis.name] = _labelled(
+        coords[axis.name] = _labelled(
             axis.name, values, UNITS[axis.name] if axis.numeric else "1", LONG_NAMES[axis.name]
         )
-        how = axis.shown(case)
-        if how is not None:
-            out[axis.name].attrs[GIVEN] = how.unit
+        unit = axis.shown(case)
+        if unit is not None:
+            coords[axis.name].attrs[GIVEN] = unit.unit
         if axis.name == "factors":
             for at, name in enumerate(("s_wavelength", "s_amplitude")):
-                each = [pair[at] for pair in axis.values]
-                out[name] = _labelled("factors", each, "1", f"magnification factor {name}")
-    return out
-
-
-def _kept(data: xr.Dataset) -> xr.Dataset:
-    """Return what a study keeps of a prediction: one number a wave, and what is said of all."""
-    names = [
-        name
-        for name, variable in data.data_vars.items()
-        if name in OF_ALL
-        or (variable.dims == ("scale",) and np.issubdtype(variable.dtype, np.number))
-    ]
-    key = xr.DataArray(
-        data.attrs["prediction_key"],
-        attrs={"units": "1", "long_name": "name of the file the prediction is kept in"},
-    )
-    kept = data[names].assign(prediction_key=key).drop_encoding()
-    return kept.rename({old: new for old, new in RENAMED.items() if old in kept})
+                factors = [pair[at] for pair in axis.values]
+                coords[name] = _labelled("factors", factors, "1", f"magnification factor {name}")
+    return coords
 
 
 def _labelled(dims: Any, values: Any, unit: str, long_name: str) -> xr.DataArray:
@@ -168,15 +121,6 @@ def _labelled(dims: Any, values: Any, unit: str, long_name: str) -> xr.DataArray
 
 RESULT = "study.nc"
 """The Dataset, in the folder of the study."""
-
-
-@dataclass(frozen=True)
-class Point:
-    """One point of a study: where it is on the axes, what it is called, what is solved there."""
-
-    index: Index
-    label: str
-    task: Task
 
 
 class Study:
@@ -231,14 +175,14 @@ class Study:
     @cached_property
     def surfaces(self) -> list[PreparedSurface]:
         """The varied surfaces, or the one of the case, read and fitted."""
-        given = self._values("surface")
-        return [surface_of(value, self.file) for value in given] or [case_surface(self.file)]
+        values = self._values("surface")
+        return [surface_of(value, self.file) for value in values] or [case_surface(self.file)]
 
     @cached_property
     def rubbers(self) -> list[Rubber]:
         """The varied rubbers, or the one of the case, read and fitted."""
-        given = self._values("rubber")
-        return [rubber_of(value, self.file) for value in given] or [case_rubber(self.file)]
+        values = self._values("rubber")
+        return [rubber_of(value, self.file) for value in values] or [case_rubber(self.file)]
 
     @cached_property
     def _case_conditions(self) -> Conditions | None:
@@ -273,14 +217,17 @@ class Study:
         return [
             f"Study of {self.file.path}",
             f"  varied: {names}; {count} different predictions",
-            *(f"  surface: {one.source}, {len(one.sines)} sine waves" for one in self.surfaces),
+            *(
+                f"  surface: {surface.source}, {len(surface.sines)} sine waves"
+                for surface in self.surfaces
+            ),
             *(f"  rubber: {rubber.name}, {rubber.source}" for rubber in self.rubbers),
         ]
 
     @cached_property
-    def points(self) -> list[Point]:
-        """All points in motion (or at rest, where the speed is zero), last axis fastest."""
-        return self._points(self.axes, static=False)
+    def design(self) -> Design:
+        """The points in motion (or at rest, where the speed is zero), last axis fastest."""
+        return self._design(self.axes, static=False)
 
     @cached_property
     def static_axes(self) -> tuple[Axis, ...]:
@@ -288,9 +235,19 @@ class Study:
         return tuple(axis for axis in self.axes if axis.name != "speed")
 
     @cached_property
-    def static_points(self) -> list[Point]:
-        """All points of the rubber at rest; none if they are not wanted."""
-        return self._points(self.static_axes, static=True) if self.static else []
+    def static_design(self) -> Design:
+        """The points of the rubber at rest; none if they are not wanted."""
+        return self._design(self.static_axes, static=True)
+
+    @property
+    def points(self) -> Sequence[Point]:
+        """All points of `design`."""
+        return self.design.points
+
+    @property
+    def static_points(self) -> Sequence[Point]:
+        """All points of `static_design`."""
+        return self.static_design.points
 
     def run(
         self,
@@ -322,13 +279,12 @@ class Study:
             An input that cannot be used, a result that cannot be written.
         """
         folder = Path(folder)
-        store = Store(folder / PREDICTIONS)
-        known = self.stored(folder)
-        if known is not None and self._all_there(known, store, on_task):
-            return known
-        tasks = {point.label: point.task for point in [*self.points, *self.static_points]}
-        solved = solve_all(tasks, store, workers=workers, client=client, on_task=on_task)
-        return netcdf.load(netcdf.save(self.assemble(solved), folder / RESULT))
+        bench = Bench(Store(folder / PREDICTIONS), workers, client, on_task)
+        data = self.stored(folder)
+        if data is not None and self._all_there(data, bench):
+            return data
+        answers = bench.solve(self.design.tasks | self.static_design.tasks, study_numbers)
+        return netcdf.load(netcdf.save(self.assemble(answers), folder / RESULT))
 
     def stored(self, folder: str | Path) -> xr.Dataset | None:
         """Return the Dataset an earlier run of just this study left in `folder`, or None."""
@@ -338,39 +294,37 @@ class Study:
             return None
         return found if found.attrs.get("study_key") == self.key else None
 
-    def _all_there(self, known: xr.Dataset, store: Store, on_task: OnTask | None) -> bool:
-        """Tell of every prediction as stored, if none of `known` is missing or damaged."""
-        wanted: dict[str, str] = {}
+    def _all_there(self, data: xr.Dataset, bench: Bench) -> bool:
+        """Report every prediction as stored, if the store misses none that `data` rests on."""
+        labels: dict[str, str] = {}
         for prefix, axes in (("", self.axes), ("static_", self.static_axes)):
-            if f"{prefix}prediction_key" in known:
-                for index, label in self._places(axes, static=bool(prefix)):
-                    wanted.setdefault(str(known[f"{prefix}prediction_key"].values[index]), label)
-        found = {key: store.get(key) for key in wanted}
-        if any(one is None for one in found.values()):
+            if f"{prefix}prediction_key" in data:
+                keys = data[f"{prefix}prediction_key"]
+                for index, label in self._labels(axes, static=bool(prefix)):
+                    labels.setdefault(str(keys.values[index]), label)
+        answers = {key: bench.store.get(key) for key in labels}
+        if any(answer is None for answer in answers.values()):
             return False
-        for number, (key, one) in enumerate(found.items(), start=1):
-            if on_task is not None and one is not None:
-                on_task(Progress(number, len(found), wanted[key], one, 0.0, stored=True))
+        for number, (key, answer) in enumerate(answers.items(), start=1):
+            if bench.on_task is not None and answer is not None:
+                count = number, len(answers)
+                bench.on_task(Progress(*count, labels[key], answer, 0.0, stored=True))
         return True
 
-    def assemble(self, solved: Mapping[str, xr.Dataset]) -> xr.Dataset:
+    def assemble(self, answers: Mapping[str, xr.Dataset]) -> xr.Dataset:
         """Return the Dataset of the study from its predictions by their keys."""
-        moving = {point.index: solved[point.task.key] for point in self.points}
-        rest = {point.index: solved[point.task.key] for point in self.static_points}
-        rubbers = {point.index: point.task.rubber for point in self.points}
-        result = combined(moving, self.axes)
-        result = result.assign(by_decade(moving, self.axes, rubbers))
-        if rest:
-            at_rest = _at_rest(combined(rest, self.static_axes))
-            result = xr.merge([result, at_rest], join="outer", compat="no_conflicts")
+        result = with_decades(self.design.dataset(answers)).drop_vars("seconds")
+        if self.static_points:
+            rest = _at_rest(self.static_design.dataset(answers).drop_vars("seconds"))
+            result = xr.merge([result, rest], join="outer", compat="no_conflicts")
         result = result.assign_coords(coordinates(self.axes, self.file.text))
         result = result.assign(beyond_shift([p.task for p in self.points], self.axes))
         if {"speed", "temperature"} == {axis.name for axis in self.axes}:
             result = with_master_curve(result, self.rubbers[0])
-        return result.drop_attrs(deep=False).assign_attrs(self._provenance())
+        return result.assign_attrs(self._provenance())
 
-    def _places(self, axes: tuple[Axis, ...], *, static: bool) -> Iterator[tuple[Index, str]]:
-        """Yield where each point is on the axes, and what it is called."""
+    def _labels(self, axes: tuple[Axis, ...], *, static: bool) -> Iterator[tuple[Index, str]]:
+        """Yield the index of each point on the axes, and its label."""
         for index in product(*(range(len(axis.values)) for axis in axes)):
             words = [
                 f"{axis.name} {axis.called(i, self.file.text)}"
@@ -378,47 +332,47 @@ class Study:
             ]
             yield index, ", ".join(["static", *words] if static else words)
 
-    def _points(self, axes: tuple[Axis, ...], *, static: bool) -> list[Point]:
+    def _design(self, axes: tuple[Axis, ...], *, static: bool) -> Design:
         points = []
-        for index, label in self._places(axes, static=static):
-            chosen = {axis.name: axis.values[i] for axis, i in zip(axes, index, strict=True)}
-            place = {axis.name: i for axis, i in zip(axes, index, strict=True)}
-            points.append(Point(index, label, self._task(chosen, place, static=static)))
-        return points
+        for index, label in self._labels(axes, static=static) if self.static or not static else ():
+            at = {axis.name: i for axis, i in zip(axes, index, strict=True)}
+            values = {axis.name: axis.values[at[axis.name]] for axis in axes}
+            points.append(Point(index, label, self._task(values, at, static=static)))
+        return Design({axis.name: len(axis.values) for axis in axes}, points)
 
-    def _task(self, chosen: dict[str, Any], place: dict[str, int], *, static: bool) -> Task:
+    def _task(self, values: dict[str, Any], at: dict[str, int], *, static: bool) -> Task:
         load = self.file.case.load.nominal
-        speed = 0.0 if static else chosen.get("speed", load.speed)
-        model, rubber = self._model(chosen), self.rubbers[place.get("rubber", 0)]
+        speed = 0.0 if static else values.get("speed", load.speed)
+        model, rubber = self._model(values), self.rubbers[at.get("rubber", 0)]
         if not model.takes_conditions and self._case_conditions is not None:
             rubber = self._case_conditions.before(rubber)
         rubber_before(rubber, model)  # nothing is solved if one point of the study is impossible
         return Task(
             rubber=rubber,
-            surface=self._surface(place.get("surface", 0), chosen),
+            surface=self._surface(at.get("surface", 0), values),
             load=replace(
                 load,
-                pressure=chosen.get("pressure", load.pressure),
+                pressure=values.get("pressure", load.pressure),
                 speed=speed,
                 load_time=load.load_time if speed > 0.0 else "passage",
             ),
             model=model,
         )
 
-    def _model(self, chosen: dict[str, Any]) -> Model:
+    def _model(self, values: dict[str, Any]) -> Model:
         model = self.model
-        if "pressure_classes" in chosen and isinstance(model, Chain):
-            model = replace(model, pressure_classes=chosen["pressure_classes"])
-        if "temperature" in chosen:
-            model = at_temperature(model, chosen["temperature"])
-        return with_effects(model, chosen["effects"]) if "effects" in chosen else model
+        if "pressure_classes" in values and isinstance(model, Chain):
+            model = replace(model, pressure_classes=values["pressure_classes"])
+        if "temperature" in values:
+            model = at_temperature(model, values["temperature"])
+        return with_effects(model, values["effects"]) if "effects" in values else model
 
-    def _surface(self, number: int, chosen: dict[str, Any]) -> PreparedSurface:
+    def _surface(self, number: int, values: dict[str, Any]) -> PreparedSurface:
         """Return the surface of a point; each choice of waves is fitted once."""
         changes = {
-            name: chosen[name]
+            name: values[name]
             for name in ("factors", "waves", "smallest_wavelength", "cut_off", "upper_share")
-            if name in chosen
+            if name in values
         }
         key = (number, *sorted(changes.items()))
         if key not in self._varied:
@@ -449,6 +403,7 @@ def _at_rest(data: xr.Dataset) -> xr.Dataset:
         "friction",
         "angular_frequency",
         "loss_factor",
+        "loss_modulus_ratio",
         "load_time",
         "speed",
         "_band",

@@ -11,12 +11,10 @@ import hashlib
 import json
 import threading
 import time
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, is_dataclass
 from functools import cached_property
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -156,16 +154,3 @@ class Store:
         Raises `FileError` if it cannot be written.
         """
         return netcdf.load(netcdf.save(solved, self.path(key)))
-
-
-@contextmanager
-def store_in(folder: str | Path | None) -> Iterator[Store]:
-    """Give the store in the folder of a result or, without one, one that is forgotten afterwards.
-
-    Raises `FileError` if it cannot be made.
-    """
-    if folder is not None:
-        yield Store(Path(folder) / PREDICTIONS)
-        return
-    with TemporaryDirectory(prefix="gripscale-") as forgotten:
-        yield Store(forgotten)

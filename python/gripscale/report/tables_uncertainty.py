@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 from rich.table import Table
 
-from gripscale.analysis.calibration import interval, written
+from gripscale.analysis.calibration_text import interval, written
 from gripscale.analysis.profile_likelihood import LEVEL
 from gripscale.analysis.propagation import LEVELS, QUANTITIES, of_same_inputs, summary
 from gripscale.analysis.variance_shares import SURE

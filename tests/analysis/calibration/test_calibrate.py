@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from gripscale.analysis import MeasuredFriction, Predicted, calibrate
-from gripscale.analysis.calibration import notes, shear_stress_table
+from gripscale.analysis.calibration_text import notes, shear_stress_table
 from gripscale.conditions import (
     ConstantStress,
     GaussianStress,

@@ -1,27 +1,52 @@
-"""Rungs made by hand."""
+"""Samples of rungs made by hand."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 import pytest
+import xarray as xr
 
-from gripscale.analysis import Rung, Sample, SolvedRung
-
-
-def sample(area: float, friction: float, of: str = "", **more: Any) -> Sample:
-    status = more.pop("status", "converged")
-    return Sample(area, friction, 1.02 * friction, status, of, **more)
+Make = Callable[..., xr.Dataset]
 
 
 @pytest.fixture
-def solved() -> Callable[..., SolvedRung]:
-    """Make a rung of samples (area, friction, of what), or ready ones."""
+def solved() -> Make:
+    """Make the samples of a rung: (area, friction, subject), or with values by name as a dict."""
 
-    def make(name: str, *samples: Any, follows: str = "") -> SolvedRung:
-        rung = Rung(name, name, "group", "", follows, lambda _: [])
-        made = [one if isinstance(one, Sample) else sample(*one) for one in samples]
-        return SolvedRung(rung, made)
+    def make(*samples: Any) -> xr.Dataset:
+        rows = []
+        for sample in samples:
+            row = sample
+            if not isinstance(sample, dict):
+                area, friction, *subject = sample
+                row = {"contact_fraction": area, "friction": friction, "subject": "".join(subject)}
+            row = {"friction": math.nan, "contact_fraction": math.nan, "subject": ""} | row
+            row = {"friction_from_dissipation": 1.02 * row["friction"]} | row
+            errors = {"contact_fraction_error": math.nan, "friction_error": math.nan}
+            rows.append({"prediction_status": "converged"} | errors | row)
+        columns = {name: ("sample", [row[name] for row in rows]) for name in rows[0]}
+        return xr.Dataset(columns).set_coords("subject")
+
+    return make
+
+
+@pytest.fixture
+def together() -> Callable[..., xr.Dataset]:
+    """Put the samples of rungs beside each other, over `rung`."""
+
+    def make(**rungs: xr.Dataset) -> xr.Dataset:
+        names = np.array(list(rungs), dtype=object)
+        most = max(samples.sizes["sample"] for samples in rungs.values())
+        padded = []
+        for samples in rungs.values():
+            missing = {"sample": (0, most - samples.sizes["sample"])}
+            texts = {"prediction_status": "", "subject": ""}
+            filled = samples.reset_coords().pad(missing, constant_values={**texts})
+            padded.append(filled.set_coords("subject"))
+        return xr.concat(padded, "rung", coords=["subject"]).assign_coords(rung=names)
 
     return make

@@ -9,8 +9,10 @@ import pytest
 import xarray as xr
 
 import gripscale as gs
-from gripscale.analysis.best_estimate import SolvedRung, sample_of
+from gripscale.analysis.samples import cut_off_exponents, sample_numbers
 from gripscale.chain import Chain
+from gripscale.experiment import Task
+from gripscale.experiment.design import stack
 from gripscale.half_space.model import DirectContact
 from gripscale.model import (
     CUT_OFF_EXPONENTS,
@@ -153,5 +155,6 @@ def test_profiles_count_by_their_length_and_rungs_by_their_samples() -> None:
     each = answer.friction_cut_off_exponent
     mean = float((weight * each).sum() / weight.sum())
     assert float(answer.total_friction_cut_off_exponent) == pytest.approx(mean)
-    rung = SolvedRung(None, [sample_of(answer), sample_of(answer)])  # type: ignore[arg-type]
-    assert rung.cut_off_exponents.friction == pytest.approx(mean)
+    sample = sample_numbers(answer, Task(RUBBER, both, LOAD, model))
+    rung = stack({(0,): sample, (1,): sample}, {"sample": 2})
+    assert cut_off_exponents(rung).total_friction_cut_off_exponent == pytest.approx(mean)

@@ -58,7 +58,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Comparison:
 
 
 def test_chain_and_direct_contact_know_every_effect(made: Comparison) -> None:
-    subject = made.subject
+    (subject,) = made.setups
     alone = gs.solve_rough_contact(
         subject.rubber,
         subject.surface.measured.cleaned[0],  # type: ignore[union-attr]
@@ -69,19 +69,19 @@ def test_chain_and_direct_contact_know_every_effect(made: Comparison) -> None:
         tolerance=subject.tolerance,
         conditions=subject.conditions,
     )
-    direct = made.by_name["direct"]
-    assert direct.mean("friction") == pytest.approx(alone.friction, rel=1e-12)
-    assert direct.mean("adhesive_friction") == pytest.approx(
+    direct = made.data.sel(rung="direct")
+    assert direct.total_friction == pytest.approx(alone.friction, rel=1e-12)
+    assert direct.total_adhesive_friction == pytest.approx(
         2e6 * alone.contact_fraction / 3e5, rel=1e-12
     )
-    chain = made.by_name["chain_half_plane"]
-    assert chain.mean("adhesive_friction") == pytest.approx(
-        2e6 * chain.mean("contact_fraction") / 3e5, rel=1e-12
+    chain = made.data.sel(rung="chain_half_plane")
+    assert chain.total_adhesive_friction == pytest.approx(
+        2e6 * chain.total_contact_fraction / 3e5, rel=1e-12
     )
 
 
 def test_a_theory_knows_the_temperature_only(made: Comparison) -> None:
-    subject, persson = made.subject, made.by_name["persson"]
+    subject, persson = made.setups[0], made.data.sel(rung="persson")
     warm = subject.rubber.at(308.15)
     spectrum = gs.surface.areal_spectrum(
         gs.surface.profile_spectrum(subject.surface.measured.cleaned[0])  # type: ignore[union-attr]
@@ -90,9 +90,9 @@ def test_a_theory_knows_the_temperature_only(made: Comparison) -> None:
         float(subject.surface.sines.wavelength[-1]), 2 * math.pi / spectrum.wavenumber[-1]
     )
     alone = gs.theory.persson(warm, spectrum, pressure=3e5, speed=0.1, smallest_wavelength=smallest)
-    assert persson.mean("friction") == pytest.approx(alone.friction, rel=1e-9)
+    assert persson.total_friction == pytest.approx(alone.friction, rel=1e-9)
     own = 2e6 * alone.contact_fraction / 3e5
-    assert persson.mean("adhesive_friction") == pytest.approx(own, rel=1e-9)
+    assert persson.total_adhesive_friction == pytest.approx(own, rel=1e-9)
     data = made.to_dataset()
     assert any("Softening: in the chains" in line for line in remarks(data))
 
@@ -100,8 +100,8 @@ def test_a_theory_knows_the_temperature_only(made: Comparison) -> None:
 def test_table_and_best_estimate_have_the_area_term(made: Comparison) -> None:
     data = made.to_dataset()
     text = as_text(further_table(data))
-    direct = made.by_name["direct"]
-    total = direct.mean("friction") + direct.mean("adhesive_friction")
+    direct = made.data.sel(rung="direct")
+    total = float(direct.total_friction + direct.total_adhesive_friction)
     assert f"{total:.2f}" in text
     assert f"With the area term, of its contact area, μ = {total:.2f}" in best_sentence(data)
 
@@ -113,7 +113,7 @@ def test_a_comparison_over_the_temperature_asks_every_model_at_it(made: Comparis
     data = over.to_dataset()
     warm = data.sel(temperature=308.15)
     for rung in ("chain_half_plane", "persson"):
-        own = made.by_name[rung].mean("friction")
+        own = float(made.data.total_friction.sel(rung=rung))
         assert float(warm.total_friction.sel(rung=rung)) == pytest.approx(own, rel=1e-12)
         cold = float(data.total_friction.sel(temperature=293.15, rung=rung))
         assert abs(cold / own - 1.0) > 0.01

@@ -1,0 +1,169 @@
+"""A calibration in words: its notes, the table of a case file, and parameters from a text."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from pathlib import Path
+
+import numpy as np
+
+from gripscale.analysis.calibration import Calibration, Estimate
+from gripscale.analysis.profile_likelihood import LEVEL
+from gripscale.conditions.area_term import shear_stress_to_dict
+from gripscale.core import checks
+from gripscale.core.errors import InputError
+from gripscale.core.units import ZERO_CELSIUS, parse_quantity
+from gripscale.rubber.extrapolation import WORTH_SAYING
+
+KINDS_OF_QUANTITY = {
+    "stress_0": "pressure",
+    "speed_0": "speed",
+    "critical_speed": "speed",
+    "activation_energy": "bond energy",
+    "reference_temperature": "temperature",
+}
+"""What the parameters of the laws are, those that are no plain numbers."""
+
+
+def parse_fixed(texts: Iterable[str]) -> dict[str, float]:
+    """Return parameters stated as "width=0.1" or "stress_0=5 MPa" [SI units, eV].
+
+    Raises `InputError` if one cannot be understood.
+    """
+    parameters: dict[str, float] = {}
+    for text in texts:
+        name, sign, value = (part.strip() for part in text.partition("="))
+        if not sign or not name or name in parameters:
+            raise InputError(
+                f"fixed must be name=value, each name once; got {checks.short_repr(text)}"
+            )
+        parameters[name] = _value(name, value)
+    return parameters
+
+
+def _value(name: str, text: str) -> float:
+    try:
+        if name in KINDS_OF_QUANTITY:
+            return parse_quantity(text, KINDS_OF_QUANTITY[name])
+        return float(text)
+    except ValueError as error:
+        why = str(error) if name in KINDS_OF_QUANTITY else "expected a number"
+        raise InputError(f"fixed {name} = {checks.short_repr(text)}: {why}") from error
+
+
+UNLIKELY = 0.01
+"""Chance of the sum of squares below which something must be wrong."""
+
+
+def notes(calibration: Calibration) -> Iterator[str]:
+    """Yield a sentence on each thing to know before the numbers are used."""
+    if not calibration.spread_known:
+        yield (
+            f"No spread is stated: the scatter of the residuals, {calibration.scatter:.2g}, "
+            "is taken for it, whatever makes it."
+        )
+    elif calibration.chance < UNLIKELY:
+        yield (
+            f"The residuals are {calibration.scatter:.2g} times the stated spread: law, hysteresis "
+            "or spread is wrong, and the intervals are too narrow."
+        )
+    yield (
+        "The intervals hold for the spread of the measurement alone: an error of the predicted "
+        "contact area is an error of the shear stress."
+    )
+    held = calibration.problem.family.held
+    if calibration.law.kind == "gaussian" and held.get("activation_energy") == 0.0:
+        yield (
+            "No activation energy: temperatures in the contact "
+            f"{calibration.problem.points.temperature_range:.2g} K apart do not determine one, and "
+            "the law holds at the temperature measured."
+        )
+    for estimate in calibration.estimates:
+        ends = {"lower": estimate.low, "upper": estimate.high}
+        missing = [word for word, end in ends.items() if not np.isfinite(end)]
+        if len(missing) == 2:
+            yield f"{estimate.name} is not determined by the data."
+        elif missing:
+            yield f"The {missing[0]} end of {estimate.name} is not determined by the data."
+    predicted = calibration.predicted
+    without = int((~predicted.known).sum())
+    if without:
+        why = next(s for s, k in zip(predicted.status, predicted.known, strict=True) if not k)
+        yield f"Measured points without a prediction, which do not count: {without}, as {why}."
+    below = int((calibration.problem.points.difference < 0.0).sum())
+    if below:
+        yield f"Measured points below the hysteresis alone: {below}."
+    beyond = int((predicted.outside_band > WORTH_SAYING).sum())
+    if beyond:
+        yield (
+            f"Points where more than {WORTH_SAYING:.0%} of the hysteresis rests on the rubber "
+            f"outside its measured frequencies: {beyond}."
+        )
+
+
+# The fitted law as the table of a case file, ready to be pasted.
+
+WRITTEN: Mapping[str, tuple[Callable[[float], float], str]] = {
+    "Pa": (lambda value: value / 1e6, "MPa"),
+    "m/s": (lambda value: value, "m/s"),
+    "eV": (lambda value: value, "eV"),
+    "K": (lambda value: value - ZERO_CELSIUS, "C"),
+    "": (lambda value: value, ""),
+}
+"""How a number in a unit of the law is written: conversion and unit."""
+
+HELD_UNITS = {
+    "stress_0": "Pa",
+    "speed_0": "m/s",
+    "critical_speed": "m/s",
+    "activation_energy": "eV",
+    "reference_temperature": "K",
+}
+"""Units of parameters that may be held; the others have none."""
+
+
+def shear_stress_table(calibration: Calibration) -> str:
+    """Return the table [conditions.shear_stress] of the fitted law, with its intervals."""
+    law = shear_stress_to_dict(calibration.law)
+    estimates = {estimate.name: estimate for estimate in calibration.estimates}
+    source = Path(calibration.measured.source).name or "a measurement"
+    lines = [
+        f"# Fitted to {calibration.problem.points.speed.size} points of {source};",
+        f"# intervals of {LEVEL:.0%} by profile likelihood, for this rubber on this surface.",
+        "[conditions.shear_stress]",
+        f'kind = "{law.pop("kind")}"',
+    ]
+    if calibration.law.kind == "gaussian" and law["activation_energy"] == 0.0:
+        del law["activation_energy"], law["reference_temperature"]
+        lines.insert(2, "# No activation energy: it holds at the temperature measured.")
+    for name, value in law.items():
+        lines.append(" ".join(_line(name, float(value), estimates.get(name))))
+    return "\n".join(lines) + "\n"
+
+
+def written(value: float, unit: str, digits: int | None = None) -> str:
+    """Return a number of the law with its unit: six digits as far as they count, or `digits`."""
+    convert, name = WRITTEN[unit]
+    number = convert(value)
+    text = f"{number:.6g}" if digits is None else f"{number:#.{digits}g}".rstrip(".")
+    return f"{text} {name}".strip()
+
+
+def interval(estimate: Estimate) -> str:
+    """Return the interval of a parameter in words, in the unit it is written in."""
+    low, high = (f"{written(end, estimate.unit, 3)}" for end in (estimate.low, estimate.high))
+    if estimate.determined:
+        return f"{low} to {high}"
+    if math.isfinite(estimate.low):
+        return f"from {low}, upper end not determined"
+    if math.isfinite(estimate.high):
+        return f"up to {high}, lower end not determined"
+    return "not determined"
+
+
+def _line(name: str, value: float, estimate: Estimate | None) -> Iterator[str]:
+    unit = estimate.unit if estimate is not None else HELD_UNITS.get(name, "")
+    text = written(value, unit)
+    yield f"{name} = {text}" if not unit else f'{name} = "{text}"'
+    yield f" # {'held' if estimate is None else interval(estimate)}"

@@ -1,0 +1,191 @@
+"""A design: labelled dimensions with a task at each point, solved into one Dataset.
+
+A point may be missing, refused (a sentence says why there is no task) or repeated: equal tasks are
+solved once. The Dataset holds missing values where there is no answer.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from gripscale.experiment.solve import Bench, Pick
+from gripscale.experiment.task import Task
+from gripscale.model import (
+    ADHESIVE_FRICTION,
+    CUT_OFF_EXPONENTS,
+    OUTSIDE_BAND,
+    TOTALS,
+    WHY_NO_EXPONENT,
+)
+
+Index = tuple[int, ...]
+
+CONVERGED = "converged"
+"""Status of an answer whose numbers may be used."""
+
+NUMBERS = (*TOTALS, ADHESIVE_FRICTION, *OUTSIDE_BAND, *CUT_OFF_EXPONENTS)
+"""Numbers of the whole surface that an answer may have."""
+
+SURFACE = (*NUMBERS, WHY_NO_EXPONENT, "prediction_status")
+"""All an answer says of the whole surface."""
+
+
+@dataclass(frozen=True)
+class Point:
+    """One point of a design.
+
+    Parameters
+    ----------
+    index : tuple of int
+        Position along each dimension.
+    label : str
+        Name of the task while it is solved; different from all others.
+    task : Task
+        What is solved.
+    """
+
+    index: Index
+    label: str
+    task: Task
+
+
+@dataclass(frozen=True, eq=False)
+class Design:
+    """Labelled dimensions with a task at each point.
+
+    Parameters
+    ----------
+    sizes : mapping of str to int
+        Dimensions in order, with their sizes.
+    points : sequence of Point
+        In the order in which they are solved.
+    coords : mapping
+        Coordinates of the Dataset, as xarray takes them.
+    refused : mapping of index to str
+        Why there is no task at a point.
+    """
+
+    sizes: Mapping[str, int]
+    points: Sequence[Point]
+    coords: Mapping[str, Any] = field(default_factory=dict)
+    refused: Mapping[Index, str] = field(default_factory=dict)
+
+    @property
+    def tasks(self) -> dict[str, Task]:
+        """The tasks by label."""
+        return {point.label: point.task for point in self.points}
+
+    def dataset(self, answers: Mapping[str, xr.Dataset]) -> xr.Dataset:
+        """Return the answers, given by the keys of their tasks, over the dimensions.
+
+        With `prediction_status` (of a refused point the refusal, of a missing one nothing),
+        `prediction_key` and `seconds` of each point.
+        """
+        shape = tuple(self.sizes.values())
+        status, keys = (np.full(shape, "", dtype=object) for _ in range(2))
+        seconds = np.full(shape, math.nan)
+        parts: dict[Index, xr.Dataset] = {}
+        for index, refusal in self.refused.items():
+            status[index] = refusal
+        for point in self.points:
+            key = point.task.key
+            parts[point.index] = answers[key].drop_vars("prediction_status")
+            status[point.index] = str(answers[key]["prediction_status"].item())
+            keys[point.index] = key
+            seconds[point.index] = answers[key].attrs.get("seconds", math.nan)
+        texts = {
+            "prediction_status": (status, "1", "converged, or why not"),
+            "prediction_key": (keys, "1", "name of the file the prediction is kept in"),
+            "seconds": (seconds, "s", "time to solve the prediction"),
+        }
+        return (
+            stack(parts, self.sizes)
+            .assign(
+                {
+                    name: (tuple(self.sizes), values, {"units": unit, "long_name": text})
+                    for name, (values, unit, text) in texts.items()
+                }
+            )
+            .assign_coords(self.coords)
+        )
+
+
+def surface_numbers(answer: xr.Dataset, _: Task) -> xr.Dataset:
+    """Return what an answer says of the whole surface."""
+    return answer[[name for name in SURFACE if name in answer]]
+
+
+def solve_design(design: Design, bench: Bench, pick: Pick = surface_numbers) -> xr.Dataset:
+    """Return the answers of a design over its dimensions.
+
+    Parameters
+    ----------
+    design : Design
+        What is solved.
+    bench : Bench
+        Where it is solved.
+    pick : callable
+        Reduces an answer, with its task, to a Dataset of what is stacked, with
+        `prediction_status`; by default the numbers of the whole surface.
+
+    Returns
+    -------
+    xarray.Dataset
+        As `Design.dataset`.
+
+    Raises
+    ------
+    InputError, FileError
+        As `Bench.solve`.
+    """
+    return design.dataset(bench.solve(design.tasks, pick))
+
+
+def stack(parts: Mapping[Index, xr.Dataset], sizes: Mapping[str, int]) -> xr.Dataset:
+    """Return Datasets, by their positions, over further dimensions.
+
+    A dimension of the parts is aligned by its coordinate or, without one, from its beginning. What
+    a part does not have is NaN, or empty text.
+    """
+    labels: dict[str, xr.Variable] = {}
+    lengths: dict[str, int] = {}
+    for dim in dict.fromkeys(str(dim) for part in parts.values() for dim in part.dims):
+        lengths[dim] = max(part.sizes.get(dim, 0) for part in parts.values())
+        coordinates = [part.variables[dim] for part in parts.values() if dim in part.coords]
+        if coordinates:
+            values = np.unique(np.concatenate([variable.values for variable in coordinates]))
+            labels[dim] = xr.Variable(dim, values, coordinates[0].attrs)
+            lengths[dim] = values.size
+    data: dict[str, xr.Variable] = {}
+    for name in dict.fromkeys(str(name) for part in parts.values() for name in part.variables):
+        if name in labels:
+            continue
+        variables = {at: part.variables[name] for at, part in parts.items() if name in part}
+        example = next(iter(variables.values()))
+        inner = tuple(str(dim) for dim in example.dims)
+        shape = (*sizes.values(), *(lengths[dim] for dim in inner))
+        filled = sum(variable.size for variable in variables.values()) == math.prod(shape)
+        fill: Any = "" if example.dtype.kind in "OUST" else math.nan
+        if fill == "":
+            dtype: Any = object
+        else:
+            kinds = {variable.dtype for variable in variables.values()}
+            dtype = np.result_type(*kinds, *([] if filled else [np.float64]))
+        values = np.empty(shape, dtype) if filled else np.full(shape, fill, dtype)
+        for at, variable in variables.items():
+            positions = [
+                np.searchsorted(labels[dim].values, parts[at][dim].values)
+                if dim in labels
+                else np.arange(variable.sizes[dim])
+                for dim in inner
+            ]
+            where: Any = (*at, *np.ix_(*positions))
+            values[where] = variable.transpose(*inner).values if inner else variable.values.item()
+        data[name] = xr.Variable((*sizes, *inner), values, example.attrs)
+    return xr.Dataset(data, labels)
