@@ -7,10 +7,10 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Literal
 
 import xarray as xr
+from gripscale.charts.print_study import colours
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from gripscale.charts.print_study import colours
 from gripscale.charts.style import GREY, NARROW, WIDE, area_axis, falling_wavelength, sheet, styled
 from gripscale.core.units import MILLI
 

@@ -14,7 +14,7 @@ import gripscale as gs
 from gripscale.analysis import Comparison, Sample, SolvedRung, compare_case, solve_reference
 from gripscale.analysis.comparison import FILE, reference_totals
 from gripscale.case import prepare_case
-from gripscale.charts.print_comparison import comparison_axis_figure, comparison_figure
+from gripscale.charts.comparison import comparison_axis_figure, comparison_figure
 from gripscale.charts.view import PredictionView
 from gripscale.io import netcdf
 from gripscale.report.tables_comparison import comparison_table, judgement, remarks
