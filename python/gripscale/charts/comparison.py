@@ -169,8 +169,8 @@ def _row_marks(at: int, row: Row) -> Iterator[Mark]:
     factor = ""
     if math.isfinite(row.before):
         shade = ORANGE if row.value > row.before else BLUE
-        ends = sorted((row.before, row.value))
-        yield Bars(*ends, at - HALF, at + HALF, shade, alpha=0.35, order=1.5)
+        left, right = sorted((row.before, row.value))
+        yield Bars(left, right, at - HALF, at + HALF, shade, alpha=0.35, order=1.5)
         factor = f"×{row.factor:.2f}"
         yield Note(1.0, at, factor, offset=(3.0, 0.0), frame="x")
     if row.samples:
@@ -237,7 +237,7 @@ def _curve(x: Array, y: Array, rung: xr.Dataset, look: Look, beyond: NDArray[np.
         look.dash,
         width=2.0 if strong else 1.2,
         marker=look.marker,
-        size=4.0,
+        size=4.0 if strong else 3.2,
         beyond=beyond,
         order=3.0 if strong else 2.0,
         clip=False,
@@ -273,12 +273,12 @@ def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
         values, spread = rung[f"total_{name}"].values, rung[f"{name}_spread"].values
         if not np.isfinite(values).any():
             continue
+        curve = _curve(x, values, rung, look, predictions_beyond(rung))
+        marks.append(replace(curve, filled=(rung.converged_samples == rung.samples).values))
         if np.isfinite(spread).any():
             # A spread above the number itself has no end on a logarithmic axis.
             low = np.maximum(values - spread, 1e-3 * values)
-            marks.append(Band(x, low, values + spread, look.colour, alpha=0.18))
-        curve = _curve(x, values, rung, look, predictions_beyond(rung))
-        marks.append(replace(curve, filled=(rung.converged_samples == rung.samples).values))
+            marks.append(Band(x, low, values + spread, look.colour, curve.label, alpha=0.18))
     if np.isfinite(comparison[f"best_{name}_factor"]).any():
         best, sigma = (comparison[f"best_{name}{end}"].values for end in ("", "_uncertainty"))
         ends = {"low": best * np.exp(-sigma), "high": best * np.exp(sigma)}

@@ -146,10 +146,10 @@ def measured(data: xr.Dataset) -> Iterator[MeasuredSeries]:
                 words.append(f"{temperature - ZERO_CELSIUS:.0f} °C")
             if several and not math.isnan(pressure):
                 words.append(how.text(float(pressure), 3))
-            columns = (
+            speed, friction, spread = (
                 data[f"measured_{name}"].values[rows] for name in ("speed", "friction", "spread")
             )
-            yield MeasuredSeries(", ".join(words), *columns, rows)
+            yield MeasuredSeries(", ".join(words), speed, friction, spread, rows)
 
 
 def measured_points(data: xr.Dataset, how: DisplayUnit) -> Iterator[Series]:

@@ -27,9 +27,11 @@ LEGEND_ROW = 28
 LEGEND_WIDTH = 300
 """Width the legend should keep within [px], that of a telephone; a letter takes about 6."""
 PIXELS = 1.3
-"""Pixels of a line on the page for each point of its width on paper; of a marker twice that."""
+"""Pixels of a line on the page for each point of its width on paper."""
 LEAST_MARKER = 6.0
 """Size of a marker that a pointer can hit [px]."""
+LEAST_RANGE = 4.0
+"""Largest over smallest number of a logarithmic ordinate, so that there are numbers along it."""
 MOST_HOVERED = 2000
 """Points of a curve that tells its numbers under the pointer."""
 MOST_EXACT = 300
@@ -45,7 +47,7 @@ MARKERS = {
 
 LETTERS = {
     "\\lambda": "λ", "\\mu": "μ", "\\omega": "ω", "\\tau": "τ", "\\epsilon": "ε", "'": "′",
-    "^2": "²", "^3": "³", "_i": "ᵢ", "_{10}": "₁₀", "\\log": "log", "\\ln": "ln ", "\\": "",
+    "^*": "*", "^2": "²", "^3": "³", "_i": "ᵢ", "_{10}": "₁₀", "\\ln": "ln ", "\\": "",
 }  # fmt: skip
 """Letters of equations without mathematical type."""
 
@@ -130,7 +132,7 @@ def _style(figure: Any) -> None:
 
 def _extent(marks: Sequence[Mark], which: str) -> Array:
     """Return all finite numbers that marks show along an axis."""
-    parts: list[ArrayLike] = []
+    parts: list[Any] = []
     for mark in marks:
         match mark:
             case Series():
@@ -143,8 +145,8 @@ def _extent(marks: Sequence[Mark], which: str) -> Array:
                 parts += [mark.left, mark.right] if which == "x" else [mark.start, mark.end]
             case Level() if mark.upright == (which == "x"):
                 parts.append(mark.at)
-    values = np.concatenate([np.ravel(np.asarray(part, dtype=float)) for part in (*parts, [])])
-    return values[np.isfinite(values)]
+    values: Array = np.concatenate([np.ravel(np.asarray(part, float)) for part in (*parts, [])])
+    return np.asarray(values[np.isfinite(values)])
 
 
 def _set_axis(figure: Any, which: str, axis: Axis, values: Array) -> None:
@@ -167,12 +169,10 @@ def _set_axis(figure: Any, which: str, axis: Axis, values: Array) -> None:
     if not axis.log or not values.size:
         return
     if which == "y" and (axis.low is None or axis.high is None):
-        # Over less than two decades Bokeh's ticks are those of a linear axis, too few to read.
-        high = np.ceil(np.log10(values.max()) - 1e-6)
-        low = min(np.floor(np.log10(values.min())), high - 2.0)
-        limits.update(start=10.0 ** (low - 0.05), end=10.0 ** (high + 0.1))
-    elif values.max() < 60.0 * values.min() and axis.ticks is None:
-        # Bokeh's own labels of a short log axis would round 0.2 and 0.5 to 0.1 and 1.
+        room = max(LEAST_RANGE * values.min() / values.max(), 1.2) ** 0.5
+        limits.update(start=values.min() / room, end=values.max() * room)
+    if values.max() < 60.0 * values.min() and axis.ticks is None:
+        # Bokeh's own labels of a short log axis are few, and would round 0.2 and 0.5 to 0.1 and 1.
         first = int(np.floor(np.log10(values.min()))) - 1
         ticks = [m * 10.0**n for n in range(first, first + 5) for m in (1, 2, 5)]
         drawn.ticker = grid.ticker = FixedTicker(ticks=ticks)
@@ -204,7 +204,7 @@ def _draw_series(figure: Any, series: Series, *, positive: bool) -> list[Any]:
             drawn.append(figure.line(x[part], y[part], line_width=width, line_dash=dash, **look))
     if series.marker:
         filled = np.broadcast_to(np.asarray(series.filled, dtype=bool), x.shape)
-        size = max(2.0 * PIXELS * series.size * 0.6, LEAST_MARKER if series.size > 2.0 else 3.0)
+        size = 4.5 if series.marker == "." else max(1.2 * PIXELS * series.size, LEAST_MARKER)
         for chosen, face in ((filled, series.colour), (~filled, "white")):
             if chosen.any():
                 drawn.append(figure.scatter(
@@ -234,8 +234,8 @@ def _draw_level(figure: Any, level: Level, marks: Sequence[Mark]) -> None:
         "line_width": PIXELS * level.width,
     }
     across = _extent(marks, "x")
-    if level.upright or not across.size:
-        dimension = "height" if level.upright else "width"
+    if level.upright or not (level.label and across.size):
+        dimension: Any = "height" if level.upright else "width"
         figure.add_layout(Span(location=level.at, dimension=dimension, **look))
         x = y = [np.nan, np.nan]
     else:
@@ -243,7 +243,7 @@ def _draw_level(figure: Any, level: Level, marks: Sequence[Mark]) -> None:
     figure.line(x, y, name=plain(level.label), **look, **_labelled(level.label))
 
 
-def _labelled(label: str) -> dict[str, str]:
+def _labelled(label: str) -> dict[str, Any]:
     """Return the entry of the legend, if there is one."""
     return {"legend_label": plain(label)} if label else {}
 

@@ -126,13 +126,16 @@ def draw(sheet: Sheet) -> Figure:
 
 
 def _draw_panel(figure: Figure, axes: Axes, panel: Panel) -> None:
+    which: Any
     for which, axis in (("x", panel.x), ("y", panel.y)):
         if axis.log:  # before anything is drawn: a linear axis may start below zero
             axes.set(**{f"{which}scale": "log"})
         axes.set(**{f"{which}label": axis.label})
         axes.grid(axis.grid, axis=which)
         if axis.margin is not None:
-            axes.margins(**{which: axis.margin})
+            (axes.set_xmargin if which == "x" else axes.set_ymargin)(axis.margin)
+        if axis.low is not None and axis.high is not None:  # nothing need be drawn between them
+            (axes.set_xlim if which == "x" else axes.set_ylim)(axis.low, axis.high)
     for mark in panel.marks:
         _draw_mark(figure, axes, mark)
     if any(isinstance(mark, Bars) for mark in panel.marks):
@@ -140,7 +143,8 @@ def _draw_panel(figure: Figure, axes: Axes, panel: Panel) -> None:
     if panel.title:
         axes.set_title(panel.title)
     if panel.legend not in ("", "none"):
-        axes.legend(loc=panel.legend)
+        place: Any = panel.legend
+        axes.legend(loc=place)
 
 
 def _end_axis(axes: Axes, which: str, axis: Axis) -> None:
@@ -226,7 +230,7 @@ def _draw_series(axes: Axes, series: Series) -> None:
         own |= {"marker": ""} if mixed else {}
         # nothing, unclipped, has no place on a logarithmic axis
         own["clip_on"] = series.clip or not np.isfinite(y[part]).any()
-        named = {"label": label} if label and not dashed and not mixed else {}
+        named: dict[str, Any] = {"label": label} if label and not dashed and not mixed else {}
         axes.plot(x[part], y[part], **own, **named)
         label = "" if named else label
     if label:
@@ -246,15 +250,15 @@ def _draw_band(axes: Axes, band: Band) -> None:
 
 
 def _draw_note(axes: Axes, note: Note) -> None:
-    frames = {"": "data", "x": ("axes fraction", "data"), "xy": "axes fraction"}
+    frames: dict[str, Any] = {"": "data", "x": ("axes fraction", "data"), "xy": "axes fraction"}
     axes.annotate(
         note.text,
         (note.x, note.y),
         note.offset,
-        xycoords=frames[note.frame],  # type: ignore[arg-type]
+        xycoords=frames[note.frame],
         textcoords="offset points",
         va="top" if note.top else "center",
-        ha=note.align,  # type: ignore[arg-type]
+        ha=note.align,
         fontsize=7.0,
         fontstyle="italic" if note.italic else "normal",
         color=note.colour,

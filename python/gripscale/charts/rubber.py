@@ -6,9 +6,9 @@ The master curve with its Prony series and the frequencies that the waves excite
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
@@ -117,8 +117,9 @@ def _moduli_panels(
     moduli: list[Mark] = []
     for part, name, colour in MODULI:
         if f"series_low_{part}" in inputs:
-            edges = (inputs[f"series_{side}_{part}"].values / MEGA for side in ("low", "high"))
-            moduli.append(Band(omega, *edges, colour, f"{name}, admissible"))
+            sides = (f"series_{side}_{part}" for side in ("low", "high"))
+            least, most = (inputs[side].values / MEGA for side in sides)
+            moduli.append(Band(omega, least, most, colour, "admissible"))
         values = inputs[f"series_{part}"].values / MEGA
         moduli.append(Series(omega, values, colour, f"{name}, Prony series", beyond=beyond))
     for part, name, colour in MODULI if measured else ():
@@ -177,7 +178,7 @@ def _rows(
     yield Series(omega[~out], values[~out], colour, f"{name}, measured", "", marker=".", size=3.5,
                  alpha=0.6, listed=listed)  # fmt: skip
     if out.any():
-        yield Series(omega[out], values[out], colour, f"{name}, left out of the fit", "",
+        yield Series(omega[out], values[out], colour, "left out of the fit", "",
                      marker="x", listed=listed)  # fmt: skip
 
 
@@ -266,7 +267,7 @@ def superposition_figure(sweeps: Sweeps, master: MasterCurve) -> Figure:
         (sweeps, "as measured", Axis("frequency $f$ [Hz]", log=True)),
         (shifted, f"shifted to {celsius:.1f} °C", Axis("$a_T f$ [Hz]", log=True, numbers=6)),
     )
-    quantities = {
+    quantities: dict[str, Callable[[Sweep], Array]] = {
         "$E'$ [MPa]": lambda sweep: sweep.storage / MEGA,
         "$E''$ [MPa]": lambda sweep: sweep.loss / MEGA,
         "$E''/E'$ [-]": lambda sweep: sweep.loss / sweep.storage,
@@ -317,7 +318,7 @@ def shift_figure(table: ShiftTable, fits: Sequence[ShiftFit] = ()) -> Figure:
 
     def factors(values: Array, error: Array, label: str = "") -> Series:
         spread = 2.0 * np.nan_to_num(error)
-        ends = {"low": values - spread, "high": values + spread}
+        ends: dict[str, Any] = {"low": values - spread, "high": values + spread}
         return Series(celsius, values, INK, label, "", marker="o", size=3.2, **ends)
 
     shifts: list[Mark] = [
@@ -382,7 +383,7 @@ def superposition_tests_figure(sweeps: Sweeps, report: Superposition) -> Figure:
             marks.append(Series(x, y, colour, marker="o", size=2.2, width=0.8))
     overlaps = report.overlaps
     middle = np.array([0.5 * (pair.colder + pair.warmer) for pair in overlaps]) - ZERO_CELSIUS
-    look = {"marker": "o", "size": 3.2, "width": 0.9}
+    look: dict[str, Any] = {"marker": "o", "size": 3.2, "width": 0.9}
     apart = [
         Series(middle, [getattr(pair, name) for pair in overlaps], colour, label, **look)
         for name, label, colour in (*MODULI, ("loss_factor", "$E''/E'$", GREEN))

@@ -9,7 +9,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import product
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
@@ -74,7 +74,7 @@ def varied_axis(data: xr.Dataset, name: str) -> tuple[Axis, Array]:
     """Return a varied axis of numbers and its values as they are drawn."""
     x = axis_shown(data, name).of(data[name].values)
     low, high = float(x.min()), float(x.max())
-    limits = {"low": low, "high": high} if high > low else {}
+    limits: dict[str, Any] = {"low": low, "high": high} if high > low else {}
     return Axis(axis_label(data, name), log=low > 0.0 and high > 8.0 * low, **limits), x
 
 
@@ -183,9 +183,13 @@ def totals_figure(result: xr.Dataset) -> Figure:
     names = dimensions(result)
     axis = (numeric(result) or names)[0]
     area, friction = (_total_panel(result, name, axis) for name in TOTALS)
+    keys = []
     if AT_REST in result:
         area = area.with_marks(_rest(result, axis, [name for name in names if name != axis]))
-    keys = []
+        if len(names) > 1:
+            numbers = of_numbers(result, axis)
+            dash, marker = ("dotted", "") if numbers else ("", "o")
+            keys.append(Series([], [], INK, "at rest", dash, 1.1, marker, filled=False))
     if any(name.endswith(" *") for name in (area.x.ticks or {}).values()):
         keys.append(Series([], [], GREY, BEYOND, dash="", marker="$*$"))
     several = len(area.marks) > 1 or bool(keys)
@@ -201,11 +205,11 @@ def _rest(result: xr.Dataset, axis: str, others: list[str]) -> Iterator[Mark]:
     x = varied_axis(result, axis)[1] if numbers else np.arange(result.sizes[axis], dtype=float)
     for at, colour, _ in _curves(result, others, thinned=False):
         piece = rest.isel({name: i for name, i in at.items() if name in rest.dims})
-        colour = colour if others else INK
+        label, colour = ("", colour) if others else ("at rest", INK)
         if axis not in piece.dims:
-            yield Level(float(piece), colour, "at rest", "dotted", 1.1)
+            yield Level(float(piece), colour, label, "dotted", 1.1)
         else:
-            yield Series(x, piece.values, colour, "at rest", "dotted" if numbers else "", 1.1,
+            yield Series(x, piece.values, colour, label, "dotted" if numbers else "", 1.1,
                          "" if numbers else "o", filled=False)  # fmt: skip
 
 
@@ -348,8 +352,8 @@ def _stack(rows: Array) -> tuple[Array, Array]:
 def _wave_bands(result: xr.Dataset, x: Array, low: Array, high: Array, beyond: Flags) -> list[Mark]:
     """Return a band for each wave, the last first: so they stand in the legend as in the stack."""
     bands: list[Mark] = [
-        Band(x, *ends, colour, name, 1.0, flags, edged=True)
-        for *ends, colour, name, flags in zip(
+        Band(x, least, most, colour, name, 1.0, flags, edged=True)
+        for least, most, colour, name, flags in zip(
             low, high, shades(len(low)), wavelength_names(result), beyond, strict=True
         )
     ]
@@ -366,16 +370,20 @@ def decades_figure(result: xr.Dataset, axis: str, title: str = "") -> Figure:
     share = share.isel(decade=np.nanmax(share.values, axis=1) >= LEAST_SHARE)
     abscissa, x = varied_axis(result, axis)
     low, high = _stack(np.nan_to_num(share.values))
-    scale = shades(max(share.sizes["decade"], 2), "Cividis", 1.0)
+    scale = shades(max(share.sizes["decade"], 2), "Cividis")
     marks: list[Mark] = [
-        Band(x, *ends, colour, power_of_ten(round(math.log10(time))), 1.0, edged=True)
-        for *ends, colour, time in zip(low, high, scale, share.decade.values, strict=False)
+        Band(x, least, most, colour, power_of_ten(round(math.log10(time))), 1.0, edged=True)
+        for least, most, colour, time in zip(low, high, scale, share.decade.values, strict=False)
     ]
     total = Series(x, high[-1] if len(high) else 0.0 * x, INK, width=1.2, clip=False,
                    beyond=predictions_beyond(result))  # fmt: skip
     ordinate = Axis("share in $\\mu$, split as at small strain [-]", low=0.0, high=1.0)
     panel = Panel(abscissa, ordinate, [*marks[::-1], total])
-    look = {"legend": "beside", "legend_title": "relaxation\ntime from [s]", "title": title}
+    look: dict[str, Any] = {
+        "legend": "beside",
+        "legend_title": "relaxation\ntime from [s]",
+        "title": title,
+    }
     return on_paper(Sheet([panel], 1, NARROW, 3.6, gap=0.02, **look))
 
 

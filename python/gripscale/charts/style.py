@@ -34,10 +34,11 @@ Flags = NDArray[np.bool_]
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
-def shades(count: int, scale: str = "Viridis", top: float = 0.88) -> list[str]:
+def shades(count: int, scale: str = "Viridis") -> list[str]:
     """Return colours in order, from dark to light, of one of Bokeh's palettes of 256."""
     from bokeh import palettes  # a quarter of a second, which few charts need
 
+    top = 0.88 if scale in ("Viridis", "Plasma") else 1.0  # their ends are too pale for lines
     palette: tuple[str, ...] = getattr(palettes, f"{scale}256")
     return [palette[round(255 * top * share)] for share in np.linspace(0.0, 1.0, max(count, 1))]
 

@@ -8,8 +8,8 @@ back there, are dotted. Neither is drawn beyond the first wavelength.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
@@ -74,20 +74,20 @@ def _profile_panels(raw: Profile, cleaned: Profile, number: int) -> list[Panel]:
     trend = np.polyfit(cleaned.x[np.isfinite(both)], both[np.isfinite(both)], 1)
     piece = (raw.x >= x[0]) & (raw.x <= x[0] + CLOSE_UP) & ~kept
     level = raw.z[piece] - np.polyval(trend, raw.x[piece])
-    dots = {"colour": ORANGE, "dash": "", "marker": ".", "coarse": True}
+    dots: dict[str, Any] = {"colour": ORANGE, "dash": "", "marker": ".", "coarse": True}
     rows: dict[str, list[Mark]] = {
         "as read": [
-            _outline(*envelope(raw.x, np.where(kept, raw.z, np.nan), PIECES), "kept", GREY),
+            _outline(envelope(raw.x, np.where(kept, raw.z, np.nan), PIECES), "kept", GREY),
             Series(raw.x[removed] / MILLI, raw.z[removed] / MILLI, size=1.0, order=1.5,
                    **dots),
         ],
-        "cleaned": [_outline(*envelope(cleaned.x, cleaned.z, PIECES), "cleaned", BLUE)],
+        "cleaned": [_outline(envelope(cleaned.x, cleaned.z, PIECES), "", BLUE)],
         "close up": [
             Series(x / MILLI, z / MILLI, label="cleaned", width=0.9),
             Series(raw.x[piece] / MILLI, level / MILLI, size=4.5, **dots),
         ],
     }  # fmt: skip
-    ends = {"low": float(raw.x[0]) / MILLI, "high": float(raw.x[-1]) / MILLI}
+    ends: dict[str, Any] = {"low": float(raw.x[0]) / MILLI, "high": float(raw.x[-1]) / MILLI}
     panels = []
     for row, marks in rows.items():
         abscissa = {"as read": Axis(**ends), "cleaned": Axis(DISTANCE.label, **ends)}
@@ -97,9 +97,9 @@ def _profile_panels(raw: Profile, cleaned: Profile, number: int) -> list[Panel]:
     return panels
 
 
-def _outline(x: ArrayLike, low: ArrayLike, high: ArrayLike, label: str, colour: str) -> Series:
-    """Return what a line of all points would show, in so few that it is quickly drawn."""
-    along, heights = trace(x, low, high)
+def _outline(parts: Iterable[ArrayLike], label: str, colour: str) -> Series:
+    """Return a profile by abscissa, lowest and highest height of its pieces, quickly drawn."""
+    along, heights = trace(*parts)
     return Series(along / MILLI, heights / MILLI, colour, label, width=0.45)
 
 
@@ -117,7 +117,7 @@ def profile_charts(inputs: xr.Dataset) -> list[Chart]:
     for i, name in enumerate(str(name) for name in inputs["profile_name"].values):
         profile = inputs.isel(profile=i)
         outlines = [
-            _outline(*(profile[f"{part}_{end}"].values for end in ("x", "lowest", "highest")),
+            _outline((profile[f"{part}_{end}"].values for end in ("x", "lowest", "highest")),
                      label, colour)
             for part, label, colour in (("read", "as read", GREY), ("cleaned", "cleaned", BLUE))
         ]  # fmt: skip
@@ -171,8 +171,9 @@ def correlation_charts(inputs: xr.Dataset) -> list[Chart]:
     lag, value = inputs["lag"].values, inputs["correlation_value"].values
     ends = (inputs[f"correlation_{end}"].values for end in ("lower", "upper"))
     panel = _correlation_panel(lag, value, *ends)
-    curves = (inputs[name].values for name in ("fine_lag", "fine_sines", "fine_pure_sines"))
-    marks = _waves(*curves, "sine waves, as fitted", BLUE)
+    names = ("fine_lag", "fine_sines", "fine_pure_sines")
+    lags, fitted, pure = (inputs[name].values for name in names)
+    marks = _waves(lags, fitted, pure, "sine waves, as fitted", BLUE)
     if SELF_AFFINE in inputs:
         label = f"self-affine, $H$ = {inputs.attrs['self_affine_hurst']:.2f}"
         marks.append(_self_affine(lag, inputs[SELF_AFFINE].values, label))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
@@ -62,7 +62,7 @@ def distribution_figure(data: xr.Dataset) -> Figure:
                 marks,
                 title=str(model) if first else "",
             ))  # fmt: skip
-    keys = [
+    keys: list[Mark] = [
         Level(0.0, INK, "median", width=MEDIAN),
         Level(0.0, INK, "5 and 95 %", width=END),
         Series([], [], INK, "the case itself", dash="", marker="v"),
@@ -102,7 +102,7 @@ def tornado_figure(one: xr.Dataset) -> Figure:
             left, right = sorted((middle, end))
             shade = colour if seen else GREY
             bars.append(Bars(left, right, place - 0.3, place + 0.3, shade))
-        ends = {"low": [shares[k] - errors[k]], "high": [shares[k] + errors[k]]}
+        ends: dict[str, Any] = {"low": [shares[k] - errors[k]], "high": [shares[k] + errors[k]]}
         dots.append(Series([shares[k]], [place], INK if seen else GREY, dash="", marker="o",
                            size=4.0, level_bars=True, **ends))  # fmt: skip
     rows = Axis(ticks={float(i): str(one.label.values[k]) for i, k in enumerate(ranked)})
@@ -207,7 +207,7 @@ def profiles_figure(data: xr.Dataset) -> Figure:
     columns = min(count, 2)
     panels = [_profile_panel(data.isel(parameter=at)) for at in range(count)]
     height = 0.4 + 2.1 * -(-count // columns)
-    look = {"legend_columns": 4, "gap": 0.05}
+    look: dict[str, Any] = {"legend_columns": 4, "gap": 0.05}
     return on_paper(Sheet(panels, columns, 3.5 * columns, height, **look))
 
 

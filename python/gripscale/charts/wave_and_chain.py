@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
@@ -388,7 +388,7 @@ def heat_figure(data: xr.Dataset, title: str = "") -> Figure:
                         size=4.0, filled=False))  # fmt: skip
     label = f"above the {before - ZERO_CELSIUS:.3g} °C before the contact [K]"
     panel = Panel(wavelength_axis(length), Axis(label, margin=0.08), marks)
-    look = {"legend_columns": 2, "legend_title": title, "gap": 0.02}
+    look: dict[str, Any] = {"legend_columns": 2, "legend_title": title, "gap": 0.02}
     return on_paper(Sheet([panel], 1, NARROW, 3.4, **look))
 
 
