@@ -338,9 +338,9 @@ def measured_chart(found: MeasuredFriction, predictions: Views) -> Chart:
 # How warm the rubber gets in a contact: on every scale, and along the surface.
 
 PARTS = {
-    "warming_uniform": ("all waves, spread evenly", SKY),
-    "warming_larger_waves": ("in the contact of larger waves", BLUE),
-    "warming_own": ("the wave's own", ORANGE),
+    "flash_temperature_rise_uniform": ("all waves, spread evenly", SKY),
+    "flash_temperature_rise_larger_waves": ("in the contact of larger waves", BLUE),
+    "flash_temperature_rise_own": ("the wave's own", ORANGE),
 }
 """What warms a wave where it loses energy: name in results, in legends, and colour."""
 BAR = 1.25
@@ -373,7 +373,7 @@ def heat_figure(data: xr.Dataset, title: str = "") -> Figure:
         If there are no temperatures in it.
     """
     require_warming(data)
-    data = data.isel(scale=np.isfinite(data.warming_own.values))
+    data = data.isel(scale=np.isfinite(data.flash_temperature_rise_own.values))
     length = data.wavelength.values / MILLI
     above, below = np.zeros(length.size), np.zeros(length.size)
     marks: list[Mark] = [Level(0.0, INK, width=0.7)]
