@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from gripscale.charts.chart import (
     Axis,
-    Level,
+    CrossLine,
     Mark,
     Panel,
     Series,
@@ -81,7 +81,7 @@ def correlations_figure(
             label = f"eq. 6, $H$ = {fit.hurst:.2f}"
             marks += [
                 Series(lag / MILLI, fit.evaluate(lag) / SQUARE_MM, ORANGE, label),
-                Level(fit.xi_parallel / MILLI, GREY, dash="dashed", upright=True),
+                CrossLine(fit.xi_parallel / MILLI, GREY, dash="dashed", upright=True),
             ]
         panels.append(Panel(LAG, CORRELATION, marks, name, legend="lower right"))
     return _correlations(panels, height=3.5)

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import gripscale as gs
-from gripscale.charts.chart import Axis, Level, Mark, Panel, Series, Sheet, on_paper
+from gripscale.charts.chart import Axis, CrossLine, Mark, Panel, Series, Sheet, on_paper
 from gripscale.charts.paper import save_figure
 from gripscale.charts.style import BLUE, GREEN, GREY, ORANGE
 from tests.verification.test_convergence import COLUMNS, FAMILIES, Errors, errors_of
@@ -55,7 +55,7 @@ def transient_figure(moving: gs.TransientResult, steady: gs.ScaleResult) -> Figu
         ("friction coefficient [-]", moving.friction, [steady.friction, -steady.friction]),
         ("contact fraction [-]", moving.contact_fraction, [steady.contact_fraction]),
     ):
-        marks: list[Mark] = [Level(at, GREY, "steady state", "dotted", 1.2) for at in levels]
+        marks: list[Mark] = [CrossLine(at, GREY, "steady state", "dotted", 1.2) for at in levels]
         marks += [
             Series(distance[~back], values[~back], BLUE, "forth, with a stop at 1.5"),
             Series(distance[turn:], values[turn:], GREEN, "back"),

@@ -88,8 +88,8 @@ def _draw(view: PredictionView, waves: Any, columns: int, width: float) -> Figur
             (left / width, 1 - (top + high) / height, inside / width, high / height)
         )
 
-    for place, i in enumerate(waves):
-        row, column = divmod(place, columns)
+    for number, i in enumerate(waves):
+        row, column = divmod(number, columns)
         left, top = LEFT + column * (inside + BETWEEN), row * row_height + head
         above = panel(left, top, inside * PRESSURE)
         below = panel(left, top + inside * PRESSURE + MIDDLE, inside * (high - low))
@@ -98,15 +98,15 @@ def _draw(view: PredictionView, waves: Any, columns: int, width: float) -> Figur
         else:
             _no_solution(above, view, i)
         _block(below, view, i, (low, high))
-        above.set_title(captions[place], loc="left", y=1.0, fontsize=7.0, parse_math=False)
-        if place == 0 and view.converged[i]:
+        above.set_title(captions[number], loc="left", y=1.0, fontsize=7.0, parse_math=False)
+        if number == 0 and view.converged[i]:
             _annotate(above, below, view, i)
         if column == 0:
             above.set_ylabel(f"$p_c$ [{view.shown('pressure').unit}]")
             below.set_ylabel("$z/\\lambda$ [-]")
         else:
             below.set_yticks([])  # those of the first block hold along the row
-        if place + columns >= len(waves):
+        if number + columns >= len(waves):
             below.set_xlabel("$x/\\lambda$ [-]")
     return figure
 
@@ -186,9 +186,9 @@ def _annotate(above: Axes, below: Axes, view: PredictionView, i: int) -> None:
     above.annotate("mean", mean, (0, 2), textcoords="offset points", color=GREY, fontsize=6.5)
     if view.column("sliding_speed")[i] > 0.0:
         box = {"facecolor": "white", "edgecolor": "none", "pad": 1.5}
-        place: dict[str, Any] = {"fontsize": 7.0, "va": "top", "bbox": box}
+        look: dict[str, Any] = {"fontsize": 7.0, "va": "top", "bbox": box}
         text = "rubber slides $\\rightarrow$"
-        below.text(0.05, 0.95, text, transform=below.transAxes, **place)
+        below.text(0.05, 0.95, text, transform=below.transAxes, **look)
 
 
 def _mesh(axes: Axes, x: Array, z: Array, top: float) -> None:

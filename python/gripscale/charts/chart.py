@@ -7,6 +7,7 @@ equations stand between dollar signs, such as "friction $\mu$ [-]"; the page spe
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
@@ -14,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gripscale.charts.style import BLUE, FAINT, GREY, INK, WIDE
+from gripscale.charts.style import BLUE, GREY, INK, WIDE
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -22,6 +23,24 @@ if TYPE_CHECKING:
     from gripscale.charts.page_elements import Chart
 
 Array = NDArray[np.float64]
+
+LETTERS = {
+    "\\lambda": "λ", "\\mu": "μ", "\\omega": "ω", "\\tau": "τ", "\\epsilon": "ε", "'": "′",
+    "^*": "*", "^2": "²", "^3": "³", "_i": "ᵢ", "_{10}": "₁₀", "\\ln": "ln ", "\\": "",
+}  # fmt: skip
+"""Letters of equations without mathematical type."""
+
+
+def spelled_out(text: str) -> str:
+    """Return words with their letters of equations spelled out in Unicode."""
+
+    def letters_of(match: re.Match[str]) -> str:
+        letters = match[1].replace("''", "″")
+        for name, letter in LETTERS.items():
+            letters = letters.replace(name, letter)
+        return letters
+
+    return re.sub(r"\$(.*?)\$", letters_of, text)
 
 
 @dataclass(frozen=True)
@@ -109,12 +128,12 @@ class Band:
 
 @dataclass(frozen=True)
 class Bars:
-    """Rectangles from `left` to `right` and from `start` to `end`."""
+    """Rectangles from `x0` to `x1` and from `y0` to `y1`."""
 
-    left: ArrayLike
-    right: ArrayLike
-    start: ArrayLike
-    end: ArrayLike
+    x0: ArrayLike
+    x1: ArrayLike
+    y0: ArrayLike
+    y1: ArrayLike
     colour: str = BLUE
     label: str = ""
     alpha: float = 1.0
@@ -122,8 +141,8 @@ class Bars:
 
 
 @dataclass(frozen=True)
-class Level:
-    """A straight line across the panel: level at a height, or upright at an abscissa."""
+class CrossLine:
+    """A straight line across the panel at a height, or upright at an abscissa; or a shade."""
 
     at: float
     colour: str = GREY
@@ -132,17 +151,8 @@ class Level:
     width: float = 0.8
     upright: bool = False
     order: float = 1.5
-
-
-@dataclass(frozen=True)
-class Zone:
-    """A shade across the panel between two heights, or upright between two abscissas."""
-
-    low: float
-    high: float
-    label: str = ""
-    upright: bool = False
-    colour: str = FAINT
+    to: float | None = None
+    """Other end of a shade, which is drawn on paper only; None for a line."""
 
 
 @dataclass(frozen=True)
@@ -166,7 +176,7 @@ class Note:
 
 
 @dataclass(frozen=True)
-class Field:
+class ValueMap:
     """Values over a plane, shape (y, x), with a colour bar; on paper only."""
 
     x: ArrayLike
@@ -177,7 +187,7 @@ class Field:
     """Most contours; 0 for a smooth map to scale."""
 
 
-Mark = Series | Band | Bars | Level | Zone | Note | Field
+Mark = Series | Band | Bars | CrossLine | Note | ValueMap
 
 
 @dataclass(frozen=True)
@@ -237,13 +247,13 @@ class Sheet:
 
 def on_paper(sheet: Sheet) -> Figure:
     """Draw a figure with matplotlib, which is imported here."""
-    from gripscale.charts.paper import draw
+    from gripscale.charts.paper import draw_sheet
 
-    return draw(sheet)
+    return draw_sheet(sheet)
 
 
 def on_page(panels: Iterable[Panel]) -> list[Chart]:
     """Draw interactive charts with Bokeh, which is imported here."""
-    from gripscale.charts.page import draw
+    from gripscale.charts.page import draw_panel
 
-    return [draw(panel) for panel in panels]
+    return [draw_panel(panel) for panel in panels]

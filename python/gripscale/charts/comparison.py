@@ -21,7 +21,7 @@ from gripscale.charts.chart import (
     Axis,
     Band,
     Bars,
-    Level,
+    CrossLine,
     Mark,
     Note,
     Panel,
@@ -29,6 +29,7 @@ from gripscale.charts.chart import (
     Sheet,
     on_page,
     on_paper,
+    spelled_out,
     wavelength_axis,
 )
 from gripscale.charts.ladder import (
@@ -70,8 +71,6 @@ QUANTITIES = {
     "contact_fraction": "contact area $A_r/A_0$",
     "friction": "friction coefficient $\\mu$",
 }
-LETTERS = {"contact_fraction": "contact area A_r/A_0", "friction": "friction coefficient μ"}
-"""The same in captions."""
 LEAST_RANGE = 3.0
 """Largest over smallest number of an axis, at least: less has no numbers of a log axis in it."""
 HALF = 0.27
@@ -138,7 +137,7 @@ def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
     theories = int((comparison.group == "theory").sum())
     rungs = on_the_surface(comparison).sizes["rung"]
     borders = [rungs - theories - 0.5, rungs - 0.5] if theories else [rungs - 0.5]
-    marks: list[Mark] = [Level(at, FAINT, order=0.0) for at in borders]
+    marks: list[Mark] = [CrossLine(at, FAINT, order=0.0) for at in borders]
     for at, (row, follower) in enumerate(pairwise(rows)):
         if math.isfinite(follower.before) and follower.before == row.value:
             marks.append(Series([row.value] * 2, [at, at + 1 - HALF], GREY, width=0.7, order=1.0))
@@ -146,14 +145,15 @@ def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
     labels = zip(comparison.rung.values, comparison.label.values, strict=True)
     strong = {BEST} | {f"{label}{end}" for rung, label in labels if rung == DIRECT
                        for end in ("", STAR)}  # fmt: skip
-    words = LETTERS[name]
+    words = spelled_out(QUANTITIES[name])
+    capital = words[0].upper() + words[1:]
     return Panel(
         Axis(f"{QUANTITIES[name]} [-]", log=True, low=low / room, high=high * room**2),
         Axis("", low=len(rows) - 0.4, high=-0.6, grid=False, bold=frozenset(strong),
              ticks={float(at): row.label for at, row in enumerate(rows)}),
         marks,
         name=f"ladder-{name}",
-        caption=f"{_capital(words)} from rung to rung: a bar runs from the rung before, blue "
+        caption=f"{capital} from rung to rung: a bar runs from the rung before, blue "
         "where the number falls, orange where it rises; lines are one standard uncertainty, a "
         "star is for friction partly beyond the measured band.",
         alt=f"{words} of each model, with the step from the one before.",
@@ -169,8 +169,8 @@ def _row_marks(at: int, row: Row) -> Iterator[Mark]:
     factor = ""
     if math.isfinite(row.before):
         shade = ORANGE if row.value > row.before else BLUE
-        left, right = sorted((row.before, row.value))
-        yield Bars(left, right, at - HALF, at + HALF, shade, alpha=0.35, order=1.5)
+        least, most = sorted((row.before, row.value))
+        yield Bars(least, most, at - HALF, at + HALF, shade, alpha=0.35, order=1.5)
         factor = f"×{row.factor:.2f}"
         yield Note(1.0, at, factor, offset=(3.0, 0.0), frame="x")
     if row.samples:
@@ -204,16 +204,17 @@ def _wavelength_panel(comparison: xr.Dataset, name: str) -> Panel:
     marks: list[Mark] = []
     for rung, look in _rungs(data):
         values = rung[f"running_{name}"].values
-        known = np.isfinite(values)
-        if known.any():
-            marks.append(_curve(length[known], values[known], rung, look, beyond[known]))
-    area, words = name == "contact_fraction", LETTERS[name]
+        solved = np.isfinite(values)
+        if solved.any():
+            marks.append(_curve(length[solved], values[solved], rung, look, beyond[solved]))
+    area, words = name == "contact_fraction", spelled_out(QUANTITIES[name])
+    capital = words[0].upper() + words[1:]
     return Panel(
         wavelength_axis(length),
         Axis(f"{QUANTITIES[name]} of longer waves [-]", log=area, low=None if area else 0.0),
         marks,
         name=f"by-wavelength-{name}",
-        caption=f"{_capital(words)} down to each wavelength, of every model: where area is lost "
+        caption=f"{capital} down to each wavelength, of every model: where area is lost "
         "and friction made. Dashed is beyond the measured band.",
         alt=f"Running {words} of each model against wavelength, which falls to the right.",
         height=400,
@@ -244,10 +245,6 @@ def _curve(x: Array, y: Array, rung: xr.Dataset, look: Look, beyond: NDArray[np.
     )
 
 
-def _capital(text: str) -> str:
-    return text[:1].upper() + text[1:]
-
-
 def comparison_axis_figure(comparison: xr.Dataset) -> Figure:
     """Draw area and friction of all rungs over the axis of a comparison.
 
@@ -267,7 +264,8 @@ def axis_charts(comparison: xr.Dataset) -> list[Chart]:
 def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
     comparison, axis = on_the_surface(comparison), varied(comparison)
     x = axis_shown(comparison, axis).of(comparison[axis].values)
-    area, words = name == "contact_fraction", LETTERS[name]
+    area, words = name == "contact_fraction", spelled_out(QUANTITIES[name])
+    capital = words[0].upper() + words[1:]
     marks: list[Mark] = []
     for rung, look in _rungs(comparison):
         values, spread = rung[f"total_{name}"].values, rung[f"{name}_spread"].values
@@ -301,7 +299,7 @@ def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
         Axis(f"{QUANTITIES[name]} [-]", log=area, low=None if area else least),
         marks,
         name=f"over-{axis}-{name}",
-        caption=f"{_capital(words)} of every model over {text}; bands are the standard deviation "
+        caption=f"{capital} of every model over {text}; bands are the standard deviation "
         "over its samples, dashed is beyond the measured band.",
         alt=f"{words} of each model against {text}.",
         height=400,

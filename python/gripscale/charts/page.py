@@ -5,7 +5,6 @@ Bokeh: https://bokeh.org. Its core script, 1.3 MB, is a quarter of the size of P
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from typing import Any
 
@@ -17,7 +16,7 @@ from bokeh.plotting import figure as Figure
 from numpy.typing import ArrayLike, NDArray
 
 from gripscale.charts import page_elements
-from gripscale.charts.chart import Axis, Band, Bars, Level, Mark, Panel, Series
+from gripscale.charts.chart import Axis, Band, Bars, CrossLine, Mark, Panel, Series, spelled_out
 from gripscale.charts.style import BEYOND, FAINT, GREY, INK, stretches
 
 Array = NDArray[np.float64]
@@ -45,34 +44,16 @@ MARKERS = {
 }  # fmt: skip
 """Bokeh's word for a marker in matplotlib's letters."""
 
-LETTERS = {
-    "\\lambda": "λ", "\\mu": "μ", "\\omega": "ω", "\\tau": "τ", "\\epsilon": "ε", "'": "′",
-    "^*": "*", "^2": "²", "^3": "³", "_i": "ᵢ", "_{10}": "₁₀", "\\ln": "ln ", "\\": "",
-}  # fmt: skip
-"""Letters of equations without mathematical type."""
 
-
-def plain(text: str) -> str:
-    """Return words with their letters of equations spelled out in Unicode."""
-
-    def spelled(match: re.Match[str]) -> str:
-        letters = match[1].replace("''", "″")
-        for name, letter in LETTERS.items():
-            letters = letters.replace(name, letter)
-        return letters
-
-    return re.sub(r"\$(.*?)\$", spelled, text)
-
-
-def draw(panel: Panel) -> page_elements.Chart:
+def draw_panel(panel: Panel) -> page_elements.Chart:
     """Return a chart of the page: the panel's Bokeh figure, with its caption and alternative."""
     figure = Figure(
         height=panel.height,
         sizing_mode="stretch_width",
         x_axis_type="log" if panel.x.log else "linear",
         y_axis_type="log" if panel.y.log else "linear",
-        x_axis_label=plain(panel.x.label),
-        y_axis_label=plain(panel.y.label),
+        x_axis_label=spelled_out(panel.x.label),
+        y_axis_label=spelled_out(panel.y.label),
         tools="pan,box_zoom,wheel_zoom,reset,save",
         active_drag="box_zoom",
         toolbar_location="right",
@@ -88,14 +69,14 @@ def draw(panel: Panel) -> page_elements.Chart:
             case Band():
                 _draw_band(figure, mark, positive=panel.y.log)
             case Bars():
-                left, right, start, end = np.broadcast_arrays(
-                    *np.atleast_1d(mark.left, mark.right, mark.start, mark.end)
+                x0, x1, y0, y1 = np.broadcast_arrays(
+                    *np.atleast_1d(mark.x0, mark.x1, mark.y0, mark.y1)
                 )
-                figure.quad(left=left, right=right, bottom=start, top=end, line_color=None,
+                figure.quad(left=x0, right=x1, bottom=y0, top=y1, line_color=None,
                             fill_color=mark.colour, fill_alpha=mark.alpha,
                             **_labelled(mark.label))  # fmt: skip
-            case Level():
-                _draw_level(figure, mark, panel.marks)
+            case CrossLine(to=None):
+                _draw_cross_line(figure, mark, panel.marks)
     curves = [mark for mark in panel.marks if isinstance(mark, Series)]
     if any(np.any(curve.beyond) for curve in curves):
         figure.line([np.nan] * 2, [np.nan] * 2, color=GREY, line_dash="dashed", legend_label=BEYOND)
@@ -142,8 +123,8 @@ def _extent(marks: Sequence[Mark], which: str) -> Array:
             case Band():
                 parts += [mark.x] if which == "x" else [mark.low, mark.high]
             case Bars():
-                parts += [mark.left, mark.right] if which == "x" else [mark.start, mark.end]
-            case Level() if mark.upright == (which == "x"):
+                parts += [mark.x0, mark.x1] if which == "x" else [mark.y0, mark.y1]
+            case CrossLine() if mark.upright == (which == "x"):
                 parts.append(mark.at)
     values: Array = np.concatenate([np.ravel(np.asarray(part, float)) for part in (*parts, [])])
     return np.asarray(values[np.isfinite(values)])
@@ -155,7 +136,7 @@ def _set_axis(figure: Any, which: str, axis: Axis, values: Array) -> None:
     limits = getattr(figure, f"{which}_range")
     if axis.ticks is not None:
         drawn.ticker = grid.ticker = FixedTicker(ticks=list(axis.ticks))
-        drawn.major_label_overrides = {at: plain(name) for at, name in axis.ticks.items()}
+        drawn.major_label_overrides = {at: spelled_out(name) for at, name in axis.ticks.items()}
     if axis.low is not None and axis.high is not None:
         start, end = _widened(axis.low, axis.high, log=axis.log)
         setattr(figure, f"{which}_range", Range1d(start=start, end=end))
@@ -190,7 +171,7 @@ def _widened(start: float, end: float, *, log: bool) -> tuple[float, float]:
 def _draw_series(figure: Any, series: Series, *, positive: bool) -> list[Any]:
     """Draw a curve, dashed beyond the measured band; return what shows its numbers."""
     x, y = _stored(series.x), _stored(series.y, positive=positive)
-    width, label = PIXELS * series.width, plain(series.label)
+    width, label = PIXELS * series.width, spelled_out(series.label)
     look: dict[str, Any] = {"color": series.colour, "alpha": series.alpha, "name": label}
     look |= _labelled(series.label)
     drawn = []
@@ -219,33 +200,33 @@ def _draw_series(figure: Any, series: Series, *, positive: bool) -> list[Any]:
 
 def _draw_band(figure: Any, band: Band, *, positive: bool) -> None:
     arrays = np.broadcast_arrays(_stored(band.x), _stored(band.low, positive=positive), band.high)
-    known = np.isfinite(arrays).all(axis=0)
-    x, low, high = (array[known] for array in arrays)
+    finite = np.isfinite(arrays).all(axis=0)
+    x, low, high = (array[finite] for array in arrays)
     look = {"fill_color": band.colour, "fill_alpha": band.alpha} | _labelled(band.label)
     if x.size:
         figure.varea(x=x, y1=low, y2=high, **look)
 
 
-def _draw_level(figure: Any, level: Level, marks: Sequence[Mark]) -> None:
+def _draw_cross_line(figure: Any, line: CrossLine, marks: Sequence[Mark]) -> None:
     """Draw a line across the panel: over all that is drawn, or where that has no end, a span."""
     look: dict[str, Any] = {
-        "line_color": level.colour,
-        "line_dash": DASHES[level.dash],
-        "line_width": PIXELS * level.width,
+        "line_color": line.colour,
+        "line_dash": DASHES[line.dash],
+        "line_width": PIXELS * line.width,
     }
     across = _extent(marks, "x")
-    if level.upright or not (level.label and across.size):
-        dimension: Any = "height" if level.upright else "width"
-        figure.add_layout(Span(location=level.at, dimension=dimension, **look))
+    if line.upright or not (line.label and across.size):
+        dimension: Any = "height" if line.upright else "width"
+        figure.add_layout(Span(location=line.at, dimension=dimension, **look))
         x = y = [np.nan, np.nan]
     else:
-        x, y = [across.min(), across.max()], [level.at] * 2
-    figure.line(x, y, name=plain(level.label), **look, **_labelled(level.label))
+        x, y = [across.min(), across.max()], [line.at] * 2
+    figure.line(x, y, name=spelled_out(line.label), **look, **_labelled(line.label))
 
 
 def _labelled(label: str) -> dict[str, Any]:
     """Return the entry of the legend, if there is one."""
-    return {"legend_label": plain(label)} if label else {}
+    return {"legend_label": spelled_out(label)} if label else {}
 
 
 def _stored(values: ArrayLike, *, positive: bool = False) -> NDArray[Any]:
@@ -257,7 +238,7 @@ def _stored(values: ArrayLike, *, positive: bool = False) -> NDArray[Any]:
 
 def _tip(label: str, value: str) -> tuple[str, str]:
     """Return name and value of a coordinate under the pointer, with the unit of its axis."""
-    words, _, unit = plain(label).rpartition(" [")
+    words, _, unit = spelled_out(label).rpartition(" [")
     unit = unit.partition("]")[0]
     return words or value.removeprefix("@"), value if unit in ("-", "") else f"{value} {unit}"
 

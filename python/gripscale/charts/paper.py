@@ -27,14 +27,13 @@ from gripscale.charts.chart import (
     Band,
     Bars,
     ColourBar,
-    Field,
-    Level,
+    CrossLine,
     Mark,
     Note,
     Panel,
     Series,
     Sheet,
-    Zone,
+    ValueMap,
 )
 from gripscale.charts.style import BEYOND, FAINT, GREY, INK, shades, short_number, stretches
 from gripscale.io.netcdf import write_whole
@@ -90,7 +89,7 @@ ROUND = (1, 2, 5, 10)
 """Steps between the numbers of a linear axis that has few."""
 
 
-def draw(sheet: Sheet) -> Figure:
+def draw_sheet(sheet: Sheet) -> Figure:
     """Return the figure of a sheet; matplotlib's own rules stay as they are."""
     with mpl.rc_context(RULES):
         rows = -(-len(sheet.panels) // sheet.columns)
@@ -118,8 +117,8 @@ def draw(sheet: Sheet) -> Figure:
                     axes.tick_params(labelbottom=True)
         _legend(figure, list(grid.flat)[: len(sheet.panels)], sheet)
         if sheet.colour_bar is not None:
-            place = grid[0] if sheet.colour_bar.first_row else grid
-            _colour_bar(figure, place, sheet.colour_bar)
+            panels = grid[0] if sheet.colour_bar.first_row else grid
+            _colour_bar(figure, panels, sheet.colour_bar)
         if sheet.title:
             figure.suptitle(sheet.title)
         return figure
@@ -143,8 +142,8 @@ def _draw_panel(figure: Figure, axes: Axes, panel: Panel) -> None:
     if panel.title:
         axes.set_title(panel.title)
     if panel.legend not in ("", "none"):
-        place: Any = panel.legend
-        axes.legend(loc=place)
+        corner: Any = panel.legend
+        axes.legend(loc=corner)
 
 
 def _end_axis(axes: Axes, which: str, axis: Axis) -> None:
@@ -174,23 +173,21 @@ def _draw_mark(figure: Figure, axes: Axes, mark: Mark) -> None:
         case Band():
             _draw_band(axes, mark)
         case Bars():
-            left, right, start, end = np.broadcast_arrays(
-                mark.left, mark.right, mark.start, mark.end
-            )
+            x0, x1, y0, y1 = np.broadcast_arrays(mark.x0, mark.x1, mark.y0, mark.y1)
             look: dict[str, Any] = {"color": mark.colour, "alpha": mark.alpha, "lw": 0}
-            axes.bar(left, end - start, right - left, start, align="edge", zorder=mark.order,
+            axes.bar(x0, y1 - y0, x1 - x0, y0, align="edge", zorder=mark.order,
                      label=mark.label or None, **look)  # fmt: skip
-        case Level():
+        case CrossLine(to=None):
             look = {"color": mark.colour, "ls": DASHES[mark.dash], "lw": mark.width}
             across = axes.axvline if mark.upright else axes.axhline
             across(mark.at, label=mark.label or None, zorder=mark.order, **look)
-        case Zone():
+        case CrossLine(to=float(end)):
             shade = axes.axvspan if mark.upright else axes.axhspan
             look = {"color": mark.colour, "alpha": 0.5, "lw": 0}
-            shade(mark.low, mark.high, label=mark.label or None, **look)
+            shade(mark.at, end, label=mark.label or None, **look)
         case Note():
             _draw_note(axes, mark)
-        case Field():
+        case ValueMap():
             _draw_field(figure, axes, mark)
 
 
@@ -226,12 +223,12 @@ def _draw_series(axes: Axes, series: Series) -> None:
             axes.plot(x[chosen], y[chosen], **points)
     label = series.label if series.listed else f"_{series.label}"
     for part, dashed in sorted(parts, key=lambda part: part[1]):
-        own = look | ({"ls": DASHES["dashed"], "gid": BEYOND} if dashed else {})
-        own |= {"marker": ""} if mixed else {}
+        part_look = look | ({"ls": DASHES["dashed"], "gid": BEYOND} if dashed else {})
+        part_look |= {"marker": ""} if mixed else {}
         # nothing, unclipped, has no place on a logarithmic axis
-        own["clip_on"] = series.clip or not np.isfinite(y[part]).any()
+        part_look["clip_on"] = series.clip or not np.isfinite(y[part]).any()
         named: dict[str, Any] = {"label": label} if label and not dashed and not mixed else {}
-        axes.plot(x[part], y[part], **own, **named)
+        axes.plot(x[part], y[part], **part_look, **named)
         label = "" if named else label
     if label:
         axes.plot([], [], label=label, **look)
@@ -266,25 +263,25 @@ def _draw_note(axes: Axes, note: Note) -> None:
     )
 
 
-def _draw_field(figure: Figure, axes: Axes, field: Field) -> None:
+def _draw_field(figure: Figure, axes: Axes, field: ValueMap) -> None:
     x, y, values = (np.asarray(part, dtype=float) for part in (field.x, field.y, field.values))
-    shown: Any
+    mappable: Any
     if field.levels:
         ticks = MaxNLocator(field.levels).tick_values(np.nanmin(values), np.nanmax(values))
-        shown = axes.contourf(x, y, values, levels=ticks, cmap="viridis")
+        mappable = axes.contourf(x, y, values, levels=ticks, cmap="viridis")
         axes.contour(x, y, values, levels=ticks, colors="white", linewidths=0.4)
     else:
-        shown = axes.pcolormesh(x, y, values, cmap="inferno", rasterized=True)
+        mappable = axes.pcolormesh(x, y, values, cmap="inferno", rasterized=True)
         axes.set_aspect("equal")
-    bar = figure.colorbar(shown, ax=axes, label=field.label, pad=0.02)
+    bar = figure.colorbar(mappable, ax=axes, label=field.label, pad=0.02)
     bar.outline.set_linewidth(0.0)
     bar.ax.yaxis.set_major_formatter(lambda value, _: short_number(value))
 
 
 def _colour_bar(figure: Figure, panels: NDArray[Any], bar: ColourBar) -> None:
     scale = ListedColormap(shades(256, bar.scale))
-    shown = ScalarMappable(Normalize(bar.low, bar.high), scale)
-    drawn = figure.colorbar(shown, ax=list(panels.flat), label=bar.label, aspect=40, pad=0.02)
+    mappable = ScalarMappable(Normalize(bar.low, bar.high), scale)
+    drawn = figure.colorbar(mappable, ax=list(panels.flat), label=bar.label, aspect=40, pad=0.02)
     drawn.outline.set_visible(False)
 
 
@@ -300,8 +297,8 @@ def _legend(figure: Figure, panels: Sequence[Axes], sheet: Sheet) -> None:
         hatched |= any(part.get_gid() == BEYOND for part in axes.collections)
     for key in sheet.keys:
         entries |= {getattr(key, "label", ""): _key(key)}
-    beside = sheet.legend == "beside"
-    beyond = BEYOND.replace("the ", "the\n") if beside else BEYOND
+    at_side = sheet.legend == "beside"
+    beyond = BEYOND.replace("the ", "the\n") if at_side else BEYOND
     if hatched:
         entries = {beyond: Patch(**(HATCHED | {"facecolor": GREY})), **entries}
     elif dashed:
@@ -309,7 +306,7 @@ def _legend(figure: Figure, panels: Sequence[Axes], sheet: Sheet) -> None:
     if not entries or not sheet.legend:
         return
     look: dict[str, Any] = {"title": sheet.legend_title or None}
-    if beside:
+    if at_side:
         look |= {"loc": "outside right center", "alignment": "left"}
     else:
         where = "upper" if sheet.legend == "above" else "lower"
@@ -323,7 +320,7 @@ def _key(mark: Mark) -> Any:
         look: dict[str, Any] = {"marker": mark.marker, "ms": mark.size, "ls": DASHES[mark.dash]}
         face = mark.colour if np.all(mark.filled) else "white"
         return Line2D([], [], color=mark.colour, lw=mark.width, mfc=face, **look)
-    if isinstance(mark, Level):
+    if isinstance(mark, CrossLine):
         return Line2D([], [], color=mark.colour, lw=mark.width, ls=DASHES[mark.dash])
     return Patch(color=getattr(mark, "colour", GREY), alpha=getattr(mark, "alpha", 1.0))
 

@@ -19,7 +19,7 @@ from gripscale.charts.chart import (
     Axis,
     Band,
     ColourBar,
-    Level,
+    CrossLine,
     Mark,
     Note,
     Panel,
@@ -132,7 +132,7 @@ def _moduli_panels(
         loss += _rows(inputs, factor, GREEN, "loss factor", listed=False)
     marked = [float(end) for end in ends if end is not None and 0.0 < end < math.inf]
     label = "ends of the measured band"
-    borders = [Level(end, GREY, label, "dotted", 0.9, upright=True) for end in marked]
+    borders = [CrossLine(end, GREY, label, "dotted", 0.9, upright=True) for end in marked]
     waves: list[list[Mark]] = [[], []]
     if rubber is not None and excitation.size:
         at = rubber.complex_modulus(excitation)
@@ -185,7 +185,7 @@ def _rows(
 def _residual_panel(inputs: xr.Dataset) -> Panel:
     kept = ~_left_out(inputs)
     omega = 2.0 * math.pi * inputs["master_frequency"].values[kept]
-    marks: list[Mark] = [Level(0.0, INK)]
+    marks: list[Mark] = [CrossLine(0.0, INK)]
     for part, name, colour in MODULI:
         ratio = inputs[f"master_series_{part}"].values / inputs[f"master_{part}"].values
         marks.append(Series(omega, 100.0 * (ratio - 1.0)[kept], colour, name, "", marker="."))
@@ -393,7 +393,7 @@ def superposition_tests_figure(sweeps: Sweeps, report: Superposition) -> Figure:
         Panel(Axis("$|E^*|$ [MPa]", log=True), Axis("phase angle [°]", low=0.0), gurp,
               "van Gurp and Palmen"),
         Panel(Axis("$E'$ [MPa]", log=True), Axis("$E''$ [MPa]", log=True), cole, "Cole and Cole"),
-        Panel(CELSIUS, Axis("overlap [decades]"), [width, Level(0.0)], "overlap of neighbours"),
+        Panel(CELSIUS, Axis("overlap [decades]"), [width, CrossLine(0.0)], "overlap of neighbours"),
         Panel(CELSIUS, Axis("rms distance [decades]", log=True), apart, "distance in the overlap",
               legend="best" if overlaps else ""),
     ]  # fmt: skip

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from gripscale.charts.chart import (
     Axis,
     Bars,
-    Level,
+    CrossLine,
     Mark,
     Panel,
     Series,
@@ -76,14 +76,14 @@ def _decades_panel(data: xr.Dataset) -> Panel:
     seen = np.flatnonzero(largest >= LEAST_MODULUS_SHARE * largest.max(initial=0.0))
     if seen.size:
         differences = differences.isel(decade=slice(seen[0], seen[-1] + 1))
-    left = np.arange(differences.sizes["decade"]) - 0.4
+    start = np.arange(differences.sizes["decade"]) - 0.4
     width = 0.8 / len(names)
     marks: list[Mark] = [
-        Bars(left + i * width, left + (i + 1) * width, 0.0, differences.sel(rubber=name).values,
+        Bars(start + i * width, start + (i + 1) * width, 0.0, differences.sel(rubber=name).values,
              COLOURS[(i + 1) % len(COLOURS)])
         for i, name in enumerate(names)
     ]  # fmt: skip
-    step = max(1, math.ceil(left.size / 8))
+    step = max(1, math.ceil(start.size / 8))
     ticks = {
         float(i): power_of_ten(round(math.log10(time)))
         for i, time in enumerate(differences.decade.values)
@@ -92,7 +92,7 @@ def _decades_panel(data: xr.Dataset) -> Panel:
     return Panel(
         Axis("relaxation time from [s]", ticks=ticks),
         Axis(f"$\\mu$ less that of {first} [-]"),
-        [*marks, Level(0.0, width=0.7)],
+        [*marks, CrossLine(0.0, width=0.7)],
     )
 
 
@@ -141,13 +141,13 @@ def roads_friction_figure(data: xr.Dataset) -> Figure:
     roads = data.surface.values.tolist()
     panels = []
     for model in data.model.values:
-        one_model = data.sel(model=model)
-        if not np.isfinite(one_model.friction_running).any():
+        of_model = data.sel(model=model)
+        if not np.isfinite(of_model.friction_running).any():
             continue
         marks: list[Mark] = []
         for at, (name, colour) in enumerate(zip(roads, COLOURS, strict=False)):
             end = float(wavelength[-1]) / STEP ** (1 + at)
-            marks += _running(wavelength, one_model.sel(surface=name), colour, name, end)
+            marks += _running(wavelength, of_model.sel(surface=name), colour, name, end)
         ends = [*wavelength, wavelength[-1] / STEP ** len(roads)]
         panels.append(Panel(
             wavelength_axis(ends),

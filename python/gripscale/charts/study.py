@@ -19,12 +19,12 @@ from gripscale.charts.chart import (
     Axis,
     Band,
     ColourBar,
-    Field,
-    Level,
+    CrossLine,
     Mark,
     Panel,
     Series,
     Sheet,
+    ValueMap,
     on_page,
     on_paper,
     wavelength_axis,
@@ -126,8 +126,8 @@ def _curves(
 def _beyond(data: xr.Dataset, variable: xr.DataArray) -> xr.DataArray:
     """Return which predictions rest on extrapolation; at rest, or where it is not known, none."""
     flags = data["total_friction"].copy(data=predictions_beyond(data))
-    known = set(flags.dims) <= set(variable.dims)
-    return xr.broadcast(flags if known else xr.DataArray(False), variable)[0]
+    covered = set(flags.dims) <= set(variable.dims)
+    return xr.broadcast(flags if covered else xr.DataArray(False), variable)[0]
 
 
 def _label(data: xr.Dataset, name: str) -> str:
@@ -207,7 +207,7 @@ def _rest(result: xr.Dataset, axis: str, others: list[str]) -> Iterator[Mark]:
         piece = rest.isel({name: i for name, i in at.items() if name in rest.dims})
         label, colour = ("", colour) if others else ("at rest", INK)
         if axis not in piece.dims:
-            yield Level(float(piece), colour, label, "dotted", 1.1)
+            yield CrossLine(float(piece), colour, label, "dotted", 1.1)
         else:
             yield Series(x, piece.values, colour, label, "dotted" if numbers else "", 1.1,
                          "" if numbers else "o", filled=False)  # fmt: skip
@@ -445,7 +445,7 @@ def map_figure(result: xr.Dataset) -> Figure:
         Panel(
             replace(abscissa, grid=False),
             replace(ordinate, grid=False),
-            [Field(speeds, celsius, result[name].values, TOTALS[name], levels=9), *points],
+            [ValueMap(speeds, celsius, result[name].values, TOTALS[name], levels=9), *points],
         )
         for name in reversed(TOTALS)
     ]

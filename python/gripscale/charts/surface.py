@@ -19,7 +19,7 @@ from gripscale.case.record import CLOSE_UP, close_up, envelope, sine_curves, tra
 from gripscale.charts.chart import (
     Axis,
     Band,
-    Level,
+    CrossLine,
     Mark,
     Panel,
     Series,
@@ -182,15 +182,15 @@ def correlation_charts(inputs: xr.Dataset) -> list[Chart]:
 
 def _correlation_panel(lag: Array, value: Array, low: Array | None, high: Array | None) -> Panel:
     """Return the measured C_z and its 95 % band, to which fits are added."""
-    shown = value[value > 0.0] / SQUARE_MM
+    positive = value[value > 0.0] / SQUARE_MM
     marks: list[Mark] = []
     if low is not None and high is not None:
         marks.append(Band(lag / MILLI, low / SQUARE_MM, high / SQUARE_MM, GREY, "95 % band", 0.35))
     marks.append(Series(lag / MILLI, value / SQUARE_MM, INK, "measured", "", marker=".", size=4.0))
     return Panel(
         Axis("lag $l$ [mm]", log=True),
-        Axis("height difference correlation $C_z$ [mm$^2$]", log=True, low=0.3 * float(shown.min()),
-             high=3.0 * float(shown.max())),
+        Axis("height difference correlation $C_z$ [mm$^2$]", log=True,
+             low=0.3 * float(positive.min()), high=3.0 * float(positive.max())),
         marks,
         name="correlation",
         caption="Height difference correlation: measured, superposed sine waves, self-affine fit. "
@@ -217,7 +217,7 @@ def _self_affine(lag: Array, value: Array, label: str) -> Series:
 
 def _residual_panel(inputs: xr.Dataset, lag: Array, value: Array) -> Panel:
     """Return what the fits leave over; open where the lag did not count in the fit."""
-    marks: list[Mark] = [Level(0.0, INK)]
+    marks: list[Mark] = [CrossLine(0.0, INK)]
     for key, curve, label, colour in (
         ("sines", "correlation_sines", "sine waves", BLUE),
         ("self_affine", SELF_AFFINE, "self-affine", ORANGE),

@@ -13,18 +13,17 @@ from gripscale.charts.chart import (
     Axis,
     Band,
     Bars,
-    Level,
+    CrossLine,
     Mark,
     Panel,
     Series,
     Sheet,
-    Zone,
     on_paper,
 )
 from gripscale.charts.comparison import measured_sheet
 from gripscale.charts.ladder import MARKERS, MeasuredSeries, measured
 from gripscale.charts.study import varied_axis
-from gripscale.charts.style import BLUE, COLOURS, GREY, INK, ORANGE
+from gripscale.charts.style import BLUE, COLOURS, FAINT, GREY, INK, ORANGE
 from gripscale.core.units import MEGA, DisplayUnit, display_unit
 
 if TYPE_CHECKING:
@@ -54,7 +53,7 @@ def distribution_figure(data: xr.Dataset) -> Figure:
             first = name == "friction"
             values = samples[name].values
             marks = list(_distribution(samples, name, values[np.isfinite(values)], colour))
-            top = max((float(np.max(m.end)) for m in marks if isinstance(m, Bars)), default=None)
+            top = max((float(np.max(m.y1)) for m in marks if isinstance(m, Bars)), default=None)
             panels.append(Panel(
                 Axis(label, numbers=6),
                 Axis(f"samples (of {count})" if first else "", low=0.0, numbers=5, whole=True,
@@ -63,8 +62,8 @@ def distribution_figure(data: xr.Dataset) -> Figure:
                 title=str(model) if first else "",
             ))  # fmt: skip
     keys: list[Mark] = [
-        Level(0.0, INK, "median", width=MEDIAN),
-        Level(0.0, INK, "5 and 95 %", width=END),
+        CrossLine(0.0, INK, "median", width=MEDIAN),
+        CrossLine(0.0, INK, "5 and 95 %", width=END),
         Series([], [], INK, "the case itself", dash="", marker="v"),
     ]
     return on_paper(Sheet(panels, height=1.2 + 1.7 * data.sizes["model"], keys=keys))
@@ -79,40 +78,40 @@ def _distribution(
     yield Bars(edges[:-1], edges[1:], 0.0, counts, colour, alpha=0.45)
     low, middle, high = samples[f"{name}_quantile"].values[[0, 2, 4]]
     for at, width in ((low, END), (middle, MEDIAN), (high, END)):
-        yield Level(at, INK, width=width, upright=True)
+        yield CrossLine(at, INK, width=width, upright=True)
     top = 1.12 * float(np.max(counts))
     yield Series([float(samples[f"{name}_case"])], [top], INK, dash="", marker="v", clip=False)
 
 
-def tornado_figure(one: xr.Dataset) -> Figure:
+def tornado_figure(data: xr.Dataset) -> Figure:
     """Draw what each source does to the friction of one model at one load, most on top.
 
     Bars go from 5 to 95 % of what a source does to friction, the others in their middle. Beside
     them is its share of the variance with its standard error; grey is an effect that is not
     significant with so many samples.
     """
-    shares, errors = one.friction_share.values, one.friction_share_error.values
+    shares, errors = data.friction_share.values, data.friction_share_error.values
     ranked = np.argsort(shares, kind="stable")
-    middle = float(np.exp(np.nanmean(np.log(one.friction.values))))
+    middle = float(np.exp(np.nanmean(np.log(data.friction.values))))
     bars: list[Mark] = []
     dots: list[Mark] = []
     for place, k in enumerate(ranked):
         seen = shares[k] > SURE * errors[k]
-        for end, colour in zip(one.friction_end.values[k], (BLUE, ORANGE), strict=True):
-            left, right = sorted((middle, end))
+        for end, colour in zip(data.friction_end.values[k], (BLUE, ORANGE), strict=True):
+            low, high = sorted((middle, end))
             shade = colour if seen else GREY
-            bars.append(Bars(left, right, place - 0.3, place + 0.3, shade))
+            bars.append(Bars(low, high, place - 0.3, place + 0.3, shade))
         ends: dict[str, Any] = {"low": [shares[k] - errors[k]], "high": [shares[k] + errors[k]]}
         dots.append(Series([shares[k]], [place], INK if seen else GREY, dash="", marker="o",
                            size=4.0, level_bars=True, **ends))  # fmt: skip
-    rows = Axis(ticks={float(i): str(one.label.values[k]) for i, k in enumerate(ranked)})
-    title = f"{one.model.item()}: what each does alone"
+    rows = Axis(ticks={float(i): str(data.label.values[k]) for i, k in enumerate(ranked)})
+    title = f"{data.model.item()}: what each does alone"
     panels = [
-        Panel(Axis(TOTALS["friction"]), rows, [*bars, Level(middle, INK, upright=True)], title),
+        Panel(Axis(TOTALS["friction"]), rows, [*bars, CrossLine(middle, INK, upright=True)], title),
         Panel(
             Axis("share of the variance of $\\ln\\mu$ [-]"),
             rows,
-            [*dots, Level(0.0, INK, upright=True)],
+            [*dots, CrossLine(0.0, INK, upright=True)],
         ),
     ]
     words = {"to 5 %": BLUE, "to 95 %": ORANGE, "not significant": GREY}
@@ -183,17 +182,17 @@ def fitted_figure(data: xr.Dataset) -> Figure:
 
 def residual_figure(data: xr.Dataset) -> Figure:
     """Draw predicted less measured friction over speed, over the spread where it is known."""
-    known = bool(np.isfinite(data.difference_in_spread).any())
-    values = data["difference_in_spread" if known else "difference"].values
-    scale = 1.0 if known else float(data.attrs["scatter"])
+    spread = bool(np.isfinite(data.difference_in_spread).any())
+    values = data["difference_in_spread" if spread else "difference"].values
+    scale = 1.0 if spread else float(data.attrs["scatter"])
     how = display_unit("speed", str(data.attrs.get("case", "")))
-    marks: list[Mark] = [Zone(-scale, scale), Level(0.0)]
+    marks: list[Mark] = [CrossLine(-scale, FAINT, to=scale), CrossLine(0.0)]
     for number, series in enumerate(measured(data)):
         marks.append(Series(
             how.of(series.speed), values[series.rows], COLOURS[number % len(COLOURS)],
             series.label.removeprefix("measured, "), "", marker=MARKERS[number % len(MARKERS)],
         ))  # fmt: skip
-    label = f"fitted less measured $\\mu$ [{'spread' if known else '-'}]"
+    label = f"fitted less measured $\\mu$ [{'spread' if spread else '-'}]"
     panel = Panel(Axis(f"sliding speed $v$ [{how.unit}]", log=True), Axis(label), marks)
     return on_paper(Sheet([panel], 1, height=2.8, legend="beside", gap=0.02))
 
@@ -211,15 +210,15 @@ def profiles_figure(data: xr.Dataset) -> Figure:
     return on_paper(Sheet(panels, columns, 3.5 * columns, height, **look))
 
 
-def _profile_panel(one: xr.Dataset) -> Panel:
-    threshold, level = (float(one.attrs[name]) for name in ("threshold", "level"))
-    divisor, unit = UNITS[str(one.unit.item())]
-    rows = np.isfinite(one.profile_excess.values)
-    value, excess = one.profile_value.values[rows] / divisor, one.profile_excess.values[rows]
-    low, high, best = (float(one[name]) / divisor for name in ("low", "high", "estimate"))
+def _profile_panel(data: xr.Dataset) -> Panel:
+    threshold, level = (float(data.attrs[name]) for name in ("threshold", "level"))
+    divisor, unit = UNITS[str(data.unit.item())]
+    rows = np.isfinite(data.profile_excess.values)
+    value, excess = data.profile_value.values[rows] / divisor, data.profile_excess.values[rows]
+    low, high, best = (float(data[name]) / divisor for name in ("low", "high", "estimate"))
     least, most = float(value.min()), float(value.max())
     ends = [end if np.isfinite(end) else edge for end, edge in ((low, least), (high, most))]
-    name = str(one.parameter.item())
+    name = str(data.parameter.item())
     missing = [word for word, end in (("lower", low), ("upper", high)) if not np.isfinite(end)]
     title = f"{' and '.join(missing)} end{'s' * (len(missing) > 1)} not determined"
     return Panel(
@@ -227,10 +226,10 @@ def _profile_panel(one: xr.Dataset) -> Panel:
              log=name != "activation_energy" and most > 5.0 * least),
         Axis("rise of the sum of squares [-]", low=0.0, high=CEILING * threshold),
         [
-            Zone(ends[0], ends[1], "interval", upright=True),
+            CrossLine(ends[0], FAINT, "interval", upright=True, to=float(ends[1])),
             Series(value, excess, BLUE, "profile"),
-            Level(threshold, ORANGE, f"{100.0 * level:.0f} %", width=1.0),
-            Level(best, GREY, "best", width=1.0, upright=True),
+            CrossLine(threshold, ORANGE, f"{100.0 * level:.0f} %", width=1.0),
+            CrossLine(best, GREY, "best", width=1.0, upright=True),
         ],
         title=title if missing else "",
     )  # fmt: skip

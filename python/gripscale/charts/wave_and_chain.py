@@ -20,13 +20,13 @@ from gripscale.analysis.measured_friction import MeasuredFriction
 from gripscale.charts.chart import (
     Axis,
     Bars,
-    Field,
-    Level,
+    CrossLine,
     Mark,
     Note,
     Panel,
     Series,
     Sheet,
+    ValueMap,
     on_page,
     on_paper,
     wavelength_axis,
@@ -129,7 +129,7 @@ def _running_and_each(view: PredictionView, quantity: str, colour: str) -> Itera
     if not view.waves:
         total = view.total(quantity)
         if np.isfinite(total):
-            yield Level(total, colour, f"{view.name}, total", "dotted", 1.4)
+            yield CrossLine(total, colour, f"{view.name}, total", "dotted", 1.4)
         return
     if not view.converged.any():
         label = f"{view.name}: {view.why(view.waves - 1)}"
@@ -154,19 +154,12 @@ def _failed(views: Views, quantity: str, *, by_number: bool = False) -> Iterator
 
 def _load_panel(views: Views) -> Panel:
     how = views[0].shown("pressure")
-    marks: list[Mark] = []
-    for view, colour in zip(views, COLOURS, strict=False):
-        for name, label, filled in (
-            ("pressure_received", "mean pressure", True),
-            ("modulus", "|E*|", False),
-        ):
-            x, y = view.column("wavelength") / MILLI, how.of(view.column(name))
-            marks.append(Series(x, y, colour, f"{view.name}, {label}", filled=filled, marker="o",
-                                dash="solid" if filled else "dotted"))  # fmt: skip
+    columns = [(how.of(view.column("pressure_received")), how.of(view.column("modulus")))
+               for view in views]  # fmt: skip
     return Panel(
         wavelength_axis(_wavelengths(views)),
         Axis(f"pressure, modulus [{how.unit}]", log=True),
-        marks,
+        list(_pairs(views, ("mean pressure", "|E*|"), columns)),
         name="load",
         caption="What each wave receives: mean pressure (filled) against the modulus of the rubber "
         "there (open).",
@@ -175,24 +168,27 @@ def _load_panel(views: Views) -> Panel:
 
 
 def _stretch_panel(views: Views) -> Panel:
-    marks: list[Mark] = []
-    for view, colour in zip(views, COLOURS, strict=False):
-        for name, label, filled in (
-            ("max_stretch", "largest", True),
-            ("min_stretch", "smallest", False),
-        ):
-            x, y = view.column("wavelength") / MILLI, view.usable(name)
-            marks.append(Series(x, y, colour, f"{view.name}, {label}", filled=filled, marker="o",
-                                dash="solid" if filled else "dotted"))  # fmt: skip
+    columns = [(view.usable("max_stretch"), view.usable("min_stretch")) for view in views]
     return Panel(
         wavelength_axis(_wavelengths(views)),
         Axis("principal stretch [-]"),
-        marks,
+        list(_pairs(views, ("largest", "smallest"), columns)),
         name="stretch",
         caption="Largest and smallest principal stretch in the block: how far the strains are from "
         "small.",
         alt="Largest and smallest principal stretch against wavelength.",
     )
+
+
+def _pairs(
+    views: Views, labels: tuple[str, str], columns: Sequence[tuple[Array, Array]]
+) -> Iterator[Mark]:
+    """Yield two columns of each prediction over wavelength: filled and solid, open and dotted."""
+    for view, colour, pair in zip(views, COLOURS, columns, strict=False):
+        x = view.column("wavelength") / MILLI
+        for label, y, filled in zip(labels, pair, (True, False), strict=True):
+            yield Series(x, y, colour, f"{view.name}, {label}", "solid" if filled else "dotted",
+                         marker="o", filled=filled)  # fmt: skip
 
 
 def _pressure_panel(view: PredictionView) -> Panel:
@@ -289,14 +285,14 @@ def _iterations_panel(views: Views) -> Panel:
     width = 0.8 / len(views)
     marks: list[Mark] = []
     for i, (view, colour) in enumerate(zip(views, COLOURS, strict=False)):
-        left = view.number + (i - 0.5 * len(views)) * width
+        start = view.number + (i - 0.5 * len(views)) * width
         count = view.column("newton_iterations")
         for rows, shade, label in (
             (view.converged, colour, view.name),
             (~view.converged, RED, "not converged"),
         ):
             if rows.any():
-                marks.append(Bars(left[rows], left[rows] + 0.9 * width, 0.0, count[rows], shade,
+                marks.append(Bars(start[rows], start[rows] + 0.9 * width, 0.0, count[rows], shade,
                                   label))  # fmt: skip
     return Panel(
         _wave_axis(views),
@@ -308,10 +304,10 @@ def _iterations_panel(views: Views) -> Panel:
     )
 
 
-def measured_chart(found: MeasuredFriction, predictions: Views) -> Chart:
+def measured_chart(friction: MeasuredFriction, predictions: Views) -> Chart:
     """Return measured friction with the totals of `predictions`, each at its speed."""
     how = predictions[0].shown("speed") if predictions else display_unit("speed")
-    marks: list[Mark] = [*measured_points(xr.Dataset(measured_variables(found)), how)]
+    marks: list[Mark] = [*measured_points(xr.Dataset(measured_variables(friction)), how)]
     for view, colour in zip(predictions, COLOURS, strict=False):
         both = with_adhesive(view.data)
         totals = [("hysteresis", float(view.data.total_friction), True)]
@@ -376,7 +372,7 @@ def heat_figure(data: xr.Dataset, title: str = "") -> Figure:
     data = data.isel(scale=np.isfinite(data.flash_temperature_rise_own.values))
     length = data.wavelength.values / MILLI
     above, below = np.zeros(length.size), np.zeros(length.size)
-    marks: list[Mark] = [Level(0.0, INK, width=0.7)]
+    marks: list[Mark] = [CrossLine(0.0, INK, width=0.7)]
     for name, (label, colour) in PARTS.items():
         part = data[name].values
         start = np.where(part > 0.0, above, below)
@@ -398,9 +394,9 @@ def _temperature_before(data: xr.Dataset) -> float:
     Stated, or else the least that is left of any wave's without what warms it: of the temperature a
     wave was solved at and the warming it found, which agree to some tenths of a kelvin.
     """
-    stated = (json.loads(data.attrs.get("conditions", "null")) or {}).get("temperature")
-    if stated is not None:
-        return float(stated)
+    temperature = (json.loads(data.attrs.get("conditions", "null")) or {}).get("temperature")
+    if temperature is not None:
+        return float(temperature)
     rest = data.temperature - sum(data[name] for name in PARTS)
     return float(rest.mean()) if rest.size else math.nan
 
@@ -443,13 +439,13 @@ def direct_heat_figure(contact: RoughContact, title: str = "") -> Figure:
             Axis("warming of the surface [K]", low=-0.12 * top, high=1.25 * top),
             [
                 Series(x, warming, ORANGE, width=0.9, coarse=True),
-                Level(level, GREY, "mean in the contact, by pressure", "dashdot"),
+                CrossLine(level, GREY, "mean in the contact, by pressure", "dashdot"),
                 Series(x, touching, GREEN, "contact", width=4.0),
             ],
             legend="upper right",
         )
     else:
-        field = Field(x, contact.y / MILLI, warming.T, "warming of the surface [K]")
+        field = ValueMap(x, contact.y / MILLI, warming.T, "warming of the surface [K]")
         surface = Panel(Axis(along.label, grid=False), Axis("$y$ [mm]", grid=False), [field])
     layout = {"width_ratios": [1.0, 1.5]}
     return on_paper(Sheet([octaves, surface], height=3.2, title=title, legend="", layout=layout))
@@ -522,14 +518,14 @@ def _effect_bars(
     """Yield the bars of one of several models, and at each what the effects left out change."""
     number, count = model
     values, changes = result[name].values, result[CHANGES[name]].values
-    place = np.arange(values.size) + SHARE * ((number + 0.5) / count - 0.5)
+    rows = np.arange(values.size) + SHARE * ((number + 0.5) / count - 0.5)
     half = 0.45 * SHARE / count
-    known = str(result.attrs["model"])
-    yield Bars(0.0, np.nan_to_num(values), place - half, place + half, colour,
-               MODELS.get(known, known))  # fmt: skip
+    model_name = str(result.attrs["model"])
+    yield Bars(0.0, np.nan_to_num(values), rows - half, rows + half, colour,
+               MODELS.get(model_name, model_name))  # fmt: skip
     if np.isfinite(values[0]):
-        yield Level(values[0], colour, "", "dotted", upright=True, order=0.9)
-    for at, value, change in zip(place, values, changes, strict=True):
+        yield CrossLine(values[0], colour, "", "dotted", upright=True, order=0.9)
+    for at, value, change in zip(rows, values, changes, strict=True):
         if np.isfinite(value) and not np.isfinite(change):
             continue
         text = f"{100.0 * change:+.0f} %" if np.isfinite(value) else "not converged"
