@@ -208,20 +208,21 @@ def _draw_band(figure: Any, band: Band, *, positive: bool) -> None:
 
 
 def _draw_cross_line(figure: Any, line: CrossLine, marks: Sequence[Mark]) -> None:
-    """Draw a line across the panel: over all that is drawn, or where that has no end, a span."""
+    """Draw a line across the panel: over all that is drawn, or without a label a span."""
     look: dict[str, Any] = {
         "line_color": line.colour,
         "line_dash": DASHES[line.dash],
         "line_width": PIXELS * line.width,
     }
     across = _extent(marks, "x")
-    if line.upright or not (line.label and across.size):
+    x, y = [np.nan] * 2, [np.nan] * 2
+    if line.label and not line.upright and across.size:
+        x, y = [across.min(), across.max()], [line.at] * 2
+    else:
         dimension: Any = "height" if line.upright else "width"
         figure.add_layout(Span(location=line.at, dimension=dimension, **look))
-        x = y = [np.nan, np.nan]
-    else:
-        x, y = [across.min(), across.max()], [line.at] * 2
-    figure.line(x, y, name=spelled_out(line.label), **look, **_labelled(line.label))
+    if line.label:
+        figure.line(x, y, **look, **_labelled(line.label))
 
 
 def _labelled(label: str) -> dict[str, Any]:

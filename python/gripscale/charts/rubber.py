@@ -132,7 +132,8 @@ def _moduli_panels(
         loss += _rows(inputs, factor, GREEN, "loss factor", listed=False)
     marked = [float(end) for end in ends if end is not None and 0.0 < end < math.inf]
     label = "ends of the measured band"
-    borders = [CrossLine(end, GREY, label, "dotted", 0.9, upright=True) for end in marked]
+    borders = [CrossLine(end, GREY, label * (end == marked[0]), "dotted", 0.9, upright=True)
+               for end in marked]  # fmt: skip
     waves: list[list[Mark]] = [[], []]
     if rubber is not None and excitation.size:
         at = rubber.complex_modulus(excitation)
