@@ -86,9 +86,11 @@ def load_tree(path: str | Path) -> xr.DataTree:
     try:
         with held_back(), xr.open_datatree(place, engine=ENGINE) as tree:
             tree.load()
-            for node in tree.subtree:
-                node.dataset = _with_new_names(node.to_dataset(inherit=False))
-            return tree
+            # A node that got another dataset would no longer be closed with the tree.
+            nodes = {node.path: node.to_dataset(inherit=False) for node in tree.subtree}
+            return xr.DataTree.from_dict(
+                {path: _with_new_names(data) for path, data in nodes.items()}
+            )
     except (OSError, ValueError, KeyError, RuntimeError) as error:
         raise FileError(f"{place} cannot be read as a netCDF result: {error}") from error
 
