@@ -8,12 +8,15 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from matplotlib.figure import Figure
 from rich.console import Console
 
 import gripscale as gs
 from benchmarks.measure import peak_since_reset, reset_peak
 from benchmarks.table import show
-from gripscale.charts.style import BLUE, GREEN, WIDE, save_figure, sheet, styled
+from gripscale.charts.chart import Axis, Panel, Series, Sheet, on_paper
+from gripscale.charts.paper import save_figure
+from gripscale.charts.style import BLUE, GREEN, WIDE
 from gripscale.core.parallel import cores
 from tests.verification.families import WAVELENGTH, tread
 
@@ -159,17 +162,15 @@ def _exponent(costs: list[Cost]) -> float:
     return float(np.polyfit(unknowns, np.log([cost.seconds for cost in costs]), 1)[0])
 
 
-@styled
-def _draw(costs: dict[str, list[Cost]]) -> object:
-    page, axes = sheet(WIDE / 2, 3.1, 1, 1)
-    panel = axes[0][0]
-    for (kind, found), colour in zip(costs.items(), (BLUE, GREEN), strict=True):
-        label = f"{kind}, exponent {_exponent(found):.2f}"
-        unknowns = [cost.unknowns for cost in found]
-        panel.plot(unknowns, [c.seconds for c in found], color=colour, marker="o", label=label)
-    panel.set_xscale("log")
-    panel.set_yscale("log")
-    panel.set_xlabel("unknowns")
-    panel.set_ylabel("one wave from cold, processor time [s]")
-    panel.legend(loc="upper left")
-    return page
+def _draw(costs: dict[str, list[Cost]]) -> Figure:
+    panel = Panel(
+        Axis("unknowns", log=True),
+        Axis("one wave from cold, processor time [s]", log=True),
+        [
+            Series([cost.unknowns for cost in rows], [cost.seconds for cost in rows], colour,
+                   f"{kind}, exponent {_exponent(rows):.2f}", marker="o")
+            for (kind, rows), colour in zip(costs.items(), (BLUE, GREEN), strict=True)
+        ],
+        legend="upper left",
+    )  # fmt: skip
+    return on_paper(Sheet([panel], 1, WIDE / 2, legend="", gap=0.02))

@@ -15,7 +15,7 @@ import numpy as np
 
 from gripscale.analysis import MeasuredFriction, calibrate_case, predictions_at
 from gripscale.case import prepare_case
-from gripscale.charts.print_uncertainty import draw_calibration
+from gripscale.charts.write import draw_calibration
 from gripscale.conditions import GaussianStress
 from gripscale.experiment import Store
 

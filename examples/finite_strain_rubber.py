@@ -11,8 +11,7 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-from gripscale.charts.print_inputs import finite_strain_figure
-from gripscale.charts.style import save_figure
+from gripscale.charts import finite_strain_figure, save_figure
 from gripscale.rubber import (
     FiniteStrainFit,
     UniaxialTest,

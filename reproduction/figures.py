@@ -15,12 +15,13 @@ from gripscale.core.provenance import software
 from gripscale.surface import SelfAffineFit, SineStack, fit_self_affine
 from gripscale.wave.result import LW
 from reproduction import judge_area, judge_friction, judge_inputs
-from reproduction.draw_inputs import (
+from reproduction.draw import (
+    Quantity,
     correlations_figure,
     factors_figure,
     master_curves_figure,
+    predictions_figure,
 )
-from reproduction.draw_predictions import Quantity, predictions_figure
 from reproduction.inputs import DENSE, ROAD, TREAD, Inputs
 from reproduction.panels import Solved
 from reproduction.statement import Statement

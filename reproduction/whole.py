@@ -12,7 +12,9 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from gripscale.charts.style import COLOURS, GREY, WIDE, sheet, styled, write_png
+from gripscale.charts.chart import Axis, Mark, Panel, Series, Sheet, on_paper
+from gripscale.charts.paper import write_png
+from gripscale.charts.style import COLOURS, GREY
 from reproduction.inputs import read_inputs
 from reproduction.whole_surfaces import Cases, Found, solved
 
@@ -33,26 +35,24 @@ def main() -> None:
         write_png(chain_and_whole_figure(found), folder / "chain_and_whole.png")
 
 
-@styled
 def chain_and_whole_figure(found: Sequence[Found]) -> Figure:
     """Draw every solution; a line leads from the chain to the direct contact of its surface."""
-    figure, panels = sheet(WIDE, 3.6, 1, 1)
-    axes = panels[0, 0]
-    for number, one in enumerate(found):
+    marks: list[Mark] = []
+    for number, solution in enumerate(found):
         colour = COLOURS[number % len(COLOURS)]
-        area, friction = one.direct.T
         marker = "o" if number < len(COLOURS) else "^"
-        axes.plot(area, friction, marker, color=colour, ms=4, ls="", label=one.case.surface)
-        if one.chain is not None:
-            axes.plot(*one.chain, "s", color=colour, ms=5, mfc="none")
-            axes.plot(
-                [one.chain[0], area.mean()], [one.chain[1], friction.mean()], color=GREY, lw=0.6
-            )
-    axes.set_xlabel("contact fraction [-]")
-    axes.set_ylabel("friction coefficient [-]")
-    axes.set_yscale("log")
-    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), title="open squares: the chain")
-    return figure
+        area, friction = solution.direct.T
+        surface = solution.case.surface
+        marks.append(Series(area, friction, colour, surface, "", marker=marker, size=4.0))
+        if solution.chain is not None:
+            x, y = solution.chain
+            marks += [
+                Series([x], [y], colour, dash="", marker="s", size=5.0, filled=False),
+                Series([x, area.mean()], [y, friction.mean()], GREY, width=0.6),
+            ]
+    panel = Panel(Axis("contact fraction [-]"), Axis("friction coefficient [-]", log=True), marks)
+    title = "open squares: the chain"
+    return on_paper(Sheet([panel], 1, height=3.6, legend="beside", legend_title=title, gap=0.02))
 
 
 if __name__ == "__main__":

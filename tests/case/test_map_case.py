@@ -10,7 +10,7 @@ import pytest
 import gripscale as gs
 from gripscale.case import prepare_surface, read_case
 from gripscale.chain import Chain
-from gripscale.charts.print_run import surface_figures
+from gripscale.charts.write import surface_figures
 from gripscale.core.errors import InputError
 from gripscale.experiment.inputs import contents, surface_of
 from gripscale.experiment.task import Task

@@ -24,8 +24,8 @@ from gripscale.charts import (
     profile_figure,
     save_figure,
 )
-from gripscale.charts.print_inputs import kept_points
 from gripscale.charts.style import short_number, stretches
+from gripscale.charts.surface import kept_points
 from gripscale.charts.view import JUDGE
 from gripscale.core.errors import FileError, InputError
 from gripscale.rubber import MasterCurve, Rubber, fit_prony_report

@@ -11,7 +11,7 @@ import pytest
 import xarray as xr
 
 from gripscale.charts import friction_master_figure, map_figure
-from gripscale.charts.print_study import draw
+from gripscale.charts.write import draw_study
 from gripscale.experiment.speed_and_temperature import BEYOND_SHIFT, with_master_curve
 from gripscale.io import netcdf
 from gripscale.model import TOTALS
@@ -88,14 +88,14 @@ def test_temperatures_are_drawn_over_reduced_speed(study: xr.Dataset) -> None:
 
 
 def test_both_are_among_the_figures_of_a_study(study: xr.Dataset, tmp_path: Path) -> None:
-    draw(study, tmp_path)
+    draw_study(study, tmp_path)
     assert {path.stem for path in tmp_path.glob("*.png")} == {
         "totals",
         "map",
         "friction_master_curve",
     }
     (alone := tmp_path / "alone").mkdir()
-    draw(study.isel(temperature=[0]), alone)
+    draw_study(study.isel(temperature=[0]), alone)
     assert {path.stem for path in alone.glob("*.png")} == {"totals", "friction_master_curve"}
 
 
@@ -107,4 +107,4 @@ def test_page_shows_celsius_and_the_command_with_units(study: xr.Dataset, tmp_pa
     assert "friction over a_T v" in page
     assert "one curve, temperatures up to" in page
     assert 'id="figure-total_friction-over-reduced_speed"' in page
-    assert "temperature [°C]" in page.replace("\\u00b0", "°")
+    assert "temperature T [°C]" in page.replace("\\u00b0", "°")

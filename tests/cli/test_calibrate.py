@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 from gripscale.analysis import calibrate_case
 from gripscale.analysis.calibration_text import parse_fixed
 from gripscale.case import prepare_conditions, read_case
-from gripscale.charts.print_uncertainty import fitted_figure, profiles_figure, residual_figure
+from gripscale.charts.uncertainty import fitted_figure, profiles_figure, residual_figure
 from gripscale.cli import app
 from gripscale.conditions import GaussianStress, shear_stress_from_dict
 from gripscale.core.errors import ExtrapolationError, InputError

@@ -15,7 +15,7 @@ from gripscale.analysis import compare_case, solve_reference
 from gripscale.analysis.comparison import FILE, reference_totals
 from gripscale.analysis.samples import curve_at
 from gripscale.case import prepare_case
-from gripscale.charts.print_comparison import comparison_axis_figure, comparison_figure
+from gripscale.charts.comparison import comparison_axis_figure, comparison_figure
 from gripscale.charts.view import PredictionView
 from gripscale.io import netcdf
 from gripscale.report.tables_comparison import comparison_table, judgement, remarks

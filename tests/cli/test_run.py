@@ -12,7 +12,7 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from gripscale.case.folder import AT_TIMES, RESULTS
-from gripscale.charts import print_run
+from gripscale.charts import write
 from gripscale.cli import app
 from gripscale.io import netcdf
 from gripscale.theory import HalfPlane
@@ -114,7 +114,7 @@ def test_wave_that_fails_keeps_what_was_solved(
     shell: Shell, changed: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(HalfPlane, "solve", lame(2))
-    monkeypatch.setattr(print_run, "save_figure", lambda *_: [])
+    monkeypatch.setattr(write, "save_figure", lambda *_: [])
     case = changed()
     result = shell("run", case)
     assert result.exit_code == 3
@@ -148,7 +148,7 @@ def test_waves_are_on_disk_before_the_next_one_starts(
         return solve(self, problem, start)
 
     monkeypatch.setattr(HalfPlane, "solve", looking)
-    monkeypatch.setattr(print_run, "save_figure", lambda *_: [])
+    monkeypatch.setattr(write, "save_figure", lambda *_: [])
     result = shell("run", case)
     assert result.exit_code == 130
     assert seen == [0, 1, 2]
@@ -158,7 +158,7 @@ def test_waves_are_on_disk_before_the_next_one_starts(
 def test_an_earlier_run_leaves_nothing_behind_and_other_files_stay(
     shell: Shell, changed: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(print_run, "save_figure", lambda *_: [])
+    monkeypatch.setattr(write, "save_figure", lambda *_: [])
     case = changed("static = true", "static = false")
     figures = case.parent / "results" / "figures"
     figures.mkdir(parents=True)
@@ -173,7 +173,7 @@ def test_an_earlier_run_leaves_nothing_behind_and_other_files_stay(
 def test_waves_by_hand_and_a_named_rubber_need_no_files(
     shell: Shell, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(print_run, "save_figure", lambda *_: [])
+    monkeypatch.setattr(write, "save_figure", lambda *_: [])
     case = tmp_path / "case.toml"
     case.write_text(
         '[[surface.sines]]\nwavelength = "10 mm"\namplitude = "1 mm"\n'

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gripscale.charts.page_run import contact_charts
+from gripscale.charts.wave_and_chain import contact_charts
 from gripscale.core.errors import FileError, InputError
 from gripscale.io import netcdf
 from gripscale.model import OUTSIDE_BAND, TOTALS, NominalLoad, answer

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from bokeh.models import ColumnDataSource
 
-from gripscale.charts.page_study import study_charts
+from gripscale.charts.study import study_charts
 from gripscale.experiment import Study
 from gripscale.io import netcdf
-from gripscale.report import source, write_report
+from gripscale.report import write_report
 from tests.samples import EXAMPLES
 
 from .reading import Page
@@ -100,7 +100,7 @@ def test_friction_by_relaxation_time_is_summed_up_and_never_falls(solved: Path) 
     parts = data.friction_by_decade
     alternating = parts.copy(data=parts.values * (np.arange(parts.sizes["decade"]) % 2))
     data["friction_by_decade"] = alternating  # a series with no element in every other decade
-    charts = study_charts(source.Study("study", data))
+    charts = study_charts(data)
     chart = next(one for one in charts if one.name == "friction_by_decade-over-decade")
     curves = [np.asarray(one.data["y"]) for one in chart.model.select({"type": ColumnDataSource})]
     full = [y for y in curves if y.size == parts.sizes["decade"]]

@@ -28,7 +28,8 @@ from gripscale.case import (
 )
 from gripscale.case.rubber_tables import NAMED_RUBBERS
 from gripscale.charts.page_elements import Element, Notice, Text
-from gripscale.charts.page_inputs import correlation_charts, profile_charts, rubber_charts
+from gripscale.charts.rubber import rubber_charts
+from gripscale.charts.surface import correlation_charts, profile_charts
 from gripscale.report.inputs_text import shift_lines, sines_line
 from gripscale.report.tables_inputs import cleaning_tables, rubber_facts, surface_facts
 

@@ -32,8 +32,8 @@ from gripscale.app.runs import Run, Runs
 from gripscale.case import read_case
 from gripscale.case.folder import CASE
 from gripscale.charts.page_elements import NONE, Element, Heading, Notice, Table, Text, number
-from gripscale.charts.page_run import contact_charts, measured_chart
 from gripscale.charts.view import PredictionView
+from gripscale.charts.wave_and_chain import contact_charts, measured_chart
 from gripscale.core.errors import GripscaleError
 from gripscale.model import with_adhesive
 from gripscale.report import source, write_report

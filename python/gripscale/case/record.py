@@ -17,11 +17,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from gripscale.case.prepare import PreparedRubber
 from gripscale.case.read import CaseFile
 from gripscale.case.results import CaseResults
 from gripscale.io.text_table import read_bytes
-from gripscale.rubber import MasterCurve, Rubber
+from gripscale.rubber import MasterCurve, PronyFit, Rubber
 from gripscale.rubber.material import fast_end, slow_end
 from gripscale.surface import HeightDifference, Measured, PreparedSurface, Profile, SineStack
 from gripscale.surface.cut_off import DEFINITIONS
@@ -109,7 +108,9 @@ def inputs(results: CaseResults) -> xr.Dataset:
     """Return everything a report says about the inputs of a case."""
     surface = results.surface
     excitation = excited(results.file.case.load.speed, surface.sines)
-    parts = [_waves(surface), _files(results.file), _rubber(results.rubber, excitation)]
+    rubber = results.rubber
+    of_rubber = rubber_variables(rubber.rubber, rubber.master, rubber.fit, excitation)
+    parts = [_waves(surface), _files(results.file), of_rubber]
     notes = [*results.conditions_notes(), *results.load_notes()]
     parts.append(({}, {"conditions_notes": "\n".join(notes) or None}))
     if surface.measured is not None and surface.correlation is not None:
@@ -235,10 +236,13 @@ def _correlation(
     }
 
 
-def _rubber(
-    prepared: PreparedRubber, excitation: NDArray[np.float64]
+def rubber_variables(
+    rubber: Rubber,
+    master: MasterCurve | None,
+    fit: PronyFit | None,
+    excitation: NDArray[np.float64],
 ) -> tuple[Variables, Variables]:
-    rubber, master, fit = prepared.rubber, prepared.master, prepared.fit
+    """Return variables and attributes of a Prony series and the master curve it was fitted to."""
     low, high = rubber.valid_band or (None, None)
     attrs: Variables = {
         "rubber_name": rubber.name,

@@ -8,6 +8,7 @@ import math
 import textwrap
 from typing import TYPE_CHECKING, Any
 
+import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -16,18 +17,8 @@ from numpy.typing import NDArray
 from PIL import Image as Picture
 
 from gripscale.charts.page_elements import Image
-from gripscale.charts.style import (
-    BLUE,
-    DASHED,
-    DPI,
-    FAINT,
-    GREY,
-    INK,
-    ORANGE,
-    WIDE,
-    styled,
-    write_png,
-)
+from gripscale.charts.paper import DASHES, DPI, ROUND, RULES, write_png
+from gripscale.charts.style import BLUE, FAINT, GREY, INK, ORANGE, WIDE
 from gripscale.charts.view import PredictionView
 from gripscale.core import checks
 from gripscale.core.units import MILLI
@@ -51,7 +42,6 @@ HEAD, MIDDLE, FOOT, LAST = 0.5, 0.2, 0.22, 0.22
 """Of a row of panels: its titles, between pressure and block, numbers; below the last [inch]."""
 
 
-@styled
 def block_figure(prediction: xr.Dataset, wave: int = 1) -> Figure:
     """Draw one wave: contact pressure above the deformed mesh and the rigid sine.
 
@@ -69,14 +59,15 @@ def block_figure(prediction: xr.Dataset, wave: int = 1) -> Figure:
     """
     view = PredictionView(prediction)
     number = checks.whole("wave", wave, least=1, most=max(view.waves, 1))
-    return _draw(view, [number - 1], columns=1, width=4.2)
+    with mpl.rc_context(RULES):
+        return _draw(view, [number - 1], columns=1, width=4.2)
 
 
-@styled
 def blocks_figure(prediction: xr.Dataset) -> Figure:
     """Draw every wave of a prediction, largest first, four side by side."""
     view = PredictionView(prediction)
-    return _draw(view, range(view.waves), columns=4, width=WIDE)
+    with mpl.rc_context(RULES):
+        return _draw(view, range(view.waves), columns=4, width=WIDE)
 
 
 def _draw(view: PredictionView, waves: Any, columns: int, width: float) -> Figure:
@@ -97,8 +88,8 @@ def _draw(view: PredictionView, waves: Any, columns: int, width: float) -> Figur
             (left / width, 1 - (top + high) / height, inside / width, high / height)
         )
 
-    for place, i in enumerate(waves):
-        row, column = divmod(place, columns)
+    for number, i in enumerate(waves):
+        row, column = divmod(number, columns)
         left, top = LEFT + column * (inside + BETWEEN), row * row_height + head
         above = panel(left, top, inside * PRESSURE)
         below = panel(left, top + inside * PRESSURE + MIDDLE, inside * (high - low))
@@ -107,15 +98,15 @@ def _draw(view: PredictionView, waves: Any, columns: int, width: float) -> Figur
         else:
             _no_solution(above, view, i)
         _block(below, view, i, (low, high))
-        above.set_title(captions[place], loc="left", y=1.0, fontsize=7.0, parse_math=False)
-        if place == 0 and view.converged[i]:
+        above.set_title(captions[number], loc="left", y=1.0, fontsize=7.0, parse_math=False)
+        if number == 0 and view.converged[i]:
             _annotate(above, below, view, i)
         if column == 0:
             above.set_ylabel(f"$p_c$ [{view.shown('pressure').unit}]")
             below.set_ylabel("$z/\\lambda$ [-]")
         else:
             below.set_yticks([])  # those of the first block hold along the row
-        if place + columns >= len(waves):
+        if number + columns >= len(waves):
             below.set_xlabel("$x/\\lambda$ [-]")
     return figure
 
@@ -143,13 +134,8 @@ def _caption(view: PredictionView, i: int) -> str:
         f"λ = {value('wavelength', MILLI)} mm\n"
         f"A = {value('amplitude', MILLI)} mm\n"
         f"p = {value('pressure_received', how.divisor)} {how.unit}"
-        + (contact if view.converged[i] else f"\n{_folded(view.why(i))}")
+        + (contact if view.converged[i] else f"\n{textwrap.fill(view.why(i), 30)}")
     )
-
-
-def _folded(state: str) -> str:
-    """Return the status of a failed wave on lines that fit over its panel."""
-    return textwrap.fill(state, 30)
 
 
 def _mean(view: PredictionView, i: int) -> float:
@@ -160,10 +146,10 @@ def _mean(view: PredictionView, i: int) -> float:
 def _no_solution(axes: Axes, view: PredictionView, i: int) -> None:
     """Draw the mean pressure alone: what a failed wave ended with is no result."""
     mean = _mean(view, i)
-    axes.axhline(mean, color=GREY, lw=0.8, ls=DASHED)
+    axes.axhline(mean, color=GREY, lw=0.8, ls=DASHES["dashed"])
     axes.text(0.5, 0.75, "no solution", transform=axes.transAxes, ha="center", va="center")
     axes.set(xticks=[], xlim=(-0.5, 0.5), ylim=(0.0, 2.0 * mean))
-    axes.yaxis.set_major_locator(MaxNLocator(2, steps=[1, 2, 5, 10], min_n_ticks=2))
+    axes.yaxis.set_major_locator(MaxNLocator(2, steps=ROUND, min_n_ticks=2))
 
 
 def _pressure(axes: Axes, view: PredictionView, i: int) -> None:
@@ -172,11 +158,11 @@ def _pressure(axes: Axes, view: PredictionView, i: int) -> None:
     pressure = view.shown("pressure").of(pascal)
     axes.fill_between(x, pressure, color=ORANGE, alpha=0.35, lw=0)
     axes.plot(x, pressure, color=ORANGE, lw=1.0)
-    axes.axhline(_mean(view, i), color=GREY, lw=0.8, ls=DASHED)
+    axes.axhline(_mean(view, i), color=GREY, lw=0.8, ls=DASHES["dashed"])
     axes.set_ylim(bottom=0.0)
     axes.set_xlim(-0.5, 0.5)
     axes.set_xticks([])  # those of the block below hold here, too
-    axes.yaxis.set_major_locator(MaxNLocator(2, steps=[1, 2, 5, 10], min_n_ticks=2))
+    axes.yaxis.set_major_locator(MaxNLocator(2, steps=ROUND, min_n_ticks=2))
 
 
 def _block(axes: Axes, view: PredictionView, i: int, window: tuple[float, float]) -> None:
@@ -200,9 +186,9 @@ def _annotate(above: Axes, below: Axes, view: PredictionView, i: int) -> None:
     above.annotate("mean", mean, (0, 2), textcoords="offset points", color=GREY, fontsize=6.5)
     if view.column("sliding_speed")[i] > 0.0:
         box = {"facecolor": "white", "edgecolor": "none", "pad": 1.5}
-        place: dict[str, Any] = {"fontsize": 7.0, "va": "top", "bbox": box}
+        look: dict[str, Any] = {"fontsize": 7.0, "va": "top", "bbox": box}
         text = "rubber slides $\\rightarrow$"
-        below.text(0.05, 0.95, text, transform=below.transAxes, **place)
+        below.text(0.05, 0.95, text, transform=below.transAxes, **look)
 
 
 def _mesh(axes: Axes, x: Array, z: Array, top: float) -> None:
@@ -240,10 +226,10 @@ def picture(figure: Figure, name: str, caption: str, alt: str) -> Image:
     """Return a figure as a picture with its caption and a text for who cannot see it."""
     drawn, packed = io.BytesIO(), io.BytesIO()
     write_png(figure, drawn, PICTURE_DPI)
-    found = Picture.open(drawn).convert("RGB")
-    found.quantize(SHADES).save(packed, "PNG", optimize=True)
+    image = Picture.open(drawn).convert("RGB")
+    image.quantize(SHADES).save(packed, "PNG", optimize=True)
     data = base64.b64encode(packed.getvalue()).decode("ascii")
-    return Image(name, caption, alt, data, "image/png", *found.size)
+    return Image(name, caption, alt, data, "image/png", *image.size)
 
 
 def blocks_image(prediction: PredictionView) -> Image:

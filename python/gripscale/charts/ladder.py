@@ -1,4 +1,4 @@
-"""The lines of the ladder of a comparison, on paper and on pages; needs no drawing library."""
+"""What comparisons show: the look of each rung, rows of the ladder, measured friction."""
 
 from __future__ import annotations
 
@@ -11,6 +11,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from gripscale.analysis.ladder import DIRECT
+from gripscale.charts.chart import Series
 from gripscale.charts.style import (
     BLUE,
     GREEN,
@@ -22,15 +24,9 @@ from gripscale.charts.style import (
     YELLOW,
     predictions_beyond,
 )
-from gripscale.core.units import ZERO_CELSIUS, display_unit
+from gripscale.core.units import ZERO_CELSIUS, DisplayUnit, display_unit
 
-# How the rungs of a comparison look, on paper and on pages; needs no drawing library.
-#
-# A rung is told from the others by marker as well as by colour. Its own line is solid or dotted:
-# dashed is what rests on the rubber beyond its measured band.
-
-JUDGE = "direct"
-"""The rung the others are judged by."""
+Array = NDArray[np.float64]
 ASIDE = ("windows", "map")
 """Groups of other surfaces, which only give the factors of the best estimate."""
 SEEN = 0.01
@@ -38,51 +34,48 @@ SEEN = 0.01
 
 
 class Look(NamedTuple):
-    """Colour, dash and marker of a rung; the words are those of matplotlib and of Bokeh."""
+    """Colour, dash and marker of a rung.
+
+    A rung differs from the others by marker as well as by colour. Its line is solid or dotted:
+    dashed is what rests on the rubber beyond its measured band.
+    """
 
     colour: str
     dash: str
     marker: str
-    bokeh_marker: str
 
 
-_LOOKS = {
-    "chain": Look(BLUE, "solid", "o", "circle"),
-    "chain_half_plane": Look(SKY, "solid", "s", "square"),
-    "chain_upper": Look(SKY, "dotted", "<", "hex"),
-    "sines": Look(GREEN, "solid", "^", "triangle"),
-    "random_phases": Look(PURPLE, "solid", "v", "inverted_triangle"),
-    JUDGE: Look(ORANGE, "solid", "D", "diamond"),
-    "persson": Look(GREY, "dotted", "P", "plus"),
-    "klueppel_heinrich": Look(YELLOW, "dotted", "X", "x"),
+LOOKS = {
+    "chain": Look(BLUE, "solid", "o"),
+    "chain_half_plane": Look(SKY, "solid", "s"),
+    "chain_upper": Look(SKY, "dotted", "<"),
+    "sines": Look(GREEN, "solid", "^"),
+    "random_phases": Look(PURPLE, "solid", "v"),
+    DIRECT: Look(ORANGE, "solid", "D"),
+    "persson": Look(GREY, "dotted", "P"),
+    "klueppel_heinrich": Look(YELLOW, "dotted", "X"),
 }
-_OTHERS = (
-    Look(YELLOW, "solid", "d", "diamond_cross"),
-    Look(YELLOW, "dotted", ">", "star"),
-    Look(INK, "solid", "h", "square_pin"),
-    Look(GREY, "dotted", "p", "triangle_pin"),
+OTHER_LOOKS = (
+    Look(YELLOW, "solid", "d"),
+    Look(YELLOW, "dotted", ">"),
+    Look(INK, "solid", "h"),
+    Look(GREY, "dotted", "p"),
 )
 """For rungs that have no look of their own, in turn."""
 
 
-def look_of(rung: str) -> Look:
-    """Return the look of a rung of its own, or of a stranger."""
-    return _LOOKS.get(rung) or _OTHERS[0]
-
-
-def looks(comparison: xr.Dataset) -> list[tuple[str, Look]]:
-    """Return name and look of each rung, in order."""
-    names = [str(name) for name in comparison["rung"].values]
-    strangers = [name for name in names if name not in _LOOKS]
+def looks(names: list[str]) -> list[Look]:
+    """Return the look of each named rung, in order."""
+    strangers = [name for name in names if name not in LOOKS]
     return [
-        (name, _LOOKS.get(name) or _OTHERS[strangers.index(name) % len(_OTHERS)]) for name in names
+        LOOKS.get(name) or OTHER_LOOKS[strangers.index(name) % len(OTHER_LOOKS)] for name in names
     ]
 
 
 def flawed(comparison: xr.Dataset) -> list[bool]:
     """Return for each rung whether a sample of it failed."""
     counts = comparison["converged_samples"] < comparison["samples"]
-    return [bool(one) for one in counts.values]
+    return [bool(few) for few in counts.values]
 
 
 def varied(comparison: xr.Dataset) -> str:
@@ -104,13 +97,11 @@ def on_the_surface(comparison: xr.Dataset) -> xr.Dataset:
 
 # Friction measured elsewhere, as a comparison holds it: by temperature, and at one speed.
 
-COLOUR = INK
-"""Of everything measured."""
-
-Array = NDArray[np.float64]
+MARKERS = "osD^v"
+"""Of measurements at several temperatures or pressures."""
 
 
-class Series(NamedTuple):
+class MeasuredSeries(NamedTuple):
     """Measured friction at one temperature and pressure over rising speed [m/s].
 
     Spreads may be NaN.
@@ -120,18 +111,19 @@ class Series(NamedTuple):
     speed: Array
     friction: Array
     spread: Array
-    chosen: NDArray[np.bool_]
+    rows: NDArray[np.bool_]
     """Which points of the measurement these are."""
 
     def at(self, speed: float) -> tuple[float, float] | None:
         """Return friction and spread at `speed`, interpolated in its logarithm; None outside."""
         if not self.speed[0] <= speed <= self.speed[-1]:
             return None
-        place, at = np.log(self.speed), math.log(speed)
-        return float(np.interp(at, place, self.friction)), float(np.interp(at, place, self.spread))
+        at, speeds = math.log(speed), np.log(self.speed)
+        friction, spread = (np.interp(at, speeds, row) for row in (self.friction, self.spread))
+        return float(friction), float(spread)
 
 
-def measured(data: xr.Dataset) -> Iterator[Series]:
+def measured(data: xr.Dataset) -> Iterator[MeasuredSeries]:
     """Yield what was measured at each temperature, to the kelvin, and each pressure.
 
     Nothing without a measurement.
@@ -143,28 +135,41 @@ def measured(data: xr.Dataset) -> Iterator[Series]:
     pascal = data.measured_pressure.values if "measured_pressure" in data else unknown
     several = np.unique(pascal).size > 1
     how = display_unit("pressure", data.attrs)
-    for value in np.unique(kelvin):
-        for load in np.unique(pascal):
-            chosen = _same(kelvin, value) & _same(pascal, load)
-            if chosen.any():
-                pressure = how.text(float(load), 3) if several and not np.isnan(load) else ""
-                parts = ["measured", *_words(float(value), pressure)]
-                speed, friction, spread = (
-                    data[f"measured_{name}"].values[chosen]
-                    for name in ("speed", "friction", "spread")
-                )
-                yield Series(", ".join(parts), speed, friction, spread, chosen)
+    for temperature in np.unique(kelvin):
+        for pressure in np.unique(pascal):
+            rows = np.isclose(kelvin, temperature, equal_nan=True)
+            rows &= np.isclose(pascal, pressure, rtol=0.0, atol=0.0, equal_nan=True)
+            if not rows.any():
+                continue
+            words = ["measured"]
+            if not math.isnan(temperature):
+                words.append(f"{temperature - ZERO_CELSIUS:.0f} °C")
+            if several and not math.isnan(pressure):
+                words.append(how.text(float(pressure), 3))
+            speed, friction, spread = (
+                data[f"measured_{name}"].values[rows] for name in ("speed", "friction", "spread")
+            )
+            yield MeasuredSeries(", ".join(words), speed, friction, spread, rows)
 
 
-def _same(values: Array, value: float) -> NDArray[np.bool_]:
-    return np.isnan(values) if np.isnan(value) else values == value
-
-
-def _words(kelvin: float, pressure: str) -> Iterator[str]:
-    if not math.isnan(kelvin):
-        yield f"{kelvin - ZERO_CELSIUS:.0f} °C"
-    if pressure:
-        yield pressure
+def measured_points(data: xr.Dataset, how: DisplayUnit) -> Iterator[Series]:
+    """Yield the points of each measured series over speed, shown as `how`, with their spread."""
+    for number, series in enumerate(measured(data)):
+        spread = np.nan_to_num(series.spread)
+        yield Series(
+            how.of(series.speed),
+            series.friction,
+            INK,
+            series.label,
+            dash="",
+            marker=MARKERS[number % len(MARKERS)],
+            size=5.5,
+            filled=False,
+            low=series.friction - spread,
+            high=series.friction + spread,
+            order=5.0,
+            clip=False,
+        )
 
 
 BEST = "best estimate"
@@ -203,23 +208,23 @@ def rows_of(comparison: xr.Dataset, name: str) -> Iterator[Row]:
         zip(comparison.rung.values, comparison[f"total_{name}"].values.tolist(), strict=True)
     )
     for at, (rung, bad) in enumerate(zip(values, flawed(comparison), strict=True)):
-        one = comparison.isel(rung=at)
-        theory, judge = str(one.group.item()) == "theory", rung == JUDGE
-        samples = one[f"sample_{name}"].values
-        star = STAR if predictions_beyond(one) else ""
+        solved = comparison.isel(rung=at)
+        theory, judge = str(solved.group.item()) == "theory", rung == DIRECT
+        samples = solved[f"sample_{name}"].values
+        star = STAR if predictions_beyond(solved) else ""
         yield Row(
-            f"{one.label.item()}{star}",
+            f"{solved.label.item()}{star}",
             values[rung],
-            float(one[f"{name}_uncertainty"]),
-            math.nan if theory else values.get(str(one.follows.item()), math.nan),
-            float(one[f"{name}_factor"]),
-            tuple(samples[np.isfinite(samples)].tolist()) if int(one.samples) > 1 else (),
+            float(solved[f"{name}_uncertainty"]),
+            math.nan if theory else values.get(str(solved.follows.item()), math.nan),
+            float(solved[f"{name}_factor"]),
+            tuple(samples[np.isfinite(samples)].tolist()) if int(solved.samples) > 1 else (),
             marker="D" if judge else "s" if theory else "o",
             colour=GREY if theory else ORANGE if judge else INK,
             filled=not bad,
             note="failed" if math.isnan(values[rung]) and not theory else "none",
         )
-    yield from _best(comparison, name, values.get(JUDGE, math.nan))
+    yield from _best(comparison, name, values.get(DIRECT, math.nan))
     yield from _measured(comparison, name)
 
 
@@ -245,10 +250,10 @@ def _best(comparison: xr.Dataset, name: str, value: float) -> Iterator[Row]:
 def _measured(comparison: xr.Dataset, name: str) -> Iterator[Row]:
     """Yield the measured friction at the speed of the comparison, by temperature."""
     for series in measured(comparison):
-        found = series.at(float(comparison.nominal_speed)) if name == "friction" else None
-        if found is None:
+        point = series.at(float(comparison.nominal_speed)) if name == "friction" else None
+        if point is None:
             note = "not at this speed" if name == "friction" else "–"
             yield Row(series.label, math.nan, note=note)
         else:
-            friction, spread = found
-            yield Row(series.label, friction, spread / friction, marker="P", colour=COLOUR)
+            friction, spread = point
+            yield Row(series.label, friction, spread / friction, marker="P", colour=INK)

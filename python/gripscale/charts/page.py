@@ -1,88 +1,100 @@
-"""The look shared by the interactive figures: axes, colours, tools, legends.
+"""Charts on the page: draws a `Panel` with Bokeh, to be zoomed and read off under the pointer.
 
 Bokeh: https://bokeh.org. Its core script, 1.3 MB, is a quarter of the size of Plotly's.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from bokeh.models import BasicTickFormatter, FixedTicker, HoverTool, LogTickFormatter, Range1d
-from bokeh.models.annotations.legends import Legend, LegendItem
-from bokeh.palettes import Viridis256
+from bokeh.models.annotations.geometry import Span
+from bokeh.models.annotations.legends import LegendItem
 from bokeh.plotting import figure as Figure
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
+from gripscale.charts import page_elements
+from gripscale.charts.chart import Axis, Band, Bars, CrossLine, Mark, Panel, Series, spelled_out
 from gripscale.charts.style import BEYOND, FAINT, GREY, INK, stretches
 
-RED = "#B00020"
+Array = NDArray[np.float64]
 FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Liberation Sans', Arial, sans-serif"
-HEIGHT = 340
 LEGEND_ROW = 28
 """Height of a row of the legend [px]; of more than two rows the figure grows."""
 LEGEND_WIDTH = 300
 """Width the legend should keep within [px], that of a telephone; a letter takes about 6."""
+PIXELS = 1.3
+"""Pixels of a line on the page for each point of its width on paper."""
+LEAST_MARKER = 6.0
+"""Size of a marker that a pointer can hit [px]."""
+LEAST_RANGE = 4.0
+"""Largest over smallest number of a logarithmic ordinate, so that there are numbers along it."""
+MOST_HOVERED = 2000
+"""Points of a curve that tells its numbers under the pointer."""
+MOST_EXACT = 300
+"""Points above which a curve is stored in single precision: enough to draw, half the size."""
+
+DASHES = {"dotted": "dotted", "dashed": "dashed", "dashdot": "dotdash", "solid": "solid"}
+MARKERS = {
+    "o": "circle", ".": "circle", "s": "square", "^": "triangle", "v": "inverted_triangle",
+    "D": "diamond", "P": "plus", "X": "x", "x": "x", "+": "cross", "<": "hex", "d": "diamond_cross",
+    ">": "star", "*": "star", "h": "square_pin", "p": "triangle_pin", "|": "dash",
+}  # fmt: skip
+"""Bokeh's word for a marker in matplotlib's letters."""
 
 
-def plot(
-    x: str,
-    y: str,
-    *,
-    log: str = "",
-    wavelengths: ArrayLike | None = None,
-    height: int = HEIGHT,
-    **options: Any,
-) -> Figure:
-    """Return an empty figure.
-
-    Parameters
-    ----------
-    x, y
-        Labels of the axes, with units.
-    log
-        Which axes are logarithmic: "x", "y", "xy" or none.
-    wavelengths
-        If given [mm], x is a log axis of wavelength that falls to the right, as in the paper.
-    height
-        Height [px]; the width is that of the page.
-    **options
-        Passed to Bokeh.
-    """
-    if wavelengths is not None:
-        log += "x"
-        low, high = np.min(wavelengths), np.max(wavelengths)
-        options["x_range"] = Range1d(start=1.4 * float(high), end=float(low) / 1.4)
+def draw_panel(panel: Panel) -> page_elements.Chart:
+    """Return a chart of the page: the panel's Bokeh figure, with its caption and alternative."""
     figure = Figure(
-        height=height,
+        height=panel.height,
         sizing_mode="stretch_width",
-        x_axis_type="log" if "x" in log else "linear",
-        y_axis_type="log" if "y" in log else "linear",
-        x_axis_label=x,
-        y_axis_label=y,
+        x_axis_type="log" if panel.x.log else "linear",
+        y_axis_type="log" if panel.y.log else "linear",
+        x_axis_label=spelled_out(panel.x.label),
+        y_axis_label=spelled_out(panel.y.label),
         tools="pan,box_zoom,wheel_zoom,reset,save",
         active_drag="box_zoom",
         toolbar_location="right",
-        **options,
     )
     _style(figure)
-    if wavelengths is not None and high / low < 60.0:
-        tick_closely(figure)
-    return figure
+    _set_axis(figure, "x", panel.x, _extent(panel.marks, "x"))
+    _set_axis(figure, "y", panel.y, _extent(panel.marks, "y"))
+    points: list[Any] = []
+    for mark in panel.marks:
+        match mark:
+            case Series():
+                points += _draw_series(figure, mark, positive=panel.y.log)
+            case Band():
+                _draw_band(figure, mark, positive=panel.y.log)
+            case Bars():
+                x0, x1, y0, y1 = np.broadcast_arrays(
+                    *np.atleast_1d(mark.x0, mark.x1, mark.y0, mark.y1)
+                )
+                figure.quad(left=x0, right=x1, bottom=y0, top=y1, line_color=None,
+                            fill_color=mark.colour, fill_alpha=mark.alpha,
+                            **_labelled(mark.label))  # fmt: skip
+            case CrossLine(to=None):
+                _draw_cross_line(figure, mark, panel.marks)
+    curves = [mark for mark in panel.marks if isinstance(mark, Series)]
+    if any(np.any(curve.beyond) for curve in curves):
+        figure.line([np.nan] * 2, [np.nan] * 2, color=GREY, line_dash="dashed", legend_label=BEYOND)
+    if named := [point for point in points if point.name]:
+        points = named
+    if points:
+        tips = [_tip(panel.x.label, "@x"), _tip(panel.y.label, "@y")]
+        if sum(bool(curve.label) for curve in curves) > 1:
+            tips.insert(0, ("curve", "$name"))
+        figure.add_tools(HoverTool(renderers=points, tooltips=tips))
+    if panel.legend == "none":
+        figure.legend.visible = False
+    else:
+        _place_legend(figure)
+    return page_elements.Chart(panel.name, panel.caption, panel.alt, figure)
 
 
-def tick_closely(figure: Figure) -> None:
-    """Put ticks at 1, 2 and 5 times each power of ten below a log axis of less than two decades.
-
-    Bokeh's own labels of a log axis would round 0.2 and 0.5 to 0.1 and 1.
-    """
-    ticks = [m * 10.0**n for n in range(-6, 5) for m in (1, 2, 5)]
-    figure.xaxis.ticker = figure.xgrid.ticker = FixedTicker(ticks=ticks)
-    figure.xaxis.formatter = BasicTickFormatter()
-
-
-def _style(figure: Figure) -> None:
+def _style(figure: Any) -> None:
     figure.toolbar.logo = None
     figure.outline_line_color = None
     figure.grid.grid_line_color = FAINT
@@ -99,107 +111,152 @@ def _style(figure: Figure) -> None:
             axis.minor_tick_line_color = None
 
 
-def legend(figure: Figure) -> Figure:
+def _extent(marks: Sequence[Mark], which: str) -> Array:
+    """Return all finite numbers that marks show along an axis."""
+    parts: list[Any] = []
+    for mark in marks:
+        match mark:
+            case Series():
+                ends = [end for end in (mark.low, mark.high) if end is not None]
+                along = mark.level_bars == (which == "x")
+                parts += [getattr(mark, which), *(ends if along else [])]
+            case Band():
+                parts += [mark.x] if which == "x" else [mark.low, mark.high]
+            case Bars():
+                parts += [mark.x0, mark.x1] if which == "x" else [mark.y0, mark.y1]
+            case CrossLine() if mark.upright == (which == "x"):
+                parts.append(mark.at)
+    values: Array = np.concatenate([np.ravel(np.asarray(part, float)) for part in (*parts, [])])
+    return np.asarray(values[np.isfinite(values)])
+
+
+def _set_axis(figure: Any, which: str, axis: Axis, values: Array) -> None:
+    """Set the limits of an axis and where its numbers stand."""
+    drawn, grid = getattr(figure, f"{which}axis"), getattr(figure, f"{which}grid")
+    limits = getattr(figure, f"{which}_range")
+    if axis.ticks is not None:
+        drawn.ticker = grid.ticker = FixedTicker(ticks=list(axis.ticks))
+        drawn.major_label_overrides = {at: spelled_out(name) for at, name in axis.ticks.items()}
+    if axis.low is not None and axis.high is not None:
+        start, end = _widened(axis.low, axis.high, log=axis.log)
+        setattr(figure, f"{which}_range", Range1d(start=start, end=end))
+    elif not axis.log:
+        ends = {"start": axis.low, "end": axis.high}
+        limits.update(**{end: at for end, at in ends.items() if at is not None})
+    if axis.whole and values.size and axis.ticks is None:
+        whole = list(range(int(np.ceil(values.min())), int(values.max()) + 1))
+        drawn.ticker = grid.ticker = FixedTicker(ticks=whole)
+    values = values[values > 0.0]
+    if not axis.log or not values.size:
+        return
+    if which == "y" and (axis.low is None or axis.high is None):
+        room = max(LEAST_RANGE * values.min() / values.max(), 1.2) ** 0.5
+        limits.update(start=values.min() / room, end=values.max() * room)
+    if values.max() < 60.0 * values.min() and axis.ticks is None:
+        # Bokeh's own labels of a short log axis are few, and would round 0.2 and 0.5 to 0.1 and 1.
+        first = int(np.floor(np.log10(values.min()))) - 1
+        ticks = [m * 10.0**n for n in range(first, first + 5) for m in (1, 2, 5)]
+        drawn.ticker = grid.ticker = FixedTicker(ticks=ticks)
+        drawn.formatter = BasicTickFormatter()
+
+
+def _widened(start: float, end: float, *, log: bool) -> tuple[float, float]:
+    """Return the ends of an axis with room for markers at them, which Bokeh would cut."""
+    ends = np.log([start, end]) if log else np.array([start, end])
+    ends += 0.02 * (ends[1] - ends[0]) * np.array([-1.0, 1.0])
+    start, end = np.exp(ends) if log else ends
+    return float(start), float(end)
+
+
+def _draw_series(figure: Any, series: Series, *, positive: bool) -> list[Any]:
+    """Draw a curve, dashed beyond the measured band; return what shows its numbers."""
+    x, y = _stored(series.x), _stored(series.y, positive=positive)
+    width, label = PIXELS * series.width, spelled_out(series.label)
+    look: dict[str, Any] = {"color": series.colour, "alpha": series.alpha, "name": label}
+    look |= _labelled(series.label)
+    drawn = []
+    if series.low is not None and series.high is not None:
+        low, high = _stored(series.low, positive=positive), _stored(series.high)
+        ends = (low, y, high, y) if series.level_bars else (x, low, x, high)
+        figure.segment(*ends, line_width=1.6, **look)
+    if series.dash:
+        for part, dashed in stretches(np.broadcast_to(series.beyond, x.shape)):
+            dash = "dashed" if dashed else DASHES[series.dash]
+            drawn.append(figure.line(x[part], y[part], line_width=width, line_dash=dash, **look))
+    if series.marker:
+        filled = np.broadcast_to(np.asarray(series.filled, dtype=bool), x.shape)
+        size = 4.5 if series.marker == "." else max(1.2 * PIXELS * series.size, LEAST_MARKER)
+        for chosen, face in ((filled, series.colour), (~filled, "white")):
+            if chosen.any():
+                drawn.append(figure.scatter(
+                    x[chosen], y[chosen], marker=MARKERS[series.marker], size=size,
+                    line_width=max(width, 1.0) if series.marker in "x+|" else 1.2,
+                    angle=0.5 * np.pi if series.marker == "|" else 0.0,
+                    **(look | {"fill_color": face}),
+                ))  # fmt: skip
+        drawn = [part for part in drawn if part.glyph.__class__.__name__ == "Scatter"]
+    return drawn if x.size <= MOST_HOVERED else []
+
+
+def _draw_band(figure: Any, band: Band, *, positive: bool) -> None:
+    arrays = np.broadcast_arrays(_stored(band.x), _stored(band.low, positive=positive), band.high)
+    finite = np.isfinite(arrays).all(axis=0)
+    x, low, high = (array[finite] for array in arrays)
+    look = {"fill_color": band.colour, "fill_alpha": band.alpha} | _labelled(band.label)
+    if x.size:
+        figure.varea(x=x, y1=low, y2=high, **look)
+
+
+def _draw_cross_line(figure: Any, line: CrossLine, marks: Sequence[Mark]) -> None:
+    """Draw a line across the panel: over all that is drawn, or without a label a span."""
+    look: dict[str, Any] = {
+        "line_color": line.colour,
+        "line_dash": DASHES[line.dash],
+        "line_width": PIXELS * line.width,
+    }
+    across = _extent(marks, "x")
+    x, y = [np.nan] * 2, [np.nan] * 2
+    if line.label and not line.upright and across.size:
+        x, y = [across.min(), across.max()], [line.at] * 2
+    else:
+        dimension: Any = "height" if line.upright else "width"
+        figure.add_layout(Span(location=line.at, dimension=dimension, **look))
+    if line.label:
+        figure.line(x, y, **look, **_labelled(line.label))
+
+
+def _labelled(label: str) -> dict[str, Any]:
+    """Return the entry of the legend, if there is one."""
+    return {"legend_label": spelled_out(label)} if label else {}
+
+
+def _stored(values: ArrayLike, *, positive: bool = False) -> NDArray[Any]:
+    """Return values as the page keeps them, NaN where a log axis cannot show them."""
+    array = np.asarray(values, dtype=float)
+    array = np.where(array > 0.0, array, np.nan) if positive else array
+    return array.astype(np.float32) if array.size > MOST_EXACT else array
+
+
+def _tip(label: str, value: str) -> tuple[str, str]:
+    """Return name and value of a coordinate under the pointer, with the unit of its axis."""
+    words, _, unit = spelled_out(label).rpartition(" [")
+    unit = unit.partition("]")[0]
+    return words or value.removeprefix("@"), value if unit in ("-", "") else f"{value} {unit}"
+
+
+def _place_legend(figure: Any) -> None:
     """Move the legend above the frame; a click on an entry hides or shows its curve."""
     for box in list(figure.legend):
         figure.center = [part for part in figure.center if part is not box]
+        items = [item for item in box.items if isinstance(item, LegendItem)]
+        longest = max((len(str(getattr(item.label, "value", ""))) for item in items), default=1)
+        box.ncols = min(max(LEGEND_WIDTH // (6 * longest + 33), 1), 4)
+        box.orientation = "horizontal"
+        box.click_policy = "hide"
+        box.label_text_font = FONT
+        box.label_text_font_size = "12px"
+        box.border_line_color = None
+        box.update(padding=2, margin=0, spacing=8)
         figure.add_layout(box, "above")
-        rows = _style_legend(box)
-        figure.update(height=(figure.height or HEIGHT) + LEGEND_ROW * max(rows - 2, 0))
-    return figure
-
-
-def _style_legend(box: Legend) -> int:
-    """Set the look of a legend and return how many rows it has."""
-    items = [item for item in box.items if isinstance(item, LegendItem)]
-    longest = max((len(str(getattr(item.label, "value", ""))) for item in items), default=1)
-    box.orientation = "horizontal"
-    columns = min(max(LEGEND_WIDTH // (6 * longest + 33), 1), 4)
-    box.ncols = columns
-    box.click_policy = "hide"
-    box.label_text_font = FONT
-    box.label_text_font_size = "12px"
-    box.border_line_color = None
-    box.update(padding=2, margin=0, spacing=8)
-    return -(-len(items) // columns)
-
-
-def hover(figure: Figure, renderers: Iterable[Any], tips: Sequence[tuple[str, str]]) -> None:
-    """Show `tips` over the points of `renderers`."""
-    figure.add_tools(HoverTool(renderers=list(renderers), tooltips=list(tips)))
-
-
-def single(values: ArrayLike) -> np.ndarray:
-    """Return `values` in single precision: enough to draw, half the size."""
-    return np.asarray(values, dtype=np.float32)
-
-
-def positive(values: ArrayLike) -> np.ndarray:
-    """Return `values` with NaN where a log axis cannot show them."""
-    array = np.asarray(values, dtype=float)
-    return np.where(array > 0.0, array, np.nan)
-
-
-def whole_decades(figure: Figure, *values: ArrayLike) -> None:
-    """Let a log axis of heights start and end at powers of ten, at least two apart.
-
-    Over less than two decades Bokeh's ticks are those of a linear axis, too few to read.
-    """
-    everything = np.concatenate([np.ravel(np.asarray(part, dtype=float)) for part in values])
-    shown = everything[np.isfinite(everything) & (everything > 0.0)]
-    if shown.size:
-        first, last = np.log10(shown.min()), np.log10(shown.max())
-        high = np.ceil(last - 1e-6)
-        low = min(np.floor(first), high - 2.0)
-        figure.y_range.update(start=10.0 ** (low - 0.05), end=10.0 ** (high + 0.1))
-
-
-def curve(
-    figure: Figure,
-    x: ArrayLike,
-    y: ArrayLike,
-    colour: str,
-    label: str,
-    *,
-    beyond: ArrayLike | None = None,
-    dash: str = "solid",
-    fill: str = "",
-) -> Any:
-    """Draw a line with points on it, dashed where it is `beyond` the measured band.
-
-    `dash` is its own dash, `fill` the colour inside a point.
-    """
-    x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
-    line(figure, x, y, beyond, color=colour, line_width=1.8, line_dash=dash, legend_label=label)
-    return figure.scatter(
-        x, y, size=7, line_color=colour, fill_color=fill or colour, legend_label=label
-    )
-
-
-def line(
-    figure: Figure, x: np.ndarray, y: np.ndarray, beyond: ArrayLike | None, **look: Any
-) -> None:
-    """Draw a line, dashed where it is `beyond` the measured band."""
-    flags = np.zeros(x.size, dtype=bool) if beyond is None else np.asarray(beyond, dtype=bool)
-    for part, dashed in stretches(flags):
-        figure.line(x[part], y[part], **(look | {"line_dash": "dashed"} if dashed else look))
-
-
-def dashed_entry(figure: Figure, *beyond: ArrayLike) -> None:
-    """Say in the legend what dashed is, if any curve is beyond the measured band."""
-    if any(np.any(flags) for flags in beyond):
-        nowhere = [np.nan, np.nan]
-        figure.line(nowhere, nowhere, color=GREY, line_dash="dashed", legend_label=BEYOND)
-
-
-def shades(count: int) -> list[str]:
-    """Return colours in order, from dark to light."""
-    at = np.linspace(0, 215, max(count, 1)).astype(int)
-    return [Viridis256[i] for i in at]
-
-
-def wave_ticks(figure: Figure, count: int) -> None:
-    """Put a tick at every wave number."""
-    ticker = FixedTicker(ticks=list(range(1, count + 1)))
-    figure.xaxis.ticker = ticker
-    figure.xgrid.ticker = ticker
+        rows = -(-len(items) // box.ncols)
+        figure.update(height=figure.height + LEGEND_ROW * max(rows - 2, 0))

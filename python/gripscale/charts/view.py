@@ -119,10 +119,10 @@ class PredictionView:
     def pressure_along(self, i: int) -> tuple[Array, Array]:
         """Return x/wavelength from -1/2 to 1/2, crest at 0, and the contact pressure [Pa] there."""
         x, pressure = self.column("surface_x")[i], self.column("surface_pressure")[i]
-        known = np.isfinite(x)
-        phase = np.mod(x[known] / self.column("wavelength")[i] + 0.5, 1.0) - 0.5
+        finite = np.isfinite(x)
+        phase = np.mod(x[finite] / self.column("wavelength")[i] + 0.5, 1.0) - 0.5
         order = np.argsort(phase)
-        inside, values = phase[order], pressure[known][order]
+        inside, values = phase[order], pressure[finite][order]
         end = np.interp(0.5, [inside[-1], inside[0] + 1.0], [values[-1], values[0]])
         return np.array([-0.5, *inside, 0.5]), np.array([end, *values, end])
 

@@ -143,10 +143,10 @@ def _conclude_comparison(
 ) -> list[str]:
     """Print and keep tables, figures and the result; return what did not converge."""
     from gripscale.case import folder
+    from gripscale.charts.comparison import at_measured_figure
     from gripscale.charts.ladder import varied
-    from gripscale.charts.print_comparison import at_measured_figure, draw
-    from gripscale.charts.print_run import draw_effects
-    from gripscale.charts.style import save_figure
+    from gripscale.charts.paper import save_figure
+    from gripscale.charts.write import draw_comparison, draw_effects
     from gripscale.io import netcdf
     from gripscale.report import tables_run
     from gripscale.report.tables_comparison import (
@@ -180,7 +180,7 @@ def _conclude_comparison(
     parts += sampled
     print_parts(console, parts)
     folder.write_text(target / f"{name}.txt", tables_run.as_text(*parts))
-    draw(data, target)
+    draw_comparison(data, target)
     console.print()
     print_wrapped(console, f"Tables, figures and result ({name}.nc) are in {target}")
     return list(_failures(data, axis))
@@ -293,8 +293,8 @@ def compare_surfaces(
 
 def _conclude_surfaces(console: Console, made: Roads, target: Path) -> None:
     """Print and keep the table, draw figures and page, and say which predictions failed."""
-    from gripscale.charts.print_side_by_side import roads_friction_figure, roads_statistics_figure
-    from gripscale.charts.style import save_figure
+    from gripscale.charts.paper import save_figure
+    from gripscale.charts.side_by_side import roads_friction_figure, roads_statistics_figure
     from gripscale.report import write_report
     from gripscale.report.tables_comparison import roads_failures, roads_sentences, roads_tables
 
@@ -380,8 +380,9 @@ def compare_rubbers(
 
 def _conclude_rubbers(console: Console, made: Compounds, target: Path) -> None:
     """Print and keep the table, draw the figures, and say which predictions failed."""
-    from gripscale.charts.print_side_by_side import compound_friction_figure, compound_moduli_figure
-    from gripscale.charts.style import save_figure
+    from gripscale.charts.paper import save_figure
+    from gripscale.charts.rubber import compound_moduli_figure
+    from gripscale.charts.side_by_side import compound_friction_figure
     from gripscale.report.tables_comparison import compounds_sentences, compounds_table
 
     table = compounds_table(made.data)

@@ -101,9 +101,9 @@ def _conclude_study(
     folder.write_text(target / "study.txt", tables_run.as_text(*opening, *parts))
     figures = target / "figures"
     if not (drawn and any(figures.iterdir())):
-        from gripscale.charts.print_study import draw
+        from gripscale.charts.write import draw_study
 
-        draw(result, figures)
+        draw_study(result, figures)
     console.print()
     print_wrapped(console, f"Result (study.nc), table and figures are in {target}")
     statuses = result.prediction_status.values.ravel().tolist()
@@ -255,7 +255,7 @@ def _given(texts: Sequence[str]) -> dict[str, str]:
 def _conclude_uncertainty(console: Console, data: xr.Dataset, target: Path) -> None:
     """Print and keep tables and sentences, draw the figures, and say what failed."""
     from gripscale.case import folder
-    from gripscale.charts.print_uncertainty import draw_uncertainty
+    from gripscale.charts.write import draw_uncertainty
     from gripscale.report import tables_run
     from gripscale.report.tables_uncertainty import failures, parts
 
@@ -368,7 +368,7 @@ def _keep(made: Calibration, file: CaseFile, parts: list[Any], target: Path) -> 
     """Write result, tables, figures and the table of the law into the folder."""
     from gripscale.analysis.calibration_text import shear_stress_table
     from gripscale.case import folder
-    from gripscale.charts.print_uncertainty import draw_calibration
+    from gripscale.charts.write import draw_calibration
     from gripscale.io import netcdf
     from gripscale.report import tables_run
 

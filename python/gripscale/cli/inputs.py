@@ -179,7 +179,7 @@ def fit_surface(
     for line in lines:
         print_wrapped(console, line)
     if output is not None:
-        from gripscale.charts.print_run import surface_figures
+        from gripscale.charts.write import surface_figures
 
         folder.make(output)
         surface_figures(prepared, output)
@@ -320,7 +320,7 @@ def _columns(text: str) -> dict[str, str | int] | list[str | int]:
 def _write(console: Console, prepared: PreparedRubber, output: Path) -> None:
     """Write the figures, and of sweeps the shift table, the master curve and the rubber."""
     from gripscale.case import folder
-    from gripscale.charts.print_run import rubber_figures
+    from gripscale.charts.write import rubber_figures
 
     folder.make(output)
     rubber_figures(prepared, (), output)

@@ -111,7 +111,7 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
         FileWritten,
         WaveSolved,
     )
-    from gripscale.charts.print_run import background_figures
+    from gripscale.charts.background import background_figures
 
     file = read_case(case)
     target = output if output is not None else file.resolve(file.case.output.folder)
@@ -257,7 +257,7 @@ def _conclude_run(
 def _conditions_tables(results: CaseResults, worth: xr.Dataset | None) -> Iterator[Any]:
     """Yield the temperature of each wave and what each effect is worth, and draw both."""
     from gripscale.case.results import DYNAMIC
-    from gripscale.charts.print_run import draw_effects, draw_heat
+    from gripscale.charts.write import draw_effects, draw_heat
     from gripscale.report.tables_comparison import effects_table
     from gripscale.report.tables_run import heat_table
 

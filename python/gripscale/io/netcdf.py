@@ -84,9 +84,9 @@ def load_tree(path: str | Path) -> xr.DataTree:
 
     with _reading(path) as file, xr.open_datatree(file, engine=ENGINE) as tree:
         tree.load()
-        for node in tree.subtree:
-            node.dataset = _with_new_names(node.to_dataset(inherit=False))
-        return tree
+        # A node that got another dataset would no longer be closed with the tree.
+        nodes = {node.path: node.to_dataset(inherit=False) for node in tree.subtree}
+        return xr.DataTree.from_dict({name: _with_new_names(data) for name, data in nodes.items()})
 
 
 def _with_new_names(data: xr.Dataset) -> xr.Dataset:

@@ -9,8 +9,8 @@ import numpy as np
 import xarray as xr
 
 from gripscale.analysis.effects import CHANGES, WITH_AREA_TERM
+from gripscale.charts.comparison import axis_charts, ladder_charts
 from gripscale.charts.ladder import flawed, varied
-from gripscale.charts.page_comparison import axis_charts, ladder_charts
 from gripscale.charts.page_elements import (
     NONE,
     Element,

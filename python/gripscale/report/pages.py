@@ -15,10 +15,10 @@ import numpy as np
 import xarray as xr
 from PIL import Image as Picture
 
+from gripscale.analysis.ladder import DIRECT
 from gripscale.analysis.propagation import of_same_inputs
 from gripscale.case.run import KEY
 from gripscale.charts.blocks import blocks_image, picture
-from gripscale.charts.ladder import JUDGE
 from gripscale.charts.page_elements import (
     NONE,
     Card,
@@ -38,10 +38,11 @@ from gripscale.charts.page_elements import (
     words_of,
 )
 from gripscale.charts.page_elements import Table as PageTable
-from gripscale.charts.page_inputs import correlation_charts, profile_charts, rubber_charts
-from gripscale.charts.page_run import contact_charts, verification_charts
-from gripscale.charts.page_study import study_charts
-from gripscale.charts.print_side_by_side import roads_friction_figure, roads_statistics_figure
+from gripscale.charts.rubber import rubber_charts
+from gripscale.charts.side_by_side import roads_friction_figure, roads_statistics_figure
+from gripscale.charts.study import study_charts
+from gripscale.charts.surface import correlation_charts, profile_charts
+from gripscale.charts.wave_and_chain import contact_charts, verification_charts
 from gripscale.core.provenance import versions
 from gripscale.experiment.axis import COUNTS, axis_shown, name_of, of_numbers
 from gripscale.io.text_table import read_bytes
@@ -235,7 +236,7 @@ def study_page(study: Study) -> Page:
         Section("axes", "What was varied", [_axes(study), *_over_reduced_speed(data)]),
         *input_sections(study),
         Section("totals", "Totals of every prediction", _study_totals(study)),
-        Section("curves", "Curves", study_charts(study)),
+        Section("curves", "Curves", study_charts(study.data)),
         Section("method", "Method", method_elements()),
         Section(
             "again",
@@ -464,7 +465,7 @@ def comparison_page(compared: Compared) -> Page:
 def _comparison_cards(ladder: xr.Dataset) -> list[Card]:
     """Return what the judging rung says, or the first one there is."""
     names = [str(name) for name in ladder.rung.values]
-    one = ladder.isel(rung=names.index(JUDGE) if JUDGE in names else 0)
+    one = ladder.isel(rung=names.index(DIRECT) if DIRECT in names else 0)
     bad = int(one.converged_samples) < int(one.samples)
     label = str(one.label.item())
     cards = []

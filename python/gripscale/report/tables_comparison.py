@@ -12,7 +12,8 @@ import xarray as xr
 from rich.table import Table
 
 from gripscale.analysis.effects import CHANGES, WITH_AREA_TERM
-from gripscale.charts.ladder import JUDGE, flawed
+from gripscale.analysis.ladder import DIRECT
+from gripscale.charts.ladder import flawed
 from gripscale.charts.style import power_of_ten
 from gripscale.charts.view import CONVERGED, PredictionView
 from gripscale.core.units import MILLI, significant
@@ -60,7 +61,7 @@ def comparison_table(comparison: xr.Dataset) -> Table:
             *area,
             *friction,
             samples_of(one),
-            style="bold red" if bad else "bold" if str(one.rung.item()) == JUDGE else None,
+            style="bold red" if bad else "bold" if str(one.rung.item()) == DIRECT else None,
         )
     return table
 
@@ -160,7 +161,7 @@ def best_sentence(comparison: xr.Dataset) -> str:
 
 def _best_total(comparison: xr.Dataset) -> float:
     """Return the best estimate with the area term, which goes with the contact area."""
-    judge = comparison.sel(rung=JUDGE)
+    judge = comparison.sel(rung=DIRECT)
     share = comparison.best_contact_fraction / judge.total_contact_fraction
     return float(comparison.best_friction + judge[ADHESIVE_FRICTION] * share)
 

@@ -1,0 +1,259 @@
+r"""What a chart shows, described once: series, bands, bars and levels over two axes with units.
+
+`gripscale.charts.paper` draws the panels of a `Sheet` side by side with matplotlib,
+`gripscale.charts.page` draws each `Panel` alone with Bokeh. A description needs neither. Letters of
+equations stand between dollar signs, such as "friction $\mu$ [-]"; the page spells them out.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gripscale.charts.style import BLUE, GREY, INK, WIDE
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from gripscale.charts.page_elements import Chart
+
+Array = NDArray[np.float64]
+
+LETTERS = {
+    "\\lambda": "λ", "\\mu": "μ", "\\omega": "ω", "\\tau": "τ", "\\epsilon": "ε", "'": "′",
+    "^*": "*", "^2": "²", "^3": "³", "_i": "ᵢ", "_{10}": "₁₀", "\\ln": "ln ", "\\": "",
+}  # fmt: skip
+"""Letters of equations without mathematical type."""
+
+
+def spelled_out(text: str) -> str:
+    """Return words with their letters of equations spelled out in Unicode."""
+
+    def letters_of(match: re.Match[str]) -> str:
+        letters = match[1].replace("''", "″")
+        for name, letter in LETTERS.items():
+            letters = letters.replace(name, letter)
+        return letters
+
+    return re.sub(r"\$(.*?)\$", letters_of, text)
+
+
+@dataclass(frozen=True)
+class Axis:
+    """An axis with its label, which ends with the unit; `low` above `high` turns it round."""
+
+    label: str = ""
+    log: bool = False
+    low: float | None = None
+    high: float | None = None
+    ticks: Mapping[float, str] | None = None
+    """Names of positions, in place of numbers."""
+    bold: frozenset[str] = frozenset()
+    """Names that stand out."""
+    numbers: int = 0
+    """Most numbers along the axis on paper; 0 for as many as matplotlib finds good."""
+    whole: bool = False
+    """Whether only whole numbers have a meaning."""
+    grid: bool = True
+    margin: float | None = None
+    """Room beside what is drawn, over its extent."""
+
+
+def wavelength_axis(wavelengths: ArrayLike) -> Axis:
+    """Return a logarithmic axis of wavelengths [mm] that falls to the right, as in the paper."""
+    values = np.ravel(np.asarray(wavelengths, dtype=float))
+    values = values[np.isfinite(values)]
+    if not values.size:
+        return Axis(ticks={})
+    ends = 1.4 * float(values.max()), float(values.min()) / 1.4
+    return Axis("wavelength $\\lambda$ [mm]", True, *ends)
+
+
+@dataclass(frozen=True)
+class Series:
+    """Points of a curve; NaN leaves a gap."""
+
+    x: ArrayLike
+    y: ArrayLike
+    colour: str = BLUE
+    label: str = ""
+    dash: str = "solid"
+    """A key of `gripscale.charts.paper.DASHES`; empty for points without a line."""
+    width: float = 1.4
+    """Of the line, in points on paper."""
+    marker: str = ""
+    """In matplotlib's letters; the page has a table of its own."""
+    size: float = 4.5
+    """Of a marker, in points on paper."""
+    filled: ArrayLike = True
+    """Whether markers are filled: all, or one flag for each point."""
+    beyond: ArrayLike = False
+    """Which points rest on the rubber beyond its measured band; the line there is dashed."""
+    low: ArrayLike | None = None
+    high: ArrayLike | None = None
+    """Ends of error bars."""
+    level_bars: bool = False
+    """Whether the error bars are along x."""
+    alpha: float = 1.0
+    order: float = 2.0
+    """What is drawn later, above, on paper."""
+    clip: bool = True
+    """Whether markers end at the frame."""
+    coarse: bool = False
+    """Whether paper has pixels in place of a drawing, for very many points."""
+    listed: bool = True
+    """Whether the legend on paper has its label."""
+
+
+@dataclass(frozen=True)
+class Band:
+    """The area between two curves."""
+
+    x: ArrayLike
+    low: ArrayLike
+    high: ArrayLike
+    colour: str = GREY
+    label: str = ""
+    alpha: float = 0.2
+    beyond: ArrayLike = False
+    """Where it rests on the rubber beyond its measured band, and is hatched."""
+    edged: bool = False
+    """Whether a fine white line parts it from its neighbours."""
+
+
+@dataclass(frozen=True)
+class Bars:
+    """Rectangles from `x0` to `x1` and from `y0` to `y1`."""
+
+    x0: ArrayLike
+    x1: ArrayLike
+    y0: ArrayLike
+    y1: ArrayLike
+    colour: str = BLUE
+    label: str = ""
+    alpha: float = 1.0
+    order: float = 1.0
+
+
+@dataclass(frozen=True)
+class CrossLine:
+    """A straight line across the panel at a height, or upright at an abscissa; or a shade."""
+
+    at: float
+    colour: str = GREY
+    label: str = ""
+    dash: str = "solid"
+    width: float = 0.8
+    upright: bool = False
+    order: float = 1.5
+    to: float | None = None
+    """Other end of a shade, which is drawn on paper only; None for a line."""
+
+
+@dataclass(frozen=True)
+class Note:
+    """Words at a point, on paper only: on the page numbers show under the pointer."""
+
+    x: float
+    y: float
+    text: str
+    colour: str = INK
+    offset: tuple[float, float] = (0.0, 0.0)
+    """From the point [points]."""
+    align: str = "left"
+    frame: str = ""
+    """Coordinates that are shares of the frame: "x", "xy" or none."""
+    top: bool = False
+    """Whether the point is at the top of the words, not in their middle."""
+    boxed: bool = False
+    """Whether a white box hides what is behind."""
+    italic: bool = False
+
+
+@dataclass(frozen=True)
+class ValueMap:
+    """Values over a plane, shape (y, x), with a colour bar; on paper only."""
+
+    x: ArrayLike
+    y: ArrayLike
+    values: ArrayLike
+    label: str
+    levels: int = 0
+    """Most contours; 0 for a smooth map to scale."""
+
+
+Mark = Series | Band | Bars | CrossLine | Note | ValueMap
+
+
+@dataclass(frozen=True)
+class Panel:
+    """Marks over two axes; `name`, `caption` and `alt` are those of a chart of the page."""
+
+    x: Axis
+    y: Axis
+    marks: Sequence[Mark] = ()
+    title: str = ""
+    name: str = ""
+    caption: str = ""
+    alt: str = ""
+    height: int = 340
+    """On the page [px]."""
+    legend: str = ""
+    """Where the panel has a legend of its own on paper, such as "lower right"; "none" nowhere."""
+
+    def with_marks(self, marks: Iterable[Mark]) -> Panel:
+        """Return the panel with more marks, drawn above the others."""
+        return replace(self, marks=[*self.marks, *marks])
+
+
+@dataclass(frozen=True)
+class ColourBar:
+    """What colours from a scale of `gripscale.charts.style.shades` mean."""
+
+    low: float
+    high: float
+    scale: str
+    label: str
+    first_row: bool = False
+    """Whether it belongs to the first row of panels only."""
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """Panels of a figure on paper, row by row."""
+
+    panels: Sequence[Panel]
+    columns: int = 2
+    width: float = WIDE
+    height: float = 3.1
+    """Of the figure [inch]."""
+    legend: str = "above"
+    """Where the legend of all panels is: "above", "beside", "below" or nowhere."""
+    legend_columns: int = 3
+    legend_title: str = ""
+    keys: Sequence[Mark] = ()
+    """Entries of the legend that no panel has."""
+    title: str = ""
+    gap: float = 0.06
+    colour_bar: ColourBar | None = None
+    layout: Mapping[str, Any] = field(default_factory=dict)
+    """`sharex`, `sharey`, `width_ratios` and `height_ratios` of matplotlib's `subplots`."""
+
+
+def on_paper(sheet: Sheet) -> Figure:
+    """Draw a figure with matplotlib, which is imported here."""
+    from gripscale.charts.paper import draw_sheet
+
+    return draw_sheet(sheet)
+
+
+def on_page(panels: Iterable[Panel]) -> list[Chart]:
+    """Draw interactive charts with Bokeh, which is imported here."""
+    from gripscale.charts.page import draw_panel
+
+    return [draw_panel(panel) for panel in panels]

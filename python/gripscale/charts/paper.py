@@ -1,0 +1,375 @@
+"""Charts on paper: draws a `Sheet` with matplotlib and saves figures as PNG and PDF."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import IO, Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.axis import Axis as DrawnAxis
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_pdf import FigureCanvasPdf
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import ListedColormap, Normalize
+from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
+from matplotlib.lines import Line2D
+from matplotlib.markers import TICKDOWN, TICKLEFT
+from matplotlib.patches import Patch
+from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator
+from numpy.typing import NDArray
+
+from gripscale.charts.chart import (
+    Axis,
+    Band,
+    Bars,
+    ColourBar,
+    CrossLine,
+    Mark,
+    Note,
+    Panel,
+    Series,
+    Sheet,
+    ValueMap,
+)
+from gripscale.charts.style import BEYOND, FAINT, GREY, INK, shades, short_number, stretches
+from gripscale.io.netcdf import write_whole
+
+DPI = 200
+"""Pixels per inch of a PNG, and of what is rasterised in a PDF."""
+
+MOST_MARKED = 1e7
+"""Largest over smallest value of a logarithmic axis with marks between the powers of ten."""
+
+RULES: Any = {
+    "font.size": 9.0,
+    "axes.titlesize": 9.0,
+    "axes.labelsize": 9.0,
+    "figure.titlesize": 9.0,
+    "legend.fontsize": 8.0,
+    "xtick.labelsize": 8.0,
+    "ytick.labelsize": 8.0,
+    "axes.edgecolor": INK,
+    "axes.labelcolor": INK,
+    "text.color": INK,
+    "xtick.color": INK,
+    "ytick.color": INK,
+    "axes.linewidth": 0.7,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "grid.color": FAINT,
+    "grid.linewidth": 0.5,
+    "lines.linewidth": 1.4,
+    "lines.markersize": 4.5,
+    "legend.frameon": False,
+    "pdf.fonttype": 3,  # 42 cuts the whole font down for each figure, which costs 0.3 s
+}
+
+DASHES: dict[str, Any] = {
+    "": "",
+    "solid": "-",
+    "dashed": (0, (4, 2)),
+    "dotted": (0, (1, 1.5)),
+    "dashdot": (0, (6, 1.5, 1, 1.5)),
+}
+"""Lines by name; dashed are only those beyond the measured band."""
+
+HATCHED: Any = {"facecolor": "none", "edgecolor": "white", "hatch": "////", "lw": 0.0}
+"""Look of a band beyond the measured band."""
+
+STEPS = {"x": ((60.0, (1, 2, 5)), (1e3, (1, 3))), "y": ((500.0, (1, 2, 5)),)}
+"""Numbers between the powers of ten of a logarithmic axis, by its largest over smallest value."""
+
+ROUND = (1, 2, 5, 10)
+"""Steps between the numbers of a linear axis that has few."""
+
+
+def draw_sheet(sheet: Sheet) -> Figure:
+    """Return the figure of a sheet; matplotlib's own rules stay as they are."""
+    with mpl.rc_context(RULES):
+        rows = -(-len(sheet.panels) // sheet.columns)
+        figure = Figure(
+            figsize=(sheet.width, sheet.height),
+            dpi=DPI,
+            layout=ConstrainedLayoutEngine(wspace=sheet.gap),
+        )
+        options: dict[str, Any] = {"squeeze": False, **sheet.layout}
+        grid = figure.subplots(rows, sheet.columns, **options)
+        for axes in list(grid.flat)[len(sheet.panels) :]:
+            axes.set_visible(False)
+        for axes, panel in zip(grid.flat, sheet.panels, strict=False):
+            _draw_panel(figure, axes, panel)
+        # Limits come last: those of a shared axis are found from all of its panels.
+        for i, (axes, panel) in enumerate(zip(grid.flat, sheet.panels, strict=False)):
+            _end_axis(axes, "x", panel.x)
+            _end_axis(axes, "y", panel.y)
+            if sheet.layout.get("sharey") and i % sheet.columns:
+                axes.set_ylabel("")
+            if sheet.layout.get("sharex"):
+                if i + sheet.columns < len(sheet.panels):
+                    axes.set_xlabel("")
+                else:
+                    axes.tick_params(labelbottom=True)
+        _legend(figure, list(grid.flat)[: len(sheet.panels)], sheet)
+        if sheet.colour_bar is not None:
+            panels = grid[0] if sheet.colour_bar.first_row else grid
+            _colour_bar(figure, panels, sheet.colour_bar)
+        if sheet.title:
+            figure.suptitle(sheet.title)
+        return figure
+
+
+def _draw_panel(figure: Figure, axes: Axes, panel: Panel) -> None:
+    which: Any
+    for which, axis in (("x", panel.x), ("y", panel.y)):
+        if axis.log:  # before anything is drawn: a linear axis may start below zero
+            axes.set(**{f"{which}scale": "log"})
+        axes.set(**{f"{which}label": axis.label})
+        axes.grid(axis.grid, axis=which)
+        if axis.margin is not None:
+            (axes.set_xmargin if which == "x" else axes.set_ymargin)(axis.margin)
+        if axis.low is not None and axis.high is not None:  # nothing need be drawn between them
+            (axes.set_xlim if which == "x" else axes.set_ylim)(axis.low, axis.high)
+    for mark in panel.marks:
+        _draw_mark(figure, axes, mark)
+    if any(isinstance(mark, Bars) for mark in panel.marks):
+        axes.use_sticky_edges = False  # of bars upon bars, which would leave no room above
+    if panel.title:
+        axes.set_title(panel.title)
+    if panel.legend not in ("", "none"):
+        corner: Any = panel.legend
+        axes.legend(loc=corner)
+
+
+def _end_axis(axes: Axes, which: str, axis: Axis) -> None:
+    """Set the limits of an axis, and place numbers or names along it."""
+    drawn: DrawnAxis = axes.xaxis if which == "x" else axes.yaxis
+    if axis.low is not None or axis.high is not None:
+        (axes.set_xlim if which == "x" else axes.set_ylim)(axis.low, axis.high)
+    if axis.ticks is not None:
+        drawn.set_ticks(list(axis.ticks), list(axis.ticks.values()))
+        for label in drawn.get_ticklabels() if axis.bold else []:
+            label.set_fontweight("bold" if label.get_text() in axis.bold else "normal")
+        axes.tick_params(axis=which, length=0)  # type: ignore[arg-type]
+    elif axis.log:
+        low, high = sorted(drawn.get_view_interval())
+        steps = next((steps for most, steps in STEPS[which] if high < most * low), (1,))
+        drawn.set_major_locator(LogLocator(subs=steps, numticks=axis.numbers or 12))
+        drawn.set_major_formatter(lambda value, _: short_number(value))
+        drawn.set_minor_locator(NullLocator())  # `_mark_between` draws them
+    elif axis.numbers:
+        drawn.set_major_locator(MaxNLocator(axis.numbers, steps=ROUND, integer=axis.whole))
+
+
+def _draw_mark(figure: Figure, axes: Axes, mark: Mark) -> None:
+    match mark:
+        case Series():
+            _draw_series(axes, mark)
+        case Band():
+            _draw_band(axes, mark)
+        case Bars():
+            x0, x1, y0, y1 = np.broadcast_arrays(mark.x0, mark.x1, mark.y0, mark.y1)
+            look: dict[str, Any] = {"color": mark.colour, "alpha": mark.alpha, "lw": 0}
+            axes.bar(x0, y1 - y0, x1 - x0, y0, align="edge", zorder=mark.order,
+                     label=mark.label or None, **look)  # fmt: skip
+        case CrossLine(to=None):
+            look = {"color": mark.colour, "ls": DASHES[mark.dash], "lw": mark.width}
+            across = axes.axvline if mark.upright else axes.axhline
+            across(mark.at, label=mark.label or None, zorder=mark.order, **look)
+        case CrossLine(to=float(end)):
+            shade = axes.axvspan if mark.upright else axes.axhspan
+            look = {"color": mark.colour, "alpha": 0.5, "lw": 0}
+            shade(mark.at, end, label=mark.label or None, **look)
+        case Note():
+            _draw_note(axes, mark)
+        case ValueMap():
+            _draw_field(figure, axes, mark)
+
+
+def _draw_series(axes: Axes, series: Series) -> None:
+    """Draw a curve, dashed where it rests on the rubber beyond its measured band."""
+    x, y = np.asarray(series.x, dtype=float), np.asarray(series.y, dtype=float)
+    filled = np.broadcast_to(np.asarray(series.filled, dtype=bool), x.shape)
+    look: dict[str, Any] = {
+        "color": series.colour,
+        "ls": DASHES[series.dash],
+        "lw": series.width,
+        "marker": series.marker,
+        "ms": series.size,
+        "mew": 0.0 if series.coarse else None if filled.all() else 0.9,
+        "mfc": series.colour if filled.any() or not x.size else "white",
+        "alpha": series.alpha,
+        "zorder": series.order,
+        "rasterized": series.coarse,
+    }
+    if series.low is not None and series.high is not None:
+        middle = x if series.level_bars else y
+        error = [middle - np.asarray(series.low), np.asarray(series.high) - middle]
+        which = "xerr" if series.level_bars else "yerr"
+        axes.errorbar(x, y, **{which: np.nan_to_num(error)}, fmt="none", ecolor=series.colour,
+                      elinewidth=1.0, capsize=2.2, capthick=0.8, zorder=series.order)  # fmt: skip
+    parts = list(stretches(np.broadcast_to(series.beyond, x.shape)))
+    if not any(dashed for _, dashed in parts):
+        parts = [(slice(None), False)]
+    mixed = filled.any() and not filled.all()
+    if mixed:
+        for chosen, face in ((filled, series.colour), (~filled, "white")):
+            points = look | {"ls": "", "mfc": face, "clip_on": series.clip}
+            axes.plot(x[chosen], y[chosen], **points)
+    label = series.label if series.listed else f"_{series.label}"
+    for part, dashed in sorted(parts, key=lambda part: part[1]):
+        part_look = look | ({"ls": DASHES["dashed"], "gid": BEYOND} if dashed else {})
+        part_look |= {"marker": ""} if mixed else {}
+        # nothing, unclipped, has no place on a logarithmic axis
+        part_look["clip_on"] = series.clip or not np.isfinite(y[part]).any()
+        named: dict[str, Any] = {"label": label} if label and not dashed and not mixed else {}
+        axes.plot(x[part], y[part], **part_look, **named)
+        label = "" if named else label
+    if label:
+        axes.plot([], [], label=label, **look)
+
+
+def _draw_band(axes: Axes, band: Band) -> None:
+    x, low, high = (np.asarray(values, dtype=float) for values in (band.x, band.low, band.high))
+    x, low, high = np.broadcast_arrays(x, low, high)
+    look: dict[str, Any] = {"color": band.colour, "alpha": band.alpha, "lw": 0.0}
+    if band.edged:
+        look |= {"lw": 0.3, "ec": "white"}
+    axes.fill_between(x, low, high, label=band.label or None, **look)
+    for part, beyond in stretches(np.broadcast_to(band.beyond, x.shape)):
+        if beyond:
+            axes.fill_between(x[part], low[part], high[part], gid=BEYOND, **HATCHED)
+
+
+def _draw_note(axes: Axes, note: Note) -> None:
+    frames: dict[str, Any] = {"": "data", "x": ("axes fraction", "data"), "xy": "axes fraction"}
+    axes.annotate(
+        note.text,
+        (note.x, note.y),
+        note.offset,
+        xycoords=frames[note.frame],
+        textcoords="offset points",
+        va="top" if note.top else "center",
+        ha=note.align,
+        fontsize=7.0,
+        fontstyle="italic" if note.italic else "normal",
+        color=note.colour,
+        bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0} if note.boxed else None,
+    )
+
+
+def _draw_field(figure: Figure, axes: Axes, field: ValueMap) -> None:
+    x, y, values = (np.asarray(part, dtype=float) for part in (field.x, field.y, field.values))
+    mappable: Any
+    if field.levels:
+        ticks = MaxNLocator(field.levels).tick_values(np.nanmin(values), np.nanmax(values))
+        mappable = axes.contourf(x, y, values, levels=ticks, cmap="viridis")
+        axes.contour(x, y, values, levels=ticks, colors="white", linewidths=0.4)
+    else:
+        mappable = axes.pcolormesh(x, y, values, cmap="inferno", rasterized=True)
+        axes.set_aspect("equal")
+    bar = figure.colorbar(mappable, ax=axes, label=field.label, pad=0.02)
+    bar.outline.set_linewidth(0.0)
+    bar.ax.yaxis.set_major_formatter(lambda value, _: short_number(value))
+
+
+def _colour_bar(figure: Figure, panels: NDArray[Any], bar: ColourBar) -> None:
+    scale = ListedColormap(shades(256, bar.scale))
+    mappable = ScalarMappable(Normalize(bar.low, bar.high), scale)
+    drawn = figure.colorbar(mappable, ax=list(panels.flat), label=bar.label, aspect=40, pad=0.02)
+    drawn.outline.set_visible(False)
+
+
+def _legend(figure: Figure, panels: Sequence[Axes], sheet: Sheet) -> None:
+    """Collect the labels of all panels, and what dashed and hatched mean where it occurs."""
+    entries: dict[str, Any] = {}
+    dashed = hatched = False
+    for axes in panels:
+        if axes.get_legend() is None:
+            for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
+                entries.setdefault(label, handle)
+        dashed |= any(line.get_gid() == BEYOND for line in axes.lines)
+        hatched |= any(part.get_gid() == BEYOND for part in axes.collections)
+    for key in sheet.keys:
+        entries |= {getattr(key, "label", ""): _key(key)}
+    at_side = sheet.legend == "beside"
+    beyond = BEYOND.replace("the ", "the\n") if at_side else BEYOND
+    if hatched:
+        entries = {beyond: Patch(**(HATCHED | {"facecolor": GREY})), **entries}
+    elif dashed:
+        entries[beyond] = Line2D([], [], ls=DASHES["dashed"], color=GREY)
+    if not entries or not sheet.legend:
+        return
+    look: dict[str, Any] = {"title": sheet.legend_title or None}
+    if at_side:
+        look |= {"loc": "outside right center", "alignment": "left"}
+    else:
+        where = "upper" if sheet.legend == "above" else "lower"
+        look |= {"loc": f"outside {where} center", "ncols": sheet.legend_columns}
+    figure.legend(list(entries.values()), list(entries), **look)
+
+
+def _key(mark: Mark) -> Any:
+    """Return what stands in the legend for a mark that no panel has."""
+    if isinstance(mark, Series):
+        look: dict[str, Any] = {"marker": mark.marker, "ms": mark.size, "ls": DASHES[mark.dash]}
+        face = mark.colour if np.all(mark.filled) else "white"
+        return Line2D([], [], color=mark.colour, lw=mark.width, mfc=face, **look)
+    if isinstance(mark, CrossLine):
+        return Line2D([], [], color=mark.colour, lw=mark.width, ls=DASHES[mark.dash])
+    return Patch(color=getattr(mark, "colour", GREY), alpha=getattr(mark, "alpha", 1.0))
+
+
+def _mark_between(figure: Figure) -> None:
+    """Mark 2 to 9 times each power of ten on logarithmic axes, all marks as one line.
+
+    As ticks, each with its grid line and label, they would be half of the drawing.
+    """
+    for axes in figure.axes:
+        for axis, marker in ((axes.xaxis, TICKDOWN), (axes.yaxis, TICKLEFT)):
+            low, high = sorted(axis.get_view_interval())
+            if axis.get_scale() != "log" or high > MOST_MARKED * low:
+                continue
+            places = np.asarray(LogLocator(subs=range(2, 10), numticks=99).tick_values(low, high))
+            places = places[(places >= low) & (places <= high)]
+            along = (places, np.zeros_like(places))
+            x, y = along if axis is axes.xaxis else along[::-1]
+            where = axes.get_xaxis_transform() if axis is axes.xaxis else axes.get_yaxis_transform()
+            look: dict[str, Any] = {"marker": marker, "ms": 2.0, "mew": 0.6, "ls": "", "color": INK}
+            figure.add_artist(Line2D(x, y, transform=where, in_layout=False, **look))
+
+
+def write_png(figure: Figure, target: Path | IO[bytes], dpi: float = DPI) -> None:
+    """Write `figure` as PNG; its layout is solved now, and stays."""
+    with mpl.rc_context(RULES):
+        figure.set_dpi(dpi)
+        layout = figure.get_layout_engine()
+        if isinstance(layout, ConstrainedLayoutEngine):
+            _mark_between(figure)
+            layout.execute(figure)
+            figure.set_layout_engine("none")
+        # `savefig` would draw twice: once more to find out what it has to show.
+        canvas: Any = FigureCanvasAgg(figure)
+        canvas.print_png(target, pil_kwargs={"compress_level": 1})
+
+
+def save_figure(figure: Figure, folder: Path, name: str) -> list[Path]:
+    """Write `figure` as PNG and PDF into `folder`; return the paths.
+
+    Raises `FileError` if one cannot be written.
+    """
+
+    def write_pdf(target: Path) -> None:
+        with mpl.rc_context(RULES):
+            canvas: Any = FigureCanvasPdf(figure)
+            canvas.print_pdf(target)
+
+    return [
+        write_whole(folder / f"{name}.png", lambda target: write_png(figure, target)),
+        write_whole(folder / f"{name}.pdf", write_pdf),
+    ]

@@ -1,0 +1,160 @@
+"""Charts of roads and compounds side by side: which waves and relaxation times tell them apart."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from gripscale.charts.chart import (
+    Axis,
+    Bars,
+    CrossLine,
+    Mark,
+    Panel,
+    Series,
+    Sheet,
+    on_paper,
+    wavelength_axis,
+)
+from gripscale.charts.style import COLOURS, power_of_ten
+from gripscale.core.units import MILLI, SQUARE_MM
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Array = NDArray[np.float64]
+LEAST_MODULUS_SHARE = 0.005
+"""Of the largest difference: decades at either end with less are not drawn."""
+CUBIC_MM = 1e-9
+LEAST_POWER_SHARE = 0.02
+"""Share of the largest friction of an octave from which one is drawn."""
+STEP = 1.12
+"""Between the bars of roads beside the smallest wavelength, as a ratio of wavelengths."""
+
+
+def compound_friction_figure(data: xr.Dataset) -> Figure:
+    """Draw the friction of all waves down to each, and the differences by relaxation time.
+
+    `data` is that of `gripscale.analysis.Compounds`.
+    """
+    marks: list[Mark] = []
+    for name, colour in zip(data.rubber.values.tolist(), COLOURS, strict=False):
+        compound = data.sel(rubber=name)
+        wavelength = compound.wavelength.values / MILLI
+        marks += _running(wavelength, compound, colour, name, float(wavelength[-1]))
+    panels = [
+        Panel(
+            wavelength_axis(data.wavelength.values / MILLI),
+            Axis("$\\mu$ of this and larger waves [-]", low=0.0),
+            marks,
+        )
+    ]
+    if "friction_by_decade_difference" in data:
+        panels.append(_decades_panel(data))
+    return on_paper(Sheet(panels, len(panels)))
+
+
+def _running(x: Array, data: xr.Dataset, colour: str, label: str, end: float) -> list[Mark]:
+    """Return friction down to each wave and, at the wavelength `end`, the range of its total."""
+    running = data.friction_running
+    marks: list[Mark] = [Series(x, running, colour, label, marker="o", size=3.0)]
+    if "total_friction_low" in data:
+        ends = [float(data.total_friction_low), float(data.total_friction_high)]
+        marks.append(Series([end] * 2, ends, colour, width=3.0, alpha=0.35))
+    return marks
+
+
+def _decades_panel(data: xr.Dataset) -> Panel:
+    """Return the difference of each compound to the first by decade of relaxation time."""
+    first, *names = data.rubber.values.tolist()
+    differences = data.friction_by_decade_difference.transpose("rubber", "decade").fillna(0.0)
+    largest = np.abs(differences.values).max(axis=0)
+    seen = np.flatnonzero(largest >= LEAST_MODULUS_SHARE * largest.max(initial=0.0))
+    if seen.size:
+        differences = differences.isel(decade=slice(seen[0], seen[-1] + 1))
+    start = np.arange(differences.sizes["decade"]) - 0.4
+    width = 0.8 / len(names)
+    marks: list[Mark] = [
+        Bars(start + i * width, start + (i + 1) * width, 0.0, differences.sel(rubber=name).values,
+             COLOURS[(i + 1) % len(COLOURS)])
+        for i, name in enumerate(names)
+    ]  # fmt: skip
+    step = max(1, math.ceil(start.size / 8))
+    ticks = {
+        float(i): power_of_ten(round(math.log10(time)))
+        for i, time in enumerate(differences.decade.values)
+        if i % step == 0
+    }
+    return Panel(
+        Axis("relaxation time from [s]", ticks=ticks),
+        Axis(f"$\\mu$ less that of {first} [-]"),
+        [*marks, CrossLine(0.0, width=0.7)],
+    )
+
+
+def roads_statistics_figure(data: xr.Dataset) -> Figure:
+    """Draw C_z [mm^2] over lag and the spectrum of lines [mm^3] over wavenumber of each road.
+
+    `data` is that of `gripscale.analysis.Roads`.
+    """
+    correlation: list[Mark] = []
+    spectrum: list[Mark] = []
+    for name, colour in zip(data.surface.values.tolist(), COLOURS, strict=False):
+        road = data.sel(surface=name)
+        if "correlation" in road:
+            value = road.correlation.values / SQUARE_MM
+            correlation.append(Series(road.lag.values / MILLI, value, colour, name))
+        if "spectrum" in road:
+            value = road.spectrum.values / CUBIC_MM
+            spectrum.append(Series(road.wavenumber.values * MILLI, value, colour, name))
+    panels = [
+        Panel(
+            Axis("lag $l$ [mm]", log=True),
+            Axis("height difference $C_z$ [mm$^2$]", log=True),
+            correlation,
+        ),
+        Panel(
+            Axis("wavenumber $q$ [rad/mm]", log=True),
+            Axis("spectrum $C_1$ [mm$^3$]", log=True),
+            spectrum,
+        ),
+    ]
+    return on_paper(Sheet(panels, height=3.2))
+
+
+def roads_friction_figure(data: xr.Dataset) -> Figure:
+    """Draw the friction of all longer waves over wavelength, a panel for each model.
+
+    Bars at the end are what other stretches of the road might give, in 90 % of the samples.
+    """
+    # From the first to the last octave in which something is lost.
+    running = np.nan_to_num(data.friction_running.values.reshape(-1, data.sizes["octave"]))
+    lost = np.abs(np.diff(running, axis=1, prepend=0.0)).max(axis=0)
+    octaves = np.flatnonzero(lost > LEAST_POWER_SHARE * lost.max())
+    if octaves.size:
+        data = data.isel(octave=slice(max(octaves[0] - 1, 0), octaves[-1] + 1))
+    wavelength = data.octave.values / MILLI
+    roads = data.surface.values.tolist()
+    panels = []
+    for model in data.model.values:
+        of_model = data.sel(model=model)
+        if not np.isfinite(of_model.friction_running).any():
+            continue
+        marks: list[Mark] = []
+        for at, (name, colour) in enumerate(zip(roads, COLOURS, strict=False)):
+            end = float(wavelength[-1]) / STEP ** (1 + at)
+            marks += _running(wavelength, of_model.sel(surface=name), colour, name, end)
+        ends = [*wavelength, wavelength[-1] / STEP ** len(roads)]
+        panels.append(Panel(
+            wavelength_axis(ends),
+            Axis("$\\mu$ of this and longer waves [-]", low=0.0),
+            marks,
+            title=str(model),
+        ))  # fmt: skip
+    layout = {"sharey": True}
+    panels = panels or [Panel(Axis(), Axis())]
+    return on_paper(Sheet(panels, len(panels), height=3.2, layout=layout))

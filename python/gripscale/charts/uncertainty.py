@@ -1,0 +1,235 @@
+"""Charts of what is not known of a case, and of the area term fitted to measured friction."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import xarray as xr
+
+from gripscale.analysis.variance_shares import SURE
+from gripscale.charts.chart import (
+    Axis,
+    Band,
+    Bars,
+    CrossLine,
+    Mark,
+    Panel,
+    Series,
+    Sheet,
+    on_paper,
+)
+from gripscale.charts.comparison import measured_sheet
+from gripscale.charts.ladder import MARKERS, MeasuredSeries, measured
+from gripscale.charts.study import varied_axis
+from gripscale.charts.style import BLUE, COLOURS, FAINT, GREY, INK, ORANGE
+from gripscale.core.units import MEGA, DisplayUnit, display_unit
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+TOTALS = {
+    "friction": "friction coefficient $\\mu$ [-]",
+    "contact_fraction": "real contact area $A_r/A_0$ [-]",
+}
+MOST_BINS = 24
+MEDIAN, END = 1.6, 0.9
+"""Widths of the lines at median and ends."""
+FEWEST_SAMPLES = 2
+"""Samples there must be for a distribution."""
+
+
+def distribution_figure(data: xr.Dataset) -> Figure:
+    """Draw how friction and contact fraction are distributed, a row for each model.
+
+    Lines are the median and the ends of the 90 % interval, the triangle is the case itself.
+    """
+    panels = []
+    for model, colour in zip(data.model.values, COLOURS, strict=False):
+        samples = data.sel(model=model)
+        count = samples.sizes["sample"] - int(samples.failed)
+        for name, label in TOTALS.items():
+            first = name == "friction"
+            values = samples[name].values
+            marks = list(_distribution(samples, name, values[np.isfinite(values)], colour))
+            top = max((float(np.max(m.y1)) for m in marks if isinstance(m, Bars)), default=None)
+            panels.append(Panel(
+                Axis(label, numbers=6),
+                Axis(f"samples (of {count})" if first else "", low=0.0, numbers=5, whole=True,
+                     high=None if top is None else 1.25 * top),
+                marks,
+                title=str(model) if first else "",
+            ))  # fmt: skip
+    keys: list[Mark] = [
+        CrossLine(0.0, INK, "median", width=MEDIAN),
+        CrossLine(0.0, INK, "5 and 95 %", width=END),
+        Series([], [], INK, "the case itself", dash="", marker="v"),
+    ]
+    return on_paper(Sheet(panels, height=1.2 + 1.7 * data.sizes["model"], keys=keys))
+
+
+def _distribution(
+    samples: xr.Dataset, name: str, values: np.ndarray, colour: str
+) -> Iterator[Mark]:
+    if values.size < FEWEST_SAMPLES:
+        return
+    counts, edges = np.histogram(values, min(MOST_BINS, 1 + values.size // 6))
+    yield Bars(edges[:-1], edges[1:], 0.0, counts, colour, alpha=0.45)
+    low, middle, high = samples[f"{name}_quantile"].values[[0, 2, 4]]
+    for at, width in ((low, END), (middle, MEDIAN), (high, END)):
+        yield CrossLine(at, INK, width=width, upright=True)
+    top = 1.12 * float(np.max(counts))
+    yield Series([float(samples[f"{name}_case"])], [top], INK, dash="", marker="v", clip=False)
+
+
+def tornado_figure(data: xr.Dataset) -> Figure:
+    """Draw what each source does to the friction of one model at one load, most on top.
+
+    Bars go from 5 to 95 % of what a source does to friction, the others in their middle. Beside
+    them is its share of the variance with its standard error; grey is an effect that is not
+    significant with so many samples.
+    """
+    shares, errors = data.friction_share.values, data.friction_share_error.values
+    ranked = np.argsort(shares, kind="stable")
+    middle = float(np.exp(np.nanmean(np.log(data.friction.values))))
+    bars: list[Mark] = []
+    dots: list[Mark] = []
+    for place, k in enumerate(ranked):
+        seen = shares[k] > SURE * errors[k]
+        for end, colour in zip(data.friction_end.values[k], (BLUE, ORANGE), strict=True):
+            low, high = sorted((middle, end))
+            shade = colour if seen else GREY
+            bars.append(Bars(low, high, place - 0.3, place + 0.3, shade))
+        ends: dict[str, Any] = {"low": [shares[k] - errors[k]], "high": [shares[k] + errors[k]]}
+        dots.append(Series([shares[k]], [place], INK if seen else GREY, dash="", marker="o",
+                           size=4.0, level_bars=True, **ends))  # fmt: skip
+    rows = Axis(ticks={float(i): str(data.label.values[k]) for i, k in enumerate(ranked)})
+    title = f"{data.model.item()}: what each does alone"
+    panels = [
+        Panel(Axis(TOTALS["friction"]), rows, [*bars, CrossLine(middle, INK, upright=True)], title),
+        Panel(
+            Axis("share of the variance of $\\ln\\mu$ [-]"),
+            rows,
+            [*dots, CrossLine(0.0, INK, upright=True)],
+        ),
+    ]
+    words = {"to 5 %": BLUE, "to 95 %": ORANGE, "not significant": GREY}
+    keys = [Bars(0, 0, 0, 0, colour, label) for label, colour in words.items()]
+    height = 1.3 + 0.34 * len(ranked)
+    return on_paper(Sheet(panels, height=height, keys=keys, gap=0.03, layout={"sharey": True}))
+
+
+def band_figure(data: xr.Dataset, axis: str) -> Figure:
+    """Draw medians over what is varied, with bands of 50 and 90 % of the samples."""
+    abscissa, x = varied_axis(data, axis)
+    panels = []
+    for name, label in TOTALS.items():
+        marks: list[Mark] = []
+        for model, colour in zip(data.model.values, COLOURS, strict=False):
+            samples = data.sel(model=model).transpose(axis, ...)
+            quantiles = samples[f"{name}_quantile"].values.T
+            marks += [
+                Band(x, quantiles[0], quantiles[4], colour, alpha=0.18),
+                Band(x, quantiles[1], quantiles[3], colour, alpha=0.3),
+                Series(x, quantiles[2], colour, f"{model}: median, 50 and 90 %"),
+                Series(x, samples[f"{name}_case"].values, colour, dash="", marker="o", size=3.5,
+                       filled=False, clip=False),
+            ]  # fmt: skip
+        panels.append(Panel(abscissa, Axis(label, low=0.0), marks))
+    case = Series([], [], INK, "the case itself", dash="", marker="o", size=3.5, filled=False)
+    return on_paper(Sheet(panels, keys=[case]))
+
+
+# The area term fitted to measured friction: the fit, its residuals, the profiles of parameters.
+
+UNITS = {"Pa": (MEGA, "MPa"), "m/s": (1.0, "m/s"), "eV": (1.0, "eV"), "1": (1.0, "-")}
+"""What a parameter is divided by to be drawn, and its unit then."""
+PARAMETER_LABELS = {
+    "stress_0": "stress $\\tau_0$",
+    "width": "width $c$",
+    "speed_0": "speed $v_0$",
+    "activation_energy": "activation energy $\\epsilon$",
+    "ratio": "ratio",
+    "critical_speed": "critical speed $v_c$",
+    "exponent": "exponent $n$",
+}
+CEILING = 2.5
+"""Highest excess that is drawn, over the threshold."""
+
+
+def fitted_figure(data: xr.Dataset) -> Figure:
+    """Draw measured friction with its spread, the hysteresis alone, and the total with its band.
+
+    One panel for each temperature and pressure; points where the model has no answer are left out
+    of its lines.
+    """
+
+    def fit(series: MeasuredSeries, how: DisplayUnit) -> list[Mark]:
+        rows = series.rows & np.isfinite(data.friction.values)
+        speed = how.of(data.measured_speed.values[rows])
+        total, band, hysteresis = (
+            data[name].values[rows] for name in ("friction", "friction_band", "hysteresis")
+        )
+        return [
+            Band(speed, total - band, total + band, ORANGE, alpha=0.25),
+            Series(speed, total, ORANGE, "hysteresis and area term"),
+            Series(speed, hysteresis, BLUE, "hysteresis alone", marker="."),
+        ]
+
+    return on_paper(measured_sheet(data, fit, head=0.5))
+
+
+def residual_figure(data: xr.Dataset) -> Figure:
+    """Draw predicted less measured friction over speed, over the spread where it is known."""
+    spread = bool(np.isfinite(data.difference_in_spread).any())
+    values = data["difference_in_spread" if spread else "difference"].values
+    scale = 1.0 if spread else float(data.attrs["scatter"])
+    how = display_unit("speed", data.attrs)
+    marks: list[Mark] = [CrossLine(-scale, FAINT, to=scale), CrossLine(0.0)]
+    for number, series in enumerate(measured(data)):
+        marks.append(Series(
+            how.of(series.speed), values[series.rows], COLOURS[number % len(COLOURS)],
+            series.label.removeprefix("measured, "), "", marker=MARKERS[number % len(MARKERS)],
+        ))  # fmt: skip
+    label = f"fitted less measured $\\mu$ [{'spread' if spread else '-'}]"
+    panel = Panel(Axis(f"sliding speed $v$ [{how.unit}]", log=True), Axis(label), marks)
+    return on_paper(Sheet([panel], 1, height=2.8, legend="beside", gap=0.02))
+
+
+def profiles_figure(data: xr.Dataset) -> Figure:
+    """Draw by how much the sum of squares rises where each parameter is held elsewhere.
+
+    The interval is where the curve is below the line; an end that is not determined has none.
+    """
+    count = data.sizes["parameter"]
+    columns = min(count, 2)
+    panels = [_profile_panel(data.isel(parameter=at)) for at in range(count)]
+    height = 0.4 + 2.1 * -(-count // columns)
+    look: dict[str, Any] = {"legend_columns": 4, "gap": 0.05}
+    return on_paper(Sheet(panels, columns, 3.5 * columns, height, **look))
+
+
+def _profile_panel(data: xr.Dataset) -> Panel:
+    threshold, level = (float(data.attrs[name]) for name in ("threshold", "level"))
+    divisor, unit = UNITS[str(data.unit.item())]
+    rows = np.isfinite(data.profile_excess.values)
+    value, excess = data.profile_value.values[rows] / divisor, data.profile_excess.values[rows]
+    low, high, best = (float(data[name]) / divisor for name in ("low", "high", "estimate"))
+    least, most = float(value.min()), float(value.max())
+    ends = [end if np.isfinite(end) else edge for end, edge in ((low, least), (high, most))]
+    name = str(data.parameter.item())
+    missing = [word for word, end in (("lower", low), ("upper", high)) if not np.isfinite(end)]
+    title = f"{' and '.join(missing)} end{'s' * (len(missing) > 1)} not determined"
+    return Panel(
+        Axis(f"{PARAMETER_LABELS.get(name, name)} [{unit}]", low=least, high=most,
+             log=name != "activation_energy" and most > 5.0 * least),
+        Axis("rise of the sum of squares [-]", low=0.0, high=CEILING * threshold),
+        [
+            CrossLine(ends[0], FAINT, "interval", upright=True, to=float(ends[1])),
+            Series(value, excess, BLUE, "profile"),
+            CrossLine(threshold, ORANGE, f"{100.0 * level:.0f} %", width=1.0),
+            CrossLine(best, GREY, "best", width=1.0, upright=True),
+        ],
+        title=title if missing else "",
+    )  # fmt: skip

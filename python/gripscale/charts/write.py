@@ -1,0 +1,149 @@
+"""Which figures each command writes into its folder, and from what."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike
+
+from gripscale.case.record import excited
+from gripscale.charts import comparison, rubber, study, surface, uncertainty, wave_and_chain
+from gripscale.charts.blocks import blocks_figure
+from gripscale.charts.ladder import on_the_surface, varied, worth_drawing
+from gripscale.charts.paper import save_figure
+from gripscale.charts.view import JUDGE, PredictionView
+from gripscale.experiment.axis import dimensions, numeric
+from gripscale.experiment.speed_and_temperature import REDUCED_SPEED
+from gripscale.rubber import ShiftTable
+
+if TYPE_CHECKING:
+    from gripscale.case.prepare import PreparedRubber
+    from gripscale.case.results import CaseResults
+    from gripscale.surface import PreparedSurface
+
+MOST_PIECES = 8
+"""Values of a second axis of a study up to which each gets figures of its own."""
+
+
+def draw_inputs(results: CaseResults, folder: Path) -> None:
+    """Draw profiles, correlation and master curve into `folder`."""
+    surface_figures(results.surface, folder)
+    omega = excited(results.file.case.load.speed, results.surface.sines)
+    rubber_figures(results.rubber, omega, folder)
+
+
+def surface_figures(prepared: PreparedSurface, folder: Path) -> None:
+    """Draw the profiles and their correlation; waves stated by hand have neither."""
+    if prepared.measured is None or prepared.correlation is None:
+        return
+    save_figure(surface.profile_figure(prepared.measured.profiles), folder, "profile")
+    waves = {f"{len(prepared.sines)} sine waves": prepared.sines}
+    fit = prepared.measured.self_affine
+    figure = surface.correlation_figure(prepared.correlation, waves, fit)
+    save_figure(figure, folder, "correlation")
+
+
+def rubber_figures(prepared: PreparedRubber, omega: ArrayLike, folder: Path) -> None:
+    """Draw the master curve with the angular frequencies `omega` [rad/s] marked.
+
+    Of sweeps at several temperatures also how they meet, and the shift factors.
+    """
+    sweeps, master, report = prepared.sweeps, prepared.master, prepared.superposition
+    figure = rubber.master_curve_figure(prepared.rubber, master, prepared.fit, omega)
+    save_figure(figure, folder, "master_curve")
+    if sweeps is None or master is None or report is None or len(sweeps) < 2:
+        return
+    save_figure(rubber.superposition_figure(sweeps, master), folder, "superposition")
+    save_figure(rubber.superposition_tests_figure(sweeps, report), folder, "superposition_tests")
+    if isinstance(master.shift, ShiftTable):
+        save_figure(rubber.shift_figure(master.shift, prepared.shift_fits()), folder, "shift")
+
+
+def draw_blocks(results: CaseResults, name: str, folder: Path) -> None:
+    """Draw the blocks of a prediction, "dynamic" or "static", into `folder`."""
+    save_figure(blocks_figure(results.dataset(name)), folder, f"blocks_{name}")
+
+
+def draw_contact(results: CaseResults, folder: Path) -> None:
+    """Draw area and friction of all predictions into `folder`, and what judges them."""
+    predictions = map(results.dataset, results.predictions)
+    titles = {PredictionView(data).title.lower(): data for data in predictions}
+    if results.direct is not None:
+        titles[JUDGE] = results.direct
+    save_figure(wave_and_chain.contact_figure(titles), folder, "contact_and_friction")
+
+
+def draw_heat(data: xr.Dataset, folder: Path) -> None:
+    """Draw the temperature of each wave of a chain into `folder`."""
+    save_figure(wave_and_chain.heat_figure(data), folder, "heat")
+
+
+def draw_effects(results: Sequence[xr.Dataset], folder: Path) -> None:
+    """Draw what each effect of the conditions is worth into `folder`."""
+    save_figure(wave_and_chain.effects_figure(*results), folder, "effects")
+
+
+def draw_study(result: xr.Dataset, folder: Path) -> None:
+    """Draw totals, and for each value of the second axis what the waves do along the first."""
+    save_figure(study.totals_figure(result), folder, "totals")
+    if REDUCED_SPEED in result.coords and np.isfinite(result.total_friction.values).any():
+        save_figure(study.friction_master_figure(result), folder, "friction_master_curve")
+        if min(result.sizes["speed"], result.sizes["temperature"]) > 1:
+            save_figure(study.map_figure(result), folder, "map")
+    numbers = numeric(result)
+    axis = (numbers or dimensions(result))[0]
+    for title, piece in list(study.pieces(result, axis))[:MOST_PIECES]:
+        end = f"_{re.sub(r'[^A-Za-z0-9.]+', '_', title)}" if title else ""
+        if "wavelength" not in piece or not (piece.prediction_status == "converged").any():
+            continue
+        save_figure(study.wavelength_figure(piece, axis, title), folder, f"wavelength{end}")
+        if not numbers:
+            continue
+        save_figure(study.stacked_figure(piece, axis, title), folder, f"stacked{end}")
+        save_figure(study.shares_figure(piece, axis, title), folder, f"shares{end}")
+        if "friction_by_decade" in piece:
+            save_figure(study.decades_figure(piece, axis, title), folder, f"decades{end}")
+
+
+def draw_comparison(data: xr.Dataset, folder: Path) -> None:
+    """Draw a comparison into `folder`: its ladder and wavelengths, or all of it over its axis."""
+    axis = varied(data)
+    if axis:
+        save_figure(comparison.comparison_axis_figure(data), folder, f"over_{axis}")
+        return
+    save_figure(comparison.comparison_figure(data), folder, "comparison")
+    if worth_drawing(on_the_surface(data)).any():
+        save_figure(comparison.comparison_wavelength_figure(data), folder, "by_wavelength")
+
+
+def draw_uncertainty(data: xr.Dataset, folder: Path) -> None:
+    """Draw distributions and what matters most, or bands where a load is varied, into `folder`."""
+    axis = next((str(name) for name in data.failed.dims if name != "model"), "")
+    if axis:
+        save_figure(uncertainty.band_figure(data, axis), folder, f"over_{axis}")
+        return
+    save_figure(uncertainty.distribution_figure(data), folder, "distributions")
+    for name in data.model.values:
+        samples = data.sel(model=name)
+        if np.isfinite(samples.friction_share).any():
+            save_figure(uncertainty.tornado_figure(samples), folder, f"tornado_{name}")
+
+
+def draw_calibration(data: xr.Dataset, folder: Path) -> list[Path]:
+    """Write every figure of a calibration into `folder`; return the paths.
+
+    Raises `FileError` if one cannot be written.
+    """
+    figures = {
+        "measured_and_fitted": uncertainty.fitted_figure,
+        "residuals": uncertainty.residual_figure,
+        "profiles": uncertainty.profiles_figure,
+    }
+    return [
+        path for name, make in figures.items() for path in save_figure(make(data), folder, name)
+    ]

@@ -1,0 +1,175 @@
+"""Figures 2 to 9 of Lind & Wangenheim 2014: master curves, correlations, predictions."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Literal
+
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+
+from gripscale.charts.chart import (
+    Axis,
+    CrossLine,
+    Mark,
+    Panel,
+    Series,
+    Sheet,
+    on_paper,
+    wavelength_axis,
+)
+from gripscale.charts.style import COLOURS, GREY, INK, NARROW, ORANGE, WIDE, colours
+from gripscale.core.units import MEGA, MILLI, SQUARE_MM
+from gripscale.rubber import MasterCurve, Rubber
+from gripscale.surface import HeightDifference, SelfAffineFit, SineStack
+
+Quantity = Literal["area", "friction", "running_friction"]
+Predictions = Mapping[str, xr.Dataset]
+
+LAG = Axis("lag $l$ [mm]", log=True)
+CORRELATION = Axis("height difference correlation $C_z$ [mm$^2$]", log=True)
+MARKERS = "osD^vP*"
+QUANTITIES: dict[str, tuple[str, Axis]] = {
+    "area": (
+        "running_contact_fraction",
+        Axis("relative contact area $A_r/A_0$ [-]", log=True),
+    ),
+    "friction": ("friction", Axis("friction coefficient of each wave $\\mu_i$ [-]", low=0.0)),
+    "running_friction": (
+        "running_friction",
+        Axis("friction coefficient, sum of the waves [-]", low=0.0),
+    ),
+}
+
+
+def master_curves_figure(
+    rubbers: Mapping[str, Rubber], measured: Mapping[str, MasterCurve]
+) -> Figure:
+    """Draw storage and loss modulus of compounds, with the points measured of them."""
+    storage: list[Mark] = []
+    loss: list[Mark] = []
+    for (name, rubber), colour in zip(rubbers.items(), COLOURS, strict=False):
+        omega = np.geomspace(*(rubber.valid_band or (1e-2, 1e12)), 400)
+        modulus = rubber.complex_modulus(omega) / MEGA
+        for marks, part in ((storage, modulus.real), (loss, modulus.imag)):
+            marks.append(Series(omega, part, colour, f"{name}, Prony series"))
+        if name in measured:
+            rows = measured[name]
+            for marks, values in ((storage, rows.storage), (loss, rows.loss)):
+                label = f"{name}, measured"
+                marks.append(Series(rows.angular_frequency, values / MEGA, colour, label, "",
+                                    marker=".", size=3.0, alpha=0.5))  # fmt: skip
+    omega_axis = Axis("angular frequency $\\omega$ [rad/s]", log=True)
+    panels = [
+        Panel(omega_axis, Axis("storage modulus $E'$ [MPa]", log=True), storage),
+        Panel(omega_axis, Axis("loss modulus $E''$ [MPa]", log=True), loss),
+    ]
+    return on_paper(Sheet(panels, height=3.3, legend="below"))
+
+
+def correlations_figure(
+    curves: Mapping[str, HeightDifference], fits: Mapping[str, SelfAffineFit]
+) -> Figure:
+    """Draw C_z of surfaces with their power laws and plateaus."""
+    panels = []
+    for name, curve in curves.items():
+        marks: list[Mark] = [_surface(curve)]
+        if name in fits:
+            fit, lag = fits[name], np.geomspace(curve.lag[0], curve.lag[-1], 400)
+            label = f"eq. 6, $H$ = {fit.hurst:.2f}"
+            marks += [
+                Series(lag / MILLI, fit.evaluate(lag) / SQUARE_MM, ORANGE, label),
+                CrossLine(fit.xi_parallel / MILLI, GREY, dash="dashed", upright=True),
+            ]
+        panels.append(Panel(LAG, CORRELATION, marks, name, legend="lower right"))
+    return _correlations(panels, height=3.5)
+
+
+def factors_figure(
+    curves: Mapping[str, HeightDifference], stacks: Mapping[str, Mapping[str, SineStack]]
+) -> Figure:
+    """Draw C_z of surfaces and of sine waves with several magnification factors.
+
+    The waves are drawn up to a quarter of the first wavelength, where its share in the fit ends.
+    Legends name the factors s_lambda/s_A and the residual in decades.
+    """
+    panels = []
+    for name, curve in curves.items():
+        marks: list[Mark] = [_surface(curve)]
+        for (label, stack), colour in zip(stacks[name].items(), COLOURS, strict=False):
+            lag = np.geomspace(curve.lag[0], 0.25 * stack.wavelength[0], 800)
+            residual = f", {stack.residual:.2f} decades" if stack.residual is not None else ""
+            dash = "dashed" if "one factor" in label else "solid"
+            value = stack.height_difference(lag) / SQUARE_MM
+            marks.append(Series(lag / MILLI, value, colour, f"{label}{residual}", dash, 1.1))
+        panels.append(Panel(LAG, CORRELATION, marks, name, legend="lower right"))
+    return _correlations(panels, height=3.9)
+
+
+def _surface(curve: HeightDifference) -> Series:
+    values = curve.value / SQUARE_MM
+    return Series(curve.lag / MILLI, values, INK, "surface", "", marker=".", size=4.0)
+
+
+def _correlations(panels: Sequence[Panel], height: float) -> Figure:
+    layout = {"sharey": True}
+    return on_paper(Sheet(panels, len(panels), height=height, legend="", layout=layout))
+
+
+def predictions_figure(
+    panels: Mapping[str, Predictions],
+    quantities: Sequence[Quantity],
+    title: str,
+    *,
+    ordered: bool = False,
+) -> Figure:
+    """Draw predictions against wavelength, one panel each, large waves left as in the paper.
+
+    Parameters
+    ----------
+    panels
+        Predictions by name of the line, by name of the panel.
+    quantities
+        What each panel shows.
+    title
+        Printed above.
+    ordered
+        Whether the lines are in an order (such as speeds), to be seen in their colours.
+    """
+    several = len(panels) > 1
+    alike = len({tuple(predictions) for predictions in panels.values()}) == 1
+    drawn = []
+    for (name, predictions), quantity in zip(panels.items(), quantities, strict=True):
+        variable, axis = QUANTITIES[quantity]
+        lengths = [data.wavelength.values / MILLI for data in predictions.values()]
+        drawn.append(Panel(
+            wavelength_axis(np.concatenate(lengths)),
+            axis,
+            list(_lines(predictions, variable, ordered=ordered)),
+            name if several else "",
+            legend="" if alike else "best",
+        ))  # fmt: skip
+    return on_paper(
+        Sheet(
+            drawn,
+            len(drawn),
+            WIDE if several else NARROW,
+            height=3.5,
+            legend="below" if alike else "",
+            legend_columns=6 if several else 3,
+            title=textwrap.fill(title, 100 if several else 64),
+        )
+    )
+
+
+def _lines(predictions: Predictions, variable: str, *, ordered: bool) -> Iterator[Mark]:
+    shades = colours(sum(name != "static" for name in predictions), ordered=ordered)
+    moving = iter(zip(shades, MARKERS, strict=False))
+    for name, data in predictions.items():
+        look = (GREY, "x", "dashed") if name == "static" else (*next(moving), "solid")
+        whole = data.prediction_status.item() == "converged"
+        label = name if whole else f"{name}, next wave not solved"
+        x, y = data.wavelength.values / MILLI, data[variable].values
+        yield Series(x, y, look[0], label, look[2], marker=look[1], size=4.0)
