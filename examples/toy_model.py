@@ -24,7 +24,7 @@ from rich.console import Console
 import gripscale as gs
 from gripscale.experiment import Study
 from gripscale.model import Model, NominalLoad, answer
-from gripscale.report.tables_study import study_table
+from gripscale.report.study import study_table
 from gripscale.surface.surface import PreparedSurface, SurfacePart
 
 CASE = Path(__file__).parent / "three_waves" / "case.toml"

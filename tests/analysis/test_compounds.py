@@ -12,7 +12,7 @@ from gripscale.analysis import Compounds, at_one_temperature, compare_compounds
 from gripscale.core.errors import InputError
 from gripscale.io import netcdf
 from gripscale.report import write_report
-from gripscale.report.tables_comparison import compounds_sentences
+from gripscale.report.side_by_side import compounds_sentences
 from gripscale.rubber import WLF, MasterCurve, fit_prony
 from tests.samples import HALF_PLANE, case_text
 

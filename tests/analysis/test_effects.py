@@ -18,8 +18,8 @@ from gripscale.core.errors import InputError
 from gripscale.experiment import Progress
 from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
-from gripscale.report.tables_comparison import effects_table
-from gripscale.report.tables_run import as_text
+from gripscale.io.table import as_text
+from gripscale.report.side_by_side import effects_table
 from gripscale.rubber.softening import Kraus
 from gripscale.surface import Measured, PreparedSurface
 from gripscale.theory import HalfPlane, Persson
@@ -158,7 +158,7 @@ def test_what_did_not_converge_is_said_and_has_no_changes(both: list[xr.Dataset]
     for name in ("total_friction", "total_contact_fraction", "friction_change"):
         failed[name][{"effect": 3}] = np.nan
     failed.prediction_status[{"effect": 3}] = "conditions not settled"
-    assert "not settled" in as_text(effects_table(failed))
+    assert "conditions not settled" in as_text(effects_table(failed), width=120)
     texts = [note.get_text() for note in effects_figure(failed).axes[1].texts]
     assert texts.count("not converged") == 1
 

@@ -14,7 +14,7 @@ from gripscale.analysis import Roads, compare_surfaces
 from gripscale.analysis.roads import friction_curve, octave_ends, running_friction
 from gripscale.cli import app
 from gripscale.core.errors import InputError
-from gripscale.report.tables_comparison import roads_sentences
+from gripscale.report.side_by_side import roads_sentences
 from gripscale.surface import Profile, self_affine_profile
 from tests.samples import HALF_PLANE, case_text, write_road
 

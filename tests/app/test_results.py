@@ -11,7 +11,8 @@ import pytest
 from gripscale.analysis.comparison import save_reference
 from gripscale.app.run_tabs import results_elements
 from gripscale.case import read_case, run_case
-from gripscale.charts.page_elements import Chart, Text
+from gripscale.charts.page_elements import Chart
+from gripscale.report.elements import Text
 
 from .conftest import CASE
 

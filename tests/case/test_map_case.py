@@ -16,7 +16,7 @@ from gripscale.experiment.inputs import contents, surface_of
 from gripscale.experiment.task import Task
 from gripscale.half_space import DirectContact
 from gripscale.model import NominalLoad
-from gripscale.report.inputs_text import surface_lines
+from gripscale.report.inputs import surface_lines
 from gripscale.theory import HalfPlane
 from tests.half_space.rough_cases import ZENER, isotropic_heights
 

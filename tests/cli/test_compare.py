@@ -18,8 +18,8 @@ from gripscale.case import prepare_case
 from gripscale.charts.comparison import comparison_axis_figure, comparison_figure
 from gripscale.charts.view import PredictionView
 from gripscale.io import netcdf
-from gripscale.report.tables_comparison import comparison_table, judgement, remarks
-from gripscale.report.tables_run import as_text
+from gripscale.io.table import as_text
+from gripscale.report.comparison import comparison_table, judgement, remarks
 from tests.samples import Shell
 
 FORMATS = ("png", "pdf")

@@ -13,9 +13,9 @@ import xarray as xr
 
 import gripscale as gs
 from gripscale.core.errors import FileError, InputError
-from gripscale.export import tables, tables_of, write_tables
+from gripscale.export import tables_of, write_tables
 from gripscale.half_space import RoughContact
-from gripscale.io import netcdf
+from gripscale.io import netcdf, table
 from gripscale.surface import SineStack, self_affine_profile
 from gripscale.wave.result import waves_to_dataset
 
@@ -74,8 +74,8 @@ def test_every_number_comes_back(prediction, tmp_path, format):
         if variable.dtype.kind not in "fiu":
             continue
         unit = variable.attrs["units"].replace("1", "-")
-        table = rows("_".join(variable.dims))
-        found = numbers(table, f"{name} [{unit}]")
+        written = rows("_".join(variable.dims))
+        found = numbers(written, f"{name} [{unit}]")
         values = variable.values.astype(float).ravel()
         kept = values if variable.ndim == 1 else values[np.isfinite(values)]
         np.testing.assert_allclose(found, kept, rtol=1e-15, atol=0.0)
@@ -98,13 +98,13 @@ def test_a_row_stands_where_its_numbers_are(prediction, tmp_path):
 def test_texts_and_attributes_come_back(prediction, tmp_path, format):
     write_tables(prediction, tmp_path, format=format)
     if format == "csv":
-        table, attributes = (read_csv(tmp_path / f"{n}.csv") for n in ("scale", "attributes"))
+        scales, attributes = (read_csv(tmp_path / f"{n}.csv") for n in ("scale", "attributes"))
     else:
-        table, attributes = (
+        scales, attributes = (
             read_sheet(tmp_path / "tables.xlsx", n) for n in ("scale", "attributes")
         )
-    place = table[0].index("rubber_parameters")
-    assert [row[place] for row in table[1:]] == prediction.rubber_parameters.values.tolist()
+    place = scales[0].index("rubber_parameters")
+    assert [row[place] for row in scales[1:]] == prediction.rubber_parameters.values.tolist()
     found = {(of or "", name): value for of, name, value in attributes[1:]}
     assert found["", "title"] == "=SUM(A1:A2)"
     assert found["", "numbers"] == "[1.0, 2.5]"
@@ -126,13 +126,13 @@ def test_other_results_become_tables(tmp_path):
         coords={"speed": ("speed", [0.1, 1.0], {"units": "m/s"}), "rubber": ["soft", "hard"]},
     )
     for result in (chain.to_dataset(), direct.to_dataset(), study):
-        for table in tables_of(result):
-            rows = list(table.rows())
-            assert all(len(row) == len(table.titles) for row in rows)
-            assert len(set(table.titles)) == len(table.titles)
-    (table, _) = tables_of(study)
-    assert table.titles == ["speed [m/s]", "rubber", "total_friction [-]"]
-    assert list(table.rows()) == [(0.1, "soft", 0.1), (1.0, "soft", 0.3), (1.0, "hard", 0.4)]
+        for made in tables_of(result):
+            rows = list(made.rows())
+            assert all(len(row) == len(made.titles) for row in rows)
+            assert len(set(made.titles)) == len(made.titles)
+    (made, _) = tables_of(study)
+    assert made.titles == ["speed [m/s]", "rubber", "total_friction [-]"]
+    assert list(made.rows()) == [(0.1, "soft", 0.1), (1.0, "soft", 0.3), (1.0, "hard", 0.4)]
 
 
 def test_places_that_nothing_stands_at_are_a_table():
@@ -146,8 +146,8 @@ def test_places_that_nothing_stands_at_are_a_table():
 def test_a_row_with_something_in_it_is_kept():
     values = {"a": [[1.0, np.nan], [np.nan, np.nan]], "b": [[np.nan, 2.0], [np.nan, np.inf]]}
     data = xr.Dataset({name: (("i", "j"), value) for name, value in values.items()})
-    table, _ = tables_of(data)
-    assert list(table.rows()) == [
+    made, _ = tables_of(data)
+    assert list(made.rows()) == [
         (0, 0, 1.0, None),
         (0, 1, None, 2.0),
         (1, 1, None, np.inf),
@@ -186,7 +186,7 @@ def test_what_a_workbook_cannot_hold(tmp_path, monkeypatch):
     write_tables(data, tmp_path)
     cells = [row[1] for row in read_csv(tmp_path / "place.csv")[1:]]
     assert cells == ["inf", "-inf", ""]
-    monkeypatch.setattr(tables, "MOST_ROWS", 3)
+    monkeypatch.setattr(table, "MOST_ROWS", 3)
     with pytest.raises(InputError, match="at most 2 rows for xlsx; got 3 in place"):
         write_tables(data, tmp_path / "other", format="xlsx")
 

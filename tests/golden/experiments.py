@@ -228,7 +228,7 @@ COMMANDS: dict[str, tuple[str, ...]] = {
     "report_study": ("report", "study"),
     "report_uncertainty": ("report", "uncertainty"),
     "report_calibrate": ("report", "calibrate"),
-    "report_compare_rubbers": ("report", "compare_rubbers/study.nc"),
+    "report_compare_rubbers": ("report", "compare_rubbers"),
 }  # fmt: skip
 """The words of each command, by the name of its pin and, where it writes one, of its folder."""
 

@@ -8,9 +8,10 @@ from pathlib import Path
 import pytest
 
 from gripscale.core.errors import ExtrapolationError, InputError
-from gripscale.report.notices import STATUS_CHAPTERS, pointer
-from gripscale.wave.problem import Status
-from tests.samples import DOCS
+from gripscale.report.notices import chapter_words, explained
+from gripscale.wave.problem import Status, status_in
+
+DOCS = Path(__file__).parents[2] / "docs"
 
 BEYOND = ExtrapolationError.see.removeprefix("docs/")
 
@@ -22,22 +23,44 @@ def anchors(page: Path) -> set[str]:
     return {re.sub(r"[\s-]+", "-", title) for title in plain}
 
 
-def test_every_status_has_its_chapter() -> None:
-    assert set(STATUS_CHAPTERS) == set(Status)
+FAILURES = [status for status in Status if status != "converged"]
 
 
-@pytest.mark.parametrize("chapter", sorted({*STATUS_CHAPTERS.values(), BEYOND}))
+@pytest.mark.parametrize("chapter", sorted({*(status.chapter for status in Status), BEYOND}))
 def test_chapters_are_there(chapter: str) -> None:
     page, _, anchor = chapter.partition("#")
     assert anchor in anchors(DOCS / page)
 
 
-@pytest.mark.parametrize("status", [one for one in Status if one != "converged"])
-def test_a_text_that_names_a_status_points_to_its_chapter(status: Status) -> None:
+@pytest.mark.parametrize("status", FAILURES)
+def test_a_status_carries_its_sentence_and_its_advice(status: Status) -> None:
+    assert status.sentence[0].isupper()
+    assert status.sentence.endswith(".")
+    assert status.advice.endswith(".")
+    assert Status(str(status)) is status
+
+
+@pytest.mark.parametrize("status", FAILURES)
+def test_a_failure_says_what_to_do_and_where_to_read(status: Status) -> None:
     text = f"wave 3 of 3 did not converge: {status} at 40 % of the pressure"
-    assert pointer(text) == f"; see docs/{STATUS_CHAPTERS[status]}"
+    assert status_in(text) is status
+    see = f"See {chapter_words(status.chapter)}"
+    assert explained(text) == f"{text}. {status.advice} {see}"
+
+
+def test_a_status_is_a_word_of_its_own() -> None:
+    assert status_in("no time limit.dat in the folder") is None
+    assert status_in("1 of 2 samples failed: tolerance not met") is Status.TOLERANCE_NOT_MET
+    assert status_in("converged") is None
+
+
+def test_a_chapter_is_found_without_the_source() -> None:
+    words = chapter_words("docs/reading-results.md#beyond-the-measured-band")
+    assert words == '"reading results: beyond the measured band" in the documentation'
+    assert chapter_words("docs/limits.md") == '"limits" in the documentation'
+    assert chapter_words("`gripscale keys rubber`") == "`gripscale keys rubber`"
 
 
 def test_refusals_point_by_their_kind_and_others_nowhere() -> None:
-    assert pointer(ExtrapolationError("far beyond")) == f"; see docs/{BEYOND}"
-    assert pointer(InputError("speed must be positive")) == ""
+    assert explained(ExtrapolationError("far beyond")) == f"far beyond; see {chapter_words(BEYOND)}"
+    assert explained(InputError("speed must be positive")) == "speed must be positive"

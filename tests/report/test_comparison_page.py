@@ -48,7 +48,7 @@ def test_failed_sample_is_loud(compared_folder: Path) -> None:
     page = Page(write_report(compared_folder))
     alerts = [a for _, a in page.tags if a.get("role") == "alert"]
     assert len(alerts) == 1
-    assert "speed 3, profile as measured, at once: 1 of 2 samples failed" in page.text
+    assert "speed 3 m/s, profile as measured, at once: 1 of 2 samples failed" in page.text
 
 
 def test_chapter_of_a_run_is_of_just_its_case(

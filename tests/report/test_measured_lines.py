@@ -4,7 +4,7 @@ import pytest
 
 from gripscale.analysis import MeasuredFriction
 from gripscale.core.units import display_unit
-from gripscale.report.tables_measured import measured_lines
+from gripscale.report.measured import measured_lines
 
 
 def test_measured_friction_at_a_speed_is_interpolated_in_its_logarithm() -> None:

@@ -19,9 +19,9 @@ from gripscale.core.errors import FileError, InputError
 from gripscale.io import netcdf
 from gripscale.model import OUTSIDE_BAND, TOTALS, NominalLoad, answer
 from gripscale.report import write_report
+from gripscale.report.inputs import rubber_facts
 from gripscale.report.notices import cards, notices
 from gripscale.report.source import Run, read_result
-from gripscale.report.tables_inputs import rubber_facts
 
 from .conftest import CASE, WAVES, read
 from .reading import Page
@@ -225,7 +225,7 @@ def test_a_modulus_is_relaxed_only_where_that_was_measured(
     run = read_result(changed_run(lambda data: data))
     assert isinstance(run, Run)
     run.inputs.attrs |= {"slow_end_plateau": plateau, "slow_end_modulus_Pa": 2.5e6}
-    pairs = dict(rubber_facts(run.inputs).pairs)
+    pairs = dict(rubber_facts(run.record).pairs)
     assert pairs[("Slow end of the data, E′", "Relaxed modulus")[plateau]] == "2.50 MPa"
     assert (("Relaxed modulus", "Slow end of the data, E′")[plateau]) not in pairs
 

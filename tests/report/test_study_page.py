@@ -41,7 +41,8 @@ def test_failed_prediction_is_loud(page: Page) -> None:
     alerts = [a for _, a in page.tags if a.get("role") == "alert"]
     assert len(alerts) == 1
     assert "speed 3 m/s, rubber <b>SBR</b>: NOT converged: wave 3 of 3" in page.text
-    assert "iteration limit; see docs/reading-results.md#statuses" in page.text
+    assert '"reading results: statuses and what to do about them"' in page.text
+    assert "look at the inputs first" in page.text
     marked = [tag for tag, a in page.tags if "bad" in (a.get("class") or "").split()]
     assert marked.count("th") == 1
     assert marked.count("td") == len(page.body("totals")[0]) - 1

@@ -12,9 +12,9 @@ import xarray as xr
 
 from gripscale.chain import Prediction
 from gripscale.charts.view import PredictionView
-from gripscale.core.units import significant
+from gripscale.io.table import as_text, significant
 from gripscale.model import TOTALS, NominalLoad, answer
-from gripscale.report.tables_run import as_text, prediction_table, totals
+from gripscale.report.waves import prediction_table, totals
 from gripscale.rubber import Rubber
 from gripscale.wave import WaveResult
 from gripscale.wave.problem import Status
@@ -64,10 +64,10 @@ def row(text: str, wave: int) -> list[str]:
 
 
 def test_a_wave_fills_its_row() -> None:
-    text = as_text(prediction_table(solved(), "Dynamic", 120), width=120)
+    text = as_text(prediction_table(solved(), "Dynamic"), width=120)
     assert row(text, 2) == [
-        *("2", "4.00", "0.500", "0.79", "0.600", "5.00", "0.75*"),
-        *("0.250", "0.1250", "0.250", "0.375", "0.188", "0.50-1.50", "6", "converged"),
+        *("2", "4.00", "0.500", "0.785", "0.600", "5.00", "0.750*"),
+        *("0.250", "0.125", "0.250", "0.375", "0.188", "0.50-1.50", "6", "converged"),
     ]
     assert "3 waves: real contact area A_r/A_0 = 0.0156, friction mu = 0.875" in text
     assert "(0.656 from dissipation)" in text
@@ -82,23 +82,23 @@ def test_a_wave_fills_its_row() -> None:
 
 @pytest.mark.parametrize("width", [80, 100, 120])
 def test_nothing_is_cut_off(width: int) -> None:
-    text = as_text(prediction_table(solved(), "Dynamic", width), width=width)
+    text = as_text(prediction_table(solved(), "Dynamic"), width=width)
     assert max(map(len, text.splitlines())) <= width
     assert "…" not in text
-    for cell in ("0.600", "5.00", "0.1250", "0.375", "0.188", "0.50-1.50", "converged"):
+    for cell in ("0.600", "5.00", "0.125", "0.375", "0.188", "0.50-1.50", "converged"):
         assert cell in text
 
 
 def test_hundred_columns_hold_one_table_and_eighty_two() -> None:
     headings = [
-        as_text(prediction_table(solved(), "Dynamic", width), width=width).count("#")
+        as_text(prediction_table(solved(), "Dynamic"), width=width).count("#")
         for width in (100, 80)
     ]
     assert headings == [1, 2]
 
 
 def test_nothing_at_rest_has_friction() -> None:
-    text = as_text(prediction_table(solved(speed=0.0), "Static", 120), width=120)
+    text = as_text(prediction_table(solved(speed=0.0), "Static"), width=120)
     assert row(text, 1)[6] == "-"
     assert row(text, 1)[9:12] == ["-", "-", "-"]
     assert "no friction at rest" in text
@@ -107,7 +107,7 @@ def test_nothing_at_rest_has_friction() -> None:
 def test_failed_wave_has_no_totals() -> None:
     failed = solved(statuses=("converged", "iteration limit"))
     assert totals(failed) == "No totals: wave 2 did not converge (iteration limit)."
-    assert "iteration limit" in as_text(prediction_table(failed, "Dynamic", 100), width=100)
+    assert "iteration limit" in as_text(prediction_table(failed, "Dynamic"), width=100)
     reached = failed.assign(load_reached=("scale", [1.0, 0.4]))
     assert totals(reached).endswith("(iteration limit at 40 % of the pressure).")
 
@@ -117,7 +117,7 @@ def test_long_status_is_wrapped_not_cut_off(width: int) -> None:
     status = "active set not settled after 200 iterations, and the load step was cut 14 times"
     failed = solved(statuses=("converged", "iteration limit"))
     failed["status"].values[1] = status
-    text = as_text(prediction_table(failed, "Dynamic", width), width=width)
+    text = as_text(prediction_table(failed, "Dynamic"), width=width)
     table = text[: text.index("No totals")]
     assert set(status.split()) <= set(table.split())
     assert max(map(len, table.splitlines())) <= width
@@ -128,15 +128,15 @@ def test_model_without_waves_shows_its_totals() -> None:
     load = NominalLoad(3e5, 0.3, 0.1)
     data = answer(xr.Dataset(), numbers, "converged", "toy", load)
     sentence = "real contact area A_r/A_0 = 0.0123, friction mu = 0.456 (0.451 from dissipation)."
-    assert as_text(prediction_table(data, "Toy", 100)) == f"Toy\n{sentence}\n"
+    assert as_text(prediction_table(data, "Toy")) == f"Toy\n{sentence}\n"
     failed = answer(xr.Dataset(), dict.fromkeys(TOTALS, np.nan), "no contact", "toy", load)
     assert totals(failed) == "No totals: no contact."
 
 
 def test_tables_need_no_drawing_library() -> None:
     code = (
-        "import sys, gripscale.report\n"
-        "print(sorted({'matplotlib', 'bokeh', 'jinja2'} & set(sys.modules)))"
+        "import sys, gripscale.report, gripscale.io.table\n"
+        "print(sorted({'matplotlib', 'bokeh', 'jinja2', 'rich', 'openpyxl'} & set(sys.modules)))"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == "[]\n"
@@ -167,8 +167,8 @@ def test_loads_are_in_the_units_of_the_case() -> None:
     """Pressures of 3, 6 and 24 bar at 0.25 m/s, that is 0.9 km/h."""
     text = '[load]\npressure = "3 bar"\nspeed = "0.9 km/h"'
     data = solved().assign_attrs(case=text)
-    table = as_text(prediction_table(data, "", 120), width=120)
+    table = as_text(prediction_table(data, ""), width=120)
     assert [row(table, wave)[4] for wave in (1, 2, 3)] == ["3.00", "6.00", "24.0"]
     units = next(line.split() for line in table.splitlines() if "2πA/λ" in line)
-    assert units[3:5] == ["bar", "MPa"]
+    assert units[4:6] == ["bar", "MPa"]
     assert PredictionView(data).title == "Dynamic, 0.9 km/h"

@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 from gripscale.cli import app
 from gripscale.io import netcdf
-from gripscale.report import tables_run
+from gripscale.report import waves
 from gripscale.wave import Status
 from tests.samples import ROOT, case_text, write_short_road
 
@@ -101,11 +101,11 @@ def test_the_figures_are_listed(folder):
 
 def test_the_columns_of_the_table_are_listed():
     columns = [
-        tables_run.WAVE,
-        tables_run.LENGTH,
-        *tables_run.LOAD,
-        *tables_run.CONTACT,
-        *tables_run.EVIDENCE,
+        waves.WAVE,
+        waves.LENGTH,
+        *waves.LOAD,
+        *waves.CONTACT,
+        *waves.EVIDENCE,
     ]
     two_lines = {"area", "μ"}
     names = [f"{c.heading} {c.unit}" if c.heading in two_lines else c.heading for c in columns]

@@ -14,8 +14,8 @@ import panel as pn
 from gripscale.app.case import MAX_UPLOAD, CaseState
 from gripscale.app.elements import error_notice, html
 from gripscale.case.examples import EXAMPLES
-from gripscale.charts.page_elements import Notice
 from gripscale.core.errors import GripscaleError
+from gripscale.report.elements import Notice
 
 OnUpload = Callable[[Mapping[str, bytes]], None]
 

@@ -16,7 +16,8 @@ from typing import Any, ClassVar, TypeVar
 import panel as pn
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
-from gripscale.charts.page_elements import Card, Chart, Code, Element, Notice, Text
+from gripscale.charts.page_elements import Chart
+from gripscale.report.elements import Card, Code, Element, Notice, Text
 
 T = TypeVar("T")
 

@@ -27,11 +27,17 @@ from gripscale.case import (
     validate,
 )
 from gripscale.case.rubber_tables import NAMED_RUBBERS
-from gripscale.charts.page_elements import Element, Notice, Text
 from gripscale.charts.rubber import rubber_charts
 from gripscale.charts.surface import correlation_charts, profile_charts
-from gripscale.report.inputs_text import shift_lines, sines_line
-from gripscale.report.tables_inputs import cleaning_tables, rubber_facts, surface_facts
+from gripscale.report.elements import Element, Notice, Text
+from gripscale.report.inputs import (
+    InputRecord,
+    cleaning_tables,
+    rubber_facts,
+    shift_parts,
+    sines_line,
+    surface_facts,
+)
 
 ROAD_FIELDS = (
     "scales",
@@ -75,8 +81,8 @@ def surface_elements(file: CaseFile) -> list[Element]:
         *notes,
         Text(f"{sines_line(results.surface.sines)}."),
         *correlation_charts(inputs),
-        *surface_facts(inputs, len(results.surface.sines)),
-        *cleaning_tables(inputs),
+        *surface_facts(InputRecord(inputs), len(results.surface.sines)),
+        *cleaning_tables(InputRecord(inputs)),
         *profile_charts(inputs),
     ]
 
@@ -86,10 +92,11 @@ def rubber_elements(file: CaseFile) -> list[Element]:
     any_wave = {"sines": [{"wavelength": "10 mm", "amplitude": "1 mm"}]}
     results = _prepared_with(file, surface=validate(Surface, any_wave, "surface"))
     inputs = record.inputs(results)
-    findings = str(inputs.attrs.get("prony_findings", "")).splitlines()
+    findings = InputRecord(inputs).findings
     elements: list[Element] = [Notice("warning", f"{text}.") for text in findings]
-    elements += [Text(line) for line in shift_lines(results.rubber)]
-    return [*elements, *rubber_charts(inputs, None), rubber_facts(inputs)]
+    for part in shift_parts(results.rubber):
+        elements.append(Text(part) if isinstance(part, str) else part)
+    return [*elements, *rubber_charts(inputs, None), rubber_facts(InputRecord(inputs))]
 
 
 def road_tab(state: CaseState) -> pn.Column:

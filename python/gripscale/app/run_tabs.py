@@ -6,6 +6,7 @@ Figures, tables and sentences are those of the report.
 from __future__ import annotations
 
 import io
+import math
 import zipfile
 from collections.abc import Iterator
 from dataclasses import replace
@@ -31,17 +32,17 @@ from gripscale.app.forms import fill
 from gripscale.app.runs import Run, Runs
 from gripscale.case import read_case
 from gripscale.case.folder import CASE
-from gripscale.charts.page_elements import NONE, Element, Heading, Notice, Table, Text, number
 from gripscale.charts.view import PredictionView
 from gripscale.charts.wave_and_chain import contact_charts, measured_chart
 from gripscale.core.errors import GripscaleError
+from gripscale.io.table import Column, Table
 from gripscale.model import with_adhesive
 from gripscale.report import source, write_report
-from gripscale.report.comparison_chapters import effects_elements
+from gripscale.report.elements import Element, Notice, Text
+from gripscale.report.measured import measured_lines
 from gripscale.report.notices import cards, exponent_sentence, notices
-from gripscale.report.pages import judgement_elements
-from gripscale.report.tables_measured import measured_lines
-from gripscale.report.wave_tables import wave_tables
+from gripscale.report.pages import effects_elements, judgement_elements
+from gripscale.report.waves import wave_tables
 
 POLL = 500
 """Milliseconds between two readings of the events of a run."""
@@ -219,15 +220,6 @@ def report_pane(state: CaseState, run: Run) -> pn.Column:
 
 COMPARED_CHARTS = ("contact-area", "friction")
 """Figures with one curve a run; the others show one run alone."""
-RUN_HEADINGS = (
-    Heading("run", words=True),
-    Heading("speed"),
-    Heading("A_r/A_0"),
-    Heading("μ"),
-    Heading("μ with the area term"),
-    Heading("status", words=True),
-    Heading("keys that differ from the first", words=True),
-)
 
 
 def compare_tab(state: CaseState, runs: Runs) -> pn.Column:
@@ -263,20 +255,29 @@ def compared_elements(runs: Runs) -> PageElements:
 def runs_table(compared: list[tuple[Run, PredictionView]]) -> Table:
     """Return the totals of each prediction, and the keys in which the cases differ."""
     first = compared[0][0].text
-    rows = []
-    for run, view in compared:
+    totals, states = [], []
+    for _, view in compared:
         with_area_term = with_adhesive(view.data)
-        totals = [
+        numbers = [
             view.total("contact_fraction"),
-            view.total("friction") if view.moving else float("nan"),
-            float("nan") if with_area_term is None else float(with_area_term),
+            view.total("friction") if view.moving else math.nan,
+            math.nan if with_area_term is None else float(with_area_term),
         ]
-        texts = [number(value) if view.complete else NONE for value in totals]
-        status = "complete" if view.complete else f"{view.waves} of {view.planned} waves"
-        speed = view.shown("speed").text(view.speed, 3)
-        changes = ", ".join(changed_keys(first, run.text)) or NONE
-        rows.append([view.name, speed, *texts, status, changes])
-    return Table("runs", "The runs of this visit", RUN_HEADINGS, rows)
+        totals.append(numbers if view.complete else [math.nan] * len(numbers))
+        states.append("complete" if view.complete else f"{view.waves} of {view.planned} waves")
+    speeds = [view.shown("speed").text(view.speed, 3) for _, view in compared]
+    changes = [", ".join(changed_keys(first, run.text)) for run, _ in compared]
+    area, friction, with_term = zip(*totals, strict=True)
+    columns = [
+        Column("run", [view.name for _, view in compared]),
+        Column("speed", speeds, words=False),
+        Column("contact_fraction", area, "A_r/A_0"),
+        Column("friction", friction, "μ"),
+        Column("with_area_term", with_term, "μ with the area term"),
+        Column("status", states),
+        Column("changes", changes, "keys that differ from the first", words=True),
+    ]
+    return Table("runs", columns, "The runs of this visit")
 
 
 def changed_keys(first: str, other: str) -> Iterator[str]:

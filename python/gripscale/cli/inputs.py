@@ -1,4 +1,4 @@
-"""`gripscale init FOLDER`: an example to start from, with its data."""
+"""Before a run: an example to start from, the keys of a case, and its two halves alone."""
 
 from __future__ import annotations
 
@@ -12,16 +12,18 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from gripscale.cli.terminal import command, print_wrapped, screen
+from gripscale.cli.terminal import command, print_parts, print_wrapped, screen
 from gripscale.core.errors import InputError
 
 if TYPE_CHECKING:
     from rich.console import Console
-    from rich.table import Table
 
-    from gripscale.case.keys import Section
     from gripscale.case.prepare import PreparedRubber
+    from gripscale.io.table import Table
     from gripscale.surface import PreparedSurface
+
+
+# `gripscale init FOLDER`: an example to start from, with its data.
 
 
 class Choice(StrEnum):
@@ -79,35 +81,29 @@ def keys(
     """List every key of a case file: what it takes, its default, its meaning."""
     from gripscale.case.keys import sections
     from gripscale.core import checks
+    from gripscale.io.table import Column, Table
+    from gripscale.report.notices import chapter_words
 
-    known = sections()
+    chosen = sections()
     if section is not None:
-        checks.one_of("section", section, dict.fromkeys(one.name for one in known))
+        checks.one_of("section", section, dict.fromkeys(part.name for part in chosen))
     console = screen()
-    for one in known:
-        if section in (None, one.name, one.name.partition(".")[0]):
-            console.print()
-            console.print(_table(one))
-            pages = dict.fromkeys(f"docs/{key.chapter}" for key in one.keys)
+    for part in chosen:
+        if section in (None, part.name, part.name.partition(".")[0]):
+            columns = {
+                "key": [key.name for key in part.keys],
+                "takes": [key.takes for key in part.keys],
+                "default": [key.default for key in part.keys],
+                "meaning": [key.meaning for key in part.keys],
+            }
+            table = Table(
+                part.name,
+                [Column(name, texts, words=True) for name, texts in columns.items()],
+                f"{part.title}: {part.about}",
+            )
+            print_parts(console, ["", table])
+            pages = dict.fromkeys(chapter_words(key.chapter) for key in part.keys)
             print_wrapped(console, f"More in {', '.join(pages)}.")
-
-
-def _table(section: Section) -> Table:
-    from rich import box
-    from rich.table import Table
-
-    table = Table(
-        title=f"{section.title}: {section.about}",
-        title_justify="left",
-        box=box.SIMPLE_HEAD,
-        expand=True,
-    )
-    table.add_column("key", no_wrap=True)
-    for heading, ratio in (("takes", 3), ("default", 1), ("meaning", 4)):
-        table.add_column(heading, ratio=ratio, overflow="fold")
-    for key in section.keys:
-        table.add_row(key.name, key.takes, key.default, key.meaning)
-    return table
 
 
 # `gripscale fit-surface FILES`: the surface half of a run, from profiles to sine waves.
@@ -149,8 +145,7 @@ def fit_surface(
 ) -> None:
     """Clean profiles, find their height difference correlation and fit sine waves to it."""
     from gripscale.case import Surface, folder, prepare_surface, validate
-    from gripscale.report.inputs_text import surface_lines, waves_table
-    from gripscale.report.notices import slope_table
+    from gripscale.report.inputs import slopes_table, surface_lines, waves_table
 
     stated = {
         "files": files,
@@ -173,16 +168,21 @@ def fit_surface(
         folder.require_writable(output)
     prepared = prepare_surface(surface)
     console = screen()
-    lines = [*surface_lines(prepared), *waves_table(prepared.sines), *_ambiguity(prepared)]
+    sines = prepared.sines
+    parts: list[str | Table] = [
+        *surface_lines(prepared),
+        waves_table(sines.wavelength, sines.amplitude),
+        *_ambiguity(prepared),
+    ]
     if slopes and prepared.measured is not None:
-        lines += slope_table(prepared.measured.slopes)
-    for line in lines:
-        print_wrapped(console, line)
+        parts.append(slopes_table(prepared.measured.slopes))
+    print_parts(console, parts)
     if output is not None:
         from gripscale.charts.write import surface_figures
 
         folder.make(output)
         surface_figures(prepared, output)
+        console.print()
         print_wrapped(console, f"Figures are in {output}")
 
 
@@ -192,14 +192,14 @@ def _ambiguity(prepared: PreparedSurface) -> Iterator[str]:
 
     if prepared.correlation is None or len(prepared.sines) < 2:
         return
-    found = sine_ambiguity(prepared.correlation, prepared.sines)
-    low, high = (length * 1e3 for length in found.first_wavelength)
+    same = sine_ambiguity(prepared.correlation, prepared.sines)
+    low, high = (length * 1e3 for length in same.first_wavelength)
     yield (
-        f"C_z is known to {found.band:.2g} decades; {len(found.stacks)} of {found.tried} stacks "
-        f"tried follow it as well: {found.waves.low:.0f} to {found.waves.high:.0f} waves, "
-        f"s_wavelength {found.s_wavelength.low:.2g} to {found.s_wavelength.high:.2g}, "
+        f"C_z is known to {same.band:.2g} decades; {len(same.stacks)} of {same.tried} stacks "
+        f"tried follow it as well: {same.waves.low:.0f} to {same.waves.high:.0f} waves, "
+        f"s_wavelength {same.s_wavelength.low:.2g} to {same.s_wavelength.high:.2g}, "
         f"first wave {low:.3g} to {high:.3g} mm, "
-        f"rms slope {found.rms_slope.low:.2f} to {found.rms_slope.high:.2f}"
+        f"rms slope {same.rms_slope.low:.2f} to {same.rms_slope.high:.2f}."
     )
 
 
@@ -259,7 +259,7 @@ def fit_rubber(
 ) -> None:
     """Fit a Prony series to a master curve, or to sweeps at several temperatures."""
     from gripscale.case import RubberSource, folder, prepare_rubber, validate
-    from gripscale.report.inputs_text import band_table, prony_table, rubber_lines
+    from gripscale.report.inputs import band_table, prony_table, rubber_parts
 
     stated = {
         "file": file,
@@ -287,9 +287,10 @@ def fit_rubber(
     except InputError as error:
         raise InputError(_with_options(str(error))) from error
     rubber = prepared.rubber
-    for line in (*rubber_lines(prepared), *band_table(rubber), *prony_table(rubber)):
-        print_wrapped(console, line)
+    tables = [band_table(rubber), prony_table(rubber.relaxation_times, rubber.moduli)]
+    print_parts(console, [*rubber_parts(prepared), *(table for table in tables if table)])
     if output is not None:
+        console.print()
         _write(console, prepared, output)
 
 

@@ -9,18 +9,18 @@ from collections.abc import Iterator
 from contextlib import contextmanager, nullcontext
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from gripscale.cli.terminal import (
     CasePath,
     command,
+    conclude,
     failure_of,
     print_error,
     print_wrapped,
     screen,
-    with_doc_link,
 )
 from gripscale.core.errors import FileError, GripscaleError
 
@@ -28,13 +28,14 @@ if TYPE_CHECKING:
     import xarray as xr
     from rich.console import Console
 
-    from gripscale.analysis.measured_friction import MeasuredFriction
     from gripscale.case import CaseResults
     from gripscale.case.events import Event, OnEvent
     from gripscale.core.units import DisplayUnit
+    from gripscale.io.table import Table
 
 
 REPORT_WIDTH = 110
+"""Characters of a line of report.txt."""
 
 
 class ProgressFormat(StrEnum):
@@ -42,14 +43,6 @@ class ProgressFormat(StrEnum):
 
     TEXT = "text"
     JSON = "json"
-
-
-class RunExtras(NamedTuple):
-    """What stands beside the chain: direct contact, worth of the effects, measured friction."""
-
-    direct: xr.Dataset | None
-    effects: xr.Dataset | None
-    friction: MeasuredFriction | None
 
 
 @command
@@ -104,6 +97,7 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
     from gripscale.analysis.effects import FILE as EFFECTS
     from gripscale.analysis.effects import case_effects
     from gripscale.analysis.measured_comparison import friction_of_case
+    from gripscale.analysis.propagation import input_digests, stored_uncertainty
     from gripscale.case import folder, prepare_case, read_case, run_case
     from gripscale.case.events import (
         DirectContactSolved,
@@ -112,6 +106,10 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
         WaveSolved,
     )
     from gripscale.charts.background import background_figures
+    from gripscale.charts.write import draw_effects, draw_heat
+    from gripscale.report.measured import measured_lines
+    from gripscale.report.notices import explained
+    from gripscale.report.uncertainty import uncertainty_lines
 
     file = read_case(case)
     target = output if output is not None else file.resolve(file.case.output.folder)
@@ -140,40 +138,64 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
             if effects is not None:
                 emit(EffectsSolved.of(effects))
                 emit(FileWritten(str(target / EFFECTS.format(model=results.chain.name))))
-        _conclude_run(console, target, opening, results, RunExtras(direct, effects, friction))
+        parts, heat = _parts(results, direct, effects)
+        if friction is not None and results.load.speed > 0.0:
+            parts += measured_lines(friction, results.load.speed, results.shown("speed"))
+        sampled = stored_uncertainty(target)
+        parts += uncertainty_lines(sampled, file.text, input_digests(file))
+
+        def draw_conditions() -> None:
+            if heat is not None:
+                draw_heat(heat, target / "figures")
+            if effects is not None:
+                draw_effects([effects], target / "figures")
+
+        conclude(
+            console,
+            target,
+            parts,
+            text="report.txt",
+            closing="Results, report and figures are in",
+            opening=opening,
+            width=REPORT_WIDTH,
+            draw=draw_conditions,
+        )
         emit(FileWritten(str(target / "report.txt")))
-    console.print()
-    print_wrapped(console, f"Results, report and figures are in {target}")
-    _tell_old_page(console, target, results)
-    _fail_if_any(results)
+    # a page of an earlier result stays beside this one
+    page, first = target / "report.html", next(iter(results.predictions), None)
+    written = page.read_text(encoding="utf-8", errors="replace") if page.is_file() else None
+    if first is not None and written is not None and results.key(first) not in written:
+        words = shlex.join(["gripscale", "report", str(target)])
+        text = f"{page.name} in it is older and shows another result; `{words}` renews it"
+        print_wrapped(console, text)
+    failures = list(results.failures.values())
+    for failure in failures[:-1]:
+        print_error(explained(failure))
+    if failures:
+        raise failures[-1]
 
 
 def _opening(results: CaseResults) -> list[str]:
     """Return what the run starts from, line by line."""
     from gripscale.core.provenance import version_of
-    from gripscale.report.inputs_text import rubber_lines, surface_lines
+    from gripscale.io.table import as_text
+    from gripscale.report.inputs import conditions_lines, rubber_parts, surface_lines
 
-    return [
+    rubber = as_text(*rubber_parts(results.rubber), width=10**6).splitlines()
+    lines = [
         f"gripscale {version_of('gripscale')}, case {results.file.path}",
         "",
         "Surface",
         *(f"  {line}" for line in surface_lines(results.surface)),
         "",
         "Rubber",
-        *(f"  {line}" for line in rubber_lines(results.rubber)),
-        *_conditions(results),
-        *(text for note in results.load_notes() for text in ("", f"note: {note}")),
+        *(f"  {line}".rstrip() for line in rubber),
     ]
-
-
-def _conditions(results: CaseResults) -> list[str]:
-    from gripscale.report.inputs_text import conditions_lines
-
-    if results.conditions is None:
-        return []
-    told = conditions_lines(results.conditions, results.rubber.rubber)
-    notes = (f"note: {text}" for text in results.conditions_notes())
-    return ["", "Conditions", *(f"  {line}" for line in (*told, *notes))]
+    if results.conditions is not None:
+        conditions = conditions_lines(results.conditions, results.rubber.rubber)
+        notes = (f"note: {text}" for text in results.conditions_notes())
+        lines += ["", "Conditions", *(f"  {line}" for line in (*conditions, *notes))]
+    return [*lines, *(text for note in results.load_notes() for text in ("", f"note: {note}"))]
 
 
 def _event_printer(console: Console, speed_unit: DisplayUnit) -> OnEvent:
@@ -210,89 +232,28 @@ def _event_printer(console: Console, speed_unit: DisplayUnit) -> OnEvent:
     return print_event
 
 
-def _conclude_run(
-    console: Console,
-    target: Path,
-    opening: list[str],
-    results: CaseResults,
-    known: RunExtras,
-) -> None:
-    """Print the tables and what chain and effects are worth, and write them down."""
-    from gripscale.analysis.propagation import input_digests, stored_uncertainty
-    from gripscale.case import folder
-    from gripscale.charts.view import PredictionView
-    from gripscale.report import tables_run
-    from gripscale.report.tables_comparison import judgement
-    from gripscale.report.tables_measured import measured_lines
-    from gripscale.report.tables_uncertainty import uncertainty_lines
-
-    solved = {PredictionView(d).title: d for d in map(results.dataset, results.predictions)}
-    for name, data in solved.items():
-        console.print()
-        console.print(tables_run.prediction_table(data, name, console.width))
-    beside = list(_conditions_tables(results, known.effects))
-    for table in beside:
-        console.print()
-        console.print(table)
-    if solved:
-        console.print()
-        print_wrapped(console, tables_run.LEGEND)
-    views = [PredictionView(data, name) for name, data in solved.items()]
-    last = list(judgement(views[0], known.direct)) if views and known.direct is not None else []
-    if known.friction is not None and results.load.speed > 0.0:
-        last += measured_lines(known.friction, results.load.speed, results.shown("speed"))
-    sampled = stored_uncertainty(target)
-    last += uncertainty_lines(sampled, results.file.text, input_digests(results.file))
-    if last:
-        console.print()
-    for line in last:
-        print_wrapped(console, line)
-    written = [
-        tables_run.prediction_table(data, name, REPORT_WIDTH) for name, data in solved.items()
-    ]
-    parts = (*opening, "", *written, tables_run.LEGEND, *beside, "", *last)
-    folder.write_text(target / "report.txt", tables_run.as_text(*parts, width=REPORT_WIDTH))
-
-
-def _conditions_tables(results: CaseResults, worth: xr.Dataset | None) -> Iterator[Any]:
-    """Yield the temperature of each wave and what each effect is worth, and draw both."""
+def _parts(
+    results: CaseResults, direct: xr.Dataset | None, worth: xr.Dataset | None
+) -> tuple[list[str | Table], xr.Dataset | None]:
+    """Return tables and sentences of a run, and the prediction that has heat to be drawn."""
     from gripscale.case.results import DYNAMIC
-    from gripscale.charts.write import draw_effects, draw_heat
-    from gripscale.report.tables_comparison import effects_table
-    from gripscale.report.tables_run import heat_table
+    from gripscale.charts.view import PredictionView
+    from gripscale.report.comparison import judgement
+    from gripscale.report.side_by_side import effects_table
+    from gripscale.report.waves import LEGEND, heat_table, prediction_table
 
-    moving = results.dynamic
-    figures = None if results.folder is None else results.folder / "figures"
+    views = [PredictionView(results.dataset(name), name) for name in results.predictions]
+    parts: list[str | Table] = [prediction_table(view.data, view.title) for view in views]
+    parts += [LEGEND] if views else []
+    moving, heat = results.dynamic, None
     if moving is not None and moving.conditions is not None and moving.conditions.heat is not None:
-        data = results.dataset(DYNAMIC)
-        if figures is not None:
-            draw_heat(data, figures)
-        yield heat_table(data)
+        heat = results.dataset(DYNAMIC)
+        parts.append(heat_table(heat))
     if worth is not None:
-        if figures is not None:
-            draw_effects([worth], figures)
-        yield effects_table(worth)
-
-
-def _tell_old_page(console: Console, target: Path, results: CaseResults) -> None:
-    """Say so if the page in the folder does not show this result."""
-    page, first = target / "report.html", next(iter(results.predictions), None)
-    if first is None or not page.is_file():
-        return
-    if results.key(first) not in page.read_text(encoding="utf-8", errors="replace"):
-        words = shlex.join(["gripscale", "report", str(target)])
-        print_wrapped(
-            console, f"{page.name} in it is older and shows another result; `{words}` renews it"
-        )
-
-
-def _fail_if_any(results: CaseResults) -> None:
-    """Raise the last failure, which sets the exit code, after a sentence for the others."""
-    failures = list(results.failures.values())
-    for failure in failures[:-1]:
-        print_error(with_doc_link(failure))
-    if failures:
-        raise failures[-1]
+        parts.append(effects_table(worth))
+    if views and direct is not None:
+        parts += ["", *judgement(views[0], direct)]
+    return parts, heat
 
 
 # `gripscale report RESULT`: one self-contained HTML page of a result.
@@ -303,8 +264,8 @@ def report(
     result: Annotated[
         Path,
         typer.Argument(
-            help="Results folder of a run, comparison, study, calibration or uncertainty, or one "
-            "of its .nc files.",
+            help="Results folder of a run, comparison, study, calibration or uncertainty, or of "
+            "surfaces or rubbers side by side; or one of its .nc files.",
             metavar="RESULT",
             readable=False,
         ),

@@ -5,19 +5,20 @@ from __future__ import annotations
 import os
 import sys
 import textwrap
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import wraps
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, ParamSpec
+from typing import TYPE_CHECKING, Annotated, ParamSpec
 
 import typer
 
-from gripscale.core.errors import ConvergenceError, GripscaleError
+from gripscale.core.errors import ConvergenceError, GripscaleError, InputError
 
 if TYPE_CHECKING:
     from rich.console import Console
 
     from gripscale.experiment.solve import Progress
+    from gripscale.io.table import Table
 
 
 BAD_INPUT, NOT_CONVERGED, STOPPED = 2, 3, 130
@@ -46,13 +47,6 @@ def print_error(message: str) -> None:
     screen(stderr=True).print(text, soft_wrap=True)
 
 
-def with_doc_link(failure: object) -> str:
-    """Return a failure in words, with the chapter of the documentation that says more."""
-    from gripscale.report.notices import pointer
-
-    return f"{failure}{pointer(failure)}"
-
-
 def failure_of(error: GripscaleError | KeyboardInterrupt) -> tuple[str, int]:
     """Return the sentence and the exit code a command ends with after `error`."""
     if isinstance(error, KeyboardInterrupt):
@@ -61,8 +55,10 @@ def failure_of(error: GripscaleError | KeyboardInterrupt) -> tuple[str, int]:
             "and the same command goes on from it"
         )
         return stopped, STOPPED
+    from gripscale.report.notices import explained
+
     exit_code = NOT_CONVERGED if isinstance(error, ConvergenceError) else BAD_INPUT
-    return with_doc_link(error), exit_code
+    return explained(error), exit_code
 
 
 def print_wrapped(console: Console, message: str) -> None:
@@ -81,14 +77,86 @@ def print_wrapped(console: Console, message: str) -> None:
     console.print(Text("\n".join(lines)), soft_wrap=True)
 
 
-def print_parts(console: Console, parts: Iterable[Any]) -> None:
-    """Print sentences as lines, and each table after an empty one."""
-    for part in parts:
+def print_parts(console: Console, parts: Iterable[str | Table]) -> None:
+    """Print sentences as lines, and tables set apart from them."""
+    from gripscale.io.table import spaced
+
+    for part in spaced(parts):
         if isinstance(part, str):
             print_wrapped(console, part)
         else:
-            console.print()
             console.print(part)
+
+
+def conclude(
+    console: Console,
+    target: Path,
+    parts: Sequence[str | Table],
+    *,
+    text: str,
+    closing: str,
+    opening: Sequence[str | Table] = (),
+    width: int = PLAIN_WIDTH,
+    files: Mapping[str, str] | None = None,
+    draw: Callable[[], object] | None = None,
+    page: str = "",
+    failure: str = "",
+) -> None:
+    """End a command: print and write what it found, draw its figures, set the exit code.
+
+    Parameters
+    ----------
+    console, target
+        The screen, and the results folder.
+    parts
+        Tables and sentences, printed and written to the file `text`.
+    closing
+        What is in the folder, as "Result (study.nc), table and figures are in".
+    opening
+        Above the parts in the file, which the screen shows already.
+    width
+        Of a line in the file.
+    files
+        Further texts by file name.
+    draw
+        Draws the figures.
+    page
+        Result file whose page is written, where the libraries for it are installed.
+    failure
+        What has no result; it sets the exit code.
+    """
+    from gripscale.case import folder
+    from gripscale.io.table import as_text
+
+    console.print()
+    print_parts(console, parts)
+    above = [*opening, ""] if opening else []
+    texts = {text: as_text(*above, *parts, width=width), **(files or {})}
+    for name, content in texts.items():
+        folder.write_text(target / name, content)
+    if draw is not None:
+        draw()
+    console.print()
+    print_wrapped(console, f"{closing} {target}")
+    if page:
+        from gripscale.report import write_report
+
+        try:
+            print_wrapped(console, f"Page: {write_report(target / page)}")
+        except InputError as error:  # the extra is not installed
+            print_wrapped(console, f"note: no page; {error}")
+    if failure:
+        print_error(failure)
+        raise typer.Exit(NOT_CONVERGED)
+
+
+def first_of(failed: Sequence[str], total: int, what: str) -> str:
+    """Return how many of the `total` failed, with what to do about the first; empty if none."""
+    from gripscale.report.notices import explained
+
+    if not failed:
+        return ""
+    return f"{len(failed)} of {total} {what} failed; the first: {explained(failed[0])}"
 
 
 def command(body: Callable[P, None]) -> Callable[P, None]:
@@ -106,26 +174,23 @@ def command(body: Callable[P, None]) -> Callable[P, None]:
     return inside
 
 
-# A line of the terminal for each prediction of many as it is done.
-
-
 def progress_printer(console: Console) -> Callable[[Progress], None]:
     """Return what prints a line for each prediction."""
 
-    def tell(progress: Progress) -> None:
-        found = progress.result
+    def print_line(progress: Progress) -> None:
+        answer = progress.result
         width = len(str(progress.total))
         text = f"[{progress.done:>{width}}/{progress.total}] {progress.label}: "
-        if found.prediction_status != "converged":
-            text += str(found.prediction_status.item())
+        if answer.prediction_status != "converged":
+            text += str(answer.prediction_status.item())
         else:
-            text += f"area {float(found.total_contact_fraction):.4g}"
-            if found.nominal_speed > 0.0:
-                text += f", friction {float(found.total_friction):.3f}"
+            text += f"area {float(answer.total_contact_fraction):.4g}"
+            if answer.nominal_speed > 0.0:
+                text += f", friction {float(answer.total_friction):.3f}"
         how = "already solved" if progress.stored else f"{progress.seconds:.1f} s"
         print_wrapped(console, f"{text}, {how}")
 
-    return tell
+    return print_line
 
 
 # Options that several commands share.

@@ -300,13 +300,3 @@ def stated_units(tables: Mapping[str, Any]) -> dict[str, str]:
         if unit:
             units[name] = unit
     return units
-
-
-def significant(value: float, digits: int = 3) -> str:
-    """Return `value` with this many significant digits, without an exponent if that is short."""
-    if not math.isfinite(value):
-        return "-" if math.isnan(value) else "inf"
-    if value == 0.0 or 1e-4 <= abs(value) < 1e6:
-        decimals = max(digits - 1 - math.floor(math.log10(abs(value))), 0) if value else 0
-        return f"{value:.{decimals}f}"
-    return f"{value:.{digits - 1}e}"

@@ -21,8 +21,8 @@ def write_report(result: str | Path, output: str | Path | None = None) -> Path:
     Parameters
     ----------
     result
-        Results folder of a run, comparison, study, calibration or uncertainty, or one of their
-        netCDF files.
+        Results folder of a run, comparison, study, calibration or uncertainty, or of roads or
+        compounds side by side; or one of their netCDF files.
     output
         The file to write; `report.html` in the results folder by default.
 

@@ -14,7 +14,7 @@ from typing import Any
 import matplotlib as mpl
 from matplotlib.figure import Figure
 
-from gripscale.charts.page_elements import Equation
+from gripscale.report.elements import Equation
 
 LW = "Lind & Wangenheim 2014, ASME IMECE2014-37998"
 

@@ -1,27 +1,29 @@
-"""What a report is made of: a run with its inputs, models side by side, a study, what was told."""
+"""What a report is made of: a run with its inputs, a comparison, a study, a calibration, ..."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import Any
 
 import xarray as xr
 
 from gripscale.analysis.comparison import FILE as DIRECT
 from gripscale.analysis.effects import stored_effects
-from gripscale.analysis.propagation import stored_uncertainty
+from gripscale.analysis.propagation import of_same_inputs, stored_uncertainty
 from gripscale.charts.ladder import varied
 from gripscale.charts.view import PredictionView
 from gripscale.core.errors import FileError
 from gripscale.experiment.axis import dimensions
 from gripscale.io import netcdf
+from gripscale.report.inputs import InputRecord
 
 PREDICTIONS = ("dynamic", "static")
 COMPARISON = "comparison"
 """Folder of a comparison in that of the run, and the name of its file."""
 OVER = "over_*.nc"
 """Files of comparisons over a varied input."""
+KINDS = "run, comparison, study, calibration or uncertainty, or of surfaces or rubbers side by side"
 
 
 @dataclass(frozen=True)
@@ -43,16 +45,21 @@ class Compared:
         """The text of the case."""
         return str(self.parts[0].attrs.get("case", ""))
 
+    @property
+    def own_uncertainty(self) -> xr.Dataset | None:
+        """What was sampled of this very case, or None."""
+        data = self.uncertainty
+        return data if data is not None and of_same_inputs(data, self.case) else None
+
     def of(self, case: object) -> Compared:
         """Return those of just this text of a case."""
-        same = [one for one in self.parts if one.attrs.get("case") == case]
-        return Compared.holding(same)
+        return Compared.holding([data for data in self.parts if data.attrs.get("case") == case])
 
     @classmethod
-    def holding(cls, found: list[xr.Dataset]) -> Compared:
-        """Return the comparisons `found`, of which at most one has no axis."""
-        ladders = [one for one in found if not varied(one)]
-        return cls(ladders[0] if ladders else None, [one for one in found if varied(one)])
+    def holding(cls, parts: list[xr.Dataset]) -> Compared:
+        """Return the comparisons, of which at most one has no axis."""
+        ladders = [data for data in parts if not varied(data)]
+        return cls(ladders[0] if ladders else None, [data for data in parts if varied(data)])
 
 
 @dataclass(frozen=True)
@@ -81,9 +88,22 @@ class Run:
         return self.data.attrs
 
     @property
+    def record(self) -> InputRecord:
+        """The record of its inputs."""
+        return InputRecord(self.inputs)
+
+    @property
     def by_wave(self) -> list[PredictionView]:
         """The predictions of models that go wave by wave."""
         return [prediction for prediction in self.predictions if prediction.waves]
+
+    @property
+    def own_uncertainty(self) -> xr.Dataset | None:
+        """What was sampled of its very inputs, or None."""
+        data, case = self.uncertainty, str(self.attrs.get("case", ""))
+        if data is None or not of_same_inputs(data, case, self.record.digests):
+            return None
+        return data
 
 
 @dataclass(frozen=True)
@@ -107,19 +127,38 @@ class SurfaceComparison:
 
 
 @dataclass(frozen=True)
-class TextReport:
-    """A result whose command said in text and figures what there is to say."""
+class RubberComparison(Study):
+    """Compounds side by side: a study over rubbers, with the differences to the first."""
 
-    name: str
+
+@dataclass(frozen=True)
+class UncertaintyResult:
+    """Samples of a case and their quantiles."""
+
     data: xr.Dataset
-    text: str
-    pictures: list[Path]
 
 
-TOLD = {"calibration": "profile_excess", "uncertainty": "friction_quantile"}
-"""Results of that kind, by the name of their file, with a variable only they have."""
+@dataclass(frozen=True)
+class CalibrationResult:
+    """A law of the area term fitted to measured friction."""
 
-Source = Run | Study | Compared | SurfaceComparison | TextReport
+    data: xr.Dataset
+
+
+Source = (
+    Run
+    | Study
+    | Compared
+    | SurfaceComparison
+    | RubberComparison
+    | UncertaintyResult
+    | CalibrationResult
+)
+
+
+def case_name(attrs: dict[Any, Any]) -> str:
+    """Return the file name of the case of a result, empty where it is not known."""
+    return PurePath(str(attrs.get("case_file", ""))).name
 
 
 def read_result(path: Path) -> Source:
@@ -132,61 +171,48 @@ def read_result(path: Path) -> Source:
     if not path.exists():
         raise FileError(f"result {path} does not exist")
     tree = netcdf.load_tree(path)
-    for name, variable in TOLD.items():
-        if variable in tree.variables:
-            return _told(name, path, tree.to_dataset())
+    if "profile_excess" in tree.variables:
+        return CalibrationResult(tree.to_dataset())
+    if "friction_quantile" in tree.variables:
+        return UncertaintyResult(tree.to_dataset())
     _require_totals(tree, path)
     if "rung" in tree.dims:
         return Compared.holding([tree.to_dataset()])
     if {"model", "surface"} <= set(tree.dims):
         return SurfaceComparison(tree.to_dataset())
+    if "total_friction_difference" in tree.variables:
+        return RubberComparison(path.stem, tree.to_dataset())
     if tree["total_friction"].ndim:
         return Study(path.stem, tree.to_dataset())
-    return _run({path.stem: tree}, Compared())
+    return _run({path.stem: tree})
 
 
 def _read_folder(folder: Path) -> Source:
     paths = [folder / f"{name}.nc" for name in PREDICTIONS]
-    there = {path.stem: _checked(path) for path in paths if path.is_file()}
-    if there:
-        found = _run(there, _comparisons(folder / COMPARISON))
-        effects = stored_effects((folder / COMPARISON, folder), found.attrs.get("case"))
+    trees = {path.stem: _checked(path) for path in paths if path.is_file()}
+    if trees:
+        run = replace(_run(trees), compared=_comparisons(folder / COMPARISON))
+        case = run.attrs.get("case")
+        direct = folder / DIRECT
+        judge = _checked(direct).to_dataset() if direct.is_file() else None
         return replace(
-            found,
-            effects=effects,
+            run,
+            effects=stored_effects((folder / COMPARISON, folder), case),
             uncertainty=stored_uncertainty(folder),
-            direct=_direct(folder, found),
+            direct=judge if judge is not None and judge.attrs.get("case") == case else None,
         )
     compared = replace(_comparisons(folder), uncertainty=stored_uncertainty(folder.parent))
     if compared.parts:
         return compared
     others = sorted(path for path in folder.glob("*.nc") if not path.name.startswith("."))
     if not others:
-        raise FileError(
-            f"{folder} holds no result; expected the folder of a run, comparison, study, "
-            "calibration or uncertainty"
-        )
+        raise FileError(f"{folder} holds no result; expected the folder of a {KINDS}")
+    # a comparison of compounds leaves the study it was made of beside its own result
+    others = [path for path in others if path.name == "compounds.nc"] or others
     if len(others) > 1:
         names = ", ".join(path.name for path in others)
         raise FileError(f"{folder} holds several results; name one of them: {names}")
     return read_result(others[0])
-
-
-def _told(name: str, path: Path, data: xr.Dataset) -> TextReport:
-    """Return what its command wrote beside a result."""
-    text = path.with_name(f"{name}.txt")
-    pictures = [*path.parent.glob("*.png"), *(path.parent / "figures").glob("*.png")]
-    said = text.read_text(encoding="utf-8") if text.is_file() else ""
-    return TextReport(name, data, said, sorted(pictures))
-
-
-def _direct(folder: Path, found: Run) -> xr.Dataset | None:
-    """Return the direct contact of just the case of the run; None where there is none."""
-    path = folder / DIRECT
-    if not path.is_file():
-        return None
-    data = _checked(path).to_dataset()
-    return data if data.attrs.get("case") == found.attrs.get("case") else None
 
 
 def _comparisons(folder: Path) -> Compared:
@@ -195,11 +221,11 @@ def _comparisons(folder: Path) -> Compared:
     return Compared.holding([_checked(path).to_dataset() for path in paths if path.is_file()])
 
 
-def _run(trees: dict[str, xr.DataTree], compared: Compared) -> Run:
+def _run(trees: dict[str, xr.DataTree]) -> Run:
     views = [PredictionView(tree.to_dataset(), name) for name, tree in trees.items()]
     first = next(iter(trees.values()))
     inputs = first.children.get("inputs", xr.DataTree())
-    return Run(views, inputs.to_dataset(inherit=False), compared)
+    return Run(views, inputs.to_dataset(inherit=False))
 
 
 def _checked(path: Path) -> xr.DataTree:
@@ -210,9 +236,8 @@ def _checked(path: Path) -> xr.DataTree:
 
 
 def _require_totals(tree: xr.DataTree, path: Path) -> None:
-    told = {"prediction_status", "status"} & set(tree.variables)
-    if not ({"total_contact_fraction", "total_friction"} <= set(tree.variables) and told):
-        raise FileError(
-            f"{path} has no report: it holds no totals of a run, comparison or study, and no "
-            "calibration or uncertainty"
-        )
+    names = set(tree.variables)
+    if not ({"total_contact_fraction", "total_friction"} <= names) or not (
+        {"prediction_status", "status"} & names
+    ):
+        raise FileError(f"{path} has no report: it holds no totals or quantiles of a {KINDS}")

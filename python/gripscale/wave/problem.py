@@ -7,11 +7,13 @@ ended.
 from __future__ import annotations
 
 import math
+import re
 from enum import StrEnum
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gripscale import _kernel
 from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.checks import Checked, checked
@@ -160,7 +162,8 @@ class Mesh(Checked):
 class Status(StrEnum):
     """How a solution ended: `converged`, or the reason not to use its numbers.
 
-    Every member is, and compares equal to, its word.
+    Every member is, and compares equal to, its word; it carries what happened, what to do about it
+    and where the documentation says more.
     """
 
     CONVERGED = "converged"
@@ -177,3 +180,55 @@ class Status(StrEnum):
     CONTACT_TOO_NARROW = "contact too narrow"
     PROFILE_TOO_ROUGH = "profile too rough"
     CONDITIONS_NOT_SETTLED = "conditions not settled"
+
+    @property
+    def sentence(self) -> str:
+        """What happened."""
+        return _TEXTS[self][0]
+
+    @property
+    def advice(self) -> str:
+        """What to do about it; empty for `converged`."""
+        return _TEXTS[self][1]
+
+    @property
+    def chapter(self) -> str:
+        """Page and heading of the documentation that say more."""
+        return _CHAPTERS.get(self, "reading-results.md#statuses-and-what-to-do-about-them")
+
+
+_TEXTS = {word: (sentence, advice) for word, sentence, advice in _kernel.statuses()} | {
+    Status.ACTIVE_SET_NOT_SETTLED: (
+        "The points in contact of the half-plane did not stop changing.",
+        "Take another number of points.",
+    ),
+    Status.CONDITIONS_NOT_SETTLED: (
+        "Rubber, strains and temperatures still changed the result after the last pass.",
+        "Leave out an effect, or take a smaller speed or pressure.",
+    ),
+}
+"""Sentence and advice by the word of a status, of the kernel and of the solvers in Python."""
+
+_WAVES, _MESHES = "limits.md#where-waves-converge", "limits.md#discretisation"
+_CHAPTERS = {
+    Status.CONVERGED: "reading-results.md#how-far-to-trust-a-number",
+    Status.FOLD: _WAVES,
+    Status.MEAN_SHEAR: _WAVES,
+    Status.TOLERANCE_NOT_MET: _MESHES,
+    Status.FRICTIONS_DISAGREE: _WAVES,
+    Status.CONTACT_TOO_NARROW: _WAVES,
+    Status.PROFILE_TOO_ROUGH: _MESHES,
+    Status.CONDITIONS_NOT_SETTLED: "conditions.md#how-they-settle",
+}
+"""Chapters of statuses that have one of their own."""
+
+
+def status_in(text: str) -> Status | None:
+    """Return the failure that a sentence states between its signs, or None.
+
+    Such as `iteration limit` in "wave 3 of 4 did not converge: iteration limit at 40 % of the
+    pressure".
+    """
+    parts = (part.strip() for part in re.split(r"[:;,.()]| at | for | after ", text))
+    words = {str(status): status for status in Status if status is not Status.CONVERGED}
+    return next((words[part] for part in parts if part in words), None)

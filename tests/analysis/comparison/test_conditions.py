@@ -10,8 +10,8 @@ import pytest
 import gripscale as gs
 from gripscale.analysis import Comparison, compare_case, compare_over
 from gripscale.case import prepare_case
-from gripscale.report.tables_comparison import best_sentence, further_table, remarks
-from gripscale.report.tables_run import as_text
+from gripscale.io.table import as_text
+from gripscale.report.comparison import best_sentence, comparison_table, remarks
 from gripscale.surface import self_affine_profile
 
 CASE = """
@@ -99,7 +99,7 @@ def test_a_theory_knows_the_temperature_only(made: Comparison) -> None:
 
 def test_table_and_best_estimate_have_the_area_term(made: Comparison) -> None:
     data = made.to_dataset()
-    text = as_text(further_table(data))
+    text = as_text(comparison_table(data))
     direct = made.data.sel(rung="direct")
     total = float(direct.total_friction + direct.total_adhesive_friction)
     assert f"{total:.2f}" in text

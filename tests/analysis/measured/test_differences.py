@@ -10,8 +10,8 @@ import pytest
 from gripscale.analysis import MeasuredFriction, Predicted, residuals
 from gripscale.conditions import ConstantStress
 from gripscale.core.errors import InputError
-from gripscale.report.tables_measured import residual_table
-from gripscale.report.tables_run import as_text
+from gripscale.io.table import as_text
+from gripscale.report.measured import residual_table
 
 MEASURED = MeasuredFriction(
     [0.1, 1.0, 10.0], [0.5, 0.6, 0.7], [0.1, np.nan, 0.05], [293.15] * 3, pressure=[2e5, 3e5, 3e5]
@@ -49,7 +49,7 @@ def test_the_table_shows_every_number() -> None:
     rows = [line.split() for line in text.splitlines()]
     assert ["0.100", "20.0", "2.00", "0.500", "0.100", "0.400", "0.600", "+0.100", "+1.0"] in rows
     assert ["1.00", "20.0", "3.00", "0.600", "-", "0.600", "0.700", "+0.100", "-"] in rows
-    assert ["rms", "0.141", "2.9"] in rows
+    assert "Root mean square of Δμ, near: 0.141, 2.9 times the spread." in text
 
 
 def test_a_table_without_what_is_not_known() -> None:

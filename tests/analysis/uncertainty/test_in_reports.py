@@ -11,7 +11,7 @@ from gripscale.analysis import of_same_inputs, stored_uncertainty
 from gripscale.cli import app
 from gripscale.io import netcdf
 from gripscale.report import write_report
-from gripscale.report.tables_uncertainty import OF_ANOTHER, uncertainty_lines
+from gripscale.report.uncertainty import OF_ANOTHER, uncertainty_lines
 
 
 def called(*arguments: object) -> None:

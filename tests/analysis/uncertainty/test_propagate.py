@@ -11,7 +11,7 @@ from gripscale.cli import app
 from gripscale.core.errors import InputError
 from gripscale.io import netcdf
 from gripscale.report import write_report
-from gripscale.report.tables_uncertainty import failures
+from gripscale.report.uncertainty import failures
 
 QUICK = Uncertainty(without=["waves"])
 

@@ -1,0 +1,515 @@
+"""One table for every result: described once, rendered to the terminal, HTML, CSV and Excel.
+
+A column holds its numbers in SI units together with the unit and the digits they are read in. The
+renderers differ in typography only: a missing number is "-" in the terminal, "–" on a page and an
+empty cell in a file; files hold every digit.
+"""
+
+from __future__ import annotations
+
+import csv
+import html
+import io
+import itertools
+import math
+import re
+import textwrap
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gripscale.core.errors import InputError
+from gripscale.io.netcdf import write_whole
+from gripscale.io.text_table import import_openpyxl
+
+if TYPE_CHECKING:
+    from rich.console import Console, ConsoleOptions
+    from rich.text import Text
+
+Flags = Sequence[bool] | NDArray[np.bool_]
+
+NONE = "–"
+"""A missing number on a page."""
+LEAST_WORDS = 22
+"""Characters a column of words is wrapped to before a table is divided."""
+WIDEST_HEAD, WIDEST_WORDS = 14, 30
+"""Characters beyond which the heading of numbers, or of words, is wrapped in the terminal."""
+NARROW = 4
+"""Columns of a table that fits beside a figure."""
+
+MOST_ROWS = 1_048_576
+"""Rows of an Excel sheet, its heading included."""
+MOST_LETTERS = 32_767
+"""Letters of an Excel cell."""
+MOST_TITLE = 31
+"""Letters of the title of an Excel sheet."""
+CUT = " ... [cut: longer than a cell of a workbook; csv has all of it]"
+
+
+def significant(value: float, digits: int = 3) -> str:
+    """Return `value` with so many significant digits, without an exponent where it stays short."""
+    if not math.isfinite(value):
+        return "-" if math.isnan(value) else "inf"
+    if value == 0.0 or 1e-4 <= abs(value) < 1e6:
+        decimals = max(digits - 1 - math.floor(math.log10(abs(value))), 0) if value else 0
+        return f"{value:.{decimals}f}"
+    return f"{value:.{digits - 1}e}"
+
+
+def digits(count: int) -> Callable[[float], str]:
+    """Return the format of `count` significant digits."""
+    return lambda value: significant(value, count)
+
+
+def fixed(decimals: int, sign: str = "") -> Callable[[float], str]:
+    """Return the format of so many decimals; with `sign` "+", positive numbers have theirs too."""
+    return lambda value: f"{value:{sign}z.{decimals}f}"
+
+
+def percent(value: float) -> str:
+    """Return a ratio in per cent, two significant digits."""
+    return f"{significant(100.0 * value, 2)} %"
+
+
+def change(value: float) -> str:
+    """Return a relative change in per cent, with its sign."""
+    return f"{100.0 * value:+.1f} %"
+
+
+def whole(value: float) -> str:
+    """Return a count, with thin spaces between thousands."""
+    return f"{round(value):,}".replace(",", "\u202f")
+
+
+def yes_no(value: float) -> str:
+    """Return "yes" for any number but zero."""
+    return "yes" if value else "no"
+
+
+def on_page(text: str) -> str:
+    """Return the text of a number with the minus signs of a page, `NONE` where it is missing."""
+    return NONE if text in ("-", "") else text.replace("-", "−")
+
+
+@dataclass(frozen=True)
+class Column:
+    """One column of a table.
+
+    Parameters
+    ----------
+    name
+        Its name in files, good for a program.
+    values
+        Numbers in SI units or texts, one a row; NaN or None where missing. Of shape (rows, 2) the
+        two ends of a range.
+    heading, unit
+        Printed above it; `name` without a heading.
+    size, zero
+        Size of the unit in SI units, and where it begins to count.
+    format
+        Text of a number in this unit.
+    group
+        Printed above the headings of neighbouring columns of the same group; a table that is too
+        wide for the terminal is divided between groups.
+    marks
+        Text behind the number of each row, such as "*".
+    bad
+        Flags of rows whose number must not be trusted.
+    words
+        Whether it is set as text: to the left, wrapped; by default if it holds texts.
+    joint
+        Between the two ends of a range.
+    """
+
+    name: str
+    values: Any = ()
+    heading: str | None = None
+    unit: str = ""
+    size: float = 1.0
+    zero: float = 0.0
+    format: Callable[[float], str] = significant
+    group: str = ""
+    marks: Sequence[str] = ()
+    bad: Flags = ()
+    words: bool | None = None
+    joint: str = " to "
+
+    def of(self, values: Any, **changes: Any) -> Column:
+        """Return this column with `values`, and further fields changed."""
+        return replace(self, values=values, **changes)
+
+    @property
+    def head(self) -> str:
+        """Its heading, or its name."""
+        return self.name if self.heading is None else self.heading
+
+    @property
+    def as_words(self) -> bool:
+        """Whether it is set as text."""
+        if self.words is not None:
+            return self.words
+        return any(isinstance(value, str) and value for value in self.values)
+
+    def texts(self) -> list[str]:
+        """Return the text of each row, "-" where it is missing."""
+        return [self._text(value) for value in self.values]
+
+    def _text(self, value: Any) -> str:
+        if isinstance(value, str):
+            return value or "-"
+        if value is None:
+            return "-"
+        if np.ndim(value):
+            ends = [self._text(end) for end in value]
+            return "-" if "-" in ends else self.joint.join(ends)
+        number = float(value)
+        if math.isnan(number):
+            return "-"
+        if math.isinf(number):
+            return "∞" if number > 0.0 else "-∞"
+        return self.format((number - self.zero) / self.size)
+
+    def mark(self, row: int) -> str:
+        """Return the mark of a row."""
+        return self.marks[row] if len(self.marks) else ""
+
+    def raw(self) -> list[tuple[str, list[Any]]]:
+        """Return titles and numbers for a file, in the unit of the column; a range gives two."""
+        values = np.asarray(self.values)
+        if values.dtype.kind == "U":
+            values = np.array(self.values, dtype=object)
+        if values.dtype.kind not in "fiubOS":
+            raise InputError(
+                f"{self.name} must hold numbers or texts to be a column; got {values.dtype}"
+            )
+        unit = f" [{'-' if self.unit == '1' else self.unit}]" if self.unit else ""
+        if values.ndim == 1:
+            return [(f"{self.name}{unit}", [self._raw(value) for value in values.tolist()])]
+        return [
+            (f"{self.name}_{end}{unit}", [self._raw(value) for value in values[:, at].tolist()])
+            for at, end in enumerate(("low", "high"))
+        ]
+
+    def _raw(self, value: Any) -> Any:
+        if not isinstance(value, float | int) or (self.size, self.zero) == (1.0, 0.0):
+            return None if isinstance(value, float) and math.isnan(value) else value
+        return None if math.isnan(value) else (value - self.zero) / self.size
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table whose first column names its rows.
+
+    Parameters
+    ----------
+    name
+        Good for a file, a sheet or an anchor.
+    columns
+        All of the same length.
+    caption
+        One line above it.
+    notes
+        Sentences below it.
+    keys
+        Leading columns that every part of a table divided for the terminal begins with.
+    bad
+        Flags of rows that must not be trusted.
+    strong
+        Rows that are emphasised.
+    rules
+        Rows with a line below them.
+    """
+
+    name: str
+    columns: Sequence[Column]
+    caption: str = ""
+    notes: Sequence[str] = ()
+    keys: int = 1
+    bad: Flags = ()
+    strong: Collection[int] = ()
+    rules: Collection[int] = ()
+    kind: ClassVar[str] = "table"
+
+    def __len__(self) -> int:
+        return len(self.columns[0].values) if self.columns else 0
+
+    def is_bad(self, column: Column, row: int) -> bool:
+        """Return whether a cell must not be trusted."""
+        flags = (self.bad, column.bad)
+        return any(bool(flag[row]) for flag in flags if len(flag))
+
+    # Files.
+
+    @property
+    def titles(self) -> list[str]:
+        """Headings in a file, such as `friction [-]`."""
+        return [title for column in self.columns for title, _ in column.raw()]
+
+    def rows(self) -> Iterator[tuple[Any, ...]]:
+        """Yield rows of numbers and texts, None where one is missing."""
+        yield from zip(*(v for column in self.columns for _, v in column.raw()), strict=True)
+
+    # Terminal.
+
+    def __rich_console__(self, console: Console, options: ConsoleOptions) -> Iterator[Text]:
+        from rich.text import Text
+
+        if self.caption:
+            yield Text(self.caption, style="bold")
+        for number, columns in enumerate(self._parts(options.max_width)):
+            yield from (Text("") for _ in range(bool(number)))
+            for pieces in self._lines(columns, options.max_width):
+                yield Text.assemble(*pieces)
+        if self.columns and self.notes:
+            yield Text("")
+        yield from map(Text, self.notes)
+
+    def _parts(self, width: int) -> Iterator[Sequence[Column]]:
+        """Yield all columns, or where they are too wide groups of them behind the keys."""
+        if not self.columns or _width(self.columns, 1) <= width:
+            yield from [self.columns] if self.columns else []
+            return
+        keys, part = list(self.columns[: self.keys]), list[Column]()
+        for _, group in itertools.groupby(self.columns[self.keys :], key=lambda c: c.group):
+            columns = list(group)
+            if part and _width([*keys, *part, *columns], 1) > width:
+                yield [*keys, *part]
+                part = []
+            part += columns
+        yield [*keys, *part]
+
+    def _lines(self, columns: Sequence[Column], width: int) -> Iterator[tuple[Any, ...]]:
+        """Yield the lines of one part of the table, each made of pieces of text and style."""
+        gap = " " * (2 if _width(columns, 2) <= width else 1)
+        widths = _widths(columns)
+        # words take what the numbers leave, each column in proportion to what it lacks
+        lacking = [
+            max(map(len, [*_heading(column), *_marked(column)])) - wide
+            for column, wide in zip(columns, widths, strict=True)
+        ]
+        free = max(width - sum(widths) - len(gap) * (len(columns) - 1), 0)
+        share = min(free / max(sum(lacking), 1), 1.0)
+        widths = [wide + int(share * lack) for wide, lack in zip(widths, lacking, strict=True)]
+        if len({column.group for column in self.columns} - {""}) > 1:
+            yield (_group_line(columns, widths, gap),)
+        heads = [_heading(column) for column in columns]
+        deepest = max(map(len, heads))
+        for line in range(deepest, 0, -1):
+            titles = [head[-line] if line <= len(head) else "" for head in heads]
+            yield (gap.join(map(_placed, titles, columns, widths)).rstrip(),)
+        yield ("─" * (sum(widths) + len(gap) * (len(widths) - 1)),)
+        cells = zip(*map(_marked, columns), strict=True)
+        for row, texts in enumerate(cells):
+            folded = [
+                textwrap.wrap(text, wide) or [""] if column.as_words else [text]
+                for text, column, wide in zip(texts, columns, widths, strict=True)
+            ]
+            strong = "bold" if row in self.strong else ""
+            styles = ["bold red" if self.is_bad(column, row) else strong for column in columns]
+            for lines in itertools.zip_longest(*folded, fillvalue=""):
+                pieces = zip(map(_placed, lines, columns, widths), styles, strict=True)
+                yield tuple(part for piece in pieces for part in (piece, gap))[:-1]
+            if row in self.rules:
+                yield ("",)
+
+    # Page.
+
+    @property
+    def narrow(self) -> bool:
+        """Whether it fits beside a figure."""
+        return len(self.columns) <= NARROW and not any(column.as_words for column in self.columns)
+
+    def __html__(self) -> str:
+        """Return the table as HTML, all texts escaped."""
+        caption = html.escape(self.caption)
+        groups = [(g, len(list(c))) for g, c in itertools.groupby(c.group for c in self.columns)]
+        above = "".join(
+            f'<th scope="colgroup" colspan="{count}">{html.escape(group)}</th>'
+            if group
+            else f'<td colspan="{count}"></td>'
+            for group, count in groups
+        )
+        words = ["words" if column.as_words else "" for column in self.columns]
+        heads = "".join(
+            f'<th scope="col" class="{kind}">{html.escape(column.head)}'
+            + (f'<span class="unit">{html.escape(column.unit)}</span>' if column.unit else "")
+            + "</th>"
+            for column, kind in zip(self.columns, words, strict=True)
+        )
+        texts = [column.texts() for column in self.columns]
+        body = []
+        for row in range(len(self)):
+            cells = []
+            for at, (column, kind) in enumerate(zip(self.columns, words, strict=True)):
+                text, tag = texts[at][row], "td" if at else 'th scope="row"'
+                shown = (NONE if text == "-" else text) if kind else on_page(text)
+                cells.append(
+                    f'<{tag} class="{kind}{" bad" if self.is_bad(column, row) else ""}">'
+                    f"{html.escape(shown + column.mark(row))}</{tag[:2]}>"
+                )
+            strong = ' class="strong"' if row in self.strong else ""
+            body.append(f"<tr{strong}>{''.join(cells)}</tr>")
+        notes = "".join(f'<p class="note">{html.escape(note)}</p>' for note in self.notes)
+        return (
+            f'<div class="scroll{" narrow" if self.narrow else ""}" tabindex="0" role="region" '
+            f'aria-label="{caption}">\n'
+            f'<table class="data" id="table-{html.escape(self.name)}">\n'
+            f"<caption>{caption}</caption>\n<thead>\n"
+            + (f'<tr class="groups">{above}</tr>\n' if any(group for group, _ in groups) else "")
+            + f"<tr>{heads}</tr>\n</thead>\n<tbody>\n"
+            + "\n".join(body)
+            + f"\n</tbody>\n</table>\n{notes}</div>\n"
+        )
+
+
+def _heading(column: Column) -> list[str]:
+    """Return the lines of the heading, the unit last."""
+    widest = WIDEST_WORDS if column.as_words else WIDEST_HEAD
+    lines = textwrap.wrap(column.head, widest) or [""]
+    return [*lines, *([column.unit] if column.unit else [])]
+
+
+def _marked(column: Column) -> list[str]:
+    """Return the texts of a column with their marks, digits below digits."""
+    widest = max(map(len, column.marks), default=0)
+    return [f"{text}{column.mark(i):<{widest}}" for i, text in enumerate(column.texts())]
+
+
+def _widths(columns: Sequence[Column]) -> list[int]:
+    """Return the least characters of each column; words are wrapped where they are long."""
+    widths = []
+    for column in columns:
+        head, body = (max(map(len, texts)) for texts in (_heading(column), ["", *_marked(column)]))
+        widths.append(max(head, min(body, LEAST_WORDS) if column.as_words else body))
+    return widths
+
+
+def _width(columns: Sequence[Column], gap: int) -> int:
+    """Return the least characters of a line with `gap` spaces between columns."""
+    return sum(_widths(columns)) + gap * (len(columns) - 1)
+
+
+def _placed(text: str, column: Column, width: int) -> str:
+    """Return a text in its column: words to the left, numbers to the right."""
+    return text.ljust(width) if column.as_words else text.rjust(width)
+
+
+def _group_line(columns: Sequence[Column], widths: Sequence[int], gap: str) -> str:
+    """Return the line with the names of groups above their columns."""
+    line, start = "", 0
+    for group, members in itertools.groupby(range(len(columns)), lambda at: columns[at].group):
+        places = list(members)
+        span = sum(widths[at] for at in places) + len(gap) * (len(places) - 1)
+        shown = group if len(group) <= span else group[: span - 1] + "…"
+        line = line.ljust(start) + shown.center(span)
+        start += span + len(gap)
+    return line.rstrip()
+
+
+def spaced(parts: Iterable[str | Table]) -> Iterator[str | Table]:
+    """Yield sentences and tables with an empty line between a table and its neighbours."""
+    before: str | Table = ""
+    for part in parts:
+        if "" not in (part, before) and not (isinstance(part, str) and isinstance(before, str)):
+            yield ""
+        yield part
+        before = part
+
+
+def as_text(*parts: str | Table, width: int = 100) -> str:
+    """Return tables and sentences as plain text, as written to the results folder."""
+    from rich.console import Console
+
+    paper = Console(
+        file=io.StringIO(), width=width, color_system=None, highlight=False, markup=False
+    )
+    with paper.capture() as captured:
+        for part in spaced(parts):
+            paper.print(part)
+    return "".join(f"{line.rstrip()}\n" for line in captured.get().splitlines())
+
+
+def write_csv(table: Table, path: Path) -> Path:
+    """Write a table as CSV: commas, points, UTF-8, numbers to their last digit; return the path.
+
+    Missing values are empty cells. Raises `FileError` if it cannot be written.
+    """
+
+    def write(part: Path) -> None:
+        with part.open("w", encoding="utf-8", newline="") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(table.titles)
+            writer.writerows(table.rows())
+
+    return write_whole(path, write)
+
+
+def write_workbook(tables: Sequence[Table], path: Path) -> Path:
+    """Write tables as the sheets of an xlsx file; return its path.
+
+    Missing values are empty cells, infinite ones texts; texts longer than a cell are cut and say
+    so.
+
+    Raises
+    ------
+    InputError
+        If a table has more rows than a sheet.
+    FileError
+        If openpyxl is missing (`pip install 'gripscale[export]'`) or the file cannot be written.
+    """
+    openpyxl = import_openpyxl(path)
+    cell_of = import_module("openpyxl.cell").WriteOnlyCell
+    titles = _sheet_titles([table.name for table in tables])
+    sheets = {
+        title: [table.titles, *table.rows()] for title, table in zip(titles, tables, strict=True)
+    }
+    for title, rows in sheets.items():
+        if len(rows) > MOST_ROWS:
+            raise InputError(
+                f"tables must have at most {MOST_ROWS - 1} rows for xlsx; got {len(rows) - 1} in "
+                f"{title}: csv has no limit"
+            )
+    book = openpyxl.Workbook(write_only=True)
+    for title, rows in sheets.items():
+        sheet = book.create_sheet(title)
+        sheet.freeze_panes = "A2"
+        for row in rows:
+            sheet.append([_excel_cell(cell_of, sheet, value) for value in row])
+    content = io.BytesIO()
+    book.save(content)
+
+    def write(part: Path) -> None:
+        part.write_bytes(content.getvalue())
+
+    return write_whole(path, write)
+
+
+def _excel_cell(cell_of: Any, sheet: Any, value: Any) -> Any:
+    """Return the content of a cell; texts as texts, whatever they begin with."""
+    if isinstance(value, float) and math.isinf(value):
+        value = "inf" if value > 0.0 else "-inf"
+    if not isinstance(value, str):
+        return value
+    plain = re.sub(r"[\x00-\x08\x0b\x0c\x0e-\x1f]", "?", value)
+    if len(plain) > MOST_LETTERS:
+        plain = plain[: MOST_LETTERS - len(CUT)] + CUT
+    cell = cell_of(sheet, plain)
+    cell.data_type = "s"
+    return cell
+
+
+def _sheet_titles(names: Sequence[str]) -> list[str]:
+    """Return titles of sheets, no two alike, also where large and small letters are."""
+    titles: list[str] = []
+    for name in names:
+        title, number = name[:MOST_TITLE], 2
+        while title.lower() in map(str.lower, titles):
+            end = f"_{number}"
+            title, number = name[: MOST_TITLE - len(end)] + end, number + 1
+        titles.append(title)
+    return titles

@@ -1,0 +1,232 @@
+"""Models side by side: the ladder, its best estimate, and the chain against the direct contact."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator
+
+import numpy as np
+import xarray as xr
+
+from gripscale.analysis.ladder import DIRECT
+from gripscale.charts.ladder import flawed, varied
+from gripscale.charts.view import CONVERGED, PredictionView
+from gripscale.experiment.axis import axis_shown
+from gripscale.io.table import Column, Table, digits, fixed, percent, significant
+from gripscale.model import (
+    ADHESIVE_FRICTION,
+    CUT_OFF_EXPONENTS,
+    FRICTION_OUTSIDE_BAND,
+    extrapolation_of,
+    with_adhesive,
+)
+from gripscale.report.notices import comparison_sentences, friction_sentence
+from gripscale.rubber.extrapolation import WORTH_SAYING
+
+SYMBOLS = {"contact_fraction": "A_r/A_0", "friction": "μ"}
+GROUPS = {"contact_fraction": "real contact area", "friction": "friction coefficient"}
+TINY = 0.05
+"""Per cent below which a spread or an error is as good as none."""
+NOTE = (
+    "×: factor from the model before, of the theories from the direct contact. Exponents: "
+    "d ln/d ln of the smallest wavelength that counts, over its last octave. Beyond band: share of "
+    "the friction at frequencies beyond those of the master curve, and how far they go."
+)
+
+
+def comparison_table(comparison: xr.Dataset) -> Table:
+    """Return area and friction of each model of the ladder, with all that qualifies them.
+
+    Spread and error are relative to the number, the factor is from the model before. `comparison`
+    has no axis but `rung`.
+    """
+    beyond = comparison[FRICTION_OUTSIDE_BAND].values
+    good, count = comparison.converged_samples.values, comparison.samples.values
+    samples = [str(n) if k == n else f"{k}/{n}" for k, n in zip(good, count, strict=True)]
+    marks = [" *" if share > WORTH_SAYING else "" for share in beyond]
+    columns = [Column("model", comparison.label.values, marks=marks)]
+    for name, symbol in SYMBOLS.items():
+        value, group = comparison[f"total_{name}"].values, GROUPS[name]
+        columns.append(Column(f"total_{name}", value, symbol, group=group))
+        if name == "friction":
+            lost = comparison.total_friction_from_dissipation.values
+            columns.append(Column("friction_from_dissipation", lost, "μ", "losses", group=group))
+            both = with_adhesive(comparison)
+            if both is not None:
+                total = both.values
+                columns.append(Column("with_area_term", total, "μ", "+ area term", group=group))
+        for part in ("spread", "error"):
+            with np.errstate(divide="ignore", invalid="ignore"):
+                share = np.where(value == 0.0, np.nan, comparison[f"{name}_{part}"].values / value)
+            columns.append(
+                Column(f"{name}_{part}", share, part, "%", 0.01, format=_share, group=group)
+            )
+        factors = comparison[f"{name}_factor"].values
+        columns.append(Column(f"{name}_factor", factors, "×", group=group))
+    columns.append(Column("samples", samples, "n", words=False))
+    for name, symbol in zip(CUT_OFF_EXPONENTS, SYMBOLS.values(), strict=True):
+        missing = np.full(len(samples), np.nan)
+        values = comparison[name].values if name in comparison else missing
+        columns.append(Column(name, values, symbol, group="exponents", format=fixed(2)))
+    columns.append(
+        Column("friction_outside_band", beyond, "μ", "beyond", group="band", format=percent)
+    )
+    columns += [
+        Column(
+            f"decades_{end}_band",
+            comparison[f"total_decades_{end}_band"].values,
+            end,
+            "decades",
+            group="band",
+            format=digits(2),
+        )
+        for end in ("below", "above")
+    ]
+    strong = [i for i, name in enumerate(comparison.rung.values) if str(name) == DIRECT]
+    return Table(
+        "ladder", columns, "The ladder of models", [NOTE], bad=flawed(comparison), strong=strong
+    )
+
+
+def _share(value: float) -> str:
+    return "0" if value < TINY else significant(value, 2)
+
+
+def axis_table(comparison: xr.Dataset, axis: str, name: str) -> Table:
+    """Return `contact_fraction` or `friction` of each model over the axis that was varied."""
+    how = axis_shown(comparison, axis)
+    data = comparison.transpose(axis, ...)
+    failed = (data.converged_samples < data.samples).values
+    beyond = data[FRICTION_OUTSIDE_BAND].values > WORTH_SAYING
+    columns = [
+        Column(
+            axis,
+            data[axis].values,
+            axis.replace("_", " "),
+            how.unit,
+            how.divisor,
+            how.zero,
+            "{:.3g}".format,
+        )
+    ]
+    for at, rung in enumerate(data.rung.values):
+        flags = zip(failed[:, at], beyond[:, at], strict=True)
+        marks = [("!" if bad else "") + ("*" if far else "") for bad, far in flags]
+        values = data[f"total_{name}"].values[:, at]
+        heading = str(rung).replace("_", " ")
+        columns.append(Column(str(rung), values, heading, marks=marks, bad=failed[:, at]))
+    if np.isfinite(data[f"best_{name}_factor"]).any():
+        texts = [_with_uncertainty(data.isel({axis: i}), name) for i in range(data.sizes[axis])]
+        columns.append(Column("best", texts, "best estimate", words=False))
+    caption = f"{GROUPS[name].capitalize()} {SYMBOLS[name]} over {axis.replace('_', ' ')}"
+    return Table(f"over-{axis}-{name}", columns, caption)
+
+
+def comparison_parts(comparison: xr.Dataset) -> Iterator[str | Table]:
+    """Yield the tables of a comparison and the sentences below them."""
+    axis = varied(comparison)
+    if axis:
+        yield from (axis_table(comparison, axis, name) for name in SYMBOLS)
+        yield from beyond_band(comparison)
+        yield from temperature_only(comparison)
+        return
+    yield comparison_table(comparison)
+    yield from remarks(comparison)
+
+
+def remarks(comparison: xr.Dataset) -> Iterator[str]:
+    """Yield what a table of one load cannot say: failures, extrapolation, the best estimate."""
+    for at, bad in enumerate(flawed(comparison)):
+        if bad:
+            yield f"{comparison.label.values[at]}: {comparison.status.values[at]}."
+    yield from beyond_band(comparison)
+    yield from temperature_only(comparison)
+    if "best_friction" in comparison and np.isfinite(comparison.best_friction):
+        yield best_sentence(comparison)
+
+
+def temperature_only(comparison: xr.Dataset) -> Iterator[str]:
+    """Yield which models leave effects out, where strain or heat change the rubber."""
+    asked = json.loads(comparison.attrs.get("conditions", "null")) or {}
+    effects = [name for name in ("softening", "heat") if asked.get(name) is not None]
+    if effects:
+        yield (
+            f"{' and '.join(effects).capitalize()}: in the chains and in the direct contacts; the "
+            "theories, and the windows and maps whose ratios make the best estimate's factors, "
+            "know the temperature before the contact only."
+        )
+
+
+def beyond_band(comparison: xr.Dataset) -> Iterator[str]:
+    """Yield a sentence for each model with friction beyond the measured frequencies."""
+    for label, text in comparison_sentences(comparison):
+        yield f"* {label}: {text}"
+
+
+def best_sentence(comparison: xr.Dataset) -> str:
+    """Return the best estimate in words: what it is, what is in it and what is not."""
+    numbers = ", ".join(
+        f"{symbol} = {_with_uncertainty(comparison, name)}" for name, symbol in SYMBOLS.items()
+    )
+    judge = comparison.sel(rung=DIRECT)
+    parts, missing = [str(judge.label.item())], []
+    for at, label in enumerate(comparison.factor_label.values):
+        factors = [float(comparison[f"best_{name}_factor"][at]) for name in SYMBOLS]
+        if all(map(math.isfinite, factors)):
+            parts.append(f"{label} ({' and '.join(map(significant, factors))})")
+        else:
+            missing.append(str(label))
+    text = f"Best estimate: {numbers}, from {' × '.join(parts)}."
+    if ADHESIVE_FRICTION in comparison:  # the area term goes with the contact area
+        share = comparison.best_contact_fraction / judge.total_contact_fraction
+        total = float(comparison.best_friction + judge[ADHESIVE_FRICTION] * share)
+        text += f" With the area term, of its contact area, μ = {significant(total)}."
+    if missing:
+        text += f" Not included, neither factor nor uncertainty: {'; '.join(missing)}."
+    return text
+
+
+def judgement(chain: PredictionView, direct: xr.Dataset) -> Iterator[str]:
+    """Yield the direct contact of the measured profiles, and how the chain compares with it."""
+    status = str(direct.prediction_status.item())
+    if status != CONVERGED:
+        yield f"The direct contact of the measured profiles has no result: {status}."
+        return
+    area, friction = (float(direct[f"total_{name}"]) for name in SYMBOLS)
+    words = f"A_r/A_0 = {significant(area)}"
+    if chain.moving:
+        words += f", mu = {significant(friction)}"
+        both = with_adhesive(direct)
+        if both is not None:
+            words += f", with the area term {significant(float(both))}"
+    yield f"Direct contact of the measured profiles, all waves at once at small strain: {words}."
+    beyond = friction_sentence(extrapolation_of(direct))
+    if beyond:
+        yield f"In the direct contact, {beyond}"
+    if not chain.complete:
+        return
+    against = f"{chain.total('contact_fraction') / area:.2g} times its contact area"
+    if chain.moving:
+        against += f" and {chain.total('friction') / friction:.2g} times its friction"
+    yield f"The chain has {against}; `gripscale compare` shows which assumption costs what."
+
+
+def failures(comparison: xr.Dataset) -> Iterator[tuple[str, str]]:
+    """Yield where a model has a sample that did not converge, and its status."""
+    axis = varied(comparison)
+    for at in range(comparison.sizes[axis]) if axis else [None]:
+        data = comparison if at is None else comparison.isel({axis: at})
+        where = ""
+        if at is not None:
+            value = axis_shown(comparison, axis).text(float(data[axis]), 4)
+            where = f"{axis.replace('_', ' ')} {value}, "
+        for label, status in zip(data.label.values, data.status.values, strict=True):
+            if str(status) != CONVERGED:
+                yield f"{where}{label}", str(status)
+
+
+def _with_uncertainty(comparison: xr.Dataset, name: str) -> str:
+    value, sigma = (float(comparison[f"best_{name}{end}"]) for end in ("", "_uncertainty"))
+    spread = f" ± {100.0 * sigma:.2g} %" if math.isfinite(sigma) else ""
+    return f"{significant(value)}{spread}"

@@ -1,0 +1,286 @@
+"""A study in tables and sentences: what was varied, the totals of each prediction."""
+
+from __future__ import annotations
+
+import math
+import shlex
+from collections.abc import Iterator, Sequence
+from itertools import product
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from gripscale.charts.page_elements import telling, words_of
+from gripscale.charts.view import CONVERGED
+from gripscale.core.units import MILLI
+from gripscale.experiment.axis import COUNTS, axis_shown, dimensions, name_of, of_numbers
+from gripscale.experiment.speed_and_temperature import BEYOND_SHIFT, COLLAPSED, PER_DECADE
+from gripscale.io.table import NONE, Column, Table, digits, percent, significant
+from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND
+from gripscale.report.notices import study_sentence
+
+MOST_ROWS = 200
+"""Predictions in the terminal; a page has all of them."""
+ONE_CURVE = 1e-3
+"""Relative distance up to which temperatures over a_T v are one curve."""
+COLLAPSING = {"total_friction": "friction", "total_contact_fraction": "A_r/A_0"}
+
+
+def places(data: xr.Dataset) -> Iterator[dict[str, int]]:
+    """Yield the place of every prediction on the axes of a study."""
+    names = dimensions(data)
+    for index in product(*(range(data.sizes[name]) for name in names)):
+        yield dict(zip(names, index, strict=True))
+
+
+def study_table(data: xr.Dataset) -> Table:
+    """Return area, friction and status of each prediction of a study, over what was varied."""
+    chosen = list(places(data))
+    rows = [data.isel(place) for place in chosen[:MOST_ROWS]]
+
+    def each(name: str) -> list[float]:
+        return [float(row[name]) for row in rows]
+
+    columns = [
+        Column(
+            axis,
+            [name_of(data, axis, place[axis]) for place in chosen[:MOST_ROWS]],
+            axis.replace("_", " "),
+        )
+        for axis in dimensions(data)
+    ]
+    columns = [
+        column.of(column.values, heading=column.name.replace("_", " ")) for column in columns
+    ]
+    if BEYOND_SHIFT in data:
+        marks = [" *" if bool(row[BEYOND_SHIFT]) else "" for row in rows]
+        columns[-1] = columns[-1].of(columns[-1].values, marks=marks)
+    keys = len(columns)
+    columns += [
+        Column("total_contact_fraction", each("total_contact_fraction"), "A_r/A_0"),
+        Column("total_friction", each("total_friction"), "μ"),
+        Column("friction_from_dissipation", each("total_friction_from_dissipation"), "μ", "losses"),
+    ]
+    if ADHESIVE_FRICTION in data:
+        term = np.array(each(ADHESIVE_FRICTION))
+        total = term + np.array(each("total_friction"))
+        columns += [
+            Column("area_term", term, "μ", "area term"),
+            Column("friction_with_area_term", total, "μ", "with it"),
+        ]
+    largest = [_largest(row) for row in rows]
+    columns.append(
+        Column("largest_wave", largest, "largest μ of", "mm", MILLI, format="{:.3g}".format)
+    )
+    if study_sentence(data):
+        shares = each(FRICTION_OUTSIDE_BAND)
+        columns.append(Column("outside_band", shares, "μ", "beyond band", format=percent))
+    if "static_total_contact_fraction" in data:
+        columns.append(
+            Column("static", each("static_total_contact_fraction"), "A_r/A_0", "at rest")
+        )
+    status = [str(row.prediction_status.item()) for row in rows]
+    columns.append(Column("status", status))
+    rest = len(chosen) - len(rows)
+    notes = [f"{rest} more predictions are in the result file."] if rest else []
+    bad = [text != CONVERGED for text in status]
+    return Table("study", columns, "Predictions of the study", notes, keys=keys, bad=bad)
+
+
+def _largest(row: xr.Dataset) -> float:
+    """Return the length of the wave with the most friction [m], NaN without waves."""
+    if "wavelength" not in row or not float(row.total_friction) > 1e-9:
+        return math.nan
+    return float(row.wavelength[int(np.nanargmax(row.friction.values))])
+
+
+def study_parts(data: xr.Dataset) -> Iterator[str | Table]:
+    """Yield the table and the sentences below it: extrapolation, temperatures over a_T v."""
+    yield study_table(data)
+    yield from filter(None, [study_sentence(data)])
+    shifted = shift_sentence(data)
+    if shifted:
+        yield f"* {shifted}"
+    yield from (f"Over a_T v, {words}: {text}." for words, text in collapse_sentences(data))
+
+
+def failed_predictions(data: xr.Dataset) -> tuple[list[str], int]:
+    """Return the status of each prediction without totals, and how many predictions there are."""
+    names = [name for name in ("prediction_status", "static_prediction_status") if name in data]
+    statuses = [str(text) for name in names for text in data[name].values.ravel()]
+    return [text for text in statuses if text != CONVERGED], len(statuses)
+
+
+# What a study over temperatures tells beside its table.
+
+
+def shift_sentence(data: xr.Dataset) -> str:
+    """Return which temperatures lie beyond the shift; empty if none does."""
+    if BEYOND_SHIFT not in data or not bool(data[BEYOND_SHIFT].any()):
+        return ""
+    flags = data[BEYOND_SHIFT]
+    if "temperature" in flags.dims:
+        others = [dim for dim in flags.dims if dim != "temperature"]
+        which = np.flatnonzero(flags.any(dim=others).values)
+        names = ", ".join(name_of(data, "temperature", int(i)) for i in which)
+        text = f"{names} {'lie' if which.size > 1 else 'lies'}"
+    else:
+        text = f"{int(flags.sum())} of {flags.size} predictions lie"
+    return f"{text} beyond the temperatures that the shift of the rubber rests on."
+
+
+def collapse_sentences(data: xr.Dataset) -> Iterator[tuple[str, str]]:
+    """Yield quantities of a study over speed and temperature, and how far over a_T v they differ.
+
+    Nothing of other studies.
+    """
+    for name, words in COLLAPSING.items():
+        if COLLAPSED[name] in data:
+            yield words, _collapse(data[COLLAPSED[name]])
+
+
+def _collapse(collapsed: xr.DataArray) -> str:
+    distance = float(collapsed)
+    if np.isnan(distance):
+        return (
+            "cannot be compared: the temperatures do not overlap, or the speeds are less than "
+            f"{PER_DECADE} in a power of ten"
+        )
+    attrs = collapsed.attrs
+    reached = (
+        f"temperatures up to {percent(distance)} apart at the {attrs['points']} of "
+        f"{attrs['overlapping_points']} points that interpolation reaches to "
+        f"{percent(float(attrs['interpolation_error']))}"
+    )
+    if distance <= ONE_CURVE:
+        return f"one curve, {reached}"
+    return f"{reached}; one curve would be below {100.0 * ONE_CURVE:g} % but for errors of the mesh"
+
+
+# Tables of a page: the axes, and every total of every prediction.
+
+
+def axes_table(data: xr.Dataset) -> Table:
+    """Return the axes of a study with their values."""
+    axes = dimensions(data)
+    units = [axis_shown(data, name).unit if of_numbers(data, name) else "" for name in axes]
+    values = [[place_text(data, name, i) for i in range(data.sizes[name])] for name in axes]
+    meanings = [
+        str(data[name].attrs.get("long_name", name)) if name in data.variables else name
+        for name in axes
+    ]
+    columns = [
+        Column("axis", [name.replace("_", " ") for name in axes]),
+        Column("meaning", meanings),
+        Column("unit", units, words=True),
+        Column("values", [str(len(each)) for each in values]),
+        Column("which", [", ".join(each) for each in values]),
+    ]
+    return Table("axes", columns, "The axes of the study")
+
+
+def place_text(data: xr.Dataset, axis: str, i: int) -> str:
+    """Return a value of an axis as tables show it, without its unit."""
+    if axis not in data.coords:
+        return str(i + 1)
+    if not of_numbers(data, axis):
+        return name_of(data, axis, i)
+    text = significant(float(axis_shown(data, axis).of(data[axis].values[i])), 4)
+    return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+def totals_of(data: xr.Dataset) -> list[str]:
+    """Return the names of what there is one number or text of per prediction."""
+    axes = set(dimensions(data))
+    return [
+        str(name)
+        for name, variable in data.data_vars.items()
+        if variable.dims and set(variable.dims) <= axes and not str(name).endswith("_key")
+    ]
+
+
+def totals_table(data: xr.Dataset) -> Table | None:
+    """Return all totals of all predictions that tell something; None without any."""
+    axes, names = dimensions(data), [n for n in totals_of(data) if telling(data[n])]
+    if not names:
+        return None
+    chosen = list(places(data))
+    rows = [data.isel(place) for place in chosen]
+    columns = [
+        Column(
+            axis,
+            [place_text(data, axis, place[axis]) for place in chosen],
+            words_of(data, axis),
+            axis_unit(data, axis),
+            words=axis in data.variables and data[axis].dtype.kind not in "fiub",
+        )
+        for axis in axes
+    ]
+    for name in names:
+        values: list[Any] = [row[name].values[()] for row in rows]
+        unit = str(data[name].attrs.get("units", "")).replace("1", "")
+        columns.append(Column(name, values, words_of(data, name), unit, format=digits(4)))
+    states = [name for name in names if name.endswith("status")]
+    bad = [any(str(row[name].values[()]) != CONVERGED for name in states) for row in rows]
+    return Table("totals", columns, f"Totals of all {len(rows)} predictions", bad=bad)
+
+
+def axis_unit(data: xr.Dataset, axis: str) -> str:
+    """Return the unit in which an axis is shown, empty without one."""
+    return axis_shown(data, axis).unit if of_numbers(data, axis) else ""
+
+
+def failures(data: xr.Dataset) -> Iterator[str]:
+    """Yield a sentence for each prediction that is not `converged`, or has a NaN total."""
+    names = totals_of(data)
+    states = [name for name in names if name.endswith("status")]
+    totals = [name for name in names if name in ("total_contact_fraction", "contact_fraction")]
+    for place in places(data):
+        row = data.isel(place)
+        where = ", ".join(
+            " ".join(filter(None, [words_of(data, n), place_text(data, n, i), axis_unit(data, n)]))
+            for n, i in place.items()
+        )
+        for name in states:
+            if (status := str(row[name].values[()])) != CONVERGED:
+                yield f"{where}: NOT converged: {status or NONE}"
+        if not states and any(math.isnan(float(row[name])) for name in totals):
+            yield f"{where}: no total"
+
+
+def command(data: xr.Dataset) -> str:
+    """Return the command that makes a study of these axes."""
+    options = " ".join(
+        shlex.join(["--vary", f"{name}={_spacing(data, name) or ','.join(_given(data, name))}"])
+        for name in dimensions(data)
+    )
+    chosen = " --model direct" if data.attrs.get("model") == "direct" else ""
+    return f"gripscale study case.toml {options}{chosen}"
+
+
+def _values(data: xr.Dataset, name: str) -> Sequence[Any]:
+    """Return the coordinate of an axis, or its numbers where it has none."""
+    return list(data[name].values) if name in data.coords else list(range(1, data.sizes[name] + 1))
+
+
+def _spacing(data: xr.Dataset, name: str) -> str:
+    """Return evenly spaced values as `--vary` takes them, such as 0.01:10:log9; else nothing."""
+    values = _values(data, name)
+    if len(values) < 3 or not of_numbers(data, name) or name in COUNTS:
+        return ""
+    first, last = float(values[0]), float(values[-1])
+    unit = " K" if name == "temperature" else ""
+    for word, spaced in (("log", np.geomspace), ("lin", np.linspace)):
+        if word == "log" and not first > 0.0:
+            continue
+        if np.allclose(values, spaced(first, last, len(values)), rtol=1e-11, atol=0.0):
+            return f"{first:.12g}{unit}:{last:.12g}{unit}:{word}{len(values)}"
+    return ""
+
+
+def _given(data: xr.Dataset, name: str) -> Iterator[str]:
+    """Yield the values of an axis as `--vary` takes them."""
+    unit = " K" if name == "temperature" else ""
+    for value in _values(data, name):
+        yield f"{value:.12g}{unit}" if isinstance(value, float) else f"{value or NONE}{unit}"
