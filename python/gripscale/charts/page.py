@@ -76,7 +76,7 @@ def draw_panel(panel: Panel) -> page_elements.Chart:
                             fill_color=mark.colour, fill_alpha=mark.alpha,
                             **_labelled(mark.label))  # fmt: skip
             case CrossLine(to=None):
-                _draw_cross_line(figure, mark, panel.marks)
+                _draw_cross_line(figure, mark, panel)
     curves = [mark for mark in panel.marks if isinstance(mark, Series)]
     if any(np.any(curve.beyond) for curve in curves):
         figure.line([np.nan] * 2, [np.nan] * 2, color=GREY, line_dash="dashed", legend_label=BEYOND)
@@ -207,22 +207,19 @@ def _draw_band(figure: Any, band: Band, *, positive: bool) -> None:
         figure.varea(x=x, y1=low, y2=high, **look)
 
 
-def _draw_cross_line(figure: Any, line: CrossLine, marks: Sequence[Mark]) -> None:
-    """Draw a line across the panel: over all that is drawn, or without a label a span."""
+def _draw_cross_line(figure: Any, line: CrossLine, panel: Panel) -> None:
+    """Draw a line across the limits of the abscissa or all that is drawn, or upright as a span."""
     look: dict[str, Any] = {
         "line_color": line.colour,
         "line_dash": DASHES[line.dash],
         "line_width": PIXELS * line.width,
     }
-    across = _extent(marks, "x")
-    x, y = [np.nan] * 2, [np.nan] * 2
-    if line.label and not line.upright and across.size:
-        x, y = [across.min(), across.max()], [line.at] * 2
-    else:
-        dimension: Any = "height" if line.upright else "width"
-        figure.add_layout(Span(location=line.at, dimension=dimension, **look))
-    if line.label:
-        figure.line(x, y, **look, **_labelled(line.label))
+    if line.upright:
+        figure.add_layout(Span(location=line.at, dimension="height", **look))
+    across = [end for end in (panel.x.low, panel.x.high) if end is not None]
+    x = across or _extent(panel.marks, "x")
+    ends = [np.nan] * 2 if line.upright or not len(x) else [min(x), max(x)]
+    figure.line(ends, [line.at] * 2, **look, **_labelled(line.label))
 
 
 def _labelled(label: str) -> dict[str, Any]:
