@@ -29,7 +29,7 @@ PIXELS = 1.3
 """Pixels of a line on the page for each point of its width on paper."""
 LEAST_MARKER = 6.0
 """Size of a marker that a pointer can hit [px]."""
-LEAST_RANGE = 4.0
+LEAST_RANGE = 2.0
 """Largest over smallest number of a logarithmic ordinate, so that there are numbers along it."""
 MOST_HOVERED = 2000
 """Points of a curve that tells its numbers under the pointer."""
@@ -76,7 +76,7 @@ def draw_panel(panel: Panel) -> page_elements.Chart:
                             fill_color=mark.colour, fill_alpha=mark.alpha,
                             **_labelled(mark.label))  # fmt: skip
             case CrossLine(to=None):
-                _draw_cross_line(figure, mark, panel.marks)
+                _draw_cross_line(figure, mark, panel)
     curves = [mark for mark in panel.marks if isinstance(mark, Series)]
     if any(np.any(curve.beyond) for curve in curves):
         figure.line([np.nan] * 2, [np.nan] * 2, color=GREY, line_dash="dashed", legend_label=BEYOND)
@@ -88,7 +88,8 @@ def draw_panel(panel: Panel) -> page_elements.Chart:
             tips.insert(0, ("curve", "$name"))
         figure.add_tools(HoverTool(renderers=points, tooltips=tips))
     if panel.legend == "none":
-        figure.legend.visible = False
+        boxes = list(figure.legend)
+        figure.center = [part for part in figure.center if part not in boxes]
     else:
         _place_legend(figure)
     return page_elements.Chart(panel.name, panel.caption, panel.alt, figure)
@@ -155,7 +156,9 @@ def _set_axis(figure: Any, which: str, axis: Axis, values: Array) -> None:
     if values.max() < 60.0 * values.min() and axis.ticks is None:
         # Bokeh's own labels of a short log axis are few, and would round 0.2 and 0.5 to 0.1 and 1.
         first = int(np.floor(np.log10(values.min()))) - 1
-        ticks = [m * 10.0**n for n in range(first, first + 5) for m in (1, 2, 5)]
+        short = values.max() < 4.0 * values.min()
+        steps = (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 7, 8, 9) if short else (1, 2, 5)
+        ticks = [step * 10.0**n for n in range(first, first + 5) for step in steps]
         drawn.ticker = grid.ticker = FixedTicker(ticks=ticks)
         drawn.formatter = BasicTickFormatter()
 
@@ -207,22 +210,19 @@ def _draw_band(figure: Any, band: Band, *, positive: bool) -> None:
         figure.varea(x=x, y1=low, y2=high, **look)
 
 
-def _draw_cross_line(figure: Any, line: CrossLine, marks: Sequence[Mark]) -> None:
-    """Draw a line across the panel: over all that is drawn, or without a label a span."""
+def _draw_cross_line(figure: Any, line: CrossLine, panel: Panel) -> None:
+    """Draw a line across the limits of the abscissa or all that is drawn, or upright as a span."""
     look: dict[str, Any] = {
         "line_color": line.colour,
         "line_dash": DASHES[line.dash],
         "line_width": PIXELS * line.width,
     }
-    across = _extent(marks, "x")
-    x, y = [np.nan] * 2, [np.nan] * 2
-    if line.label and not line.upright and across.size:
-        x, y = [across.min(), across.max()], [line.at] * 2
-    else:
-        dimension: Any = "height" if line.upright else "width"
-        figure.add_layout(Span(location=line.at, dimension=dimension, **look))
-    if line.label:
-        figure.line(x, y, **look, **_labelled(line.label))
+    if line.upright:
+        figure.add_layout(Span(location=line.at, dimension="height", **look))
+    across = [end for end in (panel.x.low, panel.x.high) if end is not None]
+    x = across or _extent(panel.marks, "x")
+    ends = [np.nan] * 2 if line.upright or not len(x) else [min(x), max(x)]
+    figure.line(ends, [line.at] * 2, **look, **_labelled(line.label))
 
 
 def _labelled(label: str) -> dict[str, Any]:
