@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner, Result
 
-import gripscale
 from gripscale.cli import app
 from gripscale.core.errors import FileError, InputError
 from gripscale.experiment import Progress
@@ -121,7 +120,9 @@ def test_gripscale_reproduce_hands_over_in_a_clone(tmp_path: Path) -> None:
 def test_the_wheel_alone_says_where_the_reproduction_is(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(gripscale, "__file__", str(tmp_path / "lib" / "gripscale" / "__init__.py"))
+    monkeypatch.setattr(
+        "gripscale.cli.run.__file__", str(tmp_path / "lib" / "gripscale" / "cli" / "run.py")
+    )
     done = shell("fig2")
     assert done.exit_code == 2
     assert re.fullmatch(r"error: .* in the source of gripscale, .*\n", done.stderr)

@@ -64,9 +64,7 @@ from dataclasses import dataclass
 from typing import Any, Literal, Protocol
 
 import numpy as np
-import scipy.fft
 from numpy.typing import ArrayLike
-from scipy.special import erfc, gamma, wofz
 
 from gripscale.core import checks
 from gripscale.core.arrays import Array, ComplexArray
@@ -198,6 +196,8 @@ class LossDepth(Checked):
         length : float
             Length over which the function changes [m]; it vanishes at `WIDEST` lengths.
         """
+        from scipy.special import gamma
+
         if self.mean == 0.0:
             return function(np.zeros(1))[0]
         end = min(DEEPEST, WIDEST * self.rate * length)
@@ -214,6 +214,8 @@ class LossDepth(Checked):
 
 def ierfc(x: Array) -> Array:
     """Return exp(-x^2)/sqrt(pi) - x erfc(x) for `x` from zero."""
+    from scipy.special import erfc
+
     return np.asarray(np.exp(-(x**2)) / math.sqrt(math.pi) - x * erfc(x))
 
 
@@ -350,6 +352,8 @@ def _steady_or_not(
 
 def _rise_in_time(z: Array, m: ComplexArray, length: float) -> ComplexArray:
     """Return r at depths of shape (n,), shape (n, m), by Faddeeva's w(x) = exp(-x^2) erfc(-i x)."""
+    from scipy.special import wofz
+
     at, half = (z / length)[:, None], (0.5 * length * m)[None, :]
     scale = np.exp(-(at**2) - half**2)
     return np.asarray(scale * (wofz(1j * (at - half)) - wofz(1j * (at + half))) / (2.0 * m))
@@ -434,6 +438,8 @@ class LossLayers:
 
 def _i2erfc(x: Array) -> Array:
     """Return the integral of ierfc from `x` to infinity."""
+    from scipy.special import erfc
+
     return np.asarray(0.25 * erfc(x) - 0.5 * x * ierfc(x))
 
 
@@ -452,6 +458,8 @@ def loss_pattern(pressure: ComplexArray, lost: Array) -> Array:
     lost : array, shape (points // 2 + 1,)
         Loss of each harmonic; negative values are round-off.
     """
+    import scipy.fft
+
     points = 2 * (pressure.size - 1)
     size = np.abs(pressure)
     phase = np.divide(pressure, size, out=np.zeros_like(pressure), where=size > 0.0)

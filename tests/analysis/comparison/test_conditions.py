@@ -76,7 +76,7 @@ def test_chain_and_direct_contact_know_every_effect(made: Comparison) -> None:
     )
     chain = made.data.sel(rung="chain_half_plane")
     assert chain.total_adhesive_friction == pytest.approx(
-        2e6 * chain.total_contact_fraction / 3e5, rel=1e-12
+        2e6 * float(chain.total_contact_fraction) / 3e5, rel=1e-12
     )
 
 
