@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import difflib
+import inspect
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import MISSING, Field, dataclass, field, fields
+from dataclasses import MISSING, Field, dataclass, field, fields, is_dataclass
 from functools import partial
 from typing import Any, ClassVar, TypeVar, dataclass_transform
 
@@ -373,7 +374,9 @@ class Checked:
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__()
-        dataclass(frozen=True, **options)(cls)
+        # A subclass without fields of its own keeps the constructor that it inherits.
+        if options or not is_dataclass(cls) or inspect.get_annotations(cls):
+            dataclass(frozen=True, **options)(cls)
 
     def __post_init__(self) -> None:
         for item in fields(self):
