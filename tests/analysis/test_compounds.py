@@ -90,7 +90,7 @@ def test_differences_add_up(made: Compounds) -> None:
 def test_their_report_is_that_of_a_study_over_rubbers(made: Compounds, tmp_path: Path) -> None:
     netcdf.save(made.data, tmp_path / "compounds.nc")
     page = write_report(tmp_path).read_text()
-    for word in ("lossy", "Totals of all 3 predictions", "varied: rubber"):
+    for word in ("lossy", "Totals of all 3 predictions", "Compounds side by side"):
         assert word in page
 
 

@@ -142,7 +142,7 @@ def test_the_command_writes_result_table_and_figures(folder, tmp_path):
     options = ["--samples", 45, "--without", "waves", "--output", tmp_path, "--workers", 2]
     code, output = called(case, *options)
     assert code == 0, output
-    assert "what matters most (chain)" in output
+    assert "What matters most (chain)" in output
     assert {path.name for path in (tmp_path / "figures").iterdir()} == {
         f"{name}.{kind}" for name in ("distributions", "tornado_chain") for kind in ("png", "pdf")
     }

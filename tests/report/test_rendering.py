@@ -1,0 +1,79 @@
+"""One table in the terminal, on a page, in CSV and in Excel."""
+
+from __future__ import annotations
+
+import csv
+import math
+from pathlib import Path
+
+import numpy as np
+import openpyxl
+from rich.console import Console
+
+from gripscale.io.table import Column, Table, as_text, percent, write_csv, write_workbook
+
+PRESSURE = Column("pressure", np.array([3e5, math.nan]), "p", "bar", 1e5, group="load")
+RANGE = Column("range", np.array([[-0.1, 0.2], [0.3, math.nan]]), group="result", bad=[True, False])
+SHARE = Column("share", [0.25, math.inf], format=percent, marks=["*", ""], group="result")
+TABLE = Table(
+    "loads",
+    [Column("model", ["<b>chain</b>", "direct"]), PRESSURE, RANGE, SHARE],
+    "Loads & ranges",
+    ["A note."],
+    strong=[1],
+)
+
+
+def test_terminal_shows_groups_units_and_marks() -> None:
+    lines = as_text(TABLE, width=80).splitlines()
+    assert lines[0] == "Loads & ranges"
+    assert lines[1].split() == ["load", "result"]
+    assert lines[2].split() == ["p"]
+    assert lines[3].split() == ["model", "bar", "range", "share"]
+    assert lines[5].split() == ["<b>chain</b>", "3.00", "-0.100", "to", "0.200", "25", "%*"]
+    assert lines[6].split() == ["direct", "-", "-", "∞"]
+    assert lines[5].index("%") == lines[6].index("∞"), "digits stand below digits"
+    assert lines[-1] == "A note."
+
+
+def test_a_table_that_is_too_wide_is_divided_between_groups() -> None:
+    lines = as_text(TABLE, width=38).splitlines()
+    heads = [line.split() for line in lines if line.startswith("model")]
+    assert heads == [["model", "bar"], ["model", "range", "share"]]
+    assert max(map(len, lines)) <= 38
+
+
+def test_what_must_not_be_trusted_is_red() -> None:
+    console = Console(width=80, record=True, force_terminal=True, color_system="standard")
+    with console.capture() as capture:
+        console.print(TABLE)
+    red = [line for line in capture.get().splitlines() if "\x1b[1;31m" in line]
+    assert len(red) == 1
+    assert "-0.100 to 0.200" in red[0]
+
+
+def test_a_page_escapes_texts_and_sets_minus_signs() -> None:
+    page = TABLE.__html__()
+    assert "&lt;b&gt;chain&lt;/b&gt;" in page
+    assert "<b>" not in page
+    assert "−0.100 to 0.200" in page
+    assert page.count(' bad"') == 1
+    assert '<td class="">–</td>' in page
+    assert '<th scope="colgroup" colspan="2">result</th>' in page
+    assert page.count('<tr class="strong">') == 1
+
+
+def test_files_hold_every_digit_in_the_unit_of_the_column(tmp_path: Path) -> None:
+    titles = ["model", "pressure [bar]", "range_low", "range_high", "share"]
+    with write_csv(TABLE, tmp_path / "a.csv").open(encoding="utf-8", newline="") as file:
+        rows = list(csv.reader(file))
+    assert rows[0] == titles
+    assert rows[1] == ["<b>chain</b>", "3.0", "-0.1", "0.2", "0.25"]
+    assert rows[2] == ["direct", "", "0.3", "", "inf"]
+    book = openpyxl.load_workbook(write_workbook([TABLE], tmp_path / "a.xlsx"))
+    sheet = [list(row) for row in book["loads"].iter_rows(values_only=True)]
+    assert sheet[0] == titles
+    assert sheet[1:] == [
+        ["<b>chain</b>", 3.0, -0.1, 0.2, 0.25],
+        ["direct", None, 0.3, None, "inf"],
+    ]
