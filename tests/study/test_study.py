@@ -221,7 +221,7 @@ def test_model_that_cannot_be_written_down_is_refused() -> None:
         ("chain/predict.py", True),
         ("checks.py", True),
         ("a_room_of_tomorrow/new.py", True),
-        ("figures/blocks.py", False),
+        ("charts/blocks.py", False),
         ("report/tables.py", False),
         ("cli/run.py", False),
     ],

@@ -34,8 +34,8 @@ def version_of(name: str) -> str:
 
 # The fingerprint of what turns inputs into results: compiled kernel and numeric modules.
 
-FACES = ("cli", "figures", "init", "report")
-"""Rooms that start cases or show results; all others are taken to make them."""
+FACES = ("charts", "cli", "report")
+"""Rooms that start runs or show results; all others are taken to make them."""
 
 
 @lru_cache(maxsize=1)
