@@ -16,6 +16,11 @@ from tests.browsing import started_browser
 from tests.samples import Shell
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Start with the golden files: in the middle, two processes would each prepare their runs."""
+    items.sort(key=lambda item: not item.nodeid.startswith("tests/golden"))
+
+
 @pytest.fixture(scope="session", autouse=True)
 def _own_core() -> Iterator[None]:
     """Let a process of pytest-xdist use one core: the others have theirs."""

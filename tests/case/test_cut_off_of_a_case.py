@@ -120,7 +120,8 @@ def test_fit_surface_takes_the_same_words(case: Path) -> None:
     assert outcome.exit_code == 0, outcome.output
     words = " ".join(outcome.output.split())
     assert "(rms slope 0.4 of the surface), rms slope down to it 0.4 of the surface" in words
-    assert "down to [mm] rms slope of the surface along a profile" in words
+    assert "Rms slope by the smallest wavelength that counts" in words
+    assert "down to rms slope of along a mm the surface profile" in words
 
 
 def test_a_study_varies_lengths_and_rules_side_by_side(case: Path, tmp_path: Path) -> None:

@@ -302,7 +302,7 @@ def test_a_refused_point_says_why_and_the_others_stand(case: Path, shell: Any) -
     case.write_text(case.read_text().replace("[rubber]", '[rubber]\nextrapolate = "refuse"'))
     done = shell("study", case, "--vary", "speed=0.000001,0.3", "--output", case.parent / "study")
     assert done.exit_code == 3
-    assert "1 of 2 predictions have no totals" in done.stderr
+    assert "1 of 2 predictions failed" in done.stderr
     result = netcdf.load(case.parent / "study" / "study.nc")
     assert np.isfinite(result.total_friction.values).tolist() == [False, True]
     assert "below the measured band" in str(result.prediction_status.values[0])

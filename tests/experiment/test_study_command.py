@@ -54,7 +54,7 @@ def test_table_keeps_its_status_beside_long_names(shell: Shell, case: Path, tmp_
     asked = ("study", case, "--vary", "rubber=styrene_butadiene", "--vary", named, "--static")
     result = shell(*asked, "--output", tmp_path)
     assert result.exit_code == 0, result.output
-    rows = [line for line in result.stdout.splitlines() if line.startswith(" styrene butadiene")]
+    rows = [line for line in result.stdout.splitlines() if line.startswith("styrene butadiene")]
     assert len(rows) == 2
     assert all(row.rstrip().endswith("converged") for row in rows)
     assert "…" not in result.stdout
@@ -76,7 +76,7 @@ def test_failed_chain_ends_with_its_own_code(
     result = shell("study", case, "--vary", "speed=0.1,1")
     assert result.exit_code == 3
     assert len(result.stderr.splitlines()) == 1
-    assert "1 of 2 predictions have no totals; the first: wave 3" in result.stderr
+    assert "1 of 2 predictions failed; the first: wave 3" in result.stderr
     assert (case.parent / "results" / "study" / "study.nc").exists()
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import ClassVar
 from xml.etree import ElementTree as ET
 
@@ -169,7 +169,6 @@ def test_numbers_fit_into_what_abaqus_reads():
     assert found.relaxed[2, 0] == pytest.approx(-5e-101, rel=1e-12)
 
 
-@dataclass(frozen=True)
 class Other(StrainEnergy):
     """An energy of somebody else."""
 

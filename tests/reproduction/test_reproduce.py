@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 import sys
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -120,9 +121,8 @@ def test_gripscale_reproduce_hands_over_in_a_clone(tmp_path: Path) -> None:
 def test_the_wheel_alone_says_where_the_reproduction_is(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(
-        "gripscale.cli.run.__file__", str(tmp_path / "lib" / "gripscale" / "cli" / "run.py")
-    )
+    module = tmp_path / "lib" / "gripscale" / "cli" / "run.py"
+    monkeypatch.setattr(import_module("gripscale.cli.run"), "__file__", str(module))
     done = shell("fig2")
     assert done.exit_code == 2
     assert re.fullmatch(r"error: .* in the source of gripscale, .*\n", done.stderr)

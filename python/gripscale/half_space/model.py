@@ -34,8 +34,14 @@ class DirectContact(Checked, model.Model):
     smallest_wavelength : float, optional
         Shorter waves are left out [m]. By default the cut-off of the surface's sine waves or,
         without one, the last of them, so that chain and direct contact have the same roughness.
-    tolerance, most_points, periodic, conditions
-        See `solve_rough_contact`.
+    tolerance : float, optional
+        As in `solve_rough_contact`.
+    most_points : int
+        As in `solve_rough_contact`.
+    periodic : bool
+        As in `solve_rough_contact`.
+    conditions : Conditions, optional
+        As in `solve_rough_contact`.
     """
 
     name: ClassVar[str] = "direct"

@@ -196,8 +196,12 @@ class BlockOnProfile(Checked, model.Model):
 
     Parameters
     ----------
-    smallest_wavelength, periodic, tolerance
-        See `gripscale.solve_profile`.
+    smallest_wavelength : float, optional
+        As in `gripscale.solve_profile` [m].
+    periodic : bool
+        As in `gripscale.solve_profile`.
+    tolerance : float, optional
+        As in `gripscale.solve_profile`.
     """
 
     name: ClassVar[str] = "block_on_profile"
