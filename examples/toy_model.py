@@ -23,9 +23,9 @@ from rich.console import Console
 
 import gripscale as gs
 from gripscale.experiment import Study
-from gripscale.model import Model, NominalLoad, answer
+from gripscale.model import Load, Model, answer
 from gripscale.report.study import study_table
-from gripscale.surface.surface import PreparedSurface, SurfacePart
+from gripscale.surface.surface import Surface, SurfacePart
 
 CASE = Path(__file__).parent / "three_waves" / "case.toml"
 
@@ -42,8 +42,8 @@ class Proportional(Model):
     def predict(
         self,
         rubber: gs.Rubber,
-        surface: PreparedSurface,
-        load: NominalLoad,
+        surface: Surface,
+        load: Load,
         *,
         on_progress: Callable[[Any], None] | None = None,
     ) -> xr.Dataset:

@@ -11,12 +11,12 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from gripscale.case import RubberSource, Surface, prepare_rubber, prepare_surface, validate
+from gripscale.case import RubberSource, SurfaceTable, prepare_rubber, prepare_surface, validate
 from gripscale.core.errors import FileError
 from gripscale.experiment import Task
-from gripscale.model import NominalLoad
+from gripscale.model import Load
 from gripscale.rubber import MasterCurve, PronyFit, Rubber, styrene_butadiene
-from gripscale.surface import HeightDifference, PreparedSurface, SineStack, fit_sines
+from gripscale.surface import HeightDifference, SineStack, Surface, fit_sines
 from gripscale.surface.synthetic import synthetic_surface
 
 DATA = Path(__file__).resolve().parents[1] / "examples" / "data"
@@ -49,7 +49,7 @@ TREAD_SOURCE = "filled tread-type rubber; compound and laboratory are not stated
 class Inputs:
     """Surfaces and compounds by name, with the measurements behind the tread rubber."""
 
-    surfaces: dict[str, PreparedSurface]
+    surfaces: dict[str, Surface]
     rubbers: dict[str, Rubber]
     master: MasterCurve
     prony: PronyFit
@@ -66,7 +66,7 @@ class Inputs:
         return Task(
             self.rubbers[rubber],
             whole if sines is None else replace(whole, waves=sines),
-            NominalLoad(PRESSURE, speed, FOOTPRINT),
+            Load(PRESSURE, speed, FOOTPRINT),
         )
 
     def magnified(self, surface: str) -> dict[str, SineStack]:
@@ -119,7 +119,7 @@ def read_inputs(data: Path = DATA) -> Inputs:
                 f"example data {data / name} does not exist; give the folder examples/data of "
                 "gripscale's source with --data"
             )
-    road = Surface(
+    road = SurfaceTable(
         files=[str(data / name) for name in ROAD_FILES],
         crop=[0.12, 1.78],
         scales=8,

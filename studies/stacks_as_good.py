@@ -26,7 +26,7 @@ class Way(NamedTuple):
     """A way from heights to waves."""
 
     name: str
-    upper_share: float
+    top_height_fraction: float
     to_cut_off: bool
 
 
@@ -42,7 +42,7 @@ def main() -> None:
     stations = [road(0), road(1)]
     rubber = tread()
     for way in WAYS:
-        curve = gs.height_difference(stations, upper_share=way.upper_share)
+        curve = gs.height_difference(stations, top_height_fraction=way.top_height_fraction)
         if way.to_cut_off:
             fitted = gs.fit_sines(curve, scales=WAVES, cut_off=END)
         else:

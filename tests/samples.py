@@ -14,7 +14,7 @@ from typer.testing import Result
 
 from gripscale import Profile, Rubber, SineStack
 from gripscale.conditions import ThermalProperties
-from gripscale.model import NominalLoad
+from gripscale.model import Load
 from gripscale.rubber import WLF
 from gripscale.rubber.softening import Kraus
 from gripscale.surface import self_affine_profile
@@ -46,7 +46,7 @@ SHIFTED_RUBBER = Rubber(
 """Ten relaxations and a shift, for conditions; with `SHIFTED_SINES` and `SHIFTED_LOAD`."""
 SHIFTED_SINES = SineStack([4e-3, 1e-3], [2e-4, 6e-5])
 SHIFTED_VALUES = {"pressure": 3e5, "speed": 1.0, "footprint": 0.05}
-SHIFTED_LOAD = NominalLoad(**SHIFTED_VALUES)
+SHIFTED_LOAD = Load(**SHIFTED_VALUES)
 THERMAL = ThermalProperties(conductivity=0.25, density=1150.0, specific_heat=1500.0)
 KRAUS = Kraus(0.3, 0.15, 0.02, 1e-3, "shear")
 

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from gripscale.conditions import Conditions
     from gripscale.rubber import Rubber
-    from gripscale.surface.surface import PreparedSurface, SurfacePart
+    from gripscale.surface.surface import Surface, SurfacePart
 
 
 # How much a prediction changes with the smallest wavelength that counts.
@@ -119,9 +119,9 @@ def of_mean(
     """
     if not parts:
         return NOT_TOLD
-    area = _mean([one.contact_fraction for one in parts], contact_fraction)
-    mu = _mean([one.friction for one in parts], friction)
-    reasons = (one.why_not for one in parts if one.why_not)
+    area = _mean([part.contact_fraction for part in parts], contact_fraction)
+    mu = _mean([part.friction for part in parts], friction)
+    reasons = (part.why_not for part in parts if part.why_not)
     return CutOffExponents(area, mu, next(reasons, ""))
 
 
@@ -141,15 +141,15 @@ def _exponent(ratio: float, before: float, last: float) -> float:
 
 def _at(ratio: float, lengths: NDArray[np.float64], values: NDArray[np.float64]) -> float:
     """Return a value at `ratio` times the last wavelength, linear in the log of wavelength."""
-    place = np.log(lengths[-1] * ratio)
-    return float(np.interp(-place, -np.log(lengths), values))
+    logarithm = np.log(lengths[-1] * ratio)
+    return float(np.interp(-logarithm, -np.log(lengths), values))
 
 
 LoadTime = Literal["passage"] | float
 
 
 @dataclass(frozen=True)
-class NominalLoad:
+class Load:
     """The load on the whole surface.
 
     Parameters
@@ -235,8 +235,8 @@ class Model(Protocol):
     def predict(
         self,
         rubber: Rubber,
-        surface: PreparedSurface,
-        load: NominalLoad,
+        surface: Surface,
+        load: Load,
         *,
         on_progress: Callable[[Any], None] | None = None,
     ) -> xr.Dataset:
@@ -340,7 +340,7 @@ def answer_by_length(
     why_not: Sequence[str],
     lengths: Sequence[float],
     model: str,
-    load: NominalLoad,
+    load: Load,
     cut_off_exponents: Sequence[CutOffExponents] = (),
 ) -> xr.Dataset:
     """Return `data` over `profile` with the answers of the profiles averaged by length.
@@ -391,7 +391,7 @@ def answer(
     totals: dict[str, float],
     status: str,
     model: str,
-    load: NominalLoad,
+    load: Load,
     extrapolation: Extrapolation = UNKNOWN,
     cut_off_exponents: CutOffExponents = NOT_TOLD,
 ) -> xr.Dataset:

@@ -93,7 +93,7 @@ VARIANTS = (
 
 @lru_cache(maxsize=64)
 def _correlation(profile: gs.Profile, share: float) -> gs.HeightDifference:
-    return gs.height_difference(profile, upper_share=share)
+    return gs.height_difference(profile, top_height_fraction=share)
 
 
 @lru_cache(maxsize=64)

@@ -21,7 +21,7 @@ from gripscale.io import netcdf
 from gripscale.io.table import as_text
 from gripscale.report.side_by_side import effects_table
 from gripscale.rubber.softening import Kraus
-from gripscale.surface import Measured, PreparedSurface
+from gripscale.surface import Measured, Surface
 from gripscale.theory import HalfPlane, Persson
 from tests.samples import SHIFTED_LOAD as LOAD
 from tests.samples import SHIFTED_RUBBER as RUBBER
@@ -38,11 +38,11 @@ CHAIN = Chain(HalfPlane(points=128), conditions=EVERYTHING)
 NAMES = ["all", "no temperature", "no softening", "no heat", "none"]
 
 
-def surface() -> PreparedSurface:
+def surface() -> Surface:
     x = np.arange(1024) * 1e-5
     turns = 2.0 * np.pi * x / (1024 * 1e-5)
     line = gs.Profile(x, 2e-4 * np.cos(3 * turns) + 3e-5 * np.cos(17 * turns + 1.0))
-    return PreparedSurface(SINES, "two waves", measured=Measured.of([line]))
+    return Surface(SINES, "two waves", measured=Measured.of([line]))
 
 
 @pytest.fixture(scope="module")

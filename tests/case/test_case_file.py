@@ -15,10 +15,10 @@ from hypothesis import strategies as st
 
 from gripscale.case import (
     Case,
-    Load,
+    LoadTable,
     RubberSource,
-    Solver,
-    Surface,
+    SolverTable,
+    SurfaceTable,
     case_chain,
     prepare_rubber,
     prepare_surface,
@@ -59,11 +59,11 @@ def test_the_closer_chain_of_the_documentation_is_a_case(tmp_path: Path) -> None
     [stated] = re.findall(r"```toml\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
     file = read_case(written(tmp_path, stated + GOOD[GOOD.index("[rubber]") :]))
     case = file.case
-    assert (case.surface.upper_share, case.surface.scales) == (0.5, 4)
+    assert (case.surface.top_height_fraction, case.surface.scales) == (0.5, 4)
     assert (case.surface.cut_off, case.surface.smallest_wavelength) == (pytest.approx(1e-4), None)
     assert case_chain(file).pressure_classes == 8
     plain = read_case(written(tmp_path, GOOD))
-    assert (plain.case.surface.upper_share, plain.case.surface.cut_off) == (1.0, None)
+    assert (plain.case.surface.top_height_fraction, plain.case.surface.cut_off) == (1.0, None)
     assert case_chain(plain).pressure_classes == 1
 
 
@@ -71,15 +71,15 @@ def test_prepared_with_what_the_case_says(tmp_path: Path) -> None:
     line = self_affine_profile(0.8, 5e-3, 1e-3, 0.2, 1e-4, seed=4)
     np.savetxt(tmp_path / "road.dat", np.column_stack([line.x, line.z]))
     stated = '["road.dat"]\nx_unit = "m"\nz_unit = "m"\ndetrend = "none"\nremove_spikes = false'
-    keys = 'scales = 4\nupper_share = 0.3\ncut_off = "1 mm"\nmax_lag = "30 mm"'
+    keys = 'scales = 4\ntop_height_fraction = 0.3\ncut_off = "1 mm"\nmax_lag = "30 mm"'
     text = GOOD.replace('["road.dat"]', stated).replace("scales = 8", keys)
     file = read_case(written(tmp_path, text))
     found = prepare_surface(file.case.surface, file.resolve)
-    curve = height_difference(found.measured.cleaned, upper_share=0.3, max_lag=30e-3)
+    curve = height_difference(found.measured.cleaned, top_height_fraction=0.3, max_lag=30e-3)
     alone = fit_sines(curve, scales=4, cut_off=1e-3)
     assert found.sines.amplitude.tolist() == alone.amplitude.tolist()
     assert found.sines.cutoff_wavelength == pytest.approx(1e-3)
-    assert found.counted == {"upper_share": 0.3, "max_lag": pytest.approx(30e-3)}
+    assert found.counted == {"top_height_fraction": 0.3, "max_lag": pytest.approx(30e-3)}
 
 
 def test_paths_start_at_the_case_file(tmp_path: Path) -> None:
@@ -152,7 +152,11 @@ WRONG = [
         'smallest_wavelength = "1 mm"\ncut_off = "1 mm"',
         "[surface]: expected either smallest_wavelength (the last wave) or cut_off",
     ),
-    ("scales = 8", "scales = 8\nupper_share = 1.5", "upper_share = 1.5: expected at most 1"),
+    (
+        "scales = 8",
+        "scales = 8\ntop_height_fraction = 1.5",
+        "top_height_fraction = 1.5: expected at most 1",
+    ),
     ("[load]", "[chain]\npressure_classes = 65\n[load]", "pressure_classes = 65: expected at most"),
     ("scales = 8", "scales = 8\ns_wavelength = 1", "s_wavelength = 1: expected greater than 1"),
     ("scales = 8", 'scales = 8\ncrop = ["1 mm"]', "[surface] crop = ['1 mm']: expected at least 2"),
@@ -276,9 +280,9 @@ ANYTHING = st.recursive(
 )
 KEYS = [
     (table, key)
-    for table, model in (("surface", Surface), ("rubber", RubberSource), ("load", Load))
+    for table, model in (("surface", SurfaceTable), ("rubber", RubberSource), ("load", LoadTable))
     for key in model.model_fields
-] + [("solver", key) for key in Solver.model_fields]
+] + [("solver", key) for key in SolverTable.model_fields]
 
 
 def complaint(tables: dict[str, Any]) -> str:

@@ -29,7 +29,7 @@ def case(tmp_path: Path) -> Path:
     return path
 
 
-def stated(case: Path, end: str) -> surface.PreparedSurface:
+def stated(case: Path, end: str) -> surface.Surface:
     case.write_text(CASE.format(end=end))
     return prepare_case(case).surface
 
@@ -43,7 +43,7 @@ def test_every_model_ends_where_the_rule_says(case: Path) -> None:
     assert prepared.cut_off == exact
     assert prepared.cut_off.surface_slope == pytest.approx(0.4, rel=1e-6)
     persson = gs.theory.Persson().predict(
-        gs.rubber.styrene_butadiene(), prepared, gs.model.NominalLoad(3e5, 0.3, 0.1)
+        gs.rubber.styrene_butadiene(), prepared, gs.model.Load(3e5, 0.3, 0.1)
     )
     assert float(persson.rms_gradient) == pytest.approx(0.4, rel=1e-6)
 

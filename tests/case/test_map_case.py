@@ -15,12 +15,12 @@ from gripscale.core.errors import InputError
 from gripscale.experiment.inputs import contents, surface_of
 from gripscale.experiment.task import Task
 from gripscale.half_space import DirectContact
-from gripscale.model import NominalLoad
+from gripscale.model import Load
 from gripscale.report.inputs import surface_lines
 from gripscale.theory import HalfPlane
 from tests.half_space.rough_cases import ZENER, isotropic_heights
 
-LOAD = NominalLoad(3e5, 0.3, 0.1)
+LOAD = Load(3e5, 0.3, 0.1)
 STATED = """
 [surface]
 map = "road.txt"

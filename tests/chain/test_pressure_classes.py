@@ -141,10 +141,10 @@ def test_dataset_brings_the_classes_back(tmp_path) -> None:
 
 
 def test_the_model_takes_the_classes() -> None:
-    from gripscale.model import NominalLoad
-    from gripscale.surface import PreparedSurface
+    from gripscale.model import Load
+    from gripscale.surface import Surface
 
-    surface, load = PreparedSurface(SINES, source=""), NominalLoad(3e5, 0.3, 0.1)
+    surface, load = Surface(SINES, source=""), Load(3e5, 0.3, 0.1)
     data = Chain(SOLVER, pressure_classes=4).predict(RUBBER, surface, load)
     direct = predict(RUBBER, SINES, solver=SOLVER, pressure_classes=4, **LOAD)
     assert float(data.total_friction) == direct.friction

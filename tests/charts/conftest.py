@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 from gripscale.chain import Prediction
-from gripscale.model import TOTALS, NominalLoad, answer
+from gripscale.model import TOTALS, Load, answer
 from gripscale.rubber import Rubber
 from gripscale.surface import SineStack
 from gripscale.wave import WaveResult
@@ -63,7 +63,7 @@ def make_prediction() -> Callable[..., xr.Dataset]:
         sines = SineStack(wavelength=lengths, amplitude=[0.1 * length for length in lengths])
         statuses = ["converged"] * (count - 1) + [status]
         waves = [wave(length, s) for length, s in zip(lengths, statuses, strict=True)]
-        load = NominalLoad(3e5, speed, 0.1)
+        load = Load(3e5, speed, 0.1)
         return Prediction(RUBBER, sines, load, waves, count).to_dataset()
 
     return make
@@ -73,4 +73,4 @@ def make_prediction() -> Callable[..., xr.Dataset]:
 def without_waves() -> xr.Dataset:
     """The answer of a model that does not go wave by wave."""
     totals = dict(zip(TOTALS, (0.05, 0.6, 0.58), strict=True))
-    return answer(xr.Dataset(), totals, "converged", "toy", NominalLoad(3e5, 0.3, 0.1))
+    return answer(xr.Dataset(), totals, "converged", "toy", Load(3e5, 0.3, 0.1))

@@ -135,7 +135,7 @@ def test_chain_of_the_upper_half_is_left_out_where_the_case_is_one(
     changed: Callable[..., Path],
 ) -> None:
     case = changed(
-        "scales = 3\ns_wavelength = 3", 'scales = 4\nupper_share = 0.5\ncut_off = "4 mm"'
+        "scales = 3\ns_wavelength = 3", 'scales = 4\ntop_height_fraction = 0.5\ncut_off = "4 mm"'
     )
     results = prepare_case(case)
     direct = compare_case(results, rungs=["direct"], tolerance=0.02).data.isel(rung=0)

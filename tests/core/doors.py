@@ -15,7 +15,7 @@ from gripscale import half_space as rough
 from gripscale import rubber, surface, theory, wave
 from gripscale.analysis import calibrate
 from gripscale.conditions import Conditions
-from gripscale.model import NominalLoad
+from gripscale.model import Load
 from gripscale.rubber import softening
 
 SOLID = gs.Rubber(1e6, [4e6], [1e-2], name="solid")
@@ -73,7 +73,7 @@ def doors() -> Iterator[Door]:
     more = {"smallest_wavelength": None, "max_scales": None, "load_time": "passage"}
     yield Door(gs.predict, {"rubber": SOLID, "sines": SINES, **PRESSED, **chain, **more})
     load = {**PRESSED, "footprint": 0.1, "load_time": "passage"}
-    yield Door(NominalLoad, load)
+    yield Door(Load, load)
 
 
 def _theory() -> Iterator[Door]:
@@ -214,7 +214,7 @@ def _surface() -> Iterator[Door]:
     yield Door(gs.clean, {"profile": LINE, **cleaning, **more})
     across = {"crop": None, "valid_range": (-1.0, 1.0), "trim": 0.5, "remove_spikes": True}
     yield Door(gs.clean_map, {"surface": MAP, **across, "spike_slope": 3.0, "form": 1})
-    lags = {"upper_share": 1.0, "max_lag": None, "lags_per_decade": 20, "band_blocks": 16}
+    lags = {"top_height_fraction": 1.0, "max_lag": None, "lags_per_decade": 20, "band_blocks": 16}
     yield Door(gs.height_difference, {"profile": LINE, **lags})
     yield Door(gs.fit_self_affine, {"hdc": CORRELATION, "tolerance": 0.02, "shortest_range": 0.5})
     yield Door(surface.SelfAffineFit, dict(zip(FITTED, (0.8, 1e-2, 1e-3, 1e-3, 1e-2, 0.0))))  # noqa: B905

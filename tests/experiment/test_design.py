@@ -13,12 +13,12 @@ import xarray as xr
 import gripscale as gs
 from gripscale.experiment import Bench, Design, Point, Progress, Store, Task, solve_design
 from gripscale.experiment.design import stack
-from gripscale.model import NominalLoad, answer
-from gripscale.surface import PreparedSurface
+from gripscale.model import Load, answer
+from gripscale.surface import Surface
 
-SURFACE = PreparedSurface(gs.SineStack(wavelength=[1e-2], amplitude=[1e-4]), "one wave")
+SURFACE = Surface(gs.SineStack(wavelength=[1e-2], amplitude=[1e-4]), "one wave")
 RUBBER = gs.rubber.styrene_butadiene()
-LOAD = NominalLoad(3e5, 0.3, 0.1)
+LOAD = Load(3e5, 0.3, 0.1)
 
 
 @dataclass(frozen=True)
@@ -30,10 +30,10 @@ class Amontons:
     conditions = None
     needs = frozenset({"waves"})
 
-    def relevant(self, surface: PreparedSurface) -> PreparedSurface:
+    def relevant(self, surface: Surface) -> Surface:
         return surface
 
-    def predict(self, rubber: Any, surface: Any, load: NominalLoad, **_: Any) -> xr.Dataset:
+    def predict(self, rubber: Any, surface: Any, load: Load, **_: Any) -> xr.Dataset:
         mu = self.factor * load.pressure
         totals = dict.fromkeys(("total_friction", "total_friction_from_dissipation"), mu)
         totals["total_contact_fraction"] = 0.1

@@ -62,19 +62,19 @@ def test_fixed_factor_leaves_room_for_what_varies(measured: Path) -> None:
     assert 1e-4 <= finer.wavelength[-1] < 3e-4
 
 
-def test_cut_off_and_upper_share_are_fitted_anew(measured: Path) -> None:
+def test_cut_off_and_top_height_fraction_are_fitted_anew(measured: Path) -> None:
     road = case_surface(read_case(measured))
     assert road.measured is not None
     assert road.correlation is not None
     cut = road.varied(cut_off=0.2e-3, waves=4).sines
     own = gs.fit_sines(road.correlation, scales=4, cut_off=0.2e-3)
     np.testing.assert_array_equal(cut.amplitude, own.amplitude)
-    half = road.varied(upper_share=0.5, cut_off=0.2e-3)
-    upper = gs.height_difference(road.measured.cleaned, upper_share=0.5)
+    half = road.varied(top_height_fraction=0.5, cut_off=0.2e-3)
+    upper = gs.height_difference(road.measured.cleaned, top_height_fraction=0.5)
     np.testing.assert_array_equal(half.correlation.value, upper.value)
     own = gs.fit_sines(upper, scales=5, cut_off=0.2e-3)
     np.testing.assert_array_equal(half.sines.amplitude, own.amplitude)
-    assert half.counted["upper_share"] == 0.5
+    assert half.counted["top_height_fraction"] == 0.5
     # back from a cut-off to a last wave, and other factors down to the same cut-off
     back = replace(
         road, waves=cut, fit={**road.fit, "smallest_wavelength": None, "cut_off": 0.2e-3}
@@ -91,8 +91,8 @@ def test_what_needs_a_measured_surface_says_so() -> None:
     by_hand = surface_of(STACK, read_case(EXAMPLE))
     with pytest.raises(InputError, match="cut_off varies waves that were fitted"):
         by_hand.varied(cut_off=1e-3)
-    with pytest.raises(InputError, match="upper_share varies a measured surface; got sine waves"):
-        by_hand.varied(upper_share=0.5)
+    with pytest.raises(InputError, match=r"top_height_fraction varies a measured .*; got sine"):
+        by_hand.varied(top_height_fraction=0.5)
     with pytest.raises(InputError, match=r"smallest_wavelength .* or cut_off .*, not both"):
         by_hand.varied(cut_off=1e-3, smallest_wavelength=1e-3)
 

@@ -21,8 +21,8 @@ from gripscale.experiment import Progress, Study, Task, task
 from gripscale.experiment import study as study_module
 from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
-from gripscale.model import NominalLoad
-from gripscale.surface import PreparedSurface
+from gripscale.model import Load
+from gripscale.surface import Surface
 from gripscale.theory import HalfPlane
 from gripscale.wave import FiniteStrainBlock, Mesh, Sine, Status, WaveProblem, WaveResult
 
@@ -173,22 +173,22 @@ def test_failed_chain_is_a_status(
 
 
 def test_key_changes_with_every_input_and_the_software(monkeypatch: pytest.MonkeyPatch) -> None:
-    surface = PreparedSurface(WAVES, "by hand")
+    surface = Surface(WAVES, "by hand")
     inputs: dict[str, Any] = {
         "rubber": gs.Rubber(5e6, [1e6], [1e-3]),
         "surface": surface,
-        "load": NominalLoad(3e5, 0.3, 0.1),
+        "load": Load(3e5, 0.3, 0.1),
     }
     changes: list[dict[str, Any]] = [
         {"rubber": gs.Rubber(5e6, [1e6], [math.nextafter(1e-3, 1)])},
         {"rubber": gs.Rubber(5e6, [1e6], [1e-3], valid_band=(1.0, 2.0))},
         {"rubber": gs.Rubber(5e6, [1e6], [1e-3], bulk_modulus=1e9)},
         {"rubber": gs.Rubber(5e6, [1e6], [1e-3], strain_energy=gs.rubber.Yeoh(-0.1, 0.02))},
-        {"surface": PreparedSurface(gs.SineStack(WAVES.wavelength[:2], WAVES.amplitude[:2]), "")},
-        {"load": NominalLoad(math.nextafter(3e5, 1e6), 0.3, 0.1)},
-        {"load": NominalLoad(3e5, 0.31, 0.1)},
-        {"load": NominalLoad(3e5, 0.3, 0.11)},
-        {"load": NominalLoad(3e5, 0.3, 0.1, math.inf)},
+        {"surface": Surface(gs.SineStack(WAVES.wavelength[:2], WAVES.amplitude[:2]), "")},
+        {"load": Load(math.nextafter(3e5, 1e6), 0.3, 0.1)},
+        {"load": Load(3e5, 0.31, 0.1)},
+        {"load": Load(3e5, 0.3, 0.11)},
+        {"load": Load(3e5, 0.3, 0.1, math.inf)},
         {"model": Chain(HalfPlane())},
         {"model": Chain(FiniteStrainBlock(Mesh(columns=64)))},
         {"model": Chain(FiniteStrainBlock(tolerance=0.01))},
@@ -198,7 +198,7 @@ def test_key_changes_with_every_input_and_the_software(monkeypatch: pytest.Monke
     keys = [Task(**{**inputs, **change}).key for change in [{}, *changes]]
     assert len(set(keys)) == len(keys)
     assert Task(**inputs).key == keys[0]
-    elsewhere = {**inputs, "surface": PreparedSurface(WAVES, "the same waves from elsewhere")}
+    elsewhere = {**inputs, "surface": Surface(WAVES, "the same waves from elsewhere")}
     assert Task(**elsewhere).key == keys[0]
     monkeypatch.setattr(task, "software", lambda: "gripscale 99")
     assert Task(**inputs).key != keys[0]
@@ -206,7 +206,7 @@ def test_key_changes_with_every_input_and_the_software(monkeypatch: pytest.Monke
 
 def test_model_that_cannot_be_written_down_is_refused() -> None:
     odd = Chain(rubber_at=lambda wave, so_far: so_far.rubber)
-    made = Task(gs.Rubber(5e6), PreparedSurface(WAVES, ""), NominalLoad(3e5, 0.3, 0.1), odd)
+    made = Task(gs.Rubber(5e6), Surface(WAVES, ""), Load(3e5, 0.3, 0.1), odd)
     with pytest.raises(InputError, match="models and conditions must be dataclasses"):
         _ = made.key
 

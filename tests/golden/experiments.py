@@ -199,7 +199,7 @@ COMMANDS: dict[str, tuple[str, ...]] = {
     "refused_effects": ("study", "warm.toml", "--vary", "effects=all,zebra"),
     "refused_rung": ("compare", "plain.toml", "--rungs", "zebra"),
     "refused_source": ("uncertainty", "plain.toml", "--without", "zebra"),
-    "refused_given": ("uncertainty", "plain.toml", "--given", "zebra=1:2"),
+    "refused_given": ("uncertainty", "plain.toml", "--range", "zebra=1:2"),
     "refused_uncertain_model": ("uncertainty", "plain.toml", "--model", "zebra"),
     "refused_uncertain_axis": ("uncertainty", "plain.toml", "--vary", "colour=red,blue"),
     "refused_law": ("calibrate", "measured/case.toml", "--law", "zebra"),

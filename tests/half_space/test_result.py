@@ -10,13 +10,13 @@ from gripscale.core.errors import InputError
 from gripscale.half_space import DirectContact
 from gripscale.half_space.result import patch_points
 from gripscale.io import netcdf
-from gripscale.model import TOTALS, Model, NominalLoad
+from gripscale.model import TOTALS, Load, Model
 from gripscale.surface import (
     HeightMap,
     Measured,
-    PreparedSurface,
     Profile,
     SineStack,
+    Surface,
     self_affine_profile,
 )
 
@@ -24,12 +24,12 @@ from .rough_cases import ZENER, isotropic_map, solve
 
 FOUND = solve(isotropic_map(64, shortest=1.6e-3), tolerance=0.05)
 PROFILES = [self_affine_profile(0.8, 5e-3, 5e-4, length, 1e-4, seed=4) for length in (0.1, 0.2)]
-SURFACE = PreparedSurface(
+SURFACE = Surface(
     SineStack([1e-2, 1e-3], [1e-3, 1e-4]),
     "made",
     measured=Measured([(profile, profile) for profile in PROFILES], [], None, ""),
 )
-LOAD = NominalLoad(pressure=1e5, speed=0.3, footprint=0.1)
+LOAD = Load(pressure=1e5, speed=0.3, footprint=0.1)
 
 
 def test_patches_join_across_the_period():
@@ -138,13 +138,13 @@ def test_the_model_ends_where_the_waves_end_and_refuses_waves_alone():
     data = DirectContact(tolerance=None).predict(ZENER, SURFACE, LOAD)
     np.testing.assert_allclose(data["smallest_wavelength"], 1e-3)
     with pytest.raises(InputError, match="needs a measured profile; got sine waves"):
-        DirectContact().predict(ZENER, PreparedSurface(SURFACE.sines, "by hand"), LOAD)
+        DirectContact().predict(ZENER, Surface(SURFACE.sines, "by hand"), LOAD)
 
 
 def test_a_profile_that_fails_makes_the_totals_nan():
     failing = DirectContact(smallest_wavelength=1e-3, tolerance=1e-9, most_points=2**12)
-    load = NominalLoad(pressure=1e3, speed=0.0, footprint=0.1)
-    short = PreparedSurface(
+    load = Load(pressure=1e3, speed=0.0, footprint=0.1)
+    short = Surface(
         SURFACE.sines, "made", measured=Measured([(PROFILES[0], PROFILES[0])], [], None, "")
     )
     data = failing.predict(ZENER, short, load)

@@ -17,7 +17,7 @@ import xarray as xr
 from gripscale.charts.wave_and_chain import contact_charts
 from gripscale.core.errors import FileError, InputError
 from gripscale.io import netcdf
-from gripscale.model import OUTSIDE_BAND, TOTALS, NominalLoad, answer
+from gripscale.model import OUTSIDE_BAND, TOTALS, Load, answer
 from gripscale.report import write_report
 from gripscale.report.inputs import rubber_facts
 from gripscale.report.notices import cards, notices
@@ -281,7 +281,7 @@ def test_single_file_without_record_and_meshes(run_folder: Path, tmp_path: Path)
 
 def test_model_without_waves_has_its_totals(tmp_path: Path) -> None:
     totals = dict(zip(TOTALS, (0.0123, 0.456, 0.451), strict=True))
-    load = NominalLoad(3e5, 0.3, 0.1)
+    load = Load(3e5, 0.3, 0.1)
     data = answer(xr.Dataset(), totals, "converged", "toy", load)
     page = Page(write_report(netcdf.save(data, tmp_path / "toy.nc")))
     for text in ("0.0123", "0.456", "0.451 from energy lost", "The model does not go wave by wave"):

@@ -13,7 +13,7 @@ import xarray as xr
 from gripscale.chain import Prediction
 from gripscale.charts.view import PredictionView
 from gripscale.io.table import as_text, significant
-from gripscale.model import TOTALS, NominalLoad, answer
+from gripscale.model import TOTALS, Load, answer
 from gripscale.report.waves import prediction_table, totals
 from gripscale.rubber import Rubber
 from gripscale.wave import WaveResult
@@ -56,7 +56,7 @@ def wave(i: int, speed: float, status: str = "converged") -> WaveResult:
 
 def solved(speed: float = 0.25, statuses: tuple[str, ...] = ("converged",) * 3) -> xr.Dataset:
     waves = [wave(i, speed, status) for i, status in enumerate(statuses)]
-    return Prediction(RUBBER, SINES, NominalLoad(3e5, speed, 0.1), waves, 3).to_dataset()
+    return Prediction(RUBBER, SINES, Load(3e5, speed, 0.1), waves, 3).to_dataset()
 
 
 def row(text: str, wave: int) -> list[str]:
@@ -125,7 +125,7 @@ def test_long_status_is_wrapped_not_cut_off(width: int) -> None:
 
 def test_model_without_waves_shows_its_totals() -> None:
     numbers = dict(zip(TOTALS, (0.0123, 0.456, 0.451), strict=True))
-    load = NominalLoad(3e5, 0.3, 0.1)
+    load = Load(3e5, 0.3, 0.1)
     data = answer(xr.Dataset(), numbers, "converged", "toy", load)
     sentence = "real contact area A_r/A_0 = 0.0123, friction mu = 0.456 (0.451 from dissipation)."
     assert as_text(prediction_table(data, "Toy")) == f"Toy\n{sentence}\n"

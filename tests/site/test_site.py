@@ -110,4 +110,4 @@ def test_every_public_name_has_its_entry(site):
     names += [f"gripscale.theory.{name}" for name in gripscale.theory.__all__]
     assert not [name for name in names if name not in ids]
     entries = {identifier.rpartition(".")[2] for identifier in ids}
-    assert {*gripscale.wave.__all__, *chain.__all__, "Model", "NominalLoad"} <= entries
+    assert {*gripscale.wave.__all__, *chain.__all__, "Model", "Load"} <= entries

@@ -8,9 +8,9 @@ import pytest
 from gripscale.core.errors import InputError
 from gripscale.surface import (
     Measured,
-    PreparedSurface,
     Profile,
     SineStack,
+    Surface,
     clean,
     fit_sines,
     height_difference,
@@ -133,7 +133,7 @@ def prepared(options, profile=ROUGH):
     cleaned, report = clean(profile)
     curve = height_difference(cleaned)
     measured = Measured([(profile, cleaned)], [report], None, "")
-    return PreparedSurface(fit_sines(curve, **options), "", curve, options, measured)
+    return Surface(fit_sines(curve, **options), "", curve, options, measured)
 
 
 def test_it_is_said_where_the_waves_end():
@@ -149,7 +149,7 @@ def test_it_is_said_where_the_waves_end():
         "extrapolates the waves above it",
     )
     assert prepared({"scales": 5, "smallest_wavelength": 0.4e-3}).notes == ()
-    assert PreparedSurface(SineStack([1e-3], [1e-4]), "by hand").notes == ()
+    assert Surface(SineStack([1e-3], [1e-4]), "by hand").notes == ()
 
 
 def test_more_waves_than_the_curve_holds_are_said():

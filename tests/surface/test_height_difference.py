@@ -176,20 +176,20 @@ def test_a_curve_without_band_has_none():
         HeightDifference([1.0, 2.0], [1.0, 2.0], upper=[1.0])
 
 
-def test_the_upper_share_alone_counts():
+def test_the_top_height_fraction_alone_counts():
     # Tops at 0 and valleys at -5: between tops nothing differs, whatever the valleys do.
     z = np.where(np.arange(4000) % 8 < 5, 0.0, -5e-3) + 1e-4 * np.sin(0.01 * np.arange(4000))
     profile = profile_of(z)
-    above = height_difference(profile, upper_share=0.5)
+    above = height_difference(profile, top_height_fraction=0.5)
     by_hand = profile_of(np.where(z >= np.median(z), z, np.nan))
     # the same pairs, off their mean by another constant: round-off of the difference is left
     np.testing.assert_allclose(above.value, height_difference(by_hand).value, rtol=1e-12)
     assert above.value.max() < 1e-7 < np.median(height_difference(profile).value)
-    whole = height_difference(profile, upper_share=1.0)
+    whole = height_difference(profile, top_height_fraction=1.0)
     np.testing.assert_array_equal(whole.value, height_difference(profile).value)
 
 
 @pytest.mark.parametrize("share", [0.0, -0.5, 1.1, np.nan])
-def test_bad_upper_share_is_refused(share):
-    with pytest.raises(InputError, match="upper_share must be"):
-        height_difference(profile_of(np.arange(64.0)), upper_share=share)
+def test_bad_top_height_fraction_is_refused(share):
+    with pytest.raises(InputError, match="top_height_fraction must be"):
+        height_difference(profile_of(np.arange(64.0)), top_height_fraction=share)

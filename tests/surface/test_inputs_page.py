@@ -7,7 +7,7 @@ import tomllib
 
 import pytest
 
-from gripscale.case import Surface
+from gripscale.case import SurfaceTable
 from tests.samples import ROOT
 
 PAGE = (ROOT / "docs" / "inputs.md").read_text(encoding="utf-8")
@@ -28,5 +28,5 @@ def test_the_example_prints_what_stands_below_it(monkeypatch, capsys):
 def test_the_case_shown_is_one():
     tables = re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL)
     [table] = [text for text in tables if "[surface]" in text]
-    surface = Surface(**tomllib.loads(table)["surface"])
+    surface = SurfaceTable(**tomllib.loads(table)["surface"])
     assert surface.crop_across == pytest.approx([5e-3, 45e-3])

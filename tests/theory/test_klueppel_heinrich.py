@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 from gripscale.core.errors import InputError
-from gripscale.model import Model, NominalLoad
+from gripscale.model import Load, Model
 from gripscale.rubber import Rubber, styrene_butadiene
 from gripscale.surface import (
     HeightDifference,
-    PreparedSurface,
     SelfAffineFit,
     SineStack,
+    Surface,
     fit_self_affine,
     height_difference,
     self_affine_profile,
@@ -54,9 +54,9 @@ def prefactor(hurst: float) -> float:
     return 0.5 * depth / (STATED["pressure"] * STATED["speed"]) * level * first**2
 
 
-def road() -> PreparedSurface:
+def road() -> Surface:
     line = self_affine_profile(0.8, 5e-3, 1e-3, 0.8, 5e-5, seed=4)
-    return PreparedSurface(
+    return Surface(
         SineStack([10e-3, 1e-3], [1e-3, 1e-4]), "", measured=Measured([(line, line)], [], None, "")
     )
 
@@ -134,7 +134,7 @@ def test_profiles_count_by_their_upper_part():
     [(line, _)] = road().measured.profiles
     upper = replace(line, z=np.where(line.z >= np.median(line.z), line.z, np.nan))
     assert upper.missing == len(line) // 2
-    correlation = height_difference(line, upper_share=0.5)
+    correlation = height_difference(line, top_height_fraction=0.5)
     assert fit_self_affine(height_difference(upper)).hurst == pytest.approx(
         fit_self_affine(correlation).hurst, rel=1e-9
     )
@@ -158,7 +158,7 @@ def test_not_converging_is_a_status_and_no_number(monkeypatch):
 
 
 def test_as_a_model_of_a_measured_surface():
-    prepared, load = road(), NominalLoad(2e5, 0.2, 0.1)
+    prepared, load = road(), Load(2e5, 0.2, 0.1)
     model = KlueppelHeinrich(layer_ratio=2.0, penetration_depth=5e-4)
     assert isinstance(model, Model)
     seen = []
@@ -175,9 +175,9 @@ def test_as_a_model_of_a_measured_surface():
 
 
 def test_waves_by_hand_are_refused():
-    by_hand = PreparedSurface(SineStack([1e-3], [1e-4]), "sine waves stated in the case")
+    by_hand = Surface(SineStack([1e-3], [1e-4]), "sine waves stated in the case")
     with pytest.raises(InputError, match="klueppel_heinrich needs measured profiles"):
-        KlueppelHeinrich(1.0, 1e-3).predict(ZENER, by_hand, NominalLoad(1e5, 0.1, 0.1))
+        KlueppelHeinrich(1.0, 1e-3).predict(ZENER, by_hand, Load(1e5, 0.1, 0.1))
 
 
 @pytest.mark.parametrize(

@@ -12,13 +12,13 @@ from scipy import special
 
 import gripscale as gs
 from gripscale.core.errors import InputError
-from gripscale.model import Model, NominalLoad
+from gripscale.model import Load, Model
 from gripscale.rubber import Rubber, styrene_butadiene
 from gripscale.surface import (
     ArealSpectrum,
-    PreparedSurface,
     ProfileSpectrum,
     SineStack,
+    Surface,
     areal_spectrum,
     profile_spectrum,
     self_affine_profile,
@@ -40,10 +40,10 @@ QUADRATURE = 1e-4 / 3
 """The last doubling changed less than 1e-4; a rule of second order is then off by a third of it."""
 
 
-def road(points: int = 8192) -> PreparedSurface:
+def road(points: int = 8192) -> Surface:
     step = 5e-5
     line = self_affine_profile(0.8, 5e-3, 1e-3, (points - 1) * step, step, seed=4)
-    return PreparedSurface(
+    return Surface(
         SineStack([10e-3, 1e-3], [1e-3, 1e-4]), "", measured=Measured([(line, line)], [], None, "")
     )
 
@@ -202,7 +202,7 @@ def test_the_quadrature_converges_at_second_order():
     """A rubber of many decades on a spectrum with a bend: doubling cuts the error by four."""
     q = np.geomspace(Q0, Q1, 16)
     bent = ArealSpectrum(q, 1e-13 / (1 + (q / 1e3) ** 2) ** 1.8)
-    load = NominalLoad(1e5, 0.3, 0.1)
+    load = Load(1e5, 0.3, 0.1)
     integrals = module._Integrals(styrene_butadiene(), bent, load, 0.5, q)
     fine = integrals.at_nodes(256)
     for which in (0, 1):
@@ -220,7 +220,7 @@ def test_the_quadrature_converges_at_second_order():
 @pytest.mark.parametrize("frequency", [1e-3, 1.0, 1e6])
 def test_integrals_over_the_angle(frequency):
     """Closed forms of a Zener solid; 16 Gauss points a quarter turn hold nine decades."""
-    load = NominalLoad(1.0, 1.0, 1.0)
+    load = Load(1.0, 1.0, 1.0)
     integrals = module._Integrals(ZENER, HALF, load, 0.5, HALF.wavenumber)
     stiff, lossy = integrals.over_angles(np.array([frequency / TIME]), 16)
     root = np.sqrt(1 + frequency**2)
@@ -254,7 +254,7 @@ def test_a_line_stands_for_an_isotropic_surface():
 
 
 def test_as_a_model_of_a_measured_surface():
-    surface, load = road(), NominalLoad(2e5, 0.2, 0.1)
+    surface, load = road(), Load(2e5, 0.2, 0.1)
     model = Persson(gamma=0.6, window=0.05)
     assert isinstance(model, Model)
     seen = []
@@ -284,11 +284,11 @@ def test_as_a_model_of_a_measured_surface():
 
 
 def test_waves_by_hand_are_refused():
-    surface = PreparedSurface(SineStack([1e-3], [1e-4]), "sine waves stated in the case")
+    surface = Surface(SineStack([1e-3], [1e-4]), "sine waves stated in the case")
     with pytest.raises(
         InputError, match=r"persson needs measured profiles; got .* sine waves only"
     ):
-        Persson().predict(ZENER, surface, NominalLoad(1e5, 0.1, 0.1))
+        Persson().predict(ZENER, surface, Load(1e5, 0.1, 0.1))
 
 
 @pytest.mark.parametrize(

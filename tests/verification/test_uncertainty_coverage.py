@@ -18,14 +18,14 @@ from gripscale.analysis.propagation import quantiles
 from gripscale.analysis.sampled_inputs import Inputs, Measurement
 from gripscale.analysis.sampling import draws
 from gripscale.chain.chain import Chain
-from gripscale.model import NominalLoad
+from gripscale.model import Load
 from gripscale.rubber import MasterCurve, Rubber, fit_prony_report
 from gripscale.surface import (
     HeightDifference,
     Measured,
-    PreparedSurface,
     Profile,
     SineStack,
+    Surface,
     fit_sines,
     height_difference,
     self_affine_profile,
@@ -38,14 +38,14 @@ HURST, CUT_OFF, HEIGHT = 0.8, 3e-3, 0.8e-3
 LENGTH, STEP = 2.3, 1e-4
 FIT = {"scales": 5, "first_wavelength": 20e-3, "smallest_wavelength": 0.6e-3}
 NOISE = 0.04
-LOAD = NominalLoad(pressure=3e5, speed=0.3, footprint=0.1)
+LOAD = Load(pressure=3e5, speed=0.3, footprint=0.1)
 CHAIN = Chain(HalfPlane(points=128))
 FREQUENCY = np.geomspace(1e-1, 1e6, 50)
 
 
 def predicted(rubber: Rubber, sines: SineStack) -> tuple[float, float]:
     """Return friction and contact fraction."""
-    answer = CHAIN.predict(rubber, PreparedSurface(sines, ""), LOAD)
+    answer = CHAIN.predict(rubber, Surface(sines, ""), LOAD)
     return float(answer.total_friction), float(answer.total_contact_fraction)
 
 
@@ -64,7 +64,7 @@ def measured(seed: int) -> Measurement:
     """Return a stretch of the road and a noisy master curve of the rubber."""
     line = road(seed)
     correlation = height_difference(line)
-    surface = PreparedSurface(
+    surface = Surface(
         fit_sines(correlation, **FIT), "synthetic", correlation, FIT, Measured.of([line])
     )
     modulus = TRUE_RUBBER.complex_modulus(2.0 * np.pi * FREQUENCY)

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.model import Model, NominalLoad
-from gripscale.surface import Measured, PreparedSurface, Profile, SineStack
+from gripscale.model import Load, Model
+from gripscale.surface import Measured, Profile, SineStack, Surface
 from gripscale.wave import BlockOnProfile, Status, profile
 from tests.samples import ZENER as RUBBER
 
-LOAD = NominalLoad(5e4, 0.1, 0.1)
+LOAD = Load(5e4, 0.1, 0.1)
 X = np.arange(64) * (20e-3 / 64)
 
 
@@ -23,9 +23,9 @@ def line(phase: float, length: float = 20e-3) -> Profile:
     return Profile(X * (length / 20e-3), z * (length / 20e-3))
 
 
-def surface_of(*lines: Profile) -> PreparedSurface:
+def surface_of(*lines: Profile) -> Surface:
     sines = SineStack([10e-3, 4e-3], [2e-4, 5e-5])
-    return PreparedSurface(sines, "", measured=Measured.of(lines))
+    return Surface(sines, "", measured=Measured.of(lines))
 
 
 def test_it_is_a_model():
@@ -57,7 +57,7 @@ def test_what_does_not_converge_is_named_and_has_no_totals(monkeypatch):
 
 
 def test_waves_by_hand_have_no_profile():
-    bare = PreparedSurface(SineStack([10e-3], [2e-4]), "")
+    bare = Surface(SineStack([10e-3], [2e-4]), "")
     with pytest.raises(gs.InputError, match="needs a profile"):
         BlockOnProfile().predict(RUBBER, bare, LOAD)
 

@@ -140,7 +140,7 @@ class Calibration:
     def threshold(self) -> float:
         """By how much the sum of squares rises at the ends of an interval, as in `profiles`."""
         scale = 1.0 if self.spread_known else self.scatter**2
-        return threshold_of(self.optimum, known=self.spread_known) / scale
+        return threshold_of(self.optimum, spread_known=self.spread_known) / scale
 
     @property
     def estimates(self) -> list[Estimate]:
@@ -181,16 +181,17 @@ class Calibration:
         share = np.sqrt((felt**2).sum(axis=1))
         spread = self.problem.points.spread
         error = np.full(self.measured.speed.size, np.nan)
-        error[self.predicted.known] = share * (self.scatter if spread is None else spread)
+        error[self.predicted.has_answer] = share * (self.scatter if spread is None else spread)
         return error
 
     @property
     def band(self) -> Array:
         """Half of the interval of the friction at the measured points [-], at `LEVEL`."""
         tail = 0.5 * (1.0 + LEVEL)
-        known = self.spread_known
         return self.friction_error * float(
-            scipy.stats.norm.ppf(tail) if known else scipy.stats.t.ppf(tail, self.freedom)
+            scipy.stats.norm.ppf(tail)
+            if self.spread_known
+            else scipy.stats.t.ppf(tail, self.freedom)
         )
 
     @cached_property
@@ -268,10 +269,10 @@ def calibrate(
     problem = Problem(points, family_of(law, points, held))
     groups = None
     if hold_out is not None:
-        groups = groups_of(hold_out, measured.speed, measured.temperature)[predicted.known]
+        groups = groups_of(hold_out, measured.speed, measured.temperature)[predicted.has_answer]
 
     def intervals(optimum: Optimum) -> list[tuple[float, float]]:
-        threshold = threshold_of(optimum, known=points.spread is not None)
+        threshold = threshold_of(optimum, spread_known=points.spread is not None)
         profiles = [Profile(problem, optimum, at) for at in range(len(problem.family.free))]
         return [(profile.end(-1, threshold), profile.end(1, threshold)) for profile in profiles]
 

@@ -81,19 +81,19 @@ def points_of(measured: MeasuredFriction, predicted: Predicted) -> Points:
             f"the {measured.speed.size} points measured need as many predictions; "
             f"got {predicted.friction.size}"
         )
-    known = predicted.known
-    if not known.any():
+    answered = predicted.has_answer
+    if not answered.any():
         raise InputError(
             f"no measured point has a prediction; the first ended with {predicted.status[0]}"
         )
-    difference = (measured.friction - predicted.friction)[known]
+    difference = (measured.friction - predicted.friction)[answered]
     _check_sign(difference)
     return Points(
-        measured.speed[known],
-        _all_or_none("temperature", predicted.temperature[known]),
+        measured.speed[answered],
+        _all_or_none("temperature", predicted.temperature[answered]),
         difference,
-        predicted.leverage[known],
-        _spread(measured.spread[known]),
+        predicted.leverage[answered],
+        _spread(measured.spread[answered]),
     )
 
 

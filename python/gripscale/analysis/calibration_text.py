@@ -87,9 +87,9 @@ def notes(calibration: Calibration) -> Iterator[str]:
         elif missing:
             yield f"The {missing[0]} end of {estimate.name} is not determined by the data."
     predicted = calibration.predicted
-    without = int((~predicted.known).sum())
+    without = int((~predicted.has_answer).sum())
     if without:
-        why = next(s for s, k in zip(predicted.status, predicted.known, strict=True) if not k)
+        why = next(s for s, k in zip(predicted.status, predicted.has_answer, strict=True) if not k)
         yield f"Measured points without a prediction, which do not count: {without}, as {why}."
     below = int((calibration.problem.points.difference < 0.0).sum())
     if below:

@@ -53,7 +53,7 @@ VARIED = (
     "smallest_wavelength",
     "waves",
     "cut_off",
-    "upper_share",
+    "top_height_fraction",
 )
 """Inputs a comparison can be made over: numbers of the load and of the surface."""
 

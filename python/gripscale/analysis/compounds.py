@@ -65,40 +65,40 @@ def at_one_temperature(
     InputError
         If a rubber would have to be shifted and has no shift.
     """
-    stated = {
+    temperatures = {
         name: rubber.reference_temperature
         for name, rubber in rubbers.items()
         if rubber.reference_temperature is not None
     }
-    wanted = _common(rubbers, stated) if temperature is None else temperature
+    wanted = _common(rubbers, temperatures) if temperature is None else temperature
     if wanted is None:
         return dict(rubbers), temperature_doubts(rubbers)
     together, shifted = {}, []
     for name, rubber in rubbers.items():
-        own = stated.get(name)
-        if own is None or abs(own - wanted) <= _SAME:
+        before = temperatures.get(name)
+        if before is None or abs(before - wanted) <= _SAME:
             together[name] = rubber
             continue
         if rubber.shift is None:
             raise InputError(
-                f"{name} holds for {_celsius(own)} and cannot be brought to {_celsius(wanted)}: "
+                f"{name} holds for {_celsius(before)} and cannot be brought to {_celsius(wanted)}: "
                 "give it a shift, or leave it out"
             )
         together[name] = rubber.at(wanted)
-        shifted.append(f"{name} shifted from {_celsius(own)} to {_celsius(wanted)}")
+        shifted.append(f"{name} shifted from {_celsius(before)} to {_celsius(wanted)}")
     return together, (*shifted, *temperature_doubts(together))
 
 
-def _common(rubbers: Mapping[str, Rubber], stated: Mapping[str, float]) -> float | None:
+def _common(rubbers: Mapping[str, Rubber], temperatures: Mapping[str, float]) -> float | None:
     """Return the temperature all can be brought to [K], or None where none is stated."""
-    fixed = {name: kelvin for name, kelvin in stated.items() if rubbers[name].shift is None}
+    fixed = {name: kelvin for name, kelvin in temperatures.items() if rubbers[name].shift is None}
     if fixed and max(fixed.values()) - min(fixed.values()) > _SAME:
         each = ", ".join(f"{name} for {_celsius(kelvin)}" for name, kelvin in fixed.items())
         raise InputError(
             "compounds must hold for one temperature, or have a shift to it; got "
             f"{each} without one"
         )
-    return next(iter((fixed or stated).values()), None)
+    return next(iter((fixed or temperatures).values()), None)
 
 
 def _celsius(kelvin: float) -> str:
@@ -114,11 +114,11 @@ FEWEST, MOST = 2, 6
 TOTALS = ("total_friction", "total_contact_fraction")
 
 
-def require_some(name: str, given: Mapping[str, Any], what: str) -> None:
+def require_some(name: str, mapping: Mapping[str, Any], what: str) -> None:
     """Raise `InputError` unless there are two to six things to be compared."""
-    if not FEWEST <= len(given) <= MOST:
+    if not FEWEST <= len(mapping) <= MOST:
         raise InputError(
-            f"{name} must be {FEWEST} to {MOST} {what} to be compared; got {len(given)}"
+            f"{name} must be {FEWEST} to {MOST} {what} to be compared; got {len(mapping)}"
         )
 
 

@@ -31,9 +31,9 @@ from gripscale.experiment.inputs import (
 from gripscale.experiment.solve import Bench, OnTask, bench_in
 from gripscale.experiment.task import Store, Task
 from gripscale.io import netcdf
-from gripscale.model import ADHESIVE_FRICTION, OUTSIDE_BAND, TOTALS, Model, NominalLoad
+from gripscale.model import ADHESIVE_FRICTION, OUTSIDE_BAND, TOTALS, Load, Model
 from gripscale.rubber import Rubber
-from gripscale.surface import PreparedSurface
+from gripscale.surface import Surface
 
 WITH_AREA_TERM = "friction_with_area_term"
 CHANGES = {
@@ -45,9 +45,7 @@ CHANGES = {
 KEPT = (*TOTALS, ADHESIVE_FRICTION, *OUTSIDE_BAND)
 
 
-def effect_tasks(
-    model: Model, rubber: Rubber, surface: PreparedSurface, load: NominalLoad
-) -> dict[str, Task]:
+def effect_tasks(model: Model, rubber: Rubber, surface: Surface, load: Load) -> dict[str, Task]:
     """Return what has to be solved, by the effects that count: "all", "no heat", ..., "none".
 
     Raises
@@ -73,8 +71,8 @@ def effect_tasks(
 def effects(
     model: Model,
     rubber: Rubber,
-    surface: PreparedSurface,
-    load: NominalLoad,
+    surface: Surface,
+    load: Load,
     *,
     folder: str | Path | None = None,
     workers: int | None = None,
@@ -137,9 +135,7 @@ def _attrs(long_name: str) -> dict[str, str]:
     return {"units": "1", "long_name": long_name}
 
 
-def _provenance(
-    model: Model, rubber: Rubber, surface: PreparedSurface, load: NominalLoad
-) -> dict[str, Any]:
+def _provenance(model: Model, rubber: Rubber, surface: Surface, load: Load) -> dict[str, Any]:
     return {
         "title": "What each effect of the conditions is worth",
         "model": model.name,

@@ -20,14 +20,14 @@ from gripscale.core import checks
 from gripscale.core.errors import InputError
 from gripscale.half_space.model import DirectContact
 from gripscale.half_space.windows import random_phases, surface_of_sines
-from gripscale.model import Model, NominalLoad
+from gripscale.model import Load, Model
 from gripscale.rubber import Rubber
 from gripscale.surface import (
     HeightMap,
     Measured,
-    PreparedSurface,
     Profile,
     SineStack,
+    Surface,
     fit_sines,
     height_difference,
 )
@@ -66,8 +66,8 @@ class ComparisonSetup:
     """
 
     rubber: Rubber
-    surface: PreparedSurface
-    load: NominalLoad
+    surface: Surface
+    load: Load
     solver: WaveSolver
     seeds: int = 3
     tolerance: float = 0.05
@@ -94,7 +94,7 @@ class SampleSpec(NamedTuple):
     """One sample of a rung: a model to ask, and on which surface."""
 
     model: Model
-    surface: PreparedSurface
+    surface: Surface
     subject: str = ""
     """What it is a sample of, such as a profile; samples of the same are compared in pairs."""
 
@@ -127,12 +127,10 @@ class Rung:
     draws: Callable[[ComparisonSetup], Sequence[SampleSpec]] = field(repr=False)
 
 
-def with_single_measurement(
-    surface: PreparedSurface, measured: Profile | HeightMap
-) -> PreparedSurface:
+def with_single_measurement(surface: Surface, measured: Profile | HeightMap) -> Surface:
     """Return the waves of `surface` with nothing else measured."""
     whole = measured if isinstance(measured, HeightMap) else [measured]
-    return PreparedSurface(surface.sines, measured.name, measured=Measured.of(whole))
+    return Surface(surface.sines, measured.name, measured=Measured.of(whole))
 
 
 # Samples of the rungs that correct the direct contact of a line: finite strain, and a whole map.
@@ -248,7 +246,7 @@ def chosen(names: Iterable[str]) -> list[Rung]:
     return [rung for rung in LADDER if not wanted or wanted & {rung.name, rung.group}]
 
 
-def each_measured(surface: PreparedSurface) -> list[tuple[str, PreparedSurface]]:
+def each_measured(surface: Surface) -> list[tuple[str, Surface]]:
     """Return `surface` with one profile after the other, or its map, and what it is called."""
     measured: Sequence[Profile | HeightMap] = surface.measured.surfaces if surface.measured else []
     return [
@@ -279,7 +277,7 @@ def _chain_half_plane(setup: ComparisonSetup) -> Sequence[SampleSpec]:
 
 def _chain_upper(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     surface = setup.surface
-    upper_already = surface.counted.get("upper_share", 1.0) < 1.0
+    upper_already = surface.counted.get("top_height_fraction", 1.0) < 1.0
     cut_off_already = surface.sines.cut_off is not None
     if upper_already and cut_off_already and setup.pressure_classes > 1:
         return []
@@ -290,7 +288,7 @@ def _chain_upper(setup: ComparisonSetup) -> Sequence[SampleSpec]:
         return []
     solver = HalfPlane(points=POINTS_OF_A_CLASS)
     chain = Chain(solver, pressure_classes=CLASSES, conditions=setup.conditions)
-    return [SampleSpec(chain, PreparedSurface(sines, "waves of the upper half"))]
+    return [SampleSpec(chain, Surface(sines, "waves of the upper half"))]
 
 
 @lru_cache(maxsize=4)
@@ -299,7 +297,7 @@ def _of_upper_half(
 ) -> SineStack | None:
     """Return waves of the upper half of the heights; None where they cannot be fitted."""
     try:
-        upper = height_difference(lines, upper_share=0.5, max_lag=max_lag)
+        upper = height_difference(lines, top_height_fraction=0.5, max_lag=max_lag)
         return fit_sines(upper, scales=WAVES_OF_UPPER_HALF, cut_off=cut_off)
     except InputError:  # too few lags, or roughness that ends too near the first wave
         return None
@@ -333,7 +331,7 @@ def _persson(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     ]
 
 
-def _last_known(surface: PreparedSurface) -> float:
+def _last_known(surface: Surface) -> float:
     """Return where the sine waves end [m], or the spectrum of the profile before them."""
     spectra = [_spectrum(line) for line in surface.measured.cleaned] if surface.measured else []
     ends = [float(2.0 * np.pi / spectrum.wavenumber[-1]) for spectrum in spectra]

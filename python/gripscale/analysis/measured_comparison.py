@@ -24,14 +24,14 @@ from gripscale.core.units import ZERO_CELSIUS
 from gripscale.experiment.design import CONVERGED, Design, Point, solve_design
 from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.task import Store, Task
-from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, Model, NominalLoad
+from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, Load, Model
 from gripscale.rubber import Rubber
 from gripscale.wave.result import labelled
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from gripscale.surface import PreparedSurface
+    from gripscale.surface import Surface
 
 
 Array = NDArray[np.float64]
@@ -101,7 +101,7 @@ class Predicted:
             object.__setattr__(self, name, values)
 
     @property
-    def known(self) -> NDArray[np.bool_]:
+    def has_answer(self) -> NDArray[np.bool_]:
         """Where the model has an answer."""
         return np.isfinite(self.friction) & (self.contact_fraction > 0.0)
 
@@ -116,10 +116,10 @@ class Predicted:
         NaN where the model has no answer.
         Raises `InputError` if it depends on a temperature that is not known.
         """
-        out, known = np.full(self.friction.size, np.nan), self.known
-        kelvin = self.temperature[known]
+        out, answers = np.full(self.friction.size, np.nan), self.has_answer
+        kelvin = self.temperature[answers]
         at = None if np.isnan(kelvin).all() else kelvin
-        out[known] = self.leverage[known] * law.stress(speed[known], at)
+        out[answers] = self.leverage[answers] * law.stress(speed[answers], at)
         return out
 
 
@@ -155,8 +155,8 @@ def predictions_at(
     measured: MeasuredFriction,
     model: Model,
     rubber: Rubber,
-    surface: PreparedSurface,
-    load: NominalLoad,
+    surface: Surface,
+    load: Load,
     store: Store,
     *,
     workers: int | None = None,
@@ -193,8 +193,8 @@ def predict_points(
     measured: MeasuredFriction,
     model: Model,
     rubber: Rubber,
-    surface: PreparedSurface,
-    load: NominalLoad,
+    surface: Surface,
+    load: Load,
     bench: Bench,
 ) -> Predicted:
     """Return what `model` predicts at each measured point, see `predictions_at`."""
@@ -205,8 +205,8 @@ def points_of(
     measured: MeasuredFriction,
     model: Model,
     rubber: Rubber,
-    surface: PreparedSurface,
-    load: NominalLoad,
+    surface: Surface,
+    load: Load,
     label: str = "",
 ) -> Design:
     """Return the design over `measurement` that `predictions_at` solves; labels begin with one."""
@@ -252,8 +252,8 @@ def predicted_of(data: xr.Dataset) -> Predicted:
 def _task(
     model: Model,
     rubber: Rubber,
-    surface: PreparedSurface,
-    load: NominalLoad,
+    surface: Surface,
+    load: Load,
     kelvin: float | None,
     other: bool,
 ) -> Task:
@@ -370,9 +370,9 @@ def in_spread(difference: Array, spread: Array) -> Array:
 
 def rms(values: Array) -> Array:
     """Return the root mean square over the last axis of what is known, NaN where nothing is."""
-    known = np.isfinite(values)
-    count = known.sum(axis=-1)
-    squares = np.where(known, values, 0.0) ** 2
+    finite = np.isfinite(values)
+    count = finite.sum(axis=-1)
+    squares = np.where(finite, values, 0.0) ** 2
     return np.asarray(np.sqrt(squares.sum(axis=-1) / np.where(count > 0, count, np.nan)))
 
 

@@ -90,29 +90,29 @@ class MeasuredFriction:
         *,
         pressure: ArrayLike | None = None,
     ) -> None:
-        found = {
+        columns = {
             "speed": checks.positive_vector("speed", speed, unit="m/s"),
             "friction": checks.vector("friction", friction),
         }
         optional = {"spread": spread, "temperature": temperature, "pressure": pressure}
-        for name, given in optional.items():
-            values = np.full(found["speed"].size, np.nan) if given is None else given
-            found[name] = _checked(name, values)
-        _check_most("friction", found["friction"])
-        sizes = {name: values.size for name, values in found.items()}
+        for name, column in optional.items():
+            values = np.full(columns["speed"].size, np.nan) if column is None else column
+            columns[name] = _checked(name, values)
+        _check_most("friction", columns["friction"])
+        sizes = {name: values.size for name, values in columns.items()}
         if len(set(sizes.values())) > 1 or not sizes["speed"]:
-            told = ", ".join(f"{count} of {name}" for name, count in sizes.items())
-            raise InputError(f"a measurement needs as many values of each, at least 1; got {told}")
-        order = np.argsort(found["speed"], kind="stable")
-        for name, values in found.items():
+            counts = ", ".join(f"{count} of {name}" for name, count in sizes.items())
+            raise InputError(f"columns must have equal lengths, at least 1; got {counts}")
+        order = np.argsort(columns["speed"], kind="stable")
+        for name, values in columns.items():
             object.__setattr__(self, name, values[order])
         object.__setattr__(self, "source", source)
 
 
-def _checked(name: str, given: ArrayLike) -> Array:
+def _checked(name: str, array: ArrayLike) -> Array:
     """Return an optional column; raise `InputError` if a value is out of its range."""
     unit = _OPTIONAL[name]
-    values = checks.vector(name, given, unit=unit, missing=True)
+    values = checks.vector(name, array, unit=unit, missing=True)
     _check_most(name, values)
     low = values < 0.0 if name == "spread" else values <= 0.0
     if low.any():
@@ -160,9 +160,9 @@ def read_measured_friction(path: str | Path, *, sheet: str | int | None = None) 
     )
     places = _places(table)
     columns = {}
-    for word, place in places.items():
-        values = table.numbers(place, f"a {word}", missing=word in _OPTIONAL)
-        columns[word] = _in_si(path, word, table.columns[place], values)
+    for word, column in places.items():
+        values = table.numbers(column, f"a {word}", missing=word in _OPTIONAL)
+        columns[word] = _in_si(path, word, table.columns[column], values)
     try:
         return MeasuredFriction(**columns, source=str(path))
     except InputError as error:
@@ -186,8 +186,8 @@ def _places(table: TextTable) -> dict[str, int]:
             places[word] = at
     absent = [word for word in ("speed", "friction") if word not in places]
     if absent:
-        found = table.titles or "no titles"
-        raise FileError(f"{table.path}: expected a column named {absent[0]}; got {found}")
+        titles = table.titles or "no titles"
+        raise FileError(f"{table.path}: expected a column named {absent[0]}; got {titles}")
     return places
 
 
@@ -198,8 +198,8 @@ def _in_si(path: Path, word: str, column: ColumnTitle, values: Array) -> Array:
                 f"{path}: {word} has no unit; got {checks.short_repr(column.unit)} in its title"
             )
         return values
-    kind, own = _UNITS[word]
-    unit = column.unit or own
+    kind, usual = _UNITS[word]
+    unit = column.unit or usual
     if unit is None:
         raise FileError(
             f"{path}: {word} must have its unit in its title ({listed(kind)}), such as "

@@ -55,7 +55,7 @@ class ProfileBlocks:
         [m]; four of the largest waves by default, less where the profiles then had fewer than
         eight blocks.
     counted : mapping
-        `upper_share` and `max_lag` of `height_difference`.
+        `top_height_fraction` and `max_lag` of `height_difference`.
 
     Raises
     ------
@@ -149,7 +149,7 @@ class ProfileBlocks:
         step = self.profiles[0].step
         joint = max(int(JOINT_WAVES * self.largest_wave / step), 1)
         angle = 0.5 * np.pi * (np.arange(joint) + 0.5) / joint
-        pieces = [self._piece(*place, joint) for place in places]
+        pieces = [self._piece(*window, joint) for window in places]
         line = [pieces[0][:-joint]]
         for before, after in pairwise(pieces):
             met = np.cos(angle) * before[-joint:] + np.sin(angle) * after[:joint]

@@ -156,9 +156,9 @@ class Profile:
         return end
 
 
-def threshold_of(optimum: Optimum, *, known: bool) -> float:
-    """Return the excess that ends an interval, with spreads `known` or taken from the residuals."""
-    if known:
+def threshold_of(optimum: Optimum, *, spread_known: bool) -> float:
+    """Return the excess that ends an interval, with spreads known or taken from the residuals."""
+    if spread_known:
         return float(scipy.stats.chi2.ppf(LEVEL, 1))
     points, free = optimum.jacobian.shape
     ratio = float(scipy.stats.f.ppf(LEVEL, 1, points - free))

@@ -50,7 +50,7 @@ from gripscale.experiment.solve import Bench, OnTask, bench_in
 from gripscale.experiment.task import Task, canonical_json
 from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
-from gripscale.model import FRICTION_OUTSIDE_BAND, Model, NominalLoad
+from gripscale.model import FRICTION_OUTSIDE_BAND, Load, Model
 
 # Quantiles of what the samples answered, and the sentence on them that other reports quote.
 
@@ -486,7 +486,7 @@ def _direct(results: CaseResults, tolerance: float | None) -> DirectContact:
     return DirectContact(tolerance=tolerance, conditions=results.conditions)
 
 
-def _tasks(sample: SampledInputs, model: Model, loads: Sequence[NominalLoad]) -> list[Task]:
+def _tasks(sample: SampledInputs, model: Model, loads: Sequence[Load]) -> list[Task]:
     """Return the tasks of a sample; raise `InputError` if it cannot be made."""
     if sample.inputs is None:
         raise InputError(sample.why_not)

@@ -46,8 +46,8 @@ from gripscale.experiment.task import PREDICTIONS, Store, Task
 from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
 from gripscale.model import TOTALS as OF_ALL
-from gripscale.model import Model, NominalLoad
-from gripscale.surface import PreparedSurface, profile_spectrum
+from gripscale.model import Load, Model
+from gripscale.surface import Surface, profile_spectrum
 from gripscale.surface.synthetic import SYNTHETIC_SURFACES, with_profile
 from gripscale.theory.half_plane import HalfPlane
 
@@ -87,12 +87,12 @@ def running_friction(wavelength: Array, friction: Array, ends: Array) -> Array:
 
     Of a curve as in `friction_curve`; what is NaN in it does not count, NaN without a curve.
     """
-    known = np.isfinite(wavelength)
-    if not known.any():
+    finite = np.isfinite(wavelength)
+    if not finite.any():
         return np.full(ends.shape, np.nan)
-    running = friction[known]
+    running = friction[finite]
     return np.asarray(
-        np.interp(-np.log(ends), -np.log(wavelength[known]), running, left=0.0, right=running[-1])
+        np.interp(-np.log(ends), -np.log(wavelength[finite]), running, left=0.0, right=running[-1])
     )
 
 
@@ -112,7 +112,7 @@ def road_numbers(answer: xr.Dataset, task: Task) -> xr.Dataset:
     return kept.assign(friction_curve(answer))
 
 
-def roads_dataset(surfaces: Mapping[str, PreparedSurface], solved: xr.Dataset) -> xr.Dataset:
+def roads_dataset(surfaces: Mapping[str, Surface], solved: xr.Dataset) -> xr.Dataset:
     """Return what `gripscale.analysis.compare_surfaces` promises, of answers by sample."""
     roads = solved.isel(sample=AS_MEASURED)
     words = OF_ALL | {"prediction_status": "converged, why not, or empty if it was not asked"}
@@ -162,7 +162,7 @@ def _by_octave(roads: xr.Dataset) -> xr.DataArray:
     return running.assign_coords(octave=octave).assign_attrs(attributes(text))
 
 
-def _measured(surfaces: Mapping[str, PreparedSurface]) -> dict[str, Any]:
+def _measured(surfaces: Mapping[str, Surface]) -> dict[str, Any]:
     """Return height difference correlation and spectrum of the roads that were measured."""
     correlations, spectra = {}, {}
     for name, surface in surfaces.items():
@@ -209,7 +209,7 @@ SEED = 0
 class Roads:
     """Roads that were compared."""
 
-    surfaces: dict[str, PreparedSurface]
+    surfaces: dict[str, Surface]
     """The roads as they were solved."""
     notes: tuple[str, ...]
     """Why a road has no range, or no direct contact."""
@@ -234,7 +234,7 @@ def compare_surfaces(
         The case, or its file: rubber, load, solver and conditions are taken from it.
     surfaces
         Two to six roads by what they are called; the others are compared with the first. Each is a
-        `PreparedSurface`, a `SineStack`, "case", a surface known by name, another case, or a
+        `Surface`, a `SineStack`, "case", a surface known by name, another case, or a
         profile (of a case on a map, a map), read with all other settings of the case.
     folder
         Gets predictions and `surfaces.nc`; what it has already is not solved again.
@@ -300,7 +300,7 @@ def compare_surfaces(
     return Roads(roads, tuple(notes), netcdf.load(netcdf.save(data, Path(folder) / RESULT)))
 
 
-def _surface(value: Any, file: CaseFile) -> PreparedSurface:
+def _surface(value: Any, file: CaseFile) -> Surface:
     """Return a road; a synthetic one with its profile, for the direct contact."""
     if isinstance(value, str) and value in SYNTHETIC_SURFACES:
         return with_profile(value)
@@ -313,9 +313,7 @@ def _model(name: str, file: CaseFile) -> Model:
     return replace(model, tolerance=None) if isinstance(model, DirectContact) else model
 
 
-def _drawn(
-    measurement: Measurement, model: Model, load: NominalLoad, samples: int
-) -> dict[int, Task]:
+def _drawn(measurement: Measurement, model: Model, load: Load, samples: int) -> dict[int, Task]:
     """Return the tasks of a road's samples, and the one they are compared with, by their number.
 
     Raises `InputError` if no samples can be drawn.

@@ -17,14 +17,14 @@ from gripscale.conditions import Conditions
 from gripscale.core import checks, provenance
 from gripscale.core.errors import InputError
 from gripscale.core.units import parse_quantity
-from gripscale.model import LoadTime, Model, NominalLoad
+from gripscale.model import Load, LoadTime, Model
 from gripscale.rubber import PronyFit, Rubber
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.surface import (
     HeightDifference,
     Measured,
-    PreparedSurface,
     Profile,
+    Surface,
     SurfacePart,
     fit_sines,
 )
@@ -93,7 +93,7 @@ END_KEYS = ("cut_off", "smallest_wavelength")
 class Measurement:
     """What a case is known from: prepared surface and rubber, and what they were fitted to."""
 
-    surface: PreparedSurface
+    surface: Surface
     rubber: Rubber
     master: MasterCurve | None = None
     fit: PronyFit | None = None
@@ -143,7 +143,7 @@ class Inputs:
         How much longer each wave is loaded than the model says [-].
     """
 
-    surface: PreparedSurface
+    surface: Surface
     rubber: Rubber
     correlation: HeightDifference | None = None
     fit: Mapping[str, Any] = field(default_factory=dict)
@@ -159,8 +159,8 @@ class Inputs:
     @property
     def end(self) -> float:
         """Where the waves end [m]: the cut-off or, without one, the last wave."""
-        stated = (self.fit.get(name) for name in END_KEYS)
-        return next((float(end) for end in stated if end), self.surface.cutoff_wavelength)
+        ends = (self.fit.get(name) for name in END_KEYS)
+        return next((float(end) for end in ends if end), self.surface.cutoff_wavelength)
 
     def ended_at(self, wavelength: float) -> Inputs:
         """Return the inputs with the end of the waves at a wavelength [m].
@@ -173,7 +173,7 @@ class Inputs:
             fit["scales"] = None  # the factor and the end say how many
         return replace(self, fit=fit)
 
-    def for_model(self, model: Model) -> tuple[PreparedSurface, Model]:
+    def for_model(self, model: Model) -> tuple[Surface, Model]:
         """Return surface and model as `model` takes this sample.
 
         Raises `InputError` if no waves fit.
@@ -191,12 +191,12 @@ class Inputs:
         same = self.correlation is self.surface.correlation
         return same and dict(self.fit) == dict(self.surface.fit)
 
-    def _measured(self) -> PreparedSurface:
+    def _measured(self) -> Surface:
         """Return lines or map, and nothing of the waves but where they end."""
         measured = self.surface.measured
         if self.redrawn is not None:
             measured = Measured.of(self.redrawn())
-        return PreparedSurface(None, self.surface.source, measured=measured, end=self.end)
+        return Surface(None, self.surface.source, measured=measured, end=self.end)
 
 
 # A number that is not known: anywhere between two ends, one of a few, or one.
@@ -228,12 +228,12 @@ class Range:
     between: bool = True
 
     def __post_init__(self) -> None:
-        found = tuple(checks.positive("each value of a range", value) for value in self.values)
-        if not found or any(b <= a for a, b in pairwise(found)):
+        values = tuple(checks.positive("each value of a range", value) for value in self.values)
+        if not values or any(b <= a for a, b in pairwise(values)):
             raise InputError(f"a range must be rising values; got {checks.short_repr(self.values)}")
-        if self.between and len(found) != 2:
+        if self.between and len(values) != 2:
             raise InputError(f"a range must have two ends; got {checks.short_repr(self.values)}")
-        object.__setattr__(self, "values", found)
+        object.__setattr__(self, "values", values)
 
     @classmethod
     def about(cls, value: float, factor: float) -> Range:
@@ -241,24 +241,24 @@ class Range:
         return cls((value / factor, value * factor))
 
     @classmethod
-    def read(cls, name: str, given: Any, quantity: Callable[[Any], float]) -> Range:
+    def read(cls, name: str, text: Any, quantity: Callable[[Any], float]) -> Range:
         """Return the range of a text such as `1 GPa:3 GPa` or `1 GPa,2 GPa`, a number or several.
 
         Two numbers in a tuple or a list are ends. `quantity` turns an entry into SI units and
         raises `InputError` for one that cannot be used.
         """
-        if isinstance(given, Range):
-            return given
+        if isinstance(text, Range):
+            return text
         between = True
-        if isinstance(given, str) and ":" in given:
-            entries: list[Any] = given.split(":")
-        elif isinstance(given, str):
-            entries, between = given.split(","), False
-        elif isinstance(given, Iterable):
-            entries = list(given)
+        if isinstance(text, str) and ":" in text:
+            entries: list[Any] = text.split(":")
+        elif isinstance(text, str):
+            entries, between = text.split(","), False
+        elif isinstance(text, Iterable):
+            entries = list(text)
             between = len(entries) == 2
         else:
-            entries, between = [given], False
+            entries, between = [text], False
         try:
             return cls(tuple(quantity(entry) for entry in entries), between)
         except InputError as error:
@@ -275,42 +275,42 @@ class Range:
 # Numbers that a user states for a source: with a unit, in SI units without.
 
 
-def modulus(given: Any) -> float:
+def modulus(text: Any) -> float:
     """Return a modulus [Pa]; raise `InputError` for what is none."""
-    return _quantity(given, "pressure", "Pa")
+    return _quantity(text, "pressure", "Pa")
 
 
-def length(given: Any) -> float:
+def length(text: Any) -> float:
     """Return a length [m]; raise `InputError` for what is none."""
-    return _quantity(given, "length", "m")
+    return _quantity(text, "length", "m")
 
 
-def factor(given: Any) -> float:
+def factor(text: Any) -> float:
     """Return a factor [-]; raise `InputError` for what is none."""
-    return checks.positive("a factor", _bare(given))
+    return checks.positive("a factor", _bare(text))
 
 
-def count(given: Any) -> float:
+def count(text: Any) -> float:
     """Return a number of waves; raise `InputError` for what is none."""
-    return float(checks.whole("waves", _bare(given), least=2, most=MOST_WAVES))
+    return float(checks.whole("waves", _bare(text), least=2, most=MOST_WAVES))
 
 
-def _quantity(given: Any, kind: str, unit: str) -> float:
-    value = _bare(given)
+def _quantity(text: Any, kind: str, unit: str) -> float:
+    value = _bare(text)
     if isinstance(value, str):
         try:
             value = parse_quantity(value, kind)
         except ValueError as error:
-            raise InputError(f"{given!r}: {error}") from error
+            raise InputError(f"{text!r}: {error}") from error
     return checks.positive(f"a {kind}", value, unit=unit)
 
 
-def _bare(given: Any) -> Any:
+def _bare(text: Any) -> Any:
     """Return the number a text spells, or what was given."""
     try:
-        return float(given) if isinstance(given, str) else given
+        return float(text) if isinstance(text, str) else text
     except ValueError:
-        return given
+        return text
 
 
 # A model that answers where it would refuse, so that one sample of many does not end them all.
@@ -349,8 +349,8 @@ class FailSafeModel(Model):
     def predict(
         self,
         rubber: Rubber,
-        surface: PreparedSurface,
-        load: NominalLoad,
+        surface: Surface,
+        load: Load,
         *,
         on_progress: Callable[[Any], None] | None = None,
     ) -> xr.Dataset:

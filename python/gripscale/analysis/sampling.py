@@ -33,7 +33,7 @@ class Uncertainty:
     without : sequence of str
         Sources to be left out: profile, modulus, bulk_modulus, equilibrium_modulus, load_time,
         cut_off, waves.
-    given : mapping
+    ranges : mapping
         Values of a source by its name, in place of its default: two ends as `"1 GPa:3 GPa"` or a
         pair of numbers [SI], or several equally likely values as `"1 GPa,2 GPa"` or three numbers
         and more. Of bulk_modulus, equilibrium_modulus (moduli), cut_off (lengths), load_time
@@ -48,12 +48,12 @@ class Uncertainty:
     """
 
     without: Sequence[str] = ()
-    given: Mapping[str, Any] = field(default_factory=dict)
+    ranges: Mapping[str, Any] = field(default_factory=dict)
     block_length: float | None = None
 
     def __post_init__(self) -> None:
-        checks.allowed_names("source", [*self.without, *self.given], SOURCES)
-        for name in self.given:
+        checks.allowed_names("source", [*self.without, *self.ranges], SOURCES)
+        for name in self.ranges:
             if name in self.without:
                 raise InputError(f"{name} must be left out or given; got both")
             if name in ("profile", "modulus"):
@@ -67,22 +67,23 @@ class Uncertainty:
         table: UncertaintyTable,
         *,
         without: Sequence[str] | None = None,
-        given: Mapping[str, Any] | None = None,
+        ranges: Mapping[str, Any] | None = None,
         block_length: float | None = None,
     ) -> Uncertainty:
         """Return what a case states, or what is stated here in its place.
 
-        What is `given` of a source goes before that the case gives or leaves it out, and `without`
+        What is `ranges` of a source goes before that the case gives or leaves it out, and `without`
         before all that the case leaves out and gives of the same.
 
         Raises `InputError` as the constructor does.
         """
-        stated = {} if table.given is None else table.given.model_dump(exclude_none=True)
-        now = dict(given or {})
-        kept = {name: value for name, value in stated.items() if name not in (without or ())}
-        left = [name for name in table.without if name not in now] if without is None else without
+        in_case = {} if table.ranges is None else table.ranges.model_dump(exclude_none=True)
+        now = dict(ranges or {})
+        kept = {name: value for name, value in in_case.items() if name not in (without or ())}
+        if without is None:
+            without = [name for name in table.without if name not in now]
         length = table.block_length if block_length is None else block_length
-        return cls(tuple(left), {**kept, **now}, length)
+        return cls(tuple(without), {**kept, **now}, length)
 
     def of(self, measurement: Measurement, models: Sequence[str]) -> Chosen:
         """Return the sources of a case that have an effect on one of `models`.
@@ -96,10 +97,10 @@ class Uncertainty:
                     raise SourceNotApplicable("left out as asked")
                 if not set(maker.models) & set(models):
                     raise SourceNotApplicable(f"no effect on the model {' or '.join(models)}")
-                options = SourceOptions(self.given.get(name), self.block_length, models)
+                options = SourceOptions(self.ranges.get(name), self.block_length, models)
                 chosen.sources.append(maker.of(measurement, options))
             except SourceNotApplicable as why:
-                if name in self.given:
+                if name in self.ranges:
                     raise InputError(f"{name} is given and has nothing to draw: {why}") from None
                 chosen.left_out.append(f"{maker.label}: {why}")
         if not chosen.sources:

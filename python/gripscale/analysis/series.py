@@ -71,9 +71,9 @@ class SeriesScatter:
         limit = largest_modulus(float(curve.storage.max()), bulk_modulus)
         scatter = fit.rms_storage, fit.rms_loss
         for _ in range(PASSES):
-            found = cls(open_equations(curve, _believed(scatter), BEYOND, limit), curve.omega)
-            scatter = found._scatter(_believed(scatter))
-        return found
+            band = cls(open_equations(curve, _believed(scatter), BEYOND, limit), curve.omega)
+            scatter = band._scatter(_believed(scatter))
+        return band
 
     def _scatter(self, unit: tuple[float, float]) -> tuple[float, float]:
         """Return the relative scatter of E' and E'' about the best series, in whose `unit` it is.

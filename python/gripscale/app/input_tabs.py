@@ -21,7 +21,7 @@ from gripscale.case import (
     ConditionsTable,
     MeasuredTable,
     RubberSource,
-    Surface,
+    SurfaceTable,
     prepare_case,
     record,
     validate,
@@ -43,7 +43,7 @@ ROAD_FIELDS = (
     "scales",
     "smallest_wavelength",
     "cut_off",
-    "upper_share",
+    "top_height_fraction",
     "crop",
     "x_unit",
     "z_unit",
@@ -90,7 +90,7 @@ def surface_elements(file: CaseFile) -> list[Element]:
 def rubber_elements(file: CaseFile) -> list[Element]:
     """Return findings, moduli with the fit, the ends of the data, and shifts of the sweeps."""
     any_wave = {"sines": [{"wavelength": "10 mm", "amplitude": "1 mm"}]}
-    results = _prepared_with(file, surface=validate(Surface, any_wave, "surface"))
+    results = _prepared_with(file, surface=validate(SurfaceTable, any_wave, "surface"))
     inputs = record.inputs(results)
     findings = InputRecord(inputs).findings
     elements: list[Element] = [Notice("warning", f"{text}.") for text in findings]

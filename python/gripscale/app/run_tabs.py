@@ -163,7 +163,7 @@ def measured_elements(folder: Path, run: source.Run) -> Iterator[Element]:
         return
     direct = [] if run.direct is None else [PredictionView(run.direct, "direct contact")]
     yield measured_chart(friction, [*sliding, *direct])
-    lines = measured_lines(friction, sliding[0].speed, sliding[0].shown("speed"))
+    lines = measured_lines(friction, sliding[0].speed, sliding[0].display_unit("speed"))
     yield from (Text(line) for line in lines)
 
 
@@ -265,7 +265,7 @@ def runs_table(compared: list[tuple[Run, PredictionView]]) -> Table:
         ]
         totals.append(numbers if view.complete else [math.nan] * len(numbers))
         states.append("complete" if view.complete else f"{view.waves} of {view.planned} waves")
-    speeds = [view.shown("speed").text(view.speed, 3) for _, view in compared]
+    speeds = [view.display_unit("speed").text(view.speed, 3) for _, view in compared]
     changes = [", ".join(changed_keys(first, run.text)) for run, _ in compared]
     area, friction, with_term = zip(*totals, strict=True)
     columns = [

@@ -19,9 +19,9 @@ from .run import prepare_case as prepare_case
 from .run import run_case as run_case
 from .tables import Case as Case
 from .tables import ChainOptions as ChainOptions
-from .tables import Compare as Compare
-from .tables import Load as Load
+from .tables import CompareTable as CompareTable
+from .tables import LoadTable as LoadTable
 from .tables import MeasuredTable as MeasuredTable
-from .tables import Output as Output
-from .tables import Solver as Solver
-from .tables import Surface as Surface
+from .tables import OutputTable as OutputTable
+from .tables import SolverTable as SolverTable
+from .tables import SurfaceTable as SurfaceTable

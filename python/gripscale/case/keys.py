@@ -18,15 +18,15 @@ from gripscale.case.rubber_tables import SHIFT_LAWS, SOFTENING, ConditionsTable,
 from gripscale.case.schema import expected, table_of
 from gripscale.case.tables import (
     ChainOptions,
-    Compare,
-    Given,
-    Load,
+    CompareTable,
+    LoadTable,
     MeasuredTable,
-    Output,
-    Solver,
-    Surface,
+    OutputTable,
+    RangesTable,
+    SolverTable,
+    SurfaceTable,
     UncertaintyTable,
-    Wave,
+    WaveTable,
 )
 from gripscale.conditions.area_term import SHEAR_STRESSES
 from gripscale.conditions.flash_temperature import ThermalProperties
@@ -36,28 +36,28 @@ NEEDED, NOTHING = "needed", "-"
 """The default of a key that must be there, and of one that may be left out for nothing."""
 
 TABLES: tuple[tuple[str, type | Mapping[str, type], str], ...] = (
-    ("surface", Surface, "inputs.md"),
-    ("surface.sines", Wave, "method.md"),
+    ("surface", SurfaceTable, "inputs.md"),
+    ("surface.sines", WaveTable, "method.md"),
     ("rubber", RubberSource, "temperature.md"),
     ("rubber.shift", SHIFT_LAWS, "temperature.md"),
     ("rubber.strain_energy", STRAIN_ENERGIES, "material.md"),
-    ("load", Load, "method.md"),
-    ("solver", Solver, "method.md"),
+    ("load", LoadTable, "method.md"),
+    ("solver", SolverTable, "method.md"),
     ("chain", ChainOptions, "chain-and-direct-contact.md"),
     ("conditions", ConditionsTable, "conditions.md"),
     ("conditions.softening", SOFTENING, "conditions.md"),
     ("conditions.heat", ThermalProperties, "conditions.md"),
     ("conditions.shear_stress", SHEAR_STRESSES, "conditions.md"),
     ("measured", MeasuredTable, "direct-contact.md"),
-    ("output", Output, "reading-results.md"),
-    ("compare", Compare, "theories.md"),
+    ("output", OutputTable, "reading-results.md"),
+    ("compare", CompareTable, "theories.md"),
     ("uncertainty", UncertaintyTable, "uncertainty.md"),
-    ("uncertainty.given", Given, "uncertainty.md"),
+    ("uncertainty.ranges", RangesTable, "uncertainty.md"),
 )
 """Tables of a case by name, those of one kind or another by their kinds, and their chapters."""
 
 CHAPTERS = {
-    "upper_share": "chain-and-direct-contact.md",
+    "top_height_fraction": "chain-and-direct-contact.md",
     "cut_off": "chain-and-direct-contact.md",
     "scales": "method.md",
     "smallest_wavelength": "method.md",

@@ -11,7 +11,7 @@ import numpy as np
 
 from gripscale.case.read import CaseFile
 from gripscale.case.rubber_tables import ConditionsTable, RubberSource, StrainSweeps
-from gripscale.case.tables import Surface
+from gripscale.case.tables import SurfaceTable
 from gripscale.chain.chain import Chain, wave_solver
 from gripscale.conditions.conditions import Conditions
 from gripscale.core.errors import GripscaleError, InputError, about_keys
@@ -40,9 +40,9 @@ from gripscale.surface import (
     CutOffRule,
     HeightMap,
     Measured,
-    PreparedSurface,
     Profile,
     SineStack,
+    Surface,
     clean,
     clean_map,
     find_cut_off,
@@ -69,12 +69,12 @@ FIT_KEYS = (
 )
 """Keys of the case's [surface] that say how sine waves are fitted."""
 
-COUNTED_KEYS = ("upper_share", "max_lag")
+COUNTED_KEYS = ("top_height_fraction", "max_lag")
 """Keys of the case's [surface] that say which heights and lags count in the correlation."""
 
 
 @about_keys("surface")
-def prepare_surface(surface: Surface, resolve: Resolve = Path) -> PreparedSurface:
+def prepare_surface(surface: SurfaceTable, resolve: Resolve = Path) -> Surface:
     """Read, clean and describe the profiles or the map of `surface`, or take its waves as stated.
 
     `resolve` turns the name of a file into its path.
@@ -86,7 +86,7 @@ def prepare_surface(surface: Surface, resolve: Resolve = Path) -> PreparedSurfac
             wavelength=np.array([wave.wavelength for wave in surface.sines]),
             amplitude=np.array([wave.amplitude for wave in surface.sines]),
         )
-        return PreparedSurface(stack, "sine waves stated in the case")
+        return Surface(stack, "sine waves stated in the case")
     paths = [resolve(name) for name in surface.measured_files]
     measured = _map(surface, paths[0]) if surface.map else _profiles(surface, paths)
     counted = {key: getattr(surface, key) for key in COUNTED_KEYS}
@@ -99,7 +99,7 @@ def prepare_surface(surface: Surface, resolve: Resolve = Path) -> PreparedSurfac
     if surface.cut_off is not None:
         where = str(paths[0]) if len(paths) == 1 else f"{len(paths)} profiles"
         fit["cut_off"] = _cut_off_wavelength(measured, surface.cut_off, where)
-    return PreparedSurface(
+    return Surface(
         fit_sines(correlation, **fit),
         ", ".join(str(path) for path in paths),
         correlation,
@@ -120,7 +120,7 @@ def _cut_off_wavelength(measured: Measured, rule: CutOffRule, where: str) -> flo
         raise InputError(f"{where}: {error}") from error
 
 
-def _profiles(surface: Surface, paths: list[Path]) -> Measured:
+def _profiles(surface: SurfaceTable, paths: list[Path]) -> Measured:
     """Read and clean profiles."""
     profiles, reports = [], []
     for path in paths:
@@ -150,7 +150,7 @@ def _profiles(surface: Surface, paths: list[Path]) -> Measured:
     return Measured(profiles, reports, None, "")
 
 
-def _map(surface: Surface, path: Path) -> Measured:
+def _map(surface: SurfaceTable, path: Path) -> Measured:
     """Read and clean a map, turned so that its x is the way of sliding."""
     raw = read_map(
         path,

@@ -22,7 +22,7 @@ from gripscale.case.results import CaseResults
 from gripscale.io.text_table import read_bytes
 from gripscale.rubber import MasterCurve, PronyFit, Rubber
 from gripscale.rubber.material import fast_end, slow_end
-from gripscale.surface import HeightDifference, Measured, PreparedSurface, Profile, SineStack
+from gripscale.surface import HeightDifference, Measured, Profile, SineStack, Surface
 from gripscale.surface.cut_off import DEFINITIONS
 from gripscale.surface.sine_fit import as_fitted
 
@@ -71,13 +71,13 @@ def sine_curves(sines: SineStack, lag: ArrayLike) -> tuple[Array, Array]:
     the first wave both are NaN.
     """
     lags, longest = np.asarray(lag, dtype=float), float(sines.wavelength[0])
-    shown = np.where(lags <= longest, lags, math.nan)
+    value = np.where(lags <= longest, lags, math.nan)
     pure = np.where(lags <= longest, sines.height_difference(np.minimum(lags, longest)), math.nan)
     first = SineStack(sines.wavelength[:1], sines.amplitude[:1])
     held = first.height_difference(np.minimum(lags, 0.25 * longest))
     counted = as_fitted(sines).height_difference(np.minimum(lags, longest))
     rest = counted - first.height_difference(np.minimum(lags, longest))
-    return np.where(np.isnan(shown), math.nan, rest + held), pure
+    return np.where(np.isnan(value), math.nan, rest + held), pure
 
 
 def excited(speed: float, sines: SineStack) -> Array:
@@ -139,7 +139,7 @@ def _files(file: CaseFile) -> tuple[Variables, Variables]:
     }, {}
 
 
-def _waves(surface: PreparedSurface) -> tuple[Variables, Variables]:
+def _waves(surface: Surface) -> tuple[Variables, Variables]:
     sines = surface.sines
     low, high = sines.lag_range or (None, None)
     return {}, {
@@ -149,27 +149,27 @@ def _waves(surface: PreparedSurface) -> tuple[Variables, Variables]:
         "sines_lag_min_m": low,
         "sines_lag_max_m": high,
         "sines_cut_off_m": sines.cut_off,
-        "correlation_upper_share": surface.counted.get("upper_share"),
+        "correlation_top_height_fraction": surface.counted.get("top_height_fraction"),
         "surface_notes": "\n".join(surface.notes) or None,
     }
 
 
-def _cut_off(surface: PreparedSurface, measured: Measured) -> tuple[Variables, Variables]:
+def _cut_off(surface: Surface, measured: Measured) -> tuple[Variables, Variables]:
     """Return where the roughness ends and why, and the rms slope down to each wavelength."""
-    found, slopes = surface.cut_off, measured.slopes
-    assert found is not None
+    cut_off, slopes = surface.cut_off, measured.slopes
+    assert cut_off is not None
     lengths = slopes.wavelength
     data: Variables = {"slope_wavelength": ("slope_wavelength", lengths, {"units": "m"})}
     for of in DEFINITIONS:
         values = np.array([slopes.down_to(float(length), of) for length in lengths])
         data[f"rms_slope_of_{of}"] = ("slope_wavelength", values, {"units": "1"})
     return data, {
-        "cut_off_m": found.wavelength,
-        "cut_off_rule": found.rule,
-        "cut_off_surface_slope": found.surface_slope,
-        "cut_off_profile_slope": found.profile_slope,
-        "cut_off_carried_m": found.resolution_limit,
-        "cut_off_beyond_measurement": int(found.beyond_measurement),
+        "cut_off_m": cut_off.wavelength,
+        "cut_off_rule": cut_off.rule,
+        "cut_off_surface_slope": cut_off.surface_slope,
+        "cut_off_profile_slope": cut_off.profile_slope,
+        "cut_off_carried_m": cut_off.resolution_limit,
+        "cut_off_beyond_measurement": int(cut_off.beyond_measurement),
     }
 
 

@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING
 
 from gripscale.case.prepare import PreparedRubber
 from gripscale.case.read import CaseFile, prediction_key
-from gripscale.case.tables import Load
+from gripscale.case.tables import LoadTable
 from gripscale.chain.chain import Chain, ChainError
 from gripscale.chain.prediction import Prediction
 from gripscale.conditions.conditions import Conditions
 from gripscale.core.units import DISPLAY_UNITS, DisplayUnit, display_unit
-from gripscale.model import NominalLoad
+from gripscale.model import Load
 from gripscale.rubber import Rubber, temperature_doubts
-from gripscale.surface import PreparedSurface
+from gripscale.surface import Surface
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -45,7 +45,7 @@ class CaseResults:
     """
 
     file: CaseFile
-    surface: PreparedSurface
+    surface: Surface
     rubber: PreparedRubber
     chain: Chain
     predictions: dict[str, Prediction] = field(default_factory=dict)
@@ -55,7 +55,7 @@ class CaseResults:
     _keys: dict[str, str] = field(default_factory=dict, init=False, repr=False)
 
     @property
-    def load(self) -> NominalLoad:
+    def load(self) -> Load:
         """The load of the case, at its speed."""
         return self.file.case.load.nominal
 
@@ -82,7 +82,7 @@ class CaseResults:
             )
         )
 
-    def shown(self, name: str) -> DisplayUnit:
+    def display_unit(self, name: str) -> DisplayUnit:
         """Return how `pressure`, `speed` or `footprint` is shown: as the case gives it."""
         return display_unit(name, unit=self.file.units.get(name, ""))
 
@@ -112,7 +112,7 @@ class CaseResults:
         footprint, largest = self.load.footprint, float(self.surface.sines.wavelength[0])
         if footprint >= largest:
             return []
-        how = self.shown("footprint")
+        how = self.display_unit("footprint")
         return [
             f"The footprint, {how.text(footprint, 3)}, is shorter than the largest wave, "
             f"{how.text(largest, 3)}, "
@@ -139,7 +139,7 @@ class CaseResults:
         return planned(self.file.case.load)
 
 
-def planned(load: Load) -> Iterator[tuple[str, float]]:
+def planned(load: LoadTable) -> Iterator[tuple[str, float]]:
     """Yield name and speed [m/s] of the predictions a load of a case asks for."""
     if load.speed > 0.0:
         yield DYNAMIC, load.speed

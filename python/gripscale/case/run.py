@@ -57,10 +57,10 @@ class StoredPrediction:
 
 @dataclass(frozen=True)
 class ReplayedWaves:
-    """Answers known waves with their stored results, and solves the others."""
+    """Answers stored waves with their stored results, and solves the others."""
 
     inner: WaveSolver
-    known: tuple[WaveResult, ...]
+    stored: tuple[WaveResult, ...]
 
     @property
     def name(self) -> str:
@@ -70,7 +70,7 @@ class ReplayedWaves:
     def solve(self, problem: WaveProblem, start: WaveResult | None = None) -> WaveResult:
         """Return the stored result of just this wave under just this pressure, or solve it."""
         asked = problem.profile.wavelength, problem.profile.amplitude, problem.load.pressure
-        for wave in self.known:
+        for wave in self.stored:
             if (wave.wavelength, wave.amplitude, wave.pressure_received) == asked:
                 return wave
         return self.inner.solve(problem, start)
@@ -80,19 +80,19 @@ def earlier(path: Path, key: str, chain: Chain) -> StoredPrediction | None:
     """Return the prediction stored at `path`, or None if it is not of `key` or of no use."""
     try:
         data = netcdf.load(path)
-        found = Prediction.from_dataset(data) if data.attrs.get(KEY) == key else None
+        prediction = Prediction.from_dataset(data) if data.attrs.get(KEY) == key else None
     except (FileError, InputError):
         return None
-    if found is None:
+    if prediction is None:
         return None
     finished = bool(data.attrs.get(FINISHED, 0))
-    if finished and found.converged:
-        return StoredPrediction(found, finished=True)
+    if finished and prediction.converged:
+        return StoredPrediction(prediction, finished=True)
     iterated = chain.conditions is not None and chain.conditions.iterated
     if iterated or chain.pressure_classes > 1:
         return None
-    kept = [wave for wave in found.scales if wave.converged]
-    return StoredPrediction(replace(found, scales=kept), finished=False) if kept else None
+    kept = [wave for wave in prediction.scales if wave.converged]
+    return StoredPrediction(replace(prediction, scales=kept), finished=False) if kept else None
 
 
 def prepare_case(case: CaseFile | str | Path) -> CaseResults:
@@ -150,18 +150,18 @@ def run_case(
     if output is not None:
         results.folder = Path(output)
         folder.require_writable(results.folder)
-    known = {} if fresh else _known(results)
+    stored = {} if fresh else _known(results)
     names = tuple(name for name, _ in results.planned())
     iterated = results.file.case.conditions.iterated
     emit(RunStarted(names, len(results.surface.sines), iterated))
     if results.folder is not None:
-        keep = [f"{name}.nc" for name in known]
+        keep = [f"{name}.nc" for name in stored]
         replaced = folder.earlier_run(results.folder, keep)
         if replaced:
             emit(ResultsReplaced(replaced))
         folder.prepare(results.folder, results.file, keep)
     for name, speed in results.planned():
-        _solve(results, name, speed, emit, known.get(name))
+        _solve(results, name, speed, emit, stored.get(name))
     return results
 
 
@@ -169,11 +169,11 @@ def _known(results: CaseResults) -> dict[str, StoredPrediction]:
     """Return what an earlier run left of the predictions of exactly this case, by name."""
     if results.folder is None:
         return {}
-    found = {
+    stored = {
         name: earlier(results.folder / f"{name}.nc", results.key(name), results.chain)
         for name, _ in results.planned()
     }
-    return {name: one for name, one in found.items() if one is not None}
+    return {name: prediction for name, prediction in stored.items() if prediction is not None}
 
 
 @about_keys("rubber.shift")

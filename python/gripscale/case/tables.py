@@ -23,7 +23,7 @@ from gripscale.case.schema import (
     unit_of_file,
 )
 from gripscale.core.units import in_mm, parse_quantity, such_as
-from gripscale.model import MOST_CLASSES, NominalLoad
+from gripscale.model import MOST_CLASSES, Load
 from gripscale.rubber.strain_energy import NeoHookean
 
 # [surface] of a case: measured profiles or a map, or waves stated by hand.
@@ -40,7 +40,7 @@ def _cut_off(value: Any) -> Any:
     return None if value is None else cut_off_rule(value)
 
 
-class Wave(Table):
+class WaveTable(Table):
     """One sine wave stated by hand: wavelength and half peak-to-valley amplitude."""
 
     wavelength: Length
@@ -54,14 +54,14 @@ PROFILE_KEYS = ("across_gaps", "detrend", "sheet")
 """Keys of [surface] that only a map, or only profiles have."""
 
 
-class Surface(Table):
+class SurfaceTable(Table):
     """Measured profiles or a map and how they become sine waves, or the waves themselves."""
 
     files: list[str] | None = Field(default=None, min_length=1)
     """Measured profiles of one road; several are pooled."""
     map: str | None = None
     """A measured map, in place of files."""
-    sines: list[Wave] | None = Field(default=None, min_length=1)
+    sines: list[WaveTable] | None = Field(default=None, min_length=1)
     """Waves stated by hand, in place of files; longest first."""
     x_unit: Annotated[str, unit_of_file("length")] | None = None
     """Unit of distances where the file does not name it."""
@@ -95,7 +95,7 @@ class Surface(Table):
     """Trend subtracted from a profile."""
     form: int = Field(default=1, ge=0, le=8)
     """Order of the polynomial subtracted from a map: 0 the mean, 1 a plane, 2 a paraboloid."""
-    upper_share: float = Field(default=1.0, gt=0.0, le=1.0, allow_inf_nan=False)
+    top_height_fraction: float = Field(default=1.0, gt=0.0, le=1.0, allow_inf_nan=False)
     """Share of the heights, from the highest down, that counts in the correlation."""
     max_lag: Length | None = None
     """Largest lag of the correlation; a quarter of the shortest profile by default."""
@@ -121,7 +121,7 @@ class Surface(Table):
     """Largest lag that counts in the fit."""
 
     @model_validator(mode="after")
-    def _one_source(self) -> Surface:
+    def _one_source(self) -> SurfaceTable:
         if sum(source is not None for source in (self.files, self.map, self.sines)) != 1:
             raise ValueError(
                 "expected either files (measured profiles), map (a measured map) or "
@@ -185,7 +185,7 @@ def _load_time(value: Any) -> float | str:
     return seconds
 
 
-class Load(Table):
+class LoadTable(Table):
     """How hard, how fast and over what length the rubber is pressed and slid."""
 
     pressure: Pressure
@@ -200,15 +200,15 @@ class Load(Table):
     """How long a wave is loaded: while the contact above it passes, for ever, or a time."""
 
     @property
-    def nominal(self) -> NominalLoad:
+    def nominal(self) -> Load:
         """The load on the whole surface, at the speed stated."""
-        return NominalLoad(self.pressure, self.speed, self.footprint, self.load_time)
+        return Load(self.pressure, self.speed, self.footprint, self.load_time)
 
 
 # [solver] and [chain] of a case: what solves a wave, and what goes on from wave to wave.
 
 
-class Solver(Table):
+class SolverTable(Table):
     """The model of one wave and its mesh; what is not stated stays at the solver's default."""
 
     model: Literal["finite_strain", "half_plane"] = "finite_strain"
@@ -229,7 +229,7 @@ class Solver(Table):
     """Points of the half-plane."""
 
     @model_validator(mode="after")
-    def _options_of_the_model(self) -> Solver:
+    def _options_of_the_model(self) -> SolverTable:
         mesh = ["columns", "rows", "depth", "element_order", "tolerance", "time_limit"]
         foreign = ["points"] if self.model == "finite_strain" else mesh
         for name in foreign:
@@ -303,7 +303,7 @@ Lengths = Annotated[list[float], _values("length")]
 Factors = Annotated[list[float], _values(FACTOR)]
 
 
-class Given(Table):
+class RangesTable(Table):
     """What is known of a source, in place of its default: two ends, or equally likely values."""
 
     bulk_modulus: Moduli | None = None
@@ -329,7 +329,7 @@ class UncertaintyTable(Table):
     """What predicts each sample."""
     without: list[SourceName] = Field(default=[])
     """Sources that are taken to be known."""
-    given: Given | None = None
+    ranges: RangesTable | None = None
     """What is known of a source, in place of its default."""
     block_length: Length | None = None
     """Length of the blocks of profiles that are drawn; four of the largest waves by default."""
@@ -337,7 +337,7 @@ class UncertaintyTable(Table):
     """Estimated relative error of each direct contact; that of its first full grid by default."""
 
 
-class Output(Table):
+class OutputTable(Table):
     """Where the results go."""
 
     folder: str = "results"
@@ -351,7 +351,7 @@ class MeasuredTable(Table):
     """A table of speed and friction, drawn over what is predicted."""
 
 
-class Compare(Table):
+class CompareTable(Table):
     """What `gripscale compare` puts beside the models: fits of a theory."""
 
     layer_ratio: float | None = Field(default=None, gt=0.0, allow_inf_nan=False)
@@ -360,7 +360,7 @@ class Compare(Table):
     """Mean penetration depth in that theory."""
 
     @model_validator(mode="after")
-    def _both_or_none(self) -> Compare:
+    def _both_or_none(self) -> CompareTable:
         if (self.layer_ratio is None) != (self.penetration_depth is None):
             raise ValueError(
                 "expected layer_ratio and penetration_depth together: Klueppel and Heinrich's "
@@ -372,13 +372,13 @@ class Compare(Table):
 class Case(Table):
     """A whole case file."""
 
-    surface: Surface
+    surface: SurfaceTable
     """What is slid on."""
     rubber: RubberSource
     """What slides."""
-    load: Load
+    load: LoadTable
     """How it is pressed and slid."""
-    solver: Solver = Solver()
+    solver: SolverTable = SolverTable()
     """What solves one wave."""
     chain: ChainOptions = ChainOptions()
     """What goes on from wave to wave."""
@@ -386,9 +386,9 @@ class Case(Table):
     """Effects beside the rubber as measured."""
     measured: MeasuredTable = MeasuredTable()
     """Friction measured elsewhere."""
-    output: Output = Output()
+    output: OutputTable = OutputTable()
     """Where results go."""
-    compare: Compare = Compare()
+    compare: CompareTable = CompareTable()
     """Further inputs of a comparison."""
     uncertainty: UncertaintyTable = UncertaintyTable()
     """What is not known of all that."""

@@ -25,11 +25,11 @@ from gripscale.conditions.conditions import Conditions
 from gripscale.core import checks, provenance
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import ConvergenceError, ExtrapolationError, InputError
-from gripscale.model import MOST_CLASSES, LoadTime, NominalLoad
+from gripscale.model import MOST_CLASSES, Load, LoadTime
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import CHOICES, require_measured
 from gripscale.rubber.material import require_load_bearing
-from gripscale.surface import PreparedSurface, SineStack, SurfacePart
+from gripscale.surface import SineStack, Surface, SurfacePart
 from gripscale.theory.half_plane import HalfPlane
 from gripscale.wave.block import FiniteStrainBlock
 from gripscale.wave.kernel import RefinableSolver, WaveSolver, solver_of
@@ -168,7 +168,7 @@ def predict(
     return chain.solve(
         rubber,
         sines,
-        NominalLoad(pressure, speed, footprint, load_time),
+        Load(pressure, speed, footprint, load_time),
         smallest_wavelength=smallest_wavelength,
         max_scales=max_scales,
         on_scale=on_scale,
@@ -299,7 +299,7 @@ class Chain(Checked, model.Model):
         self,
         rubber: Rubber,
         sines: SineStack,
-        load: NominalLoad,
+        load: Load,
         *,
         smallest_wavelength: float | None = None,
         max_scales: int | None = None,
@@ -330,8 +330,8 @@ class Chain(Checked, model.Model):
     def predict(
         self,
         rubber: Rubber,
-        surface: PreparedSurface,
-        load: NominalLoad,
+        surface: Surface,
+        load: Load,
         *,
         on_progress: Callable[[Any], None] | None = None,
     ) -> xr.Dataset:

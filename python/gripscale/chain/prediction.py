@@ -34,7 +34,7 @@ from gripscale.conditions.conditions import Conditions
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
-from gripscale.model import NOT_CONVERGED, CutOffExponents, NominalLoad, of_curve
+from gripscale.model import NOT_CONVERGED, CutOffExponents, Load, of_curve
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import Extrapolation, of_sum
 from gripscale.surface import SineStack
@@ -160,7 +160,7 @@ class Prediction:
     rubber: Rubber
     """As measured; under conditions each wave has another one, see `WaveResult.rubber`."""
     sines: SineStack
-    load: NominalLoad
+    load: Load
     scales: list[WaveResult]
     planned: int
     """Number of waves to solve."""
@@ -348,7 +348,7 @@ class Prediction:
             return cls(
                 rubber=Rubber.from_dict(json.loads(data.attrs["rubber_parameters"])),
                 sines=SineStack(data["sines_wavelength"].values, data["sines_amplitude"].values),
-                load=NominalLoad(
+                load=Load(
                     pressure=float(data["nominal_pressure"]),
                     speed=float(data["nominal_speed"]),
                     footprint=float(data["footprint"]),

@@ -83,16 +83,14 @@ def _draw(view: PredictionView, waves: Any, columns: int, width: float) -> Figur
     height = rows * row_height + LAST
     figure = Figure(figsize=(width, height), dpi=DPI)
 
-    def panel(left: float, top: float, high: float) -> Axes:
-        return figure.add_axes(
-            (left / width, 1 - (top + high) / height, inside / width, high / height)
-        )
+    def panel(x: float, y: float, high: float) -> Axes:
+        return figure.add_axes((x / width, 1 - (y + high) / height, inside / width, high / height))
 
     for number, i in enumerate(waves):
         row, column = divmod(number, columns)
-        left, top = LEFT + column * (inside + BETWEEN), row * row_height + head
-        above = panel(left, top, inside * PRESSURE)
-        below = panel(left, top + inside * PRESSURE + MIDDLE, inside * (high - low))
+        x, y = LEFT + column * (inside + BETWEEN), row * row_height + head
+        above = panel(x, y, inside * PRESSURE)
+        below = panel(x, y + inside * PRESSURE + MIDDLE, inside * (high - low))
         if view.converged[i]:
             _pressure(above, view, i)
         else:
@@ -102,7 +100,7 @@ def _draw(view: PredictionView, waves: Any, columns: int, width: float) -> Figur
         if number == 0 and view.converged[i]:
             _annotate(above, below, view, i)
         if column == 0:
-            above.set_ylabel(f"$p_c$ [{view.shown('pressure').unit}]")
+            above.set_ylabel(f"$p_c$ [{view.display_unit('pressure').unit}]")
             below.set_ylabel("$z/\\lambda$ [-]")
         else:
             below.set_yticks([])  # those of the first block hold along the row
@@ -128,7 +126,7 @@ def _caption(view: PredictionView, i: int) -> str:
     def value(name: str, unit: float) -> str:
         return f"{view.column(name)[i] / unit:.3g}"
 
-    how = view.shown("pressure")
+    how = view.display_unit("pressure")
     contact = f", contact {view.column('contact_fraction')[i]:.2f}"
     return (
         f"λ = {value('wavelength', MILLI)} mm\n"
@@ -140,7 +138,7 @@ def _caption(view: PredictionView, i: int) -> str:
 
 def _mean(view: PredictionView, i: int) -> float:
     """Return the mean pressure of a wave as it is shown."""
-    return float(view.shown("pressure").of(view.column("pressure_received")[i]))
+    return float(view.display_unit("pressure").of(view.column("pressure_received")[i]))
 
 
 def _no_solution(axes: Axes, view: PredictionView, i: int) -> None:
@@ -155,7 +153,7 @@ def _no_solution(axes: Axes, view: PredictionView, i: int) -> None:
 def _pressure(axes: Axes, view: PredictionView, i: int) -> None:
     """Draw the contact pressure and its mean along one wavelength."""
     x, pascal = view.pressure_along(i)
-    pressure = view.shown("pressure").of(pascal)
+    pressure = view.display_unit("pressure").of(pascal)
     axes.fill_between(x, pressure, color=ORANGE, alpha=0.35, lw=0)
     axes.plot(x, pressure, color=ORANGE, lw=1.0)
     axes.axhline(_mean(view, i), color=GREY, lw=0.8, ls=DASHES["dashed"])

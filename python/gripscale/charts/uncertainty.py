@@ -95,14 +95,14 @@ def tornado_figure(data: xr.Dataset) -> Figure:
     middle = float(np.exp(np.nanmean(np.log(data.friction.values))))
     bars: list[Mark] = []
     dots: list[Mark] = []
-    for place, k in enumerate(ranked):
+    for row, k in enumerate(ranked):
         seen = shares[k] > SURE * errors[k]
         for end, colour in zip(data.friction_end.values[k], (BLUE, ORANGE), strict=True):
             low, high = sorted((middle, end))
             shade = colour if seen else GREY
-            bars.append(Bars(low, high, place - 0.3, place + 0.3, shade))
+            bars.append(Bars(low, high, row - 0.3, row + 0.3, shade))
         ends: dict[str, Any] = {"low": [shares[k] - errors[k]], "high": [shares[k] + errors[k]]}
-        dots.append(Series([shares[k]], [place], INK if seen else GREY, dash="", marker="o",
+        dots.append(Series([shares[k]], [row], INK if seen else GREY, dash="", marker="o",
                            size=4.0, level_bars=True, **ends))  # fmt: skip
     rows = Axis(ticks={float(i): str(data.label.values[k]) for i, k in enumerate(ranked)})
     title = f"{data.model.item()}: what each does alone"

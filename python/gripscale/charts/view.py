@@ -48,9 +48,9 @@ class PredictionView:
         """What tables and figures call it."""
         from gripscale.case.results import title
 
-        return title(self.speed, self.shown("speed"))
+        return title(self.speed, self.display_unit("speed"))
 
-    def shown(self, name: str) -> DisplayUnit:
+    def display_unit(self, name: str) -> DisplayUnit:
         """Return how its `pressure`, `speed` or `footprint` is shown: as its case gives it."""
         return display_unit(name, self.data.attrs)
 

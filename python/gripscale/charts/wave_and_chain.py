@@ -153,7 +153,7 @@ def _failed(views: Views, quantity: str, *, by_number: bool = False) -> Iterator
 
 
 def _load_panel(views: Views) -> Panel:
-    how = views[0].shown("pressure")
+    how = views[0].display_unit("pressure")
     columns = [(how.of(view.column("pressure_received")), how.of(view.column("modulus")))
                for view in views]  # fmt: skip
     return Panel(
@@ -192,7 +192,7 @@ def _pairs(
 
 
 def _pressure_panel(view: PredictionView) -> Panel:
-    how, wavelength = view.shown("pressure"), view.column("wavelength") / MILLI
+    how, wavelength = view.display_unit("pressure"), view.column("wavelength") / MILLI
     marks: list[Mark] = []
     for i, colour in enumerate(shades(view.waves)):
         phase, pressure = view.pressure_along(i)
@@ -306,7 +306,7 @@ def _iterations_panel(views: Views) -> Panel:
 
 def measured_chart(friction: MeasuredFriction, predictions: Views) -> Chart:
     """Return measured friction with the totals of `predictions`, each at its speed."""
-    how = predictions[0].shown("speed") if predictions else display_unit("speed")
+    how = predictions[0].display_unit("speed") if predictions else display_unit("speed")
     marks: list[Mark] = [*measured_points(xr.Dataset(measured_variables(friction)), how)]
     for view, colour in zip(predictions, COLOURS, strict=False):
         both = with_adhesive(view.data)

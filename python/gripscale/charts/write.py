@@ -24,7 +24,7 @@ from gripscale.rubber import ShiftTable
 if TYPE_CHECKING:
     from gripscale.case.prepare import PreparedRubber
     from gripscale.case.results import CaseResults
-    from gripscale.surface import PreparedSurface
+    from gripscale.surface import Surface
 
 MOST_PIECES = 8
 """Values of a second axis of a study up to which each gets figures of its own."""
@@ -37,7 +37,7 @@ def draw_inputs(results: CaseResults, folder: Path) -> None:
     rubber_figures(results.rubber, omega, folder)
 
 
-def surface_figures(prepared: PreparedSurface, folder: Path) -> None:
+def surface_figures(prepared: Surface, folder: Path) -> None:
     """Draw the profiles and their correlation; waves stated by hand have neither."""
     if prepared.measured is None or prepared.correlation is None:
         return

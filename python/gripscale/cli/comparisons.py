@@ -37,7 +37,7 @@ def compare(
         typer.Option(
             help="Compare over one input, as `gripscale study` varies it: speed=0.003:30:log9, "
             "pressure='1 bar,3 bar', temperature='20 C,40 C', smallest_wavelength, cut_off, "
-            "upper_share, waves.",
+            "top_height_fraction, waves.",
             metavar="NAME=VALUES",
             show_default=False,
         ),
@@ -99,7 +99,7 @@ def compare(
         **solving,
     }
     worth: list[xr.Dataset] = []
-    beside: xr.Dataset | None = None
+    residuals: xr.Dataset | None = None
     if axes is None:
         results = prepare_case(file)
         ladder = compare_case(results, **options)
@@ -110,7 +110,7 @@ def compare(
         store = target / PREDICTIONS
         effects = (case_effects(results, model, target, store, **solving) for model in models)
         worth = [result for result in effects if result is not None]
-        beside = at_measured(ladder, store, **solving)
+        residuals = at_measured(ladder, store, **solving)
     else:
         data = compare_over(file, axes, **options).to_dataset()
         name = f"over_{varied(data)}"
@@ -118,9 +118,9 @@ def compare(
     parts = list(comparison_parts(data))
     if worth:
         parts.append(effects_table(*worth))
-    if beside is not None:
-        netcdf.save(beside, target / "at_measured.nc")
-        parts.append(residual_table(beside))
+    if residuals is not None:
+        netcdf.save(residuals, target / "at_measured.nc")
+        parts.append(residual_table(residuals))
     sampled = stored_uncertainty(file.resolve(file.case.output.folder))
     parts += uncertainty_lines(sampled, file.text, input_digests(file))
 
@@ -128,9 +128,9 @@ def compare(
         draw_comparison(data, target)
         if worth:
             draw_effects(worth, target)
-        if beside is not None:
+        if residuals is not None:
             labels = dict(zip(data.rung.values.tolist(), data.label.values.tolist(), strict=True))
-            save_figure(at_measured_figure(beside, labels), target, "at_measured")
+            save_figure(at_measured_figure(residuals, labels), target, "at_measured")
 
     failed = [f"{where} did not converge: {status}" for where, status in failures(data)]
     conclude(
@@ -147,21 +147,21 @@ def compare(
 # What the commands that put things side by side share.
 
 
-def case_of(given: Sequence[str], case: Path | None, what: str) -> Path:
+def case_of(arguments: Sequence[str], case: Path | None, what: str) -> Path:
     """Return the case the rest is taken from: the one stated, or the first of those given.
 
     Raises `InputError` if there is none; `what` is taken from it.
     """
-    chosen = case or next((Path(text) for text in given if text.endswith(".toml")), None)
+    chosen = case or next((Path(text) for text in arguments if text.endswith(".toml")), None)
     if chosen is None:
         raise InputError(f"--case must be given: {what} are taken from a case")
     return chosen
 
 
-def names_of(given: Sequence[str]) -> list[str]:
+def names_of(arguments: Sequence[str]) -> list[str]:
     """Return what files and cases are called, cases by their folder, each name once."""
     names: list[str] = []
-    for text in given:
+    for text in arguments:
         path = Path(text)
         name = path.resolve().parent.name if path.name == "case.toml" else path.stem
         count = sum(other == name or other.startswith(f"{name} ") for other in names)

@@ -31,7 +31,7 @@ def study(
         typer.Option(
             help="What to vary, once or twice: speed=0.003:30:log9, pressure='1 bar,3 bar', "
             "temperature='0 C:60 C:lin7', effects=all,no_heat,none, smallest_wavelength, cut_off, "
-            "upper_share, waves, pressure_classes, "
+            "top_height_fraction, waves, pressure_classes, "
             "factors=3.5/2.4,3/2.2, rubber=case,dma.txt, surface.",
             metavar="NAME=VALUES",
         ),
@@ -121,9 +121,10 @@ def uncertainty(
             show_default=False,
         ),
     ] = None,
-    given: Annotated[
+    ranges: Annotated[
         list[str] | None,
         typer.Option(
+            "--range",
             help="What is known of a source, in place of its default: two ends as "
             "bulk_modulus='1.5 GPa:3 GPa', cut_off='50 um:200 um', load_time=0.5:2 (factors), or "
             "equally likely values as waves=6,8. May be given several times.",
@@ -180,16 +181,16 @@ def uncertainty(
     axes = None if vary is None else dict([parse_vary(vary)])
     blocks = None if block_length is None else length(block_length)
     values: dict[str, str] = {}
-    for text in given or ():
+    for text in ranges or ():
         name, separator, value = (part.strip() for part in text.partition("="))
         if not separator or not value:
-            raise InputError(f'given must be such as "cut_off=50 um:200 um"; got {text!r}')
+            raise InputError(f'range must be such as "cut_off=50 um:200 um"; got {text!r}')
         if name in values:
-            raise InputError(f"given must name different sources; got {name} twice")
+            raise InputError(f"range must name different sources; got {name} twice")
         values[name] = value
     file = read_case(case)
     choice = Uncertainty.of_case(
-        file.case.uncertainty, without=without or None, given=values, block_length=blocks
+        file.case.uncertainty, without=without or None, ranges=values, block_length=blocks
     )
     target = output or file.resolve(file.case.output.folder) / "uncertainty"
     folder.require_writable(target)

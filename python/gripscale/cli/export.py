@@ -60,21 +60,21 @@ def rubber(
     from gripscale.core.units import parse_quantity
     from gripscale.export import write_rubber
 
-    found = _rubber_of(source)
+    rubber = _rubber_of(source)
     if temperature is not None:
         try:
             kelvin = parse_quantity(temperature, "temperature")
         except ValueError as error:
             raise InputError(f"temperature: {error}") from error
-        found = found.at(kelvin)
-    stated = {
+        rubber = rubber.at(kelvin)
+    settings = {
         "name": name,
         "material": material,
         "modulus_unit": modulus_unit,
         "temperature_unit": temperature_unit,
     }
-    options = {key: value for key, value in stated.items() if value is not None}
-    written = write_rubber(found, output, to=to, **options)
+    options = {key: value for key, value in settings.items() if value is not None}
+    written = write_rubber(rubber, output, to=to, **options)
     console = screen()
     for remark in written.remarks:
         print_wrapped(console, remark)
@@ -110,9 +110,12 @@ def mesh(
     from gripscale.export import wave_of, write_mesh
     from gripscale.io import netcdf
 
-    found = wave_of(netcdf.load(result), wave)
-    write_mesh(found, output)
-    print_wrapped(screen(), f"Wave {wave}, {found.wavelength:.4g} m long, {found.why}, is {output}")
+    chosen = wave_of(netcdf.load(result), wave)
+    write_mesh(chosen, output)
+    print_wrapped(
+        screen(),
+        f"Wave {wave}, {chosen.wavelength:.4g} m long, {chosen.why}, is {output}",
+    )
 
 
 def _rubber_of(source: Path) -> Rubber:

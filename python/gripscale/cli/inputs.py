@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from gripscale.case.prepare import PreparedRubber
     from gripscale.io.table import Table
-    from gripscale.surface import PreparedSurface
+    from gripscale.surface import Surface
 
 
 # `gripscale init FOLDER`: an example to start from, with its data.
@@ -130,7 +130,9 @@ def fit_surface(
     slopes: Annotated[
         bool, _surface_option("Print the rms slope down to each wavelength.")
     ] = False,
-    upper_share: Annotated[float, typer.Option(help="Share of the heights that counts.")] = 1.0,
+    top_height_fraction: Annotated[
+        float, typer.Option(help="Part of the heights, from the top.")
+    ] = 1.0,
     s_wavelength: Annotated[float | None, _surface_option("Given instead of fitted.")] = None,
     s_amplitude: Annotated[float | None, _surface_option("Given instead of fitted.")] = None,
     single_factor: Annotated[bool, _surface_option("One factor for both lengths.")] = False,
@@ -144,26 +146,26 @@ def fit_surface(
     ] = None,
 ) -> None:
     """Clean profiles, find their height difference correlation and fit sine waves to it."""
-    from gripscale.case import Surface, folder, prepare_surface, validate
+    from gripscale.case import SurfaceTable, folder, prepare_surface, validate
     from gripscale.report.inputs import slopes_table, surface_lines, waves_table
 
-    stated = {
+    settings = {
         "files": files,
         "scales": scales,
         "smallest_wavelength": smallest_wavelength,
         "cut_off": cut_off,
-        "upper_share": upper_share,
+        "top_height_fraction": top_height_fraction,
         "s_wavelength": s_wavelength,
         "s_amplitude": s_amplitude,
         "crop": None if crop is None else list(crop),
         "x_unit": x_unit,
         "z_unit": z_unit,
     }
-    values = {key: value for key, value in stated.items() if value is not None}
+    values = {key: value for key, value in settings.items() if value is not None}
     if scales is None and smallest_wavelength is None and cut_off is None:
         values["scales"] = 8
     flags = {"remove_spikes": not keep_spikes, "detrend": detrend, "single_factor": single_factor}
-    surface = validate(Surface, values | flags, "options")
+    surface = validate(SurfaceTable, values | flags, "options")
     if output is not None:
         folder.require_writable(output)
     prepared = prepare_surface(surface)
@@ -186,7 +188,7 @@ def fit_surface(
         print_wrapped(console, f"Figures are in {output}")
 
 
-def _ambiguity(prepared: PreparedSurface) -> Iterator[str]:
+def _ambiguity(prepared: Surface) -> Iterator[str]:
     """Yield how far the correlation determines the waves, where there are several."""
     from gripscale.surface import sine_ambiguity
 
@@ -261,7 +263,7 @@ def fit_rubber(
     from gripscale.case import RubberSource, folder, prepare_rubber, validate
     from gripscale.report.inputs import band_table, prony_table, rubber_parts
 
-    stated = {
+    settings = {
         "file": file,
         "terms": terms,
         "frequency_unit": frequency_unit,
@@ -277,7 +279,7 @@ def fit_rubber(
         "shift": shift,
         "vertical": vertical or None,
     }
-    values = {key: value for key, value in stated.items() if value is not None}
+    values = {key: value for key, value in settings.items() if value is not None}
     source = validate(RubberSource, values, "options")
     if output is not None:
         folder.require_writable(output)

@@ -119,7 +119,7 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
     opening = _opening(results)
     for line in opening:
         print_wrapped(console, line)
-    print_event = _event_printer(console, results.shown("speed"))
+    print_event = _event_printer(console, results.display_unit("speed"))
     with background_figures(results, target / "figures") as draw_solved:
 
         def on_event(event: Event) -> None:
@@ -140,7 +140,7 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
                 emit(FileWritten(str(target / EFFECTS.format(model=results.chain.name))))
         parts, heat = _parts(results, direct, effects)
         if friction is not None and results.load.speed > 0.0:
-            parts += measured_lines(friction, results.load.speed, results.shown("speed"))
+            parts += measured_lines(friction, results.load.speed, results.display_unit("speed"))
         sampled = stored_uncertainty(target)
         parts += uncertainty_lines(sampled, file.text, input_digests(file))
 

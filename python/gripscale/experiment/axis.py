@@ -39,7 +39,7 @@ QUANTITIES = {
 COUNTS = {"waves": MOST_WAVES, "pressure_classes": MOST_CLASSES}
 """Axes of whole numbers, with the largest."""
 
-NUMBERS = (*QUANTITIES, *COUNTS, "upper_share")
+NUMBERS = (*QUANTITIES, *COUNTS, "top_height_fraction")
 """Axes whose values are numbers."""
 
 UNITS = {
@@ -48,7 +48,7 @@ UNITS = {
     "temperature": "K",
     "smallest_wavelength": "m",
     "cut_off": "m",
-    "upper_share": "1",
+    "top_height_fraction": "1",
     "waves": "1",
     "pressure_classes": "1",
     "factors": "1",
@@ -64,7 +64,7 @@ LONG_NAMES = {
     "temperature": "temperature of the rubber before the contact",
     "smallest_wavelength": "smallest wavelength",
     "cut_off": "shortest wavelength of the roughness",
-    "upper_share": "share of the heights that counts",
+    "top_height_fraction": "fraction of the heights, from the top, that counts",
     "waves": "number of waves",
     "pressure_classes": "number of pressure classes",
     "factors": "magnification factors of wavelength and amplitude",
@@ -96,7 +96,7 @@ class Axis:
         """Values along the axis of a Dataset: numbers, or labels."""
         return list(self.values) if self.numeric else list(self.labels)
 
-    def shown(self, case: str) -> DisplayUnit | None:
+    def display_unit(self, case: str) -> DisplayUnit | None:
         """Return how its values are shown, in a study of this text of a case; None of no length."""
         if not self.numeric or self.name not in KEYS:
             return None
@@ -104,19 +104,19 @@ class Axis:
 
     def called(self, i: int, case: str) -> str:
         """Return what value `i` is called in a study of this text of a case."""
-        how = self.shown(case)
+        how = self.display_unit(case)
         return self.labels[i] if how is None else how.text(self.values[i])
 
 
 # One value of a varied input, from Python or from a text, and what it is called.
 
 
-def axis_value(name: str, given: Any) -> Any:
+def axis_value(name: str, value: Any) -> Any:
     """Return a value of an input, other than rubber and surface, in SI units.
 
     Raises `InputError` if it cannot be used.
     """
-    return _READERS[name](name, given)
+    return _READERS[name](name, value)
 
 
 def value_label(name: str, value: Any) -> str:
@@ -194,7 +194,7 @@ def _selection(name: str, value: Any) -> str:
 _READERS: dict[str, Callable[[str, Any], Any]] = {
     **dict.fromkeys(QUANTITIES, _quantity),
     **dict.fromkeys(COUNTS, _count),
-    "upper_share": _share,
+    "top_height_fraction": _share,
     "factors": _pair,
     "cut_off": _cut_off,
     "effects": _selection,
@@ -209,7 +209,7 @@ LABELS = {
     "temperature": "temperature $T$",
     "smallest_wavelength": "smallest wavelength",
     "cut_off": "shortest wavelength of the roughness",
-    "upper_share": "share of the heights that counts",
+    "top_height_fraction": "fraction of the heights, from the top, that counts",
     "pressure_classes": "number of pressure classes",
     "waves": "number of waves",
 }
@@ -217,7 +217,7 @@ LABELS = {
 
 FIXED = {
     "temperature": DisplayUnit("°C", zero=ZERO_CELSIUS),
-    "upper_share": DisplayUnit("of the heights"),
+    "top_height_fraction": DisplayUnit("of the heights"),
     "pressure_classes": DisplayUnit("pressure classes"),
     "waves": DisplayUnit("waves"),
 }
@@ -262,8 +262,8 @@ def dimensions(result: xr.Dataset) -> list[str]:
 
 def numeric(result: xr.Dataset) -> list[str]:
     """Return the varied axes of numbers with at least two values, longest first."""
-    found = [n for n in dimensions(result) if result.sizes[n] > 1 and of_numbers(result, n)]
-    return sorted(found, key=lambda name: -result.sizes[name])
+    axes = [n for n in dimensions(result) if result.sizes[n] > 1 and of_numbers(result, n)]
+    return sorted(axes, key=lambda name: -result.sizes[name])
 
 
 def of_numbers(result: xr.Dataset, axis: str) -> bool:
@@ -286,7 +286,7 @@ def name_of(result: xr.Dataset, axis: str, i: int) -> str:
 # - speed=0.003:30:log9: nine speeds [m/s], evenly spaced in their logarithm (lin9: evenly)
 # - pressure=1 bar,3 bar: a list, with units
 # - cut_off=0.5 mm,instrument,rms_slope 1.3: lengths and the other rules of a case file
-# - upper_share=0.3:1:lin8, pressure_classes=1,2,4,8: numbers and whole numbers
+# - top_height_fraction=0.3:1:lin8, pressure_classes=1,2,4,8: numbers and whole numbers
 # - factors=3.5/2.4,3/2.2,6/3: magnification factors of wavelength and amplitude
 # - temperature=0 C:60 C:lin7, 20 C,40 C: always with a unit; effects=all,no heat,none: what of the
 #   conditions of the model counts
@@ -316,12 +316,12 @@ def parse_vary(text: str) -> tuple[str, str]:
     return checks.one_of("vary", name.strip(), UNITS), values
 
 
-def _axis(name: str, given: Any) -> Axis:
+def _axis(name: str, value: Any) -> Axis:
     checks.one_of("vary", name, UNITS)
     if name in ("rubber", "surface"):
-        values, labels = _named(name, given)
+        values, labels = _named(name, value)
     else:
-        values = tuple(axis_value(name, entry) for entry in _entries(name, given))
+        values = tuple(axis_value(name, entry) for entry in _entries(name, value))
         worded = any(isinstance(value, RmsSlope | str) for value in values)
         unit = f" {UNITS[name]}" if worded else ""
         labels = tuple(
@@ -332,36 +332,36 @@ def _axis(name: str, given: Any) -> Axis:
     twice = {label for label in labels if labels.count(label) > 1}
     if twice:
         raise InputError(f"{name} must have different values; got {min(twice)} more than once")
-    return Axis(name, values, labels, _unit_given(name, given))
+    return Axis(name, values, labels, _unit_given(name, value))
 
 
-def _unit_given(name: str, given: Any) -> str:
+def _unit_given(name: str, value: Any) -> str:
     """Return the first unit among the values of an axis; empty where all are plain numbers."""
     if name not in KEYS:
         return ""
-    texts = re.split("[,:]", given) if isinstance(given, str) else _entries(name, given)
+    texts = re.split("[,:]", value) if isinstance(value, str) else _entries(name, value)
     units = (unit_of(text, QUANTITIES[name]) for text in texts)
     return next(filter(None, units), "")
 
 
-def _entries(name: str, given: Any) -> Iterable[Any]:
+def _entries(name: str, value: Any) -> Iterable[Any]:
     """Return single values of a list, a text `a,b,c`, a text `a:b:log5`, or a single value."""
-    if isinstance(given, str):
-        found = _RANGE.fullmatch(given)
-        if found is not None:
-            return _spaced(name, *found.groups())
-        if ":" in given:
-            raise InputError(_no_range(name, given))
-        return [part.strip() for part in given.split(",")]
-    return given if isinstance(given, Iterable) else [given]
+    if isinstance(value, str):
+        match = _RANGE.fullmatch(value)
+        if match is not None:
+            return _spaced(name, *match.groups())
+        if ":" in value:
+            raise InputError(_no_range(name, value))
+        return [part.strip() for part in value.split(",")]
+    return value if isinstance(value, Iterable) else [value]
 
 
-def _no_range(name: str, given: str) -> str:
+def _no_range(name: str, text: str) -> str:
     """Return a sentence on a text with colons that is no range: which of its parts is wrong."""
     example = {"speed": "0.01 m/s:10 m/s:log7", "pressure": "1 bar:5 bar:lin5"}
     example |= {"temperature": "0 C:60 C:lin7"}
     example |= dict.fromkeys(("smallest_wavelength", "cut_off"), "0.1 mm:1 mm:log4")
-    parts = given.split(":")
+    parts = text.split(":")
     wrong = (
         "the third part is missing"
         if len(parts) == 2
@@ -371,7 +371,7 @@ def _no_range(name: str, given: str) -> str:
     )
     return (
         f"{name} must be a range of first value, last value and spacing with the number of values, "
-        f'such as "{example.get(name, "1:10:log5")}"; {wrong} in {given!r}'
+        f'such as "{example.get(name, "1:10:log5")}"; {wrong} in {text!r}'
     )
 
 
@@ -395,11 +395,11 @@ def _spaced(name: str, first: str, last: str, spacing: str, count: str) -> list[
     return [low, *(float(f"{value:.12g}") for value in values[1:-1]), high]
 
 
-def _named(name: str, given: Any) -> tuple[tuple[Any, ...], tuple[str, ...]]:
+def _named(name: str, value: Any) -> tuple[tuple[Any, ...], tuple[str, ...]]:
     """Return values and labels of rubbers or surfaces: a mapping, or texts and paths."""
-    if isinstance(given, Mapping):
-        return tuple(given.values()), tuple(str(label) for label in given)
-    entries = given.split(",") if isinstance(given, str) else list(given)
+    if isinstance(value, Mapping):
+        return tuple(value.values()), tuple(str(label) for label in value)
+    entries = value.split(",") if isinstance(value, str) else list(value)
     for entry in entries:
         if not isinstance(entry, str | Path):
             raise InputError(

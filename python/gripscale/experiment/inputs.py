@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 from gripscale.case.prepare import case_chain, prepare_rubber, prepare_surface
 from gripscale.case.read import CaseFile, read_case, validate
 from gripscale.case.rubber_tables import NAMED_RUBBERS, RubberSource
-from gripscale.case.tables import Surface
+from gripscale.case.tables import SurfaceTable
 from gripscale.chain.chain import Chain
 from gripscale.conditions import Conditions
 from gripscale.core import checks
@@ -20,7 +20,7 @@ from gripscale.half_space.model import DirectContact
 from gripscale.io.text_table import is_excel, read_bytes
 from gripscale.model import Model
 from gripscale.rubber import Rubber
-from gripscale.surface import PreparedSurface, SineStack
+from gripscale.surface import SineStack, Surface
 from gripscale.surface.synthetic import SYNTHETIC_SURFACES, synthetic_surface
 
 OF_A_FILE = (
@@ -34,7 +34,7 @@ OF_A_FILE = (
 """Keys of the case's [rubber] that a varied file is read with where it does not state them."""
 
 
-def case_surface(file: CaseFile) -> PreparedSurface:
+def case_surface(file: CaseFile) -> Surface:
     """Return the surface of a case."""
     return prepare_surface(file.case.surface, file.resolve)
 
@@ -44,17 +44,17 @@ def case_rubber(file: CaseFile) -> Rubber:
     return prepare_rubber(file.case.rubber, file.resolve).rubber
 
 
-def surface_of(value: Any, file: CaseFile) -> PreparedSurface:
+def surface_of(value: Any, file: CaseFile) -> Surface:
     """Return the surface an axis names.
 
     `value` is "case" (the case's own), a synthetic surface known by name, another case (its
     [surface] is taken), a profile or, of a case on a map, a map (read with all other settings of
-    the case), a `SineStack` or a `PreparedSurface`.
+    the case), a `SineStack` or a `Surface`.
     """
-    if isinstance(value, PreparedSurface):
+    if isinstance(value, Surface):
         return value
     if isinstance(value, SineStack):
-        return PreparedSurface(value, "sine waves given by the caller")
+        return Surface(value, "sine waves given by the caller")
     if value == "case":
         return case_surface(file)
     if value in SYNTHETIC_SURFACES:
@@ -62,11 +62,11 @@ def surface_of(value: Any, file: CaseFile) -> PreparedSurface:
     path = _found("surface", value, file, ("case", *SYNTHETIC_SURFACES))
     if path.suffix == ".toml":
         return case_surface(read_case(path))
-    own = file.case.surface.model_dump(exclude_none=True, exclude={"files", "map", "sines"})
+    table = file.case.surface.model_dump(exclude_none=True, exclude={"files", "map", "sines"})
     if file.case.surface.sines is not None:
-        own["scales"] = len(file.case.surface.sines)
+        table["scales"] = len(file.case.surface.sines)
     source = {"files": [str(path)]} if file.case.surface.map is None else {"map": str(path)}
-    return prepare_surface(validate(Surface, own | source, "vary surface"))
+    return prepare_surface(validate(SurfaceTable, table | source, "vary surface"))
 
 
 def rubber_of(value: Any, file: CaseFile) -> Rubber:
@@ -82,11 +82,11 @@ def rubber_of(value: Any, file: CaseFile) -> Rubber:
     if value == "case":
         return case_rubber(file)
     case = file.case.rubber
-    own: dict[str, Any] = {"strain_energy": case.strain_energy}
+    settings: dict[str, Any] = {"strain_energy": case.strain_energy}
     if case.bulk_modulus is not None:
-        own["bulk_modulus"] = case.bulk_modulus
+        settings["bulk_modulus"] = case.bulk_modulus
     if value in NAMED_RUBBERS:
-        return _rubber({"name": value, **own})
+        return _rubber({"name": value, **settings})
     path = _found("rubber", value, file, ("case", *NAMED_RUBBERS))
     if path.suffix == ".toml":
         return case_rubber(read_case(path))
@@ -94,18 +94,18 @@ def rubber_of(value: Any, file: CaseFile) -> Rubber:
     source = f"{path}, read like the rubber of the case where it does not say: {', '.join(taken)}"
     said = {"source": source} if taken else {}
     if case.outlier_threshold is not None:
-        own["outlier_threshold"] = case.outlier_threshold
-    return _rubber({"file": str(path), **own, **taken, **said}, titles_first=True)
+        settings["outlier_threshold"] = case.outlier_threshold
+    return _rubber({"file": str(path), **settings, **taken, **said}, titles_first=True)
 
 
 def _taken(case: RubberSource, path: Path) -> dict[str, Any]:
     """Return what the case says of its own file that may hold for the file `path`, too."""
     names = (*OF_A_FILE, "sheet") if is_excel(path) else OF_A_FILE
-    stated = {name: getattr(case, name) for name in names}
-    kelvin = stated["reference_temperature"]
+    settings = {name: getattr(case, name) for name in names}
+    kelvin = settings["reference_temperature"]
     if kelvin is not None:
-        stated["reference_temperature"] = f"{kelvin!r} K"
-    return {name: value for name, value in stated.items() if value is not None}
+        settings["reference_temperature"] = f"{kelvin!r} K"
+    return {name: value for name, value in settings.items() if value is not None}
 
 
 def stated_by(value: Any, file: CaseFile) -> Any:
@@ -132,19 +132,19 @@ def digest(path: Path) -> str:
     return hashlib.sha256(read_bytes(path)).hexdigest()
 
 
-def _found(name: str, value: Any, file: CaseFile, known: tuple[str, ...]) -> Path:
+def _found(name: str, value: Any, file: CaseFile, names: tuple[str, ...]) -> Path:
     """Return the file `value`, looked for here and beside the case."""
     here = Path(str(value)).expanduser()
     for path in (here, file.resolve(str(value))):
         if path.is_file():
             return path
     raise FileError(
-        f"{name} {value} is neither a file here or beside the case nor one of {', '.join(known)}"
+        f"{name} {value} is neither a file here or beside the case nor one of {', '.join(names)}"
     )
 
 
-def _rubber(stated: dict[str, Any], *, titles_first: bool = False) -> Rubber:
-    source = validate(RubberSource, stated, "vary rubber")
+def _rubber(settings: dict[str, Any], *, titles_first: bool = False) -> Rubber:
+    source = validate(RubberSource, settings, "vary rubber")
     return prepare_rubber(source, titles_first=titles_first).rubber
 
 

@@ -76,12 +76,12 @@ def collapse(curves: Sequence[tuple[ArrayLike, ArrayLike]]) -> Collapse:
         out.
     """
     usable = [_logarithms(x, y) for x, y in curves]
-    found = [one for pair in permutations(usable, 2) for one in _apart(*pair)]
-    counted = [(distance, error) for distance, error in found if error <= TRUSTED]
+    pairs = [point for two in permutations(usable, 2) for point in _apart(*two)]
+    counted = [(distance, error) for distance, error in pairs if error <= TRUSTED]
     if not counted:
-        return Collapse(math.nan, math.nan, 0, len(found))
+        return Collapse(math.nan, math.nan, 0, len(pairs))
     distances, errors = zip(*counted, strict=True)
-    return Collapse(max(distances), max(errors), len(counted), len(found))
+    return Collapse(max(distances), max(errors), len(counted), len(pairs))
 
 
 def _logarithms(x: ArrayLike, y: ArrayLike) -> Curve:
@@ -93,9 +93,9 @@ def _logarithms(x: ArrayLike, y: ArrayLike) -> Curve:
     return abscissas, values
 
 
-def _apart(one: Curve, other: Curve) -> Iterator[tuple[float, float]]:
-    """Yield distance and error of the interpolation at the points of `one` along `other`."""
-    (x, y), (nodes, values) = one, other
+def _apart(first: Curve, other: Curve) -> Iterator[tuple[float, float]]:
+    """Yield distance and error of the interpolation at the points of `first` along `other`."""
+    (x, y), (nodes, values) = first, other
     inside = np.zeros(x.size, dtype=bool)
     if nodes.size:
         inside = (x >= nodes[0] - SAME) & (x <= nodes[-1] + SAME)
@@ -186,15 +186,15 @@ def _collapsed(result: xr.Dataset, name: str) -> xr.DataArray:
     """Return how far a total at the temperatures lies apart over the reduced speed."""
     values = result[name].transpose("speed", "temperature").values
     reduced = result[REDUCED_SPEED].transpose("speed", "temperature").values
-    found = collapse(list(zip(reduced.T, values.T, strict=True)))
+    overlap = collapse(list(zip(reduced.T, values.T, strict=True)))
     attrs: dict[str, Any] = {
         "units": "1",
         "long_name": f"largest relative distance of temperatures at the same a_T v, {TOTALS[name]}",
-        "interpolation_error": found.interpolation_error,
-        "points": found.points,
-        "overlapping_points": found.overlapping,
+        "interpolation_error": overlap.interpolation_error,
+        "points": overlap.points,
+        "overlapping_points": overlap.overlapping,
     }
-    return xr.DataArray(found.distance, attrs=attrs)
+    return xr.DataArray(overlap.distance, attrs=attrs)
 
 
 def _states_temperature(task: Task) -> bool:
@@ -252,33 +252,33 @@ def friction_by_decade(solved: xr.Dataset, rubber: Rubber) -> dict[int, float]:
     parts: dict[int, float] = {}
     for i in range(solved.sizes["scale"]):
         wave = solved.isel(scale=i)
-        own = _rubber_of(wave, rubber)
-        share = _shares(wave, own) * float(wave.friction)
-        for n, part in _in_decades(np.log10(own.relaxation_times), share):
+        matching = _rubber_of(wave, rubber)
+        share = _shares(wave, matching) * float(wave.friction)
+        for n, part in _in_decades(np.log10(matching.relaxation_times), share):
             parts[n] = parts.get(n, 0.0) + part
     return parts
 
 
-def _in_decades(place: Array, share: Array) -> Iterator[tuple[int, float]]:
-    """Yield decades and the part of the shares of elements, at `place` [decades], in each."""
-    order = np.argsort(place)
-    for low, high, part in zip(*_ends(place[order]), share[order], strict=True):
+def _in_decades(decade: Array, share: Array) -> Iterator[tuple[int, float]]:
+    """Yield decades and the part of the shares of elements, at `decade` [decades], in each."""
+    order = np.argsort(decade)
+    for low, high, part in zip(*_ends(decade[order]), share[order], strict=True):
         first, last = math.floor(low + ON_EDGE), math.floor(high - ON_EDGE)
         for n in range(first, max(first, last) + 1):
             inside = float(min(high, n + 1.0) - max(low, n))
             yield n, float(part * (inside / (high - low) if last > first else 1.0))
 
 
-def _ends(place: Array) -> tuple[Array, Array]:
+def _ends(decade: Array) -> tuple[Array, Array]:
     """Return from where to where each element reaches [decades], places in rising order.
 
     Without a neighbour on one side it reaches as far there as on the other.
     """
-    half = np.diff(place) / 2.0
+    half = np.diff(decade) / 2.0
     half = np.where(2.0 * half <= NEAR, half, np.nan)
     below, above = np.append(np.nan, half), np.append(half, np.nan)
-    left, right = (np.where(np.isnan(a), b, a) for a, b in ((below, above), (above, below)))
-    return place - np.nan_to_num(left), place + np.nan_to_num(right)
+    lower, upper = (np.where(np.isnan(a), b, a) for a, b in ((below, above), (above, below)))
+    return decade - np.nan_to_num(lower), decade + np.nan_to_num(upper)
 
 
 def _rubber_of(wave: xr.Dataset, rubber: Rubber) -> Rubber:

@@ -55,7 +55,7 @@ from gripscale.model import (
     Model,
 )
 from gripscale.rubber import Rubber
-from gripscale.surface import PreparedSurface
+from gripscale.surface import Surface
 
 RENAMED = {"temperature": "wave_temperature"}
 """Variables over waves that have the name of an axis."""
@@ -103,7 +103,7 @@ def coordinates(axes: Iterable[Axis], case: str) -> dict[str, xr.DataArray]:
         coords[axis.name] = _labelled(
             axis.name, values, UNITS[axis.name] if axis.numeric else "1", LONG_NAMES[axis.name]
         )
-        unit = axis.shown(case)
+        unit = axis.display_unit(case)
         if unit is not None:
             coords[axis.name].attrs[GIVEN] = unit.unit
         if axis.name == "factors":
@@ -133,8 +133,8 @@ class Study:
     vary
         One or two of speed, pressure, temperature, smallest_wavelength, cut_off (numbers in SI
         units, or texts with a unit; a cut_off also "instrument", "rms_slope 1.3" or another
-        `CutOffRule`), upper_share (numbers), waves, pressure_classes (whole numbers), factors
-        (pairs of magnification factors, or "3.5/2.4"), effects (of the conditions: "all",
+        `CutOffRule`), top_height_fraction (numbers), waves, pressure_classes (whole numbers),
+        factors (pairs of magnification factors, or "3.5/2.4"), effects (of the conditions: "all",
         "no heat", "none"), rubber and surface (names and files, or a mapping from names to
         `Rubber`, `SineStack`, names and files), each with its values, or with a text as on the
         command line ("0.003:30:log9", "1 bar,3 bar"). A speed of zero is static contact.
@@ -170,10 +170,10 @@ class Study:
             raise InputError(
                 f"pressure_classes belongs to the chain; got the model {self.model.name}"
             )
-        self._varied: dict[Any, PreparedSurface] = {}
+        self._varied: dict[Any, Surface] = {}
 
     @cached_property
-    def surfaces(self) -> list[PreparedSurface]:
+    def surfaces(self) -> list[Surface]:
         """The varied surfaces, or the one of the case, read and fitted."""
         values = self._values("surface")
         return [surface_of(value, self.file) for value in values] or [case_surface(self.file)]
@@ -195,7 +195,7 @@ class Study:
     def key(self) -> str:
         """A hash of all the study depends on, its files unread but for their bytes."""
         named = {name: self._values(name) for name in ("surface", "rubber")}
-        stated = {
+        settings = {
             "software": software(),
             "case": contents(self.file),
             "axes": {axis.name: axis.labels for axis in self.axes},
@@ -208,7 +208,7 @@ class Study:
             "static": self.static,
             "model": canonical_json(self.model),
         }
-        return hashlib.sha256(json.dumps(stated, sort_keys=True).encode()).hexdigest()
+        return hashlib.sha256(json.dumps(settings, sort_keys=True).encode()).hexdigest()
 
     def description(self) -> list[str]:
         """Return in words what is varied, and on what."""
@@ -289,10 +289,10 @@ class Study:
     def stored(self, folder: str | Path) -> xr.Dataset | None:
         """Return the Dataset an earlier run of just this study left in `folder`, or None."""
         try:
-            found = netcdf.load(Path(folder) / RESULT)
+            result = netcdf.load(Path(folder) / RESULT)
         except FileError:
             return None
-        return found if found.attrs.get("study_key") == self.key else None
+        return result if result.attrs.get("study_key") == self.key else None
 
     def _all_there(self, data: xr.Dataset, bench: Bench) -> bool:
         """Report every prediction as stored, if the store misses none that `data` rests on."""
@@ -367,11 +367,17 @@ class Study:
             model = at_temperature(model, values["temperature"])
         return with_effects(model, values["effects"]) if "effects" in values else model
 
-    def _surface(self, number: int, values: dict[str, Any]) -> PreparedSurface:
+    def _surface(self, number: int, values: dict[str, Any]) -> Surface:
         """Return the surface of a point; each choice of waves is fitted once."""
         changes = {
             name: values[name]
-            for name in ("factors", "waves", "smallest_wavelength", "cut_off", "upper_share")
+            for name in (
+                "factors",
+                "waves",
+                "smallest_wavelength",
+                "cut_off",
+                "top_height_fraction",
+            )
             if name in values
         }
         key = (number, *sorted(changes.items()))
@@ -388,7 +394,9 @@ class Study:
             "surfaces": "; ".join(surface.source for surface in self.surfaces),
             "rubbers": "; ".join(f"{rubber.name}: {rubber.source}" for rubber in self.rubbers),
             "rubber_parameters": json.dumps(canonical_json(self.rubbers)),
-            "notes": "\n".join(dict.fromkeys(n for one in self.surfaces for n in one.notes)),
+            "notes": "\n".join(
+                dict.fromkeys(n for surface in self.surfaces for n in surface.notes)
+            ),
             "software": software(),
             "study_key": self.key,
             "description": json.dumps(self.description()),

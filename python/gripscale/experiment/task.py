@@ -25,9 +25,9 @@ from gripscale.core.errors import FileError, InputError
 from gripscale.core.parallel import Stopped
 from gripscale.core.provenance import software
 from gripscale.io import netcdf
-from gripscale.model import Model, NominalLoad
+from gripscale.model import Load, Model
 from gripscale.rubber import Rubber
-from gripscale.surface import PreparedSurface
+from gripscale.surface import Surface
 
 KEY_LENGTH = 32
 """Hexadecimal digits of a key (128 bits)."""
@@ -44,8 +44,8 @@ class Task:
     """One prediction to make: what slides on what, under which load, by which model."""
 
     rubber: Rubber
-    surface: PreparedSurface
-    load: NominalLoad
+    surface: Surface
+    load: Load
     model: Model = field(default_factory=Chain)
 
     @cached_property
@@ -75,9 +75,9 @@ class Task:
                 raise Stopped
 
         start = time.perf_counter()
-        found = self.model.predict(self.rubber, self.surface, self.load, on_progress=look)
+        answer = self.model.predict(self.rubber, self.surface, self.load, on_progress=look)
         seconds = time.perf_counter() - start
-        return self.key, found.assign_attrs(prediction_key=self.key), seconds
+        return self.key, answer.assign_attrs(prediction_key=self.key), seconds
 
 
 def canonical_json(value: Any) -> Any:
@@ -143,10 +143,10 @@ class Store:
     def get(self, key: str) -> xr.Dataset | None:
         """Return the prediction of `key`, or None if it is not there whole."""
         try:
-            found = netcdf.load(self.path(key))
+            stored = netcdf.load(self.path(key))
         except FileError:
             return None
-        return found if found.attrs.get("prediction_key") == key else None
+        return stored if stored.attrs.get("prediction_key") == key else None
 
     def put(self, key: str, solved: xr.Dataset) -> xr.Dataset:
         """Write the prediction of `key` and return it as read back.

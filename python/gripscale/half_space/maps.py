@@ -28,13 +28,13 @@ from gripscale.half_space.windows import WindowContacts, solve_windows
 from gripscale.model import NOT_CONVERGED, CutOffExponents, of_mean
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import Extrapolation, of_sum
-from gripscale.surface import HeightMap, PreparedSurface, Profile, SurfacePart, isotropic_maps
+from gripscale.surface import HeightMap, Profile, Surface, SurfacePart, isotropic_maps
 from gripscale.surface.isotropic_maps import seed_numbers
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from gripscale.model import NominalLoad
+    from gripscale.model import Load
     from gripscale.rubber import Rubber
 
 
@@ -349,8 +349,8 @@ class SyntheticMap(model.Model):
     def predict(
         self,
         rubber: Rubber,
-        surface: PreparedSurface,
-        load: NominalLoad,
+        surface: Surface,
+        load: Load,
         *,
         on_progress: Callable[[Any], None] | None = None,
     ) -> xr.Dataset:

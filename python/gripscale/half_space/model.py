@@ -14,12 +14,12 @@ from gripscale.core import checks
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.half_space.solve import relative_tolerance, solve_rough_contact
-from gripscale.surface import PreparedSurface, SurfacePart
+from gripscale.surface import Surface, SurfacePart
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from gripscale.model import NominalLoad
+    from gripscale.model import Load
     from gripscale.rubber import Rubber
 
 
@@ -61,8 +61,8 @@ class DirectContact(Checked, model.Model):
     def predict(
         self,
         rubber: Rubber,
-        surface: PreparedSurface,
-        load: NominalLoad,
+        surface: Surface,
+        load: Load,
         *,
         on_progress: Callable[[Any], None] | None = None,
     ) -> xr.Dataset:

@@ -31,7 +31,7 @@ LEAST_VALID = 0.5
 POINTS_IN_WAVE = 8
 MOST_POINTS = 10_000_000
 
-Surface = TypeVar("Surface", Profile, HeightMap)
+Measurement = TypeVar("Measurement", Profile, HeightMap)
 
 
 @dataclass(frozen=True)
@@ -241,7 +241,7 @@ def surface_of_sines(stack: SineStack, length: float, seed: int) -> Profile:
     return Profile(position * period, z, name=f"{len(stack)} sine waves", source=f"seed {seed}")
 
 
-def random_phases(surface: Surface, seed: int) -> Surface:
+def random_phases(surface: Measurement, seed: int) -> Measurement:
     """Return a periodic surface with the spectrum of `surface` and random phases.
 
     Missing heights are filled and ends joined as `solve_rough_contact` does. The height difference

@@ -347,10 +347,10 @@ class Table:
             cells = []
             for at, (column, kind) in enumerate(zip(self.columns, words, strict=True)):
                 text, tag = texts[at][row], "td" if at else 'th scope="row"'
-                shown = (NONE if text == "-" else text) if kind else on_page(text)
+                cell = (NONE if text == "-" else text) if kind else on_page(text)
                 cells.append(
                     f'<{tag} class="{kind}{" bad" if self.is_bad(column, row) else ""}">'
-                    f"{html.escape(shown + column.mark(row))}</{tag[:2]}>"
+                    f"{html.escape(cell + column.mark(row))}</{tag[:2]}>"
                 )
             strong = ' class="strong"' if row in self.strong else ""
             body.append(f"<tr{strong}>{''.join(cells)}</tr>")
@@ -405,8 +405,8 @@ def _group_line(columns: Sequence[Column], widths: Sequence[int], gap: str) -> s
     for group, members in itertools.groupby(range(len(columns)), lambda at: columns[at].group):
         places = list(members)
         span = sum(widths[at] for at in places) + len(gap) * (len(places) - 1)
-        shown = group if len(group) <= span else group[: span - 1] + "…"
-        line = line.ljust(start) + shown.center(span)
+        heading = group if len(group) <= span else group[: span - 1] + "…"
+        line = line.ljust(start) + heading.center(span)
         start += span + len(gap)
     return line.rstrip()
 

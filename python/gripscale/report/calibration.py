@@ -34,10 +34,10 @@ def misfit_table(data: xr.Dataset) -> Table:
     """Return the fitted friction beside the measured one, point by point."""
     names = ["hysteresis", "area_term", "friction", "difference", "difference_in_spread"]
     model = str(data.attrs.get("model", "fit"))
-    beside = data[[*names, *(n for n in data.data_vars if str(n).startswith("measured_"))]]
-    beside = beside.assign({name: data[name].expand_dims(model=[model]) for name in names})
-    rms = {f"rms_{n}": np.sqrt((beside[n] ** 2).mean("measurement")) for n in names[3:]}
-    return residual_table(beside.assign(rms))
+    table = data[[*names, *(n for n in data.data_vars if str(n).startswith("measured_"))]]
+    table = table.assign({name: data[name].expand_dims(model=[model]) for name in names})
+    rms = {f"rms_{n}": np.sqrt((table[n] ** 2).mean("measurement")) for n in names[3:]}
+    return residual_table(table.assign(rms))
 
 
 def estimates(data: xr.Dataset) -> Iterator[Estimate]:

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from gripscale.case.prepare import PreparedRubber
     from gripscale.conditions.conditions import Conditions
     from gripscale.report.source import Run, Study
-    from gripscale.surface import PreparedSurface, SineStack, SlopeByWavelength
+    from gripscale.surface import SineStack, SlopeByWavelength, Surface
 
 GIGA = 1e9
 VARIED = "varied"
@@ -53,7 +53,7 @@ class InputRecord:
         """Return an attribute, empty where it is missing."""
         return str(self.data.attrs.get(name, ""))
 
-    def shown(
+    def quantity(
         self,
         name: str,
         unit: str = "",
@@ -235,14 +235,14 @@ def cleaning_tables(record: InputRecord) -> Iterator[Table]:
 # Sentences in the terminal, from the inputs as prepared.
 
 
-def surface_lines(surface: PreparedSurface) -> Iterator[str]:
+def surface_lines(surface: Surface) -> Iterator[str]:
     """Yield what was read and removed, the fits, the sine waves and notes."""
     measured = surface.measured
     if measured is not None:
         for (raw, cleaned), report in zip(measured.profiles, measured.cleaning, strict=True):
             yield f"{raw.name or raw.source}: {len(cleaned)} points, step {raw.step / MILLI:.4g} mm"
             yield from (f"  {line}" for line in str(report).splitlines())
-        share = surface.counted.get("upper_share", 1.0)
+        share = surface.counted.get("top_height_fraction", 1.0)
         if share < 1.0:
             yield f"correlation of the upper {100.0 * share:.3g} % of the heights only"
         if measured.self_affine is None:
@@ -341,11 +341,11 @@ def load_facts(run: Run) -> Facts:
     attrs, data = run.attrs, run.data
     first = run.predictions[0]
 
-    def given(name: str, value: float) -> str:
-        how = first.shown(name)
+    def text(name: str, value: float) -> str:
+        how = first.display_unit(name)
         return f"{number(how.of(value))} {how.unit}"
 
-    speeds = ", ".join(given("speed", view.speed) for view in run.predictions if view.moving)
+    speeds = ", ".join(text("speed", view.speed) for view in run.predictions if view.moving)
     if any(not view.moving for view in run.predictions):
         speeds = f"{speeds or 'none'}; and at rest (relaxed rubber)"
     model = str(attrs.get("model", NONE))
@@ -360,9 +360,9 @@ def load_facts(run: Run) -> Facts:
     return Facts(
         "Load and model",
         [
-            ("Nominal pressure", given("pressure", float(data["nominal_pressure"]))),
+            ("Nominal pressure", text("pressure", float(data["nominal_pressure"]))),
             ("Sliding speed", speeds),
-            ("Footprint", given("footprint", float(data["footprint"]))),
+            ("Footprint", text("footprint", float(data["footprint"]))),
             ("Rubber", "; ".join(filter(None, [record.text("rubber_name"), source])) or NONE),
             ("Model", model.replace("_", " ")),
             ("Strain energy", ", ".join(filter(None, [energy, parameters.removesuffix(")")]))),
@@ -388,35 +388,35 @@ def surface_facts(record: InputRecord, count: int) -> list[Facts]:
 
     waves = [
         ("Waves", str(count)),
-        ("Factor of wavelength", record.shown("sines_s_wavelength", format=digits(4))),
-        ("Factor of amplitude", record.shown("sines_s_amplitude", format=digits(4))),
+        ("Factor of wavelength", record.quantity("sines_s_wavelength", format=digits(4))),
+        ("Factor of amplitude", record.quantity("sines_s_amplitude", format=digits(4))),
     ]
     if record.has("sines_cut_off_m"):
-        waves.append(("For roughness down to", record.shown("sines_cut_off_m", "mm", MILLI)))
-    waves.append(("Residual", record.shown("sines_residual_decades", "decades of C_z")))
+        waves.append(("For roughness down to", record.quantity("sines_cut_off_m", "mm", MILLI)))
+    waves.append(("Residual", record.quantity("sines_residual_decades", "decades of C_z")))
     waves.append(("Fitted lags", span("sines")))
-    if record.number("correlation_upper_share") < 1.0:
-        share = 100.0 * record.number("correlation_upper_share")
+    if record.number("correlation_top_height_fraction") < 1.0:
+        share = 100.0 * record.number("correlation_top_height_fraction")
         waves.append(("Heights that count", f"the upper {share:.3g} %"))
     facts = [Facts("Sine waves", waves)]
     if record.has("cut_off_m"):
         pairs = [
-            ("Shortest wavelength that counts", record.shown("cut_off_m", "mm", MILLI)),
+            ("Shortest wavelength that counts", record.quantity("cut_off_m", "mm", MILLI)),
             ("Rule", record.text("cut_off_rule") or NONE),
-            ("Rms slope of the surface", record.shown("cut_off_surface_slope")),
-            ("Rms slope along a profile", record.shown("cut_off_profile_slope")),
-            ("The measurement resolves", record.shown("cut_off_carried_m", "mm", MILLI)),
+            ("Rms slope of the surface", record.quantity("cut_off_surface_slope")),
+            ("Rms slope along a profile", record.quantity("cut_off_profile_slope")),
+            ("The measurement resolves", record.quantity("cut_off_carried_m", "mm", MILLI)),
         ]
         if record.number("cut_off_beyond_measurement") > 0.0:
             pairs.append(("Beyond the measurement", "extrapolated: slopes and waves below it"))
         facts.append(Facts("The cut-off", pairs))
     if record.has("self_affine_hurst"):
         pairs = [
-            ("Hurst exponent H", record.shown("self_affine_hurst")),
+            ("Hurst exponent H", record.quantity("self_affine_hurst")),
             ("Fractal dimension D", number(3.0 - record.number("self_affine_hurst"))),
-            ("Cut-off length ξ∥", record.shown("self_affine_xi_parallel_m", "mm", MILLI)),
-            ("Cut-off height ξ⊥", record.shown("self_affine_xi_perpendicular_m", "mm", MILLI)),
-            ("Residual", record.shown("self_affine_residual_decades", "decades of C_z")),
+            ("Cut-off length ξ∥", record.quantity("self_affine_xi_parallel_m", "mm", MILLI)),
+            ("Cut-off height ξ⊥", record.quantity("self_affine_xi_perpendicular_m", "mm", MILLI)),
+            ("Residual", record.quantity("self_affine_residual_decades", "decades of C_z")),
             ("Fitted lags", span("self_affine")),
         ]
         facts.append(Facts("Self-affine description (not used by the chain)", pairs))
@@ -431,7 +431,7 @@ def rubber_facts(record: InputRecord) -> Facts:
     def end(name: str, plateau: str, otherwise: str) -> tuple[str, str]:
         # a plateau is claimed only where one was measured
         label = plateau if record.number(f"{name}_plateau") > 0.0 else otherwise
-        return label, record.shown(f"{name}_modulus_Pa", "MPa", MEGA)
+        return label, record.quantity(f"{name}_modulus_Pa", "MPa", MEGA)
 
     band = [record.number(f"band_{end_name}_rad_per_s") for end_name in ("low", "high")]
     low, high = (number(frequency) for frequency in band)

@@ -63,12 +63,12 @@ def residual_table(data: xr.Dataset) -> Table:
     return Table("residuals", columns, "Measured and predicted friction", notes, keys=len(points))
 
 
-def measured_lines(found: MeasuredFriction, speed: float, how: DisplayUnit) -> Iterator[str]:
+def measured_lines(friction: MeasuredFriction, speed: float, how: DisplayUnit) -> Iterator[str]:
     """Yield what was measured at `speed` [m/s], interpolated in its logarithm, by temperature.
 
     Speeds are shown as `how` says.
     """
-    for series in measured(xr.Dataset(measured_variables(found))):
+    for series in measured(xr.Dataset(measured_variables(friction))):
         at = series.at(speed)
         where = f"{series.label[0].upper()}{series.label[1:]}"
         if at is None:

@@ -127,8 +127,8 @@ def study_sentence(data: xr.Dataset) -> str:
         return ""
     share = data[FRICTION_OUTSIDE_BAND]
     every = [
-        extrapolation_of(data.isel(dict(zip(share.dims, place, strict=True))))
-        for place in np.ndindex(share.shape)
+        extrapolation_of(data.isel(dict(zip(share.dims, index, strict=True))))
+        for index in np.ndindex(share.shape)
     ]
     beyond = [part for part in every if part.share > WORTH_SAYING]
     if not beyond:

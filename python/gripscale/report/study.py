@@ -37,7 +37,7 @@ def places(data: xr.Dataset) -> Iterator[dict[str, int]]:
 def study_table(data: xr.Dataset) -> Table:
     """Return area, friction and status of each prediction of a study, over what was varied."""
     chosen = list(places(data))
-    rows = [data.isel(place) for place in chosen[:MOST_ROWS]]
+    rows = [data.isel(index) for index in chosen[:MOST_ROWS]]
 
     def each(name: str) -> list[float]:
         return [float(row[name]) for row in rows]
@@ -45,7 +45,7 @@ def study_table(data: xr.Dataset) -> Table:
     columns = [
         Column(
             axis,
-            [name_of(data, axis, place[axis]) for place in chosen[:MOST_ROWS]],
+            [name_of(data, axis, index[axis]) for index in chosen[:MOST_ROWS]],
             axis.replace("_", " "),
         )
         for axis in dimensions(data)
@@ -206,11 +206,11 @@ def totals_table(data: xr.Dataset) -> Table | None:
     if not names:
         return None
     chosen = list(places(data))
-    rows = [data.isel(place) for place in chosen]
+    rows = [data.isel(index) for index in chosen]
     columns = [
         Column(
             axis,
-            [place_text(data, axis, place[axis]) for place in chosen],
+            [place_text(data, axis, index[axis]) for index in chosen],
             words_of(data, axis),
             axis_unit(data, axis),
             words=axis in data.variables and data[axis].dtype.kind not in "fiub",
@@ -236,11 +236,11 @@ def failures(data: xr.Dataset) -> Iterator[str]:
     names = totals_of(data)
     states = [name for name in names if name.endswith("status")]
     totals = [name for name in names if name in ("total_contact_fraction", "contact_fraction")]
-    for place in places(data):
-        row = data.isel(place)
+    for index in places(data):
+        row = data.isel(index)
         where = ", ".join(
             " ".join(filter(None, [words_of(data, n), place_text(data, n, i), axis_unit(data, n)]))
-            for n, i in place.items()
+            for n, i in index.items()
         )
         for name in states:
             if (status := str(row[name].values[()])) != CONVERGED:

@@ -27,7 +27,7 @@ from gripscale.surface.spectrum import (
     map_spectrum,
     profile_spectrum,
 )
-from gripscale.surface.surface import Measured, PreparedSurface, SurfacePart
+from gripscale.surface.surface import Measured, Surface, SurfacePart
 from gripscale.surface.synthetic import self_affine_profile, sine_profile
 
 __all__ = [
@@ -39,7 +39,6 @@ __all__ = [
     "HeightMap",
     "Measured",
     "PowerLaw",
-    "PreparedSurface",
     "Profile",
     "ProfileSpectrum",
     "RmsSlope",
@@ -48,6 +47,7 @@ __all__ = [
     "SineStack",
     "SlopeByWavelength",
     "StepReport",
+    "Surface",
     "SurfacePart",
     "areal_spectrum",
     "clean",

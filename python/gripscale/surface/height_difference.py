@@ -4,7 +4,7 @@
 
 averaged over all pairs of points a lag l apart in which both heights are valid. Rubber touches the
 upper part of a surface only; where that differs from the valleys, C_z of the upper part alone is
-nearer to what the rubber meets (`upper_share`).
+nearer to what the rubber meets (`top_height_fraction`).
 
 Beyond the longest wavelength of a surface, heights a lag apart are unrelated and C_z is twice the
 variance: this is its plateau. It begins at the first lag at which C_z reaches 90 % of its own mean
@@ -116,7 +116,7 @@ class HeightDifference(Checked, eq=False):
 def height_difference(
     profile: Profile | Sequence[Profile],
     *,
-    upper_share: float = 1.0,
+    top_height_fraction: float = 1.0,
     max_lag: float | None = None,
     lags_per_decade: int = 20,
     band_blocks: int = 16,
@@ -141,7 +141,7 @@ def height_difference(
     ----------
     profile : Profile or sequence of Profile
         Cleaned profiles. Several must have the same step (within 0.1 %); their pairs are pooled.
-    upper_share : float, optional
+    top_height_fraction : float, optional
         Share of each profile's heights that counts, from the highest down: 0.5 leaves out pairs
         with a point below the median height.
     max_lag : float, optional
@@ -159,14 +159,14 @@ def height_difference(
     Raises
     ------
     InputError
-        If the steps differ, `upper_share` is not above 0 and at most 1, `max_lag` is below one step
-        or beyond a profile, or no lag has pairs.
+        If the steps differ, `top_height_fraction` is not above 0 and at most 1, `max_lag` is
+        below one step or beyond a profile, or no lag has pairs.
     """
     blocks = checks.whole("band_blocks", band_blocks, least=4, most=1000)
     sums = block_sums(
         profile,
         blocks,
-        upper_share=upper_share,
+        top_height_fraction=top_height_fraction,
         max_lag=max_lag,
         lags_per_decade=lags_per_decade,
     )
@@ -233,7 +233,7 @@ def block_sums(
     profile: Profile | Sequence[Profile],
     blocks: int,
     *,
-    upper_share: float = 1.0,
+    top_height_fraction: float = 1.0,
     max_lag: float | None = None,
     lags_per_decade: int = 20,
 ) -> BlockSums:
@@ -249,9 +249,9 @@ def block_sums(
             f"max_lag must be at least one step, {step:g} m, and within the profile, "
             f"{longest:g} m; got {limit:g} m"
         )
-    share = checks.positive("upper_share", upper_share)
+    share = checks.positive("top_height_fraction", top_height_fraction)
     if share > 1.0:
-        raise InputError(f"upper_share must be at most 1; got {share:g}")
+        raise InputError(f"top_height_fraction must be at most 1; got {share:g}")
     # the distinct whole numbers of steps nearest to evenly spaced log lags
     most = int(np.floor(limit / step + 1e-6))
     count = int(np.ceil(per_decade * np.log10(max(most, 1)))) + 1

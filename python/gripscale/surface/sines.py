@@ -105,18 +105,18 @@ class SineStack(Checked, eq=False):
         return np.asarray(2.0 * np.sin(half_phase) ** 2 @ self.amplitude**2)
 
 
-def _factor(name: str, lengths: Array, stated: float | None) -> float | None:
+def _factor(name: str, lengths: Array, argument: float | None) -> float | None:
     """Return the common ratio of neighbours, checked against a stated one; None if it varies."""
     if lengths.size == 1:
-        return stated
+        return argument
     ratios = lengths[:-1] / lengths[1:]
     mean = float(np.exp(np.log(ratios).mean()))
-    factor = stated or mean
+    factor = argument or mean
     if float(np.abs(ratios / factor - 1.0).max()) <= GEOMETRIC_TOLERANCE:
         return factor
-    if stated is None:
+    if argument is None:
         return None
     raise InputError(
         f"{name} must be the ratio of neighbouring waves within {GEOMETRIC_TOLERANCE:g}; "
-        f"got {stated:g} for a mean ratio of {mean:g}"
+        f"got {argument:g} for a mean ratio of {mean:g}"
     )

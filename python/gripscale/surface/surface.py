@@ -68,12 +68,12 @@ class Measured:
     @property
     def notes(self) -> tuple[str, ...]:
         """What reading changed and what is implausible, a sentence each."""
-        found = []
+        notes = []
         for raw, cleaned in self.profiles:
             about = f"{raw.name}: " if raw.name else ""
             doubts = profile_warnings(raw, cleaned, steep=self.map is None)
-            found += [f"{about}{note}" for note in (*raw.notes, *doubts)]
-        return tuple(found)
+            notes += [f"{about}{note}" for note in (*raw.notes, *doubts)]
+        return tuple(notes)
 
     def bare(self) -> Measured:
         """Return what was measured, without how it was cleaned and what was fitted to it."""
@@ -85,7 +85,7 @@ SurfacePart = Literal["waves", "measurement", "cut_off"]
 
 
 @dataclass(frozen=True)
-class PreparedSurface:
+class Surface:
     """Sine waves, a measurement, or both.
 
     Attributes
@@ -136,20 +136,20 @@ class PreparedSurface:
         end = self.cutoff_wavelength
         if self.rule is None:
             return replace(find_cut_off(self.measured.slopes, end), rule="the last wave")
-        found = find_cut_off(self.measured.slopes, self.rule)
+        cut_off = find_cut_off(self.measured.slopes, self.rule)
         # with s_wavelength given, whole waves end above the cut-off that was asked for
         return (
-            found
-            if np.isclose(found.wavelength, end, rtol=1e-6)
+            cut_off
+            if np.isclose(cut_off.wavelength, end, rtol=1e-6)
             else replace(
-                find_cut_off(self.measured.slopes, end), rule=f"whole waves down to {found.rule}"
+                find_cut_off(self.measured.slopes, end), rule=f"whole waves down to {cut_off.rule}"
             )
         )
 
-    def only(self, parts: Collection[SurfacePart]) -> PreparedSurface:
+    def only(self, parts: Collection[SurfacePart]) -> Surface:
         """Return these parts of the surface, without the way to them."""
         waves = self.waves if "waves" in parts else None
-        return PreparedSurface(
+        return Surface(
             waves and SineStack(waves.wavelength, waves.amplitude),
             source="",
             measured=self.measured and self.measured.bare() if "measurement" in parts else None,
@@ -159,10 +159,10 @@ class PreparedSurface:
     @property
     def notes(self) -> tuple[str, ...]:
         """What is to be known of the measurement and of where the waves end, a sentence each."""
-        found = () if self.measured is None else self.measured.notes
+        of_measurement = () if self.measured is None else self.measured.notes
         if self.correlation is None:
-            return found
-        notes = [*found, *stack_notes(self.sines, self.correlation, self.fit)]
+            return of_measurement
+        notes = [*of_measurement, *stack_notes(self.sines, self.correlation, self.fit)]
         end, carried = self.sines.cut_off, self.correlation.resolution_limit
         if end is not None and carried is not None and end < carried * (1.0 - 1e-6):
             notes.append(
@@ -178,8 +178,8 @@ class PreparedSurface:
         waves: int | None = None,
         smallest_wavelength: float | None = None,
         cut_off: CutOffRule | None = None,
-        upper_share: float | None = None,
-    ) -> PreparedSurface:
+        top_height_fraction: float | None = None,
+    ) -> Surface:
         """Return the surface with other waves.
 
         Parameters
@@ -194,16 +194,17 @@ class PreparedSurface:
         cut_off
             Where the roughness ends that they stand for, in place of a smallest wavelength: a
             length [m] or another rule of `find_cut_off`; of fitted waves only.
-        upper_share
-            Share of the heights that counts, see `height_difference`; of a measured surface only.
+        top_height_fraction
+            Fraction of the heights that counts, see `height_difference`; of a measured
+            surface only.
 
         Raises
         ------
         InputError
             If there are no such waves.
         """
-        if upper_share is not None:
-            return self._of_upper(upper_share).varied(
+        if top_height_fraction is not None:
+            return self._of_upper(top_height_fraction).varied(
                 factors=factors,
                 waves=waves,
                 smallest_wavelength=smallest_wavelength,
@@ -236,11 +237,11 @@ class PreparedSurface:
             raise InputError(f"cut_off = {rule} needs a measured surface; got {self.source}")
         return find_cut_off(self.measured.slopes, rule).wavelength
 
-    def _of_upper(self, share: float) -> PreparedSurface:
+    def _of_upper(self, share: float) -> Surface:
         """Return the surface with waves fitted to the correlation of the upper part."""
         if self.measured is None or not self.fit:
-            raise InputError(f"upper_share varies a measured surface; got {self.source}")
-        counted = {**self.counted, "upper_share": share}
+            raise InputError(f"top_height_fraction varies a measured surface; got {self.source}")
+        counted = {**self.counted, "top_height_fraction": share}
         correlation = height_difference(self.measured.cleaned, **counted)
         sines = fit_sines(correlation, **self.fit)
         return replace(self, waves=sines, correlation=correlation, counted=counted)

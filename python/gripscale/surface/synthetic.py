@@ -14,7 +14,7 @@ from gripscale.surface.height_difference import height_difference
 from gripscale.surface.profile import FEWEST_POINTS, MOST_POINTS, Profile
 from gripscale.surface.sine_fit import fit_sines
 from gripscale.surface.sines import SineStack
-from gripscale.surface.surface import Measured, PreparedSurface
+from gripscale.surface.surface import Measured, Surface
 
 
 def self_affine_profile(
@@ -150,7 +150,7 @@ def synthetic_profile(name: str) -> Profile:
     return self_affine_profile(s.hurst, s.xi_parallel, s.xi_perpendicular, s.length, s.step, s.seed)
 
 
-def with_profile(name: str) -> PreparedSurface:
+def with_profile(name: str) -> Surface:
     """Return a synthetic surface as if its profile had been measured, with as many waves."""
     surface = synthetic_surface(name)
     fit = {**surface.fit, "scales": SYNTHETIC_SURFACES[name].waves}
@@ -158,7 +158,7 @@ def with_profile(name: str) -> PreparedSurface:
 
 
 @lru_cache(maxsize=4)
-def synthetic_surface(name: str) -> PreparedSurface:
+def synthetic_surface(name: str) -> Surface:
     """Return a synthetic surface, with its statistics as its source."""
     s = SYNTHETIC_SURFACES[name]
     correlation = height_difference(synthetic_profile(name))
@@ -170,4 +170,4 @@ def synthetic_surface(name: str) -> PreparedSurface:
         f"{s.length:g} m in steps of {s.step * 1e6:g} um, seed {s.seed}"
     )
     fit = {"smallest_wavelength": float(sines.wavelength[-1])}
-    return PreparedSurface(sines, source, correlation, fit)
+    return Surface(sines, source, correlation, fit)

@@ -63,7 +63,7 @@ def without_codes(heights: Array) -> tuple[Array, float | None]:
 
 
 def length_unit(
-    path: Path, part: str, named: object, name: str, stated: str | None, *, how: str = "give"
+    path: Path, part: str, named: object, name: str, argument: str | None, *, how: str = "give"
 ) -> str:
     """Return the unit of a `part` of a file.
 
@@ -86,10 +86,10 @@ def length_unit(
         If the caller's unit is unknown or contradicts the file.
     """
     unit = spelled(named, "length")
-    if stated is not None:
-        if unit is not None and in_si(1.0, unit, "length") != in_si(1.0, stated, "length", name):
-            raise InputError(f"{name} is {stated!r}, but {path} says {unit!r}; give one of them")
-        return stated
+    if argument is not None:
+        if unit is not None and in_si(1.0, unit, "length") != in_si(1.0, argument, "length", name):
+            raise InputError(f"{name} is {argument!r}, but {path} says {unit!r}; give one of them")
+        return argument
     if unit is not None:
         return unit
     if named:
@@ -100,11 +100,11 @@ def length_unit(
     raise FileError(f"{path}: {part} names no unit of length; {how} {name}")
 
 
-def _column_unit(table: TextTable, column: int, name: str, stated: str | None) -> str:
+def _column_unit(table: TextTable, column: int, name: str, unit: str | None) -> str:
     """Return the unit of a column: that of its title, or the one stated as argument `name`."""
     part, named = f"column {column + 1}", table.columns[column].unit
     how = "write it in the title, such as 'x [mm]', or give"
-    return length_unit(table.path, part, named, name, stated, how=how)
+    return length_unit(table.path, part, named, name, unit, how=how)
 
 
 DISTANCE_TITLE = re.compile(r"^\W*(x\b|x_|dist|pos|length|lateral)", re.IGNORECASE)
@@ -254,8 +254,8 @@ def _points(
     table: TextTable, columns: list[int], x_unit: str | None, z_unit: str | None
 ) -> tuple[Array, Array, Array]:
     """Return axes and heights [m] of points (x, y, z) in any order; those left out are NaN."""
-    stated = (("x_unit", x_unit), ("x_unit", x_unit), ("z_unit", z_unit))
-    units = [_column_unit(table, c, *unit) for c, unit in zip(columns, stated, strict=True)]
+    arguments = (("x_unit", x_unit), ("x_unit", x_unit), ("z_unit", z_unit))
+    units = [_column_unit(table, c, *unit) for c, unit in zip(columns, arguments, strict=True)]
     axes, numbers = [], []
     for column, unit in zip(columns[:2], units[:2], strict=True):
         printed = table.numbers(column, f"a distance in column {column + 1}")

@@ -33,7 +33,7 @@ import numpy as np
 from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
-from gripscale.model import NominalLoad
+from gripscale.model import Load
 from gripscale.rubber import Rubber
 from gripscale.surface.height_difference import HeightDifference, height_difference
 from gripscale.surface.profile import Profile
@@ -46,7 +46,7 @@ if TYPE_CHECKING:
 
 
 SOURCE = "Klueppel & Heinrich 2000, Rubber Chem. Technol. 73, 578"
-UPPER_SHARE = 0.5
+TOP_HEIGHT_FRACTION = 0.5
 """Share of the heights of a profile that counts, from the highest down: valleys have no contact."""
 
 TOLERANCE = 1e-6
@@ -74,7 +74,7 @@ class KlueppelHeinrichResult:
 
     rubber: Rubber
     surface: SelfAffineFit
-    load: NominalLoad
+    load: Load
     layer_ratio: float
     penetration_depth: float
     wavelength: Array = field(repr=False)
@@ -134,7 +134,8 @@ def klueppel_heinrich(
     rubber : Rubber
         The sliding rubber.
     surface : SelfAffineFit, HeightDifference or Profile(s)
-        Of profiles only the upper part counts, `UPPER_SHARE`; a correlation is taken as it is.
+        Of profiles only the upper part counts, `TOP_HEIGHT_FRACTION`; a correlation is taken
+        as it is.
     pressure, speed : float
         Nominal pressure [Pa], above zero, and sliding speed [m/s]; at zero there is no friction.
     layer_ratio : float
@@ -168,7 +169,7 @@ def klueppel_heinrich(
             "smallest_wavelength must be below the cut-off length of the surface, "
             f"{fit.xi_parallel:.4g} m; got {smallest:.4g}"
         )
-    load = NominalLoad(pressure, speed, fit.xi_parallel if footprint is None else footprint)
+    load = Load(pressure, speed, fit.xi_parallel if footprint is None else footprint)
     wavelength = np.geomspace(fit.xi_parallel, smallest, _NODES)
 
     def at(intervals: int) -> tuple[Array]:
@@ -203,5 +204,5 @@ def _fit(surface: HeightDifference | Profile | Sequence[Profile]) -> SelfAffineF
                 "surface must be a SelfAffineFit, a HeightDifference or profiles; "
                 f"got {checks.short_repr(surface)}"
             )
-        surface = height_difference(profiles, upper_share=UPPER_SHARE)
+        surface = height_difference(profiles, top_height_fraction=TOP_HEIGHT_FRACTION)
     return fit_self_affine(surface)

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from gripscale.core import checks
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
-from gripscale.model import Model, NominalLoad
+from gripscale.model import Load, Model
 from gripscale.rubber import Rubber
 from gripscale.surface.profile import Profile
 from gripscale.surface.spectrum import profile_spectrum
-from gripscale.surface.surface import PreparedSurface, SurfacePart
+from gripscale.surface.surface import Surface, SurfacePart
 from gripscale.theory.klueppel_heinrich import klueppel_heinrich
 from gripscale.theory.persson import persson
 
@@ -45,8 +45,8 @@ class Persson(Checked, Model):
     def predict(
         self,
         rubber: Rubber,
-        surface: PreparedSurface,
-        load: NominalLoad,
+        surface: Surface,
+        load: Load,
         *,
         on_progress: Callable[[Any], None] | None = None,
     ) -> xr.Dataset:
@@ -87,8 +87,8 @@ class KlueppelHeinrich(Checked, Model):
     def predict(
         self,
         rubber: Rubber,
-        surface: PreparedSurface,
-        load: NominalLoad,
+        surface: Surface,
+        load: Load,
         *,
         on_progress: Callable[[Any], None] | None = None,
     ) -> xr.Dataset:
@@ -115,7 +115,7 @@ def _answered(result: Any, on_progress: Callable[[Any], None] | None) -> xr.Data
     return data
 
 
-def _cleaned(surface: PreparedSurface, name: str) -> list[Profile]:
+def _cleaned(surface: Surface, name: str) -> list[Profile]:
     if surface.measured is None:
         raise InputError(
             f"{name} needs measured profiles; got a surface of sine waves only ({surface.source})"

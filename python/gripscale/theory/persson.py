@@ -31,7 +31,7 @@ from gripscale import model
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
-from gripscale.model import NOT_CONVERGED, NominalLoad, of_curve
+from gripscale.model import NOT_CONVERGED, Load, of_curve
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import by_wavelength
 from gripscale.surface.spectrum import (
@@ -57,7 +57,7 @@ class TheoryResult(Protocol):
     @property
     def rubber(self) -> Rubber: ...  # noqa: D102
     @property
-    def load(self) -> NominalLoad: ...  # noqa: D102
+    def load(self) -> Load: ...  # noqa: D102
     @property
     def wavelength(self) -> Array: ...  # noqa: D102
     @property
@@ -183,7 +183,7 @@ class PerssonResult:
     """
 
     rubber: Rubber
-    load: NominalLoad
+    load: Load
     gamma: float
     wavelength: Array = field(repr=False)
     """Falling, from the largest wave of the spectrum to the smallest one asked for."""
@@ -285,7 +285,7 @@ def persson(
     last = last_wavenumber(spectrum.wavenumber, smallest_wavelength)
     points = np.append(spectrum.wavenumber[spectrum.wavenumber < last], last)
     nodes = np.exp(filled_in(np.log(points), _WIDEST))
-    load = NominalLoad(pressure, speed, 2.0 * np.pi / nodes[0] if footprint is None else footprint)
+    load = Load(pressure, speed, 2.0 * np.pi / nodes[0] if footprint is None else footprint)
     integrals = _Integrals(rubber, spectrum, load, share, nodes)
     (area, friction), (area_error, friction_error) = refined(
         integrals.at_nodes, _COARSEST, _FINEST, TOLERANCE
@@ -310,7 +310,7 @@ class _Integrals:
 
     rubber: Rubber
     spectrum: ArealSpectrum
-    load: NominalLoad
+    load: Load
     gamma: float
     nodes: Array
 

@@ -19,7 +19,7 @@ from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.rubber import Rubber
 from gripscale.rubber.material import require_load_bearing
-from gripscale.surface import PreparedSurface, Profile, SurfacePart
+from gripscale.surface import Profile, Surface, SurfacePart
 from gripscale.surface.resampling import filled
 from gripscale.wave import kernel
 from gripscale.wave.block import FiniteStrainBlock
@@ -29,7 +29,7 @@ from gripscale.wave.result import WaveResult, waves_to_dataset
 if TYPE_CHECKING:
     import xarray as xr
 
-    from gripscale.model import NominalLoad
+    from gripscale.model import Load
 
 COLUMNS = (128, 192, 256, 384, 512, 768, 1024, 1536, 2048, 3072, 4096)
 """Numbers of columns, all of which can be halved for the coarser meshes of a sequence."""
@@ -214,8 +214,8 @@ class BlockOnProfile(Checked, model.Model):
     def predict(
         self,
         rubber: Rubber,
-        surface: PreparedSurface,
-        load: NominalLoad,
+        surface: Surface,
+        load: Load,
         *,
         on_progress: Callable[[Any], None] | None = None,
     ) -> xr.Dataset:

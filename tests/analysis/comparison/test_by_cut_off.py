@@ -17,15 +17,15 @@ from gripscale.half_space.model import DirectContact
 from gripscale.model import (
     CUT_OFF_EXPONENTS,
     WHY_NO_EXPONENT,
+    Load,
     Model,
-    NominalLoad,
     cut_off_exponents_of,
 )
 from gripscale.rubber import styrene_butadiene
 from gripscale.surface import (
     Measured,
-    PreparedSurface,
     Profile,
+    Surface,
     fit_sines,
     height_difference,
     self_affine_profile,
@@ -34,17 +34,17 @@ from gripscale.theory import HalfPlane, KlueppelHeinrich, Persson
 from gripscale.wave import BlockOnProfile
 
 RUBBER = styrene_butadiene()
-LOAD = NominalLoad(3e5, 3.0, 0.1)
+LOAD = Load(3e5, 3.0, 0.1)
 LINE = self_affine_profile(0.8, 10e-3, 1e-3, length=0.4, step=5e-5, seed=3)
 LAST = 0.4e-3
 CORRELATION = height_difference(LINE)
 CHAIN = Chain(HalfPlane(points=256))
 
 
-def surface(cut_off: float = LAST, waves: int = 5) -> PreparedSurface:
+def surface(cut_off: float = LAST, waves: int = 5) -> Surface:
     fit = {"scales": waves, "cut_off": cut_off}
     sines = fit_sines(CORRELATION, scales=waves, cut_off=cut_off)
-    return PreparedSurface(sines, "", CORRELATION, fit, Measured.of([LINE]))
+    return Surface(sines, "", CORRELATION, fit, Measured.of([LINE]))
 
 
 def by_doubling(model: Model, waves: int = 5) -> tuple[float, float]:
@@ -58,7 +58,7 @@ def by_doubling(model: Model, waves: int = 5) -> tuple[float, float]:
     return area, friction
 
 
-def told(model: Model, load: NominalLoad = LOAD) -> xr.Dataset:
+def told(model: Model, load: Load = LOAD) -> xr.Dataset:
     answer = model.predict(RUBBER, surface(), load)
     assert {*CUT_OFF_EXPONENTS, WHY_NO_EXPONENT} <= set(answer.data_vars)
     return answer
@@ -126,7 +126,7 @@ def test_theories_integrate_down_to_the_cut_off(model: Model) -> None:
 def test_what_answers_for_one_cut_off_only_says_so() -> None:
     x = np.arange(64) * 1e-3 / 64
     lines = [Profile(x, 1e-5 * np.cos(2.0 * np.pi * x / 1e-3))]
-    one = PreparedSurface(gs.SineStack([1e-3], [1e-5]), "", measured=Measured.of(lines))
+    one = Surface(gs.SineStack([1e-3], [1e-5]), "", measured=Measured.of(lines))
     for model, why in (
         (BlockOnProfile(periodic=True), "the model does not tell it"),
         (CHAIN, "only one wave"),
@@ -138,7 +138,7 @@ def test_what_answers_for_one_cut_off_only_says_so() -> None:
 
 
 def test_there_is_no_friction_at_rest_to_change() -> None:
-    rest = NominalLoad(1e4, 0.0, 0.1)  # so light that the relaxed rubber does not touch all over
+    rest = Load(1e4, 0.0, 0.1)  # so light that the relaxed rubber does not touch all over
     for model in (CHAIN, Persson(), DirectContact(tolerance=None)):
         found = cut_off_exponents_of(told(model, rest))
         assert found.contact_fraction > 0.0
@@ -149,7 +149,7 @@ def test_there_is_no_friction_at_rest_to_change() -> None:
 def test_profiles_count_by_their_length_and_rungs_by_their_samples() -> None:
     half = Profile(LINE.x[:4000], LINE.z[:4000])
     model = DirectContact(tolerance=None)
-    both = PreparedSurface(surface().sines, "", measured=Measured.of([LINE, half]))
+    both = Surface(surface().sines, "", measured=Measured.of([LINE, half]))
     answer = model.predict(RUBBER, both, LOAD)
     weight = answer.weight * answer.friction_from_dissipation
     each = answer.friction_cut_off_exponent

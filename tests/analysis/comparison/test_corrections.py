@@ -14,20 +14,20 @@ from gripscale.analysis.samples import sample_numbers
 from gripscale.experiment import Task
 from gripscale.half_space import solve_both_ways, surface_of_sines
 from gripscale.half_space.model import DirectContact
-from gripscale.model import NominalLoad
+from gripscale.model import Load
 from gripscale.rubber import Rubber
-from gripscale.surface import HeightMap, Measured, PreparedSurface, SineStack, self_affine_profile
+from gripscale.surface import HeightMap, Measured, SineStack, Surface, self_affine_profile
 from gripscale.theory import HalfPlane
 from gripscale.wave import BlockOnProfile, Status
 from tests.samples import GENTLE_SINES as STACK
 
 RUBBER = Rubber(1e6, [9e6], [0.01])
 LINE = surface_of_sines(STACK, 20e-3, 1)
-SURFACE = PreparedSurface(STACK, "", measured=Measured.of([LINE]))
-LOAD = NominalLoad(5e4, 0.1, 0.1, math.inf)
+SURFACE = Surface(STACK, "", measured=Measured.of([LINE]))
+LOAD = Load(5e4, 0.1, 0.1, math.inf)
 ROAD = self_affine_profile(0.8, 5e-3, 1e-3, 0.3, 1e-4, seed=4)
 MEASURED = Measured.of([ROAD])
-SUBJECT = ComparisonSetup(RUBBER, PreparedSurface(STACK, "", measured=MEASURED), LOAD, HalfPlane())
+SUBJECT = ComparisonSetup(RUBBER, Surface(STACK, "", measured=MEASURED), LOAD, HalfPlane())
 
 
 def test_both_models_answer_as_the_pair_does() -> None:
@@ -64,14 +64,14 @@ def test_windows_are_the_same_for_both() -> None:
     assert [one.subject for one in drawn[0]] == [one.subject for one in drawn[1]]
     assert len({one.subject for one in drawn[0]}) == 8
     assert chosen([]) == list(LADDER)
-    short = PreparedSurface(SineStack([0.3], [1e-3]), "", measured=MEASURED)
+    short = Surface(SineStack([0.3], [1e-3]), "", measured=MEASURED)
     assert small.draws(replace(SUBJECT, surface=short)) == []
 
 
 def test_maps_and_their_lines_are_of_the_same_seeds() -> None:
     lines, whole = chosen(["map"])
     assert whole.follows == lines.name
-    fine = PreparedSurface(SineStack([10e-3, 2e-4], [2e-4, 5e-6]), "", measured=MEASURED)
+    fine = Surface(SineStack([10e-3, 2e-4], [2e-4, 5e-6]), "", measured=MEASURED)
     drawn = [rung.draws(replace(SUBJECT, surface=fine)) for rung in (lines, whole)]
     assert (
         [one.subject for one in drawn[0]] == [one.subject for one in drawn[1]] == ["map 0", "map 1"]
@@ -81,18 +81,18 @@ def test_maps_and_their_lines_are_of_the_same_seeds() -> None:
 
 def test_no_map_of_what_is_a_map_or_too_short() -> None:
     whole = chosen(["map"])[-1]
-    short = PreparedSurface(SineStack([0.03], [1e-3]), "", measured=MEASURED)
+    short = Surface(SineStack([0.03], [1e-3]), "", measured=MEASURED)
     x = np.arange(16) * 1e-4
     measured = HeightMap(x, x, np.random.default_rng(1).normal(0.0, 1e-5, (16, 16)))
-    mapped = PreparedSurface(STACK, "", measured=Measured.of(measured))
-    for surface in (short, mapped, PreparedSurface(STACK, "")):
+    mapped = Surface(STACK, "", measured=Measured.of(measured))
+    for surface in (short, mapped, Surface(STACK, "")):
         assert whole.draws(replace(SUBJECT, surface=surface)) == []
 
 
 def test_a_map_is_one_sample_of_the_direct_contact() -> None:
     x = np.arange(16) * 1e-4
     measured = HeightMap(x, x, np.random.default_rng(1).normal(0.0, 1e-5, (16, 16)), name="mine")
-    mapped = PreparedSurface(STACK, "", measured=Measured.of(measured))
+    mapped = Surface(STACK, "", measured=Measured.of(measured))
     (draw,) = chosen(["direct"])[0].draws(replace(SUBJECT, surface=mapped))
     assert draw.subject == "mine"
     assert draw.surface.measured is not None

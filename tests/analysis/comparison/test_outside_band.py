@@ -15,23 +15,23 @@ import gripscale as gs
 from gripscale.chain import Chain
 from gripscale.core.errors import ExtrapolationError
 from gripscale.half_space.model import DirectContact
-from gripscale.model import OUTSIDE_BAND, NominalLoad, extrapolation_of
-from gripscale.surface import Measured, PreparedSurface, Profile
+from gripscale.model import OUTSIDE_BAND, Load, extrapolation_of
+from gripscale.surface import Measured, Profile, Surface
 from gripscale.theory import HalfPlane, persson
 from gripscale.theory.elastic import full_contact_friction
 from gripscale.wave import BlockOnProfile
 
 LONG, SHORT = 4e-3, 1e-3
 SINES = gs.SineStack([LONG, SHORT], [1e-5, 4e-6])
-LOAD = NominalLoad(pressure=2e6, speed=0.1, footprint=0.1)
+LOAD = Load(pressure=2e6, speed=0.1, footprint=0.1)
 OMEGA = 2 * np.pi * LOAD.speed / np.array([LONG, SHORT])
 RUBBER = gs.Rubber(6e6, [12e6, 8e6], [1e-2, 1e-3], valid_band=(1.0, OMEGA[1] / 2.0))
 
 
-def surface(points: int = 256) -> PreparedSurface:
+def surface(points: int = 256) -> Surface:
     x = np.arange(points) * LONG / points
     z = SINES.amplitude @ np.cos(2 * np.pi * np.outer(1 / SINES.wavelength, x))
-    return PreparedSurface(SINES, "", measured=Measured.of([Profile(x, z)]))
+    return Surface(SINES, "", measured=Measured.of([Profile(x, z)]))
 
 
 def closed_form() -> float:
@@ -84,14 +84,12 @@ def test_refused_extrapolation_leaves_a_point_without_totals() -> None:
     )
     with pytest.raises(ExtrapolationError, match="above the measured band"):
         gs.predict(RUBBER, SINES, pressure=2e6, speed=0.1, footprint=0.1, extrapolate="refuse")
-    slow = Chain(HalfPlane(), extrapolate="refuse").predict(
-        RUBBER, surface(), NominalLoad(2e6, 0.02, 0.1)
-    )
+    slow = Chain(HalfPlane(), extrapolate="refuse").predict(RUBBER, surface(), Load(2e6, 0.02, 0.1))
     assert slow.prediction_status == "converged"
 
 
 def test_nothing_is_excited_at_rest() -> None:
-    rest = NominalLoad(LOAD.pressure, 0.0, LOAD.footprint)
+    rest = Load(LOAD.pressure, 0.0, LOAD.footprint)
     for model in (DirectContact(periodic=True), Chain(HalfPlane())):
         found = extrapolation_of(model.predict(RUBBER, surface(), rest))
         assert (found.share, found.below, found.above) == (0.0, 0.0, 0.0)

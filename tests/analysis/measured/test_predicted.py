@@ -19,8 +19,8 @@ from gripscale.conditions import Conditions, GaussianStress, ThermalProperties
 from gripscale.core.errors import InputError
 from gripscale.experiment import Store
 from gripscale.half_space.model import DirectContact
-from gripscale.model import NominalLoad
-from gripscale.surface import Measured, PreparedSurface
+from gripscale.model import Load
+from gripscale.surface import Measured, Surface
 from gripscale.theory.half_plane import HalfPlane
 from tests.samples import SHIFTED_LOAD as LOAD
 from tests.samples import SHIFTED_RUBBER as RUBBER
@@ -43,9 +43,7 @@ def test_each_point_is_the_prediction_at_its_speed_temperature_and_pressure(
     tmp_path: Path, heat: ThermalProperties | None
 ) -> None:
     chain = Chain(HalfPlane(points=64), conditions=Conditions(temperature=298.15, heat=heat))
-    found = predictions_at(
-        MEASURED, chain, RUBBER, PreparedSurface(SINES, ""), LOAD, Store(tmp_path)
-    )
+    found = predictions_at(MEASURED, chain, RUBBER, Surface(SINES, ""), LOAD, Store(tmp_path))
     assert found.pressure.tolist() == [2e5, 3e5, 3e5]
     term = found.area_term(LAW, MEASURED.speed)
     for at, kelvin in enumerate([303.15, 313.15, 298.15]):
@@ -63,7 +61,7 @@ def test_each_point_is_the_prediction_at_its_speed_temperature_and_pressure(
 
 
 def test_the_direct_contact_of_a_line(tmp_path: Path) -> None:
-    surface = PreparedSurface(SINES, "", measured=Measured.of([LINE]))
+    surface = Surface(SINES, "", measured=Measured.of([LINE]))
     direct = DirectContact(2e-4, 0.2, periodic=True, conditions=Conditions(heat=HEAT))
     one = MeasuredFriction([1.0], [0.5], temperature=[303.15])
     found = predictions_at(one, direct, RUBBER, surface, LOAD, Store(tmp_path))
@@ -79,7 +77,7 @@ def test_the_direct_contact_of_a_line(tmp_path: Path) -> None:
 
 def test_what_was_solved_is_not_solved_again(tmp_path: Path) -> None:
     stored: list[bool] = []
-    chain, surface = Chain(HalfPlane(points=64)), PreparedSurface(SINES, "")
+    chain, surface = Chain(HalfPlane(points=64)), Surface(SINES, "")
     for _ in range(2):
         predictions_at(
             MEASURED, chain, RUBBER, surface, LOAD, Store(tmp_path),
@@ -94,16 +92,14 @@ class Thermometer(model.Model):
 
     name: ClassVar[str] = "thermometer"
 
-    def predict(
-        self, rubber: gs.Rubber, surface: PreparedSurface, load: NominalLoad, **_: Any
-    ) -> xr.Dataset:
+    def predict(self, rubber: gs.Rubber, surface: Surface, load: Load, **_: Any) -> xr.Dataset:
         totals = dict.fromkeys(model.TOTALS, rubber.reference_temperature or 0.0)
         status = "converged" if load.speed > 0.5 else "too slow"
         return model.answer(xr.Dataset(), totals, status, self.name, load)
 
 
 def test_a_model_without_conditions_gets_the_rubber_at_the_temperature(tmp_path: Path) -> None:
-    surface = PreparedSurface(SINES, "")
+    surface = Surface(SINES, "")
     found = predictions_at(MEASURED, Thermometer(), RUBBER, surface, LOAD, Store(tmp_path))
     assert found.friction.tolist() == [303.15, 313.15, 293.15]
     assert found.temperature.tolist() == [303.15, 313.15, 293.15]
@@ -117,14 +113,14 @@ def test_another_temperature_needs_a_shift(tmp_path: Path) -> None:
             MEASURED,
             Chain(HalfPlane(points=64)),
             plain,
-            PreparedSurface(SINES, ""),
+            Surface(SINES, ""),
             LOAD,
             Store(tmp_path),
         )
 
 
 def test_without_any_temperature_none_is_needed(tmp_path: Path) -> None:
-    plain, surface = gs.Rubber(5e6, [3e6], [1e-3]), PreparedSurface(SINES, "")
+    plain, surface = gs.Rubber(5e6, [3e6], [1e-3]), Surface(SINES, "")
     one = MeasuredFriction([1.0], [0.5])
     found = predictions_at(one, Chain(HalfPlane(points=64)), plain, surface, LOAD, Store(tmp_path))
     assert np.isnan(found.temperature).all()

@@ -79,7 +79,7 @@ def test_the_summary_quotes_the_interval(run):
 
 def test_failures_are_counted_and_said(folder):
     """Half of the cut-offs lie far beyond the largest wave: no waves fit them."""
-    choice = Uncertainty(without=["waves"], given={"cut_off": "1 mm,1000 m"})
+    choice = Uncertainty(without=["waves"], ranges={"cut_off": "1 mm,1000 m"})
     data = propagate(folder / "case.toml", choice, samples=10)
     assert int(data.failed.sum()) == 5
     assert np.isfinite(data.friction.values).sum() == 5
@@ -95,7 +95,7 @@ def test_a_refusal_while_solving_is_a_failure_too(folder, tmp_path):
         (tmp_path / name).write_bytes((folder / name).read_bytes())
     text = (folder / "case.toml").read_text()
     case.write_text(text.replace("static = false", 'static = false\nload_time = "infinite"'))
-    choice = Uncertainty(without=["waves", "modulus"], given={"equilibrium_modulus": "1 Pa,6 MPa"})
+    choice = Uncertainty(without=["waves", "modulus"], ranges={"equilibrium_modulus": "1 Pa,6 MPa"})
     data = propagate(case, choice, samples=10)
     assert int(data.failed.sum()) == 5
     assert "equilibrium_modulus [Pa] must be" in failures(data)
@@ -162,7 +162,7 @@ def test_the_command_draws_a_band_over_speed(folder, tmp_path):
 
 
 def test_the_command_ends_with_3_where_samples_failed(folder, tmp_path):
-    options = ["--samples", 10, "--without", "waves", "--given", "cut_off=1 mm,1000 m"]
+    options = ["--samples", 10, "--without", "waves", "--range", "cut_off=1 mm,1000 m"]
     code, output = called(folder / "case.toml", *options, "--output", tmp_path)
     assert code == 3
     assert "5 of 10 samples have no answer" in output
@@ -171,10 +171,10 @@ def test_the_command_ends_with_3_where_samples_failed(folder, tmp_path):
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        (["--given", "cut_off"], "given must be such as"),
+        (["--range", "cut_off"], "range must be such as"),
         (["--model", "all"], "model must be one of"),
         (["--without", "weather"], "unknown source weather"),
-        (["--given", "bulk_modulus=1 mm:2 mm"], "bulk_modulus"),
+        (["--range", "bulk_modulus=1 mm:2 mm"], "bulk_modulus"),
     ],
 )
 def test_the_command_refuses_in_a_sentence(folder, tmp_path, options, said):

@@ -22,8 +22,8 @@ from gripscale.analysis.sources import SOURCES
 from gripscale.chain.chain import Chain
 from gripscale.core.errors import InputError
 from gripscale.half_space.model import DirectContact
-from gripscale.model import NominalLoad
-from gripscale.surface import HeightMap, Measured, PreparedSurface, Profile, SineStack
+from gripscale.model import Load
+from gripscale.surface import HeightMap, Measured, Profile, SineStack, Surface
 from gripscale.theory.half_plane import HalfPlane
 from gripscale.wave.block import FiniteStrainBlock
 from gripscale.wave.problem import Sine, WaveLoad, WaveProblem
@@ -35,7 +35,7 @@ HALF_PLANES = Chain(HalfPlane(points=64))
 def alone(name, known, **given):
     """Return the draws of one source, the others left out."""
     others = [one for one in SOURCES if one != name]
-    chosen = Uncertainty(without=others, given=given).of(known, ["chain", "direct"])
+    chosen = Uncertainty(without=others, ranges=given).of(known, ["chain", "direct"])
     return list(draws(Inputs.of(known), chosen.sources, SAMPLES, 0))
 
 
@@ -143,7 +143,7 @@ def test_leaving_out_a_source_changes_no_draw_of_the_others(known):
 
 def test_waves_by_hand_and_a_named_rubber_leave_what_they_leave():
     stack = SineStack(np.array([0.01, 0.002]), np.array([5e-4, 1e-4]))
-    known = Measurement(PreparedSurface(stack, "by hand"), Rubber(6e6), speed=0.3)
+    known = Measurement(Surface(stack, "by hand"), Rubber(6e6), speed=0.3)
     chosen = Uncertainty().of(known, ["chain"])
     assert [source.name for source in chosen.sources] == ["bulk_modulus", "load_time"]
     assert len(chosen.left_out) == len(SOURCES) - 2
@@ -176,7 +176,7 @@ def test_values_of_a_list_are_equally_likely():
 
 def predicted(known, one):
     surface, model = one.inputs.for_model(HALF_PLANES)
-    load = NominalLoad(3e5, known.speed, 0.1)
+    load = Load(3e5, known.speed, 0.1)
     answer = model.predict(one.inputs.rubber, surface, load)
     return float(answer.total_friction), float(answer.total_contact_fraction)
 

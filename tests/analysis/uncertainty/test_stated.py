@@ -23,7 +23,7 @@ seed = 3
 model = "chain"
 without = ["waves", "modulus"]
 block_length = "60 mm"
-[uncertainty.given]
+[uncertainty.ranges]
 cut_off = ["0.9 mm", "1.2 mm"]
 load_time = [0.5, 1, 2]
 """
@@ -53,22 +53,22 @@ def test_a_case_states_all_of_it(case) -> None:
     assert (table.samples, table.seed, table.block_length) == (12, 3, 0.06)
     choice = Uncertainty.of_case(table)
     assert (choice.without, choice.block_length) == (("waves", "modulus"), 0.06)
-    assert choice.given["cut_off"] == pytest.approx([9e-4, 1.2e-3])
-    assert choice.given["load_time"] == [0.5, 1.0, 2.0]
+    assert choice.ranges["cut_off"] == pytest.approx([9e-4, 1.2e-3])
+    assert choice.ranges["load_time"] == [0.5, 1.0, 2.0]
 
 
 def test_who_asks_goes_before_the_case(case) -> None:
     table = read_case(case(STATED)).case.uncertainty
     given = {"cut_off": "1 mm", "waves": "4,5"}
-    changed = Uncertainty.of_case(table, given=given, block_length=0.08)
+    changed = Uncertainty.of_case(table, ranges=given, block_length=0.08)
     assert changed.without == ("modulus",)
-    assert changed.given == {"load_time": [0.5, 1.0, 2.0], **given}
+    assert changed.ranges == {"load_time": [0.5, 1.0, 2.0], **given}
     assert changed.block_length == 0.08
     left = Uncertainty.of_case(table, without=["cut_off"])
     assert left.without == ("cut_off",)
-    assert set(left.given) == {"load_time"}
+    assert set(left.ranges) == {"load_time"}
     with pytest.raises(InputError, match="cut_off must be left out or given; got both"):
-        Uncertainty.of_case(table, without=["cut_off"], given={"cut_off": "1 mm"})
+        Uncertainty.of_case(table, without=["cut_off"], ranges={"cut_off": "1 mm"})
 
 
 def test_what_is_stated_is_sampled_as_if_it_were_asked_for(case, folder) -> None:
@@ -99,8 +99,8 @@ def test_options_of_the_command_go_before_the_case(case, tmp_path) -> None:
     [
         ("samples = 5", "samples"),
         ('without = ["weather"]', "profile"),
-        ('given = { cut_off = ["2 mm", "1 mm"] }', "rising"),
-        ('given = { cut_off = "2 mm" }', "a list of two ends or of equally likely values"),
+        ('ranges = { cut_off = ["2 mm", "1 mm"] }', "rising"),
+        ('ranges = { cut_off = "2 mm" }', "a list of two ends or of equally likely values"),
         ("given = { load_time = [0, 1] }", "greater than zero"),
         ("given = { profile = [1, 2] }", "profile"),
         ('block_length = "0 mm"', "block_length"),
