@@ -6,7 +6,7 @@
 //! restricted to the active set, is near the inverse of the restricted C. The two differ only at the
 //! edges of the contacts.
 
-use super::linear_complementarity::{ApproximateInverse, Compliance};
+use super::complementarity_problem::{ApproximateInverse, Compliance};
 use crate::executor::Executor;
 use crate::linear::{add, gmres, norm, Factor, Matrix};
 use crate::settings::Settings;

@@ -1,6 +1,7 @@
 //! The block pressed on its rigid profile: gaps, and frictionless unilateral contact.
 
 pub mod active_set_system;
+pub mod complementarity_problem;
 pub mod edges;
 pub mod harmonics;
 pub mod linear_complementarity;

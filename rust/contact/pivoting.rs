@@ -9,7 +9,7 @@
 //! t only falls. Otherwise t may rise in between; if it rises without end there is no solution.
 
 use super::active_set_system::ActiveSetSystem;
-use super::linear_complementarity::{ComplementarityProblem, Contact};
+use super::complementarity_problem::{ComplementarityProblem, Contact};
 use crate::executor::Executor;
 use crate::linear::add;
 use crate::settings::Settings;

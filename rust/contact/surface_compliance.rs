@@ -4,7 +4,7 @@
 //! is diagonal in the harmonics, and opens gap a by (-w'(x_a), 1) . (G - mean of G along x), because the
 //! profile follows the mean displacement.
 
-use super::linear_complementarity::{ApproximateInverse, Compliance};
+use super::complementarity_problem::{ApproximateInverse, Compliance};
 use crate::fem::averaged_jacobian::{convolve, AveragedJacobian};
 use crate::fem::harmonic_block::invert_each;
 use crate::fem::mesh::Mesh;

@@ -5,9 +5,9 @@
 //! Its u_z and its force are eliminated, which leaves a sparse symmetric matrix and two borders,
 //!     mean of du_x = ds,   sum of df = missing load.
 
-use super::newton::Increment;
+use super::newton_step::Increment;
 use super::residual::Residual;
-use crate::contact::linear_complementarity::Contact;
+use crate::contact::complementarity_problem::Contact;
 use crate::contact::{PressedBlock, State};
 use crate::fem::block::{Block, RowState};
 use crate::fem::element_tangent::ElementTangent;

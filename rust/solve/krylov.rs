@@ -8,9 +8,10 @@
 //! Anal. Appl. 21 (2000) 1300). The next Newton step predicts the next set: to iterate one linearised
 //! problem on set after set, until none changes, took more products and no fewer steps.
 
-use super::newton::{Increment, Iterate};
+use super::newton_step::{Increment, Iterate};
 use crate::contact::active_set_system::ActiveSetSystem;
-use crate::contact::linear_complementarity::{self, ComplementarityProblem, Contact};
+use crate::contact::complementarity_problem::{ComplementarityProblem, Contact};
+use crate::contact::linear_complementarity;
 use crate::contact::surface_compliance::SurfaceCompliance;
 use crate::contact::{PressedBlock, State};
 use crate::executor::Executor;

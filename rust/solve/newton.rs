@@ -12,8 +12,8 @@
 //! the block at an edge that its predictions may cycle.
 
 use super::krylov::{self, Accuracy};
+use super::newton_step::{Increment, Iterate};
 use super::residual::Residual;
-use crate::contact::linear_complementarity::Contact;
 use crate::contact::{PressedBlock, State};
 use crate::fem::block::RowState;
 use crate::linear::add;
@@ -24,29 +24,6 @@ use crate::status::Status;
 
 /// The linearised problem is not solved below this share of the residual tolerance.
 const LEAST_SHARE_OF_TOLERANCE: f64 = 0.1;
-
-/// The state from which a Newton step starts, with its residual.
-#[derive(Clone, Copy)]
-pub struct Iterate<'a> {
-    pub state: &'a State,
-    /// States of the element rows.
-    pub rows: &'a [RowState],
-    pub residual: &'a Residual,
-    pub residual_norm: f64,
-}
-
-/// What a Newton step adds to the field, and the contact at its end.
-#[derive(Debug, Clone)]
-pub struct Increment {
-    /// Displacements of all layers, as in a field.
-    pub u: Vec<f64>,
-    /// Pressure modes, as in a field.
-    pub pressure: Vec<f64>,
-    /// At the end of the whole step.
-    pub contact: Contact,
-    /// Products with the Jacobian.
-    pub products: usize,
-}
 
 /// What to do with a step that is too long.
 #[derive(Clone, Copy, PartialEq)]

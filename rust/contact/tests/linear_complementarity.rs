@@ -2,9 +2,10 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::contact::linear_complementarity::{
-    solve, ApproximateInverse, Compliance, ComplementarityProblem, Contact,
+use crate::contact::complementarity_problem::{
+    ApproximateInverse, Compliance, ComplementarityProblem, Contact,
 };
+use crate::contact::linear_complementarity::solve;
 use crate::linear::{Factor, Matrix};
 use crate::settings::Settings;
 use crate::test_fields::serial;

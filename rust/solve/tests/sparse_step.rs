@@ -12,7 +12,7 @@ use crate::model::Model;
 use crate::settings::Settings;
 use crate::solve::bordered::Bordered;
 use crate::solve::krylov::{self, Accuracy};
-use crate::solve::newton::{Increment, Iterate};
+use crate::solve::newton_step::{Increment, Iterate};
 use crate::solve::residual::Residual;
 
 use crate::case::{Case};
