@@ -6,9 +6,11 @@ What only one file of tests uses stands there.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pytest
 from numpy.typing import NDArray
 from typer.testing import Result
 
@@ -18,6 +20,7 @@ from gripscale.model import Load
 from gripscale.rubber import WLF
 from gripscale.rubber.softening import Kraus
 from gripscale.surface import self_affine_profile
+from gripscale.wave import FiniteStrainBlock, Status, WaveProblem, WaveResult
 
 ROOT = Path(__file__).parents[1]
 DOCS, EXAMPLES = ROOT / "docs", ROOT / "examples"
@@ -67,6 +70,15 @@ amplitude = "0.8 mm"
 wavelength = "3 mm"
 amplitude = "0.25 mm"
 """
+SOFTENING = """\
+[conditions.softening]
+kind = "kraus"
+storage_ratio = 0.3
+loss_ratio = 0.2
+critical_strain = "2 %"
+measured_at = "0.1 %"
+deformation = "shear"
+"""
 THREE_WAVES = f"""\
 {TWO_WAVES}[[surface.sines]]
 wavelength = "1 mm"
@@ -88,6 +100,21 @@ def case_text(
         '[load]\npressure = "3 bar"\nspeed = "0.3 m/s"\nfootprint = "100 mm"\n'
         f"{at_rest}\n[solver]\n{solver}\n"
     )
+
+
+def fail_waves(
+    monkeypatch: pytest.MonkeyPatch, status: Status, fails: Callable[[WaveProblem], bool]
+) -> None:
+    """Let the block end with `status` on the waves that `fails` names, after it has solved them."""
+    solve = FiniteStrainBlock.solve
+
+    def failing(
+        self: FiniteStrainBlock, problem: WaveProblem, start: WaveResult | None = None
+    ) -> WaveResult:
+        result = solve(self, problem, start)
+        return replace(result, status=status) if fails(problem) else result
+
+    monkeypatch.setattr(FiniteStrainBlock, "solve", failing)
 
 
 def write_short_road(folder: Path) -> None:

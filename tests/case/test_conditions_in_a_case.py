@@ -15,6 +15,7 @@ from gripscale.core.errors import InputError
 from gripscale.rubber import WLF
 from gripscale.rubber.softening import Kraus
 from tests.case.cases import refusal, written
+from tests.samples import SOFTENING
 
 BASE = """
 [surface]
@@ -34,14 +35,6 @@ static = false
 model = "half_plane"
 """
 TEMPERATURE = '[conditions]\ntemperature = "40 C"\n'
-SOFTENING = """[conditions.softening]
-kind = "kraus"
-storage_ratio = 0.3
-loss_ratio = 0.2
-critical_strain = "2 %"
-measured_at = "0.1 %"
-deformation = "shear"
-"""
 HEAT = """[conditions.heat]
 conductivity = "0.25 W/(m K)"
 density = "1.15 g/cm^3"

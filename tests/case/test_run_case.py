@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -12,7 +11,8 @@ from gripscale.case import case_chain, prepare_case, read_case, run_case
 from gripscale.case.events import Event, WaveSolved
 from gripscale.core.errors import ExtrapolationError
 from gripscale.io import netcdf
-from gripscale.wave import FiniteStrainBlock, Status, WaveProblem, WaveResult
+from gripscale.wave import Status
+from tests.samples import fail_waves
 
 
 def test_case_gives_its_results_as_objects(case: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -70,15 +70,7 @@ def test_files_are_written_where_they_are_wanted(case: Path, tmp_path: Path) -> 
 def test_wave_that_fails_is_named_and_the_rest_goes_on(
     case: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    solve = FiniteStrainBlock.solve
-
-    def lame(
-        self: FiniteStrainBlock, problem: WaveProblem, start: WaveResult | None = None
-    ) -> WaveResult:
-        good = solve(self, problem, start)
-        return replace(good, status=Status.FOLD) if problem.load.speed > 0.0 else good
-
-    monkeypatch.setattr(FiniteStrainBlock, "solve", lame)
+    fail_waves(monkeypatch, Status.FOLD, lambda problem: problem.load.speed > 0.0)
     results = run_case(case)
     assert set(results.failures) == {"dynamic"}
     assert "wave 1 of 2" in str(results.failures["dynamic"])

@@ -24,7 +24,8 @@ from gripscale.io import netcdf
 from gripscale.model import Load
 from gripscale.surface import Surface
 from gripscale.theory import HalfPlane
-from gripscale.wave import FiniteStrainBlock, Mesh, Sine, Status, WaveProblem, WaveResult
+from gripscale.wave import FiniteStrainBlock, Mesh, Sine, Status
+from tests.samples import fail_waves
 
 Compare = Callable[[xr.Dataset, xr.Dataset], None]
 SPEEDS = [0.01, 1.0]
@@ -149,17 +150,11 @@ def test_what_is_not_there_is_one_sentence(
 def test_failed_chain_is_a_status(
     case: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    solve = FiniteStrainBlock.solve
-
-    def lame(
-        self: FiniteStrainBlock, problem: WaveProblem, start: WaveResult | None = None
-    ) -> WaveResult:
-        good = solve(self, problem, start)
-        if problem.load.speed < 1.0 or problem.profile.wavelength > 5e-3:
-            return good
-        return replace(good, status=Status.ITERATION_LIMIT)
-
-    monkeypatch.setattr(FiniteStrainBlock, "solve", lame)
+    fail_waves(
+        monkeypatch,
+        Status.ITERATION_LIMIT,
+        lambda problem: problem.load.speed >= 1.0 and problem.profile.wavelength <= 5e-3,
+    )
     result = Study(case, {"speed": SPEEDS}).run(tmp_path)
     assert result.prediction_status[0] == "converged"
     assert "wave 2 of 3" in str(result.prediction_status[1].item())

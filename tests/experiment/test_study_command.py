@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from gripscale.io import netcdf
-from gripscale.wave import FiniteStrainBlock, Status, WaveProblem, WaveResult
-from tests.samples import Shell
+from gripscale.wave import Status
+from tests.samples import Shell, fail_waves
 
 
 def test_command_solves_prints_draws_and_resumes(shell: Shell, case: Path) -> None:
@@ -63,16 +62,11 @@ def test_table_keeps_its_status_beside_long_names(shell: Shell, case: Path, tmp_
 def test_failed_chain_ends_with_its_own_code(
     shell: Shell, case: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    solve = FiniteStrainBlock.solve
-
-    def lame(
-        self: FiniteStrainBlock, problem: WaveProblem, start: WaveResult | None = None
-    ) -> WaveResult:
-        good = solve(self, problem, start)
-        failed = problem.load.speed > 0.5 and problem.profile.wavelength < 2e-3
-        return replace(good, status=Status.ITERATION_LIMIT) if failed else good
-
-    monkeypatch.setattr(FiniteStrainBlock, "solve", lame)
+    fail_waves(
+        monkeypatch,
+        Status.ITERATION_LIMIT,
+        lambda problem: problem.load.speed > 0.5 and problem.profile.wavelength < 2e-3,
+    )
     result = shell("study", case, "--vary", "speed=0.1,1")
     assert result.exit_code == 3
     assert len(result.stderr.splitlines()) == 1

@@ -21,7 +21,7 @@ from typer.testing import CliRunner
 
 import gripscale as gs
 from gripscale.cli import app
-from tests.samples import write_road
+from tests.samples import SOFTENING, write_road
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -92,14 +92,7 @@ smallest_wavelength = "2 mm"
 [conditions]
 temperature = "40 C"
 
-[conditions.softening]
-kind = "kraus"
-storage_ratio = 0.3
-loss_ratio = 0.2
-critical_strain = "2 %"
-measured_at = "0.1 %"
-deformation = "shear"
-
+{SOFTENING}
 [conditions.heat]
 conductivity = "0.25 W/(m K)"
 density = "1150 kg/m^3"

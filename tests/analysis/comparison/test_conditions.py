@@ -13,8 +13,9 @@ from gripscale.case import prepare_case
 from gripscale.io.table import as_text
 from gripscale.report.comparison import best_sentence, comparison_table, remarks
 from gripscale.surface import self_affine_profile
+from tests.samples import SOFTENING
 
-CASE = """
+CASE = f"""
 [surface]
 files = ["road.dat"]
 x_unit = "m"
@@ -23,7 +24,7 @@ scales = 3
 smallest_wavelength = "0.5 mm"
 [rubber]
 name = "styrene_butadiene"
-shift = { kind = "wlf", c1 = 8.0, c2 = "120 K" }
+shift = {{ kind = "wlf", c1 = 8.0, c2 = "120 K" }}
 [load]
 pressure = "3 bar"
 speed = "0.1 m/s"
@@ -32,14 +33,7 @@ footprint = "50 mm"
 model = "half_plane"
 [conditions]
 temperature = "35 C"
-[conditions.softening]
-kind = "kraus"
-storage_ratio = 0.3
-loss_ratio = 0.2
-critical_strain = "2 %"
-measured_at = "0.1 %"
-deformation = "shear"
-[conditions.shear_stress]
+{SOFTENING}[conditions.shear_stress]
 kind = "constant"
 stress_0 = "2 MPa"
 """
