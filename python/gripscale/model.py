@@ -152,6 +152,8 @@ LoadTime = Literal["passage"] | float
 class Load:
     """The load on the whole surface.
 
+    Raises `InputError` if a value cannot be used.
+
     Parameters
     ----------
     pressure : float
@@ -163,11 +165,6 @@ class Load:
     load_time : float or "passage"
         How long a place of the rubber is loaded: while the contact above it passes, or a time [s],
         which may be infinite.
-
-    Raises
-    ------
-    InputError
-        If a value cannot be used.
     """
 
     pressure: float

@@ -255,6 +255,9 @@ class ChainSolve:
 class Chain(Checked, model.Model):
     """Model of sine waves: each wave receives the pressure that leaves the contact of the larger.
 
+    Raises `InputError` if `pressure_classes` is no whole number from 1 to 64, or `extrapolate`
+    another word.
+
     Parameters
     ----------
     solver : WaveSolver
@@ -267,11 +270,6 @@ class Chain(Checked, model.Model):
         "warn" or "refuse", see `predict`.
     conditions : Conditions, optional
         Temperature, softening, heat and area term, see `predict`.
-
-    Raises
-    ------
-    InputError
-        If `pressure_classes` is no whole number from 1 to 64, or `extrapolate` another word.
     """
 
     name: ClassVar[str] = "chain"

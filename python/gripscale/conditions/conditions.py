@@ -50,6 +50,8 @@ def _effect(name: str, value: Any, *, kind: type, expected: str) -> Any:
 class Conditions(Checked):
     """Effects on the rubber as measured, and the area term; each is off by default.
 
+    Raises `InputError` if a value cannot be used.
+
     Parameters
     ----------
     temperature : float, optional
@@ -64,11 +66,6 @@ class Conditions(Checked):
         Warm the rubber by its friction.
     shear_stress : InterfacialShearStress, optional
         Interfacial shear stress of the area term.
-
-    Raises
-    ------
-    InputError
-        If a value cannot be used.
     """
 
     temperature: float | None = checked(checks.positive, unit="K", default=None)

@@ -135,17 +135,14 @@ def _loss_shape(name: str, value: Any) -> int:
 class LossDepth(Checked):
     """A gamma distribution of the depth at which energy is lost.
 
+    Raises `InputError` if the mean is no finite number from zero, or the shape another.
+
     Parameters
     ----------
     mean : float
         Mean depth [m]; zero is the surface itself.
     shape : int
         1: exponential; 3: under a harmonic of the pressure.
-
-    Raises
-    ------
-    InputError
-        If the mean is no finite number from zero, or the shape another.
     """
 
     mean: float = checked(checks.not_negative, unit="m")
@@ -259,6 +256,8 @@ def harmonic_where_lost(
 def uniform_at_surface(time: float, depth: DepthsOfLoss, thermal: ThermalProperties) -> float:
     """Return the surface temperature of uniform heat per heat per area.
 
+    Raises `InputError` if the time is no finite number from zero.
+
     Parameters
     ----------
     time : float
@@ -272,11 +271,6 @@ def uniform_at_surface(time: float, depth: DepthsOfLoss, thermal: ThermalPropert
     -------
     float
         [K m^2/W]
-
-    Raises
-    ------
-    InputError
-        If the time is no finite number from zero.
     """
     length = _diffusion_length(time, thermal)
     return length * depth.spread(length) / thermal.conductivity if length > 0.0 else 0.0

@@ -151,6 +151,8 @@ def solve_both_ways(
 ) -> FiniteStrainPairs:
     """Return contact and friction of each line at finite strain and at small strain.
 
+    Raises `InputError` as `gripscale.solve_profile` and `gripscale.solve_rough_contact` do.
+
     Parameters
     ----------
     rubber : Rubber
@@ -170,11 +172,6 @@ def solve_both_ways(
     FiniteStrainPairs
         In the order of `lines`. A line that did not converge, or whose mesh is too coarse for it,
         does not count in means and corrections and says why.
-
-    Raises
-    ------
-    InputError
-        As `gripscale.solve_profile` and `gripscale.solve_rough_contact` do.
     """
     lines = checks.instances("lines", lines, Profile)
 
@@ -201,17 +198,14 @@ def spread_windows(
 ) -> list[Profile]:
     """Return at most `most` windows of the profiles, each made `one_period`.
 
+    Raises `InputError` as `windows` does, or if `most` is not a whole number from 1.
+
     Parameters
     ----------
     profiles : sequence of Profile
         Cut into `windows` of `length` [m]; the returned ones are spread evenly.
     smallest_wavelength : float
         Shorter waves are left out [m].
-
-    Raises
-    ------
-    InputError
-        As `windows` does, or if `most` is not a whole number from 1.
     """
     number = checks.whole("most", most, least=1, most=100_000)
     lines = checks.instances("profiles", profiles, Profile)

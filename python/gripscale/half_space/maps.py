@@ -147,6 +147,8 @@ def map_over_lines(
     Multiply contact and friction of the measured line by the factors for a best estimate of the
     surface, if the maps' lines match the measured ones.
 
+    Raises `InputError` if an argument is out of its range.
+
     Parameters
     ----------
     rubber, pressure, speed
@@ -162,11 +164,6 @@ def map_over_lines(
         As for `solve_rough_contact`.
     on_map : callable, optional
         Called with the `MapContact` of each map as it is done.
-
-    Raises
-    ------
-    InputError
-        If an argument is out of its range.
     """
     load: dict[str, Any] = {
         "pressure": pressure,
@@ -214,6 +211,8 @@ def solve_map_and_lines(
 ) -> MapContact:
     """Return the contact of a map and of single lines of it, sliding along x and along y.
 
+    Raises `InputError` if an argument is out of its range.
+
     Parameters
     ----------
     rubber, **load
@@ -222,11 +221,6 @@ def solve_map_and_lines(
         One period, of equal points and steps each way.
     lines, tolerance, workers
         As for `map_over_lines`.
-
-    Raises
-    ------
-    InputError
-        If an argument is out of its range.
     """
     checks.instance("surface", surface, HeightMap)
     whole = solve_whole(rubber, surface, workers=workers, **load)
@@ -356,10 +350,7 @@ class SyntheticMap(model.Model):
     ) -> xr.Dataset:
         """Return the answer; `on_progress` is called while the map is made.
 
-        Raises
-        ------
-        InputError
-            If the surface has no profiles a map can be made from.
+        Raises `InputError` if the surface has no profiles a map can be made from.
         """
         import xarray as xr
 

@@ -68,10 +68,7 @@ class DirectContact(Checked, model.Model):
     ) -> xr.Dataset:
         """Return the answer, with each profile over `profile`; `on_progress` gets each contact.
 
-        Raises
-        ------
-        InputError
-            If the surface was not measured: waves stated by hand have no profile.
+        Raises `InputError` if the surface was not measured: waves stated by hand have no profile.
         """
         import xarray as xr
 

@@ -105,6 +105,9 @@ def windows(
 
     Windows with fewer than half their heights are left out.
 
+    Raises `InputError` if a window would have fewer than 16 points along an axis or be longer than
+    the surface, or if no window has half of its heights.
+
     Parameters
     ----------
     surface : Profile or HeightMap
@@ -112,12 +115,6 @@ def windows(
     length : float or (float, float)
         Length of the windows along x, and for a map along y [m]. With one length the windows of a
         map are as wide as the map.
-
-    Raises
-    ------
-    InputError
-        If a window would have fewer than 16 points along an axis or be longer than the surface, or
-        if no window has half of its heights.
     """
     lengths = tuple(length) if isinstance(length, tuple | list) else (length,)
     if not isinstance(surface, Profile | HeightMap):
@@ -163,17 +160,14 @@ def solve_windows(
 ) -> WindowContacts:
     """Return the direct contact of each of the `windows` of `surface`.
 
+    Raises `InputError` as these do.
+
     Parameters
     ----------
     rubber, **load
         As for `solve_rough_contact`, without `periodic`.
     surface, length
         As for `windows`.
-
-    Raises
-    ------
-    InputError
-        As these do.
     """
     return WindowContacts(
         [solve_rough_contact(rubber, window, **load) for window in windows(surface, length)]
@@ -186,10 +180,7 @@ def one_period(line: Profile, smallest_wavelength: float | None = None) -> Profi
     Missing heights are filled, ends joined, and waves shorter than `smallest_wavelength` [m], by
     default four steps, left out. The smallest wave has four points.
 
-    Raises
-    ------
-    InputError
-        As `solve_rough_contact` does for its surface.
+    Raises `InputError` as `solve_rough_contact` does for its surface.
     """
     checks.instance("line", line, Profile)
     heights = periodic_heights(line, smallest_wavelength=smallest_wavelength, periodic=False)
@@ -203,6 +194,9 @@ def one_period(line: Profile, smallest_wavelength: float | None = None) -> Profi
 def surface_of_sines(stack: SineStack, length: float, seed: int) -> Profile:
     """Return a periodic line of superposed sine waves, each with a random phase.
 
+    Raises `InputError` if an argument is out of its range, or there would be more than ten million
+    points.
+
     Parameters
     ----------
     stack : SineStack
@@ -212,11 +206,6 @@ def surface_of_sines(stack: SineStack, length: float, seed: int) -> Profile:
         Period [m], at least the largest wavelength.
     seed : int
         Seed of the random phases.
-
-    Raises
-    ------
-    InputError
-        If an argument is out of its range, or there would be more than ten million points.
     """
     checks.instance("stack", stack, SineStack)
     period = checks.positive("length", length, unit="m")
@@ -249,10 +238,7 @@ def random_phases(surface: Measurement, seed: int) -> Measurement:
     heights are not. Steep lines that bridge gaps are part of the spectrum: where steep flanks are
     missing, the surface is rougher than the pairs of measured heights.
 
-    Raises
-    ------
-    InputError
-        If `seed` is not a whole number that is not negative.
+    Raises `InputError` if `seed` is not a whole number that is not negative.
     """
     random = np.random.default_rng(checks.whole("seed", seed, least=0, most=2**32 - 1))
     if not isinstance(surface, Profile | HeightMap):

@@ -87,6 +87,8 @@ def clean(
 ) -> tuple[Profile, CleaningReport]:
     """Crop a profile, mark dropouts and spikes as missing, and take out its trend.
 
+    Raises `InputError` if an argument is wrong, or a step leaves too few points or heights.
+
     Parameters
     ----------
     profile : Profile
@@ -110,11 +112,6 @@ def clean(
         The cleaned profile.
     CleaningReport
         The effect of each step.
-
-    Raises
-    ------
-    InputError
-        If an argument is wrong, or a step leaves too few points or heights.
     """
     checks.instance("profile", profile, Profile)
     steps: list[Callable[[Profile], tuple[Profile, StepReport]]] = []
@@ -156,6 +153,8 @@ def mark_spikes(
     C_z(m l) <= m^2 C_z(l), which the standard's rule alone can break), but also wears away true
     steep flanks, so it is a choice.
 
+    Raises `InputError` if `slope` is not above zero, or all heights would become missing.
+
     Parameters
     ----------
     profile : Profile
@@ -164,11 +163,6 @@ def mark_spikes(
         Largest height change per distance that is still a surface.
     across_gaps : bool, optional
         Hold points on both sides of a gap to the rule as well.
-
-    Raises
-    ------
-    InputError
-        If `slope` is not above zero, or all heights would become missing.
     """
     limit = checks.positive("spike_slope", slope) * profile.step
     z = profile.z.copy()
@@ -227,6 +221,8 @@ def clean_map(
 ) -> tuple[HeightMap, CleaningReport]:
     """Crop a map, mark dropouts and spikes as missing, cut off bare borders, take out the form.
 
+    Raises `InputError` if an argument is wrong, or a step leaves too few points or heights.
+
     Parameters
     ----------
     surface : HeightMap
@@ -251,11 +247,6 @@ def clean_map(
         The cleaned map.
     CleaningReport
         The effect of each step, in numbers of points.
-
-    Raises
-    ------
-    InputError
-        If an argument is wrong, or a step leaves too few points or heights.
     """
     checks.instance("surface", surface, HeightMap)
     steps: list[Callable[[HeightMap], tuple[HeightMap, StepReport]]] = []
@@ -296,10 +287,7 @@ def crop_map(
 def trim_map(surface: HeightMap, share: float = 0.5) -> tuple[HeightMap, StepReport]:
     """Cut off border lines with more than a share of missing heights, the barest line first.
 
-    Raises
-    ------
-    InputError
-        If `share` is not from 0 to 1, or fewer than 16 points a way would be left.
+    Raises `InputError` if `share` is not from 0 to 1, or fewer than 16 points a way would be left.
     """
     most = checks.not_negative("trim", share)
     if most > 1.0:
@@ -332,17 +320,14 @@ def mark_map_spikes(surface: HeightMap, *, slope: float = 3.0) -> tuple[HeightMa
     own side, so that stones keep their edges, and a spike of up to two by two points is marked. All
     points are tested in one pass.
 
+    Raises `InputError` if `slope` is not above zero, or all heights would become missing.
+
     Parameters
     ----------
     surface : HeightMap
         The map.
     slope : float, optional
         Height over the neighbours, per step, at which a point is a spike.
-
-    Raises
-    ------
-    InputError
-        If `slope` is not above zero, or all heights would become missing.
     """
     limit = checks.positive("spike_slope", slope) * max(surface.step)
     nx, ny = surface.z.shape
@@ -368,10 +353,7 @@ def subtract_form(surface: HeightMap, order: int = 1) -> tuple[HeightMap, StepRe
     The F-operation of ISO 25178-2 with a polynomial sum of a_mn P_m(x) P_n(y), m + n <= order,
     in Legendre polynomials over the map, which keep the equations well conditioned.
 
-    Raises
-    ------
-    InputError
-        If `order` is not from 0 to 8, or there are fewer heights than coefficients.
+    Raises `InputError` if `order` is not from 0 to 8, or there are fewer heights than coefficients.
     """
     highest = checks.whole("form", order, least=0, most=HIGHEST_ORDER)
     terms = [(m, n) for m in range(highest + 1) for n in range(highest + 1 - m)]

@@ -220,6 +220,8 @@ def slope_by_wavelength(
 ) -> SlopeByWavelength:
     """Return the rms slope of a measured surface down to each wavelength.
 
+    Raises `InputError` if `surface` is something else, or the steps of its profiles differ.
+
     Parameters
     ----------
     surface : Profile, sequence of Profile or HeightMap
@@ -232,11 +234,6 @@ def slope_by_wavelength(
     SlopeByWavelength
         Down to four steps of the measurement, or to the shortest wavelength that the instrument
         measures reliably if that is known and longer.
-
-    Raises
-    ------
-    InputError
-        If `surface` is something else, or the steps of its profiles differ.
     """
     if isinstance(surface, HeightMap):
         x_step, y_step = surface.step
@@ -270,6 +267,8 @@ MOST_CONTINUED = 100.0
 class RmsSlope(Checked):
     """The rule that the roughness ends where its rms slope adds up to a value.
 
+    Raises `InputError` if a value cannot be used.
+
     Parameters
     ----------
     rms_slope : float
@@ -280,11 +279,6 @@ class RmsSlope(Checked):
     extrapolate : bool
         Whether the spectrum is continued as a power law, two decades at most, if the measurement
         does not reach the value. The result then rests on waves that were not measured.
-
-    Raises
-    ------
-    InputError
-        If a value cannot be used.
     """
 
     rms_slope: float = checked(checks.positive)
@@ -346,6 +340,10 @@ def find_cut_off(
 ) -> CutOff:
     """Return where the roughness of a measured surface ends by a rule.
 
+    Raises `InputError` if the rule is none of these, or the measurement does not reach the slope:
+    the message says which it reaches, and where. Continued as a power law, if it is still not
+    reached two decades below the measurement, or the spectrum does not end as a power law.
+
     Parameters
     ----------
     surface : Profile, sequence of Profile, HeightMap or SlopeByWavelength
@@ -358,13 +356,6 @@ def find_cut_off(
     -------
     CutOff
         The wavelength, the slopes down to it, and whether it lies beyond the measurement.
-
-    Raises
-    ------
-    InputError
-        If the rule is none of these, or the measurement does not reach the slope: the message says
-        which it reaches, and where. Continued as a power law, if it is still not reached two
-        decades below the measurement, or the spectrum does not end as a power law.
     """
     slopes = surface if isinstance(surface, SlopeByWavelength) else slope_by_wavelength(surface)
     limit = slopes.resolution_limit

@@ -52,6 +52,9 @@ def _counts(name: str, value: Any) -> NDArray[np.int64]:
 class HeightDifference(Checked, eq=False):
     """Mean squared height difference against lag.
 
+    Raises `InputError` if the lengths differ, lags do not increase from above zero, or a value is
+    negative.
+
     Parameters
     ----------
     lag : array_like, shape (lags,)
@@ -64,11 +67,6 @@ class HeightDifference(Checked, eq=False):
         Band of 95 % nominal confidence [m^2]; NaN if not known.
     resolution_limit : float, optional
         Shortest wavelength [m] that the measurement behind the curve resolves, if known.
-
-    Raises
-    ------
-    InputError
-        If the lengths differ, lags do not increase from above zero, or a value is negative.
     """
 
     lag: Array = checked(checks.increasing_vector, unit="m")
@@ -137,6 +135,9 @@ def height_difference(
     neighbouring blocks share heights. Of more profiles than blocks, such as the lines of a map, as
     many neighbours as there are to each block go together: lines side by side are not independent.
 
+    Raises `InputError` if the steps differ, `top_height_fraction` is not above 0 and at most 1,
+    `max_lag` is below one step or beyond a profile, or no lag has pairs.
+
     Parameters
     ----------
     profile : Profile or sequence of Profile
@@ -155,12 +156,6 @@ def height_difference(
     -------
     HeightDifference
         Lags with at least 16 pairs. The band is NaN where the blocks do not determine it.
-
-    Raises
-    ------
-    InputError
-        If the steps differ, `top_height_fraction` is not above 0 and at most 1, `max_lag` is
-        below one step or beyond a profile, or no lag has pairs.
     """
     blocks = checks.whole("band_blocks", band_blocks, least=4, most=1000)
     sums = block_sums(

@@ -91,6 +91,8 @@ def isotropic_maps(
     class of height (`gripscale.surface.line_statistics`): half a minute a map of 512 x 512
     points on one core, and some seconds before the first.
 
+    Raises `InputError` if an argument is out of its range, when the first map is asked for.
+
     Parameters
     ----------
     profile : Profile or sequence of Profile
@@ -113,11 +115,6 @@ def isotropic_maps(
     ------
     HeightMap
         One period; its name begins with "synthetic".
-
-    Raises
-    ------
-    InputError
-        If an argument is out of its range, when the first map is asked for.
     """
     profiles = profile_list(profile)
     number = checks.whole("points", points, least=FEWEST_POINTS, most=MOST_POINTS)

@@ -209,10 +209,7 @@ def periodic_lines(profiles: Sequence[Profile], length: float) -> list[MeasuredL
     Missing heights are filled linearly and the straight line through the ends is subtracted, as in
     the direct contact.
 
-    Raises
-    ------
-    InputError
-        If they are too short for the map.
+    Raises `InputError` if they are too short for the map.
     """
     total = sum(profile.length for profile in profiles)
     if total < FEWEST_PERIODS * length:

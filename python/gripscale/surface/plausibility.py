@@ -68,6 +68,8 @@ def profile_warnings(
 ) -> tuple[str, ...]:
     """Return warnings about an implausible profile, a sentence each; empty if there are none.
 
+    Raises `InputError` if `cleaned` is no part of `profile`.
+
     Parameters
     ----------
     profile : Profile
@@ -82,11 +84,6 @@ def profile_warnings(
     tuple of str
         Steep slopes, many spikes, plates and jumps, flat stretches, sentinels, and heights or
         lengths that suggest another unit.
-
-    Raises
-    ------
-    InputError
-        If `cleaned` is no part of `profile`.
     """
     checks.instance("profile", profile, Profile)
     checks.flag("steep", steep)

@@ -146,6 +146,10 @@ def _texts(name: str, value: Any) -> tuple[str, ...]:
 class Profile(Checked, eq=False):
     """Heights of a surface along a straight line, at equidistant points.
 
+    Raises `InputError` if x or z is not a list of numbers, their lengths differ, there are fewer
+    than 16 points, x does not go in equal steps (`gripscale.surface.resample` makes them equal),
+    all heights are missing, `reliable` is not above zero, or name, source or a note is no text.
+
     Parameters
     ----------
     x : array_like, shape (points,)
@@ -161,13 +165,6 @@ class Profile(Checked, eq=False):
         Shortest wavelength [m] the instrument measures reliably, if known.
     notes : tuple of str, optional
         Changes made by reading, such as rows added where some were left out.
-
-    Raises
-    ------
-    InputError
-        If x or z is not a list of numbers, their lengths differ, there are fewer than 16 points,
-        x does not go in equal steps (`gripscale.surface.resample` makes them equal), all heights
-        are missing, `reliable` is not above zero, or name, source or a note is no text.
     """
 
     x: Array = checked(checks.vector, unit="m")
@@ -293,6 +290,9 @@ def _height_table(name: str, value: ArrayLike) -> Array:
 class HeightMap(Checked, eq=False):
     """Heights of a surface over a rectangle, at equidistant points each way.
 
+    Raises `InputError` if x, y or z are not such numbers, their shapes differ, there are fewer than
+    16 points a way, all heights are missing, or name or source is no text.
+
     Parameters
     ----------
     x : array_like, shape (nx,)
@@ -308,12 +308,6 @@ class HeightMap(Checked, eq=False):
         Where it comes from, such as a file name.
     reliable : float, optional
         Shortest wavelength [m] the instrument measures reliably, if known.
-
-    Raises
-    ------
-    InputError
-        If x, y or z are not such numbers, their shapes differ, there are fewer than 16 points a
-        way, all heights are missing, or name or source is no text.
     """
 
     x: Array = checked(_axis)
@@ -352,10 +346,7 @@ class HeightMap(Checked, eq=False):
     def lines(self, direction: str = "x") -> list[Profile]:
         """Return the lines of the map along "x" or "y" that have a height, in their order.
 
-        Raises
-        ------
-        InputError
-            If `direction` is neither.
+        Raises `InputError` if `direction` is neither.
         """
         checks.one_of("direction", direction, ("x", "y"))
         measured = np.isfinite(self.z).any(axis=0 if direction == "x" else 1)
@@ -364,10 +355,7 @@ class HeightMap(Checked, eq=False):
     def line(self, number: int, direction: str = "x") -> Profile:
         """Return one line along "x" or "y", counted from 0 across it.
 
-        Raises
-        ------
-        InputError
-            If there is no such line, or it has no height.
+        Raises `InputError` if there is no such line, or it has no height.
         """
         along_x = checks.one_of("direction", direction, ("x", "y")) == "x"
         axis, heights = (self.x, self.z.T) if along_x else (self.y, self.z)

@@ -57,6 +57,10 @@ def resample(
     Heights are interpolated between neighbours, not averaged: with a step longer than the measured
     ones, roughness shorter than two new steps is folded into longer wavelengths.
 
+    Raises `InputError` if x or z is not a list of numbers, their lengths differ, x neither rises
+    nor falls throughout, `step` or `bridge` is not above zero, or the step gives too few or too
+    many points.
+
     Parameters
     ----------
     x : array_like, shape (points,)
@@ -76,13 +80,6 @@ def resample(
     Profile
         From the first distance on, missing where a height is missing on either side. Its
         shortest reliable wavelength is four new steps or four median distances, the longer ones.
-
-    Raises
-    ------
-    InputError
-        If x or z is not a list of numbers, their lengths differ, x neither rises nor falls
-        throughout, `step` or `bridge` is not above zero, or the step gives too few or too many
-        points.
     """
     old, height = checks.vector("x", x, unit="m"), checks.vector("z", z, unit="m", missing=True)
     checks.same_length(FEWEST_POINTS, x=old, z=height)
@@ -138,10 +135,7 @@ def printed_grid(
 
     `lines` are the line numbers of a profile's rows; a map repeats its distances in many lines.
 
-    Raises
-    ------
-    FileError
-        If the steps are not equal, or more than half the points are left out.
+    Raises `FileError` if the steps are not equal, or more than half the points are left out.
     """
     grid = even_grid(distances, table.resolution(column))
     hint = "" if lines is None else "; gripscale.surface.resample makes steps equal"

@@ -31,6 +31,8 @@ FEWEST_LAGS = 4
 class SelfAffineFit(Checked):
     """A power law up to a cut-off, and the plateau above it.
 
+    Raises `InputError` if a value is not a number above zero; the residual may be zero.
+
     Attributes
     ----------
     hurst : float
@@ -43,11 +45,6 @@ class SelfAffineFit(Checked):
         Range of lags [m] over which C_z was found to be a power law.
     residual : float
         Root mean square departure from the power law over that range, in decades of C_z.
-
-    Raises
-    ------
-    InputError
-        If a value is not a number above zero; the residual may be zero.
     """
 
     hurst: float = checked(checks.positive)
@@ -82,6 +79,9 @@ def fit_self_affine(
     the straightest range of that width is taken, and `residual` exceeds `tolerance`: the surface is
     then not self-affine.
 
+    Raises `InputError` if C_z vanishes somewhere, does not reach a plateau or does not rise before
+    it.
+
     Parameters
     ----------
     hdc : HeightDifference
@@ -95,11 +95,6 @@ def fit_self_affine(
     -------
     SelfAffineFit
         Exponent, cut-offs, and the range of lags they hold for.
-
-    Raises
-    ------
-    InputError
-        If C_z vanishes somewhere, does not reach a plateau or does not rise before it.
     """
     checks.instance("hdc", hdc, HeightDifference)
     checks.positive("tolerance", tolerance)

@@ -88,6 +88,8 @@ class SineAmbiguity:
 def sine_ambiguity(hdc: HeightDifference, sines: SineStack) -> SineAmbiguity:
     """Return the other stacks that follow `hdc` within its uncertainty.
 
+    Raises `InputError` if `sines` has one wave, or was not fitted: it then has no range of lags.
+
     Parameters
     ----------
     hdc : HeightDifference
@@ -95,11 +97,6 @@ def sine_ambiguity(hdc: HeightDifference, sines: SineStack) -> SineAmbiguity:
     sines : SineStack
         The waves fitted to it, which fix the range of lags, the first wavelength, and the cut-off
         or the last wavelength.
-
-    Raises
-    ------
-    InputError
-        If `sines` has one wave, or was not fitted: it then has no range of lags.
     """
     if sines.lag_range is None or len(sines) < 2:
         raise InputError(

@@ -296,6 +296,9 @@ def fit_sines(
 ) -> SineStack:
     """Fit superposed sine waves to a height difference correlation.
 
+    Raises `InputError` if an argument is wrong, `scales`, `smallest_wavelength` and `cut_off` are
+    all missing, or the curve has too few positive values in the range of lags.
+
     Parameters
     ----------
     hdc : HeightDifference
@@ -326,12 +329,6 @@ def fit_sines(
     SineStack
         The waves, their factors, the rms residual in decades of C_z over `lag_range`, and the
         cut-off if there is one.
-
-    Raises
-    ------
-    InputError
-        If an argument is wrong, `scales`, `smallest_wavelength` and `cut_off` are all missing, or
-        the curve has too few positive values in the range of lags.
     """
     if scales is None and smallest_wavelength is None and cut_off is None:
         raise InputError("scales, smallest_wavelength or cut_off must be given; got none of them")

@@ -58,6 +58,8 @@ _ABSCISSAE, _WEIGHTS = np.polynomial.legendre.leggauss(6)
 class ProfileSpectrum(Checked, eq=False):
     """One-sided power spectrum of a line.
 
+    Raises `InputError` if lengths differ or a value is out of range.
+
     Parameters
     ----------
     wavenumber : array_like, shape (points,)
@@ -69,11 +71,6 @@ class ProfileSpectrum(Checked, eq=False):
         neighbours by default, and to the first and last point.
     interpolated : float
         Share of the heights that were missing and interpolated [-].
-
-    Raises
-    ------
-    InputError
-        If lengths differ or a value is out of range.
     """
 
     wavenumber: Array = checked(checks.increasing_vector, unit="rad/m")
@@ -125,6 +122,8 @@ class ArealSpectrum(Checked, eq=False):
 
     Between its points q^3 C(q) is linear in log q; outside them there are no waves.
 
+    Raises `InputError` if lengths differ or a value is out of range.
+
     Parameters
     ----------
     wavenumber : array_like, shape (points,)
@@ -133,11 +132,6 @@ class ArealSpectrum(Checked, eq=False):
         C [m^4], not negative.
     interpolated : float
         Share of the heights that were missing and interpolated [-].
-
-    Raises
-    ------
-    InputError
-        If lengths differ or a value is out of range.
     """
 
     wavenumber: Array = checked(checks.increasing_vector, unit="rad/m")
@@ -222,6 +216,8 @@ def profile_spectrum(
     is mean(w^2 z^2)/mean(w^2): with taper "none" and one window the variance of the heights
     exactly, with "hann" their variance about the trends, as the windows weigh it.
 
+    Raises `InputError` if the steps differ, the window does not fit or a word is unknown.
+
     Parameters
     ----------
     profile : Profile or sequence of Profile
@@ -234,11 +230,6 @@ def profile_spectrum(
         "hann" for a measured line, whose ends do not meet: without it their jump would be spread
         over all small waves; a straight line is taken out of each window. "none" for a line that is
         a whole number of periods: only the mean is taken out.
-
-    Raises
-    ------
-    InputError
-        If the steps differ, the window does not fit or a word is unknown.
     """
     from scipy import signal
 
@@ -277,6 +268,8 @@ def map_spectrum(
     The mean of all plane waves within rings of absolute wavenumber, up to the ring that still fits
     into the sampled wavenumbers; the corners beyond are left out.
 
+    Raises `InputError` if a value is out of range or no height is there.
+
     Parameters
     ----------
     z : array_like, shape (nx, ny)
@@ -288,11 +281,6 @@ def map_spectrum(
         a map that is one period of its surface: only the mean is taken out.
     per_decade : int
         Points a decade of wavenumber, where there are enough rings.
-
-    Raises
-    ------
-    InputError
-        If a value is out of range or no height is there.
     """
     steps = (
         checks.positive("x_step", x_step, unit="m"),
@@ -356,6 +344,8 @@ def areal_spectrum(
     relative to its scatter. Beyond the last point C_1 is continued as the power law of its last
     points: lines see those waves at smaller k, too, but they are no part of the result.
 
+    Raises `InputError` if `hurst` is not above 0 and up to 1, or there are fewer than four points.
+
     Parameters
     ----------
     spectrum : ProfileSpectrum
@@ -364,11 +354,6 @@ def areal_spectrum(
         Hurst exponent of a surface that is self-affine all over: the closed form is used then.
     per_decade : int
         Wavenumbers a decade to which the spectrum is averaged first.
-
-    Raises
-    ------
-    InputError
-        If `hurst` is not above 0 and up to 1, or there are fewer than four points.
     """
     from scipy.optimize import nnls
     from scipy.special import gamma

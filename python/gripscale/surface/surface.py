@@ -182,6 +182,8 @@ class Surface:
     ) -> Surface:
         """Return the surface with other waves.
 
+        Raises `InputError` if there are no such waves.
+
         Parameters
         ----------
         factors
@@ -197,11 +199,6 @@ class Surface:
         top_height_fraction
             Fraction of the heights that counts, see `height_difference`; of a measured
             surface only.
-
-        Raises
-        ------
-        InputError
-            If there are no such waves.
         """
         if top_height_fraction is not None:
             return self._of_upper(top_height_fraction).varied(

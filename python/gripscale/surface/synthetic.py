@@ -37,6 +37,8 @@ def self_affine_profile(
     Sci. Comput. 18 (1997) 1088, doi:10.1137/S1064827592240555).
     [LW] Lind & Wangenheim, ASME IMECE2014-37998.
 
+    Raises `InputError` if an argument is out of range.
+
     Parameters
     ----------
     hurst : float
@@ -52,11 +54,6 @@ def self_affine_profile(
     -------
     Profile
         About zero, of variance xi_perp^2/2 in the mean over seeds.
-
-    Raises
-    ------
-    InputError
-        If an argument is out of range.
     """
     exponent = 2.0 * checks.positive("hurst", hurst)
     if exponent > 2.0:
@@ -82,6 +79,8 @@ def self_affine_profile(
 def sine_profile(stack: SineStack, length: float, step: float, seed: int) -> Profile:
     """Return a profile of superposed sine waves, each with a random phase.
 
+    Raises `InputError` if an argument is out of range.
+
     Parameters
     ----------
     stack : SineStack
@@ -90,11 +89,6 @@ def sine_profile(stack: SineStack, length: float, step: float, seed: int) -> Pro
         Length and step of the profile [m].
     seed : int
         Seed of the random phases.
-
-    Raises
-    ------
-    InputError
-        If an argument is out of range.
     """
     checks.instance("stack", stack, SineStack)
     x = _points(length, step)

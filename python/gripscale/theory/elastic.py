@@ -98,6 +98,8 @@ def contact_half_width(
 ) -> float:
     """Return the half width of the contact [m].
 
+    Raises `InputError` if an argument is not a positive finite number.
+
     Parameters
     ----------
     load_per_length : float
@@ -106,11 +108,6 @@ def contact_half_width(
         Of the cylinder [m], above zero.
     plane_strain_modulus : float
         E/(1-nu^2) [Pa], above zero.
-
-    Raises
-    ------
-    InputError
-        If an argument is not a positive finite number.
     """
     load = checks.positive("load_per_length", load_per_length, unit="N/m")
     curvature = checks.positive("radius", radius, unit="m")
@@ -134,6 +131,8 @@ def largest_pressure(
 def step_relaxation_stress(rubber: Rubber, *, stretch: float, time: ArrayLike) -> Array:
     """Return the nominal stress [Pa] at `time` [s] after a step to `stretch` [-], shape of `time`.
 
+    Raises `InputError` if the stretch is not positive or a time is negative.
+
     Parameters
     ----------
     rubber : Rubber
@@ -142,11 +141,6 @@ def step_relaxation_stress(rubber: Rubber, *, stretch: float, time: ArrayLike) -
         Deformed over undeformed length [-], above zero.
     time : array_like
         Since the step [s], not negative; infinity gives equilibrium.
-
-    Raises
-    ------
-    InputError
-        If the stretch is not positive or a time is negative.
     """
     checks.instance("rubber", rubber, Rubber)
     ratio = checks.positive("stretch", stretch)
@@ -171,6 +165,8 @@ def contact_pressure(
 ) -> Array:
     """Return the contact pressure [Pa] at `x` [m], same shape; zero out of contact.
 
+    Raises `InputError` if an argument is not a positive finite number.
+
     Parameters
     ----------
     x : array_like
@@ -179,11 +175,6 @@ def contact_pressure(
         Of the wave [m], above zero.
     pressure, full_contact_pressure : float
         Mean pressure and p* [Pa], above zero.
-
-    Raises
-    ------
-    InputError
-        If an argument is not a positive finite number.
     """
     length = checks.positive("wavelength", wavelength, unit="m")
     mean = checks.positive("pressure", pressure, unit="Pa")
@@ -220,17 +211,14 @@ def full_contact_pressure(
 
     For an elastic half-plane this is Westergaard's p* = pi E/(1-nu^2) A/lambda.
 
+    Raises `InputError` if an argument is not a positive finite number.
+
     Parameters
     ----------
     plane_strain_modulus : complex
         E/(1-nu^2) at the angular frequency 2 pi v/lambda [Pa]; real when elastic.
     wavelength, amplitude : float
         Of the wave, amplitude half peak to valley [m], above zero.
-
-    Raises
-    ------
-    InputError
-        If an argument is not a positive finite number.
     """
     modulus = _modulus(plane_strain_modulus)
     length = checks.positive("wavelength", wavelength, unit="m")
@@ -243,6 +231,8 @@ def full_contact_friction(
 ) -> float:
     """Return the friction coefficient in full contact, k^2 A^2 Im(M) / (4 p) [-].
 
+    Raises `InputError` if an argument is not positive and finite, or the pressure leaves gaps.
+
     Parameters
     ----------
     plane_strain_modulus : complex
@@ -251,11 +241,6 @@ def full_contact_friction(
         Of the wave, amplitude half peak to valley [m], above zero.
     pressure : float
         Mean pressure [Pa], at least `full_contact_pressure`.
-
-    Raises
-    ------
-    InputError
-        If an argument is not positive and finite, or the pressure leaves gaps.
     """
     least = full_contact_pressure(plane_strain_modulus, wavelength=wavelength, amplitude=amplitude)
     load = checks.positive("pressure", pressure, unit="Pa")
@@ -280,6 +265,8 @@ def slab_compliance(
 ) -> Array:
     """Return normal displacement over pressure amplitude, u/p [m/Pa], same shape as `wavenumber`.
 
+    Raises `InputError` if an argument is out of its range.
+
     Parameters
     ----------
     wavenumber : array_like
@@ -290,11 +277,6 @@ def slab_compliance(
         [Pa], above zero.
     poisson_ratio : float
         [-], above -1 and at most 0.5.
-
-    Raises
-    ------
-    InputError
-        If an argument is out of its range.
     """
     number = checks.real("wavenumber", wavenumber, unit="rad/m")
     if not (number >= checks.LEAST).all():

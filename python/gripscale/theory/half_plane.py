@@ -208,6 +208,8 @@ def _poisson_or_none(name: str, value: float | None) -> float | None:
 class HalfPlane(Checked):
     """Solver of one wave at small strain.
 
+    Raises `InputError` if an argument is out of its range.
+
     Parameters
     ----------
     points : int
@@ -217,11 +219,6 @@ class HalfPlane(Checked):
         constant bulk modulus and Poisson's ratio follows the frequency.
     most_iterations : int
         Active-set iterations allowed on each grid.
-
-    Raises
-    ------
-    InputError
-        If an argument is out of its range.
     """
 
     name: ClassVar[str] = "half_plane"
@@ -338,6 +335,9 @@ def solve_half_plane(
 ) -> WaveResult:
     """Return contact and friction of one wave by small-strain theory.
 
+    Raises `InputError` if an argument is out of its range, or the rubber at rest is a melt: the
+    pressure is more than ten times the equilibrium modulus.
+
     Parameters
     ----------
     rubber : Rubber
@@ -359,12 +359,6 @@ def solve_half_plane(
         With `model` "half_plane", stretches NaN (a half-plane's surface does not show them) and
         `details`: `contact_edges` [m], `points`, `points_in_contact`, `full_contact`. A `status`
         other than "converged" says why not to trust the numbers.
-
-    Raises
-    ------
-    InputError
-        If an argument is out of its range, or the rubber at rest is a melt: the pressure is more
-        than ten times the equilibrium modulus.
     """
     problem = WaveProblem(rubber, Sine(wavelength, amplitude), WaveLoad(pressure, speed, load_time))
     if problem.load.speed == 0.0:

@@ -129,6 +129,8 @@ def klueppel_heinrich(
 ) -> KlueppelHeinrichResult:
     """Return the hysteresis friction of a self-affine surface by Klueppel and Heinrich.
 
+    Raises `InputError` if an argument is out of its range, or the surface is not self-affine.
+
     Parameters
     ----------
     rubber : Rubber
@@ -153,11 +155,6 @@ def klueppel_heinrich(
     -------
     KlueppelHeinrichResult
         Its `contact_fraction` is NaN.
-
-    Raises
-    ------
-    InputError
-        If an argument is out of its range, or the surface is not self-affine.
     """
     fit = surface if isinstance(surface, SelfAffineFit) else _fit(surface)
     checks.instance("rubber", rubber, Rubber)

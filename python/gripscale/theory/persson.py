@@ -245,6 +245,8 @@ def persson(
 ) -> PerssonResult:
     """Return contact and friction of a randomly rough surface by Persson's theory.
 
+    Raises `InputError` if an argument is out of its range.
+
     Parameters
     ----------
     rubber : Rubber
@@ -265,11 +267,6 @@ def persson(
     -------
     PerssonResult
         A `status` other than "converged" says that the integrals are not accurate.
-
-    Raises
-    ------
-    InputError
-        If an argument is out of its range.
     """
     checks.instance("rubber", rubber, Rubber)
     if isinstance(spectrum, ProfileSpectrum):

@@ -44,6 +44,9 @@ def _settings(name: str, value: Mapping[str, float]) -> Mapping[str, float]:
 class FiniteStrainBlock(Checked):
     """Solver of one wave at finite strain.
 
+    Raises `InputError` if tolerance or time limit is not above zero, or a setting is unknown or no
+    number above zero.
+
     Parameters
     ----------
     mesh : Mesh
@@ -59,12 +62,6 @@ class FiniteStrainBlock(Checked):
     time_limit : float, optional
         Seconds after which the solution ends with the status `time limit`, on the finest mesh that
         was solved, or at the pressure that was reached. None: no limit.
-
-    Raises
-    ------
-    InputError
-        If tolerance or time limit is not above zero, or a setting is unknown or no number above
-        zero.
     """
 
     name: ClassVar[str] = "finite_strain"
@@ -206,6 +203,8 @@ def solve_scale(
     wavelength). The steady state is one non-linear solve in the frame of the wave
     (Wriggers & Reinelt, Comput. Methods Appl. Mech. Engrg. 198 (2009) 1996, treat it in time).
 
+    Raises `InputError` if a value is not a number or out of its range.
+
     Parameters
     ----------
     rubber : Rubber
@@ -249,11 +248,6 @@ def solve_scale(
     -------
     WaveResult
         Its `status` is `converged`, or the reason not to use the numbers.
-
-    Raises
-    ------
-    InputError
-        If a value is not a number or out of its range.
     """
     problem = WaveProblem(rubber, Sine(wavelength, amplitude), WaveLoad(pressure, speed, load_time))
     if problem.load.speed == 0.0:

@@ -28,17 +28,14 @@ SMALLEST_SHARE = 1e-9
 class Sine(Checked):
     """A rigid sine wave z = amplitude cos(2 pi x / wavelength), crest at x = 0.
 
+    Raises `InputError` if a value is not a number above zero.
+
     Parameters
     ----------
     wavelength : float
         [m], above zero.
     amplitude : float
         Half peak-to-valley height [m], above zero.
-
-    Raises
-    ------
-    InputError
-        If a value is not a number above zero.
     """
 
     wavelength: float = checked(checks.positive, unit="m")
@@ -60,17 +57,15 @@ def _heights(name: str, value: ArrayLike) -> Array:
 class SampledProfile(Checked, eq=False):
     """Heights at equal steps over one period; between them the trigonometric interpolant.
 
+    Raises `InputError` if the period is no number above zero, or the heights are too few, not
+    finite, or all equal.
+
     Parameters
     ----------
     wavelength : float
         The period [m], above zero.
     heights : array_like, shape (points,)
         Heights at x = 0, wavelength/points, ... [m], at least 8; their mean is subtracted.
-
-    Raises
-    ------
-    InputError
-        If the period is no number above zero, or the heights are too few, not finite, or all equal.
     """
 
     wavelength: float = checked(checks.positive, unit="m")
@@ -102,6 +97,8 @@ class SampledProfile(Checked, eq=False):
 class WaveLoad(Checked):
     """Mean pressure and sliding on one wave.
 
+    Raises `InputError` if a value is not a number or out of its range.
+
     Parameters
     ----------
     pressure : float
@@ -110,11 +107,6 @@ class WaveLoad(Checked):
         Sliding speed [m/s]; zero is static contact of the relaxed rubber.
     load_time : float
         Time the mean deformation has had to relax [s]; may be infinite.
-
-    Raises
-    ------
-    InputError
-        If a value is not a number or out of its range.
     """
 
     pressure: float = checked(checks.positive, unit="Pa")
@@ -138,6 +130,8 @@ class WaveProblem(Checked):
 class Mesh(Checked):
     """Elements of the periodic block, one wavelength wide, graded towards the contact.
 
+    Raises `InputError` if a value is out of its range.
+
     Parameters
     ----------
     columns, rows : int
@@ -146,11 +140,6 @@ class Mesh(Checked):
         Height of the block in wavelengths.
     element_order : int
         1: bilinear with one pressure; 2: biquadratic with linear discontinuous pressure.
-
-    Raises
-    ------
-    InputError
-        If a value is out of its range.
     """
 
     columns: int = checked(checks.whole, least=4, most=4096, default=128)

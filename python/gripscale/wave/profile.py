@@ -68,6 +68,10 @@ def solve_profile(
     As `gripscale.solve_scale`, on sampled heights in place of one sine. Missing heights are
     interpolated linearly.
 
+    Raises `InputError` if a value is not a number or out of its range, the smallest wave needs more
+    columns, or the rubber at rest is a melt: the pressure is more than ten times the equilibrium
+    modulus.
+
     Parameters
     ----------
     rubber : Rubber
@@ -112,12 +116,6 @@ def solve_profile(
         first point. `details` also has the `contact_edges` [m], the `missing_share` of the points,
         the `smallest_wavelength` of the block's profile [m], and the `contact_slope`, the largest
         slope in the contact.
-
-    Raises
-    ------
-    InputError
-        If a value is not a number or out of its range, the smallest wave needs more columns, or
-        the rubber at rest is a melt: the pressure is more than ten times the equilibrium modulus.
     """
     if not isinstance(profile, Profile):
         raise InputError(f"profile must be a gripscale.Profile; got {type(profile).__name__}")
@@ -221,10 +219,8 @@ class BlockOnProfile(Checked, model.Model):
     ) -> xr.Dataset:
         """Return the answer, with each profile over `profile`; `on_progress` gets each result.
 
-        Raises
-        ------
-        InputError
-            If the surface has no profile, or one with more waves than a block resolves.
+        Raises `InputError` if the surface has no profile, or one with more waves than a block
+        resolves.
         """
         if surface.measured is None:
             raise InputError(

@@ -129,6 +129,8 @@ def solve_transient(
     The programme sets the speed of the rubber's *surface* over the wave (the lid follows the
     block's mean shear), which makes a dwell one of constant mean shear.
 
+    Raises `InputError` if a value is not a number or out of its range, or there are no stages.
+
     Parameters
     ----------
     rubber : Rubber
@@ -145,11 +147,6 @@ def solve_transient(
     Returns
     -------
     TransientResult
-
-    Raises
-    ------
-    InputError
-        If a value is not a number or out of its range, or there are no stages.
     """
     checks.instance("rubber", rubber, Rubber)
     stages = checks.instances("stages", stages, Stage)
