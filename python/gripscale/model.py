@@ -63,16 +63,9 @@ NOT_CONVERGED = CutOffExponents(math.nan, math.nan, "not converged")
 def between(
     ratio: float, contact_fraction: Sequence[float], friction: Sequence[float], *, moving: bool
 ) -> CutOffExponents:
-    """Return the exponents from two solutions.
+    """Return the exponents from two solutions, whose cut-offs have a `ratio` above 1.
 
-    Parameters
-    ----------
-    ratio : float
-        Cut-off of the first over that of the second, above 1.
-    contact_fraction, friction : two float
-        Of both solutions [-]; NaN where not known.
-    moving : bool
-        Whether it slides.
+    Both contact fractions and frictions [-] are NaN where not known.
     """
     area, mu = (_exponent(ratio, *pair) for pair in (contact_fraction, friction))
     mu = mu if moving else math.nan
@@ -89,14 +82,7 @@ def of_curve(
 ) -> CutOffExponents:
     """Return the exponents of a model that tells area and friction down to each wavelength.
 
-    Parameters
-    ----------
-    wavelength : array_like, shape (n,)
-        Falling [m]; only their ratios count. Less than an octave apart in all, all of them do.
-    contact_fraction, friction : array_like, shape (n,)
-        Of the waves not shorter [-].
-    moving : bool
-        Whether it slides.
+    Only ratios of the falling wavelengths count; all of them, if less than an octave apart.
     """
     lengths = np.asarray(wavelength, dtype=float)
     if lengths.size < 2:
@@ -340,22 +326,10 @@ def answer_by_length(
     load: Load,
     cut_off_exponents: Sequence[CutOffExponents] = (),
 ) -> xr.Dataset:
-    """Return `data` over `profile` with the answers of the profiles averaged by length.
+    """Return `data` over `profile` with the answers of the profiles averaged by length [m].
 
-    Parameters
-    ----------
-    data
-        What is known of each profile.
-    parts
-        Their results, with the attributes of `TOTALS` without `total_`, and `extrapolation`.
-    why_not
-        Why a profile does not count, empty where it does: then there are no totals.
-    lengths
-        Of the profiles [m].
-    model, load
-        As for `answer`.
-    cut_off_exponents
-        Of the profiles; none of a model that does not tell them.
+    `parts` are their results, with the attributes of `TOTALS` without `total_`, and
+    `extrapolation`. `why_not` says why a profile does not count: then there are no totals.
     """
     weight = np.asarray(lengths) / np.sum(lengths)
     bad = [

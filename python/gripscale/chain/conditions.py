@@ -45,21 +45,9 @@ class ChainSolver(Protocol):
 def solve_coupled_chain(solver: ChainSolver, rubber: Rubber, conditions: Conditions) -> Prediction:
     """Return the prediction whose strains and temperatures are those of its rubber.
 
-    Parameters
-    ----------
-    solver
-        Solves all waves.
-    rubber
-        As measured.
-    conditions
-        What changes it.
-
-    Returns
-    -------
-    Prediction
-        The details of each wave hold its strain, temperature and modulus ratios; the Newton
-        iterations are those of all evaluations. The status of the last wave is `conditions not
-        settled` if the iteration did not converge.
+    The details of each wave hold its strain, temperature and modulus ratios; the Newton iterations
+    are those of all evaluations. The status of the last wave is `conditions not settled` if the
+    iteration did not converge.
     """
     coarse = solver.coarser()
     fine = _ChainEvaluation(solver, rubber, conditions)

@@ -171,20 +171,9 @@ class RubberState:
 def rubber_under(
     conditions: Conditions, rubber: Rubber, *, warming: float, strain: float, omega: float
 ) -> RubberState:
-    """Return the rubber at one temperature and strain.
+    """Return the rubber with one temperature rise `warming` [K] and one uniaxial amplitude [-].
 
-    Parameters
-    ----------
-    conditions : Conditions
-        What changes it.
-    rubber : Rubber
-        As measured.
-    warming : float
-        Temperature rise over that before the contact [K].
-    strain : float
-        Uniaxial amplitude [-].
-    omega : float
-        Lowest angular frequency of the excitation [rad/s]; zero at rest.
+    `omega` is the lowest angular frequency of the excitation [rad/s], zero at rest.
     """
     solid, kelvin = conditions.before(rubber), conditions.temperature_of(rubber)
     if conditions.heat is not None and kelvin is not None:
@@ -290,16 +279,8 @@ def state_by_scale(
 ) -> StateByScale:
     """Return the rubber under `conditions` with its temperature and strain at every scale.
 
-    Parameters
-    ----------
-    conditions : Conditions
-        What changes it.
-    rubber : Rubber
-        As measured.
-    wavenumber : array, shape (scales,)
-        Rising [rad/m].
-    warming, strain : array, shape (scales,)
-        Temperature rise over that before the contact [K], and uniaxial amplitude [-].
+    `wavenumber` rises [rad/m]; `warming` is the rise over the temperature before the contact [K],
+    `strain` the uniaxial amplitude [-]. All arrays have the shape (scales,).
     """
     before, kelvin = conditions.before(rubber), conditions.temperature_of(rubber)
     shift = stiffening = storage = loss = np.ones(wavenumber.size)

@@ -182,16 +182,10 @@ class LossDepth(Checked):
         return float(self.average("sum", lambda z: ierfc(z / length), length))
 
     def average(self, of: Distances, function: Callable[[Array], Any], length: float) -> Any:
-        """Return the mean of a function of a distance [m] that vanishes beyond some lengths.
+        """Return the mean of a function of a distance Z, |Z - Z'| or Z + Z' [m].
 
-        Parameters
-        ----------
-        of : "depth", "difference" or "sum"
-            The distance: Z, |Z - Z'| or Z + Z'.
-        function : callable
-            Takes distances of shape (n,); n is the first axis of its value.
-        length : float
-            Length over which the function changes [m]; it vanishes at `WIDEST` lengths.
+        The first axis of the function's values is that of the distances, shape (n,). It changes
+        over `length` [m] and vanishes at `WIDEST` lengths.
         """
         from scipy.special import gamma
 
@@ -219,17 +213,7 @@ def ierfc(x: Array) -> Array:
 def harmonic_decay(
     wavenumber: ArrayLike, along: ArrayLike, speed: float, thermal: ThermalProperties
 ) -> ComplexArray:
-    """Return the decay m [1/m] of harmonics.
-
-    Parameters
-    ----------
-    wavenumber, along : array_like
-        |k| and k_x [rad/m], broadcast together.
-    speed : float
-        Sliding speed [m/s].
-    thermal : ThermalProperties
-        Thermal properties of the rubber.
-    """
+    """Return the decay m [1/m] of harmonics of |k| and k_x [rad/m], at a speed [m/s]."""
     number = np.asarray(wavenumber, dtype=float)
     carried = np.asarray(along, dtype=float) * speed / thermal.diffusivity
     return np.asarray(np.sqrt(number**2 + 1j * carried))
@@ -254,23 +238,9 @@ def harmonic_where_lost(
 
 
 def uniform_at_surface(time: float, depth: DepthsOfLoss, thermal: ThermalProperties) -> float:
-    """Return the surface temperature of uniform heat per heat per area.
+    """Return the surface temperature of uniform heat per heat per area [K m^2/W].
 
-    Raises `InputError` if the time is no finite number from zero.
-
-    Parameters
-    ----------
-    time : float
-        Duration of the heat [s].
-    depth : DepthsOfLoss
-        Depths at which it is lost.
-    thermal : ThermalProperties
-        Thermal properties of the rubber.
-
-    Returns
-    -------
-    float
-        [K m^2/W]
+    `time` is the duration of the heat [s]. Raises `InputError` if it is no finite number from zero.
     """
     length = _diffusion_length(time, thermal)
     return length * depth.spread(length) / thermal.conductivity if length > 0.0 else 0.0
@@ -355,18 +325,12 @@ def _rise_in_time(z: Array, m: ComplexArray, length: float) -> ComplexArray:
 
 @dataclass(frozen=True)
 class LossLayers:
-    """A distribution of the depth at which energy is lost, by layers.
-
-    Parameters
-    ----------
-    edges : array, shape (layers + 1,)
-        Depths between the layers, rising from the surface [m].
-    share : array, shape (layers,)
-        Of the loss in each layer [-]; they add up to one.
-    """
+    """A distribution of the depth at which energy is lost, by layers."""
 
     edges: Array
+    """Depths between the layers, rising from the surface [m], shape (layers + 1,)."""
     share: Array
+    """Of the loss in each layer [-], adding up to one, shape (layers,)."""
 
     @classmethod
     def of(cls, edges: Array, lost: Array) -> LossLayers:
@@ -445,12 +409,7 @@ def _i3erfc(x: Array) -> Array:
 def loss_pattern(pressure: ComplexArray, lost: Array) -> Array:
     """Return the loss |g|^2 along one period, shape (points,); its mean is the sum of `lost`.
 
-    Parameters
-    ----------
-    pressure : array, shape (points // 2 + 1,)
-        Spectrum of the pressure, as `rfft` gives it.
-    lost : array, shape (points // 2 + 1,)
-        Loss of each harmonic; negative values are round-off.
+    `pressure` is the `rfft` of the pressure; a negative loss of a harmonic is round-off.
     """
     import scipy.fft
 

@@ -60,6 +60,13 @@ def not_negative(name: str, value: Any, *, unit: str = "", infinite: bool = Fals
     return result
 
 
+def at_most_one(name: str, value: float) -> float:
+    """Return a checked `value`; raise `InputError` if it is above one."""
+    if value > 1.0:
+        raise InputError(f"{name} must be at most 1; got {value:g}")
+    return value
+
+
 def complex_number(name: str, value: Any, *, unit: str = "") -> complex:
     """Return a real or complex `value` as a complex number with parts of at most `MOST`."""
     if not np.iscomplexobj(value):

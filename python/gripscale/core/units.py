@@ -262,14 +262,8 @@ class DisplayUnit:
 def display_unit(name: str, case: str | Mapping[str, Any] = "", unit: str = "") -> DisplayUnit:
     """Return the unit in which one of `KEYS` is shown.
 
-    Parameters
-    ----------
-    name
-        The key.
-    case
-        Attributes of a result, or the text of its case, whose unit counts if `unit` is empty.
-    unit
-        The stated unit.
+    `case` are the attributes of a result, or the text of its case, whose unit counts if `unit`, the
+    stated one, is empty.
     """
     kind = KEYS[name][1]
     if isinstance(case, str):

@@ -52,18 +52,11 @@ SHORTEST = 4096
 
 @dataclass(frozen=True)
 class Grid:
-    """Equal steps along x, the sliding direction, and for a map along y.
-
-    Attributes
-    ----------
-    shape
-        Points along x, or along x and y.
-    lengths
-        Period along each [m].
-    """
+    """Equal steps along x, the sliding direction, and for a map along y."""
 
     shape: tuple[int, ...]
     lengths: tuple[float, ...]
+    """Period along each axis [m]."""
 
     @property
     def points(self) -> int:
@@ -122,14 +115,9 @@ class Grid:
 
 
 def resampled(spectrum: ComplexArray, shape: tuple[int, ...], onto: tuple[int, ...]) -> Array:
-    """Return the values at the points of another grid, exact for the waves both carry.
+    """Return the values at the points `onto` another grid, exact for the waves both carry.
 
-    Parameters
-    ----------
-    spectrum : array
-        `scipy.fft.rfftn` of values on a grid of `shape`.
-    onto : tuple of int
-        Points of the other grid; waves it does not resolve are left out.
+    `spectrum` is the `scipy.fft.rfftn` of values on a grid of `shape`.
     """
     kept = [min(old, new) for old, new in zip(shape, onto, strict=True)]
     out = np.zeros((*onto[:-1], onto[-1] // 2 + 1), dtype=np.complex128)

@@ -453,14 +453,8 @@ def write_workbook(tables: Sequence[Table], path: Path) -> Path:
     """Write tables as the sheets of an xlsx file; return its path.
 
     Missing values are empty cells, infinite ones texts; texts longer than a cell are cut and say
-    so.
-
-    Raises
-    ------
-    InputError
-        If a table has more rows than a sheet.
-    FileError
-        If openpyxl is missing (`pip install 'gripscale[export]'`) or the file cannot be written.
+    so. Raises `InputError` if a table has more rows than a sheet, `FileError` if openpyxl is
+    missing (`pip install 'gripscale[export]'`) or the file cannot be written.
     """
     openpyxl = import_openpyxl(path)
     cell_of = import_module("openpyxl.cell").WriteOnlyCell

@@ -154,41 +154,22 @@ def mark_spikes(
     steep flanks, so it is a choice.
 
     Raises `InputError` if `slope` is not above zero, or all heights would become missing.
-
-    Parameters
-    ----------
-    profile : Profile
-        The profile.
-    slope : float, optional
-        Largest height change per distance that is still a surface.
-    across_gaps : bool, optional
-        Hold points on both sides of a gap to the rule as well.
     """
     limit = checks.positive("spike_slope", slope) * profile.step
-    z = profile.z.copy()
-    passes = 1
-    checks.flag("across_gaps", across_gaps)
-    spikes = _spikes(z, limit, across_gaps)
-    while spikes.size:
-        z[spikes] = np.nan
-        if not across_gaps:
-            break
-        spikes = _spikes(z, limit, across_gaps)
-        passes += 1
+    repeated = checks.flag("across_gaps", across_gaps)
+    z, passes, marked = profile.z.copy(), 0, True
+    while marked:
+        valid = np.flatnonzero(np.isfinite(z))
+        distance = np.diff(valid)
+        steep = np.abs(np.diff(z[valid])) >= limit * distance
+        if not repeated:
+            steep &= distance == 1
+        z[valid[:-1][steep]] = z[valid[1:][steep]] = np.nan
+        passes, marked = passes + 1, repeated and bool(steep.any())
     note = f"height change per step >= {slope:g}"
-    if across_gaps:
+    if repeated:
         note += f", across gaps, {passes} passes"
     return _without_spikes(profile, z, slope, note)
-
-
-def _spikes(z: Array, limit: float, across_gaps: bool) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
-    """Return the indices of both points of every pair that is too steep."""
-    valid = np.flatnonzero(np.isfinite(z))
-    distance = np.diff(valid)
-    steep = np.abs(np.diff(z[valid])) >= limit * distance
-    if not across_gaps:
-        steep &= distance == 1
-    return np.unique(np.concatenate((valid[:-1][steep], valid[1:][steep])))
 
 
 def subtract_trend(profile: Profile, kind: str = "linear") -> tuple[Profile, StepReport]:
@@ -321,13 +302,6 @@ def mark_map_spikes(surface: HeightMap, *, slope: float = 3.0) -> tuple[HeightMa
     points are tested in one pass.
 
     Raises `InputError` if `slope` is not above zero, or all heights would become missing.
-
-    Parameters
-    ----------
-    surface : HeightMap
-        The map.
-    slope : float, optional
-        Height over the neighbours, per step, at which a point is a spike.
     """
     limit = checks.positive("spike_slope", slope) * max(surface.step)
     nx, ny = surface.z.shape

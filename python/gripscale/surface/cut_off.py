@@ -373,17 +373,9 @@ def find_cut_off(
 def cut_off_rule(value: Any) -> CutOffRule:
     """Return the rule that a case file or a command line states.
 
-    Parameters
-    ----------
-    value : str, float, mapping or rule
-        A length such as "0.1 mm" or in m, "instrument", { rms_slope = 1.3, of = "surface",
-        extrapolate = false }, or that in words: "rms_slope 1.3", "rms_slope 1.3 of profile",
-        "rms_slope 1.3 of surface extrapolate".
-
-    Raises
-    ------
-    ValueError
-        With what was expected; the caller adds the place.
+    `value` is a length such as "0.1 mm" or in m, "instrument", { rms_slope = 1.3, of = "surface",
+    extrapolate = false }, or that in words: "rms_slope 1.3 of surface extrapolate". Raises
+    `ValueError` with what was expected; the caller adds the place.
     """
     if value == INSTRUMENT or isinstance(value, RmsSlope):
         return value  # type: ignore[no-any-return]

@@ -195,22 +195,16 @@ def _jackknife_spread(sums: Array, pairs: Array, used: Mask) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class BlockSums:
-    """The contribution of each block of the profiles to C_z, from which blocks can be drawn anew.
-
-    Parameters
-    ----------
-    lag : array, shape (lags,)
-        Lag [m].
-    squares, pairs : array, shape (blocks, lags)
-        Sum of squared height differences [m^2] and number of pairs whose first point is in a block.
-    resolution_limit : float
-        Shortest wavelength [m] that the measurement resolves.
-    """
+    """What each block of the profiles adds to C_z, from which blocks can be drawn anew."""
 
     lag: Array
+    """[m], shape (lags,)."""
     squares: Array
+    """Sums of squared height differences [m^2], shape (blocks, lags)."""
     pairs: Array
+    """Numbers of pairs whose first point is in a block, shape (blocks, lags)."""
     resolution_limit: float
+    """Shortest wavelength that the measurement resolves [m]."""
 
     def drawn(self, blocks: NDArray[np.intp]) -> HeightDifference:
         """Return C_z of these blocks only, some perhaps several times, without a band."""
@@ -245,8 +239,7 @@ def block_sums(
             f"{longest:g} m; got {limit:g} m"
         )
     share = checks.positive("top_height_fraction", top_height_fraction)
-    if share > 1.0:
-        raise InputError(f"top_height_fraction must be at most 1; got {share:g}")
+    checks.at_most_one("top_height_fraction", share)
     # the distinct whole numbers of steps nearest to evenly spaced log lags
     most = int(np.floor(limit / step + 1e-6))
     count = int(np.ceil(per_decade * np.log10(max(most, 1)))) + 1

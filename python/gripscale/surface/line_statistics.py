@@ -120,18 +120,12 @@ def _ranks(counts: NDArray[np.int64]) -> Array:
 
 @dataclass(frozen=True)
 class Square:
-    """One period of an isotropic map, with equal steps each way, and its waves.
-
-    Attributes
-    ----------
-    points
-        Points each way, an even number.
-    length
-        Period each way [m].
-    """
+    """One period of an isotropic map, with equal steps each way, and its waves."""
 
     points: int
+    """Each way, an even number."""
     length: float
+    """Period each way [m]."""
 
     @property
     def step(self) -> float:
@@ -206,10 +200,8 @@ class MeasuredLine:
 def periodic_lines(profiles: Sequence[Profile], length: float) -> list[MeasuredLine]:
     """Return profiles as one period each, without waves longer than a map of period `length` [m].
 
-    Missing heights are filled linearly and the straight line through the ends is subtracted, as in
-    the direct contact.
-
-    Raises `InputError` if they are too short for the map.
+    Gaps are filled and ends joined as in the direct contact. Raises `InputError` if they are too
+    short for the map.
     """
     total = sum(profile.length for profile in profiles)
     if total < FEWEST_PERIODS * length:

@@ -83,13 +83,8 @@ class EvenGrid:
 def even_grid(x: Array, resolution: float = 0.0) -> EvenGrid | None:
     """Return the even grid on which increasing distances lie, or None if there is none.
 
-    Parameters
-    ----------
-    x : array, shape (points,)
-        Distances, in any unit.
-    resolution : float, optional
-        Last decimal place to which they are printed, in that unit. A printed distance lies within
-        half of it of the true one, and the grid through printed ones within half again.
+    Distances printed to a `resolution`, in their unit, lie within half of it of the true ones, and
+    the grid through them within half again.
     """
     steps = np.diff(x)
     if x.size < 2 or (steps <= 0.0).any():

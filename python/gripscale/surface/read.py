@@ -62,26 +62,10 @@ def read_instrument_file(
     channel: str | int | None = None,
     step: tuple[float, float] | None = None,
 ) -> HeightField:
-    """Read the heights of an instrument file.
+    """Read the heights of an instrument file; the arguments are those of `read_map`.
 
-    Parameters
-    ----------
-    path : pathlib.Path
-        A line scan or a map in any format SurfaceTopography reads.
-    x_unit, z_unit : str or None
-        Units of distance and height, needed only where the file names none.
-    channel : str, int or None
-        Name of the channel, or its number from 1, where several hold heights.
-    step : (float, float) or None
-        Steps along x and y [m], needed only where the file has none.
-
-    Raises
-    ------
-    FileError
-        If SurfaceTopography is not installed or cannot read the file, or the file has no heights
-        or no lateral size.
-    InputError
-        If an argument is wrong or contradicts the file.
+    Raises `FileError` if SurfaceTopography is not installed or cannot read the file, or the file
+    has no heights or no lateral size; `InputError` if an argument is wrong or contradicts the file.
     """
     raw = read_bytes(path)
     if not raw.strip():

@@ -134,7 +134,6 @@ def printed_grid(
     """Return the even grid of increasing `distances` printed in a column, some rows left out.
 
     `lines` are the line numbers of a profile's rows; a map repeats its distances in many lines.
-
     Raises `FileError` if the steps are not equal, or more than half the points are left out.
     """
     grid = even_grid(distances, table.resolution(column))
@@ -159,16 +158,10 @@ def printed_grid(
 
 
 def filled(z: Array, steps: tuple[float, ...] = (), *, periodic: bool = False) -> Array:
-    """Return heights with all gaps filled.
+    """Return heights [m], shape (points,) or (nx, ny), with all gaps (NaN) filled.
 
-    Parameters
-    ----------
-    z : array, shape (points,) or (nx, ny)
-        Heights [m], NaN where they are missing, but not everywhere.
-    steps : tuple of float, optional
-        Steps of a map along x and y [m]; equal by default, only their ratio counts.
-    periodic : bool, optional
-        Whether the first point follows the last.
+    Of the `steps` of a map along x and y only the ratio counts. The first point follows the last if
+    `periodic`.
     """
     missing = np.isnan(z)
     if not missing.any():

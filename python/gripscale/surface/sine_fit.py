@@ -350,11 +350,9 @@ def fit_sines(
     )
     end = None
     if cut_off is not None:
-        log = float(np.log(checks.positive("cut_off", cut_off, unit="m")))
-        end = _End("cut_off", log, 0.5)
+        end = _End.of("cut_off", cut_off, 0.5)
     elif smallest_wavelength is not None:
-        log = float(np.log(checks.positive("smallest_wavelength", smallest_wavelength, unit="m")))
-        end = _End("smallest_wavelength", log, 0.0)
+        end = _End.of("smallest_wavelength", smallest_wavelength, 0.0)
     if end is not None and end.log >= fixed[FIRST_WAVELENGTH]:
         raise InputError(
             f"{end.name} must be below first_wavelength; got {np.exp(end.log):g} m "
@@ -416,6 +414,10 @@ class _End:
     name: str
     log: float
     beyond: float
+
+    @classmethod
+    def of(cls, name: str, length: float, beyond: float) -> _End:
+        return cls(name, float(np.log(checks.positive(name, length, unit="m"))), beyond)
 
     @property
     def shorter(self) -> int:

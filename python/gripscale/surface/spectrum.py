@@ -367,9 +367,7 @@ def areal_spectrum(
             f"of a surface; got {int((density >= checks.LEAST).sum())}"
         )
     if hurst is not None:
-        exponent = checks.positive("hurst", hurst)
-        if exponent > 1.0:
-            raise InputError(f"hurst must be at most 1; got {hurst:g}")
+        exponent = checks.at_most_one("hurst", checks.positive("hurst", hurst))
         ratio = gamma(exponent + 0.5) / gamma(exponent + 1.0)
         return ArealSpectrum(q, density / (2.0 * np.sqrt(np.pi) * q * ratio), mean.interpolated)
     certainty = np.sqrt(mean.width) / density
@@ -383,8 +381,7 @@ def _abel_matrix(q: Array, density: Array) -> Array:
     """Return the matrix from C to C_1 at `q`: C_1(q) = 4 int C k dtheta, k = q cosh(theta).
 
     Waves beyond the last point Q, C continuing as C_1/q does at the end, C ~ q^(-1 - s), add
-
-        4 int_Q^inf C q dq / sqrt(q^2 - k^2) = 2 C(Q) Q (Q/k)^s B(k^2/Q^2; s/2, 1/2).
+    4 int_Q^inf C q dq / sqrt(q^2 - k^2) = 2 C(Q) Q (Q/k)^s B(k^2/Q^2; s/2, 1/2).
     """
     from scipy.special import beta, betainc
 

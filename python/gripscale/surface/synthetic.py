@@ -55,9 +55,7 @@ def self_affine_profile(
     Profile
         About zero, of variance xi_perp^2/2 in the mean over seeds.
     """
-    exponent = 2.0 * checks.positive("hurst", hurst)
-    if exponent > 2.0:
-        raise InputError(f"hurst must be at most 1; got {hurst:g}")
+    exponent = 2.0 * checks.at_most_one("hurst", checks.positive("hurst", hurst))
     cut_off = checks.positive("xi_parallel", xi_parallel, unit="m")
     variance = 0.5 * checks.positive("xi_perpendicular", xi_perpendicular, unit="m") ** 2
     x = _points(length, step)

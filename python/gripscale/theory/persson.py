@@ -276,9 +276,7 @@ def persson(
             f"spectrum must be an ArealSpectrum or a ProfileSpectrum; "
             f"got {checks.short_repr(spectrum)}"
         )
-    share = checks.not_negative("gamma", gamma)
-    if share > 1.0:
-        raise InputError(f"gamma must be at most 1; got {gamma:g}")
+    share = checks.at_most_one("gamma", checks.not_negative("gamma", gamma))
     last = last_wavenumber(spectrum.wavenumber, smallest_wavelength)
     points = np.append(spectrum.wavenumber[spectrum.wavenumber < last], last)
     nodes = np.exp(filled_in(np.log(points), _WIDEST))
