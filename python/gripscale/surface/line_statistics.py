@@ -409,9 +409,12 @@ class LineMatching:
         self,
         waves: Waves,
         random: np.random.Generator,
-        on_batch: Callable[[int], None] | None = None,
+        on_share: Callable[[float], None] | None = None,
     ) -> Waves:
-        """Return the half spectrum of a map, started from that of another."""
+        """Return the half spectrum of a map, started from that of another.
+
+        `on_share` gets the share that is done: all batches, and the way back to heights.
+        """
         before, done = self.square, 0
         for square, batches, statistics in self.stages:
             waves = before.onto(waves, square).astype(np.complex64)
@@ -428,7 +431,7 @@ class LineMatching:
                 change = np.where(square.resolved, pull / (seen + _FLOOR * seen.max()), 0.0)
                 waves = waves + share * change
                 done += 1
-                if on_batch is not None:
-                    on_batch(done)
+                if on_share is not None:
+                    on_share(done / (self.batches + 1))
             before = square
         return waves
