@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gripscale.core import checks
+from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.rubber.extrapolation import UNKNOWN, Extrapolation, of_sum
 
@@ -134,8 +135,14 @@ def _at(ratio: float, lengths: NDArray[np.float64], values: NDArray[np.float64])
 LoadTime = Literal["passage"] | float
 
 
-@dataclass(frozen=True)
-class Load:
+def _load_time(name: str, value: Any) -> LoadTime:
+    if isinstance(value, str):
+        checks.one_of(name, value, ["passage"])
+        return "passage"
+    return checks.positive(name, value, unit="s", infinite=True)
+
+
+class Load(Checked):
     """The load on the whole surface.
 
     Raises `InputError` if a value cannot be used.
@@ -153,24 +160,10 @@ class Load:
         which may be infinite.
     """
 
-    pressure: float
-    speed: float
-    footprint: float
-    load_time: LoadTime = "passage"
-
-    def __post_init__(self) -> None:
-        checked: dict[str, Any] = {
-            "pressure": checks.positive("pressure", self.pressure, unit="Pa"),
-            "speed": checks.not_negative("speed", self.speed, unit="m/s"),
-            "footprint": checks.positive("footprint", self.footprint, unit="m"),
-        }
-        if isinstance(self.load_time, str):
-            checks.one_of("load_time", self.load_time, ["passage"])
-        else:
-            time = checks.positive("load_time", self.load_time, unit="s", infinite=True)
-            checked["load_time"] = time
-        for name, value in checked.items():
-            object.__setattr__(self, name, value)
+    pressure: float = checked(checks.positive, unit="Pa")
+    speed: float = checked(checks.not_negative, unit="m/s")
+    footprint: float = checked(checks.positive, unit="m")
+    load_time: LoadTime = checked(_load_time, default="passage")
 
     def time_under(self, contact_length: float) -> float:
         """Return for how long what slides under a contact so long [m] is loaded [s]."""
@@ -179,6 +172,10 @@ class Load:
         if isinstance(self.load_time, str):
             return contact_length / self.speed
         return self.load_time
+
+
+OnProgress = Callable[[Any], None] | None
+"""Called with what is known so far, where a model goes step by step."""
 
 
 @runtime_checkable
@@ -216,17 +213,11 @@ class Model(Protocol):
         )
 
     def predict(
-        self,
-        rubber: Rubber,
-        surface: Surface,
-        load: Load,
-        *,
-        on_progress: Callable[[Any], None] | None = None,
+        self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
     ) -> xr.Dataset:
         """Return the answer: a Dataset with `TOTALS` and `prediction_status`, and what it rests on.
 
         A part that did not converge makes the totals NaN and is named in the status.
-        `on_progress` is called with what is known so far, where the model goes step by step.
         """
 
 

@@ -25,7 +25,7 @@ from gripscale.conditions.conditions import Conditions
 from gripscale.core import checks, provenance
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import ConvergenceError, ExtrapolationError, InputError
-from gripscale.model import MOST_CLASSES, Load, LoadTime
+from gripscale.model import MOST_CLASSES, Load, LoadTime, OnProgress
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import CHOICES, require_measured
 from gripscale.rubber.material import require_load_bearing
@@ -264,12 +264,8 @@ class Chain(Checked, model.Model):
         Solver of one wave.
     rubber_at : RubberAt, optional
         Rubber of each wave; a frozen dataclass, so that stored results can be named by it.
-    pressure_classes : int
-        Number of classes of equal load in the contact of a wave, see `predict`.
-    extrapolate : str
-        "warn" or "refuse", see `predict`.
-    conditions : Conditions, optional
-        Temperature, softening, heat and area term, see `predict`.
+    pressure_classes, extrapolate, conditions
+        As in `predict`.
     """
 
     name: ClassVar[str] = "chain"
@@ -326,12 +322,7 @@ class Chain(Checked, model.Model):
         return result
 
     def predict(
-        self,
-        rubber: Rubber,
-        surface: Surface,
-        load: Load,
-        *,
-        on_progress: Callable[[Any], None] | None = None,
+        self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
     ) -> xr.Dataset:
         """Return the prediction as a Dataset; `on_progress` gets the `Prediction` so far.
 

@@ -297,11 +297,7 @@ class Prediction:
             data[CLASS_PRESSURES] = labelled(
                 ("scale", "pressure_class"), np.array(padded), "Pa", words, CHAIN
             )
-        totals = {
-            "total_contact_fraction": self.contact_fraction,
-            "total_friction": self.friction,
-            "total_friction_from_dissipation": self.friction_from_dissipation,
-        }
+        totals = {total: getattr(self, total.removeprefix("total_")) for total in model.TOTALS}
         data = data.assign_attrs(
             title="Real contact area and friction of rubber on a rough surface",
             rubber=f"{self.rubber.name}; {self.rubber.source}".strip("; "),

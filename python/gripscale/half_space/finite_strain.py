@@ -198,14 +198,9 @@ def spread_windows(
 ) -> list[Profile]:
     """Return at most `most` windows of the profiles, each made `one_period`.
 
-    Raises `InputError` as `windows` does, or if `most` is not a whole number from 1.
-
-    Parameters
-    ----------
-    profiles : sequence of Profile
-        Cut into `windows` of `length` [m]; the returned ones are spread evenly.
-    smallest_wavelength : float
-        Shorter waves are left out [m].
+    The profiles are cut into `windows` of `length` [m], the returned ones spread evenly; waves
+    shorter than `smallest_wavelength` [m] are left out. Raises `InputError` as `windows` does, or
+    if `most` is not a whole number from 1.
     """
     number = checks.whole("most", most, least=1, most=100_000)
     lines = checks.instances("profiles", profiles, Profile)

@@ -239,16 +239,20 @@ class PeriodicHeights:
         return mask
 
 
+def surface_axes(surface: Profile | HeightMap) -> list[Array]:
+    """Return the distances [m] along each axis; raise `InputError` for anything else."""
+    if isinstance(surface, Profile):
+        return [surface.x]
+    if isinstance(surface, HeightMap):
+        return [surface.x, surface.y]
+    raise InputError(f"surface must be a Profile or a HeightMap; got {type(surface).__name__}")
+
+
 def periodic_heights(
     surface: Profile | HeightMap, *, smallest_wavelength: float | None, periodic: bool
 ) -> PeriodicHeights:
     """Return the periodic heights of a surface; arguments and errors as `solve_rough_contact`."""
-    if isinstance(surface, Profile):
-        axes = [surface.x]
-    elif isinstance(surface, HeightMap):
-        axes = [surface.x, surface.y]
-    else:
-        raise InputError(f"surface must be a Profile or a HeightMap; got {type(surface).__name__}")
+    axes = surface_axes(surface)
     steps = [float((a[-1] - a[0]) / (a.size - 1)) for a in axes]
     grid = Grid(surface.z.shape, tuple(d * a.size for d, a in zip(steps, axes, strict=True)))
     z = filled(surface.z, tuple(steps), periodic=periodic)

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from gripscale.core import checks
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
-from gripscale.model import Load, Model
+from gripscale.model import Load, Model, OnProgress
 from gripscale.rubber import Rubber
 from gripscale.surface.profile import Profile
 from gripscale.surface.spectrum import profile_spectrum
 from gripscale.surface.surface import Surface, SurfacePart
 from gripscale.theory.klueppel_heinrich import klueppel_heinrich
-from gripscale.theory.persson import persson
+from gripscale.theory.persson import TheoryResult, persson
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -43,12 +42,7 @@ class Persson(Checked, Model):
     window: float | None = checked(checks.positive, unit="m", default=None)
 
     def predict(
-        self,
-        rubber: Rubber,
-        surface: Surface,
-        load: Load,
-        *,
-        on_progress: Callable[[Any], None] | None = None,
+        self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
     ) -> xr.Dataset:
         """Return the answer as a Dataset; `on_progress` gets the `PerssonResult`.
 
@@ -85,12 +79,7 @@ class KlueppelHeinrich(Checked, Model):
     smallest_wavelength: float | None = checked(checks.positive, unit="m", default=None)
 
     def predict(
-        self,
-        rubber: Rubber,
-        surface: Surface,
-        load: Load,
-        *,
-        on_progress: Callable[[Any], None] | None = None,
+        self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
     ) -> xr.Dataset:
         """Return the answer as a Dataset; `on_progress` gets the `KlueppelHeinrichResult`.
 
@@ -108,11 +97,10 @@ class KlueppelHeinrich(Checked, Model):
         return _answered(replace(result, load=load), on_progress)
 
 
-def _answered(result: Any, on_progress: Callable[[Any], None] | None) -> xr.Dataset:
+def _answered(result: TheoryResult, on_progress: OnProgress) -> xr.Dataset:
     if on_progress is not None:
         on_progress(result)
-    data: xr.Dataset = result.to_dataset()
-    return data
+    return result.to_dataset()
 
 
 def _cleaned(surface: Surface, name: str) -> list[Profile]:

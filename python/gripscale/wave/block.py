@@ -53,15 +53,10 @@ class FiniteStrainBlock(Checked):
         The mesh; with a tolerance, a mesh of the same proportions. Its columns are doubled, to 256
         at most, as long as the two frictions differ by more than the `friction_bound` of the
         result, or contacts of fewer than 4 nodes carry half of the load.
-    tolerance : float, optional
-        Largest estimated discretisation error, absolute in contact fraction and relative in
-        friction (to 0.04 of the slope 2 pi amplitude/wavelength where friction is less). The mesh
-        is refined until it is met, from coarser than `mesh` to 2048 columns.
+    tolerance, time_limit : float, optional
+        As in `gripscale.solve_scale`.
     settings : mapping
         Values that differ from `gripscale.wave.default_settings()`.
-    time_limit : float, optional
-        Seconds after which the solution ends with the status `time limit`, on the finest mesh that
-        was solved, or at the pressure that was reached. None: no limit.
     """
 
     name: ClassVar[str] = "finite_strain"
@@ -217,14 +212,8 @@ def solve_scale(
         Sliding speed [m/s]; 0 is static contact of the fully relaxed rubber.
     load_time : float
         Relaxation time of the mean deformation so far [s]; infinity by default.
-    depth : float
-        Height of the block in wavelengths.
-    columns : int
-        Elements along the block.
-    rows : int
-        Elements across the block.
-    element_order : int
-        1: bilinear with one pressure; 2: biquadratic with linear discontinuous pressure.
+    depth, columns, rows, element_order
+        As in `gripscale.wave.Mesh`.
     tolerance : float, optional
         Largest estimated discretisation error, absolute in contact fraction and relative in
         friction (to 0.04 of the slope 2 pi amplitude/wavelength where friction is less). The mesh

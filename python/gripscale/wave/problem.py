@@ -28,14 +28,8 @@ SMALLEST_SHARE = 1e-9
 class Sine(Checked):
     """A rigid sine wave z = amplitude cos(2 pi x / wavelength), crest at x = 0.
 
-    Raises `InputError` if a value is not a number above zero.
-
-    Parameters
-    ----------
-    wavelength : float
-        [m], above zero.
-    amplitude : float
-        Half peak-to-valley height [m], above zero.
+    Wavelength and amplitude (half peak-to-valley height) [m] are above zero. Raises `InputError`
+    for others.
     """
 
     wavelength: float = checked(checks.positive, unit="m")

@@ -73,10 +73,7 @@ class TransientResult:
     def cycle(self, wavelengths: float = 1.0) -> dict[str, tuple[float, float, float]]:
         """Return mean, least and largest friction and contact fraction at the end of the run.
 
-        Parameters
-        ----------
-        wavelengths : float
-            Sliding distance up to the end that counts, in wavelengths.
+        The sliding distance up to the end that counts is given in `wavelengths`.
         """
         last = self._distance_to_end() <= wavelengths
         return {
