@@ -77,10 +77,7 @@ class Conditions(Checked):
         _effect, kind=ThermalProperties, expected="ThermalProperties", default=None
     )
     shear_stress: InterfacialShearStress | None = checked(
-        _effect,
-        kind=InterfacialShearStress,
-        expected="a law of gripscale.conditions",
-        default=None,
+        _effect, kind=InterfacialShearStress, expected="a law of gripscale.conditions", default=None
     )
 
     def to_dict(self) -> dict[str, Any]:

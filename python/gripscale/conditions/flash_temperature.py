@@ -104,17 +104,12 @@ class DepthsOfLoss(Protocol):
     def decay_between(self, m: ComplexArray) -> ComplexArray:
         """Return E exp(-m |Z - Z'|) for `m` [1/m], same shape."""
 
-    def spread(self, length: float) -> float:
-        """Return E ierfc(Z / length), ierfc the integral of the complementary error function."""
-
-    def spread_between(self, length: float) -> float:
-        """Return E ierfc(|Z - Z'| / length)."""
-
-    def spread_sum(self, length: float) -> float:
-        """Return E ierfc((Z + Z') / length)."""
+    def spread(self, length: float, of: Distances = "depth") -> float:
+        """Return E ierfc(distance / length), ierfc being the integral of erfc."""
 
 
 Distances = Literal["depth", "difference", "sum"]
+"""Z, |Z - Z'| and Z + Z'."""
 
 DEEPEST = 60.0
 """Depth in units of 1/b beyond which the loss is neglected: exp(-60)."""
@@ -169,17 +164,9 @@ class LossDepth(Checked):
             return np.asarray(near)
         return np.asarray((3.0 * near + 3.0 * near**2 + 2.0 * near**3) / 8.0)
 
-    def spread(self, length: float) -> float:
-        """Return E ierfc(Z / length), ierfc the integral of the complementary error function."""
-        return float(self.average("depth", lambda z: ierfc(z / length), length))
-
-    def spread_between(self, length: float) -> float:
-        """Return E ierfc(|Z - Z'| / length)."""
-        return float(self.average("difference", lambda z: ierfc(z / length), length))
-
-    def spread_sum(self, length: float) -> float:
-        """Return E ierfc((Z + Z') / length)."""
-        return float(self.average("sum", lambda z: ierfc(z / length), length))
+    def spread(self, length: float, of: Distances = "depth") -> float:
+        """Return E ierfc(distance / length)."""
+        return float(self.average(of, lambda z: ierfc(z / length), length))
 
     def average(self, of: Distances, function: Callable[[Array], Any], length: float) -> Any:
         """Return the mean of a function of a distance Z, |Z - Z'| or Z + Z' [m].
@@ -254,7 +241,7 @@ def uniform_where_lost(time: float, depth: DepthsOfLoss, thermal: ThermalPropert
     length = _diffusion_length(time, thermal)
     if length == 0.0:
         return 0.0
-    mean = depth.spread_between(length) + depth.spread_sum(length)
+    mean = depth.spread(length, "difference") + depth.spread(length, "sum")
     return length * mean / (2.0 * thermal.conductivity)
 
 
@@ -361,37 +348,23 @@ class LossLayers:
             above = above * falls[..., layer] + lossy[..., layer]
         return np.asarray(same_layer + 2.0 * pairs)
 
-    def spread(self, length: float) -> float:
-        """Return E ierfc(Z / length), ierfc the integral of the complementary error function."""
-        at_edges = length * _i2erfc(self.edges / length)
-        return float(self._density @ -np.diff(at_edges))
-
-    def spread_between(self, length: float) -> float:
-        """Return E ierfc(|Z - Z'| / length)."""
-        distance = np.abs(self.edges[:, None] - self.edges[None, :])
-        return -self._mean_over_pairs(
-            length**2 * _i3erfc(distance / length) + 0.25 * length * distance
-        )
-
-    def spread_sum(self, length: float) -> float:
-        """Return E ierfc((Z + Z') / length)."""
-        sums = self.edges[:, None] + self.edges[None, :]
-        return self._mean_over_pairs(length**2 * _i3erfc(sums / length))
-
-    @property
-    def _density(self) -> Array:
-        """Share over height [1/m]."""
-        return np.asarray(self.share / np.diff(self.edges))
+    def spread(self, length: float, of: Distances = "depth") -> float:
+        """Return E ierfc(distance / length)."""
+        edges, density = self.edges, self.share / np.diff(self.edges)
+        if of == "depth":
+            return float(density @ -np.diff(length * _i2erfc(edges / length)))
+        # the mean over pairs of layers, from the second integral at their edges
+        if of == "sum":
+            second = length**2 * _i3erfc((edges[:, None] + edges[None, :]) / length)
+        else:
+            apart = np.abs(edges[:, None] - edges[None, :])
+            second = -(length**2 * _i3erfc(apart / length) + 0.25 * length * apart)
+        return float(density @ np.diff(np.diff(second, axis=0), axis=1) @ density)
 
     def _within(self, m: ComplexArray) -> ComplexArray:
         """Return e_i, shape (..., layers)."""
         height = np.multiply.outer(m, np.diff(self.edges))
         return np.asarray(-np.expm1(-height) / height)
-
-    def _mean_over_pairs(self, at_edges: Array) -> float:
-        """Return the mean over pairs of layers from the second integral at the edges."""
-        integral = np.diff(np.diff(at_edges, axis=0), axis=1)
-        return float(self._density @ integral @ self._density)
 
 
 def _i2erfc(x: Array) -> Array:

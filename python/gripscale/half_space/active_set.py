@@ -277,11 +277,7 @@ def _rotated(turn: complex, first: float, second: float) -> tuple[float, float]:
 
 
 def solve_grid(
-    response: Response,
-    height: Array,
-    start: Array,
-    most_iterations: int,
-    goal: float = TOLERANCE,
+    response: Response, height: Array, start: Array, most_iterations: int, goal: float = TOLERANCE
 ) -> GridContact:
     """Return the contact with `height` [m] under the load of `start`.
 

@@ -24,12 +24,7 @@ import scipy.fft
 
 from gripscale.conditions import flash_temperature as rise
 from gripscale.conditions.conditions import Conditions, RubberByScale, StateByScale, state_by_scale
-from gripscale.conditions.fixed_point import (
-    Iteration,
-    pack_state,
-    solve_fixed_point,
-    unpack_state,
-)
+from gripscale.conditions.fixed_point import Iteration, pack_state, solve_fixed_point, unpack_state
 from gripscale.conditions.flash_temperature import LossDepth, ThermalProperties
 from gripscale.core.arrays import Array, ComplexArray, Mask
 from gripscale.half_space.grid import Grid

@@ -349,11 +349,7 @@ class SyntheticMap(model.Model):
         if self.lines:
             solve = partial(solve_lines_of, lines=self.lines, tolerance=self.tolerance)
         contact = solve(
-            rubber,
-            heights,
-            pressure=load.pressure,
-            speed=load.speed,
-            smallest_wavelength=smallest,
+            rubber, heights, pressure=load.pressure, speed=load.speed, smallest_wavelength=smallest
         )
         totals = {name: contact.values[name.removeprefix("total_")] for name in model.TOTALS}
         data = xr.Dataset().assign_attrs(

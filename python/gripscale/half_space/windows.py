@@ -134,10 +134,7 @@ def windows(
 
 
 def solve_windows(
-    rubber: Rubber,
-    surface: Profile | HeightMap,
-    length: float | tuple[float, float],
-    **load: Any,
+    rubber: Rubber, surface: Profile | HeightMap, length: float | tuple[float, float], **load: Any
 ) -> WindowContacts:
     """Return the direct contact of each of the `windows` of `surface`.
 

@@ -333,8 +333,7 @@ def table_in(
     above = [line for _, line in lines[:first]]
     # separators at the ends of all lines make empty columns
     full = slice(
-        0 if any(row[0] for row in rows) else 1,
-        count - (0 if any(row[-1] for row in rows) else 1),
+        0 if any(row[0] for row in rows) else 1, count - (0 if any(row[-1] for row in rows) else 1)
     )
     columns = _columns(above, count, kinds, named)[full]
     rows = [row[full] for row in rows]

@@ -87,7 +87,8 @@ def clean(
 ) -> tuple[Profile, CleaningReport]:
     """Crop a profile, mark dropouts and spikes as missing, and take out its trend.
 
-    Raises `InputError` if an argument is wrong, or a step leaves too few points or heights.
+    Returns the cleaned profile and the effect of each step. Raises `InputError` if an argument is
+    wrong, or a step leaves too few points or heights.
 
     Parameters
     ----------
@@ -105,13 +106,6 @@ def clean(
         Hold the points on both sides of a gap to the same slope as well, see `mark_spikes`.
     detrend : {"linear", "mean", "none"}, optional
         Trend to subtract, fitted to the valid heights.
-
-    Returns
-    -------
-    Profile
-        The cleaned profile.
-    CleaningReport
-        The effect of each step.
     """
     checks.instance("profile", profile, Profile)
     steps: list[Callable[[Profile], tuple[Profile, StepReport]]] = []
@@ -202,7 +196,8 @@ def clean_map(
 ) -> tuple[HeightMap, CleaningReport]:
     """Crop a map, mark dropouts and spikes as missing, cut off bare borders, take out the form.
 
-    Raises `InputError` if an argument is wrong, or a step leaves too few points or heights.
+    Returns the cleaned map and the effect of each step. Raises `InputError` if an argument is
+    wrong, or a step leaves too few points or heights.
 
     Parameters
     ----------
@@ -221,13 +216,6 @@ def clean_map(
     form : int, optional
         Order of the polynomial to subtract: 0 the mean, 1 a plane, 2 a paraboloid (as a shallow
         sphere or cylinder is) and so on to 8; None keeps the form.
-
-    Returns
-    -------
-    HeightMap
-        The cleaned map.
-    CleaningReport
-        The effect of each step, in numbers of points.
     """
     checks.instance("surface", surface, HeightMap)
     steps: list[Callable[[HeightMap], tuple[HeightMap, StepReport]]] = []

@@ -110,18 +110,15 @@ class SlopeByWavelength:
     def down_to(self, wavelength: float, of: str = "surface") -> float:
         """Return the rms slope [-] of the waves not shorter than `wavelength` [m].
 
+        NaN for a surface whose spectrum the lines do not determine, and beyond a measurement whose
+        spectrum does not end as a power law.
+
         Parameters
         ----------
         wavelength : float
             Shorter than `resolution_limit`, the slope is continued as a power law.
         of : str
             "surface" for the rms length of the gradient, "profile" for the slope along lines.
-
-        Returns
-        -------
-        float
-            NaN for a surface whose spectrum the lines do not determine, and beyond a measurement
-            whose spectrum does not end as a power law.
         """
         length = checks.positive("wavelength", wavelength, unit="m")
         checks.one_of("of", of, DEFINITIONS)
@@ -215,12 +212,12 @@ class SlopeByWavelength:
         return spectrum.rms_gradient(length if number < spectrum.wavenumber[-1] else None)
 
 
-def slope_by_wavelength(
-    surface: Profile | Sequence[Profile] | HeightMap,
-) -> SlopeByWavelength:
+def slope_by_wavelength(surface: Profile | Sequence[Profile] | HeightMap) -> SlopeByWavelength:
     """Return the rms slope of a measured surface down to each wavelength.
 
-    Raises `InputError` if `surface` is something else, or the steps of its profiles differ.
+    They reach down to four steps of the measurement, or to the shortest wavelength that the
+    instrument measures reliably if that is known and longer. Raises `InputError` if `surface` is
+    something else, or the steps of its profiles differ.
 
     Parameters
     ----------
@@ -228,12 +225,6 @@ def slope_by_wavelength(
         As cleaned. Several profiles must have the same step (within 0.1 %). Missing heights are
         interpolated. Profiles are taken as lines on an isotropic surface; of a map the gradient is
         measured, and its lines along x are the profiles.
-
-    Returns
-    -------
-    SlopeByWavelength
-        Down to four steps of the measurement, or to the shortest wavelength that the instrument
-        measures reliably if that is known and longer.
     """
     if isinstance(surface, HeightMap):
         x_step, y_step = surface.step
@@ -351,11 +342,6 @@ def find_cut_off(
     rule : float, "instrument" or RmsSlope
         A length [m]; the shortest wavelength that the measurement resolves; or the wavelength at
         which the rms slope adds up to a value.
-
-    Returns
-    -------
-    CutOff
-        The wavelength, the slopes down to it, and whether it lies beyond the measurement.
     """
     slopes = surface if isinstance(surface, SlopeByWavelength) else slope_by_wavelength(surface)
     limit = slopes.resolution_limit

@@ -45,10 +45,6 @@ FEWEST_PAIRS = 16
 """Pairs a lag must have to be kept."""
 
 
-def _counts(name: str, value: Any) -> NDArray[np.int64]:
-    return np.array(value, dtype=np.int64)
-
-
 class HeightDifference(Checked, eq=False):
     """Mean squared height difference against lag.
 
@@ -71,7 +67,7 @@ class HeightDifference(Checked, eq=False):
 
     lag: Array = checked(checks.increasing_vector, unit="m")
     value: Array = checked(checks.not_negative_vector, unit="m^2")
-    pairs: NDArray[np.int64] = checked(_counts, default=None)
+    pairs: NDArray[np.int64] = checked(lambda _, value: np.array(value, np.int64), default=None)
     lower: Array = checked(checks.vector, unit="m^2", missing=True, default=None)
     upper: Array = checked(checks.vector, unit="m^2", missing=True, default=None)
     resolution_limit: float | None = checked(checks.positive, unit="m", default=None)
@@ -135,8 +131,9 @@ def height_difference(
     neighbouring blocks share heights. Of more profiles than blocks, such as the lines of a map, as
     many neighbours as there are to each block go together: lines side by side are not independent.
 
-    Raises `InputError` if the steps differ, `top_height_fraction` is not above 0 and at most 1,
-    `max_lag` is below one step or beyond a profile, or no lag has pairs.
+    Lags have at least 16 pairs. The band is NaN where the blocks do not determine it. Raises
+    `InputError` if the steps differ, `top_height_fraction` is not above 0 and at most 1, `max_lag`
+    is below one step or beyond a profile, or no lag has pairs.
 
     Parameters
     ----------
@@ -151,11 +148,6 @@ def height_difference(
         Lags per decade, where the step allows as many.
     band_blocks : int, optional
         Blocks in all for the confidence band.
-
-    Returns
-    -------
-    HeightDifference
-        Lags with at least 16 pairs. The band is NaN where the blocks do not determine it.
     """
     blocks = checks.whole("band_blocks", band_blocks, least=4, most=1000)
     sums = block_sums(

@@ -57,9 +57,11 @@ def resample(
     Heights are interpolated between neighbours, not averaged: with a step longer than the measured
     ones, roughness shorter than two new steps is folded into longer wavelengths.
 
-    Raises `InputError` if x or z is not a list of numbers, their lengths differ, x neither rises
-    nor falls throughout, `step` or `bridge` is not above zero, or the step gives too few or too
-    many points.
+    The profile begins at the first distance. A height is missing where one is missing on either
+    side. Its shortest reliable wavelength is four new steps or four median distances, the longer
+    ones. Raises `InputError` if x or z is not a list of numbers, their lengths differ, x neither
+    rises nor falls throughout, `step` or `bridge` is not above zero, or the step gives too few or
+    too many points.
 
     Parameters
     ----------
@@ -74,12 +76,6 @@ def resample(
         missing. Twice the step or twice the median distance by default, whichever is longer.
     name, source : str, optional
         Name and source of the profile.
-
-    Returns
-    -------
-    Profile
-        From the first distance on, missing where a height is missing on either side. Its
-        shortest reliable wavelength is four new steps or four median distances, the longer ones.
     """
     old, height = checks.vector("x", x, unit="m"), checks.vector("z", z, unit="m", missing=True)
     checks.same_length(FEWEST_POINTS, x=old, z=height)

@@ -90,11 +90,6 @@ def fit_self_affine(
         Largest rms departure from the power law, in decades of C_z.
     shortest_range : float, optional
         Narrowest range accepted, in decades of lag.
-
-    Returns
-    -------
-    SelfAffineFit
-        Exponent, cut-offs, and the range of lags they hold for.
     """
     checks.instance("hdc", hdc, HeightDifference)
     checks.positive("tolerance", tolerance)

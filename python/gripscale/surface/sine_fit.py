@@ -323,12 +323,6 @@ def fit_sines(
         One factor for both lengths, the comparison Lind & Wangenheim show to fail.
     smallest_lag, largest_lag : float, optional
         Range of lags that count [m]; see the top of this file for the defaults.
-
-    Returns
-    -------
-    SineStack
-        The waves, their factors, the rms residual in decades of C_z over `lag_range`, and the
-        cut-off if there is one.
     """
     if scales is None and smallest_wavelength is None and cut_off is None:
         raise InputError("scales, smallest_wavelength or cut_off must be given; got none of them")

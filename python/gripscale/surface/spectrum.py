@@ -256,12 +256,7 @@ def profile_spectrum(
 
 
 def map_spectrum(
-    z: ArrayLike,
-    *,
-    x_step: float,
-    y_step: float,
-    taper: str = "hann",
-    per_decade: int = PER_DECADE,
+    z: ArrayLike, *, x_step: float, y_step: float, taper: str = "hann", per_decade: int = PER_DECADE
 ) -> ArealSpectrum:
     """Return the power spectrum of a height map, mean over directions.
 
@@ -282,10 +277,7 @@ def map_spectrum(
     per_decade : int
         Points a decade of wavenumber, where there are enough rings.
     """
-    steps = (
-        checks.positive("x_step", x_step, unit="m"),
-        checks.positive("y_step", y_step, unit="m"),
-    )
+    steps = checks.positive("x_step", x_step, unit="m"), checks.positive("y_step", y_step, unit="m")
     expected = f"z must be heights of shape (nx, ny), at least {FEWEST_POINTS} each way [m]"
     heights = checks.array(z, expected)
     if heights.ndim != 2 or min(heights.shape) < FEWEST_POINTS:

@@ -18,12 +18,7 @@ from gripscale.surface.surface import Measured, Surface
 
 
 def self_affine_profile(
-    hurst: float,
-    xi_parallel: float,
-    xi_perpendicular: float,
-    length: float,
-    step: float,
-    seed: int,
+    hurst: float, xi_parallel: float, xi_perpendicular: float, length: float, step: float, seed: int
 ) -> Profile:
     """Return a Gaussian random profile that is self-affine below a cut-off.
 
@@ -37,7 +32,8 @@ def self_affine_profile(
     Sci. Comput. 18 (1997) 1088, doi:10.1137/S1064827592240555).
     [LW] Lind & Wangenheim, ASME IMECE2014-37998.
 
-    Raises `InputError` if an argument is out of range.
+    Its heights lie about zero, with the variance xi_perp^2/2 in the mean over seeds. Raises
+    `InputError` if an argument is out of range.
 
     Parameters
     ----------
@@ -49,11 +45,6 @@ def self_affine_profile(
         Length and step of the profile [m].
     seed : int
         Seed of the random numbers.
-
-    Returns
-    -------
-    Profile
-        About zero, of variance xi_perp^2/2 in the mean over seeds.
     """
     exponent = 2.0 * checks.at_most_one("hurst", checks.positive("hurst", hurst))
     cut_off = checks.positive("xi_parallel", xi_parallel, unit="m")

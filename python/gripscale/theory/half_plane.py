@@ -201,10 +201,6 @@ def _edge_offset(gap: Array, active: Mask, node: int, side: int) -> float:
     return float(np.clip(1.0 - here / (there - here), 0.0, 1.0))
 
 
-def _poisson_or_none(name: str, value: float | None) -> float | None:
-    return None if value is None else poisson(value)
-
-
 class HalfPlane(Checked):
     """Solver of one wave at small strain.
 
@@ -224,7 +220,7 @@ class HalfPlane(Checked):
     name: ClassVar[str] = "half_plane"
 
     points: int = checked(checks.whole, least=16, most=8192, default=1024)
-    poisson_ratio: float | None = checked(_poisson_or_none, default=None)
+    poisson_ratio: float | None = checked(lambda _, value: poisson(value), default=None)
     most_iterations: int = checked(checks.whole, least=1, most=100_000, default=200)
 
     @classmethod

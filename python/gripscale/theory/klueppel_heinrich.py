@@ -110,7 +110,8 @@ def klueppel_heinrich(
 ) -> KlueppelHeinrichResult:
     """Return the hysteresis friction of a self-affine surface by Klueppel and Heinrich.
 
-    Raises `InputError` if an argument is out of its range, or the surface is not self-affine.
+    The `contact_fraction` is NaN. Raises `InputError` if an argument is out of its range, or the
+    surface is not self-affine.
 
     Parameters
     ----------
@@ -131,11 +132,6 @@ def klueppel_heinrich(
     footprint : float, optional
         Length of the nominal contact [m]: recorded, without effect; the cut-off length of the
         surface by default.
-
-    Returns
-    -------
-    KlueppelHeinrichResult
-        Its `contact_fraction` is NaN.
     """
     fit = surface if isinstance(surface, SelfAffineFit) else _fit(surface)
     checks.instance("rubber", rubber, Rubber)

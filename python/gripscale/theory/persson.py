@@ -234,7 +234,8 @@ def persson(
 ) -> PerssonResult:
     """Return contact and friction of a randomly rough surface by Persson's theory.
 
-    Raises `InputError` if an argument is out of its range.
+    A `status` other than "converged" says that the integrals are not accurate. Raises `InputError`
+    if an argument is out of its range.
 
     Parameters
     ----------
@@ -251,11 +252,6 @@ def persson(
         Share of the deformation that is left where contact is small, 0 to 1.
     footprint : float, optional
         Length of the nominal contact [m]: recorded, without effect; the largest wave by default.
-
-    Returns
-    -------
-    PerssonResult
-        A `status` other than "converged" says that the integrals are not accurate.
     """
     checks.instance("rubber", rubber, Rubber)
     if isinstance(spectrum, ProfileSpectrum):

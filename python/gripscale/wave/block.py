@@ -91,11 +91,7 @@ class FiniteStrainBlock(Checked):
         return replace(self, mesh=replace(mesh, columns=columns, rows=rows), tolerance=None)
 
     def solve(
-        self,
-        problem: WaveProblem,
-        start: WaveResult | None = None,
-        *,
-        workers: int | None = None,
+        self, problem: WaveProblem, start: WaveResult | None = None, *, workers: int | None = None
     ) -> WaveResult:
         """Return contact and friction of `problem`.
 
@@ -198,7 +194,8 @@ def solve_scale(
     wavelength). The steady state is one non-linear solve in the frame of the wave
     (Wriggers & Reinelt, Comput. Methods Appl. Mech. Engrg. 198 (2009) 1996, treat it in time).
 
-    Raises `InputError` if a value is not a number or out of its range.
+    The `status` of the result is `converged`, or the reason not to use the numbers. Raises
+    `InputError` if a value is not a number or out of its range.
 
     Parameters
     ----------
@@ -232,11 +229,6 @@ def solve_scale(
         Newton iterations allowed in one load step.
     residual_tolerance : float, optional
         Largest residual force over the applied force, and gap over the amplitude [-].
-
-    Returns
-    -------
-    WaveResult
-        Its `status` is `converged`, or the reason not to use the numbers.
     """
     problem = WaveProblem(rubber, Sine(wavelength, amplitude), WaveLoad(pressure, speed, load_time))
     if problem.load.speed == 0.0:

@@ -140,10 +140,6 @@ def solve_transient(
         A static or steady state to start from, solved with the same rubber and wave.
     depth, columns, rows, workers, **options
         As in `gripscale.solve_scale`.
-
-    Returns
-    -------
-    TransientResult
     """
     checks.instance("rubber", rubber, Rubber)
     stages = checks.instances("stages", stages, Stage)
