@@ -131,17 +131,12 @@ class LossDepth(Checked):
     """A gamma distribution of the depth at which energy is lost.
 
     Raises `InputError` if the mean is no finite number from zero, or the shape another.
-
-    Parameters
-    ----------
-    mean : float
-        Mean depth [m]; zero is the surface itself.
-    shape : int
-        1: exponential; 3: under a harmonic of the pressure.
     """
 
     mean: float = checked(checks.not_negative, unit="m")
+    """Mean depth [m]; zero is the surface itself."""
     shape: int = checked(_loss_shape, default=3)
+    """1: exponential; 3: under a harmonic of the pressure."""
 
     @classmethod
     def under(cls, wavenumber: float) -> LossDepth:

@@ -305,30 +305,23 @@ class SyntheticMap(model.Model):
     """Model by an isotropic map of all cleaned profiles, see `gripscale.surface.isotropic_maps`.
 
     The answer is the mean of sliding along x and along y.
-
-    Parameters
-    ----------
-    seed : int
-        Seed of the map.
-    smallest_wavelength : float
-        Smallest wave of the map [m]; its length is `points / 4` of them.
-    lines : int
-        Number of solved lines along each axis; 0 solves the map itself.
-    points, construction
-        See `gripscale.surface.isotropic_maps`.
-    tolerance : float
-        Estimated relative error of the lines; the map has four points in its smallest wave.
     """
 
     name: ClassVar[str] = "synthetic_map"
     needs: ClassVar[frozenset[SurfacePart]] = frozenset({"measurement"})
 
     seed: int
+    """Seed of the map."""
     smallest_wavelength: float
+    """Smallest wave of the map [m]; its length is `points / 4` of them."""
     lines: int = 0
+    """Number of solved lines along each axis; 0 solves the map itself."""
     points: int = 512
+    """See `gripscale.surface.isotropic_maps`."""
     construction: str = "lines"
+    """See `gripscale.surface.isotropic_maps`."""
     tolerance: float = 0.05
+    """Estimated relative error of the lines; the map has four points in its smallest wave."""
 
     def predict(
         self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None

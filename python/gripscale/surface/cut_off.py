@@ -259,22 +259,16 @@ class RmsSlope(Checked):
     """The rule that the roughness ends where its rms slope adds up to a value.
 
     Raises `InputError` if a value cannot be used.
-
-    Parameters
-    ----------
-    rms_slope : float
-        The value [-], above zero.
-    of : str
-        "surface": of the isotropic surface, the rms length of its gradient. "profile": of the slope
-        along a line, which is smaller by about sqrt(2).
-    extrapolate : bool
-        Whether the spectrum is continued as a power law, two decades at most, if the measurement
-        does not reach the value. The result then rests on waves that were not measured.
     """
 
     rms_slope: float = checked(checks.positive)
+    """The value [-], above zero."""
     of: str = checked(checks.one_of, choices=DEFINITIONS, default="surface")
+    """"surface": of the isotropic surface, the rms length of its gradient. "profile": of the slope
+    along a line, which is smaller by about sqrt(2)."""
     extrapolate: bool = checked(checks.flag, default=False)
+    """Whether the spectrum is continued as a power law, two decades at most, if the measurement
+    does not reach the value. The result then rests on waves that were not measured."""
 
     def __str__(self) -> str:
         return f"rms slope {self.rms_slope:g} of the {self.of}"
@@ -286,26 +280,19 @@ CutOffRule = float | Literal["instrument"] | RmsSlope
 
 @dataclass(frozen=True)
 class CutOff:
-    """The cut-off of a measured surface, its rule and the slopes down to it.
-
-    Attributes
-    ----------
-    wavelength
-        Shortest wavelength that counts [m].
-    rule
-        The rule, in words.
-    surface_slope, profile_slope
-        Rms slope down to it [-]: length of the surface's gradient, and along a line. NaN where the
-        measurement does not determine it; continued as a power law if `beyond_measurement`.
-    resolution_limit
-        Shortest wavelength that the measurement resolves [m].
-    """
+    """The cut-off of a measured surface, its rule and the slopes down to it."""
 
     wavelength: float
+    """Shortest wavelength that counts [m]."""
     rule: str
+    """The rule, in words."""
     surface_slope: float
+    """Rms length of the surface's gradient down to it [-]. NaN where the measurement does not
+    determine it; continued as a power law if `beyond_measurement`."""
     profile_slope: float
+    """Rms slope along a line down to it [-], likewise."""
     resolution_limit: float
+    """Shortest wavelength that the measurement resolves [m]."""
 
     @property
     def beyond_measurement(self) -> bool:

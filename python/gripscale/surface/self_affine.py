@@ -32,27 +32,20 @@ class SelfAffineFit(Checked):
     """A power law up to a cut-off, and the plateau above it.
 
     Raises `InputError` if a value is not a number above zero; the residual may be zero.
-
-    Attributes
-    ----------
-    hurst : float
-        Hurst exponent H [-]: half the slope of log C_z over log lag.
-    xi_parallel : float
-        Cut-off lag [m], where the power law meets the plateau.
-    xi_perpendicular : float
-        Root of the plateau [m]: the root mean square height times the root of 2.
-    lag_min, lag_max : float
-        Range of lags [m] over which C_z was found to be a power law.
-    residual : float
-        Root mean square departure from the power law over that range, in decades of C_z.
     """
 
     hurst: float = checked(checks.positive)
+    """Hurst exponent H [-]: half the slope of log C_z over log lag."""
     xi_parallel: float = checked(checks.positive, unit="m")
+    """Cut-off lag [m], where the power law meets the plateau."""
     xi_perpendicular: float = checked(checks.positive, unit="m")
+    """Root of the plateau [m]: the root mean square height times the root of 2."""
     lag_min: float = checked(checks.positive, unit="m")
+    """Smallest lag over which C_z was found to be a power law [m]."""
     lag_max: float = checked(checks.positive, unit="m")
+    """Largest lag over which it was [m]."""
     residual: float = checked(checks.not_negative)
+    """Root mean square departure from the power law over that range, in decades of C_z."""
 
     @property
     def fractal_dimension(self) -> float:

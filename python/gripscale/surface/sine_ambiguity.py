@@ -39,21 +39,14 @@ class Span(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class SineAmbiguity:
-    """The stacks that follow C_z within its uncertainty.
-
-    Attributes
-    ----------
-    tried : int
-        Stacks tried.
-    band : float
-        Rms half width of the band of 95 % nominal confidence of C_z [decades]; 0 if not known.
-    stacks : tuple of SineStack
-        The stacks that are as good as the best.
-    """
+    """The stacks that follow C_z within its uncertainty."""
 
     tried: int
+    """Stacks tried."""
     band: float
+    """Rms half width of the band of 95 % nominal confidence of C_z [decades]; 0 if not known."""
     stacks: tuple[SineStack, ...] = field(repr=False)
+    """The stacks that are as good as the best."""
 
     @property
     def waves(self) -> Span:

@@ -56,27 +56,20 @@ _ABSCISSAE, _WEIGHTS = np.polynomial.legendre.leggauss(6)
 
 
 class ProfileSpectrum(Checked, eq=False):
-    """One-sided power spectrum of a line.
+    """One-sided power spectrum of a line; arrays have the shape (points,).
 
     Raises `InputError` if lengths differ or a value is out of range.
-
-    Parameters
-    ----------
-    wavenumber : array_like, shape (points,)
-        2 pi over the wavelength [rad/m], above zero, increasing.
-    density : array_like, shape (points,)
-        C_1 [m^3], not negative: the mean over the wavenumbers each point represents.
-    width : array_like, shape (points,), optional
-        Range of wavenumbers that each point represents [rad/m]; half way (in the logarithm) to its
-        neighbours by default, and to the first and last point.
-    interpolated : float
-        Share of the heights that were missing and interpolated [-].
     """
 
     wavenumber: Array = checked(checks.increasing_vector, unit="rad/m")
+    """2 pi over the wavelength [rad/m], above zero, increasing."""
     density: Array = checked(checks.not_negative_vector, unit="m^3")
+    """C_1 [m^3], not negative: the mean over the wavenumbers each point represents."""
     width: Array = checked(checks.vector, unit="rad/m", default=None)
+    """Range of wavenumbers that each point represents [rad/m]; half way (in the logarithm) to its
+    neighbours by default, and to the first and last point."""
     interpolated: float = checked(checks.not_negative, default=0.0)
+    """Share of the heights that were missing and interpolated [-]."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -118,25 +111,19 @@ class ProfileSpectrum(Checked, eq=False):
 
 
 class ArealSpectrum(Checked, eq=False):
-    """Power spectrum of a surface, mean over directions.
+    """Power spectrum of a surface, mean over directions; arrays have the shape (points,).
 
     Between its points q^3 C(q) is linear in log q; outside them there are no waves.
 
     Raises `InputError` if lengths differ or a value is out of range.
-
-    Parameters
-    ----------
-    wavenumber : array_like, shape (points,)
-        Absolute wavenumber 2 pi/wavelength [rad/m], above zero, increasing, at least two.
-    density : array_like, shape (points,)
-        C [m^4], not negative.
-    interpolated : float
-        Share of the heights that were missing and interpolated [-].
     """
 
     wavenumber: Array = checked(checks.increasing_vector, unit="rad/m")
+    """Absolute wavenumber 2 pi/wavelength [rad/m], above zero, increasing, at least two."""
     density: Array = checked(checks.not_negative_vector, unit="m^4")
+    """C [m^4], not negative."""
     interpolated: float = checked(checks.not_negative, default=0.0)
+    """Share of the heights that were missing and interpolated [-]."""
 
     def __post_init__(self) -> None:
         super().__post_init__()

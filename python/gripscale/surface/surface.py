@@ -86,35 +86,25 @@ SurfacePart = Literal["waves", "measurement", "cut_off"]
 
 @dataclass(frozen=True)
 class Surface:
-    """Sine waves, a measurement, or both.
-
-    Attributes
-    ----------
-    waves, source
-        The waves, None for a measurement without them, and where the surface comes from.
-    correlation
-        What they were fitted to, or None for waves stated by hand.
-    fit
-        Arguments of `fit_sines` they were fitted with.
-    measured
-        The measurement behind the correlation, or None for a synthetic surface.
-    counted
-        Arguments of `height_difference` the correlation was found with: which heights and lags
-        count.
-    rule
-        By which the waves end where they do, or None for the last wave.
-    end
-        Shortest wavelength of the roughness [m]; None: where the waves end.
-    """
+    """Sine waves, a measurement, or both."""
 
     waves: SineStack | None
+    """None for a measurement without them."""
     source: str
+    """Where the surface comes from."""
     correlation: HeightDifference | None = None
+    """What they were fitted to, or None for waves stated by hand."""
     fit: Mapping[str, Any] = field(default_factory=dict)
+    """Arguments of `fit_sines` they were fitted with."""
     measured: Measured | None = None
+    """The measurement behind the correlation, or None for a synthetic surface."""
     counted: Mapping[str, Any] = field(default_factory=dict)
+    """Arguments of `height_difference` the correlation was found with: which heights and lags
+    count."""
     rule: CutOffRule | None = None
+    """By which the waves end where they do, or None for the last wave."""
     end: float | None = None
+    """Shortest wavelength of the roughness [m]; None: where the waves end."""
 
     @property
     def sines(self) -> SineStack:

@@ -205,23 +205,17 @@ class HalfPlane(Checked):
     """Solver of one wave at small strain.
 
     Raises `InputError` if an argument is out of its range.
-
-    Parameters
-    ----------
-    points : int
-        Nodes per wavelength, 16 to 8192; a multiple of a power of two is solved fastest.
-    poisson_ratio : float, optional
-        Constant Poisson's ratio, E* then being Young's modulus; by default shear relaxes at
-        constant bulk modulus and Poisson's ratio follows the frequency.
-    most_iterations : int
-        Active-set iterations allowed on each grid.
     """
 
     name: ClassVar[str] = "half_plane"
 
     points: int = checked(checks.whole, least=16, most=8192, default=1024)
+    """Nodes per wavelength, 16 to 8192; a multiple of a power of two is solved fastest."""
     poisson_ratio: float | None = checked(lambda _, value: poisson(value), default=None)
+    """Constant Poisson's ratio, E* then being Young's modulus; by default shear relaxes at constant
+    bulk modulus and Poisson's ratio follows the frequency."""
     most_iterations: int = checked(checks.whole, least=1, most=100_000, default=200)
+    """Active-set iterations allowed on each grid."""
 
     @classmethod
     def of(cls, **options: Any) -> HalfPlane:

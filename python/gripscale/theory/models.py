@@ -21,25 +21,18 @@ if TYPE_CHECKING:
 
 
 class Persson(Checked, Model):
-    """Persson's theory; the profiles are lines on an isotropic surface.
-
-    Parameters
-    ----------
-    smallest_wavelength : float, optional
-        Smallest wave that counts [m]; by default the end of the surface's sine waves, see
-        `SineStack.cutoff_wavelength`.
-    gamma : float
-        See `persson`.
-    window : float, optional
-        See `profile_spectrum` [m].
-    """
+    """Persson's theory; the profiles are lines on an isotropic surface."""
 
     name: ClassVar[str] = "persson"
     needs: ClassVar[frozenset[SurfacePart]] = frozenset({"measurement", "cut_off"})
 
     smallest_wavelength: float | None = checked(checks.positive, unit="m", default=None)
+    """Smallest wave that counts [m]; by default the end of the surface's sine waves, see
+    `SineStack.cutoff_wavelength`."""
     gamma: float = checked(checks.not_negative, default=0.5)
+    """See `persson`."""
     window: float | None = checked(checks.positive, unit="m", default=None)
+    """See `profile_spectrum` [m]."""
 
     def predict(
         self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
@@ -60,23 +53,18 @@ class Persson(Checked, Model):
 
 
 class KlueppelHeinrich(Checked, Model):
-    """The theory of Klueppel and Heinrich for the upper part of the profiles.
-
-    Parameters
-    ----------
-    layer_ratio, penetration_depth : float
-        See `klueppel_heinrich`; the depth [m] is the same at every load.
-    smallest_wavelength : float, optional
-        Smallest wave that counts [m]; by default the end of the surface's sine waves, see
-        `SineStack.cutoff_wavelength`.
-    """
+    """The theory of Klueppel and Heinrich for the upper part of the profiles."""
 
     name: ClassVar[str] = "klueppel_heinrich"
     needs: ClassVar[frozenset[SurfacePart]] = frozenset({"measurement", "cut_off"})
 
     layer_ratio: float = checked(checks.positive)
+    """See `klueppel_heinrich` [-]."""
     penetration_depth: float = checked(checks.positive, unit="m")
+    """See `klueppel_heinrich` [m]; the same at every load."""
     smallest_wavelength: float | None = checked(checks.positive, unit="m", default=None)
+    """Smallest wave that counts [m]; by default the end of the surface's sine waves, see
+    `SineStack.cutoff_wavelength`."""
 
     def predict(
         self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None

@@ -53,17 +53,12 @@ class SampledProfile(Checked, eq=False):
 
     Raises `InputError` if the period is no number above zero, or the heights are too few, not
     finite, or all equal.
-
-    Parameters
-    ----------
-    wavelength : float
-        The period [m], above zero.
-    heights : array_like, shape (points,)
-        Heights at x = 0, wavelength/points, ... [m], at least 8; their mean is subtracted.
     """
 
     wavelength: float = checked(checks.positive, unit="m")
+    """The period [m], above zero."""
     heights: Array = checked(_heights)
+    """Heights at x = 0, wavelength/points, ... [m], at least 8; their mean is subtracted."""
 
     @property
     def amplitude(self) -> float:
@@ -92,20 +87,14 @@ class WaveLoad(Checked):
     """Mean pressure and sliding on one wave.
 
     Raises `InputError` if a value is not a number or out of its range.
-
-    Parameters
-    ----------
-    pressure : float
-        Mean pressure [Pa], above zero.
-    speed : float
-        Sliding speed [m/s]; zero is static contact of the relaxed rubber.
-    load_time : float
-        Time the mean deformation has had to relax [s]; may be infinite.
     """
 
     pressure: float = checked(checks.positive, unit="Pa")
+    """Mean pressure [Pa], above zero."""
     speed: float = checked(checks.not_negative, unit="m/s", default=0.0)
+    """Sliding speed [m/s]; zero is static contact of the relaxed rubber."""
     load_time: float = checked(checks.not_negative, unit="s", infinite=True, default=math.inf)
+    """Time the mean deformation has had to relax [s]; may be infinite."""
 
 
 class WaveProblem(Checked):
@@ -125,21 +114,16 @@ class Mesh(Checked):
     """Elements of the periodic block, one wavelength wide, graded towards the contact.
 
     Raises `InputError` if a value is out of its range.
-
-    Parameters
-    ----------
-    columns, rows : int
-        Elements along the block and across it.
-    depth : float
-        Height of the block in wavelengths.
-    element_order : int
-        1: bilinear with one pressure; 2: biquadratic with linear discontinuous pressure.
     """
 
     columns: int = checked(checks.whole, least=4, most=4096, default=128)
+    """Elements along the block."""
     rows: int = checked(checks.whole, least=2, most=256, default=20)
+    """Elements across the block."""
     depth: float = checked(checks.positive, default=1.5)
+    """Height of the block in wavelengths."""
     element_order: int = checked(checks.whole, least=1, most=2, default=1)
+    """1: bilinear with one pressure; 2: biquadratic with linear discontinuous pressure."""
 
 
 class Status(StrEnum):

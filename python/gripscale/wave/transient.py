@@ -28,21 +28,14 @@ DEFAULT_ROWS = 14
 
 
 class Stage(Checked):
-    """A period of constant speed and pressure.
-
-    Parameters
-    ----------
-    duration : float
-        Duration [s]; a sliding stage is rounded to whole columns of the mesh.
-    speed : float
-        Speed of the rubber's surface over the wave [m/s]; negative slides backwards, 0 dwells.
-    pressure : float
-        Mean pressure [Pa].
-    """
+    """A period of constant speed and pressure."""
 
     duration: float = checked(checks.positive, unit="s")
+    """Duration [s]; a sliding stage is rounded to whole columns of the mesh."""
     speed: float = checked(checks.number, unit="m/s")
+    """Speed of the rubber's surface over the wave [m/s]; negative slides backwards, 0 dwells."""
     pressure: float = checked(checks.positive, unit="Pa")
+    """Mean pressure [Pa]."""
 
 
 @dataclass(frozen=True, eq=False)
