@@ -275,7 +275,18 @@ class Surface:
         )
         if cut_off is not None:
             stack = replace(stack, cut_off=float(stack.wavelength[-1] / half))
-        return stack if self.correlation is None else _judged(self.correlation, stack)
+        if self.correlation is None:
+            return stack
+        # with its residual from the measured curve
+        return fit_sines(
+            self.correlation,
+            scales=waves if stack.cut_off is None else None,
+            cut_off=stack.cut_off,
+            s_wavelength=stack.s_wavelength,
+            s_amplitude=stack.s_amplitude,
+            first_wavelength=float(stack.wavelength[0]),
+            first_amplitude=float(stack.amplitude[0]),
+        )
 
     def _shortened(self, waves: int | None, smallest: float | None) -> SineStack:
         count = len(self.sines) if waves is None else waves
@@ -289,19 +300,6 @@ class Surface:
         if not keep.any():
             raise InputError(_beyond_the_largest(self.sines.wavelength[0], smallest))
         return SineStack(self.sines.wavelength[keep], self.sines.amplitude[keep])
-
-
-def _judged(correlation: HeightDifference, stack: SineStack) -> SineStack:
-    """Return `stack` with its residual from the measured curve."""
-    return fit_sines(
-        correlation,
-        scales=len(stack) if stack.cut_off is None else None,
-        cut_off=stack.cut_off,
-        s_wavelength=stack.s_wavelength,
-        s_amplitude=stack.s_amplitude,
-        first_wavelength=float(stack.wavelength[0]),
-        first_amplitude=float(stack.amplitude[0]),
-    )
 
 
 def _beyond_the_largest(largest: float, smallest: float | None) -> str:
