@@ -28,22 +28,21 @@ if TYPE_CHECKING:
     from gripscale.surface.surface import Surface, SurfacePart
 
 
-# How much a prediction changes with the smallest wavelength that counts.
-#
-#     d ln(A_r/A_0) / d ln(lambda_min),    d ln(mu) / d ln(lambda_min)
-#
-# by the difference over the last octave: ln(mu(lambda_min) / mu(2 lambda_min)) / ln(1/2). Negative
-# where shorter waves add: at -0.3 half the wavelength means 2^0.3 = 1.23 times the friction. Where
-# waves are further apart than an octave, ln A and mu are taken to be linear in ln(lambda) between
-# them: areas multiply from wave to wave, frictions add.
-
 OCTAVE = 2.0
 """Ratio of the wavelengths that are compared, where there are waves so far apart."""
 
 
 @dataclass(frozen=True)
 class CutOffExponents:
-    """Logarithmic derivatives by the cut-off length, over its last octave; NaN if not known."""
+    """How a prediction changes with the smallest wavelength that counts; NaN if not known.
+
+        d ln(A_r/A_0) / d ln(lambda_min),    d ln(mu) / d ln(lambda_min)
+
+    by the difference over the last octave: ln(mu(lambda_min) / mu(2 lambda_min)) / ln(1/2).
+    Negative where shorter waves add: at -0.3 half the wavelength means 2^0.3 = 1.23 times the
+    friction. Where waves are further apart than an octave, ln A and mu are taken to be linear in
+    ln(lambda) between them: areas multiply from wave to wave, frictions add.
+    """
 
     contact_fraction: float
     """d ln(A_r/A_0) / d ln(cut-off) [-]."""

@@ -10,8 +10,6 @@
 - Empty cells, nan, n/a, - and the like are missing values.
 - The last line above the rows that names as many columns holds the titles. A unit stands in
   brackets, behind a slash or a blank, or in a line of units.
-
-The file has the cells of a line, the sheets of an Excel file, the table, and the text of a file.
 """
 
 from __future__ import annotations

@@ -1,7 +1,6 @@
 """Cleaning of measured profiles and maps: crop, dropouts, borders, spikes, trend or form.
 
 Each step is reported. Missing heights stay missing: statistics skip them, nothing is interpolated.
-The file has the report, the steps of a profile, the steps of a map, and what both share.
 """
 
 from __future__ import annotations

@@ -22,9 +22,6 @@ which is sliced optimal transport (J. Rabin et al., SSVM 2011, doi:10.1007/978-3
 of line pieces, and texture synthesis by histograms of filters (D. J. Heeger & J. R. Bergen,
 SIGGRAPH 1995, doi:10.1145/218380.218446) with filters along lines. Directions are spread evenly
 over each batch. Coarse squares come first.
-
-The file has distributions, the square of a map, measured lines, filters, their statistics, and the
-drawing of maps.
 """
 
 from __future__ import annotations

@@ -6,8 +6,6 @@ Points are equidistant if they lie near the even grid that fits them best by lea
 
 A point off the grid by a small part of a step counts as on it; its height is then wrong by the
 slope times that part. Points were left out where k_i increases by more than one.
-
-The file has first the grid, then `Profile` and `HeightMap`, then checks of lists of profiles.
 """
 
 from __future__ import annotations

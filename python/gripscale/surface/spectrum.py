@@ -29,8 +29,6 @@ Technol. 93 (1971) 398, doi:10.1115/1.3451608). For C_1 ~ q^(-1 - 2H) it is, by 
 1.6 to 2 times (H from 0.5 to 1) the C_1/(2 pi q) that takes every wave to run along the line. The
 solution needs the derivative of a measured, scattered curve. Instead, `areal_spectrum` solves the
 first equation by least squares with C >= 0.
-
-The file has the two spectra, then their measurement, then the way from lines to surfaces.
 """
 
 from __future__ import annotations
