@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gripscale.core import checks
+from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.rubber.extrapolation import UNKNOWN, Extrapolation, of_sum
 
@@ -27,22 +28,21 @@ if TYPE_CHECKING:
     from gripscale.surface.surface import Surface, SurfacePart
 
 
-# How much a prediction changes with the smallest wavelength that counts.
-#
-#     d ln(A_r/A_0) / d ln(lambda_min),    d ln(mu) / d ln(lambda_min)
-#
-# by the difference over the last octave: ln(mu(lambda_min) / mu(2 lambda_min)) / ln(1/2). Negative
-# where shorter waves add: at -0.3 half the wavelength means 2^0.3 = 1.23 times the friction. Where
-# waves are further apart than an octave, ln A and mu are taken to be linear in ln(lambda) between
-# them: areas multiply from wave to wave, frictions add.
-
 OCTAVE = 2.0
 """Ratio of the wavelengths that are compared, where there are waves so far apart."""
 
 
 @dataclass(frozen=True)
 class CutOffExponents:
-    """Logarithmic derivatives by the cut-off length, over its last octave; NaN if not known."""
+    """How a prediction changes with the smallest wavelength that counts; NaN if not known.
+
+        d ln(A_r/A_0) / d ln(lambda_min),    d ln(mu) / d ln(lambda_min)
+
+    by the difference over the last octave: ln(mu(lambda_min) / mu(2 lambda_min)) / ln(1/2).
+    Negative where shorter waves add: at -0.3 half the wavelength means 2^0.3 = 1.23 times the
+    friction. Where waves are further apart than an octave, ln A and mu are taken to be linear in
+    ln(lambda) between them: areas multiply from wave to wave, frictions add.
+    """
 
     contact_fraction: float
     """d ln(A_r/A_0) / d ln(cut-off) [-]."""
@@ -63,16 +63,9 @@ NOT_CONVERGED = CutOffExponents(math.nan, math.nan, "not converged")
 def between(
     ratio: float, contact_fraction: Sequence[float], friction: Sequence[float], *, moving: bool
 ) -> CutOffExponents:
-    """Return the exponents from two solutions.
+    """Return the exponents from two solutions, whose cut-offs have a `ratio` above 1.
 
-    Parameters
-    ----------
-    ratio : float
-        Cut-off of the first over that of the second, above 1.
-    contact_fraction, friction : two float
-        Of both solutions [-]; NaN where not known.
-    moving : bool
-        Whether it slides.
+    Both contact fractions and frictions [-] are NaN where not known.
     """
     area, mu = (_exponent(ratio, *pair) for pair in (contact_fraction, friction))
     mu = mu if moving else math.nan
@@ -89,14 +82,7 @@ def of_curve(
 ) -> CutOffExponents:
     """Return the exponents of a model that tells area and friction down to each wavelength.
 
-    Parameters
-    ----------
-    wavelength : array_like, shape (n,)
-        Falling [m]; only their ratios count. Less than an octave apart in all, all of them do.
-    contact_fraction, friction : array_like, shape (n,)
-        Of the waves not shorter [-].
-    moving : bool
-        Whether it slides.
+    Only ratios of the falling wavelengths count; all of them, if less than an octave apart.
     """
     lengths = np.asarray(wavelength, dtype=float)
     if lengths.size < 2:
@@ -148,9 +134,17 @@ def _at(ratio: float, lengths: NDArray[np.float64], values: NDArray[np.float64])
 LoadTime = Literal["passage"] | float
 
 
-@dataclass(frozen=True)
-class Load:
+def _load_time(name: str, value: Any) -> LoadTime:
+    if isinstance(value, str):
+        checks.one_of(name, value, ["passage"])
+        return "passage"
+    return checks.positive(name, value, unit="s", infinite=True)
+
+
+class Load(Checked):
     """The load on the whole surface.
+
+    Raises `InputError` if a value cannot be used.
 
     Parameters
     ----------
@@ -163,31 +157,12 @@ class Load:
     load_time : float or "passage"
         How long a place of the rubber is loaded: while the contact above it passes, or a time [s],
         which may be infinite.
-
-    Raises
-    ------
-    InputError
-        If a value cannot be used.
     """
 
-    pressure: float
-    speed: float
-    footprint: float
-    load_time: LoadTime = "passage"
-
-    def __post_init__(self) -> None:
-        checked: dict[str, Any] = {
-            "pressure": checks.positive("pressure", self.pressure, unit="Pa"),
-            "speed": checks.not_negative("speed", self.speed, unit="m/s"),
-            "footprint": checks.positive("footprint", self.footprint, unit="m"),
-        }
-        if isinstance(self.load_time, str):
-            checks.one_of("load_time", self.load_time, ["passage"])
-        else:
-            time = checks.positive("load_time", self.load_time, unit="s", infinite=True)
-            checked["load_time"] = time
-        for name, value in checked.items():
-            object.__setattr__(self, name, value)
+    pressure: float = checked(checks.positive, unit="Pa")
+    speed: float = checked(checks.not_negative, unit="m/s")
+    footprint: float = checked(checks.positive, unit="m")
+    load_time: LoadTime = checked(_load_time, default="passage")
 
     def time_under(self, contact_length: float) -> float:
         """Return for how long what slides under a contact so long [m] is loaded [s]."""
@@ -196,6 +171,10 @@ class Load:
         if isinstance(self.load_time, str):
             return contact_length / self.speed
         return self.load_time
+
+
+OnProgress = Callable[[Any], None] | None
+"""Called with what is known so far, where a model goes step by step."""
 
 
 @runtime_checkable
@@ -233,17 +212,11 @@ class Model(Protocol):
         )
 
     def predict(
-        self,
-        rubber: Rubber,
-        surface: Surface,
-        load: Load,
-        *,
-        on_progress: Callable[[Any], None] | None = None,
+        self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
     ) -> xr.Dataset:
         """Return the answer: a Dataset with `TOTALS` and `prediction_status`, and what it rests on.
 
         A part that did not converge makes the totals NaN and is named in the status.
-        `on_progress` is called with what is known so far, where the model goes step by step.
         """
 
 
@@ -343,22 +316,10 @@ def answer_by_length(
     load: Load,
     cut_off_exponents: Sequence[CutOffExponents] = (),
 ) -> xr.Dataset:
-    """Return `data` over `profile` with the answers of the profiles averaged by length.
+    """Return `data` over `profile` with the answers of the profiles averaged by length [m].
 
-    Parameters
-    ----------
-    data
-        What is known of each profile.
-    parts
-        Their results, with the attributes of `TOTALS` without `total_`, and `extrapolation`.
-    why_not
-        Why a profile does not count, empty where it does: then there are no totals.
-    lengths
-        Of the profiles [m].
-    model, load
-        As for `answer`.
-    cut_off_exponents
-        Of the profiles; none of a model that does not tell them.
+    `parts` are their results, with the attributes of `TOTALS` without `total_`, and
+    `extrapolation`. `why_not` says why a profile does not count: then there are no totals.
     """
     weight = np.asarray(lengths) / np.sum(lengths)
     bad = [

@@ -88,8 +88,8 @@ def test_averages_over_depths_against_sampled_depths(shape):
         (depth.decay(m), np.exp(-m * z)),
         (depth.decay_between(m), np.exp(-m * np.abs(z - other))),
         (depth.spread(length), ierfc(z / length)),
-        (depth.spread_between(length), ierfc(np.abs(z - other) / length)),
-        (depth.spread_sum(length), ierfc((z + other) / length)),
+        (depth.spread(length, "difference"), ierfc(np.abs(z - other) / length)),
+        (depth.spread(length, "sum"), ierfc((z + other) / length)),
     ):
         error = np.std(sample) / 1000.0
         assert abs(found - sample.mean()) < 4.0 * error

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from gripscale.case.prepare import PreparedRubber
 from gripscale.case.read import CaseFile, prediction_key
 from gripscale.case.tables import LoadTable
-from gripscale.chain.chain import Chain, ChainError
+from gripscale.chain import Chain, ChainError
 from gripscale.chain.prediction import Prediction
 from gripscale.conditions.conditions import Conditions
 from gripscale.core.units import DISPLAY_UNITS, DisplayUnit, display_unit

@@ -23,7 +23,7 @@ from gripscale.case.events import (
 from gripscale.case.prepare import case_chain, prepare_rubber, prepare_surface
 from gripscale.case.read import CaseFile, read_case
 from gripscale.case.results import CaseResults
-from gripscale.chain.chain import Chain, ChainError
+from gripscale.chain import Chain, ChainError
 from gripscale.chain.prediction import Prediction
 from gripscale.core.errors import FileError, InputError, about_keys
 from gripscale.io import netcdf

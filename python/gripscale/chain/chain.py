@@ -12,28 +12,28 @@ This is the mean pressure. With several pressure classes a wave hands down its d
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Mapping
+from dataclasses import field, replace
 from typing import Any, ClassVar
 
 import xarray as xr
 
 from gripscale import model
 from gripscale.chain.conditions import mark_unsettled, solve_coupled_chain
-from gripscale.chain.prediction import Prediction, PressureClasses, RubberAt, usable
+from gripscale.chain.prediction import ChainError, ChainSolve, Prediction, RubberAt
 from gripscale.conditions.conditions import Conditions
 from gripscale.core import checks, provenance
 from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import ConvergenceError, ExtrapolationError, InputError
-from gripscale.model import MOST_CLASSES, Load, LoadTime
+from gripscale.core.errors import ExtrapolationError, InputError
+from gripscale.model import MOST_CLASSES, Load, LoadTime, OnProgress
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import CHOICES, require_measured
 from gripscale.rubber.material import require_load_bearing
 from gripscale.surface import SineStack, Surface, SurfacePart
 from gripscale.theory.half_plane import HalfPlane
 from gripscale.wave.block import FiniteStrainBlock
-from gripscale.wave.kernel import RefinableSolver, WaveSolver, solver_of
-from gripscale.wave.problem import Sine, WaveLoad, WaveProblem
+from gripscale.wave.kernel import WaveSolver, solver_of
+from gripscale.wave.problem import Sine
 from gripscale.wave.result import WaveResult
 
 WAVE_SOLVERS: dict[str, Any] = {solver.name: solver for solver in (FiniteStrainBlock, HalfPlane)}
@@ -64,17 +64,6 @@ def wave_solver(solver: WaveSolverLike, options: Mapping[str, Any]) -> WaveSolve
             f"{min(options)} belongs to the solver: give it there, as in HalfPlane(points=1024)"
         )
     return solver
-
-
-class ChainError(ConvergenceError):
-    """A wave of the chain did not converge; `partial` holds everything solved up to it.
-
-    The last entry of `partial.scales` is the wave that failed, with its status.
-    """
-
-    def __init__(self, message: str, partial: Prediction) -> None:
-        super().__init__(message)
-        self.partial = partial
 
 
 def predict(
@@ -177,10 +166,7 @@ def predict(
 
 
 def select_waves(
-    sines: SineStack,
-    *,
-    smallest_wavelength: float | None = None,
-    max_scales: int | None = None,
+    sines: SineStack, *, smallest_wavelength: float | None = None, max_scales: int | None = None
 ) -> list[Sine]:
     """Return the waves of the chain; raise `InputError` if the limits exclude all of them."""
     pairs = zip(sines.wavelength, sines.amplitude, strict=True)
@@ -199,61 +185,11 @@ def select_waves(
     return waves
 
 
-@dataclass(frozen=True)
-class ChainSolve:
-    """Solves all waves one after the other and adds them to an `empty` prediction."""
-
-    empty: Prediction
-    waves: Sequence[Sine]
-    solver: WaveSolver
-    classes: int
-    """Number of pressure classes."""
-    on_scale: Callable[[Prediction], None] | None
-
-    def __call__(self, rubber_at: RubberAt | None, start: Prediction | None) -> Prediction:
-        """Return the prediction with the rubber of each wave, each from its wave of `start`."""
-        result, load = self.empty, self.empty.load
-        classes, length = PressureClasses.uniform(load.pressure), load.footprint
-        for number, wave in enumerate(self.waves):
-            first = start.scales[number] if start and number < len(start.scales) else None
-            solid = result.rubber if rubber_at is None else rubber_at(wave, result)
-            time = load.time_under(length)
-            solved = [
-                self.solver.solve(
-                    WaveProblem(solid, wave, WaveLoad(float(pressure), load.speed, time)), first
-                )
-                for pressure in classes.pressure
-            ]
-            scale = classes.combined(solved)
-            result = replace(result, scales=[*result.scales, scale])
-            if self.on_scale is not None:
-                self.on_scale(result)
-            if not scale.converged:
-                raise ChainError(result.failure(), result)
-            if not usable(scale):
-                raise ChainError(
-                    f"{result.last_wave()} has a contact fraction of {scale.contact_fraction:g}; "
-                    "expected more than 0 and at most 1",
-                    result,
-                )
-            length = scale.contact_length
-            classes = classes.handed_down(solved, self.classes)
-        return result
-
-    def coarser(self) -> ChainSolve | None:
-        """Return a solve that takes a fraction of the time, if the solver has a coarser version."""
-        if not isinstance(self.solver, RefinableSolver):
-            return None
-        return replace(self, solver=self.solver.coarser(), on_scale=None)
-
-    @property
-    def warm(self) -> bool:
-        """Whether a wave can start from its last solution."""
-        return isinstance(self.solver, RefinableSolver)
-
-
 class Chain(Checked, model.Model):
     """Model of sine waves: each wave receives the pressure that leaves the contact of the larger.
+
+    Raises `InputError` if `pressure_classes` is no whole number from 1 to 64, or `extrapolate`
+    another word.
 
     Parameters
     ----------
@@ -261,17 +197,8 @@ class Chain(Checked, model.Model):
         Solver of one wave.
     rubber_at : RubberAt, optional
         Rubber of each wave; a frozen dataclass, so that stored results can be named by it.
-    pressure_classes : int
-        Number of classes of equal load in the contact of a wave, see `predict`.
-    extrapolate : str
-        "warn" or "refuse", see `predict`.
-    conditions : Conditions, optional
-        Temperature, softening, heat and area term, see `predict`.
-
-    Raises
-    ------
-    InputError
-        If `pressure_classes` is no whole number from 1 to 64, or `extrapolate` another word.
+    pressure_classes, extrapolate, conditions
+        As in `predict`.
     """
 
     name: ClassVar[str] = "chain"
@@ -328,12 +255,7 @@ class Chain(Checked, model.Model):
         return result
 
     def predict(
-        self,
-        rubber: Rubber,
-        surface: Surface,
-        load: Load,
-        *,
-        on_progress: Callable[[Any], None] | None = None,
+        self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
     ) -> xr.Dataset:
         """Return the prediction as a Dataset; `on_progress` gets the `Prediction` so far.
 

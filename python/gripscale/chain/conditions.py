@@ -10,56 +10,24 @@ from __future__ import annotations
 import math
 from collections import Counter
 from dataclasses import dataclass, field, replace
-from typing import Protocol
 
 import numpy as np
 
 from gripscale.chain.heat import Warming, WaveHeat, strains, warming
-from gripscale.chain.prediction import Prediction, RubberAt
+from gripscale.chain.prediction import ChainSolve, Prediction
 from gripscale.conditions.conditions import Conditions, RubberState, rubber_under
-from gripscale.conditions.fixed_point import (
-    Iteration,
-    pack_state,
-    solve_fixed_point,
-    unpack_state,
-)
+from gripscale.conditions.fixed_point import Iteration, pack_state, solve_fixed_point, unpack_state
 from gripscale.core.arrays import Array
 from gripscale.rubber import Rubber
 from gripscale.wave.problem import Sine, Status
 
 
-class ChainSolver(Protocol):
-    """Solves all waves of a chain."""
-
-    def __call__(self, rubber_at: RubberAt | None, start: Prediction | None) -> Prediction:
-        """Return the prediction with the rubber of each wave, each from its wave of `start`."""
-
-    def coarser(self) -> ChainSolver | None:
-        """Return a solver that takes a fraction of the time, None if there is none."""
-
-    @property
-    def warm(self) -> bool:
-        """Whether a wave can start from its last solution."""
-
-
-def solve_coupled_chain(solver: ChainSolver, rubber: Rubber, conditions: Conditions) -> Prediction:
+def solve_coupled_chain(solver: ChainSolve, rubber: Rubber, conditions: Conditions) -> Prediction:
     """Return the prediction whose strains and temperatures are those of its rubber.
 
-    Parameters
-    ----------
-    solver
-        Solves all waves.
-    rubber
-        As measured.
-    conditions
-        What changes it.
-
-    Returns
-    -------
-    Prediction
-        The details of each wave hold its strain, temperature and modulus ratios; the Newton
-        iterations are those of all evaluations. The status of the last wave is `conditions not
-        settled` if the iteration did not converge.
+    The details of each wave hold its strain, temperature and modulus ratios; the Newton iterations
+    are those of all evaluations. The status of the last wave is `conditions not settled` if the
+    iteration did not converge.
     """
     coarse = solver.coarser()
     fine = _ChainEvaluation(solver, rubber, conditions)
@@ -152,7 +120,7 @@ class WaveStates:
 class _ChainEvaluation:
     """Evaluates a state: solves all waves with the rubber it makes, and counts the work."""
 
-    solver: ChainSolver
+    solver: ChainSolve
     rubber: Rubber
     conditions: Conditions
     newton_iterations: Counter[int] = field(default_factory=Counter)

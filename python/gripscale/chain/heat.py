@@ -115,18 +115,9 @@ class Warming:
 def warming(
     waves: Sequence[WaveHeat], *, speed: float, time: float, thermal: ThermalProperties
 ) -> list[Warming]:
-    """Return the temperature rise of the rubber on each wave.
+    """Return the temperature rise of the rubber on each wave of a chain, largest first.
 
-    Parameters
-    ----------
-    waves : sequence of WaveHeat
-        Of the chain, largest first.
-    speed : float
-        Sliding speed [m/s].
-    time : float
-        Duration of the nominal contact [s].
-    thermal : ThermalProperties
-        Thermal properties of the rubber.
+    `time` is the duration of the nominal contact [s].
     """
     if speed == 0.0 or not waves:
         return [Warming(0.0, 0.0, 0.0, 0.0) for _ in waves]

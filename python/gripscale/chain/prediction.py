@@ -22,7 +22,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Protocol
 
@@ -33,12 +33,13 @@ from gripscale import model
 from gripscale.conditions.conditions import Conditions
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
-from gripscale.core.errors import InputError
+from gripscale.core.errors import ConvergenceError, InputError
 from gripscale.model import NOT_CONVERGED, CutOffExponents, Load, of_curve
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import Extrapolation, of_sum
 from gripscale.surface import SineStack
-from gripscale.wave.problem import Sine, Status
+from gripscale.wave.kernel import RefinableSolver, WaveSolver
+from gripscale.wave.problem import Sine, Status, WaveLoad, WaveProblem
 from gripscale.wave.result import (
     CHAIN,
     LW,
@@ -297,11 +298,7 @@ class Prediction:
             data[CLASS_PRESSURES] = labelled(
                 ("scale", "pressure_class"), np.array(padded), "Pa", words, CHAIN
             )
-        totals = {
-            "total_contact_fraction": self.contact_fraction,
-            "total_friction": self.friction,
-            "total_friction_from_dissipation": self.friction_from_dissipation,
-        }
+        totals = {total: getattr(self, total.removeprefix("total_")) for total in model.TOTALS}
         data = data.assign_attrs(
             title="Real contact area and friction of rubber on a rough surface",
             rubber=f"{self.rubber.name}; {self.rubber.source}".strip("; "),
@@ -312,13 +309,7 @@ class Prediction:
             **provenance.attributes(),
         )
         answer = model.answer(
-            data,
-            totals,
-            self.why,
-            "chain",
-            self.load,
-            self.extrapolation,
-            self.cut_off_exponents,
+            data, totals, self.why, "chain", self.load, self.extrapolation, self.cut_off_exponents
         )
         return model.with_area_term(answer, self.adhesive_friction)
 
@@ -375,3 +366,67 @@ class RubberAt(Protocol):
 
     def __call__(self, wave: Sine, so_far: Prediction) -> Rubber:
         """Return the rubber on `wave`, the next one after those of `so_far`."""
+
+
+class ChainError(ConvergenceError):
+    """A wave of the chain did not converge; `partial` holds everything solved up to it.
+
+    The last entry of `partial.scales` is the wave that failed, with its status.
+    """
+
+    def __init__(self, message: str, partial: Prediction) -> None:
+        super().__init__(message)
+        self.partial = partial
+
+
+@dataclass(frozen=True)
+class ChainSolve:
+    """Solves all waves one after the other and adds them to an `empty` prediction."""
+
+    empty: Prediction
+    waves: Sequence[Sine]
+    solver: WaveSolver
+    classes: int
+    """Number of pressure classes."""
+    on_scale: Callable[[Prediction], None] | None
+
+    def __call__(self, rubber_at: RubberAt | None, start: Prediction | None) -> Prediction:
+        """Return the prediction with the rubber of each wave, each from its wave of `start`."""
+        result, load = self.empty, self.empty.load
+        classes, length = PressureClasses.uniform(load.pressure), load.footprint
+        for number, wave in enumerate(self.waves):
+            first = start.scales[number] if start and number < len(start.scales) else None
+            solid = result.rubber if rubber_at is None else rubber_at(wave, result)
+            time = load.time_under(length)
+            solved = [
+                self.solver.solve(
+                    WaveProblem(solid, wave, WaveLoad(float(pressure), load.speed, time)), first
+                )
+                for pressure in classes.pressure
+            ]
+            scale = classes.combined(solved)
+            result = replace(result, scales=[*result.scales, scale])
+            if self.on_scale is not None:
+                self.on_scale(result)
+            if not scale.converged:
+                raise ChainError(result.failure(), result)
+            if not usable(scale):
+                raise ChainError(
+                    f"{result.last_wave()} has a contact fraction of {scale.contact_fraction:g}; "
+                    "expected more than 0 and at most 1",
+                    result,
+                )
+            length = scale.contact_length
+            classes = classes.handed_down(solved, self.classes)
+        return result
+
+    def coarser(self) -> ChainSolve | None:
+        """Return a solve that takes a fraction of the time, if the solver has a coarser version."""
+        if not isinstance(self.solver, RefinableSolver):
+            return None
+        return replace(self, solver=self.solver.coarser(), on_scale=None)
+
+    @property
+    def warm(self) -> bool:
+        """Whether a wave can start from its last solution."""
+        return isinstance(self.solver, RefinableSolver)

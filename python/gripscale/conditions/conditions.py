@@ -50,6 +50,8 @@ def _effect(name: str, value: Any, *, kind: type, expected: str) -> Any:
 class Conditions(Checked):
     """Effects on the rubber as measured, and the area term; each is off by default.
 
+    Raises `InputError` if a value cannot be used.
+
     Parameters
     ----------
     temperature : float, optional
@@ -64,11 +66,6 @@ class Conditions(Checked):
         Warm the rubber by its friction.
     shear_stress : InterfacialShearStress, optional
         Interfacial shear stress of the area term.
-
-    Raises
-    ------
-    InputError
-        If a value cannot be used.
     """
 
     temperature: float | None = checked(checks.positive, unit="K", default=None)
@@ -80,10 +77,7 @@ class Conditions(Checked):
         _effect, kind=ThermalProperties, expected="ThermalProperties", default=None
     )
     shear_stress: InterfacialShearStress | None = checked(
-        _effect,
-        kind=InterfacialShearStress,
-        expected="a law of gripscale.conditions",
-        default=None,
+        _effect, kind=InterfacialShearStress, expected="a law of gripscale.conditions", default=None
     )
 
     def to_dict(self) -> dict[str, Any]:
@@ -174,20 +168,9 @@ class RubberState:
 def rubber_under(
     conditions: Conditions, rubber: Rubber, *, warming: float, strain: float, omega: float
 ) -> RubberState:
-    """Return the rubber at one temperature and strain.
+    """Return the rubber with one temperature rise `warming` [K] and one uniaxial amplitude [-].
 
-    Parameters
-    ----------
-    conditions : Conditions
-        What changes it.
-    rubber : Rubber
-        As measured.
-    warming : float
-        Temperature rise over that before the contact [K].
-    strain : float
-        Uniaxial amplitude [-].
-    omega : float
-        Lowest angular frequency of the excitation [rad/s]; zero at rest.
+    `omega` is the lowest angular frequency of the excitation [rad/s], zero at rest.
     """
     solid, kelvin = conditions.before(rubber), conditions.temperature_of(rubber)
     if conditions.heat is not None and kelvin is not None:
@@ -293,16 +276,8 @@ def state_by_scale(
 ) -> StateByScale:
     """Return the rubber under `conditions` with its temperature and strain at every scale.
 
-    Parameters
-    ----------
-    conditions : Conditions
-        What changes it.
-    rubber : Rubber
-        As measured.
-    wavenumber : array, shape (scales,)
-        Rising [rad/m].
-    warming, strain : array, shape (scales,)
-        Temperature rise over that before the contact [K], and uniaxial amplitude [-].
+    `wavenumber` rises [rad/m]; `warming` is the rise over the temperature before the contact [K],
+    `strain` the uniaxial amplitude [-]. All arrays have the shape (scales,).
     """
     before, kelvin = conditions.before(rubber), conditions.temperature_of(rubber)
     shift = stiffening = storage = loss = np.ones(wavenumber.size)

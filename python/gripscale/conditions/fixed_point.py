@@ -79,11 +79,7 @@ class FixedPoint(Generic[S]):
 def solve_fixed_point(fine: Solve[S], coarse: Solve[S] | None) -> FixedPoint[S]:
     """Return the solution that agrees with the state it assumes.
 
-    Parameters
-    ----------
-    fine, coarse
-        Evaluate a state on the mesh of the answer, and in a fraction of the time. A coarse mesh
-        that fails, or whose own fixed point is not found, is not used any more.
+    A `coarse` mesh that fails, or whose own fixed point is not found, is not used any more.
     """
     start = None if coarse is None else _evaluated(coarse, None, None)
     if coarse is None or start is None:

@@ -104,17 +104,12 @@ class DepthsOfLoss(Protocol):
     def decay_between(self, m: ComplexArray) -> ComplexArray:
         """Return E exp(-m |Z - Z'|) for `m` [1/m], same shape."""
 
-    def spread(self, length: float) -> float:
-        """Return E ierfc(Z / length), ierfc the integral of the complementary error function."""
-
-    def spread_between(self, length: float) -> float:
-        """Return E ierfc(|Z - Z'| / length)."""
-
-    def spread_sum(self, length: float) -> float:
-        """Return E ierfc((Z + Z') / length)."""
+    def spread(self, length: float, of: Distances = "depth") -> float:
+        """Return E ierfc(distance / length), ierfc being the integral of erfc."""
 
 
 Distances = Literal["depth", "difference", "sum"]
+"""Z, |Z - Z'| and Z + Z'."""
 
 DEEPEST = 60.0
 """Depth in units of 1/b beyond which the loss is neglected: exp(-60)."""
@@ -135,21 +130,13 @@ def _loss_shape(name: str, value: Any) -> int:
 class LossDepth(Checked):
     """A gamma distribution of the depth at which energy is lost.
 
-    Parameters
-    ----------
-    mean : float
-        Mean depth [m]; zero is the surface itself.
-    shape : int
-        1: exponential; 3: under a harmonic of the pressure.
-
-    Raises
-    ------
-    InputError
-        If the mean is no finite number from zero, or the shape another.
+    Raises `InputError` if the mean is no finite number from zero, or the shape another.
     """
 
     mean: float = checked(checks.not_negative, unit="m")
+    """Mean depth [m]; zero is the surface itself."""
     shape: int = checked(_loss_shape, default=3)
+    """1: exponential; 3: under a harmonic of the pressure."""
 
     @classmethod
     def under(cls, wavenumber: float) -> LossDepth:
@@ -172,29 +159,15 @@ class LossDepth(Checked):
             return np.asarray(near)
         return np.asarray((3.0 * near + 3.0 * near**2 + 2.0 * near**3) / 8.0)
 
-    def spread(self, length: float) -> float:
-        """Return E ierfc(Z / length), ierfc the integral of the complementary error function."""
-        return float(self.average("depth", lambda z: ierfc(z / length), length))
-
-    def spread_between(self, length: float) -> float:
-        """Return E ierfc(|Z - Z'| / length)."""
-        return float(self.average("difference", lambda z: ierfc(z / length), length))
-
-    def spread_sum(self, length: float) -> float:
-        """Return E ierfc((Z + Z') / length)."""
-        return float(self.average("sum", lambda z: ierfc(z / length), length))
+    def spread(self, length: float, of: Distances = "depth") -> float:
+        """Return E ierfc(distance / length)."""
+        return float(self.average(of, lambda z: ierfc(z / length), length))
 
     def average(self, of: Distances, function: Callable[[Array], Any], length: float) -> Any:
-        """Return the mean of a function of a distance [m] that vanishes beyond some lengths.
+        """Return the mean of a function of a distance Z, |Z - Z'| or Z + Z' [m].
 
-        Parameters
-        ----------
-        of : "depth", "difference" or "sum"
-            The distance: Z, |Z - Z'| or Z + Z'.
-        function : callable
-            Takes distances of shape (n,); n is the first axis of its value.
-        length : float
-            Length over which the function changes [m]; it vanishes at `WIDEST` lengths.
+        The first axis of the function's values is that of the distances, shape (n,). It changes
+        over `length` [m] and vanishes at `WIDEST` lengths.
         """
         from scipy.special import gamma
 
@@ -222,17 +195,7 @@ def ierfc(x: Array) -> Array:
 def harmonic_decay(
     wavenumber: ArrayLike, along: ArrayLike, speed: float, thermal: ThermalProperties
 ) -> ComplexArray:
-    """Return the decay m [1/m] of harmonics.
-
-    Parameters
-    ----------
-    wavenumber, along : array_like
-        |k| and k_x [rad/m], broadcast together.
-    speed : float
-        Sliding speed [m/s].
-    thermal : ThermalProperties
-        Thermal properties of the rubber.
-    """
+    """Return the decay m [1/m] of harmonics of |k| and k_x [rad/m], at a speed [m/s]."""
     number = np.asarray(wavenumber, dtype=float)
     carried = np.asarray(along, dtype=float) * speed / thermal.diffusivity
     return np.asarray(np.sqrt(number**2 + 1j * carried))
@@ -257,26 +220,9 @@ def harmonic_where_lost(
 
 
 def uniform_at_surface(time: float, depth: DepthsOfLoss, thermal: ThermalProperties) -> float:
-    """Return the surface temperature of uniform heat per heat per area.
+    """Return the surface temperature of uniform heat per heat per area [K m^2/W].
 
-    Parameters
-    ----------
-    time : float
-        Duration of the heat [s].
-    depth : DepthsOfLoss
-        Depths at which it is lost.
-    thermal : ThermalProperties
-        Thermal properties of the rubber.
-
-    Returns
-    -------
-    float
-        [K m^2/W]
-
-    Raises
-    ------
-    InputError
-        If the time is no finite number from zero.
+    `time` is the duration of the heat [s]. Raises `InputError` if it is no finite number from zero.
     """
     length = _diffusion_length(time, thermal)
     return length * depth.spread(length) / thermal.conductivity if length > 0.0 else 0.0
@@ -290,7 +236,7 @@ def uniform_where_lost(time: float, depth: DepthsOfLoss, thermal: ThermalPropert
     length = _diffusion_length(time, thermal)
     if length == 0.0:
         return 0.0
-    mean = depth.spread_between(length) + depth.spread_sum(length)
+    mean = depth.spread(length, "difference") + depth.spread(length, "sum")
     return length * mean / (2.0 * thermal.conductivity)
 
 
@@ -361,18 +307,12 @@ def _rise_in_time(z: Array, m: ComplexArray, length: float) -> ComplexArray:
 
 @dataclass(frozen=True)
 class LossLayers:
-    """A distribution of the depth at which energy is lost, by layers.
-
-    Parameters
-    ----------
-    edges : array, shape (layers + 1,)
-        Depths between the layers, rising from the surface [m].
-    share : array, shape (layers,)
-        Of the loss in each layer [-]; they add up to one.
-    """
+    """A distribution of the depth at which energy is lost, by layers."""
 
     edges: Array
+    """Depths between the layers, rising from the surface [m], shape (layers + 1,)."""
     share: Array
+    """Of the loss in each layer [-], adding up to one, shape (layers,)."""
 
     @classmethod
     def of(cls, edges: Array, lost: Array) -> LossLayers:
@@ -403,37 +343,23 @@ class LossLayers:
             above = above * falls[..., layer] + lossy[..., layer]
         return np.asarray(same_layer + 2.0 * pairs)
 
-    def spread(self, length: float) -> float:
-        """Return E ierfc(Z / length), ierfc the integral of the complementary error function."""
-        at_edges = length * _i2erfc(self.edges / length)
-        return float(self._density @ -np.diff(at_edges))
-
-    def spread_between(self, length: float) -> float:
-        """Return E ierfc(|Z - Z'| / length)."""
-        distance = np.abs(self.edges[:, None] - self.edges[None, :])
-        return -self._mean_over_pairs(
-            length**2 * _i3erfc(distance / length) + 0.25 * length * distance
-        )
-
-    def spread_sum(self, length: float) -> float:
-        """Return E ierfc((Z + Z') / length)."""
-        sums = self.edges[:, None] + self.edges[None, :]
-        return self._mean_over_pairs(length**2 * _i3erfc(sums / length))
-
-    @property
-    def _density(self) -> Array:
-        """Share over height [1/m]."""
-        return np.asarray(self.share / np.diff(self.edges))
+    def spread(self, length: float, of: Distances = "depth") -> float:
+        """Return E ierfc(distance / length)."""
+        edges, density = self.edges, self.share / np.diff(self.edges)
+        if of == "depth":
+            return float(density @ -np.diff(length * _i2erfc(edges / length)))
+        # the mean over pairs of layers, from the second integral at their edges
+        if of == "sum":
+            second = length**2 * _i3erfc((edges[:, None] + edges[None, :]) / length)
+        else:
+            apart = np.abs(edges[:, None] - edges[None, :])
+            second = -(length**2 * _i3erfc(apart / length) + 0.25 * length * apart)
+        return float(density @ np.diff(np.diff(second, axis=0), axis=1) @ density)
 
     def _within(self, m: ComplexArray) -> ComplexArray:
         """Return e_i, shape (..., layers)."""
         height = np.multiply.outer(m, np.diff(self.edges))
         return np.asarray(-np.expm1(-height) / height)
-
-    def _mean_over_pairs(self, at_edges: Array) -> float:
-        """Return the mean over pairs of layers from the second integral at the edges."""
-        integral = np.diff(np.diff(at_edges, axis=0), axis=1)
-        return float(self._density @ integral @ self._density)
 
 
 def _i2erfc(x: Array) -> Array:
@@ -451,12 +377,7 @@ def _i3erfc(x: Array) -> Array:
 def loss_pattern(pressure: ComplexArray, lost: Array) -> Array:
     """Return the loss |g|^2 along one period, shape (points,); its mean is the sum of `lost`.
 
-    Parameters
-    ----------
-    pressure : array, shape (points // 2 + 1,)
-        Spectrum of the pressure, as `rfft` gives it.
-    lost : array, shape (points // 2 + 1,)
-        Loss of each harmonic; negative values are round-off.
+    `pressure` is the `rfft` of the pressure; a negative loss of a harmonic is round-off.
     """
     import scipy.fft
 

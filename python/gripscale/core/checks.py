@@ -13,7 +13,7 @@ from typing import Any, ClassVar, TypeVar, dataclass_transform
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.core.arrays import Array
+from gripscale.core.arrays import Array, Mask
 from gripscale.core.errors import InputError
 
 T = TypeVar("T")
@@ -58,6 +58,13 @@ def not_negative(name: str, value: Any, *, unit: str = "", infinite: bool = Fals
     if result < 0.0:
         raise InputError(f"{name} must not be negative{_in(unit)}; got {result:g}")
     return result
+
+
+def at_most_one(name: str, value: float) -> float:
+    """Return a checked `value`; raise `InputError` if it is above one."""
+    if value > 1.0:
+        raise InputError(f"{name} must be at most 1; got {value:g}")
+    return value
 
 
 def complex_number(name: str, value: Any, *, unit: str = "") -> complex:
@@ -134,40 +141,35 @@ def array(value: ArrayLike, expected: str) -> Array:
 def positive_vector(name: str, value: ArrayLike, *, unit: str = "") -> Array:
     """Return `value` as a 1-D float array; raise `InputError` unless all entries are above zero."""
     result = _above_zero(name, vector(name, value, unit=unit), unit)
-    if (result < LEAST).any():
-        at = int(np.argmax(result < LEAST))
-        raise InputError(
-            f"{name} must be at least {LEAST:g}{_in(unit)}; got {result[at]:g} at index {at}"
-        )
+    _refuse(result, result < LEAST, f"{name} must be at least {LEAST:g}{_in(unit)}")
     return result
 
 
 def not_negative_vector(name: str, value: ArrayLike, *, unit: str = "") -> Array:
     """Return `value` as a 1-D float array; raise `InputError` if an entry is below zero."""
     result = vector(name, value, unit=unit)
-    if (result < 0.0).any():
-        at = int(np.argmax(result < 0.0))
-        raise InputError(f"{name} must not be negative; got {result[at]:g} {unit} at index {at}")
+    _refuse(result, result < 0.0, f"{name} must not be negative", f" {unit}")
     return result
 
 
 def increasing_vector(name: str, value: ArrayLike, *, unit: str = "") -> Array:
     """Return `value` as a 1-D float array; raise `InputError` unless it increases from above 0."""
     result = positive_vector(name, value, unit=unit)
-    falls = np.diff(result) <= 0.0
-    if falls.any():
-        at = int(np.argmax(falls)) + 1
-        raise InputError(f"{name} must increase; got {result[at]:g} {unit} at index {at}")
+    falls = np.diff(result, prepend=0.0) <= 0.0
+    _refuse(result, falls, f"{name} must increase", f" {unit}")
     return result
 
 
 def _above_zero(name: str, result: Array, unit: str) -> Array:
-    if (result <= 0.0).any():
-        at = int(np.argmax(result <= 0.0))
-        raise InputError(
-            f"{name} must be greater than zero{_in(unit)}; got {result[at]:g} at index {at}"
-        )
+    _refuse(result, result <= 0.0, f"{name} must be greater than zero{_in(unit)}")
     return result
+
+
+def _refuse(values: Array, bad: Mask, expected: str, unit: str = "") -> None:
+    """Raise `InputError` about the first of the `bad` values, if there are any."""
+    if bad.any():
+        at = int(np.argmax(bad))
+        raise InputError(f"{expected}; got {values[at]:g}{unit} at index {at}")
 
 
 def fraction(name: str, value: Any) -> float:
@@ -248,13 +250,8 @@ def text(name: str, value: Any) -> str:
 def in_limits(name: str, value: ArrayLike, *, unit: str = "") -> Array:
     """Return `value` as a 1-D float array; raise `InputError` unless from `LEAST` to `MOST`."""
     result = _above_zero(name, _finite(name, value, unit), unit)
-    bad = (result < LEAST) | (result > MOST)
-    if bad.any():
-        at = int(np.argmax(bad))
-        raise InputError(
-            f"{name} must lie between {LEAST:g} and {MOST:g}{_in(unit)}; "
-            f"got {result[at]:g} at index {at}"
-        )
+    expected = f"{name} must lie between {LEAST:g} and {MOST:g}{_in(unit)}"
+    _refuse(result, (result < LEAST) | (result > MOST), expected)
     return result
 
 

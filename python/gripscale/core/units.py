@@ -26,29 +26,14 @@ Value = TypeVar("Value", float, NDArray[np.float64])
 _PSI = 0.45359237 * 9.80665 / 0.0254**2
 """A pound-force per square inch [Pa]: pound, standard gravity and inch are exact."""
 
-_PASCALS = {
-    "Pa": 1.0,
-    "kPa": 1e3,
-    "psi": _PSI,
-    "bar": 1e5,
-    "MPa": 1e6,
-    "N/mm^2": 1e6,
-    "GPa": 1e9,
-}
+_METRES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "pm": 1e-12, "in": 0.0254}
+_PASCALS = {"Pa": 1.0, "kPa": 1e3, "psi": _PSI, "bar": 1e5, "MPa": 1e6, "N/mm^2": 1e6, "GPa": 1e9}
 
 _JOULES_PER_MOLE_IN_EV = 1.602176634e-19 * 6.02214076e23
 """Elementary charge times Avogadro's number: both exact in the SI."""
 
 UNITS: dict[str, dict[str, float]] = {
-    "length": {
-        "m": 1.0,
-        "cm": 1e-2,
-        "mm": 1e-3,
-        "um": 1e-6,
-        "nm": 1e-9,
-        "pm": 1e-12,
-        "in": 0.0254,
-    },
+    "length": _METRES,
     "pressure": _PASCALS,
     "modulus": {unit: size for unit, size in _PASCALS.items() if unit != "bar"} | {"dyn/cm^2": 0.1},
     "speed": {"m/s": 1.0, "mm/s": 1e-3, "km/h": 1.0 / 3.6},
@@ -78,52 +63,26 @@ _ZERO = {"C": ZERO_CELSIUS, "F": 459.67 * 5.0 / 9.0}
 _UNIT_NEEDED = ("temperature",)
 """Kinds whose plain numbers are ambiguous."""
 
-_SPELLINGS = {
-    "micron": "um",
-    "microns": "um",
-    "micrometer": "um",
-    "micrometre": "um",
-    "meter": "m",
-    "metre": "m",
-    "meters": "m",
-    "metres": "m",
-    "millimeter": "mm",
-    "millimetre": "mm",
-    "inch": "in",
-    "w/mk": "W/(m K)",
-    "w/(mk)": "W/(m K)",
-    "w/(m*k)": "W/(m K)",
-    "w/m/k": "W/(m K)",
-    "j/kgk": "J/(kg K)",
-    "j/(kgk)": "J/(kg K)",
-    "j/(kg*k)": "J/(kg K)",
-    "j/kg/k": "J/(kg K)",
-    "kj/(kgk)": "kJ/(kg K)",
-    "kg/m3": "kg/m^3",
-    "kg/m³": "kg/m^3",
-    "g/cm3": "g/cm^3",
-    "g/cm³": "g/cm^3",
-    "n/mm2": "N/mm^2",
-    "n/mm²": "N/mm^2",
-    "n/m2": "Pa",
-    "n/m^2": "Pa",
-    "dyn/cm2": "dyn/cm^2",
-    "dyn/cm²": "dyn/cm^2",
-    "dyne/cm2": "dyn/cm^2",
-    "dyne/cm^2": "dyn/cm^2",
-    "lbf/in2": "psi",
-    "lbf/in^2": "psi",
-    "hz": "Hz",
-    "°c": "C",
-    "degc": "C",
-    "deg c": "C",
-    "celsius": "C",
-    "°f": "F",
-    "degf": "F",
-    "deg f": "F",
-    "fahrenheit": "F",
-    "kelvin": "K",
+_OTHER_SPELLINGS = {
+    "um": ("micron", "microns", "micrometer", "micrometre"),
+    "m": ("meter", "metre", "meters", "metres"),
+    "mm": ("millimeter", "millimetre"),
+    "in": ("inch",),
+    "W/(m K)": ("w/mk", "w/(mk)", "w/(m*k)", "w/m/k"),
+    "J/(kg K)": ("j/kgk", "j/(kgk)", "j/(kg*k)", "j/kg/k"),
+    "kJ/(kg K)": ("kj/(kgk)",),
+    "kg/m^3": ("kg/m3", "kg/m³"),
+    "g/cm^3": ("g/cm3", "g/cm³"),
+    "N/mm^2": ("n/mm2", "n/mm²"),
+    "Pa": ("n/m2", "n/m^2"),
+    "dyn/cm^2": ("dyn/cm2", "dyn/cm²", "dyne/cm2", "dyne/cm^2"),
+    "psi": ("lbf/in2", "lbf/in^2"),
+    "Hz": ("hz",),
+    "C": ("°c", "degc", "deg c", "celsius"),
+    "F": ("°f", "degf", "deg f", "fahrenheit"),
+    "K": ("kelvin",),
 }
+_SPELLINGS = {word: unit for unit, words in _OTHER_SPELLINGS.items() for word in words}
 
 _EXAMPLES = {
     "length": "100 mm",
@@ -262,14 +221,8 @@ class DisplayUnit:
 def display_unit(name: str, case: str | Mapping[str, Any] = "", unit: str = "") -> DisplayUnit:
     """Return the unit in which one of `KEYS` is shown.
 
-    Parameters
-    ----------
-    name
-        The key.
-    case
-        Attributes of a result, or the text of its case, whose unit counts if `unit` is empty.
-    unit
-        The stated unit.
+    `case` are the attributes of a result, or the text of its case, whose unit counts if `unit`, the
+    stated one, is empty.
     """
     kind = KEYS[name][1]
     if isinstance(case, str):

@@ -194,24 +194,11 @@ def close_gap(
     *,
     check: bool,
 ) -> ClosedGap:
-    """Return the pressure that closes the gap at the points `where`.
+    """Return the pressure that closes the gap at the points `where`, of the heights `height` [m].
 
-    Parameters
-    ----------
-    response : Response
-        The half-space.
-    where : array of int
-        Points in contact, as indices of the flattened grid.
-    height : array
-        Heights there [m].
-    start : array
-        A pressure there with the required load [Pa]; its sum is kept.
-    displacement : array
-        K of this pressure over the whole grid, flattened [m].
-    tolerance : float
-        Missing pressure at the end, over the pressure [-].
-    check : bool
-        Whether the missing pressure is computed at the end and not taken from GMRES.
+    `start` is a pressure there with the required load [Pa], whose sum is kept, `displacement` what
+    it gives over the whole grid [m], `tolerance` the missing pressure at the end over the pressure
+    [-]. With `check` the missing pressure is computed at the end and not taken from GMRES.
     """
     points = PointsInContact(response, where)
     pressure = start.copy()
@@ -290,11 +277,7 @@ def _rotated(turn: complex, first: float, second: float) -> tuple[float, float]:
 
 
 def solve_grid(
-    response: Response,
-    height: Array,
-    start: Array,
-    most_iterations: int,
-    goal: float = TOLERANCE,
+    response: Response, height: Array, start: Array, most_iterations: int, goal: float = TOLERANCE
 ) -> GridContact:
     """Return the contact with `height` [m] under the load of `start`.
 

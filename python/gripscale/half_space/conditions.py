@@ -24,12 +24,7 @@ import scipy.fft
 
 from gripscale.conditions import flash_temperature as rise
 from gripscale.conditions.conditions import Conditions, RubberByScale, StateByScale, state_by_scale
-from gripscale.conditions.fixed_point import (
-    Iteration,
-    pack_state,
-    solve_fixed_point,
-    unpack_state,
-)
+from gripscale.conditions.fixed_point import Iteration, pack_state, solve_fixed_point, unpack_state
 from gripscale.conditions.flash_temperature import LossDepth, ThermalProperties
 from gripscale.core.arrays import Array, ComplexArray, Mask
 from gripscale.half_space.grid import Grid
@@ -68,14 +63,7 @@ class OctaveHeat:
 def octave_heats(grid: Grid, pressure: Array, lost: Array) -> list[OctaveHeat]:
     """Return the heat of every octave that loses energy, long waves first.
 
-    Parameters
-    ----------
-    grid : Grid
-        Grid of the contact.
-    pressure : array, shape of the grid
-        Contact pressure [Pa].
-    lost : array, shape of the half spectrum
-        Friction of each harmonic [-], as `lost_by_harmonic` returns it.
+    The friction `lost` by each harmonic [-] is that of `lost_by_harmonic`, of the half spectrum.
     """
     number = np.broadcast_to(grid.wavenumber, grid.spectrum_shape)
     longest = 2.0 * np.pi / max(grid.lengths)
@@ -131,22 +119,9 @@ def grid_temperature(
     time: float,
     thermal: ThermalProperties,
 ) -> GridTemperature:
-    """Return the temperature rise by the heat of all octaves.
+    """Return the temperature rise by the heat of all octaves during a contact of `time` [s].
 
-    Parameters
-    ----------
-    grid : Grid
-        Grid of the contact.
-    heats : list of OctaveHeat
-        Heat of each octave.
-    flux : float
-        Heat per nominal area and unit of friction, p_0 v [W/m^2].
-    speed : float
-        Sliding speed [m/s].
-    time : float
-        Duration of the nominal contact [s].
-    thermal : ThermalProperties
-        Thermal properties of the rubber.
+    `flux` is the heat per nominal area and unit of friction, p_0 v [W/m^2].
     """
 
     def without_mean(density: Array) -> ComplexArray:
@@ -212,22 +187,9 @@ def solve_coupled_contact(
 ) -> RoughContact:
     """Return the contact whose strains and temperatures are those of its rubber.
 
-    Parameters
-    ----------
-    solve, quick
-        Solve the contact with the rubber of every scale from known levels, the second in less time.
-    rubber
-        As measured.
-    conditions
-        What changes it.
-    time
-        Duration of the nominal contact [s].
-
-    Returns
-    -------
-    RoughContact
-        With the state of the rubber by scale and the grids of all evaluations. Its status is
-        `conditions not settled` if the iteration did not converge.
+    `solve` and `quick` solve the contact with the rubber of every scale from known levels, the
+    second in less time; `time` is the duration of the nominal contact [s]. The status is
+    `conditions not settled` if the iteration did not converge.
     """
     fine = _ContactEvaluation(solve, rubber, conditions, time)
     fixed_point = solve_fixed_point(fine, replace(fine, solve=quick))

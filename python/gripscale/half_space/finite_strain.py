@@ -35,7 +35,6 @@ if TYPE_CHECKING:
 ANSWERS = ("contact_fraction", "friction_from_dissipation")
 """Quantities with a correction. Where crests are as narrow as columns the friction from dissipation
 is the better one: traction depends on the flank under a single node."""
-RESAMPLES = 9999
 
 
 @dataclass(frozen=True)
@@ -107,7 +106,6 @@ class FiniteStrainPairs:
             lambda a, b, axis: a.mean(axis=axis) / b.mean(axis=axis),
             paired=True,
             confidence_level=0.6827,
-            n_resamples=RESAMPLES,
             method="percentile",
             rng=np.random.default_rng(seed),
         ).confidence_interval
@@ -151,6 +149,10 @@ def solve_both_ways(
 ) -> FiniteStrainPairs:
     """Return contact and friction of each line at finite strain and at small strain.
 
+    A line that did not converge, or whose mesh is too coarse for it, does not count in means and
+    corrections and says why. Raises `InputError` as `gripscale.solve_profile` and
+    `gripscale.solve_rough_contact` do.
+
     Parameters
     ----------
     rubber : Rubber
@@ -164,17 +166,6 @@ def solve_both_ways(
         Lines solved at a time, in threads; one per core by default.
     on_pair : callable, optional
         Called with each `Pair` as it is solved, in whatever order they come.
-
-    Returns
-    -------
-    FiniteStrainPairs
-        In the order of `lines`. A line that did not converge, or whose mesh is too coarse for it,
-        does not count in means and corrections and says why.
-
-    Raises
-    ------
-    InputError
-        As `gripscale.solve_profile` and `gripscale.solve_rough_contact` do.
     """
     lines = checks.instances("lines", lines, Profile)
 
@@ -201,17 +192,9 @@ def spread_windows(
 ) -> list[Profile]:
     """Return at most `most` windows of the profiles, each made `one_period`.
 
-    Parameters
-    ----------
-    profiles : sequence of Profile
-        Cut into `windows` of `length` [m]; the returned ones are spread evenly.
-    smallest_wavelength : float
-        Shorter waves are left out [m].
-
-    Raises
-    ------
-    InputError
-        As `windows` does, or if `most` is not a whole number from 1.
+    The profiles are cut into `windows` of `length` [m], the returned ones spread evenly; waves
+    shorter than `smallest_wavelength` [m] are left out. Raises `InputError` as `windows` does, or
+    if `most` is not a whole number from 1.
     """
     number = checks.whole("most", most, least=1, most=100_000)
     lines = checks.instances("profiles", profiles, Profile)

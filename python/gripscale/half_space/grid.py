@@ -52,18 +52,11 @@ SHORTEST = 4096
 
 @dataclass(frozen=True)
 class Grid:
-    """Equal steps along x, the sliding direction, and for a map along y.
-
-    Attributes
-    ----------
-    shape
-        Points along x, or along x and y.
-    lengths
-        Period along each [m].
-    """
+    """Equal steps along x, the sliding direction, and for a map along y."""
 
     shape: tuple[int, ...]
     lengths: tuple[float, ...]
+    """Period along each axis [m]."""
 
     @property
     def points(self) -> int:
@@ -122,14 +115,9 @@ class Grid:
 
 
 def resampled(spectrum: ComplexArray, shape: tuple[int, ...], onto: tuple[int, ...]) -> Array:
-    """Return the values at the points of another grid, exact for the waves both carry.
+    """Return the values at the points `onto` another grid, exact for the waves both carry.
 
-    Parameters
-    ----------
-    spectrum : array
-        `scipy.fft.rfftn` of values on a grid of `shape`.
-    onto : tuple of int
-        Points of the other grid; waves it does not resolve are left out.
+    `spectrum` is the `scipy.fft.rfftn` of values on a grid of `shape`.
     """
     kept = [min(old, new) for old, new in zip(shape, onto, strict=True)]
     out = np.zeros((*onto[:-1], onto[-1] // 2 + 1), dtype=np.complex128)
@@ -251,16 +239,20 @@ class PeriodicHeights:
         return mask
 
 
+def surface_axes(surface: Profile | HeightMap) -> list[Array]:
+    """Return the distances [m] along each axis; raise `InputError` for anything else."""
+    if isinstance(surface, Profile):
+        return [surface.x]
+    if isinstance(surface, HeightMap):
+        return [surface.x, surface.y]
+    raise InputError(f"surface must be a Profile or a HeightMap; got {type(surface).__name__}")
+
+
 def periodic_heights(
     surface: Profile | HeightMap, *, smallest_wavelength: float | None, periodic: bool
 ) -> PeriodicHeights:
     """Return the periodic heights of a surface; arguments and errors as `solve_rough_contact`."""
-    if isinstance(surface, Profile):
-        axes = [surface.x]
-    elif isinstance(surface, HeightMap):
-        axes = [surface.x, surface.y]
-    else:
-        raise InputError(f"surface must be a Profile or a HeightMap; got {type(surface).__name__}")
+    axes = surface_axes(surface)
     steps = [float((a[-1] - a[0]) / (a.size - 1)) for a in axes]
     grid = Grid(surface.z.shape, tuple(d * a.size for d, a in zip(steps, axes, strict=True)))
     z = filled(surface.z, tuple(steps), periodic=periodic)

@@ -13,7 +13,7 @@ import math
 import threading
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -30,12 +30,12 @@ from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import Extrapolation, of_sum
 from gripscale.surface import HeightMap, Profile, Surface, SurfacePart, isotropic_maps
 from gripscale.surface.isotropic_maps import seed_numbers
+from gripscale.surface.profile import profile_list
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from gripscale.model import Load
-    from gripscale.rubber import Rubber
+    from gripscale.model import Load, OnProgress
 
 
 QUANTITIES = ("contact_fraction", "friction_from_dissipation")
@@ -147,6 +147,8 @@ def map_over_lines(
     Multiply contact and friction of the measured line by the factors for a best estimate of the
     surface, if the maps' lines match the measured ones.
 
+    Raises `InputError` if an argument is out of its range.
+
     Parameters
     ----------
     rubber, pressure, speed
@@ -162,11 +164,6 @@ def map_over_lines(
         As for `solve_rough_contact`.
     on_map : callable, optional
         Called with the `MapContact` of each map as it is done.
-
-    Raises
-    ------
-    InputError
-        If an argument is out of its range.
     """
     load: dict[str, Any] = {
         "pressure": pressure,
@@ -182,24 +179,22 @@ def map_over_lines(
         seeds=chosen,
         on_batch=on_batch,
     )
+    options = {"lines": lines, "tolerance": tolerance, "workers": workers, **load}
     contacts = []
     for surface in drawn:
-        contacts.append(
-            solve_map_and_lines(
-                rubber, surface, lines=lines, tolerance=tolerance, workers=workers, **load
-            )
-        )
+        contacts.append(solve_map_and_lines(rubber, surface, **options))
         if on_map is not None:
             on_map(contacts[-1])
     if not contacts:
         raise InputError("seeds must be one whole number at least; got none")
     length = points * surface.step[0]
-    windows = [
-        contact
-        for line in ([profile] if isinstance(profile, Profile) else profile)
-        for contact in solve_windows(rubber, line, length, tolerance=tolerance, **load).contacts
-    ]
-    measured = WindowContacts(windows)
+    measured = WindowContacts(
+        [
+            contact
+            for line in profile_list(profile)
+            for contact in solve_windows(rubber, line, length, tolerance=tolerance, **load).contacts
+        ]
+    )
     return MapOverLines(construction, length, smallest_wavelength, measured, chosen, contacts)
 
 
@@ -214,19 +209,8 @@ def solve_map_and_lines(
 ) -> MapContact:
     """Return the contact of a map and of single lines of it, sliding along x and along y.
 
-    Parameters
-    ----------
-    rubber, **load
-        As for `solve_rough_contact`.
-    surface : HeightMap
-        One period, of equal points and steps each way.
-    lines, tolerance, workers
-        As for `map_over_lines`.
-
-    Raises
-    ------
-    InputError
-        If an argument is out of its range.
+    `surface` is one period, of equal points and steps each way. Further arguments are those of
+    `map_over_lines` and `solve_rough_contact`. Raises `InputError` if one is out of its range.
     """
     checks.instance("surface", surface, HeightMap)
     whole = solve_whole(rubber, surface, workers=workers, **load)
@@ -321,67 +305,45 @@ class SyntheticMap(model.Model):
     """Model by an isotropic map of all cleaned profiles, see `gripscale.surface.isotropic_maps`.
 
     The answer is the mean of sliding along x and along y.
-
-    Parameters
-    ----------
-    seed : int
-        Seed of the map.
-    smallest_wavelength : float
-        Smallest wave of the map [m]; its length is `points / 4` of them.
-    lines : int
-        Number of solved lines along each axis; 0 solves the map itself.
-    points, construction
-        See `gripscale.surface.isotropic_maps`.
-    tolerance : float
-        Estimated relative error of the lines; the map has four points in its smallest wave.
     """
 
     name: ClassVar[str] = "synthetic_map"
     needs: ClassVar[frozenset[SurfacePart]] = frozenset({"measurement"})
 
     seed: int
+    """Seed of the map."""
     smallest_wavelength: float
+    """Smallest wave of the map [m]; its length is `points / 4` of them."""
     lines: int = 0
+    """Number of solved lines along each axis; 0 solves the map itself."""
     points: int = 512
+    """See `gripscale.surface.isotropic_maps`."""
     construction: str = "lines"
+    """See `gripscale.surface.isotropic_maps`."""
     tolerance: float = 0.05
+    """Estimated relative error of the lines; the map has four points in its smallest wave."""
 
     def predict(
-        self,
-        rubber: Rubber,
-        surface: Surface,
-        load: Load,
-        *,
-        on_progress: Callable[[Any], None] | None = None,
+        self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
     ) -> xr.Dataset:
         """Return the answer; `on_progress` is called while the map is made.
 
-        Raises
-        ------
-        InputError
-            If the surface has no profiles a map can be made from.
+        Raises `InputError` if the surface has no profiles a map can be made from.
         """
         import xarray as xr
 
         if surface.measured is None or surface.measured.map is not None:
             raise InputError("a synthetic map is made from measured profiles; the surface has none")
-        heights = _map_of(
-            tuple(surface.measured.cleaned),
-            self.seed,
-            self.smallest_wavelength,
-            self.points,
-            self.construction,
-        ).heights(on_progress)
-        arguments: dict[str, Any] = {
-            "pressure": load.pressure,
-            "speed": load.speed,
-            "smallest_wavelength": self.smallest_wavelength,
-        }
+        smallest = self.smallest_wavelength
+        profiles = tuple(surface.measured.cleaned)
+        shared = _shared_map(profiles, self.seed, smallest, self.points, self.construction)
+        heights = shared.heights(on_progress)
+        solve = partial(solve_whole, workers=1)
         if self.lines:
-            arguments |= {"lines": self.lines, "tolerance": self.tolerance}
-            contact = solve_lines_of(rubber, heights, **arguments)
-        else:
-            contact = solve_whole(rubber, heights, workers=1, **arguments)
+            solve = partial(solve_lines_of, lines=self.lines, tolerance=self.tolerance)
+        contact = solve(
+            rubber, heights, pressure=load.pressure, speed=load.speed, smallest_wavelength=smallest
+        )
         totals = {name: contact.values[name.removeprefix("total_")] for name in model.TOTALS}
         data = xr.Dataset().assign_attrs(
             title="Contact of a synthetic isotropic map",
@@ -404,30 +366,26 @@ class _SharedMap:
     """A map that the first caller makes, while other threads wait."""
 
     profiles: tuple[Profile, ...]
-    options: dict[str, Any]
+    seed: int
+    smallest_wavelength: float
+    points: int
+    construction: str
     lock: threading.Lock = field(default_factory=threading.Lock)
     made: HeightMap | None = None
 
-    def heights(self, on_progress: Callable[[Any], None] | None) -> HeightMap:
-        def on_batch(seed: int, share: float) -> None:
-            if on_progress is not None:
-                on_progress(share)
-
+    def heights(self, on_progress: OnProgress) -> HeightMap:
         with self.lock:
             if self.made is None:
-                maps = isotropic_maps(list(self.profiles), on_batch=on_batch, **self.options)
+                maps = isotropic_maps(
+                    list(self.profiles),
+                    smallest_wavelength=self.smallest_wavelength,
+                    construction=self.construction,
+                    points=self.points,
+                    seeds=[self.seed],
+                    on_batch=on_progress and (lambda seed, share: on_progress(share)),
+                )
                 self.made = next(iter(maps))
             return self.made
 
 
-@lru_cache(maxsize=KEPT)
-def _map_of(
-    profiles: tuple[Profile, ...], seed: int, smallest: float, points: int, construction: str
-) -> _SharedMap:
-    options = {
-        "smallest_wavelength": smallest,
-        "points": points,
-        "construction": construction,
-        "seeds": [seed],
-    }
-    return _SharedMap(profiles, options)
+_shared_map = lru_cache(maxsize=KEPT)(_SharedMap)

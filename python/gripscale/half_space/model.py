@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -19,7 +18,7 @@ from gripscale.surface import Surface, SurfacePart
 if TYPE_CHECKING:
     import xarray as xr
 
-    from gripscale.model import Load
+    from gripscale.model import Load, OnProgress
     from gripscale.rubber import Rubber
 
 
@@ -34,13 +33,7 @@ class DirectContact(Checked, model.Model):
     smallest_wavelength : float, optional
         Shorter waves are left out [m]. By default the cut-off of the surface's sine waves or,
         without one, the last of them, so that chain and direct contact have the same roughness.
-    tolerance : float, optional
-        As in `solve_rough_contact`.
-    most_points : int
-        As in `solve_rough_contact`.
-    periodic : bool
-        As in `solve_rough_contact`.
-    conditions : Conditions, optional
+    tolerance, most_points, periodic, conditions
         As in `solve_rough_contact`.
     """
 
@@ -59,19 +52,11 @@ class DirectContact(Checked, model.Model):
         return replace(self, conditions=conditions)
 
     def predict(
-        self,
-        rubber: Rubber,
-        surface: Surface,
-        load: Load,
-        *,
-        on_progress: Callable[[Any], None] | None = None,
+        self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
     ) -> xr.Dataset:
         """Return the answer, with each profile over `profile`; `on_progress` gets each contact.
 
-        Raises
-        ------
-        InputError
-            If the surface was not measured: waves stated by hand have no profile.
+        Raises `InputError` if the surface was not measured: waves stated by hand have no profile.
         """
         import xarray as xr
 
@@ -102,9 +87,7 @@ class DirectContact(Checked, model.Model):
                 on_progress(contact)
 
         # patches and grids differ in number from profile to profile: only the contacts have them
-        parts = [
-            contact.to_dataset(fields=False).drop_dims(["patch", "grid"]) for contact in contacts
-        ]
+        parts = [c.to_dataset(fields=False).drop_dims(["patch", "grid"]) for c in contacts]
         lengths = [contact.grid.lengths[0] for contact in contacts]
         answer = model.answer_by_length(
             xr.concat(parts, dim="profile", join="outer", combine_attrs="override"),

@@ -34,24 +34,15 @@ AnyComplexArray = NDArray[np.complexfloating]
 
 @dataclass(frozen=True)
 class HalfSpace:
-    """Rubber that slides at a speed, by its response to the harmonics of a surface.
-
-    Parameters
-    ----------
-    rubber : Rubber
-        The half-space.
-    speed : float
-        Sliding speed [m/s]; zero is the relaxed rubber.
-    loss : float
-        Factor of the loss angle at unchanged |M|, 0 to 1; 1 is the rubber itself.
-    by_scale : RubberByScale, optional
-        The rubber at each scale under conditions.
-    """
+    """Rubber that slides at a speed, by its response to the harmonics of a surface."""
 
     rubber: Rubber
     speed: float
+    """[m/s]; zero is the relaxed rubber."""
     loss: float = 1.0
+    """Factor of the loss angle at unchanged |M|, 0 to 1; 1 is the rubber itself."""
     by_scale: RubberByScale | None = None
+    """The rubber at each scale under conditions."""
 
     def modulus(self, grid: Grid) -> ComplexArray:
         """Return M [Pa] at the wavenumbers of `grid`, broadcastable to its spectrum."""

@@ -22,6 +22,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from dataclasses import fields as fields_of
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -279,91 +280,75 @@ class RoughContact:
     @property
     def friction_by_wavelength(self) -> xr.Dataset:
         """Friction and contact fraction by octave of wavelength, see the module."""
-        return friction_by_octave(self)
+        number = np.broadcast_to(self.grid.wavenumber, self.grid.spectrum_shape).reshape(-1)[1:]
+        lost = self.lost_by_harmonic().reshape(-1)[1:]
+        # a wave of exactly the lower end belongs to the octave, rounding or not
+        octave = np.floor(np.log2(2.0 * np.pi / number / self.smallest_wavelength) + 1e-9)
+        order = np.arange(octave.max(), octave.min() - 1.0, -1.0)
+        friction = np.bincount((octave.max() - octave).astype(int), weights=lost)
+        fraction = np.full(order.size, np.nan)
+        for grid in self.grids:
+            index = round(float(octave.max() - np.log2(grid.cut_off / self.smallest_wavelength)))
+            if grid.settled and 0 <= index < order.size:
+                fraction[index] = grid.contact_fraction
+        columns = {
+            "friction": (friction, "1", "friction of the octave", SOURCE),
+            "running_friction": (np.cumsum(friction), "1", "friction down to the octave", SOURCE),
+            "contact_fraction": (fraction, "1", "contact fraction without shorter waves", SOURCE),
+            "wavelength": (
+                self.smallest_wavelength * 2.0**order,
+                "m",
+                "lower end of octave",
+                "input",
+            ),
+        }
+        data = {name: labelled("wavelength", *column) for name, column in columns.items()}
+        return xr.Dataset(data).set_coords("wavelength")
 
     def to_dataset(self, *, fields: bool = True) -> xr.Dataset:
         """Return everything as a labelled Dataset, with `fields` the arrays on the grid too."""
-        return contact_dataset(self, fields=fields)
+        data: dict[str, xr.Variable] = {}
 
+        def add(name: str, dims: Any, values: Any, unit: str, text: str) -> None:
+            data[name] = labelled(dims, values, unit, text, SOURCE)
 
-def friction_by_octave(contact: RoughContact) -> xr.Dataset:
-    """Return friction and contact fraction over `wavelength`, from long to short."""
-    number = np.broadcast_to(contact.grid.wavenumber, contact.grid.spectrum_shape).reshape(-1)[1:]
-    lost = contact.lost_by_harmonic().reshape(-1)[1:]
-    # a wave of exactly the lower end belongs to the octave, rounding or not
-    octave = np.floor(np.log2(2.0 * np.pi / number / contact.smallest_wavelength) + 1e-9)
-    order = np.arange(octave.max(), octave.min() - 1.0, -1.0)
-    friction = np.bincount((octave.max() - octave).astype(int), weights=lost)
-    fraction = np.full(order.size, np.nan)
-    for grid in contact.grids:
-        index = round(float(octave.max() - np.log2(grid.cut_off / contact.smallest_wavelength)))
-        if grid.settled and 0 <= index < order.size:
-            fraction[index] = grid.contact_fraction
-    wavelength = contact.smallest_wavelength * 2.0**order
-    return xr.Dataset(
-        {
-            "friction": labelled("wavelength", friction, "1", "friction of the octave", SOURCE),
-            "running_friction": labelled(
-                "wavelength", np.cumsum(friction), "1", "friction down to the octave", SOURCE
-            ),
-            "contact_fraction": labelled(
-                "wavelength", fraction, "1", "contact fraction without shorter waves", SOURCE
-            ),
-        },
-        coords={
-            "wavelength": labelled("wavelength", wavelength, "m", "lower end of octave", "input")
-        },
-    )
-
-
-def contact_dataset(contact: RoughContact, *, fields: bool) -> xr.Dataset:
-    """Return the numbers of `contact`, by octave and by grid, and its `fields` on the last grid."""
-    data = {
-        name: labelled((), float(getattr(contact, name)), unit, text, SOURCE)
-        for name, (unit, text) in NUMBERS.items()
-    }
-    for name, (part, text) in OUTSIDE_BAND.items():
-        data[name] = labelled((), getattr(contact.extrapolation, part), "1", text, SOURCE)
-    for name, (part, text) in CUT_OFF_EXPONENTS.items():
-        words = f"d ln({text})/d ln(cut-off)"
-        data[name] = labelled((), getattr(contact.cut_off_exponents, part), "1", words, SOURCE)
-    octaves = friction_by_octave(contact)
-    data |= {
-        "octave_friction": octaves["friction"].variable,
-        "octave_running_friction": octaves["running_friction"].variable,
-        "contact_fraction_without_shorter": octaves["contact_fraction"].variable,
-    }
-    for name in (entry.name for entry in fields_of(GridRecord)):
-        values = [float(getattr(grid, name)) for grid in contact.grids]
-        data[f"grid_{name}"] = labelled("grid", values, "1", f"{name} on each grid", SOURCE)
-    data["contact_pressure"] = labelled(
-        "share", contact.pressure_quantiles(SHARES), "Pa", "not exceeded on the share", SOURCE
-    )
-    data["patch_size"] = labelled(
-        "patch", contact.patches, "m" if contact.height.ndim == 1 else "m2", "patches", SOURCE
-    )
-    if fields:
-        axes = ("x", "y")[: contact.height.ndim]
-        data |= {axis: labelled(axis, getattr(contact, axis), "m", axis, SOURCE) for axis in axes}
-        for name, unit, text in (
-            ("height", "m", "height of the surface as solved"),
-            ("pressure", "Pa", "contact pressure"),
-            ("gap", "m", "gap between rubber and surface"),
-        ):
-            data[name] = labelled(axes, getattr(contact, name), unit, text, SOURCE)
-    for name, value in contact.residuals.items():
-        data[f"residual_{name}"] = labelled((), value, "1", f"residual of the {name}", SOURCE)
-    data["status"] = labelled((), np.array(str(contact.status), dtype=object), "1", "", SOURCE)
-    return xr.Dataset(
-        data,
-        coords={"share": list(SHARES), "wavelength": octaves["wavelength"].variable},
-        attrs={
-            "title": "Direct contact of rubber with a whole rough surface",
-            "rubber": f"{contact.rubber.name}; {contact.rubber.source}".strip("; "),
-            "rubber_parameters": json.dumps(contact.rubber.to_dict()),
-            "nominal_pressure": contact.nominal_pressure,
-            "speed": contact.speed,
-            "notes": " ".join(contact.notes),
-            **provenance.attributes(),
-        },
-    )
+        for name, (unit, text) in NUMBERS.items():
+            add(name, (), float(getattr(self, name)), unit, text)
+        for name, (part, text) in OUTSIDE_BAND.items():
+            add(name, (), getattr(self.extrapolation, part), "1", text)
+        for name, (part, text) in CUT_OFF_EXPONENTS.items():
+            words = f"d ln({text})/d ln(cut-off)"
+            add(name, (), getattr(self.cut_off_exponents, part), "1", words)
+        octaves = self.friction_by_wavelength
+        data["octave_friction"] = octaves["friction"].variable
+        data["octave_running_friction"] = octaves["running_friction"].variable
+        data["contact_fraction_without_shorter"] = octaves["contact_fraction"].variable
+        for name in (entry.name for entry in fields_of(GridRecord)):
+            values = [float(getattr(grid, name)) for grid in self.grids]
+            add(f"grid_{name}", "grid", values, "1", f"{name} on each grid")
+        pressures = self.pressure_quantiles(SHARES)
+        add("contact_pressure", "share", pressures, "Pa", "not exceeded on the share")
+        axes = ("x", "y")[: self.height.ndim]
+        add("patch_size", "patch", self.patches, "m" if len(axes) == 1 else "m2", "patches")
+        if fields:
+            for axis in axes:
+                add(axis, axis, getattr(self, axis), "m", axis)
+            add("height", axes, self.height, "m", "height of the surface as solved")
+            add("pressure", axes, self.pressure, "Pa", "contact pressure")
+            add("gap", axes, self.gap, "m", "gap between rubber and surface")
+        for name, value in self.residuals.items():
+            add(f"residual_{name}", (), value, "1", f"residual of the {name}")
+        add("status", (), np.array(str(self.status), dtype=object), "1", "")
+        return xr.Dataset(
+            data,
+            coords={"share": list(SHARES), "wavelength": octaves["wavelength"].variable},
+            attrs={
+                "title": "Direct contact of rubber with a whole rough surface",
+                "rubber": f"{self.rubber.name}; {self.rubber.source}".strip("; "),
+                "rubber_parameters": json.dumps(self.rubber.to_dict()),
+                "nominal_pressure": self.nominal_pressure,
+                "speed": self.speed,
+                "notes": " ".join(self.notes),
+                **provenance.attributes(),
+            },
+        )

@@ -64,6 +64,8 @@ def solve_rough_contact(
 ) -> RoughContact:
     """Return contact and friction of a whole surface: small strain, frictionless contact.
 
+    A `status` other than "converged" says why not to trust the numbers.
+
     Parameters
     ----------
     rubber : Rubber
@@ -106,11 +108,6 @@ def solve_rough_contact(
         the contact, beyond its `valid_band`. The share of the friction from beyond the band is in
         `extrapolation` of the result.
 
-    Returns
-    -------
-    RoughContact
-        A `status` other than "converged" says why not to trust the numbers.
-
     Raises
     ------
     ExtrapolationError
@@ -128,9 +125,7 @@ def solve_rough_contact(
     if body.speed == 0.0:
         require_load_bearing(rubber, load, math.inf)
     heights = periodic_heights(
-        surface,
-        smallest_wavelength=smallest_wavelength,
-        periodic=checks.flag("periodic", periodic),
+        surface, smallest_wavelength=smallest_wavelength, periodic=checks.flag("periodic", periodic)
     )
     if checks.one_of("extrapolate", extrapolate, CHOICES) == "refuse":
         require_measured(solid, heights.smallest_wavelength, body.speed)
@@ -181,10 +176,7 @@ def relative_tolerance(name: str, value: float | None) -> float | None:
 
 
 def _solve_sequence(
-    sequence: GridSequence,
-    most: int,
-    goal: float,
-    on_grid: Callable[[GridRecord], None] | None,
+    sequence: GridSequence, most: int, goal: float, on_grid: Callable[[GridRecord], None] | None
 ) -> GridSequenceResult:
     """Return the contact with one rubber, on grids refined until the errors meet `goal`."""
     body, heights, load = sequence.body, sequence.heights, sequence.pressure

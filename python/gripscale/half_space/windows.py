@@ -18,7 +18,7 @@ from scipy import stats
 from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
-from gripscale.half_space.grid import DEFAULT_STEPS, joined, periodic_heights
+from gripscale.half_space.grid import DEFAULT_STEPS, joined, periodic_heights, surface_axes
 from gripscale.half_space.result import RoughContact
 from gripscale.half_space.solve import solve_rough_contact
 from gripscale.rubber import Rubber
@@ -68,32 +68,15 @@ class WindowContacts:
         """Return the interval of the mean by a block bootstrap, the windows being the blocks.
 
         Percentiles of 9999 resamples (B. Efron & R. Tibshirani, An Introduction to the Bootstrap,
-        1993, ch. 13); NaN for fewer than three windows. Too narrow if windows are shorter than the
-        surface's longest correlation, or few.
-
-        Parameters
-        ----------
-        name : str
-            The number.
-        level : float
-            Confidence level, between 0 and 1.
-        seed : int
-            Seed of the resamples.
-
-        Returns
-        -------
-        tuple of two floats
-            Its lower and upper end.
+        1993, ch. 13), `level` being between 0 and 1; NaN for fewer than three windows. Too narrow
+        if windows are shorter than the surface's longest correlation, or few.
         """
         values = self.values(name)
         if values.size < 3:
             return math.nan, math.nan
+        random = np.random.default_rng(seed)
         interval = stats.bootstrap(
-            (values,),
-            np.mean,
-            confidence_level=level,
-            method="percentile",
-            rng=np.random.default_rng(seed),
+            (values,), np.mean, confidence_level=level, method="percentile", rng=random
         ).confidence_interval
         return float(interval.low), float(interval.high)
 
@@ -105,6 +88,9 @@ def windows(
 
     Windows with fewer than half their heights are left out.
 
+    Raises `InputError` if a window would have fewer than 16 points along an axis or be longer than
+    the surface, or if no window has half of its heights.
+
     Parameters
     ----------
     surface : Profile or HeightMap
@@ -112,21 +98,13 @@ def windows(
     length : float or (float, float)
         Length of the windows along x, and for a map along y [m]. With one length the windows of a
         map are as wide as the map.
-
-    Raises
-    ------
-    InputError
-        If a window would have fewer than 16 points along an axis or be longer than the surface, or
-        if no window has half of its heights.
     """
     lengths = tuple(length) if isinstance(length, tuple | list) else (length,)
-    if not isinstance(surface, Profile | HeightMap):
-        raise InputError(f"surface must be a Profile or a HeightMap; got {type(surface).__name__}")
+    axes = surface_axes(surface)
     if not 1 <= len(lengths) <= surface.z.ndim:
         raise InputError(
             f"length must be one of a profile, one or two of a map; got {checks.short_repr(length)}"
         )
-    axes = [surface.x] if isinstance(surface, Profile) else [surface.x, surface.y]
     cuts = []
     for axis, part in zip(axes, lengths, strict=False):
         step = float((axis[-1] - axis[0]) / (axis.size - 1))
@@ -156,24 +134,11 @@ def windows(
 
 
 def solve_windows(
-    rubber: Rubber,
-    surface: Profile | HeightMap,
-    length: float | tuple[float, float],
-    **load: Any,
+    rubber: Rubber, surface: Profile | HeightMap, length: float | tuple[float, float], **load: Any
 ) -> WindowContacts:
     """Return the direct contact of each of the `windows` of `surface`.
 
-    Parameters
-    ----------
-    rubber, **load
-        As for `solve_rough_contact`, without `periodic`.
-    surface, length
-        As for `windows`.
-
-    Raises
-    ------
-    InputError
-        As these do.
+    Arguments and errors are those of `windows` and of `solve_rough_contact`, without `periodic`.
     """
     return WindowContacts(
         [solve_rough_contact(rubber, window, **load) for window in windows(surface, length)]
@@ -186,10 +151,7 @@ def one_period(line: Profile, smallest_wavelength: float | None = None) -> Profi
     Missing heights are filled, ends joined, and waves shorter than `smallest_wavelength` [m], by
     default four steps, left out. The smallest wave has four points.
 
-    Raises
-    ------
-    InputError
-        As `solve_rough_contact` does for its surface.
+    Raises `InputError` as `solve_rough_contact` does for its surface.
     """
     checks.instance("line", line, Profile)
     heights = periodic_heights(line, smallest_wavelength=smallest_wavelength, periodic=False)
@@ -203,6 +165,9 @@ def one_period(line: Profile, smallest_wavelength: float | None = None) -> Profi
 def surface_of_sines(stack: SineStack, length: float, seed: int) -> Profile:
     """Return a periodic line of superposed sine waves, each with a random phase.
 
+    Raises `InputError` if an argument is out of its range, or there would be more than ten million
+    points.
+
     Parameters
     ----------
     stack : SineStack
@@ -212,11 +177,6 @@ def surface_of_sines(stack: SineStack, length: float, seed: int) -> Profile:
         Period [m], at least the largest wavelength.
     seed : int
         Seed of the random phases.
-
-    Raises
-    ------
-    InputError
-        If an argument is out of its range, or there would be more than ten million points.
     """
     checks.instance("stack", stack, SineStack)
     period = checks.positive("length", length, unit="m")
@@ -249,14 +209,10 @@ def random_phases(surface: Measurement, seed: int) -> Measurement:
     heights are not. Steep lines that bridge gaps are part of the spectrum: where steep flanks are
     missing, the surface is rougher than the pairs of measured heights.
 
-    Raises
-    ------
-    InputError
-        If `seed` is not a whole number that is not negative.
+    Raises `InputError` if `seed` is not a whole number that is not negative.
     """
     random = np.random.default_rng(checks.whole("seed", seed, least=0, most=2**32 - 1))
-    if not isinstance(surface, Profile | HeightMap):
-        raise InputError(f"surface must be a Profile or a HeightMap; got {type(surface).__name__}")
+    surface_axes(surface)
     steps = surface.step if isinstance(surface, HeightMap) else ()
     z = joined(filled(surface.z, steps))
     spectrum = scipy.fft.rfftn(random.standard_normal(z.shape))  # phases of a real surface

@@ -98,46 +98,34 @@ def on_page(text: str) -> str:
 
 @dataclass(frozen=True)
 class Column:
-    """One column of a table.
-
-    Parameters
-    ----------
-    name
-        Its name in files, good for a program.
-    values
-        Numbers in SI units or texts, one a row; NaN or None where missing. Of shape (rows, 2) the
-        two ends of a range.
-    heading, unit
-        Printed above it; `name` without a heading.
-    size, zero
-        Size of the unit in SI units, and where it begins to count.
-    format
-        Text of a number in this unit.
-    group
-        Printed above the headings of neighbouring columns of the same group; a table that is too
-        wide for the terminal is divided between groups.
-    marks
-        Text behind the number of each row, such as "*".
-    bad
-        Flags of rows whose number must not be trusted.
-    words
-        Whether it is set as text: to the left, wrapped; by default if it holds texts.
-    joint
-        Between the two ends of a range.
-    """
+    """One column of a table."""
 
     name: str
+    """Its name in files, good for a program."""
     values: Any = ()
+    """Numbers in SI units or texts, one a row; NaN or None where missing. Of shape (rows, 2) the
+    two ends of a range."""
     heading: str | None = None
+    """Printed above it; `name` without a heading."""
     unit: str = ""
+    """Printed below the heading."""
     size: float = 1.0
+    """Of the unit, in SI units."""
     zero: float = 0.0
+    """Where the unit begins to count, in SI units."""
     format: Callable[[float], str] = significant
+    """Text of a number in this unit."""
     group: str = ""
+    """Printed above the headings of neighbouring columns of the same group; a table that is too
+    wide for the terminal is divided between groups."""
     marks: Sequence[str] = ()
+    """Text behind the number of each row, such as "*"."""
     bad: Flags = ()
+    """Flags of rows whose number must not be trusted."""
     words: bool | None = None
+    """Whether it is set as text: to the left, wrapped; by default if it holds texts."""
     joint: str = " to "
+    """Between the two ends of a range."""
 
     def of(self, values: Any, **changes: Any) -> Column:
         """Return this column with `values`, and further fields changed."""
@@ -203,36 +191,24 @@ class Column:
 
 @dataclass(frozen=True)
 class Table:
-    """A table whose first column names its rows.
-
-    Parameters
-    ----------
-    name
-        Good for a file, a sheet or an anchor.
-    columns
-        All of the same length.
-    caption
-        One line above it.
-    notes
-        Sentences below it.
-    keys
-        Leading columns that every part of a table divided for the terminal begins with.
-    bad
-        Flags of rows that must not be trusted.
-    strong
-        Rows that are emphasised.
-    rules
-        Rows with a line below them.
-    """
+    """A table whose first column names its rows."""
 
     name: str
+    """Good for a file, a sheet or an anchor."""
     columns: Sequence[Column]
+    """All of the same length."""
     caption: str = ""
+    """One line above it."""
     notes: Sequence[str] = ()
+    """Sentences below it."""
     keys: int = 1
+    """Leading columns that every part of a table divided for the terminal begins with."""
     bad: Flags = ()
+    """Flags of rows that must not be trusted."""
     strong: Collection[int] = ()
+    """Rows that are emphasised."""
     rules: Collection[int] = ()
+    """Rows with a line below them."""
     kind: ClassVar[str] = "table"
 
     def __len__(self) -> int:
@@ -453,14 +429,8 @@ def write_workbook(tables: Sequence[Table], path: Path) -> Path:
     """Write tables as the sheets of an xlsx file; return its path.
 
     Missing values are empty cells, infinite ones texts; texts longer than a cell are cut and say
-    so.
-
-    Raises
-    ------
-    InputError
-        If a table has more rows than a sheet.
-    FileError
-        If openpyxl is missing (`pip install 'gripscale[export]'`) or the file cannot be written.
+    so. Raises `InputError` if a table has more rows than a sheet, `FileError` if openpyxl is
+    missing (`pip install 'gripscale[export]'`) or the file cannot be written.
     """
     openpyxl = import_openpyxl(path)
     cell_of = import_module("openpyxl.cell").WriteOnlyCell

@@ -10,8 +10,6 @@
 - Empty cells, nan, n/a, - and the like are missing values.
 - The last line above the rows that names as many columns holds the titles. A unit stands in
   brackets, behind a slash or a blank, or in a line of units.
-
-The file has the cells of a line, the sheets of an Excel file, the table, and the text of a file.
 """
 
 from __future__ import annotations
@@ -140,14 +138,9 @@ def read_sheets(path: Path) -> dict[str, Rows]:
 def sheet_lines(path: Path, sheet: str | int | None) -> list[Line]:
     """Return a sheet as lines whose cells are parted by tabs, without its empty columns.
 
-    Without a `sheet`, by name or number from 1, the one that holds rows of numbers.
-
-    Raises
-    ------
-    FileError
-        As `read_sheets` does.
-    InputError
-        If there is no such sheet, or several hold rows of numbers and none is named.
+    Without a `sheet`, by name or number from 1, the one that holds rows of numbers. Raises
+    `FileError` as `read_sheets` does, `InputError` if there is no such sheet, or several hold rows
+    of numbers and none is named.
     """
     sheets = {}
     for name, rows in read_sheets(path).items():
@@ -275,27 +268,13 @@ def read_table(
 ) -> TextTable:
     """Read the rows of a text or Excel file and the titles above them.
 
-    Parameters
-    ----------
-    path : pathlib.Path
-        The file.
-    expected : str
-        Content of the rows, for messages.
-    kinds : collection of str
-        Kinds of units (see `gripscale.core.units`) the titles may name.
-    named : callable
-        Whether a text is the name of a column. A line with such a name, or with a unit of these
-        kinds, holds the titles.
-    sheet : str or int, optional
-        Name of the Excel sheet or its number from 1, where several hold numbers.
+    `expected` is the content of the rows, for messages. A line with a unit of one of the `kinds` of
+    `gripscale.core.units`, or a name of a column by `named`, holds the titles. `sheet` is the name
+    of the Excel sheet or its number from 1, where several hold numbers.
 
-    Raises
-    ------
-    FileError
-        If the file cannot be read, is not text or has no rows; if a row has another number of
-        cells than the first; if the decimal sign changes. The message names path and line.
-    InputError
-        If `sheet` is missing or is not in the file.
+    Raises `FileError`, which names path and line, if the file cannot be read, is not text or has no
+    rows, a row has another number of cells than the first, or the decimal sign changes;
+    `InputError` if `sheet` is missing or is not in the file.
     """
     return table_in(path, read_lines(path, sheet=sheet), expected, kinds=kinds, named=named)
 
@@ -352,8 +331,7 @@ def table_in(
     above = [line for _, line in lines[:first]]
     # separators at the ends of all lines make empty columns
     full = slice(
-        0 if any(row[0] for row in rows) else 1,
-        count - (0 if any(row[-1] for row in rows) else 1),
+        0 if any(row[0] for row in rows) else 1, count - (0 if any(row[-1] for row in rows) else 1)
     )
     columns = _columns(above, count, kinds, named)[full]
     rows = [row[full] for row in rows]

@@ -1,7 +1,6 @@
 """Cleaning of measured profiles and maps: crop, dropouts, borders, spikes, trend or form.
 
 Each step is reported. Missing heights stay missing: statistics skip them, nothing is interpolated.
-The file has the report, the steps of a profile, the steps of a map, and what both share.
 """
 
 from __future__ import annotations
@@ -87,6 +86,9 @@ def clean(
 ) -> tuple[Profile, CleaningReport]:
     """Crop a profile, mark dropouts and spikes as missing, and take out its trend.
 
+    Returns the cleaned profile and the effect of each step. Raises `InputError` if an argument is
+    wrong, or a step leaves too few points or heights.
+
     Parameters
     ----------
     profile : Profile
@@ -103,18 +105,6 @@ def clean(
         Hold the points on both sides of a gap to the same slope as well, see `mark_spikes`.
     detrend : {"linear", "mean", "none"}, optional
         Trend to subtract, fitted to the valid heights.
-
-    Returns
-    -------
-    Profile
-        The cleaned profile.
-    CleaningReport
-        The effect of each step.
-
-    Raises
-    ------
-    InputError
-        If an argument is wrong, or a step leaves too few points or heights.
     """
     checks.instance("profile", profile, Profile)
     steps: list[Callable[[Profile], tuple[Profile, StepReport]]] = []
@@ -156,45 +146,23 @@ def mark_spikes(
     C_z(m l) <= m^2 C_z(l), which the standard's rule alone can break), but also wears away true
     steep flanks, so it is a choice.
 
-    Parameters
-    ----------
-    profile : Profile
-        The profile.
-    slope : float, optional
-        Largest height change per distance that is still a surface.
-    across_gaps : bool, optional
-        Hold points on both sides of a gap to the rule as well.
-
-    Raises
-    ------
-    InputError
-        If `slope` is not above zero, or all heights would become missing.
+    Raises `InputError` if `slope` is not above zero, or all heights would become missing.
     """
     limit = checks.positive("spike_slope", slope) * profile.step
-    z = profile.z.copy()
-    passes = 1
-    checks.flag("across_gaps", across_gaps)
-    spikes = _spikes(z, limit, across_gaps)
-    while spikes.size:
-        z[spikes] = np.nan
-        if not across_gaps:
-            break
-        spikes = _spikes(z, limit, across_gaps)
-        passes += 1
+    repeated = checks.flag("across_gaps", across_gaps)
+    z, passes, marked = profile.z.copy(), 0, True
+    while marked:
+        valid = np.flatnonzero(np.isfinite(z))
+        distance = np.diff(valid)
+        steep = np.abs(np.diff(z[valid])) >= limit * distance
+        if not repeated:
+            steep &= distance == 1
+        z[valid[:-1][steep]] = z[valid[1:][steep]] = np.nan
+        passes, marked = passes + 1, repeated and bool(steep.any())
     note = f"height change per step >= {slope:g}"
-    if across_gaps:
+    if repeated:
         note += f", across gaps, {passes} passes"
     return _without_spikes(profile, z, slope, note)
-
-
-def _spikes(z: Array, limit: float, across_gaps: bool) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
-    """Return the indices of both points of every pair that is too steep."""
-    valid = np.flatnonzero(np.isfinite(z))
-    distance = np.diff(valid)
-    steep = np.abs(np.diff(z[valid])) >= limit * distance
-    if not across_gaps:
-        steep &= distance == 1
-    return np.unique(np.concatenate((valid[:-1][steep], valid[1:][steep])))
 
 
 def subtract_trend(profile: Profile, kind: str = "linear") -> tuple[Profile, StepReport]:
@@ -227,6 +195,9 @@ def clean_map(
 ) -> tuple[HeightMap, CleaningReport]:
     """Crop a map, mark dropouts and spikes as missing, cut off bare borders, take out the form.
 
+    Returns the cleaned map and the effect of each step. Raises `InputError` if an argument is
+    wrong, or a step leaves too few points or heights.
+
     Parameters
     ----------
     surface : HeightMap
@@ -244,18 +215,6 @@ def clean_map(
     form : int, optional
         Order of the polynomial to subtract: 0 the mean, 1 a plane, 2 a paraboloid (as a shallow
         sphere or cylinder is) and so on to 8; None keeps the form.
-
-    Returns
-    -------
-    HeightMap
-        The cleaned map.
-    CleaningReport
-        The effect of each step, in numbers of points.
-
-    Raises
-    ------
-    InputError
-        If an argument is wrong, or a step leaves too few points or heights.
     """
     checks.instance("surface", surface, HeightMap)
     steps: list[Callable[[HeightMap], tuple[HeightMap, StepReport]]] = []
@@ -296,10 +255,7 @@ def crop_map(
 def trim_map(surface: HeightMap, share: float = 0.5) -> tuple[HeightMap, StepReport]:
     """Cut off border lines with more than a share of missing heights, the barest line first.
 
-    Raises
-    ------
-    InputError
-        If `share` is not from 0 to 1, or fewer than 16 points a way would be left.
+    Raises `InputError` if `share` is not from 0 to 1, or fewer than 16 points a way would be left.
     """
     most = checks.not_negative("trim", share)
     if most > 1.0:
@@ -332,17 +288,7 @@ def mark_map_spikes(surface: HeightMap, *, slope: float = 3.0) -> tuple[HeightMa
     own side, so that stones keep their edges, and a spike of up to two by two points is marked. All
     points are tested in one pass.
 
-    Parameters
-    ----------
-    surface : HeightMap
-        The map.
-    slope : float, optional
-        Height over the neighbours, per step, at which a point is a spike.
-
-    Raises
-    ------
-    InputError
-        If `slope` is not above zero, or all heights would become missing.
+    Raises `InputError` if `slope` is not above zero, or all heights would become missing.
     """
     limit = checks.positive("spike_slope", slope) * max(surface.step)
     nx, ny = surface.z.shape
@@ -368,10 +314,7 @@ def subtract_form(surface: HeightMap, order: int = 1) -> tuple[HeightMap, StepRe
     The F-operation of ISO 25178-2 with a polynomial sum of a_mn P_m(x) P_n(y), m + n <= order,
     in Legendre polynomials over the map, which keep the equations well conditioned.
 
-    Raises
-    ------
-    InputError
-        If `order` is not from 0 to 8, or there are fewer heights than coefficients.
+    Raises `InputError` if `order` is not from 0 to 8, or there are fewer heights than coefficients.
     """
     highest = checks.whole("form", order, least=0, most=HIGHEST_ORDER)
     terms = [(m, n) for m in range(highest + 1) for n in range(highest + 1 - m)]

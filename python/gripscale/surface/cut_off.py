@@ -110,18 +110,15 @@ class SlopeByWavelength:
     def down_to(self, wavelength: float, of: str = "surface") -> float:
         """Return the rms slope [-] of the waves not shorter than `wavelength` [m].
 
+        NaN for a surface whose spectrum the lines do not determine, and beyond a measurement whose
+        spectrum does not end as a power law.
+
         Parameters
         ----------
         wavelength : float
             Shorter than `resolution_limit`, the slope is continued as a power law.
         of : str
             "surface" for the rms length of the gradient, "profile" for the slope along lines.
-
-        Returns
-        -------
-        float
-            NaN for a surface whose spectrum the lines do not determine, and beyond a measurement
-            whose spectrum does not end as a power law.
         """
         length = checks.positive("wavelength", wavelength, unit="m")
         checks.one_of("of", of, DEFINITIONS)
@@ -215,10 +212,12 @@ class SlopeByWavelength:
         return spectrum.rms_gradient(length if number < spectrum.wavenumber[-1] else None)
 
 
-def slope_by_wavelength(
-    surface: Profile | Sequence[Profile] | HeightMap,
-) -> SlopeByWavelength:
+def slope_by_wavelength(surface: Profile | Sequence[Profile] | HeightMap) -> SlopeByWavelength:
     """Return the rms slope of a measured surface down to each wavelength.
+
+    They reach down to four steps of the measurement, or to the shortest wavelength that the
+    instrument measures reliably if that is known and longer. Raises `InputError` if `surface` is
+    something else, or the steps of its profiles differ.
 
     Parameters
     ----------
@@ -226,17 +225,6 @@ def slope_by_wavelength(
         As cleaned. Several profiles must have the same step (within 0.1 %). Missing heights are
         interpolated. Profiles are taken as lines on an isotropic surface; of a map the gradient is
         measured, and its lines along x are the profiles.
-
-    Returns
-    -------
-    SlopeByWavelength
-        Down to four steps of the measurement, or to the shortest wavelength that the instrument
-        measures reliably if that is known and longer.
-
-    Raises
-    ------
-    InputError
-        If `surface` is something else, or the steps of its profiles differ.
     """
     if isinstance(surface, HeightMap):
         x_step, y_step = surface.step
@@ -270,26 +258,17 @@ MOST_CONTINUED = 100.0
 class RmsSlope(Checked):
     """The rule that the roughness ends where its rms slope adds up to a value.
 
-    Parameters
-    ----------
-    rms_slope : float
-        The value [-], above zero.
-    of : str
-        "surface": of the isotropic surface, the rms length of its gradient. "profile": of the slope
-        along a line, which is smaller by about sqrt(2).
-    extrapolate : bool
-        Whether the spectrum is continued as a power law, two decades at most, if the measurement
-        does not reach the value. The result then rests on waves that were not measured.
-
-    Raises
-    ------
-    InputError
-        If a value cannot be used.
+    Raises `InputError` if a value cannot be used.
     """
 
     rms_slope: float = checked(checks.positive)
+    """The value [-], above zero."""
     of: str = checked(checks.one_of, choices=DEFINITIONS, default="surface")
+    """"surface": of the isotropic surface, the rms length of its gradient. "profile": of the slope
+    along a line, which is smaller by about sqrt(2)."""
     extrapolate: bool = checked(checks.flag, default=False)
+    """Whether the spectrum is continued as a power law, two decades at most, if the measurement
+    does not reach the value. The result then rests on waves that were not measured."""
 
     def __str__(self) -> str:
         return f"rms slope {self.rms_slope:g} of the {self.of}"
@@ -301,26 +280,19 @@ CutOffRule = float | Literal["instrument"] | RmsSlope
 
 @dataclass(frozen=True)
 class CutOff:
-    """The cut-off of a measured surface, its rule and the slopes down to it.
-
-    Attributes
-    ----------
-    wavelength
-        Shortest wavelength that counts [m].
-    rule
-        The rule, in words.
-    surface_slope, profile_slope
-        Rms slope down to it [-]: length of the surface's gradient, and along a line. NaN where the
-        measurement does not determine it; continued as a power law if `beyond_measurement`.
-    resolution_limit
-        Shortest wavelength that the measurement resolves [m].
-    """
+    """The cut-off of a measured surface, its rule and the slopes down to it."""
 
     wavelength: float
+    """Shortest wavelength that counts [m]."""
     rule: str
+    """The rule, in words."""
     surface_slope: float
+    """Rms length of the surface's gradient down to it [-]. NaN where the measurement does not
+    determine it; continued as a power law if `beyond_measurement`."""
     profile_slope: float
+    """Rms slope along a line down to it [-], likewise."""
     resolution_limit: float
+    """Shortest wavelength that the measurement resolves [m]."""
 
     @property
     def beyond_measurement(self) -> bool:
@@ -346,6 +318,10 @@ def find_cut_off(
 ) -> CutOff:
     """Return where the roughness of a measured surface ends by a rule.
 
+    Raises `InputError` if the rule is none of these, or the measurement does not reach the slope:
+    the message says which it reaches, and where. Continued as a power law, if it is still not
+    reached two decades below the measurement, or the spectrum does not end as a power law.
+
     Parameters
     ----------
     surface : Profile, sequence of Profile, HeightMap or SlopeByWavelength
@@ -353,18 +329,6 @@ def find_cut_off(
     rule : float, "instrument" or RmsSlope
         A length [m]; the shortest wavelength that the measurement resolves; or the wavelength at
         which the rms slope adds up to a value.
-
-    Returns
-    -------
-    CutOff
-        The wavelength, the slopes down to it, and whether it lies beyond the measurement.
-
-    Raises
-    ------
-    InputError
-        If the rule is none of these, or the measurement does not reach the slope: the message says
-        which it reaches, and where. Continued as a power law, if it is still not reached two
-        decades below the measurement, or the spectrum does not end as a power law.
     """
     slopes = surface if isinstance(surface, SlopeByWavelength) else slope_by_wavelength(surface)
     limit = slopes.resolution_limit
@@ -382,17 +346,9 @@ def find_cut_off(
 def cut_off_rule(value: Any) -> CutOffRule:
     """Return the rule that a case file or a command line states.
 
-    Parameters
-    ----------
-    value : str, float, mapping or rule
-        A length such as "0.1 mm" or in m, "instrument", { rms_slope = 1.3, of = "surface",
-        extrapolate = false }, or that in words: "rms_slope 1.3", "rms_slope 1.3 of profile",
-        "rms_slope 1.3 of surface extrapolate".
-
-    Raises
-    ------
-    ValueError
-        With what was expected; the caller adds the place.
+    `value` is a length such as "0.1 mm" or in m, "instrument", { rms_slope = 1.3, of = "surface",
+    extrapolate = false }, or that in words: "rms_slope 1.3 of surface extrapolate". Raises
+    `ValueError` with what was expected; the caller adds the place.
     """
     if value == INSTRUMENT or isinstance(value, RmsSlope):
         return value  # type: ignore[no-any-return]

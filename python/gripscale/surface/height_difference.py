@@ -45,12 +45,11 @@ FEWEST_PAIRS = 16
 """Pairs a lag must have to be kept."""
 
 
-def _counts(name: str, value: Any) -> NDArray[np.int64]:
-    return np.array(value, dtype=np.int64)
-
-
 class HeightDifference(Checked, eq=False):
     """Mean squared height difference against lag.
+
+    Raises `InputError` if the lengths differ, lags do not increase from above zero, or a value is
+    negative.
 
     Parameters
     ----------
@@ -64,16 +63,11 @@ class HeightDifference(Checked, eq=False):
         Band of 95 % nominal confidence [m^2]; NaN if not known.
     resolution_limit : float, optional
         Shortest wavelength [m] that the measurement behind the curve resolves, if known.
-
-    Raises
-    ------
-    InputError
-        If the lengths differ, lags do not increase from above zero, or a value is negative.
     """
 
     lag: Array = checked(checks.increasing_vector, unit="m")
     value: Array = checked(checks.not_negative_vector, unit="m^2")
-    pairs: NDArray[np.int64] = checked(_counts, default=None)
+    pairs: NDArray[np.int64] = checked(lambda _, value: np.array(value, np.int64), default=None)
     lower: Array = checked(checks.vector, unit="m^2", missing=True, default=None)
     upper: Array = checked(checks.vector, unit="m^2", missing=True, default=None)
     resolution_limit: float | None = checked(checks.positive, unit="m", default=None)
@@ -137,6 +131,10 @@ def height_difference(
     neighbouring blocks share heights. Of more profiles than blocks, such as the lines of a map, as
     many neighbours as there are to each block go together: lines side by side are not independent.
 
+    Lags have at least 16 pairs. The band is NaN where the blocks do not determine it. Raises
+    `InputError` if the steps differ, `top_height_fraction` is not above 0 and at most 1, `max_lag`
+    is below one step or beyond a profile, or no lag has pairs.
+
     Parameters
     ----------
     profile : Profile or sequence of Profile
@@ -150,17 +148,6 @@ def height_difference(
         Lags per decade, where the step allows as many.
     band_blocks : int, optional
         Blocks in all for the confidence band.
-
-    Returns
-    -------
-    HeightDifference
-        Lags with at least 16 pairs. The band is NaN where the blocks do not determine it.
-
-    Raises
-    ------
-    InputError
-        If the steps differ, `top_height_fraction` is not above 0 and at most 1, `max_lag` is
-        below one step or beyond a profile, or no lag has pairs.
     """
     blocks = checks.whole("band_blocks", band_blocks, least=4, most=1000)
     sums = block_sums(
@@ -200,22 +187,16 @@ def _jackknife_spread(sums: Array, pairs: Array, used: Mask) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class BlockSums:
-    """The contribution of each block of the profiles to C_z, from which blocks can be drawn anew.
-
-    Parameters
-    ----------
-    lag : array, shape (lags,)
-        Lag [m].
-    squares, pairs : array, shape (blocks, lags)
-        Sum of squared height differences [m^2] and number of pairs whose first point is in a block.
-    resolution_limit : float
-        Shortest wavelength [m] that the measurement resolves.
-    """
+    """What each block of the profiles adds to C_z, from which blocks can be drawn anew."""
 
     lag: Array
+    """[m], shape (lags,)."""
     squares: Array
+    """Sums of squared height differences [m^2], shape (blocks, lags)."""
     pairs: Array
+    """Numbers of pairs whose first point is in a block, shape (blocks, lags)."""
     resolution_limit: float
+    """Shortest wavelength that the measurement resolves [m]."""
 
     def drawn(self, blocks: NDArray[np.intp]) -> HeightDifference:
         """Return C_z of these blocks only, some perhaps several times, without a band."""
@@ -250,8 +231,7 @@ def block_sums(
             f"{longest:g} m; got {limit:g} m"
         )
     share = checks.positive("top_height_fraction", top_height_fraction)
-    if share > 1.0:
-        raise InputError(f"top_height_fraction must be at most 1; got {share:g}")
+    checks.at_most_one("top_height_fraction", share)
     # the distinct whole numbers of steps nearest to evenly spaced log lags
     most = int(np.floor(limit / step + 1e-6))
     count = int(np.ceil(per_decade * np.log10(max(most, 1)))) + 1

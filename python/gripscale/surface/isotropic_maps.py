@@ -10,6 +10,7 @@ start from a Gaussian map (`gripscale.surface.line_statistics`).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
 
 import numpy as np
 
@@ -36,11 +37,6 @@ def map_amplitudes(profiles: Sequence[Profile], square: Square) -> Array:
     q = np.where(square.resolved, square.wavenumber, np.inf)
     density = np.where(square.resolved, spectrum.at(np.where(np.isinf(q), 1.0, q)), 0.0)
     return np.asarray(np.sqrt(density) * (2.0 * np.pi / square.length) * square.points**2)
-
-
-def gaussian_waves(square: Square, amplitudes: Array, random: np.random.Generator) -> Waves:
-    """Return the half spectrum of a Gaussian map with these amplitudes in the mean."""
-    return np.asarray(amplitudes * square.spectrum(square.noise(random)) / square.points)
 
 
 def with_heights(
@@ -91,6 +87,8 @@ def isotropic_maps(
     class of height (`gripscale.surface.line_statistics`): half a minute a map of 512 x 512
     points on one core, and some seconds before the first.
 
+    Raises `InputError` if an argument is out of its range, when the first map is asked for.
+
     Parameters
     ----------
     profile : Profile or sequence of Profile
@@ -113,11 +111,6 @@ def isotropic_maps(
     ------
     HeightMap
         One period; its name begins with "synthetic".
-
-    Raises
-    ------
-    InputError
-        If an argument is out of its range, when the first map is asked for.
     """
     profiles = profile_list(profile)
     number = checks.whole("points", points, least=FEWEST_POINTS, most=MOST_POINTS)
@@ -138,22 +131,18 @@ def isotropic_maps(
     matching = LineMatching.of(lines, square) if construction == "lines" else None
     x = np.asarray(square.step * np.arange(square.points), dtype=np.float64)
     names = ", ".join(p.name or "unnamed profile" for p in profiles)
+    report = on_batch or (lambda seed, share: None)
     for seed in seed_list:
         random = np.random.default_rng(seed)
-        waves = gaussian_waves(square, amplitudes, random)
-
-        def on_share(done: int, seed: int = seed) -> None:
-            if on_batch is not None and matching is not None:
-                on_batch(seed, done / (matching.batches + 1))
-
+        # the half spectrum of a Gaussian map with these amplitudes in the mean
+        waves = np.asarray(amplitudes * square.spectrum(square.noise(random)) / square.points)
         if construction == "heights":
             heights = with_heights(square, waves, amplitudes, lines)
         elif matching is not None:
-            heights = square.heights(matching.draw(waves, random, on_share))
+            heights = square.heights(matching.draw(waves, random, partial(report, seed)))
         else:
             heights = square.heights(waves)
-        if on_batch is not None:
-            on_batch(seed, 1.0)
+        report(seed, 1.0)
         yield HeightMap(
             x,
             x,

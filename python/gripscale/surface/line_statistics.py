@@ -22,9 +22,6 @@ which is sliced optimal transport (J. Rabin et al., SSVM 2011, doi:10.1007/978-3
 of line pieces, and texture synthesis by histograms of filters (D. J. Heeger & J. R. Bergen,
 SIGGRAPH 1995, doi:10.1145/218380.218446) with filters along lines. Directions are spread evenly
 over each batch. Coarse squares come first.
-
-The file has distributions, the square of a map, measured lines, filters, their statistics, and the
-drawing of maps.
 """
 
 from __future__ import annotations
@@ -120,18 +117,12 @@ def _ranks(counts: NDArray[np.int64]) -> Array:
 
 @dataclass(frozen=True)
 class Square:
-    """One period of an isotropic map, with equal steps each way, and its waves.
-
-    Attributes
-    ----------
-    points
-        Points each way, an even number.
-    length
-        Period each way [m].
-    """
+    """One period of an isotropic map, with equal steps each way, and its waves."""
 
     points: int
+    """Each way, an even number."""
     length: float
+    """Period each way [m]."""
 
     @property
     def step(self) -> float:
@@ -206,13 +197,8 @@ class MeasuredLine:
 def periodic_lines(profiles: Sequence[Profile], length: float) -> list[MeasuredLine]:
     """Return profiles as one period each, without waves longer than a map of period `length` [m].
 
-    Missing heights are filled linearly and the straight line through the ends is subtracted, as in
-    the direct contact.
-
-    Raises
-    ------
-    InputError
-        If they are too short for the map.
+    Gaps are filled and ends joined as in the direct contact. Raises `InputError` if they are too
+    short for the map.
     """
     total = sum(profile.length for profile in profiles)
     if total < FEWEST_PERIODS * length:
@@ -420,9 +406,12 @@ class LineMatching:
         self,
         waves: Waves,
         random: np.random.Generator,
-        on_batch: Callable[[int], None] | None = None,
+        on_share: Callable[[float], None] | None = None,
     ) -> Waves:
-        """Return the half spectrum of a map, started from that of another."""
+        """Return the half spectrum of a map, started from that of another.
+
+        `on_share` gets the share that is done: all batches, and the way back to heights.
+        """
         before, done = self.square, 0
         for square, batches, statistics in self.stages:
             waves = before.onto(waves, square).astype(np.complex64)
@@ -439,7 +428,7 @@ class LineMatching:
                 change = np.where(square.resolved, pull / (seen + _FLOOR * seen.max()), 0.0)
                 waves = waves + share * change
                 done += 1
-                if on_batch is not None:
-                    on_batch(done)
+                if on_share is not None:
+                    on_share(done / (self.batches + 1))
             before = square
         return waves

@@ -68,6 +68,10 @@ def profile_warnings(
 ) -> tuple[str, ...]:
     """Return warnings about an implausible profile, a sentence each; empty if there are none.
 
+    They are about steep slopes, many spikes, plates and jumps, flat stretches, sentinels, and
+    heights or lengths that suggest another unit. Raises `InputError` if `cleaned` is no part of
+    `profile`.
+
     Parameters
     ----------
     profile : Profile
@@ -76,17 +80,6 @@ def profile_warnings(
         The cleaned profile: only the heights it kept count, as they were measured.
     steep : bool, optional
         Whether to warn of remaining steep steps; on maps, true edges remain on purpose.
-
-    Returns
-    -------
-    tuple of str
-        Steep slopes, many spikes, plates and jumps, flat stretches, sentinels, and heights or
-        lengths that suggest another unit.
-
-    Raises
-    ------
-    InputError
-        If `cleaned` is no part of `profile`.
     """
     checks.instance("profile", profile, Profile)
     checks.flag("steep", steep)
@@ -237,10 +230,7 @@ def stack_notes(
             f"largest lag, {in_mm(longest, 3)}: fewer scales, or a smaller smallest_wavelength, "
             "suit the curve"
         )
-    for name, limits in (
-        ("s_wavelength", FACTOR_RANGE),
-        ("s_amplitude", AMPLITUDE_FACTOR_RANGE),
-    ):
+    for name, limits in (("s_wavelength", FACTOR_RANGE), ("s_amplitude", AMPLITUDE_FACTOR_RANGE)):
         factor = getattr(sines, name)
         if factor is None or fit.get(name) is not None:
             continue

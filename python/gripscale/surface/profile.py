@@ -6,8 +6,6 @@ Points are equidistant if they lie near the even grid that fits them best by lea
 
 A point off the grid by a small part of a step counts as on it; its height is then wrong by the
 slope times that part. Points were left out where k_i increases by more than one.
-
-The file has first the grid, then `Profile` and `HeightMap`, then checks of lists of profiles.
 """
 
 from __future__ import annotations
@@ -83,13 +81,8 @@ class EvenGrid:
 def even_grid(x: Array, resolution: float = 0.0) -> EvenGrid | None:
     """Return the even grid on which increasing distances lie, or None if there is none.
 
-    Parameters
-    ----------
-    x : array, shape (points,)
-        Distances, in any unit.
-    resolution : float, optional
-        Last decimal place to which they are printed, in that unit. A printed distance lies within
-        half of it of the true one, and the grid through printed ones within half again.
+    Distances printed to a `resolution`, in their unit, lie within half of it of the true ones, and
+    the grid through them within half again.
     """
     steps = np.diff(x)
     if x.size < 2 or (steps <= 0.0).any():
@@ -146,6 +139,10 @@ def _texts(name: str, value: Any) -> tuple[str, ...]:
 class Profile(Checked, eq=False):
     """Heights of a surface along a straight line, at equidistant points.
 
+    Raises `InputError` if x or z is not a list of numbers, their lengths differ, there are fewer
+    than 16 points, x does not go in equal steps (`gripscale.surface.resample` makes them equal),
+    all heights are missing, `reliable` is not above zero, or name, source or a note is no text.
+
     Parameters
     ----------
     x : array_like, shape (points,)
@@ -161,13 +158,6 @@ class Profile(Checked, eq=False):
         Shortest wavelength [m] the instrument measures reliably, if known.
     notes : tuple of str, optional
         Changes made by reading, such as rows added where some were left out.
-
-    Raises
-    ------
-    InputError
-        If x or z is not a list of numbers, their lengths differ, there are fewer than 16 points,
-        x does not go in equal steps (`gripscale.surface.resample` makes them equal), all heights
-        are missing, `reliable` is not above zero, or name, source or a note is no text.
     """
 
     x: Array = checked(checks.vector, unit="m")
@@ -293,6 +283,9 @@ def _height_table(name: str, value: ArrayLike) -> Array:
 class HeightMap(Checked, eq=False):
     """Heights of a surface over a rectangle, at equidistant points each way.
 
+    Raises `InputError` if x, y or z are not such numbers, their shapes differ, there are fewer than
+    16 points a way, all heights are missing, or name or source is no text.
+
     Parameters
     ----------
     x : array_like, shape (nx,)
@@ -308,12 +301,6 @@ class HeightMap(Checked, eq=False):
         Where it comes from, such as a file name.
     reliable : float, optional
         Shortest wavelength [m] the instrument measures reliably, if known.
-
-    Raises
-    ------
-    InputError
-        If x, y or z are not such numbers, their shapes differ, there are fewer than 16 points a
-        way, all heights are missing, or name or source is no text.
     """
 
     x: Array = checked(_axis)
@@ -352,10 +339,7 @@ class HeightMap(Checked, eq=False):
     def lines(self, direction: str = "x") -> list[Profile]:
         """Return the lines of the map along "x" or "y" that have a height, in their order.
 
-        Raises
-        ------
-        InputError
-            If `direction` is neither.
+        Raises `InputError` if `direction` is neither.
         """
         checks.one_of("direction", direction, ("x", "y"))
         measured = np.isfinite(self.z).any(axis=0 if direction == "x" else 1)
@@ -364,10 +348,7 @@ class HeightMap(Checked, eq=False):
     def line(self, number: int, direction: str = "x") -> Profile:
         """Return one line along "x" or "y", counted from 0 across it.
 
-        Raises
-        ------
-        InputError
-            If there is no such line, or it has no height.
+        Raises `InputError` if there is no such line, or it has no height.
         """
         along_x = checks.one_of("direction", direction, ("x", "y")) == "x"
         axis, heights = (self.x, self.z.T) if along_x else (self.y, self.z)

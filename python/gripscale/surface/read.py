@@ -62,26 +62,10 @@ def read_instrument_file(
     channel: str | int | None = None,
     step: tuple[float, float] | None = None,
 ) -> HeightField:
-    """Read the heights of an instrument file.
+    """Read the heights of an instrument file; the arguments are those of `read_map`.
 
-    Parameters
-    ----------
-    path : pathlib.Path
-        A line scan or a map in any format SurfaceTopography reads.
-    x_unit, z_unit : str or None
-        Units of distance and height, needed only where the file names none.
-    channel : str, int or None
-        Name of the channel, or its number from 1, where several hold heights.
-    step : (float, float) or None
-        Steps along x and y [m], needed only where the file has none.
-
-    Raises
-    ------
-    FileError
-        If SurfaceTopography is not installed or cannot read the file, or the file has no heights
-        or no lateral size.
-    InputError
-        If an argument is wrong or contradicts the file.
+    Raises `FileError` if SurfaceTopography is not installed or cannot read the file, or the file
+    has no heights or no lateral size; `InputError` if an argument is wrong or contradicts the file.
     """
     raw = read_bytes(path)
     if not raw.strip():
@@ -136,10 +120,7 @@ def read_instrument_file(
 
 
 def _topography(
-    path: Path,
-    channels: list[Any],
-    wanted: str | int | None,
-    step: tuple[float, float] | None,
+    path: Path, channels: list[Any], wanted: str | int | None, step: tuple[float, float] | None
 ) -> Any:
     """Return the heights of the only channel, or of the `wanted` one, with its lateral size."""
     of_heights = [channel for channel in channels if channel.is_height_channel]
@@ -186,6 +167,10 @@ def read_profile(
 ) -> Profile:
     """Read one profile from a file.
 
+    Distances and heights are in m, missing heights NaN. Raises `FileError` if the file is missing,
+    unreadable or not understood; the message names path and place. Raises `InputError` if an
+    argument is wrong or contradicts the file.
+
     Parameters
     ----------
     path : path-like
@@ -205,18 +190,6 @@ def read_profile(
         Name of the Excel sheet or its number from 1, where several hold numbers.
     reader : {"auto", "text", "instrument"}, optional
         How to read the file; "auto" goes by the suffix.
-
-    Returns
-    -------
-    Profile
-        Distances and heights [m]; missing heights are NaN.
-
-    Raises
-    ------
-    FileError
-        If the file is missing, unreadable or not understood; the message names path and place.
-    InputError
-        If an argument is wrong or contradicts the file.
     """
     file, source = _open_lines(path, x_unit, z_unit, direction, channel, sheet, reader)
     lines = 1 if isinstance(source, Profile) else source.lines(direction)
@@ -300,6 +273,11 @@ def read_map(
 ) -> HeightMap:
     """Read a map of heights from a file.
 
+    Distances and heights are in m, missing heights NaN. The rubber slides along x: `turned` gives
+    the map for the other way. Raises `FileError` if the file is missing, unreadable, not understood
+    or not a map; the message names path and place. Raises `InputError` if an argument is wrong or
+    contradicts the file.
+
     Parameters
     ----------
     path : path-like
@@ -307,31 +285,11 @@ def read_map(
         table of heights whose rows run along y and whose columns along x; or a map in any format
         SurfaceTopography reads, such as .al3d, .sur, .opd, .x3p, .sdf, .plu, .datx, .gwy, .npy
         (needs `gripscale[formats]`).
-    x_unit, z_unit : str, optional
-        Units of distance and height ("m", "cm", "mm", "um", "nm", "pm", "in") where the file does
-        not name them. Units are never guessed, and must not contradict the file.
+    x_unit, z_unit, channel, reader
+        As in `read_profile`.
     step : float or (float, float), optional
         Distance between points [m], along x and y if they differ, for a table or an array, whose
         file has none.
-    channel : str or int, optional
-        Name of the channel, or its number from 1, of an instrument file that has several of
-        heights.
-    reader : {"auto", "text", "instrument"}, optional
-        How to read the file; "auto" goes by the suffix.
-
-    Returns
-    -------
-    HeightMap
-        Distances and heights [m]; missing heights are NaN. The rubber slides along x: `turned`
-        gives the map for the other way.
-
-    Raises
-    ------
-    FileError
-        If the file is missing, unreadable, not understood or not a map; the message names path and
-        place.
-    InputError
-        If an argument is wrong or contradicts the file.
     """
     file = _checked_path(path, x_unit, z_unit, reader)
     steps = None
@@ -342,10 +300,8 @@ def read_map(
                 "step must be one distance [m], or that along x and y; "
                 f"got {checks.short_repr(step)}"
             )
-        steps = (
-            checks.positive("step", pair[0], unit="m"),
-            checks.positive("step", pair[1], unit="m"),
-        )
+        x_step, y_step = (checks.positive("step", length, unit="m") for length in pair)
+        steps = x_step, y_step
         if x_unit is not None:
             raise InputError(
                 f"x_unit must be left out with step, which is in m; got {checks.short_repr(x_unit)}"

@@ -57,6 +57,12 @@ def resample(
     Heights are interpolated between neighbours, not averaged: with a step longer than the measured
     ones, roughness shorter than two new steps is folded into longer wavelengths.
 
+    The profile begins at the first distance. A height is missing where one is missing on either
+    side. Its shortest reliable wavelength is four new steps or four median distances, the longer
+    ones. Raises `InputError` if x or z is not a list of numbers, their lengths differ, x neither
+    rises nor falls throughout, `step` or `bridge` is not above zero, or the step gives too few or
+    too many points.
+
     Parameters
     ----------
     x : array_like, shape (points,)
@@ -70,19 +76,6 @@ def resample(
         missing. Twice the step or twice the median distance by default, whichever is longer.
     name, source : str, optional
         Name and source of the profile.
-
-    Returns
-    -------
-    Profile
-        From the first distance on, missing where a height is missing on either side. Its
-        shortest reliable wavelength is four new steps or four median distances, the longer ones.
-
-    Raises
-    ------
-    InputError
-        If x or z is not a list of numbers, their lengths differ, x neither rises nor falls
-        throughout, `step` or `bridge` is not above zero, or the step gives too few or too many
-        points.
     """
     old, height = checks.vector("x", x, unit="m"), checks.vector("z", z, unit="m", missing=True)
     checks.same_length(FEWEST_POINTS, x=old, z=height)
@@ -137,11 +130,7 @@ def printed_grid(
     """Return the even grid of increasing `distances` printed in a column, some rows left out.
 
     `lines` are the line numbers of a profile's rows; a map repeats its distances in many lines.
-
-    Raises
-    ------
-    FileError
-        If the steps are not equal, or more than half the points are left out.
+    Raises `FileError` if the steps are not equal, or more than half the points are left out.
     """
     grid = even_grid(distances, table.resolution(column))
     hint = "" if lines is None else "; gripscale.surface.resample makes steps equal"
@@ -165,16 +154,10 @@ def printed_grid(
 
 
 def filled(z: Array, steps: tuple[float, ...] = (), *, periodic: bool = False) -> Array:
-    """Return heights with all gaps filled.
+    """Return heights [m], shape (points,) or (nx, ny), with all gaps (NaN) filled.
 
-    Parameters
-    ----------
-    z : array, shape (points,) or (nx, ny)
-        Heights [m], NaN where they are missing, but not everywhere.
-    steps : tuple of float, optional
-        Steps of a map along x and y [m]; equal by default, only their ratio counts.
-    periodic : bool, optional
-        Whether the first point follows the last.
+    Of the `steps` of a map along x and y only the ratio counts. The first point follows the last if
+    `periodic`.
     """
     missing = np.isnan(z)
     if not missing.any():

@@ -31,31 +31,21 @@ FEWEST_LAGS = 4
 class SelfAffineFit(Checked):
     """A power law up to a cut-off, and the plateau above it.
 
-    Attributes
-    ----------
-    hurst : float
-        Hurst exponent H [-]: half the slope of log C_z over log lag.
-    xi_parallel : float
-        Cut-off lag [m], where the power law meets the plateau.
-    xi_perpendicular : float
-        Root of the plateau [m]: the root mean square height times the root of 2.
-    lag_min, lag_max : float
-        Range of lags [m] over which C_z was found to be a power law.
-    residual : float
-        Root mean square departure from the power law over that range, in decades of C_z.
-
-    Raises
-    ------
-    InputError
-        If a value is not a number above zero; the residual may be zero.
+    Raises `InputError` if a value is not a number above zero; the residual may be zero.
     """
 
     hurst: float = checked(checks.positive)
+    """Hurst exponent H [-]: half the slope of log C_z over log lag."""
     xi_parallel: float = checked(checks.positive, unit="m")
+    """Cut-off lag [m], where the power law meets the plateau."""
     xi_perpendicular: float = checked(checks.positive, unit="m")
+    """Root of the plateau [m]: the root mean square height times the root of 2."""
     lag_min: float = checked(checks.positive, unit="m")
+    """Smallest lag over which C_z was found to be a power law [m]."""
     lag_max: float = checked(checks.positive, unit="m")
+    """Largest lag over which it was [m]."""
     residual: float = checked(checks.not_negative)
+    """Root mean square departure from the power law over that range, in decades of C_z."""
 
     @property
     def fractal_dimension(self) -> float:
@@ -82,6 +72,9 @@ def fit_self_affine(
     the straightest range of that width is taken, and `residual` exceeds `tolerance`: the surface is
     then not self-affine.
 
+    Raises `InputError` if C_z vanishes somewhere, does not reach a plateau or does not rise before
+    it.
+
     Parameters
     ----------
     hdc : HeightDifference
@@ -90,16 +83,6 @@ def fit_self_affine(
         Largest rms departure from the power law, in decades of C_z.
     shortest_range : float, optional
         Narrowest range accepted, in decades of lag.
-
-    Returns
-    -------
-    SelfAffineFit
-        Exponent, cut-offs, and the range of lags they hold for.
-
-    Raises
-    ------
-    InputError
-        If C_z vanishes somewhere, does not reach a plateau or does not rise before it.
     """
     checks.instance("hdc", hdc, HeightDifference)
     checks.positive("tolerance", tolerance)

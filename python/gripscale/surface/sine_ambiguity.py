@@ -39,21 +39,14 @@ class Span(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class SineAmbiguity:
-    """The stacks that follow C_z within its uncertainty.
-
-    Attributes
-    ----------
-    tried : int
-        Stacks tried.
-    band : float
-        Rms half width of the band of 95 % nominal confidence of C_z [decades]; 0 if not known.
-    stacks : tuple of SineStack
-        The stacks that are as good as the best.
-    """
+    """The stacks that follow C_z within its uncertainty."""
 
     tried: int
+    """Stacks tried."""
     band: float
+    """Rms half width of the band of 95 % nominal confidence of C_z [decades]; 0 if not known."""
     stacks: tuple[SineStack, ...] = field(repr=False)
+    """The stacks that are as good as the best."""
 
     @property
     def waves(self) -> Span:
@@ -88,6 +81,8 @@ class SineAmbiguity:
 def sine_ambiguity(hdc: HeightDifference, sines: SineStack) -> SineAmbiguity:
     """Return the other stacks that follow `hdc` within its uncertainty.
 
+    Raises `InputError` if `sines` has one wave, or was not fitted: it then has no range of lags.
+
     Parameters
     ----------
     hdc : HeightDifference
@@ -95,11 +90,6 @@ def sine_ambiguity(hdc: HeightDifference, sines: SineStack) -> SineAmbiguity:
     sines : SineStack
         The waves fitted to it, which fix the range of lags, the first wavelength, and the cut-off
         or the last wavelength.
-
-    Raises
-    ------
-    InputError
-        If `sines` has one wave, or was not fitted: it then has no range of lags.
     """
     if sines.lag_range is None or len(sines) < 2:
         raise InputError(

@@ -296,6 +296,9 @@ def fit_sines(
 ) -> SineStack:
     """Fit superposed sine waves to a height difference correlation.
 
+    Raises `InputError` if an argument is wrong, `scales`, `smallest_wavelength` and `cut_off` are
+    all missing, or the curve has too few positive values in the range of lags.
+
     Parameters
     ----------
     hdc : HeightDifference
@@ -320,18 +323,6 @@ def fit_sines(
         One factor for both lengths, the comparison Lind & Wangenheim show to fail.
     smallest_lag, largest_lag : float, optional
         Range of lags that count [m]; see the top of this file for the defaults.
-
-    Returns
-    -------
-    SineStack
-        The waves, their factors, the rms residual in decades of C_z over `lag_range`, and the
-        cut-off if there is one.
-
-    Raises
-    ------
-    InputError
-        If an argument is wrong, `scales`, `smallest_wavelength` and `cut_off` are all missing, or
-        the curve has too few positive values in the range of lags.
     """
     if scales is None and smallest_wavelength is None and cut_off is None:
         raise InputError("scales, smallest_wavelength or cut_off must be given; got none of them")
@@ -353,11 +344,9 @@ def fit_sines(
     )
     end = None
     if cut_off is not None:
-        log = float(np.log(checks.positive("cut_off", cut_off, unit="m")))
-        end = _End("cut_off", log, 0.5)
+        end = _End.of("cut_off", cut_off, 0.5)
     elif smallest_wavelength is not None:
-        log = float(np.log(checks.positive("smallest_wavelength", smallest_wavelength, unit="m")))
-        end = _End("smallest_wavelength", log, 0.0)
+        end = _End.of("smallest_wavelength", smallest_wavelength, 0.0)
     if end is not None and end.log >= fixed[FIRST_WAVELENGTH]:
         raise InputError(
             f"{end.name} must be below first_wavelength; got {np.exp(end.log):g} m "
@@ -419,6 +408,10 @@ class _End:
     name: str
     log: float
     beyond: float
+
+    @classmethod
+    def of(cls, name: str, length: float, beyond: float) -> _End:
+        return cls(name, float(np.log(checks.positive(name, length, unit="m"))), beyond)
 
     @property
     def shorter(self) -> int:

@@ -27,6 +27,9 @@ GEOMETRIC_TOLERANCE = 0.01
 class SineStack(Checked, eq=False):
     """Superposed sine waves, largest first.
 
+    Raises `InputError` if lengths differ, an entry is not above zero, wavelengths do not decrease,
+    a factor contradicts the waves, or `cut_off` is above the last wave.
+
     Parameters
     ----------
     wavelength : array_like, shape (waves,)
@@ -42,12 +45,6 @@ class SineStack(Checked, eq=False):
         Smallest and largest lag the waves were fitted to [m].
     cut_off : float, optional
         Shortest wavelength of the roughness the waves represent [m], if it is not the last wave.
-
-    Raises
-    ------
-    InputError
-        If lengths differ, an entry is not above zero, wavelengths do not decrease, a factor
-        contradicts the waves, or `cut_off` is above the last wave.
     """
 
     wavelength: Array = checked(checks.positive_vector, unit="m")

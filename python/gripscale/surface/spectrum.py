@@ -29,8 +29,6 @@ Technol. 93 (1971) 398, doi:10.1115/1.3451608). For C_1 ~ q^(-1 - 2H) it is, by 
 1.6 to 2 times (H from 0.5 to 1) the C_1/(2 pi q) that takes every wave to run along the line. The
 solution needs the derivative of a measured, scattered curve. Instead, `areal_spectrum` solves the
 first equation by least squares with C >= 0.
-
-The file has the two spectra, then their measurement, then the way from lines to surfaces.
 """
 
 from __future__ import annotations
@@ -56,30 +54,20 @@ _ABSCISSAE, _WEIGHTS = np.polynomial.legendre.leggauss(6)
 
 
 class ProfileSpectrum(Checked, eq=False):
-    """One-sided power spectrum of a line.
+    """One-sided power spectrum of a line; arrays have the shape (points,).
 
-    Parameters
-    ----------
-    wavenumber : array_like, shape (points,)
-        2 pi over the wavelength [rad/m], above zero, increasing.
-    density : array_like, shape (points,)
-        C_1 [m^3], not negative: the mean over the wavenumbers each point represents.
-    width : array_like, shape (points,), optional
-        Range of wavenumbers that each point represents [rad/m]; half way (in the logarithm) to its
-        neighbours by default, and to the first and last point.
-    interpolated : float
-        Share of the heights that were missing and interpolated [-].
-
-    Raises
-    ------
-    InputError
-        If lengths differ or a value is out of range.
+    Raises `InputError` if lengths differ or a value is out of range.
     """
 
     wavenumber: Array = checked(checks.increasing_vector, unit="rad/m")
+    """2 pi over the wavelength [rad/m], above zero, increasing."""
     density: Array = checked(checks.not_negative_vector, unit="m^3")
+    """C_1 [m^3], not negative: the mean over the wavenumbers each point represents."""
     width: Array = checked(checks.vector, unit="rad/m", default=None)
+    """Range of wavenumbers that each point represents [rad/m]; half way (in the logarithm) to its
+    neighbours by default, and to the first and last point."""
     interpolated: float = checked(checks.not_negative, default=0.0)
+    """Share of the heights that were missing and interpolated [-]."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -121,28 +109,19 @@ class ProfileSpectrum(Checked, eq=False):
 
 
 class ArealSpectrum(Checked, eq=False):
-    """Power spectrum of a surface, mean over directions.
+    """Power spectrum of a surface, mean over directions; arrays have the shape (points,).
 
     Between its points q^3 C(q) is linear in log q; outside them there are no waves.
 
-    Parameters
-    ----------
-    wavenumber : array_like, shape (points,)
-        Absolute wavenumber 2 pi/wavelength [rad/m], above zero, increasing, at least two.
-    density : array_like, shape (points,)
-        C [m^4], not negative.
-    interpolated : float
-        Share of the heights that were missing and interpolated [-].
-
-    Raises
-    ------
-    InputError
-        If lengths differ or a value is out of range.
+    Raises `InputError` if lengths differ or a value is out of range.
     """
 
     wavenumber: Array = checked(checks.increasing_vector, unit="rad/m")
+    """Absolute wavenumber 2 pi/wavelength [rad/m], above zero, increasing, at least two."""
     density: Array = checked(checks.not_negative_vector, unit="m^4")
+    """C [m^4], not negative."""
     interpolated: float = checked(checks.not_negative, default=0.0)
+    """Share of the heights that were missing and interpolated [-]."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -222,6 +201,8 @@ def profile_spectrum(
     is mean(w^2 z^2)/mean(w^2): with taper "none" and one window the variance of the heights
     exactly, with "hann" their variance about the trends, as the windows weigh it.
 
+    Raises `InputError` if the steps differ, the window does not fit or a word is unknown.
+
     Parameters
     ----------
     profile : Profile or sequence of Profile
@@ -234,11 +215,6 @@ def profile_spectrum(
         "hann" for a measured line, whose ends do not meet: without it their jump would be spread
         over all small waves; a straight line is taken out of each window. "none" for a line that is
         a whole number of periods: only the mean is taken out.
-
-    Raises
-    ------
-    InputError
-        If the steps differ, the window does not fit or a word is unknown.
     """
     from scipy import signal
 
@@ -265,17 +241,14 @@ def profile_spectrum(
 
 
 def map_spectrum(
-    z: ArrayLike,
-    *,
-    x_step: float,
-    y_step: float,
-    taper: str = "hann",
-    per_decade: int = PER_DECADE,
+    z: ArrayLike, *, x_step: float, y_step: float, taper: str = "hann", per_decade: int = PER_DECADE
 ) -> ArealSpectrum:
     """Return the power spectrum of a height map, mean over directions.
 
     The mean of all plane waves within rings of absolute wavenumber, up to the ring that still fits
     into the sampled wavenumbers; the corners beyond are left out.
+
+    Raises `InputError` if a value is out of range or no height is there.
 
     Parameters
     ----------
@@ -288,16 +261,8 @@ def map_spectrum(
         a map that is one period of its surface: only the mean is taken out.
     per_decade : int
         Points a decade of wavenumber, where there are enough rings.
-
-    Raises
-    ------
-    InputError
-        If a value is out of range or no height is there.
     """
-    steps = (
-        checks.positive("x_step", x_step, unit="m"),
-        checks.positive("y_step", y_step, unit="m"),
-    )
+    steps = checks.positive("x_step", x_step, unit="m"), checks.positive("y_step", y_step, unit="m")
     expected = f"z must be heights of shape (nx, ny), at least {FEWEST_POINTS} each way [m]"
     heights = checks.array(z, expected)
     if heights.ndim != 2 or min(heights.shape) < FEWEST_POINTS:
@@ -356,6 +321,8 @@ def areal_spectrum(
     relative to its scatter. Beyond the last point C_1 is continued as the power law of its last
     points: lines see those waves at smaller k, too, but they are no part of the result.
 
+    Raises `InputError` if `hurst` is not above 0 and up to 1, or there are fewer than four points.
+
     Parameters
     ----------
     spectrum : ProfileSpectrum
@@ -364,11 +331,6 @@ def areal_spectrum(
         Hurst exponent of a surface that is self-affine all over: the closed form is used then.
     per_decade : int
         Wavenumbers a decade to which the spectrum is averaged first.
-
-    Raises
-    ------
-    InputError
-        If `hurst` is not above 0 and up to 1, or there are fewer than four points.
     """
     from scipy.optimize import nnls
     from scipy.special import gamma
@@ -382,9 +344,7 @@ def areal_spectrum(
             f"of a surface; got {int((density >= checks.LEAST).sum())}"
         )
     if hurst is not None:
-        exponent = checks.positive("hurst", hurst)
-        if exponent > 1.0:
-            raise InputError(f"hurst must be at most 1; got {hurst:g}")
+        exponent = checks.at_most_one("hurst", checks.positive("hurst", hurst))
         ratio = gamma(exponent + 0.5) / gamma(exponent + 1.0)
         return ArealSpectrum(q, density / (2.0 * np.sqrt(np.pi) * q * ratio), mean.interpolated)
     certainty = np.sqrt(mean.width) / density
@@ -398,8 +358,7 @@ def _abel_matrix(q: Array, density: Array) -> Array:
     """Return the matrix from C to C_1 at `q`: C_1(q) = 4 int C k dtheta, k = q cosh(theta).
 
     Waves beyond the last point Q, C continuing as C_1/q does at the end, C ~ q^(-1 - s), add
-
-        4 int_Q^inf C q dq / sqrt(q^2 - k^2) = 2 C(Q) Q (Q/k)^s B(k^2/Q^2; s/2, 1/2).
+    4 int_Q^inf C q dq / sqrt(q^2 - k^2) = 2 C(Q) Q (Q/k)^s B(k^2/Q^2; s/2, 1/2).
     """
     from scipy.special import beta, betainc
 

@@ -86,35 +86,25 @@ SurfacePart = Literal["waves", "measurement", "cut_off"]
 
 @dataclass(frozen=True)
 class Surface:
-    """Sine waves, a measurement, or both.
-
-    Attributes
-    ----------
-    waves, source
-        The waves, None for a measurement without them, and where the surface comes from.
-    correlation
-        What they were fitted to, or None for waves stated by hand.
-    fit
-        Arguments of `fit_sines` they were fitted with.
-    measured
-        The measurement behind the correlation, or None for a synthetic surface.
-    counted
-        Arguments of `height_difference` the correlation was found with: which heights and lags
-        count.
-    rule
-        By which the waves end where they do, or None for the last wave.
-    end
-        Shortest wavelength of the roughness [m]; None: where the waves end.
-    """
+    """Sine waves, a measurement, or both."""
 
     waves: SineStack | None
+    """None for a measurement without them."""
     source: str
+    """Where the surface comes from."""
     correlation: HeightDifference | None = None
+    """What they were fitted to, or None for waves stated by hand."""
     fit: Mapping[str, Any] = field(default_factory=dict)
+    """Arguments of `fit_sines` they were fitted with."""
     measured: Measured | None = None
+    """The measurement behind the correlation, or None for a synthetic surface."""
     counted: Mapping[str, Any] = field(default_factory=dict)
+    """Arguments of `height_difference` the correlation was found with: which heights and lags
+    count."""
     rule: CutOffRule | None = None
+    """By which the waves end where they do, or None for the last wave."""
     end: float | None = None
+    """Shortest wavelength of the roughness [m]; None: where the waves end."""
 
     @property
     def sines(self) -> SineStack:
@@ -182,6 +172,8 @@ class Surface:
     ) -> Surface:
         """Return the surface with other waves.
 
+        Raises `InputError` if there are no such waves.
+
         Parameters
         ----------
         factors
@@ -197,11 +189,6 @@ class Surface:
         top_height_fraction
             Fraction of the heights that counts, see `height_difference`; of a measured
             surface only.
-
-        Raises
-        ------
-        InputError
-            If there are no such waves.
         """
         if top_height_fraction is not None:
             return self._of_upper(top_height_fraction).varied(
@@ -288,7 +275,18 @@ class Surface:
         )
         if cut_off is not None:
             stack = replace(stack, cut_off=float(stack.wavelength[-1] / half))
-        return stack if self.correlation is None else _judged(self.correlation, stack)
+        if self.correlation is None:
+            return stack
+        # with its residual from the measured curve
+        return fit_sines(
+            self.correlation,
+            scales=waves if stack.cut_off is None else None,
+            cut_off=stack.cut_off,
+            s_wavelength=stack.s_wavelength,
+            s_amplitude=stack.s_amplitude,
+            first_wavelength=float(stack.wavelength[0]),
+            first_amplitude=float(stack.amplitude[0]),
+        )
 
     def _shortened(self, waves: int | None, smallest: float | None) -> SineStack:
         count = len(self.sines) if waves is None else waves
@@ -302,19 +300,6 @@ class Surface:
         if not keep.any():
             raise InputError(_beyond_the_largest(self.sines.wavelength[0], smallest))
         return SineStack(self.sines.wavelength[keep], self.sines.amplitude[keep])
-
-
-def _judged(correlation: HeightDifference, stack: SineStack) -> SineStack:
-    """Return `stack` with its residual from the measured curve."""
-    return fit_sines(
-        correlation,
-        scales=len(stack) if stack.cut_off is None else None,
-        cut_off=stack.cut_off,
-        s_wavelength=stack.s_wavelength,
-        s_amplitude=stack.s_amplitude,
-        first_wavelength=float(stack.wavelength[0]),
-        first_amplitude=float(stack.amplitude[0]),
-    )
 
 
 def _beyond_the_largest(largest: float, smallest: float | None) -> str:

@@ -18,12 +18,7 @@ from gripscale.surface.surface import Measured, Surface
 
 
 def self_affine_profile(
-    hurst: float,
-    xi_parallel: float,
-    xi_perpendicular: float,
-    length: float,
-    step: float,
-    seed: int,
+    hurst: float, xi_parallel: float, xi_perpendicular: float, length: float, step: float, seed: int
 ) -> Profile:
     """Return a Gaussian random profile that is self-affine below a cut-off.
 
@@ -37,6 +32,9 @@ def self_affine_profile(
     Sci. Comput. 18 (1997) 1088, doi:10.1137/S1064827592240555).
     [LW] Lind & Wangenheim, ASME IMECE2014-37998.
 
+    Its heights lie about zero, with the variance xi_perp^2/2 in the mean over seeds. Raises
+    `InputError` if an argument is out of range.
+
     Parameters
     ----------
     hurst : float
@@ -47,20 +45,8 @@ def self_affine_profile(
         Length and step of the profile [m].
     seed : int
         Seed of the random numbers.
-
-    Returns
-    -------
-    Profile
-        About zero, of variance xi_perp^2/2 in the mean over seeds.
-
-    Raises
-    ------
-    InputError
-        If an argument is out of range.
     """
-    exponent = 2.0 * checks.positive("hurst", hurst)
-    if exponent > 2.0:
-        raise InputError(f"hurst must be at most 1; got {hurst:g}")
+    exponent = 2.0 * checks.at_most_one("hurst", checks.positive("hurst", hurst))
     cut_off = checks.positive("xi_parallel", xi_parallel, unit="m")
     variance = 0.5 * checks.positive("xi_perpendicular", xi_perpendicular, unit="m") ** 2
     x = _points(length, step)
@@ -82,6 +68,8 @@ def self_affine_profile(
 def sine_profile(stack: SineStack, length: float, step: float, seed: int) -> Profile:
     """Return a profile of superposed sine waves, each with a random phase.
 
+    Raises `InputError` if an argument is out of range.
+
     Parameters
     ----------
     stack : SineStack
@@ -90,11 +78,6 @@ def sine_profile(stack: SineStack, length: float, step: float, seed: int) -> Pro
         Length and step of the profile [m].
     seed : int
         Seed of the random phases.
-
-    Raises
-    ------
-    InputError
-        If an argument is out of range.
     """
     checks.instance("stack", stack, SineStack)
     x = _points(length, step)

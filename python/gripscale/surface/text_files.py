@@ -44,13 +44,7 @@ ALONE = 10.0
 
 
 def without_codes(heights: Array) -> tuple[Array, float | None]:
-    """Return heights, NaN where one is a code for a missing height, and the code if there is one.
-
-    Parameters
-    ----------
-    heights : array, of any shape
-        Heights as printed, NaN where missing.
-    """
+    """Return heights as printed, NaN where one is a code, and the code if there is one."""
     suspect = np.isin(np.abs(heights), CODES) | (np.abs(heights) >= BEYOND)
     codes = np.unique(heights[suspect])
     rest = heights[np.isfinite(heights) & ~suspect]
@@ -65,25 +59,11 @@ def without_codes(heights: Array) -> tuple[Array, float | None]:
 def length_unit(
     path: Path, part: str, named: object, name: str, argument: str | None, *, how: str = "give"
 ) -> str:
-    """Return the unit of a `part` of a file.
+    """Return the unit of a `part` ("column 1") of a file, which names `named` as its unit.
 
-    Parameters
-    ----------
-    path : pathlib.Path
-        The file, and `part` ("column 1") of it, for messages.
-    named : object
-        The unit that the file names.
-    name, stated : str, str or None
-        The caller's argument and the unit stated with it.
-    how : str
-        What to do about a missing unit, before `name`.
-
-    Raises
-    ------
-    FileError
-        If neither the file nor the caller names a unit of length.
-    InputError
-        If the caller's unit is unknown or contradicts the file.
+    `name` and `argument` are the caller's argument and the unit stated with it; `how` says what to
+    do about a missing unit. Raises `FileError` if neither names a unit of length, `InputError` if
+    the caller's unit is unknown or contradicts the file.
     """
     unit = spelled(named, "length")
     if argument is not None:
@@ -138,27 +118,9 @@ def read_text_profile(
 ) -> Profile:
     """Read a profile from a text or Excel file with a distance and a height column.
 
-    Parameters
-    ----------
-    path : pathlib.Path
-        The file, by the rules of `gripscale.io.text_table`.
-    x_unit, z_unit : str or None
-        Units of distance and height where the column titles do not name them.
-    sheet : str or int, optional
-        Name of the Excel sheet or its number from 1, where several hold numbers.
-
-    Returns
-    -------
-    Profile
-        Distances [m] at the mean step of the distance column, heights [m]; `notes` tell of rows
-        that were reversed or left out.
-
-    Raises
-    ------
-    FileError
-        If the file cannot be read or understood; the message names the line.
-    InputError
-        If a unit is unknown or contradicts the file.
+    Units are needed where the column titles do not name them. `notes` of the profile tell of rows
+    that were reversed or left out. Raises `FileError`, which names the line, if the file cannot be
+    read or understood, `InputError` if a unit is unknown or contradicts the file.
     """
     table, columns = _read_table(
         path, "rows with two columns of numbers", (DISTANCE_TITLE, HEIGHT_TITLE), sheet
@@ -200,23 +162,10 @@ def read_text_profile(
 def read_text_map(
     path: Path, *, x_unit: str | None, z_unit: str | None, step: tuple[float, float] | None
 ) -> HeightMap:
-    """Read a map from a text file.
+    """Read a map from a text file: a table of heights with a `step` along x and y [m], or points.
 
-    Parameters
-    ----------
-    path : pathlib.Path
-        The file, by the rules of `gripscale.io.text_table`.
-    x_unit, z_unit : str or None
-        Units of distance and height where the titles do not name them.
-    step : (float, float) or None
-        Steps of a table along x and y [m].
-
-    Raises
-    ------
-    FileError
-        If the file cannot be read or understood; the message names the line if possible.
-    InputError
-        If an argument is unknown or contradicts the file.
+    Raises `FileError`, which names the line if possible, if the file cannot be read or understood,
+    `InputError` if an argument is unknown or contradicts the file.
     """
     titles = (DISTANCE_TITLE, ACROSS_TITLE, HEIGHT_TITLE)
     table, columns = _read_table(path, "rows of heights, or of x, y and z", titles)

@@ -98,19 +98,8 @@ def contact_half_width(
 ) -> float:
     """Return the half width of the contact [m].
 
-    Parameters
-    ----------
-    load_per_length : float
-        [N/m], above zero.
-    radius : float
-        Of the cylinder [m], above zero.
-    plane_strain_modulus : float
-        E/(1-nu^2) [Pa], above zero.
-
-    Raises
-    ------
-    InputError
-        If an argument is not a positive finite number.
+    Arguments: load [N/m], radius of the cylinder [m] and E/(1-nu^2) [Pa]. Raises `InputError` if
+    one is not a positive finite number.
     """
     load = checks.positive("load_per_length", load_per_length, unit="N/m")
     curvature = checks.positive("radius", radius, unit="m")
@@ -134,19 +123,9 @@ def largest_pressure(
 def step_relaxation_stress(rubber: Rubber, *, stretch: float, time: ArrayLike) -> Array:
     """Return the nominal stress [Pa] at `time` [s] after a step to `stretch` [-], shape of `time`.
 
-    Parameters
-    ----------
-    rubber : Rubber
-        Its bulk modulus is taken as infinite.
-    stretch : float
-        Deformed over undeformed length [-], above zero.
-    time : array_like
-        Since the step [s], not negative; infinity gives equilibrium.
-
-    Raises
-    ------
-    InputError
-        If the stretch is not positive or a time is negative.
+    The bulk modulus of the rubber is taken as infinite; infinite time gives equilibrium. Raises
+    `InputError` if the stretch, deformed over undeformed length, is not positive or a time is
+    negative.
     """
     checks.instance("rubber", rubber, Rubber)
     ratio = checks.positive("stretch", stretch)
@@ -171,19 +150,8 @@ def contact_pressure(
 ) -> Array:
     """Return the contact pressure [Pa] at `x` [m], same shape; zero out of contact.
 
-    Parameters
-    ----------
-    x : array_like
-        Abscissa, crest at 0 [m].
-    wavelength : float
-        Of the wave [m], above zero.
-    pressure, full_contact_pressure : float
-        Mean pressure and p* [Pa], above zero.
-
-    Raises
-    ------
-    InputError
-        If an argument is not a positive finite number.
+    The crest is at x = 0; `pressure` is the mean and `full_contact_pressure` p* [Pa]. Raises
+    `InputError` if an argument is not a positive finite number.
     """
     length = checks.positive("wavelength", wavelength, unit="m")
     mean = checks.positive("pressure", pressure, unit="Pa")
@@ -218,19 +186,9 @@ def full_contact_pressure(
 ) -> float:
     """Return the least mean pressure that presses the valleys flat, k A |M| / 2 [Pa].
 
-    For an elastic half-plane this is Westergaard's p* = pi E/(1-nu^2) A/lambda.
-
-    Parameters
-    ----------
-    plane_strain_modulus : complex
-        E/(1-nu^2) at the angular frequency 2 pi v/lambda [Pa]; real when elastic.
-    wavelength, amplitude : float
-        Of the wave, amplitude half peak to valley [m], above zero.
-
-    Raises
-    ------
-    InputError
-        If an argument is not a positive finite number.
+    For an elastic half-plane this is Westergaard's p* = pi E/(1-nu^2) A/lambda. Arguments: M =
+    E/(1-nu^2) at the angular frequency 2 pi v/lambda [Pa], real when elastic; wavelength and
+    amplitude, half peak to valley [m]. Raises `InputError` if one is not a positive finite number.
     """
     modulus = _modulus(plane_strain_modulus)
     length = checks.positive("wavelength", wavelength, unit="m")
@@ -243,19 +201,8 @@ def full_contact_friction(
 ) -> float:
     """Return the friction coefficient in full contact, k^2 A^2 Im(M) / (4 p) [-].
 
-    Parameters
-    ----------
-    plane_strain_modulus : complex
-        E/(1-nu^2) at the angular frequency 2 pi v/lambda [Pa].
-    wavelength, amplitude : float
-        Of the wave, amplitude half peak to valley [m], above zero.
-    pressure : float
-        Mean pressure [Pa], at least `full_contact_pressure`.
-
-    Raises
-    ------
-    InputError
-        If an argument is not positive and finite, or the pressure leaves gaps.
+    Arguments as for `full_contact_pressure`, and the mean pressure [Pa]. Raises `InputError` if one
+    is not positive and finite, or the pressure leaves gaps.
     """
     least = full_contact_pressure(plane_strain_modulus, wavelength=wavelength, amplitude=amplitude)
     load = checks.positive("pressure", pressure, unit="Pa")
@@ -280,21 +227,9 @@ def slab_compliance(
 ) -> Array:
     """Return normal displacement over pressure amplitude, u/p [m/Pa], same shape as `wavenumber`.
 
-    Parameters
-    ----------
-    wavenumber : array_like
-        2 pi/lambda [rad/m], above zero.
-    depth : float
-        Thickness of the slab [m], above zero; infinity gives the half-plane.
-    youngs_modulus : float
-        [Pa], above zero.
-    poisson_ratio : float
-        [-], above -1 and at most 0.5.
-
-    Raises
-    ------
-    InputError
-        If an argument is out of its range.
+    Arguments: 2 pi/lambda [rad/m], thickness of the slab [m], where infinity gives the half-plane,
+    Young's modulus [Pa], all above zero, and Poisson's ratio [-], above -1 and at most 0.5. Raises
+    `InputError` if one is out of its range.
     """
     number = checks.real("wavenumber", wavenumber, unit="rad/m")
     if not (number >= checks.LEAST).all():

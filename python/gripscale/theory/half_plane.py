@@ -201,34 +201,21 @@ def _edge_offset(gap: Array, active: Mask, node: int, side: int) -> float:
     return float(np.clip(1.0 - here / (there - here), 0.0, 1.0))
 
 
-def _poisson_or_none(name: str, value: float | None) -> float | None:
-    return None if value is None else poisson(value)
-
-
 class HalfPlane(Checked):
     """Solver of one wave at small strain.
 
-    Parameters
-    ----------
-    points : int
-        Nodes per wavelength, 16 to 8192; a multiple of a power of two is solved fastest.
-    poisson_ratio : float, optional
-        Constant Poisson's ratio, E* then being Young's modulus; by default shear relaxes at
-        constant bulk modulus and Poisson's ratio follows the frequency.
-    most_iterations : int
-        Active-set iterations allowed on each grid.
-
-    Raises
-    ------
-    InputError
-        If an argument is out of its range.
+    Raises `InputError` if an argument is out of its range.
     """
 
     name: ClassVar[str] = "half_plane"
 
     points: int = checked(checks.whole, least=16, most=8192, default=1024)
-    poisson_ratio: float | None = checked(_poisson_or_none, default=None)
+    """Nodes per wavelength, 16 to 8192; a multiple of a power of two is solved fastest."""
+    poisson_ratio: float | None = checked(lambda _, value: poisson(value), default=None)
+    """Constant Poisson's ratio, E* then being Young's modulus; by default shear relaxes at constant
+    bulk modulus and Poisson's ratio follows the frequency."""
     most_iterations: int = checked(checks.whole, least=1, most=100_000, default=200)
+    """Active-set iterations allowed on each grid."""
 
     @classmethod
     def of(cls, **options: Any) -> HalfPlane:
@@ -338,6 +325,9 @@ def solve_half_plane(
 ) -> WaveResult:
     """Return contact and friction of one wave by small-strain theory.
 
+    Raises `InputError` if an argument is out of its range, or the rubber at rest is a melt: the
+    pressure is more than ten times the equilibrium modulus.
+
     Parameters
     ----------
     rubber : Rubber
@@ -359,12 +349,6 @@ def solve_half_plane(
         With `model` "half_plane", stretches NaN (a half-plane's surface does not show them) and
         `details`: `contact_edges` [m], `points`, `points_in_contact`, `full_contact`. A `status`
         other than "converged" says why not to trust the numbers.
-
-    Raises
-    ------
-    InputError
-        If an argument is out of its range, or the rubber at rest is a melt: the pressure is more
-        than ten times the equilibrium modulus.
     """
     problem = WaveProblem(rubber, Sine(wavelength, amplitude), WaveLoad(pressure, speed, load_time))
     if problem.load.speed == 0.0:

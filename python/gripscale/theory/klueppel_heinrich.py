@@ -26,7 +26,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import ClassVar
 
 import numpy as np
 
@@ -38,12 +38,8 @@ from gripscale.rubber import Rubber
 from gripscale.surface.height_difference import HeightDifference, height_difference
 from gripscale.surface.profile import Profile
 from gripscale.surface.self_affine import SelfAffineFit, fit_self_affine
-from gripscale.theory.persson import divided, refined, running_integral, theory_dataset
+from gripscale.theory.persson import TheoryResult, Variable, divided, refined, running_integral
 from gripscale.wave.problem import Status
-
-if TYPE_CHECKING:
-    import xarray as xr
-
 
 SOURCE = "Klueppel & Heinrich 2000, Rubber Chem. Technol. 73, 578"
 TOP_HEIGHT_FRACTION = 0.5
@@ -69,8 +65,13 @@ _VARIABLES = (
 
 
 @dataclass(frozen=True)
-class KlueppelHeinrichResult:
+class KlueppelHeinrichResult(TheoryResult):
     """Hysteresis friction of a self-affine surface, down to each wavelength (m, Pa, m/s)."""
+
+    name: ClassVar[str] = "klueppel_heinrich"
+    title: ClassVar[str] = "Hysteresis friction of rubber on a self-affine surface"
+    source: ClassVar[str] = SOURCE
+    variables: ClassVar[Sequence[Variable]] = _VARIABLES
 
     rubber: Rubber
     surface: SelfAffineFit
@@ -90,30 +91,10 @@ class KlueppelHeinrichResult:
         return math.nan
 
     @property
-    def friction(self) -> float:
-        """Friction coefficient [-]."""
-        return float(self.running_friction[-1])
-
-    @property
     def status(self) -> Status:
         """`converged` if doubling the resolution changed friction by less than `TOLERANCE`."""
         met = self.friction_error <= TOLERANCE * self.friction
         return Status.CONVERGED if met else Status.TOLERANCE_NOT_MET
-
-    @property
-    def converged(self) -> bool:
-        """Whether the integral met the tolerance."""
-        return self.status == Status.CONVERGED
-
-    def to_dataset(self) -> xr.Dataset:
-        """Return everything as a labelled Dataset over `scale`, the wavelengths."""
-        return theory_dataset(
-            self,
-            _VARIABLES,
-            name="klueppel_heinrich",
-            title="Hysteresis friction of rubber on a self-affine surface",
-            source=SOURCE,
-        )
 
 
 def klueppel_heinrich(
@@ -128,6 +109,9 @@ def klueppel_heinrich(
     footprint: float | None = None,
 ) -> KlueppelHeinrichResult:
     """Return the hysteresis friction of a self-affine surface by Klueppel and Heinrich.
+
+    The `contact_fraction` is NaN. Raises `InputError` if an argument is out of its range, or the
+    surface is not self-affine.
 
     Parameters
     ----------
@@ -148,16 +132,6 @@ def klueppel_heinrich(
     footprint : float, optional
         Length of the nominal contact [m]: recorded, without effect; the cut-off length of the
         surface by default.
-
-    Returns
-    -------
-    KlueppelHeinrichResult
-        Its `contact_fraction` is NaN.
-
-    Raises
-    ------
-    InputError
-        If an argument is out of its range, or the surface is not self-affine.
     """
     fit = surface if isinstance(surface, SelfAffineFit) else _fit(surface)
     checks.instance("rubber", rubber, Rubber)

@@ -2,53 +2,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from gripscale.core import checks
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
-from gripscale.model import Load, Model
+from gripscale.model import Load, Model, OnProgress
 from gripscale.rubber import Rubber
 from gripscale.surface.profile import Profile
 from gripscale.surface.spectrum import profile_spectrum
 from gripscale.surface.surface import Surface, SurfacePart
 from gripscale.theory.klueppel_heinrich import klueppel_heinrich
-from gripscale.theory.persson import persson
+from gripscale.theory.persson import TheoryResult, persson
 
 if TYPE_CHECKING:
     import xarray as xr
 
 
 class Persson(Checked, Model):
-    """Persson's theory; the profiles are lines on an isotropic surface.
-
-    Parameters
-    ----------
-    smallest_wavelength : float, optional
-        Smallest wave that counts [m]; by default the end of the surface's sine waves, see
-        `SineStack.cutoff_wavelength`.
-    gamma : float
-        See `persson`.
-    window : float, optional
-        See `profile_spectrum` [m].
-    """
+    """Persson's theory; the profiles are lines on an isotropic surface."""
 
     name: ClassVar[str] = "persson"
     needs: ClassVar[frozenset[SurfacePart]] = frozenset({"measurement", "cut_off"})
 
     smallest_wavelength: float | None = checked(checks.positive, unit="m", default=None)
+    """Smallest wave that counts [m]; by default the end of the surface's sine waves, see
+    `SineStack.cutoff_wavelength`."""
     gamma: float = checked(checks.not_negative, default=0.5)
+    """See `persson`."""
     window: float | None = checked(checks.positive, unit="m", default=None)
+    """See `profile_spectrum` [m]."""
 
     def predict(
-        self,
-        rubber: Rubber,
-        surface: Surface,
-        load: Load,
-        *,
-        on_progress: Callable[[Any], None] | None = None,
+        self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
     ) -> xr.Dataset:
         """Return the answer as a Dataset; `on_progress` gets the `PerssonResult`.
 
@@ -66,31 +53,21 @@ class Persson(Checked, Model):
 
 
 class KlueppelHeinrich(Checked, Model):
-    """The theory of Klueppel and Heinrich for the upper part of the profiles.
-
-    Parameters
-    ----------
-    layer_ratio, penetration_depth : float
-        See `klueppel_heinrich`; the depth [m] is the same at every load.
-    smallest_wavelength : float, optional
-        Smallest wave that counts [m]; by default the end of the surface's sine waves, see
-        `SineStack.cutoff_wavelength`.
-    """
+    """The theory of Klueppel and Heinrich for the upper part of the profiles."""
 
     name: ClassVar[str] = "klueppel_heinrich"
     needs: ClassVar[frozenset[SurfacePart]] = frozenset({"measurement", "cut_off"})
 
     layer_ratio: float = checked(checks.positive)
+    """See `klueppel_heinrich` [-]."""
     penetration_depth: float = checked(checks.positive, unit="m")
+    """See `klueppel_heinrich` [m]; the same at every load."""
     smallest_wavelength: float | None = checked(checks.positive, unit="m", default=None)
+    """Smallest wave that counts [m]; by default the end of the surface's sine waves, see
+    `SineStack.cutoff_wavelength`."""
 
     def predict(
-        self,
-        rubber: Rubber,
-        surface: Surface,
-        load: Load,
-        *,
-        on_progress: Callable[[Any], None] | None = None,
+        self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
     ) -> xr.Dataset:
         """Return the answer as a Dataset; `on_progress` gets the `KlueppelHeinrichResult`.
 
@@ -108,11 +85,10 @@ class KlueppelHeinrich(Checked, Model):
         return _answered(replace(result, load=load), on_progress)
 
 
-def _answered(result: Any, on_progress: Callable[[Any], None] | None) -> xr.Dataset:
+def _answered(result: TheoryResult, on_progress: OnProgress) -> xr.Dataset:
     if on_progress is not None:
         on_progress(result)
-    data: xr.Dataset = result.to_dataset()
-    return data
+    return result.to_dataset()
 
 
 def _cleaned(surface: Surface, name: str) -> list[Profile]:

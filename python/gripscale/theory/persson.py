@@ -13,8 +13,7 @@ inside asperity contacts, M. Scaraggi & B. N. J. Persson, J. Phys.: Condens. Mat
 Exact limits: full contact (P = 1) is the sum of all waves, each with its closed form; light elastic
 contact is A/A_0 = sqrt(8/pi) p_0/(M h'), with h' the rms gradient of the surface, from G = (M
 h'/p_0)^2/8 and erf(x) = 2 x/sqrt(pi). The running integrals use the trapezoidal rule on grids
-refined until a tolerance is met. `theory_dataset` builds the Dataset of the results of all
-theories.
+refined until a tolerance is met. `TheoryResult` is what the results of all theories share.
 """
 
 from __future__ import annotations
@@ -23,7 +22,7 @@ import json
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -51,64 +50,69 @@ Variable = tuple[str, Any, str, str]
 """Name of variable and attribute, dimension, unit and meaning."""
 
 
-class TheoryResult(Protocol):
-    """Attributes of the results of all theories."""
+class TheoryResult:
+    """Friction down to each wavelength, and the Dataset of it: what all theories share."""
+
+    name: ClassVar[str]
+    title: ClassVar[str]
+    source: ClassVar[str]
+    variables: ClassVar[Sequence[Variable]]
+
+    if TYPE_CHECKING:
+        rubber: Rubber
+        load: Load
+        wavelength: Array
+        running_friction: Array
+
+        @property
+        def contact_fraction(self) -> float:
+            """Real over nominal contact area [-], NaN of a theory without it."""
+
+        @property
+        def status(self) -> Status:
+            """Whether the integrals met their tolerance."""
 
     @property
-    def rubber(self) -> Rubber: ...  # noqa: D102
-    @property
-    def load(self) -> Load: ...  # noqa: D102
-    @property
-    def wavelength(self) -> Array: ...  # noqa: D102
-    @property
-    def running_friction(self) -> Array: ...  # noqa: D102
-    @property
-    def contact_fraction(self) -> float: ...  # noqa: D102
-    @property
-    def friction(self) -> float: ...  # noqa: D102
-    @property
-    def status(self) -> Status: ...  # noqa: D102
-    @property
-    def converged(self) -> bool: ...  # noqa: D102
+    def friction(self) -> float:
+        """Friction coefficient [-]."""
+        return float(self.running_friction[-1])
 
+    @property
+    def converged(self) -> bool:
+        """Whether the integrals met the tolerance."""
+        return self.status == Status.CONVERGED
 
-def theory_dataset(
-    result: TheoryResult, variables: Sequence[Variable], *, name: str, title: str, source: str
-) -> xr.Dataset:
-    """Return `variables` over `scale`, the wavelengths; totals are NaN unless it converged."""
-    import xarray as xr
+    def to_dataset(self) -> xr.Dataset:
+        """Return everything as a labelled Dataset over `scale`, the wavelengths.
 
-    from gripscale.wave.result import labelled
+        The totals are NaN unless it converged.
+        """
+        import xarray as xr
 
-    data = {
-        variable: labelled(dims, getattr(result, variable), unit, text, source)
-        for variable, dims, unit, text in variables
-    }
-    number = np.arange(1, result.wavelength.size + 1)
-    coordinate = labelled("scale", number, "1", "number of the wavelength", source)
-    totals = {
-        "total_contact_fraction": result.contact_fraction,
-        "total_friction": result.friction,
-        "total_friction_from_dissipation": result.friction,
-    }
-    if not result.converged:
-        totals = dict.fromkeys(totals, math.nan)
-    out = xr.Dataset(data, coords={"scale": coordinate}).assign_attrs(
-        title=title,
-        rubber=f"{result.rubber.name}; {result.rubber.source}".strip("; "),
-        rubber_parameters=json.dumps(result.rubber.to_dict()),
-        method=source,
-        **provenance.attributes(),
-    )
-    beyond = by_wavelength(
-        result.rubber, result.load.speed, result.wavelength, result.running_friction
-    )
-    area = getattr(result, "running_contact_fraction", np.full(number.size, math.nan))
-    exponents = NOT_CONVERGED
-    if result.converged:
-        moving = result.load.speed > 0.0
-        exponents = of_curve(result.wavelength, area, result.running_friction, moving=moving)
-    return model.answer(out, totals, str(result.status), name, result.load, beyond, exponents)
+        from gripscale.wave.result import labelled
+
+        data = {
+            variable: labelled(dims, getattr(self, variable), unit, text, self.source)
+            for variable, dims, unit, text in self.variables
+        }
+        number = np.arange(1, self.wavelength.size + 1)
+        coordinate = labelled("scale", number, "1", "number of the wavelength", self.source)
+        out = xr.Dataset(data, coords={"scale": coordinate}).assign_attrs(
+            title=self.title,
+            rubber=f"{self.rubber.name}; {self.rubber.source}".strip("; "),
+            rubber_parameters=json.dumps(self.rubber.to_dict()),
+            method=self.source,
+            **provenance.attributes(),
+        )
+        speed, friction = self.load.speed, self.running_friction
+        area = getattr(self, "running_contact_fraction", np.full(number.size, math.nan))
+        totals, exponents = dict.fromkeys(model.TOTALS, math.nan), NOT_CONVERGED
+        if self.converged:
+            totals = dict.fromkeys(model.TOTALS, self.friction)
+            totals["total_contact_fraction"] = self.contact_fraction
+            exponents = of_curve(self.wavelength, area, friction, moving=speed > 0.0)
+        beyond = by_wavelength(self.rubber, speed, self.wavelength, friction)
+        return model.answer(out, totals, str(self.status), self.name, self.load, beyond, exponents)
 
 
 def divided(nodes: Array, intervals: int) -> Array:
@@ -176,11 +180,16 @@ _ANGLES = 12
 
 
 @dataclass(frozen=True)
-class PerssonResult:
+class PerssonResult(TheoryResult):
     """Contact and friction of a randomly rough surface, down to each wavelength.
 
     All lengths in m, pressures in Pa, speeds in m/s; numbers along `wavelength` have its shape.
     """
+
+    name: ClassVar[str] = "persson"
+    title: ClassVar[str] = "Real contact area and friction of rubber on a randomly rough surface"
+    source: ClassVar[str] = SOURCE
+    variables: ClassVar[Sequence[Variable]] = _VARIABLES
 
     rubber: Rubber
     load: Load
@@ -206,31 +215,11 @@ class PerssonResult:
         return float(self.running_contact_fraction[-1])
 
     @property
-    def friction(self) -> float:
-        """Friction coefficient [-]."""
-        return float(self.running_friction[-1])
-
-    @property
     def status(self) -> Status:
         """`converged` if doubling the resolution changed both numbers by less than `TOLERANCE`."""
         area = self.contact_fraction_error <= TOLERANCE * self.contact_fraction
         friction = self.friction_error <= TOLERANCE * abs(self.friction)
         return Status.CONVERGED if area and friction else Status.TOLERANCE_NOT_MET
-
-    @property
-    def converged(self) -> bool:
-        """Whether the integrals met the tolerance."""
-        return self.status == Status.CONVERGED
-
-    def to_dataset(self) -> xr.Dataset:
-        """Return everything as a labelled Dataset over `scale`, the points of the spectrum."""
-        return theory_dataset(
-            self,
-            _VARIABLES,
-            name="persson",
-            title="Real contact area and friction of rubber on a randomly rough surface",
-            source=SOURCE,
-        )
 
 
 def persson(
@@ -244,6 +233,9 @@ def persson(
     footprint: float | None = None,
 ) -> PerssonResult:
     """Return contact and friction of a randomly rough surface by Persson's theory.
+
+    A `status` other than "converged" says that the integrals are not accurate. Raises `InputError`
+    if an argument is out of its range.
 
     Parameters
     ----------
@@ -260,16 +252,6 @@ def persson(
         Share of the deformation that is left where contact is small, 0 to 1.
     footprint : float, optional
         Length of the nominal contact [m]: recorded, without effect; the largest wave by default.
-
-    Returns
-    -------
-    PerssonResult
-        A `status` other than "converged" says that the integrals are not accurate.
-
-    Raises
-    ------
-    InputError
-        If an argument is out of its range.
     """
     checks.instance("rubber", rubber, Rubber)
     if isinstance(spectrum, ProfileSpectrum):
@@ -279,9 +261,7 @@ def persson(
             f"spectrum must be an ArealSpectrum or a ProfileSpectrum; "
             f"got {checks.short_repr(spectrum)}"
         )
-    share = checks.not_negative("gamma", gamma)
-    if share > 1.0:
-        raise InputError(f"gamma must be at most 1; got {gamma:g}")
+    share = checks.at_most_one("gamma", checks.not_negative("gamma", gamma))
     last = last_wavenumber(spectrum.wavenumber, smallest_wavelength)
     points = np.append(spectrum.wavenumber[spectrum.wavenumber < last], last)
     nodes = np.exp(filled_in(np.log(points), _WIDEST))

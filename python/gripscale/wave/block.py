@@ -44,27 +44,19 @@ def _settings(name: str, value: Mapping[str, float]) -> Mapping[str, float]:
 class FiniteStrainBlock(Checked):
     """Solver of one wave at finite strain.
 
+    Raises `InputError` if tolerance or time limit is not above zero, or a setting is unknown or no
+    number above zero.
+
     Parameters
     ----------
     mesh : Mesh
         The mesh; with a tolerance, a mesh of the same proportions. Its columns are doubled, to 256
         at most, as long as the two frictions differ by more than the `friction_bound` of the
         result, or contacts of fewer than 4 nodes carry half of the load.
-    tolerance : float, optional
-        Largest estimated discretisation error, absolute in contact fraction and relative in
-        friction (to 0.04 of the slope 2 pi amplitude/wavelength where friction is less). The mesh
-        is refined until it is met, from coarser than `mesh` to 2048 columns.
+    tolerance, time_limit : float, optional
+        As in `gripscale.solve_scale`.
     settings : mapping
         Values that differ from `gripscale.wave.default_settings()`.
-    time_limit : float, optional
-        Seconds after which the solution ends with the status `time limit`, on the finest mesh that
-        was solved, or at the pressure that was reached. None: no limit.
-
-    Raises
-    ------
-    InputError
-        If tolerance or time limit is not above zero, or a setting is unknown or no number above
-        zero.
     """
 
     name: ClassVar[str] = "finite_strain"
@@ -99,11 +91,7 @@ class FiniteStrainBlock(Checked):
         return replace(self, mesh=replace(mesh, columns=columns, rows=rows), tolerance=None)
 
     def solve(
-        self,
-        problem: WaveProblem,
-        start: WaveResult | None = None,
-        *,
-        workers: int | None = None,
+        self, problem: WaveProblem, start: WaveResult | None = None, *, workers: int | None = None
     ) -> WaveResult:
         """Return contact and friction of `problem`.
 
@@ -206,6 +194,9 @@ def solve_scale(
     wavelength). The steady state is one non-linear solve in the frame of the wave
     (Wriggers & Reinelt, Comput. Methods Appl. Mech. Engrg. 198 (2009) 1996, treat it in time).
 
+    The `status` of the result is `converged`, or the reason not to use the numbers. Raises
+    `InputError` if a value is not a number or out of its range.
+
     Parameters
     ----------
     rubber : Rubber
@@ -218,14 +209,8 @@ def solve_scale(
         Sliding speed [m/s]; 0 is static contact of the fully relaxed rubber.
     load_time : float
         Relaxation time of the mean deformation so far [s]; infinity by default.
-    depth : float
-        Height of the block in wavelengths.
-    columns : int
-        Elements along the block.
-    rows : int
-        Elements across the block.
-    element_order : int
-        1: bilinear with one pressure; 2: biquadratic with linear discontinuous pressure.
+    depth, columns, rows, element_order
+        As in `gripscale.wave.Mesh`.
     tolerance : float, optional
         Largest estimated discretisation error, absolute in contact fraction and relative in
         friction (to 0.04 of the slope 2 pi amplitude/wavelength where friction is less). The mesh
@@ -244,16 +229,6 @@ def solve_scale(
         Newton iterations allowed in one load step.
     residual_tolerance : float, optional
         Largest residual force over the applied force, and gap over the amplitude [-].
-
-    Returns
-    -------
-    WaveResult
-        Its `status` is `converged`, or the reason not to use the numbers.
-
-    Raises
-    ------
-    InputError
-        If a value is not a number or out of its range.
     """
     problem = WaveProblem(rubber, Sine(wavelength, amplitude), WaveLoad(pressure, speed, load_time))
     if problem.load.speed == 0.0:

@@ -91,11 +91,7 @@ def _work(workers: int | None, time_limit: float | None) -> _kernel.Work:
 def _body(rubber: Rubber, profile: Sine | SampledProfile, mesh: Mesh) -> _kernel.Body:
     heights: _kernel.Sine | _kernel.Sampled
     if isinstance(profile, Sine):
-        heights = {
-            "kind": "sine",
-            "wavelength": profile.wavelength,
-            "amplitude": profile.amplitude,
-        }
+        heights = {"kind": "sine", "wavelength": profile.wavelength, "amplitude": profile.amplitude}
     else:
         heights = {
             "kind": "sampled",

@@ -28,17 +28,8 @@ SMALLEST_SHARE = 1e-9
 class Sine(Checked):
     """A rigid sine wave z = amplitude cos(2 pi x / wavelength), crest at x = 0.
 
-    Parameters
-    ----------
-    wavelength : float
-        [m], above zero.
-    amplitude : float
-        Half peak-to-valley height [m], above zero.
-
-    Raises
-    ------
-    InputError
-        If a value is not a number above zero.
+    Wavelength and amplitude (half peak-to-valley height) [m] are above zero. Raises `InputError`
+    for others.
     """
 
     wavelength: float = checked(checks.positive, unit="m")
@@ -60,21 +51,14 @@ def _heights(name: str, value: ArrayLike) -> Array:
 class SampledProfile(Checked, eq=False):
     """Heights at equal steps over one period; between them the trigonometric interpolant.
 
-    Parameters
-    ----------
-    wavelength : float
-        The period [m], above zero.
-    heights : array_like, shape (points,)
-        Heights at x = 0, wavelength/points, ... [m], at least 8; their mean is subtracted.
-
-    Raises
-    ------
-    InputError
-        If the period is no number above zero, or the heights are too few, not finite, or all equal.
+    Raises `InputError` if the period is no number above zero, or the heights are too few, not
+    finite, or all equal.
     """
 
     wavelength: float = checked(checks.positive, unit="m")
+    """The period [m], above zero."""
     heights: Array = checked(_heights)
+    """Heights at x = 0, wavelength/points, ... [m], at least 8; their mean is subtracted."""
 
     @property
     def amplitude(self) -> float:
@@ -102,24 +86,15 @@ class SampledProfile(Checked, eq=False):
 class WaveLoad(Checked):
     """Mean pressure and sliding on one wave.
 
-    Parameters
-    ----------
-    pressure : float
-        Mean pressure [Pa], above zero.
-    speed : float
-        Sliding speed [m/s]; zero is static contact of the relaxed rubber.
-    load_time : float
-        Time the mean deformation has had to relax [s]; may be infinite.
-
-    Raises
-    ------
-    InputError
-        If a value is not a number or out of its range.
+    Raises `InputError` if a value is not a number or out of its range.
     """
 
     pressure: float = checked(checks.positive, unit="Pa")
+    """Mean pressure [Pa], above zero."""
     speed: float = checked(checks.not_negative, unit="m/s", default=0.0)
+    """Sliding speed [m/s]; zero is static contact of the relaxed rubber."""
     load_time: float = checked(checks.not_negative, unit="s", infinite=True, default=math.inf)
+    """Time the mean deformation has had to relax [s]; may be infinite."""
 
 
 class WaveProblem(Checked):
@@ -138,25 +113,17 @@ class WaveProblem(Checked):
 class Mesh(Checked):
     """Elements of the periodic block, one wavelength wide, graded towards the contact.
 
-    Parameters
-    ----------
-    columns, rows : int
-        Elements along the block and across it.
-    depth : float
-        Height of the block in wavelengths.
-    element_order : int
-        1: bilinear with one pressure; 2: biquadratic with linear discontinuous pressure.
-
-    Raises
-    ------
-    InputError
-        If a value is out of its range.
+    Raises `InputError` if a value is out of its range.
     """
 
     columns: int = checked(checks.whole, least=4, most=4096, default=128)
+    """Elements along the block."""
     rows: int = checked(checks.whole, least=2, most=256, default=20)
+    """Elements across the block."""
     depth: float = checked(checks.positive, default=1.5)
+    """Height of the block in wavelengths."""
     element_order: int = checked(checks.whole, least=1, most=2, default=1)
+    """1: bilinear with one pressure; 2: biquadratic with linear discontinuous pressure."""
 
 
 class Status(StrEnum):

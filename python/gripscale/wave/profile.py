@@ -7,9 +7,8 @@ separation of scales, no random phases, and no small strain.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -29,7 +28,7 @@ from gripscale.wave.result import WaveResult, waves_to_dataset
 if TYPE_CHECKING:
     import xarray as xr
 
-    from gripscale.model import Load
+    from gripscale.model import Load, OnProgress
 
 COLUMNS = (128, 192, 256, 384, 512, 768, 1024, 1536, 2048, 3072, 4096)
 """Numbers of columns, all of which can be halved for the coarser meshes of a sequence."""
@@ -68,18 +67,18 @@ def solve_profile(
     As `gripscale.solve_scale`, on sampled heights in place of one sine. Missing heights are
     interpolated linearly.
 
+    Raises `InputError` if a value is not a number or out of its range, the smallest wave needs more
+    columns, or the rubber at rest is a melt: the pressure is more than ten times the equilibrium
+    modulus.
+
     Parameters
     ----------
     rubber : Rubber
         The viscoelastic solid.
     profile : Profile
         Heights of one period [m]; the rubber slides along its x.
-    pressure : float
-        Mean pressure on the lid [Pa].
-    speed : float
-        Sliding speed [m/s]; 0 is static contact of the fully relaxed rubber.
-    load_time : float
-        Relaxation time of the mean deformation so far [s]; infinity by default.
+    pressure, speed, load_time, element_order, tolerance, time_limit, workers, max_iterations
+        As in `gripscale.solve_scale`.
     smallest_wavelength : float, optional
         Shorter waves are left out [m]; by default none.
     periodic : bool
@@ -92,16 +91,8 @@ def solve_profile(
         Elements along and across the block; by default 12 columns along the smallest wave, rounded
         up to a number of few factors, from 128 to 4096, and a number of rows whose heights grow by
         12 % at most from one to the next.
-    element_order : int
-        1: bilinear with one pressure; 2: biquadratic with linear discontinuous pressure.
-    tolerance, time_limit : float, optional
-        As in `gripscale.solve_scale`.
-    workers : int, optional
-        As in `gripscale.solve_scale`.
     start : WaveResult, optional
         A result of the block to start from, of any profile, load and rubber.
-    max_iterations : int, optional
-        Newton iterations allowed in one load step.
     residual_tolerance : float, optional
         Largest residual force over the applied force, and gap over half the range of heights [-].
 
@@ -112,12 +103,6 @@ def solve_profile(
         first point. `details` also has the `contact_edges` [m], the `missing_share` of the points,
         the `smallest_wavelength` of the block's profile [m], and the `contact_slope`, the largest
         slope in the contact.
-
-    Raises
-    ------
-    InputError
-        If a value is not a number or out of its range, the smallest wave needs more columns, or
-        the rubber at rest is a melt: the pressure is more than ten times the equilibrium modulus.
     """
     if not isinstance(profile, Profile):
         raise InputError(f"profile must be a gripscale.Profile; got {type(profile).__name__}")
@@ -196,11 +181,7 @@ class BlockOnProfile(Checked, model.Model):
 
     Parameters
     ----------
-    smallest_wavelength : float, optional
-        As in `gripscale.solve_profile` [m].
-    periodic : bool
-        As in `gripscale.solve_profile`.
-    tolerance : float, optional
+    smallest_wavelength, periodic, tolerance
         As in `gripscale.solve_profile`.
     """
 
@@ -212,19 +193,12 @@ class BlockOnProfile(Checked, model.Model):
     tolerance: float | None = checked(checks.positive, default=None)
 
     def predict(
-        self,
-        rubber: Rubber,
-        surface: Surface,
-        load: Load,
-        *,
-        on_progress: Callable[[Any], None] | None = None,
+        self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
     ) -> xr.Dataset:
         """Return the answer, with each profile over `profile`; `on_progress` gets each result.
 
-        Raises
-        ------
-        InputError
-            If the surface has no profile, or one with more waves than a block resolves.
+        Raises `InputError` if the surface has no profile, or one with more waves than a block
+        resolves.
         """
         if surface.measured is None:
             raise InputError(

@@ -28,21 +28,14 @@ DEFAULT_ROWS = 14
 
 
 class Stage(Checked):
-    """A period of constant speed and pressure.
-
-    Parameters
-    ----------
-    duration : float
-        Duration [s]; a sliding stage is rounded to whole columns of the mesh.
-    speed : float
-        Speed of the rubber's surface over the wave [m/s]; negative slides backwards, 0 dwells.
-    pressure : float
-        Mean pressure [Pa].
-    """
+    """A period of constant speed and pressure."""
 
     duration: float = checked(checks.positive, unit="s")
+    """Duration [s]; a sliding stage is rounded to whole columns of the mesh."""
     speed: float = checked(checks.number, unit="m/s")
+    """Speed of the rubber's surface over the wave [m/s]; negative slides backwards, 0 dwells."""
     pressure: float = checked(checks.positive, unit="Pa")
+    """Mean pressure [Pa]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,10 +66,7 @@ class TransientResult:
     def cycle(self, wavelengths: float = 1.0) -> dict[str, tuple[float, float, float]]:
         """Return mean, least and largest friction and contact fraction at the end of the run.
 
-        Parameters
-        ----------
-        wavelengths : float
-            Sliding distance up to the end that counts, in wavelengths.
+        The sliding distance up to the end that counts is given in `wavelengths`.
         """
         last = self._distance_to_end() <= wavelengths
         return {
@@ -129,6 +119,8 @@ def solve_transient(
     The programme sets the speed of the rubber's *surface* over the wave (the lid follows the
     block's mean shear), which makes a dwell one of constant mean shear.
 
+    Raises `InputError` if a value is not a number or out of its range, or there are no stages.
+
     Parameters
     ----------
     rubber : Rubber
@@ -141,15 +133,6 @@ def solve_transient(
         A static or steady state to start from, solved with the same rubber and wave.
     depth, columns, rows, workers, **options
         As in `gripscale.solve_scale`.
-
-    Returns
-    -------
-    TransientResult
-
-    Raises
-    ------
-    InputError
-        If a value is not a number or out of its range, or there are no stages.
     """
     checks.instance("rubber", rubber, Rubber)
     stages = checks.instances("stages", stages, Stage)
