@@ -105,17 +105,25 @@ def canonical_json(value: Any) -> Any:
     )
 
 
-# Finished predictions on disk: one small netCDF file each, named by the key of its task.
-#
-# A file is written beside its place and renamed into it, so a file that is there is whole. One that
-# cannot be read back all the same (a disk that was full, a power cut) counts as not there.
+def load_stored(path: Path, **attributes: str) -> xr.Dataset | None:
+    """Return the Dataset at `path` with these attributes, or None if it is not there whole."""
+    try:
+        data = netcdf.load(path)
+    except FileError:
+        return None
+    same = all(data.attrs.get(name) == value for name, value in attributes.items())
+    return data if same else None
+
 
 PREDICTIONS = "predictions"
 """Folder of the finished predictions, in the folder of a result."""
 
 
 class Store:
-    """A folder of finished predictions.
+    """A folder of finished predictions: one small netCDF file each, named by the key of its task.
+
+    A file is written beside its place and renamed into it, so a file that is there is whole. One
+    that cannot be read back all the same (a disk that was full, a power cut) counts as not there.
 
     Parameters
     ----------
@@ -142,11 +150,7 @@ class Store:
 
     def get(self, key: str) -> xr.Dataset | None:
         """Return the prediction of `key`, or None if it is not there whole."""
-        try:
-            stored = netcdf.load(self.path(key))
-        except FileError:
-            return None
-        return stored if stored.attrs.get("prediction_key") == key else None
+        return load_stored(self.path(key), prediction_key=key)
 
     def put(self, key: str, solved: xr.Dataset) -> xr.Dataset:
         """Write the prediction of `key` and return it as read back.
