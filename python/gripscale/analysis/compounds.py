@@ -24,7 +24,7 @@ from gripscale.chain.chain import Chain
 from gripscale.core import checks
 from gripscale.core.errors import InputError
 from gripscale.core.units import ZERO_CELSIUS
-from gripscale.experiment.design import Design, Point, solve_design
+from gripscale.experiment.design import Design, Point, attributes, solve_design
 from gripscale.experiment.inputs import rubber_of
 from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.study import Study
@@ -150,11 +150,6 @@ def ranges(
         for quantity, factors in ends.items()
         for end, factor in zip(("low", "high"), factors, strict=True)
     }
-
-
-def attributes(long_name: str) -> dict[str, str]:
-    """Return the attributes of a number without unit."""
-    return {"units": "1", "long_name": long_name}
 
 
 RESULT = "compounds.nc"

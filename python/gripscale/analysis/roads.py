@@ -32,7 +32,7 @@ from gripscale.chain.chain import Chain
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
-from gripscale.experiment.design import Design, Point, solve_design, surface_numbers
+from gripscale.experiment.design import Design, Point, attributes, solve_design, surface_numbers
 from gripscale.experiment.inputs import case_rubber, model_of, surface_of
 from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.task import PREDICTIONS, Store, Task
@@ -102,7 +102,7 @@ def roads_dataset(surfaces: Mapping[str, Surface], solved: xr.Dataset) -> xr.Dat
     words = OF_ALL | {"prediction_status": "converged, why not, or empty if it was not asked"}
     data = xr.Dataset(
         {
-            name: roads[name].drop_attrs().assign_attrs(compounds.attributes(text))
+            name: roads[name].drop_attrs().assign_attrs(attributes(text))
             for name, text in words.items()
         },
         attrs={"title": "Contact and friction of one rubber on several roads"},
@@ -144,9 +144,9 @@ def _by_octave(roads: xr.Dataset) -> xr.DataArray:
         output_core_dims=[["octave"]],
         vectorize=True,
     )
-    octave = xr.Variable("octave", ends, {"units": "m", "long_name": "shortest wave of the octave"})
+    octave = xr.Variable("octave", ends, attributes("shortest wave of the octave", "m"))
     text = "friction coefficient of the octave and all longer waves"
-    return running.assign_coords(octave=octave).assign_attrs(compounds.attributes(text))
+    return running.assign_coords(octave=octave).assign_attrs(attributes(text))
 
 
 def _measured(surfaces: Mapping[str, Surface]) -> dict[str, Any]:
@@ -175,8 +175,8 @@ def _measured(surfaces: Mapping[str, Surface]) -> dict[str, Any]:
             good = (x > 0.0) & (y > 0.0)
             logs = np.interp(np.log(places), np.log(x[good]), np.log(y[good]), np.nan, np.nan)
             values[list(surfaces).index(road)] = np.exp(logs)
-        out[name] = (("surface", axis), values, {"units": units, "long_name": text})
-        out[axis] = (axis, places, {"units": unit, "long_name": axis})
+        out[name] = (("surface", axis), values, attributes(text, units))
+        out[axis] = (axis, places, attributes(axis, unit))
     return out
 
 
