@@ -16,7 +16,6 @@ from typing import Any
 import numpy as np
 import scipy.stats
 import xarray as xr
-from numpy.typing import NDArray
 
 from gripscale.analysis.calibration_law import (
     Optimum,
@@ -50,13 +49,12 @@ from gripscale.case.results import CaseResults
 from gripscale.case.run import prepare_case
 from gripscale.conditions.area_term import InterfacialShearStress, shear_stress_to_dict
 from gripscale.core import checks, provenance
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.half_space.model import DirectContact
 from gripscale.rubber.extrapolation import require_measured
 from gripscale.wave.result import labelled
-
-Array = NDArray[np.float64]
 
 FACTORS_SHOWN = 3.0
 """How far the profile of an end that is not determined is kept, in the numbers of the search."""
@@ -139,29 +137,25 @@ class Calibration:
     @property
     def threshold(self) -> float:
         """By how much the sum of squares rises at the ends of an interval, as in `profiles`."""
-        scale = 1.0 if self.spread_known else self.scatter**2
-        return threshold_of(self.optimum, spread_known=self.spread_known) / scale
+        return threshold_of(self.optimum, spread_known=self.spread_known) / self._unit
 
     @property
     def estimates(self) -> list[Estimate]:
         """The free parameters."""
-        errors = np.sqrt(np.diag(self._covariance))
         estimates = []
         for at, parameter in enumerate(self.problem.family.free):
             value = parameter.value(float(self.optimum.theta[at]))
-            error = float(errors[at]) * (value if parameter.log else 1.0)
+            error = float(self._errors[at]) * (value if parameter.log else 1.0)
             low, high = (
                 parameter.value(end) if math.isfinite(end) else math.nan for end in self.ends[at]
             )
-            name, unit = parameter.name, parameter.unit
-            estimates.append(Estimate(name, unit, value, error, low, high))
+            estimates.append(Estimate(parameter.name, parameter.unit, value, error, low, high))
         return estimates
 
     @property
     def correlation(self) -> Array:
         """Of the estimates, shape (free, free), of logarithms where they are positive."""
-        errors = np.sqrt(np.diag(self._covariance))
-        return np.asarray(self._covariance / np.outer(errors, errors))
+        return np.asarray(self._covariance / np.outer(self._errors, self._errors))
 
     @property
     def area_term(self) -> Array:
@@ -201,7 +195,6 @@ class Calibration:
         In units of what one standard error adds: over the interval and a little beyond, and a
         factor of 20 where an end is not determined.
         """
-        scale = 1.0 if self.spread_known else self.scatter**2
         profiles = {}
         for at, parameter in enumerate(self.problem.family.free):
             centre, limits = float(self.optimum.theta[at]), parameter.limits
@@ -211,13 +204,21 @@ class Calibration:
                 ends.append(float(np.clip(centre + way * away, *limits)))
             values, excess = Profile(self.problem, self.optimum, at).curve(*ends)
             in_units = np.array([parameter.value(float(value)) for value in values])
-            profiles[parameter.name] = in_units, excess / scale
+            profiles[parameter.name] = in_units, excess / self._unit
         return profiles
 
     @property
+    def _unit(self) -> float:
+        """Sum of squares that one standard error adds."""
+        return 1.0 if self.spread_known else self.scatter**2
+
+    @property
     def _covariance(self) -> Array:
-        scale = 1.0 if self.spread_known else self.scatter**2
-        return scale * covariance(self.optimum.jacobian)
+        return self._unit * covariance(self.optimum.jacobian)
+
+    @property
+    def _errors(self) -> Array:
+        return np.sqrt(np.diag(self._covariance))
 
     def to_dataset(self) -> xr.Dataset:
         """Return the calibration as a labelled Dataset.
@@ -282,8 +283,6 @@ def calibrate(
         measured, predicted, problem, optimum, tuple(ends), groups_out, hold_out or ""
     )
 
-
-# The area term of a case: its measured friction beside the hysteresis of one of the models.
 
 MODELS = ("direct", "chain")
 """Models whose hysteresis an area term can be put beside."""
@@ -353,8 +352,6 @@ def measured_of(file: CaseFile) -> MeasuredFriction:
     return measured
 
 
-# The calibration as a Dataset.
-
 SOURCE = "gripscale calibrate"
 
 ESTIMATE = {
@@ -371,6 +368,7 @@ HELD_OUT = {
     "rms_outside": "rms error at the points left out",
     "rms_outside_in_spread": "the same, over the spread",
     "why_not": "why the other points cannot predict them, empty where they can",
+    "value": "temperature [K] or decade [m/s]",
 }
 """Numbers of what was left out, with their meaning."""
 
@@ -378,53 +376,43 @@ HELD_OUT = {
 def calibration_dataset(calibration: Calibration) -> xr.Dataset:
     """Return what `Calibration.to_dataset` promises."""
     predicted, measured = calibration.predicted, calibration.measured
-    apart = calibration.friction - measured.friction
-    at_points = {
-        "nominal_pressure": (predicted.pressure, "Pa", "nominal pressure of the prediction"),
-        "contact_temperature": (predicted.temperature, "K", "temperature in the contact"),
-        "contact_fraction": (predicted.contact_fraction, "1", "real over nominal contact area"),
-        "hysteresis": (predicted.friction, "1", "friction of the hysteresis"),
-        "friction_outside_band": (
-            predicted.outside_band,
-            "1",
-            "share of it that rests on the rubber outside the measured frequencies",
-        ),
-        "prediction_status": (np.array(predicted.status, dtype=object), "1", "converged, or why"),
-        "area_term": (calibration.area_term, "1", "friction of the area term"),
-        "friction": (calibration.friction, "1", "hysteresis and area term"),
-        "friction_band": (calibration.band, "1", "half of its interval by the fit"),
-        "difference": (apart, "1", "predicted less measured friction"),
-        "difference_in_spread": (
-            in_spread(apart, measured.spread),
-            "1",
-            "the same over the spread",
-        ),
-    }
-    data: dict[str, xr.Variable] = measured_variables(measured)
-    for name, (values, unit, text) in at_points.items():
-        data[name] = labelled("measurement", values, unit, text, SOURCE)
     estimates, profiles = calibration.estimates, calibration.profiles
+    apart = calibration.friction - measured.friction
+    data: dict[str, xr.Variable] = measured_variables(measured)
+
+    def add(name: str, dims: Any, values: Any, text: str, unit: str = "1") -> None:
+        data[name] = labelled(dims, values, unit, text, SOURCE)
+
+    at = "measurement"
+    add("nominal_pressure", at, predicted.pressure, "nominal pressure of the prediction", "Pa")
+    add("contact_temperature", at, predicted.temperature, "temperature in the contact", "K")
+    add("contact_fraction", at, predicted.contact_fraction, "real over nominal contact area")
+    add("hysteresis", at, predicted.friction, "friction of the hysteresis")
+    beyond = "share of it that rests on the rubber outside the measured frequencies"
+    add("friction_outside_band", at, predicted.outside_band, beyond)
+    status = np.array(predicted.status, dtype=object)
+    add("prediction_status", at, status, "converged, or why")
+    add("area_term", at, calibration.area_term, "friction of the area term")
+    add("friction", at, calibration.friction, "hysteresis and area term")
+    add("friction_band", at, calibration.band, "half of its interval by the fit")
+    add("difference", at, apart, "predicted less measured friction")
+    add("difference_in_spread", at, in_spread(apart, measured.spread), "the same over the spread")
     for name, text in ESTIMATE.items():
         field = "value" if name == "estimate" else name
-        numbers = [getattr(estimate, field) for estimate in estimates]
-        data[name] = labelled("parameter", numbers, "1", text, SOURCE)
+        add(name, "parameter", [getattr(estimate, field) for estimate in estimates], text)
     units = np.array([estimate.unit or "1" for estimate in estimates], dtype=object)
-    data["unit"] = labelled("parameter", units, "1", "its unit", SOURCE)
+    add("unit", "parameter", units, "its unit")
     square = ("parameter", "other_parameter")
-    data["correlation"] = labelled(square, calibration.correlation, "1", "of the estimates", SOURCE)
-    texts = {
-        "profile_value": "value at which the parameter is held",
-        "profile_excess": "rise of the sum of squares, NaN where another parameter has no room",
-    }
-    for part, (name, text) in enumerate(texts.items()):
-        rows = [profiles[estimate.name][part] for estimate in estimates]
-        data[name] = labelled(("parameter", "step"), rows, "1", text, SOURCE)
+    add("correlation", square, calibration.correlation, "of the estimates")
+    values, excess = zip(*(profiles[estimate.name] for estimate in estimates), strict=True)
+    steps = ("parameter", "step")
+    add("profile_value", steps, values, "value at which the parameter is held")
+    text = "rise of the sum of squares, NaN where another parameter has no room"
+    add("profile_excess", steps, excess, text)
     if calibration.held_out:
-        columns = HELD_OUT | {"value": "temperature [K] or decade [m/s]"}
-        for name, text in columns.items():
+        for name, text in HELD_OUT.items():
             column = [getattr(group, name) for group in calibration.held_out]
-            variable = "left_out" if name == "value" else name
-            data[variable] = labelled("left_out", column, "1", text, SOURCE)
+            add("left_out" if name == "value" else name, "left_out", column, text)
     names = [estimate.name for estimate in estimates]
     return xr.Dataset(
         data,
