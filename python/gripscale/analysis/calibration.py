@@ -17,33 +17,17 @@ import numpy as np
 import scipy.stats
 import xarray as xr
 
-from gripscale.analysis.calibration_law import (
-    Optimum,
-    Problem,
-    best,
-    check_names,
-    family_of,
-    points_of,
-)
+from gripscale.analysis import calibration_law as fit
+from gripscale.analysis import profile_likelihood as likelihood
 from gripscale.analysis.measured_comparison import (
     Predicted,
     friction_of_case,
     in_spread,
     measured_variables,
-    predict_points,
+    points_of,
+    predicted_of,
 )
 from gripscale.analysis.measured_friction import MeasuredFriction
-from gripscale.analysis.profile_likelihood import (
-    LEVEL,
-    WAYS,
-    HeldOut,
-    Profile,
-    covariance,
-    groups_of,
-    held_out,
-    settled,
-    threshold_of,
-)
 from gripscale.case.read import CaseFile
 from gripscale.case.results import CaseResults
 from gripscale.case.run import prepare_case
@@ -51,6 +35,7 @@ from gripscale.conditions.area_term import InterfacialShearStress, shear_stress_
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
+from gripscale.experiment.design import solve_design
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.half_space.model import DirectContact
 from gripscale.rubber.extrapolation import require_measured
@@ -90,13 +75,13 @@ class Calibration:
     measured: MeasuredFriction
     predicted: Predicted
     """The hysteresis and the contact at the measured points, which are not fitted."""
-    problem: Problem
+    problem: fit.Problem
     """What was fitted: the points that have an answer, and the law with its free parameters."""
-    optimum: Optimum
+    optimum: fit.Optimum
     """The least sum of squares."""
     ends: tuple[tuple[float, float], ...]
     """Of each interval in the numbers of the search; infinite where not determined."""
-    held_out: tuple[HeldOut, ...] = ()
+    held_out: tuple[likelihood.HeldOut, ...] = ()
     """What the law says of points it was not fitted to, where asked for."""
     held_out_by: str = ""
     """Whether a temperature or a decade of speed was left out; empty for neither."""
@@ -137,7 +122,7 @@ class Calibration:
     @property
     def threshold(self) -> float:
         """By how much the sum of squares rises at the ends of an interval, as in `profiles`."""
-        return threshold_of(self.optimum, spread_known=self.spread_known) / self._unit
+        return likelihood.threshold_of(self.optimum, spread_known=self.spread_known) / self._unit
 
     @property
     def estimates(self) -> list[Estimate]:
@@ -181,7 +166,7 @@ class Calibration:
     @property
     def band(self) -> Array:
         """Half of the interval of the friction at the measured points [-], at `LEVEL`."""
-        tail = 0.5 * (1.0 + LEVEL)
+        tail = 0.5 * (1.0 + likelihood.LEVEL)
         return self.friction_error * float(
             scipy.stats.norm.ppf(tail)
             if self.spread_known
@@ -202,7 +187,7 @@ class Calibration:
             for way, end in zip((-1, 1), self.ends[at], strict=True):
                 away = 1.3 * abs(end - centre) if math.isfinite(end) else FACTORS_SHOWN
                 ends.append(float(np.clip(centre + way * away, *limits)))
-            values, excess = Profile(self.problem, self.optimum, at).curve(*ends)
+            values, excess = likelihood.Profile(self.problem, self.optimum, at).curve(*ends)
             in_units = np.array([parameter.value(float(value)) for value in values])
             profiles[parameter.name] = in_units, excess / self._unit
         return profiles
@@ -214,7 +199,7 @@ class Calibration:
 
     @property
     def _covariance(self) -> Array:
-        return self._unit * covariance(self.optimum.jacobian)
+        return self._unit * likelihood.covariance(self.optimum.jacobian)
 
     @property
     def _errors(self) -> Array:
@@ -266,19 +251,22 @@ def calibrate(
     checks.instance("measured", measured, MeasuredFriction)
     checks.instance("predicted", predicted, Predicted)
     held = {} if fixed is None else dict(checks.instance("fixed", fixed, Mapping))  # type: ignore[type-abstract]
-    points = points_of(measured, predicted)
-    problem = Problem(points, family_of(law, points, held))
+    points = fit.points_of(measured, predicted)
+    problem = fit.Problem(points, fit.family_of(law, points, held))
     groups = None
     if hold_out is not None:
-        groups = groups_of(hold_out, measured.speed, measured.temperature)[predicted.has_answer]
+        groups = likelihood.groups_of(hold_out, measured.speed, measured.temperature)
+        groups = groups[predicted.has_answer]
 
-    def intervals(optimum: Optimum) -> list[tuple[float, float]]:
-        threshold = threshold_of(optimum, spread_known=points.spread is not None)
-        profiles = [Profile(problem, optimum, at) for at in range(len(problem.family.free))]
+    def intervals(optimum: fit.Optimum) -> list[tuple[float, float]]:
+        threshold = likelihood.threshold_of(optimum, spread_known=points.spread is not None)
+        profiles = [
+            likelihood.Profile(problem, optimum, at) for at in range(len(problem.family.free))
+        ]
         return [(profile.end(-1, threshold), profile.end(1, threshold)) for profile in profiles]
 
-    optimum, ends = settled(problem, best(problem), intervals)
-    groups_out = () if groups is None else held_out(points, groups, law, held)
+    optimum, ends = likelihood.settled(problem, fit.best(problem), intervals)
+    groups_out = () if groups is None else likelihood.held_out(points, groups, law, held)
     return Calibration(
         measured, predicted, problem, optimum, tuple(ends), groups_out, hold_out or ""
     )
@@ -326,9 +314,9 @@ def calibrate_case(
         extrapolation and a point excites the rubber beyond its measured frequencies.
     """
     checks.one_of("model", model, MODELS)
-    check_names(law, fixed or ())
+    fit.check_names(law, fixed or ())
     if hold_out is not None:
-        checks.one_of("hold_out", hold_out, WAYS)
+        checks.one_of("hold_out", hold_out, likelihood.WAYS)
     results = case if isinstance(case, CaseResults) else prepare_case(case)
     friction = measured or measured_of(results.file)
     rubber, surface = results.rubber.rubber, results.surface
@@ -338,7 +326,8 @@ def calibrate_case(
             require_measured(warm, surface.sines.wavelength, float(speed))
     predicting = results.chain if model == "chain" else DirectContact(conditions=results.conditions)
     with bench_in(folder, workers, client, on_task) as bench:
-        predicted = predict_points(friction, predicting, rubber, surface, results.load, bench)
+        design = points_of(friction, predicting, rubber, surface, results.load)
+        predicted = predicted_of(solve_design(design, bench))
     return calibrate(friction, predicted, law=law, fixed=fixed, hold_out=hold_out)
 
 
@@ -422,7 +411,7 @@ def calibration_dataset(calibration: Calibration) -> xr.Dataset:
             "law": json.dumps(shear_stress_to_dict(calibration.law)),
             "held": json.dumps(dict(calibration.problem.family.held)),
             "measured_source": calibration.measured.source,
-            "level": LEVEL,
+            "level": likelihood.LEVEL,
             "threshold": calibration.threshold,
             "held_out_by": calibration.held_out_by,
             "spread_known": int(calibration.spread_known),

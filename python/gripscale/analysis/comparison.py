@@ -10,17 +10,11 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 
+from gripscale.analysis import measured_comparison
 from gripscale.analysis import samples as reduce
 from gripscale.analysis.best_estimate import Factor
 from gripscale.analysis.comparison_dataset import Comparison
 from gripscale.analysis.ladder import DIRECT, ComparisonSetup, chosen, each_measured
-from gripscale.analysis.measured_comparison import (
-    averaged,
-    friction_of_case,
-    points_of,
-    predicted_of,
-    residuals,
-)
 from gripscale.analysis.measured_friction import MeasuredFriction
 from gripscale.case.read import CaseFile
 from gripscale.case.results import CaseResults
@@ -208,7 +202,7 @@ def _compared(
     samples = solve_design(
         design, bench, partial(reduce.sample_numbers, conditions=setups[0].conditions)
     )
-    measured = choice.measured or friction_of_case(file)
+    measured = choice.measured or measured_comparison.friction_of_case(file)
     return Comparison(file, setups, list(draws), samples, axis, measured, choice.factors)
 
 
@@ -259,18 +253,18 @@ def at_measured(
         for number, (model, surface, _) in enumerate(specs, start=1):
             label = f"{rung.label}{f' {number} of {len(specs)}' if len(specs) > 1 else ''}: "
             met = setup.rubber_for(model)
-            design = points_of(measured, model, met, surface, setup.load, label)
+            design = measured_comparison.points_of(measured, model, met, surface, setup.load, label)
             designs[rung.name].append(design)
             tasks |= design.tasks
     if not designs:
         return None
     answers = Bench(Store(store), workers, client, on_task).solve(tasks, surface_numbers)
-    predicted = {
-        name: averaged([predicted_of(design.dataset(answers)) for design in parts])
-        for name, parts in designs.items()
-    }
+    predicted = {}
+    for name, parts in designs.items():
+        samples = [measured_comparison.predicted_of(part.dataset(answers)) for part in parts]
+        predicted[name] = measured_comparison.averaged(samples)
     law = None if setup.conditions is None else setup.conditions.shear_stress
-    data = residuals(measured, predicted, law)
+    data = measured_comparison.residuals(measured, predicted, law)
     return data.assign_attrs(case=comparison.file.text, measured_source=measured.source)
 
 

@@ -19,15 +19,8 @@ import xarray as xr
 from gripscale.case.results import CaseResults
 from gripscale.core import provenance
 from gripscale.core.errors import InputError
+from gripscale.experiment import inputs
 from gripscale.experiment.design import Design, Point, attributes, solve_design
-from gripscale.experiment.inputs import (
-    ALL,
-    NONE,
-    conditions_of,
-    effects_asked,
-    rubber_before,
-    with_effects,
-)
 from gripscale.experiment.solve import Bench, OnTask, bench_in
 from gripscale.experiment.task import Store, Task, load_stored
 from gripscale.io import netcdf
@@ -54,16 +47,16 @@ def effect_tasks(model: Model, rubber: Rubber, surface: Surface, load: Load) -> 
         If the model has no conditions, its conditions do nothing to the rubber, or the rubber has
         no shift to the temperature they state.
     """
-    asked = effects_asked(model)
+    asked = inputs.effects_asked(model)
     if not asked:
         raise InputError(
             "effects need conditions with a temperature, softening or heat; got none with the "
             f"model {model.name}"
         )
     tasks = {}
-    for selection in (ALL, *(f"no {effect}" for effect in asked), NONE):
-        changed = with_effects(model, selection)
-        rubber_before(rubber, changed)  # nothing is solved if one of them is impossible
+    for selection in (inputs.ALL, *(f"no {effect}" for effect in asked), inputs.NONE):
+        changed = inputs.with_effects(model, selection)
+        inputs.rubber_before(rubber, changed)  # nothing is solved if one of them is impossible
         tasks[selection] = Task(rubber, surface, load, changed)
     return tasks
 
@@ -120,14 +113,14 @@ def effects(
         data = data.assign({WITH_AREA_TERM: both.assign_attrs(attributes(words))})
     for name, change in CHANGES.items():
         if name in data:
-            relative = (data[name].sel(effect=ALL, drop=True) / data[name] - 1.0).transpose()
+            relative = (data[name].sel(effect=inputs.ALL, drop=True) / data[name] - 1.0).transpose()
             words = f"what the effects left out change in {data[name].attrs['long_name']}"
-            data[change] = relative.where(data.effect != ALL).assign_attrs(attributes(words))
+            data[change] = relative.where(data.effect != inputs.ALL).assign_attrs(attributes(words))
     return data.assign_attrs(
         {
             "title": "What each effect of the conditions is worth",
             "model": model.name,
-            "conditions": json.dumps(conditions_of(model).to_dict()),
+            "conditions": json.dumps(inputs.conditions_of(model).to_dict()),
             "rubber": f"{rubber.name}; {rubber.source}".strip("; "),
             "surface": surface.source,
             "nominal_pressure": load.pressure,
@@ -178,12 +171,12 @@ def case_effects(
     FileError
         If a result cannot be written.
     """
-    asked, load = effects_asked(model), results.load
+    asked, load = inputs.effects_asked(model), results.load
     if not asked or load.speed == 0.0:
         return None
     setup = (model, results.rubber.rubber, results.surface, load)
     if model == results.chain and results.dynamic is not None and results.dynamic.converged:
-        key = effect_tasks(*setup)[ALL].key
+        key = effect_tasks(*setup)[inputs.ALL].key
         solved = results.dynamic.to_dataset().assign_attrs(prediction_key=key)
         Store(store).put(key, solved)
     data = effects(*setup, folder=store, workers=workers, client=client, on_task=on_task)

@@ -172,18 +172,6 @@ def predictions_at(
         As the model and `solve_all` do; a temperature other than that of the rubber needs a shift.
     """
     bench = Bench(store, workers, client, on_task)
-    return predict_points(measured, model, rubber, surface, load, bench)
-
-
-def predict_points(
-    measured: MeasuredFriction,
-    model: Model,
-    rubber: Rubber,
-    surface: Surface,
-    load: Load,
-    bench: Bench,
-) -> Predicted:
-    """Return what `model` predicts at each measured point, see `predictions_at`."""
     return predicted_of(solve_design(points_of(measured, model, rubber, surface, load), bench))
 
 

@@ -27,11 +27,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.surface import HeightDifference, Profile
 from gripscale.surface.height_difference import BlockSums, block_starts, block_sums
 
-Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 BLOCK_WAVES = 4.0

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -261,16 +262,6 @@ class Range(Checked):
         return float(np.exp(low + quantile * (high - low)))
 
 
-def modulus(text: Any) -> float:
-    """Return a modulus [Pa]; raise `InputError` for what is none."""
-    return _quantity(text, "pressure", "Pa")
-
-
-def length(text: Any) -> float:
-    """Return a length [m]; raise `InputError` for what is none."""
-    return _quantity(text, "length", "m")
-
-
 def factor(text: Any) -> float:
     """Return a factor [-]; raise `InputError` for what is none."""
     return checks.positive("a factor", plain_number(text))
@@ -282,6 +273,7 @@ def count(text: Any) -> float:
 
 
 def _quantity(text: Any, kind: str, unit: str) -> float:
+    """Return a quantity [SI] above zero; raise `InputError` for what is none."""
     value = plain_number(text)
     if isinstance(value, str):
         try:
@@ -289,6 +281,10 @@ def _quantity(text: Any, kind: str, unit: str) -> float:
         except ValueError as error:
             raise InputError(f"{text!r}: {error}") from error
     return checks.positive(f"a {kind}", value, unit=unit)
+
+
+modulus = partial(_quantity, kind="pressure", unit="Pa")
+length = partial(_quantity, kind="length", unit="m")
 
 
 @dataclass(frozen=True)

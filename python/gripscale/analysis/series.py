@@ -22,13 +22,11 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gripscale.core.arrays import Array
 from gripscale.rubber import MasterCurve, PronyFit, Rubber
 from gripscale.rubber.maxwell_fit import LEAST_SCATTER, Curve, Equations, Spectrum, non_negative
 from gripscale.rubber.prony import BEYOND, largest_modulus, open_equations
-
-Array = NDArray[np.float64]
 
 FEWEST_BLOCKS = 8
 """Blocks there are at least to draw from."""

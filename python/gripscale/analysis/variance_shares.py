@@ -29,7 +29,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from gripscale.core.arrays import Array
 
 SURE = 1.645
 """Standard errors by which a share exceeds zero, or another, to be told from it: 95 %, one side."""
