@@ -371,9 +371,8 @@ def _models(names: Sequence[str]) -> tuple[str, ...]:
     for name in chosen:
         checks.one_of("model", name, MODELS)
     if not chosen or len(set(chosen)) < len(chosen):
-        raise InputError(
-            f"models must be one or both of chain, direct; got {checks.short_repr(names)}"
-        )
+        short = checks.short_repr(names)
+        raise InputError(f"models must be one or both of chain, direct; got {short}")
     return tuple(name for name in MODELS if name in chosen)
 
 

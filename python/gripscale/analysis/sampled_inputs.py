@@ -124,28 +124,18 @@ class Measurement:
 
 @dataclass(frozen=True, eq=False)
 class Inputs:
-    """The inputs of one sample, before any model is asked.
-
-    Attributes
-    ----------
-    surface, rubber
-        As prepared, or as a source drew them.
-    correlation
-        What the waves are fitted to; None for waves stated by hand.
-    fit
-        Arguments of `fit_sines`.
-    redrawn
-        Gives what the direct contact is solved on, where it is not what was measured.
-    load_time_factor
-        How much longer each wave is loaded than the model says [-].
-    """
+    """The inputs of one sample, before any model is asked: as prepared, or as drawn."""
 
     surface: Surface
     rubber: Rubber
     correlation: HeightDifference | None = None
+    """What the waves are fitted to; None for waves stated by hand."""
     fit: Mapping[str, Any] = field(default_factory=dict)
+    """Arguments of `fit_sines`."""
     redrawn: Callable[[], tuple[Profile, ...]] | None = None
+    """Gives what the direct contact is solved on, where it is not what was measured."""
     load_time_factor: float = 1.0
+    """How much longer each wave is loaded than the model says [-]."""
 
     @classmethod
     def of(cls, measurement: Measurement) -> Inputs:

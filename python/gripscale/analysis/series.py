@@ -38,18 +38,12 @@ MOST_TAKEN = 0.75
 
 @dataclass(frozen=True, eq=False)
 class SeriesScatter:
-    """The equations of a fit in units of the scatter of its rows.
-
-    Parameters
-    ----------
-    problem : Equations
-        Of `open_equations`: first all rows of E', then those of E'', of the prior, and one limit.
-    omega : array, shape (rows,)
-        Angular frequency of the measured rows [rad/s], rising.
-    """
+    """The equations of a fit in units of the scatter of its rows."""
 
     problem: Equations
+    """Of `open_equations`: first all rows of E', then those of E'', of the prior, and one limit."""
     omega: Array
+    """Angular frequency of the measured rows [rad/s], rising, shape (rows,)."""
 
     @classmethod
     def of(cls, master: MasterCurve, fit: PronyFit, bulk_modulus: float) -> SeriesScatter:

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from gripscale.analysis import sampled_inputs as stated
+from gripscale.analysis import sampled_inputs as quantities
 from gripscale.analysis.profile_blocks import ProfileBlocks
 from gripscale.analysis.sampled_inputs import Inputs, Measurement, Range
 from gripscale.analysis.series import SeriesScatter, with_series
@@ -149,7 +149,7 @@ def _bulk_modulus(measurement: Measurement, options: SourceOptions) -> Draw:
     """Draw the bulk modulus, hardly ever measured together with a master curve."""
     values = Range.about(measurement.rubber.bulk_modulus, BULK_MODULUS_FACTOR)
     if options.values is not None:
-        values = Range.read("bulk_modulus", options.values, stated.modulus)
+        values = Range.read("bulk_modulus", options.values, quantities.modulus)
     return _in_range(
         values,
         lambda inputs, value: replace(inputs, rubber=replace(inputs.rubber, bulk_modulus=value)),
@@ -171,7 +171,7 @@ def _equilibrium_modulus(measurement: Measurement, options: SourceOptions) -> Dr
         rubber = replace(inputs.rubber, equilibrium_modulus=value, admissible=None)
         return replace(inputs, rubber=rubber)
 
-    return _in_range(Range.read("equilibrium_modulus", options.values, stated.modulus), applied)
+    return _in_range(Range.read("equilibrium_modulus", options.values, quantities.modulus), applied)
 
 
 LOAD_TIME_FACTOR = 2.0
@@ -185,7 +185,7 @@ def _load_time(measurement: Measurement, options: SourceOptions) -> Draw:
         raise SourceNotApplicable("at rest it is infinite")
     values = Range.about(1.0, LOAD_TIME_FACTOR)
     if options.values is not None:
-        values = Range.read("load_time", options.values, stated.factor)
+        values = Range.read("load_time", options.values, quantities.factor)
     elif measurement.load_time != "passage":
         raise SourceNotApplicable("the case states it")
     return _in_range(values, lambda inputs, value: replace(inputs, load_time_factor=value))
@@ -200,7 +200,7 @@ def _cut_off(measurement: Measurement, options: SourceOptions) -> Draw:
         raise SourceNotApplicable("the waves are stated by hand")
     values = Range.about(measurement.surface.cutoff_wavelength, math.sqrt(2.0))
     if options.values is not None:
-        values = Range.read("cut_off", options.values, stated.length)
+        values = Range.read("cut_off", options.values, quantities.length)
     return _in_range(values, Inputs.ended_at)
 
 
@@ -226,7 +226,7 @@ def _waves(measurement: Measurement, options: SourceOptions) -> Draw:
     stacks = sine_ambiguity(surface.correlation, surface.sines).stacks
     good: Sequence[SineStack] = stacks
     if options.values is not None:
-        values = Range.read("waves", options.values, stated.count)
+        values = Range.read("waves", options.values, quantities.count)
         wanted: Sequence[int] = [int(value) for value in values.values]
         wanted = range(wanted[0], wanted[-1] + 1) if values.between else wanted
         good = [stack for stack in stacks if len(stack) in wanted]

@@ -41,28 +41,20 @@ SWING = (0.05, 0.95)
 
 @dataclass(frozen=True, eq=False)
 class Shares:
-    """Shares of the variance of an answer, source by source.
-
-    Attributes
-    ----------
-    names : tuple of str
-        The sources.
-    share : array, shape (sources,)
-        S_k [-]; below zero by chance.
-    covariance : array, shape (sources, sources)
-        Of their errors.
-    low, high : array, shape (sources,)
-        The answer at 5 % and 95 % of what a source alone does to it, all others in their middle.
-    unexplained : float
-        Share of none.
-    """
+    """Shares of the variance of an answer, source by source; arrays of shape (sources,)."""
 
     names: tuple[str, ...]
+    """The sources."""
     share: Array
+    """S_k [-]; below zero by chance."""
     covariance: Array
+    """Of their errors, shape (sources, sources)."""
     low: Array
+    """The answer at 5 % of what a source alone does to it, all others in their middle."""
     high: Array
+    """The same at 95 %."""
     unexplained: float
+    """Share of none."""
 
     @property
     def error(self) -> Array:

@@ -197,8 +197,8 @@ def axis_shown(result: xr.Dataset | xr.DataArray, axis: str) -> DisplayUnit:
     """Return how the values of a numeric axis are shown: in the unit they were given in."""
     if axis in FIXED:
         return FIXED[axis]
-    stated = result[axis].attrs.get(GIVEN, "") if axis in result.coords else ""
-    return display_unit(axis, unit=str(stated))
+    unit = result[axis].attrs.get(GIVEN, "") if axis in result.coords else ""
+    return display_unit(axis, unit=str(unit))
 
 
 def axis_label(result: xr.Dataset, axis: str) -> str:

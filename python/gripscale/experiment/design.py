@@ -38,43 +38,28 @@ SURFACE = (*NUMBERS, WHY_NO_EXPONENT, "prediction_status")
 
 @dataclass(frozen=True)
 class Point:
-    """One point of a design.
-
-    Parameters
-    ----------
-    index : tuple of int
-        Position along each dimension.
-    label : str
-        Name of the task while it is solved; different from all others.
-    task : Task
-        What is solved.
-    """
+    """One point of a design."""
 
     index: Index
+    """Position along each dimension."""
     label: str
+    """Name of the task while it is solved; different from all others."""
     task: Task
+    """What is solved."""
 
 
 @dataclass(frozen=True, eq=False)
 class Design:
-    """Labelled dimensions with a task at each point.
-
-    Parameters
-    ----------
-    sizes : mapping of str to int
-        Dimensions in order, with their sizes.
-    points : sequence of Point
-        In the order in which they are solved.
-    coords : mapping
-        Coordinates of the Dataset, as xarray takes them.
-    refused : mapping of index to str
-        Why there is no task at a point.
-    """
+    """Labelled dimensions with a task at each point."""
 
     sizes: Mapping[str, int]
+    """Dimensions in order, with their sizes."""
     points: Sequence[Point]
+    """In the order in which they are solved."""
     coords: Mapping[str, Any] = field(default_factory=dict)
+    """Coordinates of the Dataset, as xarray takes them."""
     refused: Mapping[Index, str] = field(default_factory=dict)
+    """Why there is no task at a point."""
 
     @property
     def tasks(self) -> dict[str, Task]:

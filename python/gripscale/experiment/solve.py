@@ -54,25 +54,17 @@ Pick = Callable[[xr.Dataset, Task], xr.Dataset]
 
 @dataclass(frozen=True)
 class Bench:
-    """Where tasks are solved.
-
-    Parameters
-    ----------
-    store : Store
-        Keeps every answer as soon as it is there.
-    workers : int, optional
-        Threads, or processes of a local cluster; one per core by default.
-    client
-        None: threads of this process. "local": a Dask cluster of processes on this machine.
-        "tcp://...": the address of a Dask scheduler. Or a `distributed.Client`.
-    on_task : callable, optional
-        Called after each task with its `Progress`.
-    """
+    """Where tasks are solved."""
 
     store: Store
+    """Keeps every answer as soon as it is there."""
     workers: int | None = None
+    """Threads, or processes of a local cluster; one per core by default."""
     client: Any = None
+    """None: threads of this process. "local": a Dask cluster of processes on this machine.
+    "tcp://...": the address of a Dask scheduler. Or a `distributed.Client`."""
     on_task: OnTask | None = None
+    """Called after each task with its `Progress`."""
 
     def solve(self, tasks: Mapping[str, Task], pick: Pick | None = None) -> dict[str, xr.Dataset]:
         """Return the answer of every task by its key; only what the store lacks is solved.

@@ -83,10 +83,10 @@ def coordinates(axes: Iterable[Axis], case: str) -> dict[str, xr.Variable]:
     coords = {}
     for axis in axes:
         values = np.array(axis.coordinate, dtype=None if axis.numeric else object)
-        unit, stated = UNITS[axis.name] if axis.numeric else "1", axis.display_unit(case)
-        attrs = attributes(LONG_NAMES[axis.name], unit)
-        if stated is not None:
-            attrs[GIVEN] = stated.unit
+        attrs = attributes(LONG_NAMES[axis.name], UNITS[axis.name] if axis.numeric else "1")
+        display = axis.display_unit(case)
+        if display is not None:
+            attrs[GIVEN] = display.unit
         coords[axis.name] = xr.Variable(axis.name, values, attrs)
         if axis.name == "factors":
             for at, name in enumerate(("s_wavelength", "s_amplitude")):
