@@ -1,8 +1,8 @@
 """The ladder: from the chain to the profile as measured, one assumption given up on each rung.
 
-A new rung is a function that draws its samples, an entry in `LADDER` and, if it follows another, one
-in `STEPS`. What two rungs on the same surfaces say of an assumption becomes a factor of the best
-estimate by an entry in `gripscale.analysis.best_estimate.FACTORS`.
+A new rung is a function that draws its samples, an entry in `LADDER`, and if it follows another,
+one in `STEPS`. What two rungs on the same surfaces say of an assumption becomes a factor of the
+best estimate by an entry in `gripscale.analysis.best_estimate.FACTORS`.
 """
 
 from __future__ import annotations

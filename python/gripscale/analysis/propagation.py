@@ -355,8 +355,8 @@ def propagate(
         accuracy,
     )
     path = None if folder is None else Path(folder) / RESULT
-    data = None if path is None else load_stored(path, plan_key=plan.key)
-    if data is not None:
+    data = None if path is None else load_stored(path)
+    if data is not None and data.attrs.get("plan_key") == plan.key:
         return data
     results = prepare_case(plan.file)
     chosen = plan.uncertainty.of(Measurement.of(results), plan.models)

@@ -260,7 +260,8 @@ class Study:
 
     def stored(self, folder: str | Path) -> xr.Dataset | None:
         """Return the Dataset an earlier run of just this study left in `folder`, or None."""
-        return load_stored(Path(folder) / RESULT, study_key=self.key)
+        data = load_stored(Path(folder) / RESULT)
+        return data if data is not None and data.attrs.get("study_key") == self.key else None
 
     def _all_there(self, data: xr.Dataset, bench: Bench) -> bool:
         """Report every prediction as stored, if the store misses none that `data` rests on."""

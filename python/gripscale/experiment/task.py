@@ -105,14 +105,12 @@ def canonical_json(value: Any) -> Any:
     )
 
 
-def load_stored(path: Path, **attributes: str) -> xr.Dataset | None:
-    """Return the Dataset at `path` with these attributes, or None if it is not there whole."""
+def load_stored(path: Path) -> xr.Dataset | None:
+    """Return the Dataset at `path`, or None if it is not there whole."""
     try:
-        data = netcdf.load(path)
+        return netcdf.load(path)
     except FileError:
         return None
-    same = all(data.attrs.get(name) == value for name, value in attributes.items())
-    return data if same else None
 
 
 PREDICTIONS = "predictions"
@@ -150,7 +148,8 @@ class Store:
 
     def get(self, key: str) -> xr.Dataset | None:
         """Return the prediction of `key`, or None if it is not there whole."""
-        return load_stored(self.path(key), prediction_key=key)
+        data = load_stored(self.path(key))
+        return data if data is not None and data.attrs.get("prediction_key") == key else None
 
     def put(self, key: str, solved: xr.Dataset) -> xr.Dataset:
         """Write the prediction of `key` and return it as read back.
