@@ -249,9 +249,9 @@ def _differences(data: xr.Dataset) -> dict[str, xr.DataArray]:
     out = total_differences(data, "rubber")
     if "scale" in data.dims:
         friction = data.friction.transpose("rubber", "scale")
-        running = friction.copy(data=friction.values.cumsum(axis=1)).drop_attrs()
-        text = "friction coefficient of this and all larger waves"
-        out["friction_running"] = running.assign_attrs(attributes(text))
+        running = friction.copy(data=friction.values.cumsum(axis=1))
+        running.attrs = attributes("friction coefficient of this and all larger waves")
+        out["friction_running"] = running
         text = "difference to the first compound, friction coefficient of the wave"
         out["friction_difference"] = to_first(friction, "rubber", text)
     if "friction_by_decade" in data:
