@@ -71,22 +71,11 @@ def best_estimate(
 ) -> xr.Dataset:
     """Return the best estimate of the solved rungs.
 
-    Parameters
-    ----------
-    samples : xarray.Dataset
-        Of all rungs, over `rung` and `sample`, see `gripscale.analysis.samples`.
-    supplied : sequence of Factor
-        Factors known from elsewhere; one with the name of ours replaces it.
-    of_map : bool
-        Whether a map was measured, which is no line that needs a factor.
-
-    Returns
-    -------
-    xarray.Dataset
-        `best_contact_fraction` and `best_friction` with their relative `_uncertainty`, NaN without
-        a direct contact that converged; over `factor` the `_factor` on each with its
-        `_factor_uncertainty`, NaN where it is not included, and `factor_label`. No factors without
-        the rung of the direct contact.
+    `best_contact_fraction` and `best_friction` with their relative `_uncertainty`, NaN without a
+    direct contact that converged; over `factor` the `_factor` on each with its
+    `_factor_uncertainty`, NaN where it is not included, and `factor_label`. No factors without the
+    rung of the direct contact. A `supplied` factor with the name of ours replaces it; a measured
+    map is no line that needs a factor.
     """
     rungs = samples["rung"].values.tolist()
     factors: dict[str, FactorOf | Factor] = {}
@@ -113,21 +102,14 @@ def best_estimate(
             [number.where(there) for number in parts[name]]
             for parts, there in zip(ratios, included, strict=True)
         ]
-        empty = unknown.expand_dims(factor=0)
-        value, uncertainty = (
-            xr.concat([pair[part] for pair in pairs], "factor") if pairs else empty
-            for part in range(2)
-        )
+        value = uncertainty = unknown.expand_dims(factor=0)
+        if pairs:
+            value, uncertainty = (xr.concat(x, "factor") for x in zip(*pairs, strict=True))
         mean = mean * value.prod("factor")
         error = in_quadrature(error, *(pair[1] for pair in pairs)).where(mean.notnull())
-        data = data.assign(
-            {
-                f"best_{name}": mean,
-                f"best_{name}_uncertainty": error,
-                f"best_{name}_factor": value,
-                f"best_{name}_factor_uncertainty": uncertainty,
-            }
-        )
+        data[f"best_{name}"], data[f"best_{name}_uncertainty"] = mean, error
+        data[f"best_{name}_factor"] = value
+        data[f"best_{name}_factor_uncertainty"] = uncertainty
     return data
 
 

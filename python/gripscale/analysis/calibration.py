@@ -16,47 +16,30 @@ from typing import Any
 import numpy as np
 import scipy.stats
 import xarray as xr
-from numpy.typing import NDArray
 
-from gripscale.analysis.calibration_law import (
-    Optimum,
-    Problem,
-    best,
-    check_names,
-    family_of,
-    points_of,
-)
+from gripscale.analysis import calibration_law as fit
+from gripscale.analysis import profile_likelihood as likelihood
 from gripscale.analysis.measured_comparison import (
     Predicted,
     friction_of_case,
     in_spread,
     measured_variables,
-    predict_points,
+    points_of,
+    predicted_of,
 )
 from gripscale.analysis.measured_friction import MeasuredFriction
-from gripscale.analysis.profile_likelihood import (
-    LEVEL,
-    WAYS,
-    HeldOut,
-    Profile,
-    covariance,
-    groups_of,
-    held_out,
-    settled,
-    threshold_of,
-)
 from gripscale.case.read import CaseFile
 from gripscale.case.results import CaseResults
 from gripscale.case.run import prepare_case
 from gripscale.conditions.area_term import InterfacialShearStress, shear_stress_to_dict
 from gripscale.core import checks, provenance
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
+from gripscale.experiment.design import solve_design
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.half_space.model import DirectContact
 from gripscale.rubber.extrapolation import require_measured
 from gripscale.wave.result import labelled
-
-Array = NDArray[np.float64]
 
 FACTORS_SHOWN = 3.0
 """How far the profile of an end that is not determined is kept, in the numbers of the search."""
@@ -92,13 +75,13 @@ class Calibration:
     measured: MeasuredFriction
     predicted: Predicted
     """The hysteresis and the contact at the measured points, which are not fitted."""
-    problem: Problem
+    problem: fit.Problem
     """What was fitted: the points that have an answer, and the law with its free parameters."""
-    optimum: Optimum
+    optimum: fit.Optimum
     """The least sum of squares."""
     ends: tuple[tuple[float, float], ...]
     """Of each interval in the numbers of the search; infinite where not determined."""
-    held_out: tuple[HeldOut, ...] = ()
+    held_out: tuple[likelihood.HeldOut, ...] = ()
     """What the law says of points it was not fitted to, where asked for."""
     held_out_by: str = ""
     """Whether a temperature or a decade of speed was left out; empty for neither."""
@@ -139,29 +122,25 @@ class Calibration:
     @property
     def threshold(self) -> float:
         """By how much the sum of squares rises at the ends of an interval, as in `profiles`."""
-        scale = 1.0 if self.spread_known else self.scatter**2
-        return threshold_of(self.optimum, spread_known=self.spread_known) / scale
+        return likelihood.threshold_of(self.optimum, spread_known=self.spread_known) / self._unit
 
     @property
     def estimates(self) -> list[Estimate]:
         """The free parameters."""
-        errors = np.sqrt(np.diag(self._covariance))
         estimates = []
         for at, parameter in enumerate(self.problem.family.free):
             value = parameter.value(float(self.optimum.theta[at]))
-            error = float(errors[at]) * (value if parameter.log else 1.0)
+            error = float(self._errors[at]) * (value if parameter.log else 1.0)
             low, high = (
                 parameter.value(end) if math.isfinite(end) else math.nan for end in self.ends[at]
             )
-            name, unit = parameter.name, parameter.unit
-            estimates.append(Estimate(name, unit, value, error, low, high))
+            estimates.append(Estimate(parameter.name, parameter.unit, value, error, low, high))
         return estimates
 
     @property
     def correlation(self) -> Array:
         """Of the estimates, shape (free, free), of logarithms where they are positive."""
-        errors = np.sqrt(np.diag(self._covariance))
-        return np.asarray(self._covariance / np.outer(errors, errors))
+        return np.asarray(self._covariance / np.outer(self._errors, self._errors))
 
     @property
     def area_term(self) -> Array:
@@ -187,7 +166,7 @@ class Calibration:
     @property
     def band(self) -> Array:
         """Half of the interval of the friction at the measured points [-], at `LEVEL`."""
-        tail = 0.5 * (1.0 + LEVEL)
+        tail = 0.5 * (1.0 + likelihood.LEVEL)
         return self.friction_error * float(
             scipy.stats.norm.ppf(tail)
             if self.spread_known
@@ -201,7 +180,6 @@ class Calibration:
         In units of what one standard error adds: over the interval and a little beyond, and a
         factor of 20 where an end is not determined.
         """
-        scale = 1.0 if self.spread_known else self.scatter**2
         profiles = {}
         for at, parameter in enumerate(self.problem.family.free):
             centre, limits = float(self.optimum.theta[at]), parameter.limits
@@ -209,15 +187,23 @@ class Calibration:
             for way, end in zip((-1, 1), self.ends[at], strict=True):
                 away = 1.3 * abs(end - centre) if math.isfinite(end) else FACTORS_SHOWN
                 ends.append(float(np.clip(centre + way * away, *limits)))
-            values, excess = Profile(self.problem, self.optimum, at).curve(*ends)
+            values, excess = likelihood.Profile(self.problem, self.optimum, at).curve(*ends)
             in_units = np.array([parameter.value(float(value)) for value in values])
-            profiles[parameter.name] = in_units, excess / scale
+            profiles[parameter.name] = in_units, excess / self._unit
         return profiles
 
     @property
+    def _unit(self) -> float:
+        """Sum of squares that one standard error adds."""
+        return 1.0 if self.spread_known else self.scatter**2
+
+    @property
     def _covariance(self) -> Array:
-        scale = 1.0 if self.spread_known else self.scatter**2
-        return scale * covariance(self.optimum.jacobian)
+        return self._unit * likelihood.covariance(self.optimum.jacobian)
+
+    @property
+    def _errors(self) -> Array:
+        return np.sqrt(np.diag(self._covariance))
 
     def to_dataset(self) -> xr.Dataset:
         """Return the calibration as a labelled Dataset.
@@ -265,25 +251,26 @@ def calibrate(
     checks.instance("measured", measured, MeasuredFriction)
     checks.instance("predicted", predicted, Predicted)
     held = {} if fixed is None else dict(checks.instance("fixed", fixed, Mapping))  # type: ignore[type-abstract]
-    points = points_of(measured, predicted)
-    problem = Problem(points, family_of(law, points, held))
+    points = fit.points_of(measured, predicted)
+    problem = fit.Problem(points, fit.family_of(law, points, held))
     groups = None
     if hold_out is not None:
-        groups = groups_of(hold_out, measured.speed, measured.temperature)[predicted.has_answer]
+        groups = likelihood.groups_of(hold_out, measured.speed, measured.temperature)
+        groups = groups[predicted.has_answer]
 
-    def intervals(optimum: Optimum) -> list[tuple[float, float]]:
-        threshold = threshold_of(optimum, spread_known=points.spread is not None)
-        profiles = [Profile(problem, optimum, at) for at in range(len(problem.family.free))]
+    def intervals(optimum: fit.Optimum) -> list[tuple[float, float]]:
+        threshold = likelihood.threshold_of(optimum, spread_known=points.spread is not None)
+        profiles = [
+            likelihood.Profile(problem, optimum, at) for at in range(len(problem.family.free))
+        ]
         return [(profile.end(-1, threshold), profile.end(1, threshold)) for profile in profiles]
 
-    optimum, ends = settled(problem, best(problem), intervals)
-    groups_out = () if groups is None else held_out(points, groups, law, held)
+    optimum, ends = likelihood.settled(problem, fit.best(problem), intervals)
+    groups_out = () if groups is None else likelihood.held_out(points, groups, law, held)
     return Calibration(
         measured, predicted, problem, optimum, tuple(ends), groups_out, hold_out or ""
     )
 
-
-# The area term of a case: its measured friction beside the hysteresis of one of the models.
 
 MODELS = ("direct", "chain")
 """Models whose hysteresis an area term can be put beside."""
@@ -327,9 +314,9 @@ def calibrate_case(
         extrapolation and a point excites the rubber beyond its measured frequencies.
     """
     checks.one_of("model", model, MODELS)
-    check_names(law, fixed or ())
+    fit.check_names(law, fixed or ())
     if hold_out is not None:
-        checks.one_of("hold_out", hold_out, WAYS)
+        checks.one_of("hold_out", hold_out, likelihood.WAYS)
     results = case if isinstance(case, CaseResults) else prepare_case(case)
     friction = measured or measured_of(results.file)
     rubber, surface = results.rubber.rubber, results.surface
@@ -339,7 +326,8 @@ def calibrate_case(
             require_measured(warm, surface.sines.wavelength, float(speed))
     predicting = results.chain if model == "chain" else DirectContact(conditions=results.conditions)
     with bench_in(folder, workers, client, on_task) as bench:
-        predicted = predict_points(friction, predicting, rubber, surface, results.load, bench)
+        design = points_of(friction, predicting, rubber, surface, results.load)
+        predicted = predicted_of(solve_design(design, bench))
     return calibrate(friction, predicted, law=law, fixed=fixed, hold_out=hold_out)
 
 
@@ -352,8 +340,6 @@ def measured_of(file: CaseFile) -> MeasuredFriction:
         )
     return measured
 
-
-# The calibration as a Dataset.
 
 SOURCE = "gripscale calibrate"
 
@@ -371,6 +357,7 @@ HELD_OUT = {
     "rms_outside": "rms error at the points left out",
     "rms_outside_in_spread": "the same, over the spread",
     "why_not": "why the other points cannot predict them, empty where they can",
+    "value": "temperature [K] or decade [m/s]",
 }
 """Numbers of what was left out, with their meaning."""
 
@@ -378,53 +365,43 @@ HELD_OUT = {
 def calibration_dataset(calibration: Calibration) -> xr.Dataset:
     """Return what `Calibration.to_dataset` promises."""
     predicted, measured = calibration.predicted, calibration.measured
-    apart = calibration.friction - measured.friction
-    at_points = {
-        "nominal_pressure": (predicted.pressure, "Pa", "nominal pressure of the prediction"),
-        "contact_temperature": (predicted.temperature, "K", "temperature in the contact"),
-        "contact_fraction": (predicted.contact_fraction, "1", "real over nominal contact area"),
-        "hysteresis": (predicted.friction, "1", "friction of the hysteresis"),
-        "friction_outside_band": (
-            predicted.outside_band,
-            "1",
-            "share of it that rests on the rubber outside the measured frequencies",
-        ),
-        "prediction_status": (np.array(predicted.status, dtype=object), "1", "converged, or why"),
-        "area_term": (calibration.area_term, "1", "friction of the area term"),
-        "friction": (calibration.friction, "1", "hysteresis and area term"),
-        "friction_band": (calibration.band, "1", "half of its interval by the fit"),
-        "difference": (apart, "1", "predicted less measured friction"),
-        "difference_in_spread": (
-            in_spread(apart, measured.spread),
-            "1",
-            "the same over the spread",
-        ),
-    }
-    data: dict[str, xr.Variable] = measured_variables(measured)
-    for name, (values, unit, text) in at_points.items():
-        data[name] = labelled("measurement", values, unit, text, SOURCE)
     estimates, profiles = calibration.estimates, calibration.profiles
+    apart = calibration.friction - measured.friction
+    data: dict[str, xr.Variable] = measured_variables(measured)
+
+    def add(name: str, dims: Any, values: Any, text: str, unit: str = "1") -> None:
+        data[name] = labelled(dims, values, unit, text, SOURCE)
+
+    at = "measurement"
+    add("nominal_pressure", at, predicted.pressure, "nominal pressure of the prediction", "Pa")
+    add("contact_temperature", at, predicted.temperature, "temperature in the contact", "K")
+    add("contact_fraction", at, predicted.contact_fraction, "real over nominal contact area")
+    add("hysteresis", at, predicted.friction, "friction of the hysteresis")
+    beyond = "share of it that rests on the rubber outside the measured frequencies"
+    add("friction_outside_band", at, predicted.outside_band, beyond)
+    status = np.array(predicted.status, dtype=object)
+    add("prediction_status", at, status, "converged, or why")
+    add("area_term", at, calibration.area_term, "friction of the area term")
+    add("friction", at, calibration.friction, "hysteresis and area term")
+    add("friction_band", at, calibration.band, "half of its interval by the fit")
+    add("difference", at, apart, "predicted less measured friction")
+    add("difference_in_spread", at, in_spread(apart, measured.spread), "the same over the spread")
     for name, text in ESTIMATE.items():
         field = "value" if name == "estimate" else name
-        numbers = [getattr(estimate, field) for estimate in estimates]
-        data[name] = labelled("parameter", numbers, "1", text, SOURCE)
+        add(name, "parameter", [getattr(estimate, field) for estimate in estimates], text)
     units = np.array([estimate.unit or "1" for estimate in estimates], dtype=object)
-    data["unit"] = labelled("parameter", units, "1", "its unit", SOURCE)
+    add("unit", "parameter", units, "its unit")
     square = ("parameter", "other_parameter")
-    data["correlation"] = labelled(square, calibration.correlation, "1", "of the estimates", SOURCE)
-    texts = {
-        "profile_value": "value at which the parameter is held",
-        "profile_excess": "rise of the sum of squares, NaN where another parameter has no room",
-    }
-    for part, (name, text) in enumerate(texts.items()):
-        rows = [profiles[estimate.name][part] for estimate in estimates]
-        data[name] = labelled(("parameter", "step"), rows, "1", text, SOURCE)
+    add("correlation", square, calibration.correlation, "of the estimates")
+    values, excess = zip(*(profiles[estimate.name] for estimate in estimates), strict=True)
+    steps = ("parameter", "step")
+    add("profile_value", steps, values, "value at which the parameter is held")
+    text = "rise of the sum of squares, NaN where another parameter has no room"
+    add("profile_excess", steps, excess, text)
     if calibration.held_out:
-        columns = HELD_OUT | {"value": "temperature [K] or decade [m/s]"}
-        for name, text in columns.items():
+        for name, text in HELD_OUT.items():
             column = [getattr(group, name) for group in calibration.held_out]
-            variable = "left_out" if name == "value" else name
-            data[variable] = labelled("left_out", column, "1", text, SOURCE)
+            add("left_out" if name == "value" else name, "left_out", column, text)
     names = [estimate.name for estimate in estimates]
     return xr.Dataset(
         data,
@@ -434,7 +411,7 @@ def calibration_dataset(calibration: Calibration) -> xr.Dataset:
             "law": json.dumps(shear_stress_to_dict(calibration.law)),
             "held": json.dumps(dict(calibration.problem.family.held)),
             "measured_source": calibration.measured.source,
-            "level": LEVEL,
+            "level": likelihood.LEVEL,
             "threshold": calibration.threshold,
             "held_out_by": calibration.held_out_by,
             "spread_known": int(calibration.spread_known),

@@ -13,26 +13,22 @@ from typing import Any
 
 import numpy as np
 import scipy.optimize
-from numpy.typing import NDArray
 
 from gripscale.analysis.measured_comparison import Predicted
 from gripscale.analysis.measured_friction import MeasuredFriction
 from gripscale.conditions.area_term import SHEAR_STRESSES, InterfacialShearStress
 from gripscale.core import checks
+from gripscale.core.arrays import Array, Mask
 from gripscale.core.errors import InputError
 from gripscale.core.units import ZERO_CELSIUS
-
-# What a law of the area term is fitted to: measured friction less the hysteresis, and its weight.
-#
-# mu_i - mu_hysteresis,i = tau_f(v_i, T_i) A_r,i / (A_0 p_i)
-
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, eq=False)
 class Points:
-    """Measured points with an answer of the model, arrays of shape (n,)."""
+    """What a law is fitted to: measured points with an answer of the model, arrays of shape (n,).
+
+    mu_i - mu_hysteresis,i = tau_f(v_i, T_i) A_r,i / (A_0 p_i)
+    """
 
     speed: Array
     """[m/s]."""
@@ -57,13 +53,8 @@ class Points:
 
     def only(self, chosen: Mask) -> Points:
         """Return some of the points."""
-        return Points(
-            self.speed[chosen],
-            None if self.temperature is None else self.temperature[chosen],
-            self.difference[chosen],
-            self.leverage[chosen],
-            None if self.spread is None else self.spread[chosen],
-        )
+        kept: dict[str, Any] = {k: None if v is None else v[chosen] for k, v in vars(self).items()}
+        return Points(**kept)
 
 
 def points_of(measured: MeasuredFriction, predicted: Predicted) -> Points:
@@ -87,17 +78,6 @@ def points_of(measured: MeasuredFriction, predicted: Predicted) -> Points:
             f"no measured point has a prediction; the first ended with {predicted.status[0]}"
         )
     difference = (measured.friction - predicted.friction)[answered]
-    _check_sign(difference)
-    return Points(
-        measured.speed[answered],
-        _all_or_none("temperature", predicted.temperature[answered]),
-        difference,
-        predicted.leverage[answered],
-        _spread(measured.spread[answered]),
-    )
-
-
-def _check_sign(difference: Array) -> None:
     below = difference < 0.0
     if 2 * below.sum() > difference.size:
         raise InputError(
@@ -105,14 +85,19 @@ def _check_sign(difference: Array) -> None:
             f"{difference.size} points, by up to {-difference.min():.3g}: the shear stress of an "
             "area term would be negative; expected a hysteresis below what was measured"
         )
-
-
-def _spread(spread: Array) -> Array | None:
+    temperature = _all_or_none("temperature", predicted.temperature[answered])
+    spread = measured.spread[answered]
     if (spread == 0.0).any():
         raise InputError(
             "spread must be above zero to weigh a point; got 0: leave it empty if unknown"
         )
-    return _all_or_none("spread", spread)
+    return Points(
+        measured.speed[answered],
+        temperature,
+        difference,
+        predicted.leverage[answered],
+        _all_or_none("spread", spread),
+    )
 
 
 def _all_or_none(name: str, values: Array) -> Array | None:
@@ -135,26 +120,16 @@ LEAST_APART = 1.0
 
 @dataclass(frozen=True)
 class Parameter:
-    """A number of a law that is fitted.
-
-    Parameters
-    ----------
-    name, unit : str
-        As the law calls it.
-    low, high : float
-        Limits of the search.
-    starts : tuple of float
-        Where the search begins.
-    log : bool
-        Whether it is positive, and its logarithm is what is fitted.
-    """
+    """A number of a law that is fitted: as the law calls it, with the limits of the search."""
 
     name: str
     unit: str
     low: float
     high: float
     starts: tuple[float, ...]
+    """Where the search begins."""
     log: bool = True
+    """Whether it is positive, and its logarithm is what is fitted."""
 
     def scaled(self, value: float) -> float:
         """Return the number the search works with."""
@@ -220,9 +195,8 @@ def family_of(kind: str, points: Points, fixed: Mapping[str, float]) -> Family:
             f"point{'s' * (len(free) > 1)}; got {points.speed.size}"
         )
     family = Family(kind, free, held)
-    family.law(
-        np.array([parameter.scaled(parameter.starts[0]) for parameter in free])
-    )  # the law checks what is held
+    starts = np.array([parameter.scaled(parameter.starts[0]) for parameter in free])
+    family.law(starts)  # checks what is held
     return family
 
 
@@ -270,12 +244,6 @@ def _parameters(kind: str, points: Points) -> tuple[Parameter, ...]:
     }[kind]
 
 
-# Weighted least squares of a law: the best parameters, and the best with one of them held.
-#
-#     S(theta) = sum_i ((mu_i - mu_hysteresis,i - tau_f(v_i, T_i; theta) A_r,i/(A_0 p_i)) / s_i)^2
-#
-# with the spreads s_i, or one where none is stated.
-
 BEST_STARTS = 3
 """Starts, of all that are tried, from which the search goes on to its end."""
 TOLERANCE = 1e-8
@@ -296,7 +264,12 @@ class Optimum:
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """A law to be fitted to points."""
+    """A law to be fitted to points by weighted least squares.
+
+        S(theta) = sum_i ((mu_i - mu_hysteresis,i - tau_f(v_i, T_i; theta) A_r,i/(A_0 p_i)) / s_i)^2
+
+    with the spreads s_i, or one where none is stated.
+    """
 
     points: Points
     family: Family
@@ -331,8 +304,15 @@ class Problem:
 
 def best(problem: Problem) -> Optimum:
     """Return the least sum of squares over a grid of starts."""
-    starts = sorted(map(tuple, _starts(problem)), key=lambda start: _cost(problem, np.array(start)))
-    optima = [refined(problem, np.array(start)) for start in starts[:BEST_STARTS]]
+    free = problem.family.free
+    grid = product(*([parameter.scaled(value) for value in parameter.starts] for parameter in free))
+
+    def cost(start: tuple[float, ...]) -> float:
+        residuals = problem.residuals(np.array(start))
+        return float(residuals @ residuals)
+
+    starts = [tuple(_with_best_stress(problem, np.array(theta))) for theta in grid]
+    optima = [refined(problem, np.array(start)) for start in sorted(starts, key=cost)[:BEST_STARTS]]
     return min(optima, key=lambda optimum: optimum.sum_of_squares)
 
 
@@ -341,11 +321,10 @@ def refined(problem: Problem, start: Array) -> Optimum:
     if not problem.family.free:
         residuals = problem.residuals(start)
         return Optimum(start, float(residuals @ residuals), np.empty((residuals.size, 0)))
-    low, high = _limits(problem.family.free)
-    inside = np.clip(start, low, high)
+    low, high = np.array([parameter.limits for parameter in problem.family.free]).T
     solution = scipy.optimize.least_squares(
         problem.residuals,
-        inside,
+        np.clip(start, low, high),
         bounds=(low, high),
         xtol=TOLERANCE,
         ftol=TOLERANCE,
@@ -354,14 +333,8 @@ def refined(problem: Problem, start: Array) -> Optimum:
     return Optimum(solution.x, 2.0 * float(solution.cost), np.asarray(solution.jac))
 
 
-def _starts(problem: Problem) -> list[Array]:
-    """Return every combination of starts; the stress, which is a factor, the best for each."""
-    free = problem.family.free
-    grid = [[parameter.scaled(value) for value in parameter.starts] for parameter in free]
-    return [_with_best_stress(problem, np.array(theta)) for theta in product(*grid)]
-
-
 def _with_best_stress(problem: Problem, theta: Array) -> Array:
+    """Return `theta` with the stress, which is a factor, the best for all others."""
     names = [parameter.name for parameter in problem.family.free]
     if "stress_0" not in names:
         return theta
@@ -371,20 +344,5 @@ def _with_best_stress(problem: Problem, theta: Array) -> Array:
     square = float(shape @ shape)
     factor = float(shape @ wanted) / square if square > 0.0 else 0.0
     if factor > 0.0:
-        theta[at] = np.clip(theta[at] + np.log(factor), *free_limits(problem, at))
+        theta[at] = np.clip(theta[at] + np.log(factor), *problem.family.free[at].limits)
     return theta
-
-
-def free_limits(problem: Problem, index: int) -> tuple[float, float]:
-    """Return between which numbers a free parameter is sought."""
-    return problem.family.free[index].limits
-
-
-def _limits(free: tuple[Parameter, ...]) -> tuple[Array, Array]:
-    low, high = zip(*(parameter.limits for parameter in free), strict=True)
-    return np.array(low), np.array(high)
-
-
-def _cost(problem: Problem, theta: Array) -> float:
-    residuals = problem.residuals(theta)
-    return float(residuals @ residuals)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +13,7 @@ from gripscale.analysis.profile_likelihood import LEVEL
 from gripscale.conditions.area_term import shear_stress_to_dict
 from gripscale.core import checks
 from gripscale.core.errors import InputError
-from gripscale.core.units import ZERO_CELSIUS, parse_quantity
+from gripscale.core.units import ZERO_CELSIUS, DisplayUnit, parse_quantity
 from gripscale.rubber.extrapolation import WORTH_SAYING
 
 KINDS_OF_QUANTITY = {
@@ -38,18 +38,15 @@ def parse_fixed(texts: Iterable[str]) -> dict[str, float]:
             raise InputError(
                 f"fixed must be name=value, each name once; got {checks.short_repr(text)}"
             )
-        parameters[name] = _value(name, value)
+        try:
+            if name in KINDS_OF_QUANTITY:
+                parameters[name] = parse_quantity(value, KINDS_OF_QUANTITY[name])
+            else:
+                parameters[name] = float(value)
+        except ValueError as error:
+            why = str(error) if name in KINDS_OF_QUANTITY else "expected a number"
+            raise InputError(f"fixed {name} = {checks.short_repr(value)}: {why}") from error
     return parameters
-
-
-def _value(name: str, text: str) -> float:
-    try:
-        if name in KINDS_OF_QUANTITY:
-            return parse_quantity(text, KINDS_OF_QUANTITY[name])
-        return float(text)
-    except ValueError as error:
-        why = str(error) if name in KINDS_OF_QUANTITY else "expected a number"
-        raise InputError(f"fixed {name} = {checks.short_repr(text)}: {why}") from error
 
 
 UNLIKELY = 0.01
@@ -102,24 +99,11 @@ def notes(calibration: Calibration) -> Iterator[str]:
         )
 
 
-# The fitted law as the table of a case file, ready to be pasted.
+WRITTEN = {"Pa": DisplayUnit("MPa", 1e6), "K": DisplayUnit("C", zero=ZERO_CELSIUS)}
+"""How a number in a unit of the law is written, if not in this unit."""
 
-WRITTEN: Mapping[str, tuple[Callable[[float], float], str]] = {
-    "Pa": (lambda value: value / 1e6, "MPa"),
-    "m/s": (lambda value: value, "m/s"),
-    "eV": (lambda value: value, "eV"),
-    "K": (lambda value: value - ZERO_CELSIUS, "C"),
-    "": (lambda value: value, ""),
-}
-"""How a number in a unit of the law is written: conversion and unit."""
-
-HELD_UNITS = {
-    "stress_0": "Pa",
-    "speed_0": "m/s",
-    "critical_speed": "m/s",
-    "activation_energy": "eV",
-    "reference_temperature": "K",
-}
+_LAW_UNITS = {"pressure": "Pa", "speed": "m/s", "bond energy": "eV", "temperature": "K"}
+HELD_UNITS = {name: _LAW_UNITS[kind] for name, kind in KINDS_OF_QUANTITY.items()}
 """Units of parameters that may be held; the others have none."""
 
 
@@ -138,16 +122,20 @@ def shear_stress_table(calibration: Calibration) -> str:
         del law["activation_energy"], law["reference_temperature"]
         lines.insert(2, "# No activation energy: it holds at the temperature measured.")
     for name, value in law.items():
-        lines.append(" ".join(_line(name, float(value), estimates.get(name))))
+        estimate = estimates.get(name)
+        unit = HELD_UNITS.get(name, "") if estimate is None else estimate.unit
+        text = written(float(value), unit)
+        text = f'"{text}"' if unit else text
+        lines.append(f"{name} = {text}  # {'held' if estimate is None else interval(estimate)}")
     return "\n".join(lines) + "\n"
 
 
 def written(value: float, unit: str, digits: int | None = None) -> str:
     """Return a number of the law with its unit: six digits as far as they count, or `digits`."""
-    convert, name = WRITTEN[unit]
-    number = convert(value)
+    how = WRITTEN.get(unit, DisplayUnit(unit))
+    number = float(how.of(value))
     text = f"{number:.6g}" if digits is None else f"{number:#.{digits}g}".rstrip(".")
-    return f"{text} {name}".strip()
+    return f"{text} {how.unit}".strip()
 
 
 def interval(estimate: Estimate) -> str:
@@ -160,10 +148,3 @@ def interval(estimate: Estimate) -> str:
     if math.isfinite(estimate.high):
         return f"up to {high}, lower end not determined"
     return "not determined"
-
-
-def _line(name: str, value: float, estimate: Estimate | None) -> Iterator[str]:
-    unit = estimate.unit if estimate is not None else HELD_UNITS.get(name, "")
-    text = written(value, unit)
-    yield f"{name} = {text}" if not unit else f'{name} = "{text}"'
-    yield f" # {'held' if estimate is None else interval(estimate)}"

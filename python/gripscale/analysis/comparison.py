@@ -10,25 +10,12 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 
+from gripscale.analysis import measured_comparison
+from gripscale.analysis import samples as reduce
 from gripscale.analysis.best_estimate import Factor
 from gripscale.analysis.comparison_dataset import Comparison
 from gripscale.analysis.ladder import DIRECT, ComparisonSetup, chosen, each_measured
-from gripscale.analysis.measured_comparison import (
-    averaged,
-    friction_of_case,
-    points_of,
-    predicted_of,
-    residuals,
-)
 from gripscale.analysis.measured_friction import MeasuredFriction
-from gripscale.analysis.samples import (
-    QUANTITIES,
-    cut_off_exponents,
-    outside_band,
-    sample_numbers,
-    status,
-    usable,
-)
 from gripscale.case.read import CaseFile
 from gripscale.case.results import CaseResults
 from gripscale.case.run import prepare_case
@@ -170,7 +157,25 @@ def _compared(
     file: CaseFile, tasks: Mapping[str, Task], choice: Choice, axis: Axis | None, bench: Bench
 ) -> Comparison:
     """Return the comparison of the rubber, surface and load of each of `tasks`, by its label."""
-    setups = [_setup(file, task, choice) for task in tasks.values()]
+    theory = file.case.compare
+    klueppel_heinrich = None
+    if theory.layer_ratio is not None and theory.penetration_depth is not None:
+        klueppel_heinrich = KlueppelHeinrich(theory.layer_ratio, theory.penetration_depth)
+    setups = []
+    for task in tasks.values():
+        chain = checks.instance("model", task.model, Chain)
+        setup = ComparisonSetup(
+            task.rubber,
+            task.surface,
+            task.load,
+            chain.solver,
+            checks.whole("seeds", choice.seeds, least=1, most=MOST_SEEDS),
+            checks.positive("tolerance", choice.tolerance),
+            klueppel_heinrich,
+            chain.pressure_classes,
+            chain.conditions,
+        )
+        setups.append(setup)
     if file.case.rubber.extrapolate == "refuse":
         for setup in setups:
             wavelength, speed = setup.surface.sines.wavelength, setup.load.speed
@@ -194,30 +199,12 @@ def _compared(
     sizes = {"rung": len(draws), "sample": most}
     coords = {"rung": [rung.name for rung in draws], "subject": (("rung", "sample"), subjects)}
     design = Design(({} if axis is None else {axis.name: len(setups)}) | sizes, points, coords)
-    samples = solve_design(design, bench, partial(sample_numbers, conditions=setups[0].conditions))
-    measured = choice.measured or friction_of_case(file)
+    samples = solve_design(
+        design, bench, partial(reduce.sample_numbers, conditions=setups[0].conditions)
+    )
+    measured = choice.measured or measured_comparison.friction_of_case(file)
     return Comparison(file, setups, list(draws), samples, axis, measured, choice.factors)
 
-
-def _setup(file: CaseFile, task: Task, choice: Choice) -> ComparisonSetup:
-    theory = file.case.compare
-    chain = checks.instance("model", task.model, Chain)
-    return ComparisonSetup(
-        task.rubber,
-        task.surface,
-        task.load,
-        chain.solver,
-        checks.whole("seeds", choice.seeds, least=1, most=MOST_SEEDS),
-        checks.positive("tolerance", choice.tolerance),
-        None
-        if theory.layer_ratio is None or theory.penetration_depth is None
-        else KlueppelHeinrich(theory.layer_ratio, theory.penetration_depth),
-        chain.pressure_classes,
-        chain.conditions,
-    )
-
-
-# The models of a comparison at the points of a measurement: predicted beside measured friction.
 
 PREDICTING = ("chain", "chain_half_plane", "chain_upper", "direct", "persson", "klueppel_heinrich")
 """Rungs that predict; the others take a step from one of them to the next."""
@@ -256,40 +243,30 @@ def at_measured(
     measured, setup = comparison.measured, comparison.setups[0]
     if measured is None:
         return None
-    draws = {rung: rung.draws(setup) for rung in comparison.rungs if rung.name in PREDICTING}
-    designs = {
-        rung.name: [
-            points_of(
-                measured,
-                spec.model,
-                setup.rubber_for(spec.model),
-                spec.surface,
-                setup.load,
-                f"{rung.label}{f' {number} of {len(specs)}' if len(specs) > 1 else ''}: ",
-            )
-            for number, spec in enumerate(specs, start=1)
-        ]
-        for rung, specs in draws.items()
-    }
+    designs: dict[str, list[Design]] = {}
+    tasks: dict[str, Task] = {}
+    for rung in comparison.rungs:
+        if rung.name not in PREDICTING:
+            continue
+        specs = rung.draws(setup)
+        designs[rung.name] = []
+        for number, (model, surface, _) in enumerate(specs, start=1):
+            label = f"{rung.label}{f' {number} of {len(specs)}' if len(specs) > 1 else ''}: "
+            met = setup.rubber_for(model)
+            design = measured_comparison.points_of(measured, model, met, surface, setup.load, label)
+            designs[rung.name].append(design)
+            tasks |= design.tasks
     if not designs:
         return None
-    tasks = {
-        label: task
-        for parts in designs.values()
-        for design in parts
-        for label, task in design.tasks.items()
-    }
     answers = Bench(Store(store), workers, client, on_task).solve(tasks, surface_numbers)
-    predicted = {
-        name: averaged([predicted_of(design.dataset(answers)) for design in parts])
-        for name, parts in designs.items()
-    }
+    predicted = {}
+    for name, parts in designs.items():
+        samples = [measured_comparison.predicted_of(part.dataset(answers)) for part in parts]
+        predicted[name] = measured_comparison.averaged(samples)
     law = None if setup.conditions is None else setup.conditions.shear_stress
-    data = residuals(measured, predicted, law)
+    data = measured_comparison.residuals(measured, predicted, law)
     return data.assign_attrs(case=comparison.file.text, measured_source=measured.source)
 
-
-# What a run can afford to know of its chain: the direct contact of the measured profiles.
 
 JUDGED_TO = 0.1
 """Estimated relative error of the contact that every run judges its chain by."""
@@ -326,7 +303,7 @@ def solve_reference(results: CaseResults) -> xr.Dataset | None:
         for at, (name, surface) in enumerate(profiles)
     ]
     with bench_in(None) as bench:
-        return solve_design(Design({"sample": len(points)}, points), bench, sample_numbers)
+        return solve_design(Design({"sample": len(points)}, points), bench, reduce.sample_numbers)
 
 
 def save_reference(results: CaseResults, folder: str | Path) -> xr.Dataset | None:
@@ -345,15 +322,15 @@ def save_reference(results: CaseResults, folder: str | Path) -> xr.Dataset | Non
 
 def reference_totals(samples: xr.Dataset, results: CaseResults) -> xr.Dataset:
     """Return the means of `samples` over the profiles as a model answers with its totals."""
-    means = {name: float(usable(samples, name).mean("sample")) for name in QUANTITIES}
-    beyond, exponents = outside_band(samples), cut_off_exponents(samples)
+    means = {name: float(reduce.usable(samples, name).mean("sample")) for name in reduce.QUANTITIES}
+    beyond, exponents = reduce.outside_band(samples), reduce.cut_off_exponents(samples)
     totals = answer(
         xr.Dataset(),
         {f"total_{name}": value for name, value in means.items()},
-        str(status(samples).item()),
+        str(reduce.status(samples).item()),
         DIRECT,
         results.load,
         extrapolation_of(beyond),
         cut_off_exponents_of(exponents),
     ).assign_attrs(case=results.file.text, tolerance=JUDGED_TO)
-    return with_area_term(totals, float(usable(samples, "adhesive_friction").mean("sample")))
+    return with_area_term(totals, float(reduce.usable(samples, "adhesive_friction").mean("sample")))

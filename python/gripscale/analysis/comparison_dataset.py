@@ -11,24 +11,11 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from gripscale.analysis import samples as reduce
 from gripscale.analysis.best_estimate import Factor, best_estimate
 from gripscale.analysis.ladder import ComparisonSetup, Rung
 from gripscale.analysis.measured_comparison import measured_variables
 from gripscale.analysis.measured_friction import MeasuredFriction
-from gripscale.analysis.samples import (
-    QUANTITIES,
-    SMOOTH,
-    converged,
-    cut_off_exponents,
-    octaves,
-    outside_band,
-    ratio,
-    relative_uncertainty,
-    running,
-    spread,
-    status,
-    usable,
-)
 from gripscale.case.read import CaseFile
 from gripscale.core import provenance
 from gripscale.experiment.axis import Axis
@@ -40,46 +27,35 @@ from gripscale.model import (
     TOTALS,
     WHY_NO_EXPONENT,
 )
+from gripscale.wave.result import labelled
 
 SOURCE = "gripscale compare"
-WORDS = dict(zip(SMOOTH, ("contact fraction", "friction coefficient"), strict=True))
+WORDS = dict(zip(reduce.SMOOTH, ("contact fraction", "friction coefficient"), strict=True))
 """The two numbers that are compared."""
 
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """The rungs of one case, under one load or over a varied input.
-
-    Parameters
-    ----------
-    file : CaseFile
-        The case.
-    setups : sequence of ComparisonSetup
-        What was compared: one, or one a value of `axis`.
-    rungs : sequence of Rung
-        Those with samples, in order.
-    samples : xarray.Dataset
-        Their answers over the axis, `rung` and `sample`, see `gripscale.analysis.samples`.
-    axis : Axis, optional
-        The varied input.
-    measured : MeasuredFriction, optional
-        Friction measured elsewhere, to be put beside the models.
-    factors : sequence of Factor
-        Factors of the best estimate known from elsewhere.
-    """
+    """The rungs of one case, under one load or over a varied input."""
 
     file: CaseFile
     setups: Sequence[ComparisonSetup]
+    """What was compared: one, or one a value of `axis`."""
     rungs: Sequence[Rung]
+    """Those with samples, in order."""
     samples: xr.Dataset
+    """Their answers over the axis, `rung` and `sample`, see `gripscale.analysis.samples`."""
     axis: Axis | None = None
+    """The varied input."""
     measured: MeasuredFriction | None = None
+    """Friction measured elsewhere, to be put beside the models."""
     factors: Sequence[Factor] = ()
+    """Factors of the best estimate known from elsewhere."""
 
     @property
     def converged(self) -> bool:
         """Whether every sample of every rung may be used."""
-        return bool((converged(self.samples) | (self.samples.prediction_status == "")).all())
+        return bool((reduce.converged(self.samples) | (self.samples.prediction_status == "")).all())
 
     @cached_property
     def data(self) -> xr.Dataset:
@@ -95,31 +71,33 @@ def comparison_dataset(comparison: Comparison) -> xr.Dataset:
     """Return means, scatter, factors and the best estimate of the rungs of a comparison."""
     samples, setups, axis = comparison.samples, comparison.setups, comparison.axis
     outer = () if axis is None else (axis.name,)
-    loads = [setup.load for setup in setups]
-    wavelength = _wavelength(comparison)
+    wavelength = np.empty(0)
+    if "curve_wavelength" in samples:  # octaves that hold the curves of all samples
+        smallest = min(setup.surface.cutoff_wavelength for setup in setups)
+        ends = reduce.usable(samples, "curve_wavelength")
+        wavelength = reduce.octaves(float(ends.max()), float(ends.min()), smallest)
     data: dict[str, xr.Variable] = {}
 
     def add(name: str, values: xr.DataArray, long_name: str, *dims: str, unit: str = "1") -> None:
         ordered = values.transpose(*outer, *dims)
-        attrs = {"units": unit, "long_name": long_name, "source": SOURCE}
-        data[name] = xr.Variable(ordered.dims, ordered.values, attrs)
+        data[name] = labelled(ordered.dims, ordered.values, unit, long_name, SOURCE)
 
     def add_by_load(name: str, values: Any, long_name: str, *dims: str, unit: str = "1") -> None:
         array = np.asarray(values if outer else values[0])
         add(name, xr.DataArray(array, dims=(*outer, *dims)), long_name, *dims, unit=unit)
 
-    for name in QUANTITIES:
+    for name in reduce.QUANTITIES:
         text = f"{TOTALS[f'total_{name}']}, mean of the samples"
-        add(f"total_{name}", usable(samples, name).mean("sample"), text, "rung")
+        add(f"total_{name}", reduce.usable(samples, name).mean("sample"), text, "rung")
     best = best_estimate(samples, comparison.factors, of_map=setups[0].of_map)
     for name, text in WORDS.items():
-        values = usable(samples, name)
+        values = reduce.usable(samples, name)
         about = "relative standard uncertainty of the"
-        add(f"{name}_spread", spread(values), f"standard deviation of the {text}", "rung")
-        error = usable(samples, f"{name}_error").mean("sample")
+        add(f"{name}_spread", reduce.spread(values), f"standard deviation of the {text}", "rung")
+        error = reduce.usable(samples, f"{name}_error").mean("sample")
         add(f"{name}_error", error, f"error of the {text} as the model estimates it", "rung")
         rungs = [samples.isel(rung=at) for at in range(samples.sizes["rung"])]
-        uncertainty = xr.concat([relative_uncertainty(rung, name) for rung in rungs], "rung")
+        uncertainty = xr.concat([reduce.relative_uncertainty(rung, name) for rung in rungs], "rung")
         add(f"{name}_uncertainty", uncertainty, f"{about} mean {text}", "rung")
         factors = [_factor(comparison, at, name) for at in range(len(rungs))]
         value, uncertainty = (xr.concat(parts, "rung") for parts in zip(*factors, strict=True))
@@ -127,7 +105,7 @@ def comparison_dataset(comparison: Comparison) -> xr.Dataset:
         text_of_factor = f"{about} factor on the {text}"
         add(f"{name}_factor_uncertainty", uncertainty, text_of_factor, "rung")
         add(f"sample_{name}", values, f"{text} by sample", "rung", "sample")
-        curves = running(samples, name, wavelength)
+        curves = reduce.running(samples, name, wavelength)
         add(f"running_{name}", curves, f"{text} down to the wavelength", "rung", "wavelength")
         add(f"best_{name}", best[f"best_{name}"], f"best estimate of the {text}")
         add(f"best_{name}_uncertainty", best[f"best_{name}_uncertainty"], f"{about} best estimate")
@@ -135,14 +113,12 @@ def comparison_dataset(comparison: Comparison) -> xr.Dataset:
         add(f"best_{name}_factor", best[f"best_{name}_factor"], text, "factor")
         uncertainty = best[f"best_{name}_factor_uncertainty"]
         add(f"best_{name}_factor_uncertainty", uncertainty, f"{about} factor", "factor")
-    adhesive = usable(samples, "adhesive_friction").mean("sample")
+    adhesive = reduce.usable(samples, "adhesive_friction").mean("sample")
     if adhesive.notnull().any():
         add(ADHESIVE_FRICTION, adhesive, "friction coefficient of the area term", "rung")
-    beyond, exponents = outside_band(samples), cut_off_exponents(samples)
-    for name, (_, text) in OUTSIDE_BAND.items():
-        add(name, beyond[name], text, "rung")
-    for name, (_, text) in CUT_OFF_EXPONENTS.items():
-        add(name, exponents[name], text, "rung")
+    beyond, exponents = reduce.outside_band(samples), reduce.cut_off_exponents(samples)
+    for name, (_, text) in (OUTSIDE_BAND | CUT_OFF_EXPONENTS).items():
+        add(name, (beyond if name in beyond else exponents)[name], text, "rung")
     text = "why an exponent of the cut-off is not known"
     add(WHY_NO_EXPONENT, exponents[WHY_NO_EXPONENT], text, "rung")
     add_by_load(
@@ -156,13 +132,14 @@ def comparison_dataset(comparison: Comparison) -> xr.Dataset:
     )
     count = (samples.prediction_status != "").sum("sample")
     add("samples", count, "number of samples", "rung")
-    count = converged(samples).sum("sample")
+    count = reduce.converged(samples).sum("sample")
     add("converged_samples", count, "number of samples that converged", "rung")
-    add("status", status(samples), "converged, or what failed", "rung")
+    add("status", reduce.status(samples), "converged, or what failed", "rung")
     add("seconds", samples.seconds.sum("sample"), "time its samples took", "rung", unit="s")
-    pressure, speed = ([getattr(load, name) for load in loads] for name in ("pressure", "speed"))
-    add_by_load("nominal_pressure", pressure, "nominal pressure", unit="Pa")
-    add_by_load("nominal_speed", speed, "sliding speed", unit="m/s")
+    pressures = [setup.load.pressure for setup in setups]
+    add_by_load("nominal_pressure", pressures, "nominal pressure", unit="Pa")
+    speeds = [setup.load.speed for setup in setups]
+    add_by_load("nominal_speed", speeds, "sliding speed", unit="m/s")
     words = {
         "label": "the model in words",
         "group": "what it can be asked for with",
@@ -171,20 +148,22 @@ def comparison_dataset(comparison: Comparison) -> xr.Dataset:
     }
     for name, text in words.items():
         column = [getattr(rung, name) for rung in comparison.rungs]
-        data[name] = _variable("rung", np.array(column, dtype=object), text)
-    data["factor_label"] = _variable(
-        "factor", best.factor_label.values, "factors of the best estimate"
-    )
+        data[name] = labelled("rung", np.array(column, dtype=object), "1", text, SOURCE)
+    labels, text = best.factor_label.values, "factors of the best estimate"
+    data["factor_label"] = labelled("factor", labels, "1", text, SOURCE)
     measured = comparison.measured
     if measured is not None:
         data |= measured_variables(measured)
-    coords = {} if axis is None else coordinates([axis], comparison.file.text)
+    coords: dict[str, Any] = {}
+    if axis is not None:
+        coords |= coordinates([axis], comparison.file.text)
+    text = "lower end of the octave"
+    coords["wavelength"] = labelled("wavelength", wavelength, "m", text, SOURCE)
     conditions = setups[0].conditions
     return xr.Dataset(
         data,
         {
             "rung": [rung.name for rung in comparison.rungs],
-            "wavelength": _variable("wavelength", wavelength, "lower end of the octave", "m"),
             **coords,
         },
         {
@@ -200,24 +179,11 @@ def comparison_dataset(comparison: Comparison) -> xr.Dataset:
     )
 
 
-def _wavelength(comparison: Comparison) -> np.ndarray[Any, np.dtype[np.float64]]:
-    """Return the lower ends of octaves that hold the curves of all samples [m], falling."""
-    smallest = min(setup.surface.cutoff_wavelength for setup in comparison.setups)
-    if "curve_wavelength" not in comparison.samples:
-        return np.empty(0)
-    curves = usable(comparison.samples, "curve_wavelength")
-    return octaves(float(curves.max()), float(curves.min()), smallest)
-
-
 def _factor(comparison: Comparison, at: int, name: str) -> tuple[xr.DataArray, xr.DataArray]:
     """Return the factor from the rung that the one at `at` follows; NaN if it is not there."""
     samples = comparison.samples
     before = comparison.rungs[at].follows
     if before not in samples["rung"].values:
-        unknown = usable(samples.isel(rung=at, drop=True), name).mean("sample") * np.nan
+        unknown = reduce.usable(samples.isel(rung=at, drop=True), name).mean("sample") * np.nan
         return unknown, unknown
-    return ratio(samples.isel(rung=at, drop=True), samples.sel(rung=before, drop=True), name)
-
-
-def _variable(dim: str, values: Any, long_name: str, unit: str = "1") -> xr.Variable:
-    return xr.Variable(dim, values, {"units": unit, "long_name": long_name, "source": SOURCE})
+    return reduce.ratio(samples.isel(rung=at, drop=True), samples.sel(rung=before, drop=True), name)

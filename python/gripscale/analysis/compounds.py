@@ -24,7 +24,7 @@ from gripscale.chain.chain import Chain
 from gripscale.core import checks
 from gripscale.core.errors import InputError
 from gripscale.core.units import ZERO_CELSIUS
-from gripscale.experiment.design import Design, Point, solve_design
+from gripscale.experiment.design import Design, Point, attributes, solve_design
 from gripscale.experiment.inputs import rubber_of
 from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.study import Study
@@ -32,8 +32,6 @@ from gripscale.experiment.task import PREDICTIONS, Store, Task
 from gripscale.io import netcdf
 from gripscale.rubber import Rubber, temperature_doubts
 from gripscale.theory.half_plane import HalfPlane
-
-# Compounds brought to one temperature, as far as their shifts are known.
 
 _SAME = 0.5
 """Temperatures that differ by less are one [K]: 20 °C and 293 K."""
@@ -70,7 +68,16 @@ def at_one_temperature(
         for name, rubber in rubbers.items()
         if rubber.reference_temperature is not None
     }
-    wanted = _common(rubbers, temperatures) if temperature is None else temperature
+    wanted = temperature
+    if wanted is None:
+        fixed = {name: t for name, t in temperatures.items() if rubbers[name].shift is None}
+        if fixed and max(fixed.values()) - min(fixed.values()) > _SAME:
+            each = ", ".join(f"{name} for {_celsius(kelvin)}" for name, kelvin in fixed.items())
+            raise InputError(
+                "compounds must hold for one temperature, or have a shift to it; got "
+                f"{each} without one"
+            )
+        wanted = next(iter((fixed or temperatures).values()), None)
     if wanted is None:
         return dict(rubbers), temperature_doubts(rubbers)
     together, shifted = {}, []
@@ -89,26 +96,9 @@ def at_one_temperature(
     return together, (*shifted, *temperature_doubts(together))
 
 
-def _common(rubbers: Mapping[str, Rubber], temperatures: Mapping[str, float]) -> float | None:
-    """Return the temperature all can be brought to [K], or None where none is stated."""
-    fixed = {name: kelvin for name, kelvin in temperatures.items() if rubbers[name].shift is None}
-    if fixed and max(fixed.values()) - min(fixed.values()) > _SAME:
-        each = ", ".join(f"{name} for {_celsius(kelvin)}" for name, kelvin in fixed.items())
-        raise InputError(
-            "compounds must hold for one temperature, or have a shift to it; got "
-            f"{each} without one"
-        )
-    return next(iter((fixed or temperatures).values()), None)
-
-
 def _celsius(kelvin: float) -> str:
     return f"{kelvin - ZERO_CELSIUS:.1f} °C"
 
-
-# Predictions side by side: what differs from the first of them, and the range of that.
-#
-# With the totals X of each between low and high, all independent of each other, a difference to the
-# first is between low - high of the first, and high - low of the first.
 
 FEWEST, MOST = 2, 6
 TOTALS = ("total_friction", "total_contact_fraction")
@@ -125,7 +115,9 @@ def require_some(name: str, mapping: Mapping[str, Any], what: str) -> None:
 def total_differences(data: xr.Dataset, dim: str) -> dict[str, xr.DataArray]:
     """Return `total_friction_difference` and so on to the first along `dim`.
 
-    With its `_low` and `_high` where `data` has those of the totals.
+    With its `_low` and `_high` where `data` has those of the totals: of totals between low and
+    high, all independent of each other, a difference to the first is between low - high of the
+    first, and high - low of the first.
     """
     out = {}
     for quantity in TOTALS:
@@ -158,11 +150,6 @@ def ranges(
         for quantity, factors in ends.items()
         for end, factor in zip(("low", "high"), factors, strict=True)
     }
-
-
-def attributes(long_name: str) -> dict[str, str]:
-    """Return the attributes of a number without unit."""
-    return {"units": "1", "long_name": long_name}
 
 
 RESULT = "compounds.nc"
@@ -257,14 +244,14 @@ def _ranges(study: Study, data: xr.Dataset, bench: Bench) -> dict[str, xr.DataAr
     return ranges(data, ends, "that the measured moduli leave open")
 
 
-def _differences(data: xr.Dataset) -> dict[str, Any]:
+def _differences(data: xr.Dataset) -> dict[str, xr.DataArray]:
     """Return what differs from the first compound."""
-    out: dict[str, Any] = dict(total_differences(data, "rubber"))
+    out = total_differences(data, "rubber")
     if "scale" in data.dims:
         friction = data.friction.transpose("rubber", "scale")
-        text = "friction coefficient of this and all larger waves"
-        running = friction.values.cumsum(axis=1)
-        out["friction_running"] = (("rubber", "scale"), running, attributes(text))
+        running = friction.copy(data=friction.values.cumsum(axis=1))
+        running.attrs = attributes("friction coefficient of this and all larger waves")
+        out["friction_running"] = running
         text = "difference to the first compound, friction coefficient of the wave"
         out["friction_difference"] = to_first(friction, "rubber", text)
     if "friction_by_decade" in data:

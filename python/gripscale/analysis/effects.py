@@ -18,18 +18,11 @@ import xarray as xr
 
 from gripscale.case.results import CaseResults
 from gripscale.core import provenance
-from gripscale.core.errors import FileError, InputError
-from gripscale.experiment.design import Design, Point, solve_design
-from gripscale.experiment.inputs import (
-    ALL,
-    NONE,
-    conditions_of,
-    effects_asked,
-    rubber_before,
-    with_effects,
-)
+from gripscale.core.errors import InputError
+from gripscale.experiment import inputs
+from gripscale.experiment.design import Design, Point, attributes, solve_design
 from gripscale.experiment.solve import Bench, OnTask, bench_in
-from gripscale.experiment.task import Store, Task
+from gripscale.experiment.task import Store, Task, load_stored
 from gripscale.io import netcdf
 from gripscale.model import ADHESIVE_FRICTION, OUTSIDE_BAND, TOTALS, Load, Model
 from gripscale.rubber import Rubber
@@ -42,7 +35,7 @@ CHANGES = {
     WITH_AREA_TERM: "friction_with_area_term_change",
 }
 """Names of what an effect changes, relative to the answer without it."""
-KEPT = (*TOTALS, ADHESIVE_FRICTION, *OUTSIDE_BAND)
+KEPT = (*TOTALS, ADHESIVE_FRICTION, *OUTSIDE_BAND, "prediction_status", "prediction_key")
 
 
 def effect_tasks(model: Model, rubber: Rubber, surface: Surface, load: Load) -> dict[str, Task]:
@@ -54,16 +47,16 @@ def effect_tasks(model: Model, rubber: Rubber, surface: Surface, load: Load) -> 
         If the model has no conditions, its conditions do nothing to the rubber, or the rubber has
         no shift to the temperature they state.
     """
-    asked = effects_asked(model)
+    asked = inputs.effects_asked(model)
     if not asked:
         raise InputError(
             "effects need conditions with a temperature, softening or heat; got none with the "
             f"model {model.name}"
         )
     tasks = {}
-    for selection in (ALL, *(f"no {effect}" for effect in asked), NONE):
-        changed = with_effects(model, selection)
-        rubber_before(rubber, changed)  # nothing is solved if one of them is impossible
+    for selection in (inputs.ALL, *(f"no {effect}" for effect in asked), inputs.NONE):
+        changed = inputs.with_effects(model, selection)
+        inputs.rubber_before(rubber, changed)  # nothing is solved if one of them is impossible
         tasks[selection] = Task(rubber, surface, load, changed)
     return tasks
 
@@ -109,48 +102,35 @@ def effects(
     """
     tasks = effect_tasks(model, rubber, surface, load)
     points = [Point((at,), selection, task) for at, (selection, task) in enumerate(tasks.items())]
-    coords = {"effect": ("effect", list(tasks), _attrs("effects that count"))}
+    coords = {"effect": ("effect", list(tasks), attributes("effects that count"))}
     design = Design({"effect": len(tasks)}, points, coords)
     with bench_in(None) if folder is None else nullcontext(Bench(Store(folder))) as bench:
         data = solve_design(design, replace(bench, workers=workers, client=client, on_task=on_task))
-    kept = [name for name in (*KEPT, "prediction_status", "prediction_key") if name in data]
-    return _with_changes(data[kept].assign_attrs(_provenance(model, rubber, surface, load)))
-
-
-def _with_changes(data: xr.Dataset) -> xr.Dataset:
-    """Return `data` with the sum of both frictions, and what was changed by what is left out."""
+    data = data[[name for name in KEPT if name in data]]
     if ADHESIVE_FRICTION in data:
         both = data.total_friction + data[ADHESIVE_FRICTION]
         words = "friction coefficient of hysteresis and area term together"
-        data = data.assign({WITH_AREA_TERM: both.assign_attrs(_attrs(words))})
+        data = data.assign({WITH_AREA_TERM: both.assign_attrs(attributes(words))})
     for name, change in CHANGES.items():
         if name in data:
-            relative = (data[name].sel(effect=ALL, drop=True) / data[name] - 1.0).transpose()
+            relative = (data[name].sel(effect=inputs.ALL, drop=True) / data[name] - 1.0).transpose()
             words = f"what the effects left out change in {data[name].attrs['long_name']}"
-            data[change] = relative.where(data.effect != ALL).assign_attrs(_attrs(words))
-    return data
+            data[change] = relative.where(data.effect != inputs.ALL).assign_attrs(attributes(words))
+    return data.assign_attrs(
+        {
+            "title": "What each effect of the conditions is worth",
+            "model": model.name,
+            "conditions": json.dumps(inputs.conditions_of(model).to_dict()),
+            "rubber": f"{rubber.name}; {rubber.source}".strip("; "),
+            "surface": surface.source,
+            "nominal_pressure": load.pressure,
+            "nominal_speed": load.speed,
+            "footprint": load.footprint,
+            "load_time": str(load.load_time),
+            **provenance.attributes(),
+        }
+    )
 
-
-def _attrs(long_name: str) -> dict[str, str]:
-    return {"units": "1", "long_name": long_name}
-
-
-def _provenance(model: Model, rubber: Rubber, surface: Surface, load: Load) -> dict[str, Any]:
-    return {
-        "title": "What each effect of the conditions is worth",
-        "model": model.name,
-        "conditions": json.dumps(conditions_of(model).to_dict()),
-        "rubber": f"{rubber.name}; {rubber.source}".strip("; "),
-        "surface": surface.source,
-        "nominal_pressure": load.pressure,
-        "nominal_speed": load.speed,
-        "footprint": load.footprint,
-        "load_time": str(load.load_time),
-        **provenance.attributes(),
-    }
-
-
-# What each effect is worth in a case: of its chain, and of the direct contact of its surface.
 
 FILE = "effects_{model}.nc"
 """What they are kept in, beside the result."""
@@ -191,12 +171,12 @@ def case_effects(
     FileError
         If a result cannot be written.
     """
-    asked, load = effects_asked(model), results.load
+    asked, load = inputs.effects_asked(model), results.load
     if not asked or load.speed == 0.0:
         return None
     setup = (model, results.rubber.rubber, results.surface, load)
     if model == results.chain and results.dynamic is not None and results.dynamic.converged:
-        key = effect_tasks(*setup)[ALL].key
+        key = effect_tasks(*setup)[inputs.ALL].key
         solved = results.dynamic.to_dataset().assign_attrs(prediction_key=key)
         Store(store).put(key, solved)
     data = effects(*setup, folder=store, workers=workers, client=client, on_task=on_task)
@@ -208,13 +188,8 @@ def case_effects(
 def stored_effects(folders: Iterable[Path], case: object) -> list[xr.Dataset]:
     """Return what the first of `folders` that has effects of this text of a case keeps."""
     for folder in folders:
-        kept = []
-        for path in sorted(folder.glob(FILE.format(model="*"))):
-            try:
-                kept.append(netcdf.load(path))
-            except FileError:
-                continue
-        same = [data for data in kept if data.attrs.get("case") == case]
+        stored = map(load_stored, sorted(folder.glob(FILE.format(model="*"))))
+        same = [data for data in stored if data is not None and data.attrs.get("case") == case]
         if same:
             return same
     return []

@@ -1,15 +1,15 @@
 """The ladder: from the chain to the profile as measured, one assumption given up on each rung.
 
-A new rung is a function that draws its samples and an entry in `LADDER`. What two rungs on the same
-surfaces say of an assumption becomes a factor of the best estimate by an entry in
-`gripscale.analysis.best_estimate.FACTORS`.
+A new rung is a function that draws its samples, an entry in `LADDER`, and if it follows another,
+one in `STEPS`. What two rungs on the same surfaces say of an assumption becomes a factor of the
+best estimate by an entry in `gripscale.analysis.best_estimate.FACTORS`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import NamedTuple, TypeVar
 
 import numpy as np
@@ -39,46 +39,37 @@ from gripscale.theory.models import KlueppelHeinrich, Persson
 from gripscale.wave.kernel import WaveSolver
 from gripscale.wave.profile import BlockOnProfile
 
-# What a rung of the ladder is: a model, what it changes, and the surfaces it is tried on.
-
 
 @dataclass(frozen=True, eq=False)
 class ComparisonSetup:
-    """What the models are compared over, and how finely.
-
-    Parameters
-    ----------
-    rubber, surface, load
-        What slides on what, how hard and how fast.
-    solver : WaveSolver
-        What solves one wave of the chain, as the case says.
-    seeds : int
-        Random phases drawn of each surface.
-    tolerance : float
-        Estimated relative error of each direct contact.
-    klueppel_heinrich : KlueppelHeinrich, optional
-        That theory with its fitted parameters; without them it says nothing.
-    pressure_classes : int
-        In how many classes of equal load the chain hands its pressure down, as the case says.
-    conditions : Conditions, optional
-        What changes the rubber. Chain and direct contact know all of it, every other model only the
-        temperature.
-    """
+    """What the models are compared over, and how finely."""
 
     rubber: Rubber
     surface: Surface
     load: Load
     solver: WaveSolver
+    """What solves one wave of the chain, as the case says."""
     seeds: int = 3
+    """Random phases drawn of each surface."""
     tolerance: float = 0.05
+    """Estimated relative error of each direct contact."""
     klueppel_heinrich: KlueppelHeinrich | None = None
+    """That theory with its fitted parameters; without them it says nothing."""
     pressure_classes: int = 1
+    """In how many classes of equal load the chain hands its pressure down, as the case says."""
     conditions: Conditions | None = None
+    """What changes the rubber. Chain and direct contact know all of it, every other model only the
+    temperature."""
 
     @property
     def of_map(self) -> bool:
         """Whether a map was measured."""
         return self.surface.measured is not None and self.surface.measured.map is not None
+
+    @property
+    def lines(self) -> tuple[Profile, ...]:
+        """The cleaned profiles, or the lines of a map; none of waves stated by hand."""
+        return () if self.surface.measured is None else tuple(self.surface.measured.cleaned)
 
     @property
     def rubber_before(self) -> Rubber:
@@ -88,6 +79,15 @@ class ComparisonSetup:
     def rubber_for(self, model: Model) -> Rubber:
         """Return the rubber as measured for a model with conditions, else `rubber_before`."""
         return self.rubber_before if model.conditions is None else self.rubber
+
+    def chain(self, solver: WaveSolver) -> Chain:
+        """Return the chain of the case with a solver."""
+        return Chain(solver, pressure_classes=self.pressure_classes, conditions=self.conditions)
+
+    @property
+    def direct(self) -> DirectContact:
+        """The direct contact."""
+        return DirectContact(tolerance=self.tolerance, conditions=self.conditions)
 
 
 class SampleSpec(NamedTuple):
@@ -101,30 +101,20 @@ class SampleSpec(NamedTuple):
 
 @dataclass(frozen=True)
 class Rung:
-    """One model of the ladder.
-
-    Parameters
-    ----------
-    name : str
-        Word for it in result files.
-    label : str
-        In words, for tables and figures.
-    group : str
-        Which rungs it belongs with, so that they can be asked for together.
-    change : str
-        What changes from the rung it follows, in words; empty where there is none.
-    follows : str
-        Name of the rung it is compared with; empty for none.
-    draws : callable
-        From a `ComparisonSetup` to its samples; none where the model has nothing to say of it.
-    """
+    """One model of the ladder."""
 
     name: str
+    """Word for it in result files."""
     label: str
+    """In words, for tables and figures."""
     group: str
+    """Which rungs it belongs with, so that they can be asked for together."""
     change: str
+    """What changes from the rung it follows, in words; empty where there is none."""
     follows: str
+    """Name of the rung it is compared with; empty for none."""
     draws: Callable[[ComparisonSetup], Sequence[SampleSpec]] = field(repr=False)
+    """From a setup to its samples; none where the model has nothing to say of it."""
 
 
 def with_single_measurement(surface: Surface, measured: Profile | HeightMap) -> Surface:
@@ -132,11 +122,6 @@ def with_single_measurement(surface: Surface, measured: Profile | HeightMap) -> 
     whole = measured if isinstance(measured, HeightMap) else [measured]
     return Surface(surface.sines, measured.name, measured=Measured.of(whole))
 
-
-# Samples of the rungs that correct the direct contact of a line: finite strain, and a whole map.
-#
-# Each correction is the ratio of two rungs on the same surfaces, see
-# `gripscale.analysis.best_estimate.FACTORS`.
 
 WINDOW, MOST_WAVES, WINDOWS = 1.1, 190, 8
 """Windows of a profile in the block: length over the largest sine wave, waves that are kept at most
@@ -147,29 +132,17 @@ MAP, WAVES_IN_MAP, MAPS, LINES = 1.8, 128, 2, 10
 kept, how many, and how many lines of each are solved each way."""
 
 
-def windows_half_plane(setup: ComparisonSetup) -> Sequence[SampleSpec]:
-    """Return windows of the profiles for the half-space."""
+def _windows_half_plane(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     return _on_windows(setup, DirectContact(tolerance=setup.tolerance, periodic=True))
 
 
-def windows_finite_strain(setup: ComparisonSetup) -> Sequence[SampleSpec]:
-    """Return the same windows for the block."""
+def _windows_block(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     return _on_windows(setup, BlockOnProfile(periodic=True))
 
 
-def maps(setup: ComparisonSetup) -> Sequence[SampleSpec]:
-    """Return synthetic isotropic maps of the profiles."""
-    return _on_maps(setup, 0)
-
-
-def lines_of_maps(setup: ComparisonSetup) -> Sequence[SampleSpec]:
-    """Return lines of the same maps."""
-    return _on_maps(setup, LINES)
-
-
 def _on_windows(setup: ComparisonSetup, model: Model) -> Sequence[SampleSpec]:
-    measured, sines = setup.surface.measured, setup.surface.sines
-    lines = () if measured is None else tuple(measured.cleaned)
+    """Return the windows of the profiles, the same for both models."""
+    sines = setup.surface.sines
     length = WINDOW * float(sines.wavelength[0])
     return [
         SampleSpec(
@@ -177,16 +150,15 @@ def _on_windows(setup: ComparisonSetup, model: Model) -> Sequence[SampleSpec]:
             with_single_measurement(setup.surface, line),
             f"{line.name} from {line.x[0]:.4g} m",
         )
-        for line in _windows(lines, length, float(sines.cutoff_wavelength))
+        for line in _windows(setup.lines, length, float(sines.cutoff_wavelength))
     ]
 
 
 @lru_cache(maxsize=4)
 def _windows(lines: tuple[Profile, ...], length: float, end: float) -> list[Profile]:
     """Return windows of the profiles that are long enough for one, with waves down to `end`."""
-    from gripscale.half_space.finite_strain import (
-        spread_windows,  # scipy.stats with it: 0.3 s, which no run pays
-    )
+    # imports scipy.stats: 0.3 s, which no run pays
+    from gripscale.half_space.finite_strain import spread_windows
 
     enough = [line for line in lines if line.length > length]
     if not enough:
@@ -196,27 +168,26 @@ def _windows(lines: tuple[Profile, ...], length: float, end: float) -> list[Prof
 
 
 def _on_maps(setup: ComparisonSetup, lines: int) -> Sequence[SampleSpec]:
-    """Return the maps; none of a surface that is a map, or whose profiles are too short."""
+    """Return synthetic isotropic maps of the profiles, whole (0) or that many lines of each.
+
+    None of a surface that is a map, or whose profiles are too short.
+    """
     from gripscale.half_space.maps import SyntheticMap
 
-    surface = setup.surface
-    if surface.measured is None or surface.measured.map is not None:
+    surface, sines = setup.surface, setup.surface.sines
+    if not setup.lines or setup.of_map:
         return []
-    cleaned, sines = surface.measured.cleaned, surface.sines
-    step = max(line.step for line in cleaned)
+    step = max(line.step for line in setup.lines)
     smallest = max(
         MAP * sines.wavelength[0] / WAVES_IN_MAP, sines.cutoff_wavelength, STEPS_IN_WAVE * step
     )
-    if sum(line.length for line in cleaned) < FEWEST_PERIODS * WAVES_IN_MAP * smallest:
+    if sum(line.length for line in setup.lines) < FEWEST_PERIODS * WAVES_IN_MAP * smallest:
         return []
-    return [
-        SampleSpec(
-            SyntheticMap(seed, float(smallest), lines, tolerance=setup.tolerance),
-            surface,
-            f"map {seed}",
-        )
+    models = [
+        SyntheticMap(seed, float(smallest), lines, tolerance=setup.tolerance)
         for seed in range(MAPS)
     ]
+    return [SampleSpec(model, surface, f"map {seed}") for seed, model in enumerate(models)]
 
 
 Measurement = TypeVar("Measurement", Profile, HeightMap)
@@ -256,23 +227,14 @@ def each_measured(surface: Surface) -> list[tuple[str, Surface]]:
 
 
 def _chain(setup: ComparisonSetup) -> Sequence[SampleSpec]:
-    small_strain = isinstance(setup.solver, HalfPlane)
-    if small_strain:
+    if isinstance(setup.solver, HalfPlane):
         return []
-    return [SampleSpec(_chain_of(setup, setup.solver), setup.surface)]
-
-
-def _chain_of(setup: ComparisonSetup, solver: WaveSolver) -> Chain:
-    return Chain(solver, pressure_classes=setup.pressure_classes, conditions=setup.conditions)
-
-
-def _direct_of(setup: ComparisonSetup) -> DirectContact:
-    return DirectContact(tolerance=setup.tolerance, conditions=setup.conditions)
+    return [SampleSpec(setup.chain(setup.solver), setup.surface)]
 
 
 def _chain_half_plane(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     solver = setup.solver if isinstance(setup.solver, HalfPlane) else HalfPlane()
-    return [SampleSpec(_chain_of(setup, solver), setup.surface)]
+    return [SampleSpec(setup.chain(solver), setup.surface)]
 
 
 def _chain_upper(setup: ComparisonSetup) -> Sequence[SampleSpec]:
@@ -281,9 +243,8 @@ def _chain_upper(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     cut_off_already = surface.sines.cut_off is not None
     if upper_already and cut_off_already and setup.pressure_classes > 1:
         return []
-    lines = () if surface.measured is None else tuple(surface.measured.cleaned)
-    end = surface.cutoff_wavelength
-    sines = _of_upper_half(lines, surface.counted.get("max_lag"), end) if lines else None
+    end, max_lag = surface.cutoff_wavelength, surface.counted.get("max_lag")
+    sines = _of_upper_half(setup.lines, max_lag, end) if setup.lines else None
     if sines is None:
         return []
     solver = HalfPlane(points=POINTS_OF_A_CLASS)
@@ -304,38 +265,33 @@ def _of_upper_half(
 
 
 def _sines(setup: ComparisonSetup) -> Sequence[SampleSpec]:
-    model, surface = _direct_of(setup), setup.surface
-    lines = (_of_sines(surface.sines, seed) for seed in range(setup.seeds))
-    return [SampleSpec(model, with_single_measurement(surface, line)) for line in lines]
+    lines = (_of_sines(setup.surface.sines, seed) for seed in range(setup.seeds))
+    return [SampleSpec(setup.direct, with_single_measurement(setup.surface, x)) for x in lines]
 
 
 def _random_phases(setup: ComparisonSetup) -> Sequence[SampleSpec]:
-    model, surface = _direct_of(setup), setup.surface
+    surface = setup.surface
     measured = [] if surface.measured is None else surface.measured.surfaces
     return [
-        SampleSpec(model, with_single_measurement(surface, _shuffled(part, seed)), part.name)
+        SampleSpec(setup.direct, with_single_measurement(surface, _shuffled(part, seed)), part.name)
         for part in measured
         for seed in range(setup.seeds)
     ]
 
 
 def _direct(setup: ComparisonSetup) -> Sequence[SampleSpec]:
-    model = _direct_of(setup)
-    return [SampleSpec(model, part, name) for name, part in each_measured(setup.surface)]
+    return [SampleSpec(setup.direct, part, name) for name, part in each_measured(setup.surface)]
 
 
 def _persson(setup: ComparisonSetup) -> Sequence[SampleSpec]:
-    return [
-        SampleSpec(Persson(smallest_wavelength=_last_known(part)), part, name)
-        for name, part in each_measured(setup.surface)
-    ]
-
-
-def _last_known(surface: Surface) -> float:
-    """Return where the sine waves end [m], or the spectrum of the profile before them."""
-    spectra = [_spectrum(line) for line in surface.measured.cleaned] if surface.measured else []
-    ends = [float(2.0 * np.pi / spectrum.wavenumber[-1]) for spectrum in spectra]
-    return max(surface.cutoff_wavelength, *ends)
+    """Return each profile down to where the sine waves end, or its spectrum before them."""
+    specs = []
+    for name, part in each_measured(setup.surface):
+        spectra = [_spectrum(line) for line in part.measured.cleaned] if part.measured else []
+        ends = [float(2.0 * np.pi / spectrum.wavenumber[-1]) for spectrum in spectra]
+        smallest = max(part.cutoff_wavelength, *ends)
+        specs.append(SampleSpec(Persson(smallest_wavelength=smallest), part, name))
+    return specs
 
 
 def _klueppel_heinrich(setup: ComparisonSetup) -> Sequence[SampleSpec]:
@@ -361,67 +317,37 @@ def _shuffled(measured: Measurement, seed: int) -> Measurement:
     return random_phases(measured, seed)
 
 
+STEPS = {
+    "chain_half_plane": ("small strain assumed", "chain"),
+    "chain_upper": ("heights that touch, pressure as it is distributed", "chain_half_plane"),
+    "sines": ("all scales together", "chain_half_plane"),
+    "random_phases": ("the whole spectrum", "sines"),
+    DIRECT: ("the measured phases", "random_phases"),
+    "persson": ("", DIRECT),
+    "klueppel_heinrich": ("", DIRECT),
+    "windows_finite_strain": ("finite strain", "windows_half_plane"),
+    "map": ("a map for its lines", "map_lines"),
+}
+"""What changes from the rung that a rung follows, and that rung."""
+
+
+def _rung(
+    name: str, label: str, group: str, draws: Callable[[ComparisonSetup], Sequence[SampleSpec]]
+) -> Rung:
+    return Rung(name, label, group, *STEPS.get(name, ("", "")), draws)
+
+
 LADDER: tuple[Rung, ...] = (
-    Rung("chain", "chain, finite strain", "waves", "", "", _chain),
-    Rung(
-        "chain_half_plane",
-        "chain, small strain",
-        "waves",
-        "small strain assumed",
-        "chain",
-        _chain_half_plane,
-    ),
-    Rung(
-        "chain_upper",
-        "chain of the upper half, pressure in classes",
-        "waves",
-        "heights that touch, pressure as it is distributed",
-        "chain_half_plane",
-        _chain_upper,
-    ),
-    Rung(
-        "sines",
-        "the case's sine waves at once",
-        "waves",
-        "all scales together",
-        "chain_half_plane",
-        _sines,
-    ),
-    Rung(
-        "random_phases",
-        "profile with random phases",
-        "measured",
-        "the whole spectrum",
-        "sines",
-        _random_phases,
-    ),
-    Rung(
-        DIRECT,
-        "profile as measured, at once",
-        "measured",
-        "the measured phases",
-        "random_phases",
-        _direct,
-    ),
-    Rung("persson", "Persson, isotropic surface", "theory", "", DIRECT, _persson),
-    Rung("klueppel_heinrich", "Klüppel & Heinrich", "theory", "", DIRECT, _klueppel_heinrich),
-    Rung(
-        "windows_half_plane",
-        "windows of it, small strain",
-        "windows",
-        "",
-        "",
-        windows_half_plane,
-    ),
-    Rung(
-        "windows_finite_strain",
-        "windows of it, finite strain",
-        "windows",
-        "finite strain",
-        "windows_half_plane",
-        windows_finite_strain,
-    ),
-    Rung("map_lines", "lines of a synthetic map", "map", "", "", lines_of_maps),
-    Rung("map", "the synthetic map", "map", "a map for its lines", "map_lines", maps),
+    _rung("chain", "chain, finite strain", "waves", _chain),
+    _rung("chain_half_plane", "chain, small strain", "waves", _chain_half_plane),
+    _rung("chain_upper", "chain of the upper half, pressure in classes", "waves", _chain_upper),
+    _rung("sines", "the case's sine waves at once", "waves", _sines),
+    _rung("random_phases", "profile with random phases", "measured", _random_phases),
+    _rung(DIRECT, "profile as measured, at once", "measured", _direct),
+    _rung("persson", "Persson, isotropic surface", "theory", _persson),
+    _rung("klueppel_heinrich", "Klüppel & Heinrich", "theory", _klueppel_heinrich),
+    _rung("windows_half_plane", "windows of it, small strain", "windows", _windows_half_plane),
+    _rung("windows_finite_strain", "windows of it, finite strain", "windows", _windows_block),
+    _rung("map_lines", "lines of a synthetic map", "map", partial(_on_maps, lines=LINES)),
+    _rung("map", "the synthetic map", "map", partial(_on_maps, lines=0)),
 )
-"""All rungs, in order; a new one is added here."""

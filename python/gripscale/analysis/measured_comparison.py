@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from gripscale.analysis.measured_friction import (
     MeasuredFriction,
@@ -19,6 +18,8 @@ from gripscale.case.read import CaseFile
 from gripscale.conditions.area_term import InterfacialShearStress
 from gripscale.conditions.conditions import Conditions
 from gripscale.core import checks
+from gripscale.core.arrays import Array, Mask, Vector
+from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError, about_keys
 from gripscale.core.units import ZERO_CELSIUS
 from gripscale.experiment.design import CONVERGED, Design, Point, solve_design
@@ -34,11 +35,7 @@ if TYPE_CHECKING:
     from gripscale.surface import Surface
 
 
-Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True, init=False, eq=False)
-class Predicted:
+class Predicted(Checked, eq=False):
     """Contact and friction at the points of a measurement, arrays of shape (n,) in its order.
 
     Parameters
@@ -62,46 +59,35 @@ class Predicted:
         If the lengths differ, or a pressure is not above zero.
     """
 
-    friction: Array = field(repr=False)
-    contact_fraction: Array = field(repr=False)
-    pressure: Array = field(repr=False)
-    temperature: Array = field(repr=False)
-    outside_band: Array = field(repr=False)
-    status: Sequence[str] = field(repr=False)
+    friction: Vector = checked(checks.vector, missing=True, repr=False)
+    contact_fraction: Vector = checked(checks.vector, missing=True, repr=False)
+    pressure: Vector = checked(checks.positive_vector, unit="Pa", repr=False)
+    temperature: Vector = checked(checks.vector, missing=True, repr=False)
+    outside_band: Vector = checked(checks.vector, missing=True, default=None, repr=False)
+    status: Sequence[str] = checked(checks.instances, kind=str, default=None, repr=False)
 
-    def __init__(
-        self,
-        friction: ArrayLike,
-        contact_fraction: ArrayLike,
-        pressure: ArrayLike,
-        temperature: ArrayLike,
-        outside_band: ArrayLike | None = None,
-        status: Sequence[str] | None = None,
-    ) -> None:
-        size = np.size(friction)
-        columns: dict[str, Any] = {
-            "pressure": checks.positive_vector("pressure", pressure, unit="Pa"),
-            "status": [CONVERGED] * size
-            if status is None
-            else checks.instances("status", status, str),
-        }
-        numbers = {
-            "friction": friction,
-            "contact_fraction": contact_fraction,
-            "temperature": temperature,
-            "outside_band": np.full(size, np.nan) if outside_band is None else outside_band,
-        }
-        for name, values in numbers.items():
-            columns[name] = checks.vector(name, values, missing=True)
-        order = ["pressure", *numbers, "status"]
-        if len({len(values) for values in columns.values()}) > 1:
-            counts = ", ".join(f"{len(columns[name])} of {name}" for name in order)
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        size = self.friction.size
+        if self.outside_band is None:
+            self._set(outside_band=np.full(size, np.nan))
+        if self.status is None:
+            self._set(status=[CONVERGED] * size)
+        names = (
+            "pressure",
+            "friction",
+            "contact_fraction",
+            "temperature",
+            "outside_band",
+            "status",
+        )
+        sizes = {name: len(getattr(self, name)) for name in names}
+        if len(set(sizes.values())) > 1:
+            counts = ", ".join(f"{count} of {name}" for name, count in sizes.items())
             raise InputError(f"a prediction needs as many values of each; got {counts}")
-        for name, values in columns.items():
-            object.__setattr__(self, name, values)
 
     @property
-    def has_answer(self) -> NDArray[np.bool_]:
+    def has_answer(self) -> Mask:
         """Where the model has an answer."""
         return np.isfinite(self.friction) & (self.contact_fraction > 0.0)
 
@@ -186,18 +172,6 @@ def predictions_at(
         As the model and `solve_all` do; a temperature other than that of the rubber needs a shift.
     """
     bench = Bench(store, workers, client, on_task)
-    return predict_points(measured, model, rubber, surface, load, bench)
-
-
-def predict_points(
-    measured: MeasuredFriction,
-    model: Model,
-    rubber: Rubber,
-    surface: Surface,
-    load: Load,
-    bench: Bench,
-) -> Predicted:
-    """Return what `model` predicts at each measured point, see `predictions_at`."""
     return predicted_of(solve_design(points_of(measured, model, rubber, surface, load), bench))
 
 
@@ -220,7 +194,14 @@ def points_of(
         point_load = replace(load, pressure=float(p), speed=float(v))
         temperature = None if math.isnan(t) else float(t)
         other = temperature is not None and temperature != case
-        task = _task(model, rubber, surface, point_load, temperature, other)
+        if model.takes_conditions:
+            conditions = replace(model.conditions or Conditions(), shear_stress=TemperatureProbe())
+            if other:
+                conditions = replace(conditions, temperature=temperature)
+            task = Task(rubber, surface, point_load, model.with_conditions(conditions))
+        else:
+            met = rubber.at(temperature) if other and temperature else rubber
+            task = Task(met, surface, point_load, model)
         celsius = "" if temperature is None else f", {t - ZERO_CELSIUS:.4g} C"
         words = f"speed {v:.4g} m/s{celsius}, pressure {p / 1e5:.4g} bar"
         points.append(Point((at - 1,), f"{label}point {at}, {words}", task))
@@ -248,25 +229,6 @@ def predicted_of(data: xr.Dataset) -> Predicted:
         data["prediction_status"].values.tolist(),
     )
 
-
-def _task(
-    model: Model,
-    rubber: Rubber,
-    surface: Surface,
-    load: Load,
-    kelvin: float | None,
-    other: bool,
-) -> Task:
-    """Return what is to be solved at one point; `other` than the temperature of the case or not."""
-    if not model.takes_conditions:
-        return Task(rubber.at(kelvin) if other and kelvin else rubber, surface, load, model)
-    conditions = replace(model.conditions or Conditions(), shear_stress=TemperatureProbe())
-    if other:
-        conditions = replace(conditions, temperature=kelvin)
-    return Task(rubber, surface, load, model.with_conditions(conditions))
-
-
-# How far predictions are from measured friction, point by point and as a root mean square.
 
 SOURCE = "gripscale residuals"
 
@@ -331,25 +293,27 @@ def residuals(
     grid = ("model", "measurement")
     predictions = predicted.values()
     hysteresis = np.array([prediction.friction for prediction in predictions])
-    data = {"hysteresis": labelled(grid, hysteresis, "1", "friction of the hysteresis", SOURCE)}
+    columns: dict[str, Any] = {"hysteresis": (grid, hysteresis, "friction of the hysteresis")}
     total = hysteresis
     if shear_stress is not None:
         law, speed = shear_stress, measured.speed
         terms = np.array([prediction.area_term(law, speed) for prediction in predictions])
-        data["area_term"] = labelled(grid, terms, "1", "friction of the area term", SOURCE)
+        columns["area_term"] = (grid, terms, "friction of the area term")
         total = hysteresis + terms
     difference = total - measured.friction
     relative = in_spread(difference, measured.spread)
     about = "predicted less measured friction"
-    columns = {
+    columns |= {
         "friction": (grid, total, "predicted friction coefficient"),
         "difference": (grid, difference, about),
         "difference_in_spread": (grid, relative, f"{about}, over its spread"),
         "rms_difference": ("model", rms(difference), f"rms of {about}"),
         "rms_difference_in_spread": ("model", rms(relative), f"rms of {about}, over its spread"),
     }
-    for name, (dims, values, text) in columns.items():
-        data[name] = labelled(dims, values, "1", text, SOURCE)
+    data = {
+        name: labelled(dims, values, "1", text, SOURCE)
+        for name, (dims, values, text) in columns.items()
+    }
     return xr.Dataset(data | measured_variables(measured), coords={"model": list(predicted)})
 
 
@@ -374,9 +338,6 @@ def rms(values: Array) -> Array:
     count = finite.sum(axis=-1)
     squares = np.where(finite, values, 0.0) ** 2
     return np.asarray(np.sqrt(squares.sum(axis=-1) / np.where(count > 0, count, np.nan)))
-
-
-# The measured friction a case names.
 
 
 @about_keys("measured")

@@ -8,19 +8,19 @@ the rules of `gripscale.io.text_table` hold.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array, Vector
+from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import FileError, InputError
 from gripscale.core.units import in_si, listed, spelled
-from gripscale.io.text_table import ColumnTitle, TextTable, file_path, read_table
-
-Array = NDArray[np.float64]
+from gripscale.io.text_table import ColumnTitle, file_path, read_table
 
 _WORDS = {
     "speed": ("speed", "velocity", "v"),
@@ -48,8 +48,27 @@ _RATIO = ("1", "-", "–")
 """Units of what has none."""
 
 
-@dataclass(frozen=True, init=False, eq=False)
-class MeasuredFriction:
+def _column(name: str, array: ArrayLike) -> Array:
+    """Return a column; raise `InputError` if a value is out of its range."""
+    unit = _OPTIONAL.get(name, "")
+    values = checks.vector(name, array, unit=unit, missing=name in _OPTIONAL)
+    beyond, low = np.abs(values) > _MOST[name], np.zeros(values.size, dtype=bool)
+    if beyond.any():
+        at = int(np.argmax(beyond))
+        raise InputError(
+            f"{name} must be at most {_MOST[name]:g}; got {values[at]:g} at index {at}: a missing "
+            "value is nan or an empty cell"
+        )
+    if name in _OPTIONAL:
+        low = values < 0.0 if name == "spread" else values <= 0.0
+    if low.any():
+        limit = "not be negative" if name == "spread" else f"be above zero [{unit}]"
+        at = int(np.argmax(low))
+        raise InputError(f"{name} must {limit}; got {values[at]:g} at index {at}")
+    return values
+
+
+class MeasuredFriction(Checked, eq=False):
     """Measured friction coefficients over sliding speed.
 
     Parameters
@@ -73,63 +92,26 @@ class MeasuredFriction:
         If the lengths differ or a value is out of its range.
     """
 
-    speed: Array = field(repr=False)
-    friction: Array = field(repr=False)
-    spread: Array = field(repr=False)
-    temperature: Array = field(repr=False)
-    pressure: Array = field(repr=False)
-    source: str
+    speed: Vector = checked(checks.positive_vector, unit="m/s", repr=False)
+    friction: Vector = checked(_column, repr=False)
+    spread: Vector = checked(_column, default=None, repr=False)
+    temperature: Vector = checked(_column, default=None, repr=False)
+    source: str = ""
+    _: KW_ONLY
+    pressure: Vector = checked(_column, default=None, repr=False)
 
-    def __init__(
-        self,
-        speed: ArrayLike,
-        friction: ArrayLike,
-        spread: ArrayLike | None = None,
-        temperature: ArrayLike | None = None,
-        source: str = "",
-        *,
-        pressure: ArrayLike | None = None,
-    ) -> None:
-        columns = {
-            "speed": checks.positive_vector("speed", speed, unit="m/s"),
-            "friction": checks.vector("friction", friction),
-        }
-        optional = {"spread": spread, "temperature": temperature, "pressure": pressure}
-        for name, column in optional.items():
-            values = np.full(columns["speed"].size, np.nan) if column is None else column
-            columns[name] = _checked(name, values)
-        _check_most("friction", columns["friction"])
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        columns = {name: getattr(self, name) for name in _WORDS}
+        for name in _OPTIONAL:
+            if columns[name] is None:
+                columns[name] = np.full(self.speed.size, np.nan)
         sizes = {name: values.size for name, values in columns.items()}
         if len(set(sizes.values())) > 1 or not sizes["speed"]:
             counts = ", ".join(f"{count} of {name}" for name, count in sizes.items())
             raise InputError(f"columns must have equal lengths, at least 1; got {counts}")
-        order = np.argsort(columns["speed"], kind="stable")
-        for name, values in columns.items():
-            object.__setattr__(self, name, values[order])
-        object.__setattr__(self, "source", source)
-
-
-def _checked(name: str, array: ArrayLike) -> Array:
-    """Return an optional column; raise `InputError` if a value is out of its range."""
-    unit = _OPTIONAL[name]
-    values = checks.vector(name, array, unit=unit, missing=True)
-    _check_most(name, values)
-    low = values < 0.0 if name == "spread" else values <= 0.0
-    if low.any():
-        limit = "not be negative" if name == "spread" else f"be above zero [{unit}]"
-        at = int(np.argmax(low))
-        raise InputError(f"{name} must {limit}; got {values[at]:g} at index {at}")
-    return values
-
-
-def _check_most(name: str, values: Array) -> None:
-    beyond = np.abs(values) > _MOST[name]
-    if beyond.any():
-        at = int(np.argmax(beyond))
-        raise InputError(
-            f"{name} must be at most {_MOST[name]:g}; got {values[at]:g} at index {at}: a missing "
-            "value is nan or an empty cell"
-        )
+        order = np.argsort(self.speed, kind="stable")
+        self._set(**{name: values[order] for name, values in columns.items()})
 
 
 def read_measured_friction(path: str | Path, *, sheet: str | int | None = None) -> MeasuredFriction:
@@ -158,11 +140,18 @@ def read_measured_friction(path: str | Path, *, sheet: str | int | None = None) 
         named=lambda title: _word(title) is not None,
         sheet=sheet,
     )
-    places = _places(table)
-    columns = {}
-    for word, column in places.items():
-        values = table.numbers(column, f"a {word}", missing=word in _OPTIONAL)
-        columns[word] = _in_si(path, word, table.columns[column], values)
+    columns: dict[str, Array] = {}
+    for at, column in enumerate(table.columns):
+        word = _word(column.name)
+        if word in columns:
+            raise FileError(f"{path}: expected one column of {word}; got two")
+        if word is not None:
+            values = table.numbers(at, f"a {word}", missing=word in _OPTIONAL)
+            columns[word] = _in_si(path, word, column, values)
+    absent = [word for word in ("speed", "friction") if word not in columns]
+    if absent:
+        titles = table.titles or "no titles"
+        raise FileError(f"{path}: expected a column named {absent[0]}; got {titles}")
     try:
         return MeasuredFriction(**columns, source=str(path))
     except InputError as error:
@@ -173,22 +162,6 @@ def _word(title: str) -> str | None:
     """Return which of our columns a title names, or None."""
     plain = " ".join(title.lower().replace("_", " ").split())
     return next((word for word, names in _WORDS.items() if plain in names), None)
-
-
-def _places(table: TextTable) -> dict[str, int]:
-    """Return the place of each of our columns."""
-    places: dict[str, int] = {}
-    for at, column in enumerate(table.columns):
-        word = _word(column.name)
-        if word in places:
-            raise FileError(f"{table.path}: expected one column of {word}; got two")
-        if word is not None:
-            places[word] = at
-    absent = [word for word in ("speed", "friction") if word not in places]
-    if absent:
-        titles = table.titles or "no titles"
-        raise FileError(f"{table.path}: expected a column named {absent[0]}; got {titles}")
-    return places
 
 
 def _in_si(path: Path, word: str, column: ColumnTitle, values: Array) -> Array:
@@ -212,19 +185,14 @@ def _in_si(path: Path, word: str, column: ColumnTitle, values: Array) -> Array:
     return in_si(values, unit, kind)
 
 
-# A shear stress that tells the temperature in the contact of any model's answer.
-#
-# With tau_f = s T, s = 1 Pa/K, the area term is
-#
-#     mu = s T A_r/(A_0 p)        so that        T = mu p A_0/(s A_r)
-#
-# the mean over the real contact area. Laws are fitted to answers made with it: an answer then does
-# not depend on the law, and serves all of them.
-
-
 @dataclass(frozen=True)
 class TemperatureProbe:
-    """A shear stress of 1 Pa for each kelvin; none where the temperature is not known."""
+    """A shear stress of 1 Pa for each kelvin; none where the temperature is not known.
+
+    With tau_f = s T, s = 1 Pa/K, the area term mu = s T A_r/(A_0 p) of an answer tells the mean
+    temperature over the real contact area. Laws are fitted to answers made with it: an answer then
+    does not depend on the law, and serves all of them.
+    """
 
     kind: ClassVar[str] = "temperature_probe"
 

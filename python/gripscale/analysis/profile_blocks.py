@@ -27,11 +27,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.surface import HeightDifference, Profile
 from gripscale.surface.height_difference import BlockSums, block_starts, block_sums
 
-Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 BLOCK_WAVES = 4.0
@@ -45,18 +45,6 @@ JOINT_WAVES = 0.5
 class ProfileBlocks:
     """Profiles cut into blocks, and what is drawn of them.
 
-    Parameters
-    ----------
-    profiles : sequence of Profile
-        Cleaned, of one step.
-    largest_wave : float
-        The longest wave that counts [m].
-    block_length : float, optional
-        [m]; four of the largest waves by default, less where the profiles then had fewer than
-        eight blocks.
-    counted : mapping
-        `top_height_fraction` and `max_lag` of `height_difference`.
-
     Raises
     ------
     InputError
@@ -64,9 +52,14 @@ class ProfileBlocks:
     """
 
     profiles: Sequence[Profile]
+    """Cleaned, of one step."""
     largest_wave: float
+    """The longest wave that counts [m]."""
     block_length: float | None = None
+    """[m]; four of the largest waves by default, less where the profiles then had fewer than eight
+    blocks."""
     counted: Mapping[str, Any] = field(default_factory=dict)
+    """`top_height_fraction` and `max_lag` of `height_difference`."""
 
     def __post_init__(self) -> None:
         if len(self) < FEWEST_BLOCKS or self._wanted < self.largest_wave:

@@ -15,12 +15,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.optimize
 import scipy.stats
-from numpy.typing import NDArray
 
 from gripscale.analysis.calibration_law import (
     Optimum,
@@ -28,14 +27,12 @@ from gripscale.analysis.calibration_law import (
     Problem,
     best,
     family_of,
-    free_limits,
     refined,
 )
 from gripscale.analysis.measured_comparison import rms
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
-
-Array = NDArray[np.float64]
 
 LEVEL = 0.9
 """Share of measurements like this one whose interval holds the true value."""
@@ -59,19 +56,12 @@ class BetterMinimumFound(Exception):
 
 @dataclass(frozen=True)
 class Profile:
-    """The profile of one parameter, in the numbers the search works with.
-
-    Parameters
-    ----------
-    problem, optimum
-        What is fitted, and its least sum of squares.
-    index : int
-        Which free parameter.
-    """
+    """The profile of one parameter, in the numbers the search works with."""
 
     problem: Problem
     optimum: Optimum
     index: int
+    """Of the free parameter."""
 
     @property
     def centre(self) -> float:
@@ -97,12 +87,15 @@ class Profile:
         Infinite where it does not before the limit of the search, or only because another
         parameter is held back by its own.
         """
-        limit = free_limits(self.problem, self.index)[(way + 1) // 2]
+        limit = self.problem.family.free[self.index].limits[(way + 1) // 2]
         near, others = self.centre, np.delete(self.optimum.theta, self.index)
         below = 0.0
         if way * (limit - near) <= 0.0:
             return way * math.inf
-        step = self._first_step(threshold)
+        # how far the end would be on a parabola, within reason
+        error = np.sqrt(np.diag(covariance(self.optimum.jacobian)))[self.index]
+        low, high = self.problem.family.free[self.index].limits
+        step = float(np.clip(error * math.sqrt(threshold), 1e-6, 0.02 * (high - low)))
         while True:
             far = near + way * step
             far = limit if way * (far - limit) >= 0.0 else far
@@ -128,12 +121,6 @@ class Profile:
                 held_back = self.problem.holding(self.index, values[at]).at_limit(others)
                 excess[at] = math.nan if held_back else rise
         return values, excess
-
-    def _first_step(self, threshold: float) -> float:
-        """Return how far the end would be on a parabola, within reason."""
-        errors = scaled_errors(self.optimum.jacobian)
-        low, high = free_limits(self.problem, self.index)
-        return float(np.clip(errors[self.index] * math.sqrt(threshold), 1e-6, 0.02 * (high - low)))
 
     def _crossing(self, solved: dict[float, tuple[float, Array]], threshold: float) -> float:
         """Return where E crosses the threshold between two values, before and behind it.
@@ -165,11 +152,6 @@ def threshold_of(optimum: Optimum, *, spread_known: bool) -> float:
     return ratio * optimum.sum_of_squares / float(points - free)
 
 
-def scaled_errors(jacobian: Array) -> Array:
-    """Return the standard errors of the numbers for residuals of unit spread, shape (free,)."""
-    return np.asarray(np.sqrt(np.diag(covariance(jacobian))))
-
-
 def covariance(jacobian: Array) -> Array:
     """Return (J^T J)^-1; directions without any influence count as hardly having one."""
     _, sizes, rows = np.linalg.svd(jacobian, full_matrices=False)
@@ -188,8 +170,6 @@ def settled(
         except BetterMinimumFound as better:
             optimum = refined(problem, better.theta)
 
-
-# What a law says of points it was not fitted to: one temperature or decade of speed left out.
 
 WAYS = ("temperature", "speed")
 """What can be left out: a temperature to the kelvin, or a decade of speed."""
@@ -221,19 +201,8 @@ def held_out(
 ) -> tuple[HeldOut, ...]:
     """Return what each group of points is predicted to be by the others.
 
-    Parameters
-    ----------
-    points : Points
-        All of them.
-    groups : array, shape (points,)
-        The value by which each belongs to a group.
-    kind, fixed
-        Of the law, as for `family_of`.
-
-    Raises
-    ------
-    InputError
-        If there is only one group.
+    `groups` holds the value by which each point belongs to a group; `kind` and `fixed` are of the
+    law, as for `family_of`. Raises `InputError` if there is only one group.
     """
     values = np.unique(groups)
     if values.size < 2:
@@ -241,9 +210,29 @@ def held_out(
             f"hold_out needs at least two groups to leave one of them out; got {values.size}"
         )
     wanted = {parameter.name for parameter in family_of(kind, points, fixed).free}
-    return tuple(
-        _without(points, groups == value, float(value), kind, fixed, wanted) for value in values
-    )
+    results = []
+    for value in values:
+        chosen = groups == value
+        count, rest, some = int(chosen.sum()), points.only(~chosen), points.only(chosen)
+        unknown = HeldOut(float(value), count, math.nan, math.nan, math.nan)
+        try:
+            family = family_of(kind, rest, fixed)
+        except InputError as error:
+            results.append(replace(unknown, why_not=str(error)))
+            continue
+        missing = wanted - {parameter.name for parameter in family.free}
+        if missing:
+            why = f"the other points do not determine {', '.join(sorted(missing))}"
+            results.append(replace(unknown, why_not=why))
+            continue
+        theta = best(Problem(rest, family)).theta
+        inside, outside = (
+            Problem(part, family).friction(theta) - part.difference for part in (rest, some)
+        )
+        relative = np.full(count, np.nan) if some.spread is None else outside / some.spread
+        within, beyond, over = (float(rms(errors)) for errors in (inside, outside, relative))
+        results.append(HeldOut(float(value), count, within, beyond, over))
+    return tuple(results)
 
 
 def groups_of(way: str, speed: Array, temperature: Array) -> Array:
@@ -259,33 +248,3 @@ def groups_of(way: str, speed: Array, temperature: Array) -> Array:
             f"{np.isnan(temperature).sum()} without one"
         )
     return np.asarray(np.round(temperature))
-
-
-def _without(
-    points: Points,
-    left_out: NDArray[np.bool_],
-    value: float,
-    kind: str,
-    fixed: Mapping[str, float],
-    wanted: set[str],
-) -> HeldOut:
-    count, rest = int(left_out.sum()), points.only(~left_out)
-    try:
-        family = family_of(kind, rest, fixed)
-    except InputError as error:
-        return HeldOut(value, count, math.nan, math.nan, math.nan, str(error))
-    missing = wanted - {parameter.name for parameter in family.free}
-    if missing:
-        why = f"the other points do not determine {', '.join(sorted(missing))}"
-        return HeldOut(value, count, math.nan, math.nan, math.nan, why)
-    theta = best(Problem(rest, family)).theta
-    inside, outside = (
-        _apart(Problem(some, family), theta) for some in (rest, points.only(left_out))
-    )
-    spread = points.spread
-    relative = np.full(count, np.nan) if spread is None else outside / spread[left_out]
-    return HeldOut(value, count, float(rms(inside)), float(rms(outside)), float(rms(relative)))
-
-
-def _apart(problem: Problem, theta: Array) -> Array:
-    return problem.friction(theta) - problem.points.difference

@@ -22,18 +22,17 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
-from gripscale.analysis.sampled_inputs import FailSafeModel, Inputs, Measurement
+from gripscale.analysis.sampled_inputs import Inputs, Measurement
 from gripscale.analysis.sampling import Chosen, SampledInputs, Uncertainty, draws
-from gripscale.analysis.sources import Source
 from gripscale.analysis.variance_shares import shares
 from gripscale.case.read import CaseFile, read_case
 from gripscale.case.results import CaseResults
 from gripscale.case.run import prepare_case
 from gripscale.case.tables import FEWEST_SAMPLES, MOST_SAMPLES, MOST_SEED
 from gripscale.core import checks, provenance
-from gripscale.core.errors import FileError, InputError, RubberWarning
+from gripscale.core.arrays import Array
+from gripscale.core.errors import InputError, RubberWarning
 from gripscale.core.provenance import software
 from gripscale.core.units import GIVEN
 from gripscale.experiment.axis import LONG_NAMES, UNITS, Axis, axes_of
@@ -42,19 +41,16 @@ from gripscale.experiment.design import (
     Design,
     Index,
     Point,
+    attributes,
     solve_design,
     stack,
 )
 from gripscale.experiment.inputs import contents, digest
 from gripscale.experiment.solve import Bench, OnTask, bench_in
-from gripscale.experiment.task import Task, canonical_json
+from gripscale.experiment.task import Task, canonical_json, load_stored
 from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
-from gripscale.model import FRICTION_OUTSIDE_BAND, Load, Model
-
-# Quantiles of what the samples answered, and the sentence on them that other reports quote.
-
-Array = NDArray[np.float64]
+from gripscale.model import FRICTION_OUTSIDE_BAND, Model
 
 LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
 """The quantiles that are told."""
@@ -92,27 +88,19 @@ def summary(data: xr.Dataset) -> str:
 def _of_model(data: xr.Dataset) -> str:
     failed, number = int(data.failed), data.sizes["sample"]
     count = f"{number} samples" if not failed else f"{number - failed} of {number} samples"
-    intervals = [
-        _interval(letters, data[f"{name}_quantile"].values)
-        for name, (letters, _) in QUANTITIES.items()
-        if np.isfinite(data[f"{name}_quantile"].values).all()
-    ]
+    intervals = []
+    for name, (letters, _) in QUANTITIES.items():
+        levels = data[f"{name}_quantile"].values
+        if np.isfinite(levels).all():
+            low, middle, high = (f"{value:#.2g}" for value in levels[[0, 2, 4]])
+            intervals.append(f"{letters} = {middle} ({low} to {high})")
     if not intervals:
         return f"{data.model.item()}: none of {number} samples has an answer"
     text = f"{data.model.item()}: {', '.join(intervals)} in 90 % of {count}"
     return f"{text}, {failed} failed" if failed else text
 
 
-def _interval(letters: str, values: NDArray[np.float64]) -> str:
-    low, middle, high = (f"{value:#.2g}" for value in values[[0, 2, 4]])
-    return f"{letters} = {middle} ({low} to {high})"
-
-
-# From the answers of all samples to one Dataset: what was drawn, and the numbers that follow.
-
-NUMBERS = {
-    "friction": ("total_friction", "friction coefficient"),
-    "contact_fraction": ("total_contact_fraction", "real over nominal contact area"),
+NUMBERS = {name: (f"total_{name}", text) for name, (_, text) in QUANTITIES.items()} | {
     "outside_band": (
         FRICTION_OUTSIDE_BAND,
         "share of the friction that rests on the rubber outside the measured frequencies",
@@ -136,15 +124,7 @@ def sampled_numbers(answer: xr.Dataset, _: Task) -> xr.Dataset:
 def uncertainty_dataset(
     solved: xr.Dataset, drawn: Sequence[SampledInputs], chosen: Chosen
 ) -> xr.Dataset:
-    """Return all samples with their quantiles and shares.
-
-    Parameters
-    ----------
-    solved : xarray.Dataset
-        Answers over model, axis and `sample`, of which the first is the case itself.
-    drawn, chosen
-        What was drawn in each other sample, and of which sources.
-    """
+    """Return all samples with their quantiles and shares; the first of `solved` is the case."""
     usable = solved.drop_vars(["prediction_key", "seconds", "prediction_status"])
     usable = usable.where(solved.prediction_status == CONVERGED)
     case, samples = usable.isel(sample=0), usable.isel(sample=slice(1, None))
@@ -162,32 +142,33 @@ def uncertainty_dataset(
     add("seconds", solved.seconds.isel(sample=slice(1, None)), "time to solve the sample", "s")
     failed = (status != CONVERGED).sum("sample")
     add("failed", failed, "samples without an answer; they count in no quantile")
-    coordinates = _coordinates(drawn, chosen.sources)
+    sources = chosen.sources
+    coords: dict[str, Any] = {}
+    logarithms = {}
+    for source in sources:
+        columns = []
+        for name, number in source.coordinates.items():
+            column = np.array([inputs.coordinates[name] for inputs in drawn], dtype=float)
+            attrs = attributes(number.long_name, number.unit) | {"source": source.name}
+            coords[name] = ("sample", column, attrs)
+            columns.append(column if number.logarithm else np.log(column))
+        logarithms[source.name] = np.stack(columns, axis=-1)
     for name, (_, text) in QUANTITIES.items():
         add(f"{name}_case", case[name], f"{text} of the case itself")
         about = f"estimated relative error of the grid of a direct contact, {text}"
         add(f"{name}_grid_error", samples[f"{name}_grid_error"], about)
         add(f"{name}_quantile", quantiles(samples[name]), text)
-        parts = _shares(samples[name], coordinates, name)
+        parts = _shares(samples[name], logarithms, name)
         for part, (_, meaning) in SHARES.items():
             add(f"{name}_{part}", parts[f"{name}_{part}"], meaning.format(text))
-    sources = chosen.sources
     return xr.Dataset(
         data,
         {
-            "quantile": ("quantile", list(LEVELS), {"units": "1", "long_name": "share below"}),
+            "quantile": ("quantile", list(LEVELS), attributes("share below")),
             "source": ("source", [s.name for s in sources], {"long_name": "source"}),
             "label": ("source", [s.label for s in sources], {"long_name": "source in words"}),
             "end": ("end", ["low", "high"]),
-            **{
-                name: (
-                    "sample",
-                    [inputs.coordinates[name] for inputs in drawn],
-                    {"units": number.unit, "long_name": number.long_name, "source": source.name},
-                )
-                for source in sources
-                for name, number in source.coordinates.items()
-            },
+            **coords,
         },
         {
             "title": "Uncertainty of real contact area and friction of rubber on a rough surface",
@@ -195,18 +176,6 @@ def uncertainty_dataset(
             **provenance.attributes(),
         },
     )
-
-
-def _coordinates(drawn: Sequence[SampledInputs], sources: Sequence[Source]) -> dict[str, Array]:
-    """Return the logarithms that describe the draws of each source, shape (samples, numbers)."""
-    logarithms = {}
-    for source in sources:
-        columns = []
-        for name, number in source.coordinates.items():
-            column = np.array([inputs.coordinates[name] for inputs in drawn], dtype=float)
-            columns.append(column if number.logarithm else np.log(column))
-        logarithms[source.name] = np.stack(columns, axis=-1)
-    return logarithms
 
 
 SHARES = {
@@ -222,15 +191,14 @@ SHARES = {
 """What is kept of the shares of the sources in a variance: dimensions and meaning."""
 
 
-def _shares(samples: xr.DataArray, coordinates: Mapping[str, Array], name: str) -> xr.Dataset:
+def _shares(samples: xr.DataArray, logarithms: Mapping[str, Array], name: str) -> xr.Dataset:
     """Return `SHARES` of a quantity at every model and value of the axis, as `<name>_share`..."""
-    outer = samples.isel(sample=0)
+    outer, count = samples.isel(sample=0), len(logarithms)
+    row, square = np.full(count, np.nan), np.full((count, count), np.nan)
     parts: dict[tuple[int, ...], xr.Dataset] = {}
     for at in np.ndindex(outer.shape):
-        fit = shares(samples.values[at], coordinates)
-        row = np.full(len(coordinates), np.nan)
-        square, ends = np.full((row.size, row.size), np.nan), np.full((row.size, 2), np.nan)
-        numbers = (row, row, square, ends, math.nan)
+        fit = shares(samples.values[at], logarithms)
+        numbers = (row, row, square, np.full((count, 2), np.nan), math.nan)
         if fit is not None:
             ends = np.stack([fit.low, fit.high], axis=-1)
             numbers = (fit.share, fit.error, fit.apart, ends, fit.unexplained)
@@ -240,8 +208,6 @@ def _shares(samples: xr.DataArray, coordinates: Mapping[str, Array], name: str) 
         )
     return stack(parts, dict(zip(map(str, outer.dims), outer.shape, strict=True)))
 
-
-# The uncertainty that was sampled of a case, found again beside its other results.
 
 FOLDER, RESULT = "uncertainty", "uncertainty.nc"
 """Where it is in the results folder of the case."""
@@ -255,10 +221,7 @@ FILES = "file_sha256"
 
 def stored_uncertainty(results: Path) -> xr.Dataset | None:
     """Return the uncertainty in the results folder of a case, or None if there is none whole."""
-    try:
-        return netcdf.load(results / FOLDER / RESULT)
-    except FileError:
-        return None
+    return load_stored(results / FOLDER / RESULT)
 
 
 def input_digests(file: CaseFile) -> list[str]:
@@ -271,16 +234,9 @@ def input_digests(file: CaseFile) -> list[str]:
 
 
 def of_same_inputs(data: xr.Dataset, text: str, digests: Iterable[str] | None = None) -> bool:
-    """Return whether uncertainty `data` is of a case with these inputs.
+    """Return whether uncertainty `data` of `propagate` is of a case file with this text.
 
-    Parameters
-    ----------
-    data
-        Of `gripscale.analysis.propagation`.
-    text
-        The case file.
-    digests
-        Of the files it names; None where they are not known.
+    `digests` are those of the files it names; None where they are not known.
     """
     if _inputs(str(data.attrs.get("case", ""))) != _inputs(text):
         return False
@@ -319,6 +275,7 @@ class Plan:
     @property
     def key(self) -> str:
         """A hash of all the result depends on."""
+        axis = self.axis
         content = {
             "software": software(),
             "case": contents(self.file),
@@ -326,9 +283,7 @@ class Plan:
             "samples": [self.samples, self.seed],
             "models": list(self.models),
             "tolerance": canonical_json(self.tolerance),
-            "axis": None
-            if self.axis is None
-            else [self.axis.name, canonical_json(self.axis.values)],
+            "axis": None if axis is None else [axis.name, canonical_json(axis.values)],
         }
         return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
@@ -399,26 +354,16 @@ def propagate(
         _axis(vary),
         accuracy,
     )
-    data = None if folder is None else stored(plan, folder)
-    if data is not None:
+    path = None if folder is None else Path(folder) / RESULT
+    data = None if path is None else load_stored(path)
+    if data is not None and data.attrs.get("plan_key") == plan.key:
         return data
     results = prepare_case(plan.file)
     chosen = plan.uncertainty.of(Measurement.of(results), plan.models)
     with bench_in(folder, workers, client, on_task) as bench, warnings.catch_warnings():
         warnings.simplefilter("ignore", RubberWarning)  # drawn rubbers are not made by hand
         data = _solved(plan, results, chosen, bench)
-    if folder is None:
-        return data
-    return netcdf.load(netcdf.save(data, Path(folder) / RESULT))
-
-
-def stored(plan: Plan, folder: str | Path) -> xr.Dataset | None:
-    """Return the Dataset an earlier run of just this plan left in `folder`, or None."""
-    try:
-        data = netcdf.load(Path(folder) / RESULT)
-    except FileError:
-        return None
-    return data if data.attrs.get("plan_key") == plan.key else None
+    return data if path is None else netcdf.load(netcdf.save(data, path))
 
 
 def _models(names: Sequence[str]) -> tuple[str, ...]:
@@ -426,9 +371,8 @@ def _models(names: Sequence[str]) -> tuple[str, ...]:
     for name in chosen:
         checks.one_of("model", name, MODELS)
     if not chosen or len(set(chosen)) < len(chosen):
-        raise InputError(
-            f"models must be one or both of chain, direct; got {checks.short_repr(names)}"
-        )
+        short = checks.short_repr(names)
+        raise InputError(f"models must be one or both of chain, direct; got {short}")
     return tuple(name for name in MODELS if name in chosen)
 
 
@@ -451,11 +395,19 @@ def _solved(plan: Plan, results: CaseResults, chosen: Chosen, bench: Bench) -> x
     points: list[Point] = []
     refused: dict[Index, str] = {}
     for at, name in enumerate(plan.models):
-        model = results.chain if name == "chain" else _direct(results, plan.tolerance)
+        model: Model = results.chain
+        if name == "direct":
+            if results.surface.measured is None:
+                raise InputError(
+                    "the direct contact needs a measured profile; got waves stated by hand"
+                )
+            model = DirectContact(tolerance=plan.tolerance, conditions=results.conditions)
         for sample, inputs in enumerate([SampledInputs(case, {}), *drawn]):
             by_load = [(at, sample) if axis is None else (at, i, sample) for i in range(len(loads))]
             try:
-                tasks = _tasks(inputs, model, loads)
+                if inputs.inputs is None:
+                    raise InputError(inputs.why_not)
+                tasks = inputs.inputs.tasks(model, loads)
             except InputError as refusal:
                 refused |= dict.fromkeys(by_load, str(refusal))
                 continue
@@ -466,7 +418,7 @@ def _solved(plan: Plan, results: CaseResults, chosen: Chosen, bench: Bench) -> x
     sizes = {"model": len(plan.models)}
     coords: dict[str, Any] = {"model": list(plan.models)}
     if axis is not None:
-        attrs = {"units": UNITS[axis.name], "long_name": LONG_NAMES[axis.name], GIVEN: axis.unit}
+        attrs = attributes(LONG_NAMES[axis.name], UNITS[axis.name]) | {GIVEN: axis.unit}
         sizes[axis.name] = len(loads)
         coords[axis.name] = (axis.name, list(axis.values), attrs)
     design = Design(sizes | {"sample": len(drawn) + 1}, points, coords, refused)
@@ -478,18 +430,3 @@ def _solved(plan: Plan, results: CaseResults, chosen: Chosen, bench: Bench) -> x
         plan_key=plan.key,
         software=software(),
     )
-
-
-def _direct(results: CaseResults, tolerance: float | None) -> DirectContact:
-    if results.surface.measured is None:
-        raise InputError("the direct contact needs a measured profile; got waves stated by hand")
-    return DirectContact(tolerance=tolerance, conditions=results.conditions)
-
-
-def _tasks(sample: SampledInputs, model: Model, loads: Sequence[Load]) -> list[Task]:
-    """Return the tasks of a sample; raise `InputError` if it cannot be made."""
-    if sample.inputs is None:
-        raise InputError(sample.why_not)
-    surface, changed = sample.inputs.for_model(model)
-    relevant = surface.only(changed.needs)
-    return [Task(sample.inputs.rubber, relevant, load, FailSafeModel(changed)) for load in loads]

@@ -21,25 +21,18 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
-from gripscale.analysis.compounds import (
-    TOTALS,
-    attributes,
-    ranges,
-    require_some,
-    to_first,
-    total_differences,
-)
+from gripscale.analysis import compounds
 from gripscale.analysis.propagation import quantiles
 from gripscale.analysis.sampled_inputs import FailSafeModel, Inputs, Measurement
 from gripscale.analysis.sampling import draws
-from gripscale.analysis.sources import ProfileSource, SourceOptions
+from gripscale.analysis.sources import SOURCES, SourceOptions
 from gripscale.case.read import CaseFile, read_case
 from gripscale.chain.chain import Chain
 from gripscale.core import checks, provenance
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
-from gripscale.experiment.design import Design, Point, solve_design, surface_numbers
+from gripscale.experiment.design import Design, Point, attributes, solve_design, surface_numbers
 from gripscale.experiment.inputs import case_rubber, model_of, surface_of
 from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.task import PREDICTIONS, Store, Task
@@ -50,13 +43,6 @@ from gripscale.model import Load, Model
 from gripscale.surface import Surface, profile_spectrum
 from gripscale.surface.synthetic import SYNTHETIC_SURFACES, with_profile
 from gripscale.theory.half_plane import HalfPlane
-
-# Friction by octaves of wavelength that are the same for every model and road.
-#
-# Between the waves of a chain, and within the octaves of a direct contact, the friction of all
-# longer waves is taken to be linear in the logarithm of the wavelength, as frictions add.
-
-Array = NDArray[np.float64]
 
 
 def octave_ends(longest: float, shortest: float) -> Array:
@@ -86,17 +72,15 @@ def running_friction(wavelength: Array, friction: Array, ends: Array) -> Array:
     """Return the friction [-] of all waves longer than each of `ends` [m], which fall.
 
     Of a curve as in `friction_curve`; what is NaN in it does not count, NaN without a curve.
+    Between the waves of a chain, and within the octaves of a direct contact, it is taken to be
+    linear in the logarithm of the wavelength, as frictions add.
     """
     finite = np.isfinite(wavelength)
     if not finite.any():
         return np.full(ends.shape, np.nan)
-    running = friction[finite]
-    return np.asarray(
-        np.interp(-np.log(ends), -np.log(wavelength[finite]), running, left=0.0, right=running[-1])
-    )
+    places, running = -np.log(wavelength[finite]), friction[finite]
+    return np.asarray(np.interp(-np.log(ends), places, running, left=0.0, right=running[-1]))
 
-
-# From the answers on all roads to one Dataset: totals, ranges, differences, and where they are.
 
 MODELS = ("chain", "direct")
 PER_DECADE = 12
@@ -124,25 +108,28 @@ def roads_dataset(surfaces: Mapping[str, Surface], solved: xr.Dataset) -> xr.Dat
         attrs={"title": "Contact and friction of one rubber on several roads"},
     )
     if solved.sizes["sample"] > REFERENCE:
-        drawn = solved.isel(sample=slice(REFERENCE + 1, None))
-        reference = solved.isel(sample=REFERENCE)
-        ends = {}
-        for name in TOTALS:
-            levels = quantiles(drawn[name] / reference[name])
-            ends[name] = (
-                levels.isel(quantile=0).clip(max=1.0),
-                levels.isel(quantile=-1).clip(min=1.0),
-            )
+        drawn, totals = solved.isel(sample=slice(REFERENCE + 1, None)), list(compounds.TOTALS)
+        ratios = drawn[totals] / solved[totals].isel(sample=REFERENCE)
+        levels = {name: quantiles(ratios[name]) for name in compounds.TOTALS}
+        ends = {
+            name: (level.isel(quantile=0).clip(max=1.0), level.isel(quantile=-1).clip(min=1.0))
+            for name, level in levels.items()
+        }
         if any(low.notnull().any() for low, _ in ends.values()):
-            data = data.assign(ranges(data, ends, "that another stretch of the road might give"))
-    data = data.assign(total_differences(data, "surface"))
-    data = data.assign(friction_running=_by_octave(roads))
+            data = data.assign(
+                compounds.ranges(data, ends, "that another stretch of the road might give")
+            )
+    running = _by_octave(roads)
+    parts = running.diff("octave", label="upper")
+    octaves = xr.concat([running.isel(octave=[0]), parts], dim="octave")
     text = "difference to the first, friction of the octave"
-    parts = data.friction_running.diff("octave", label="upper")
-    first = data.friction_running.isel(octave=[0])
-    octaves = xr.concat([first, parts], dim="octave")
-    data = data.assign(friction_difference=to_first(octaves, "surface", text))
-    return data.assign(_measured(surfaces))
+    by_octave = {
+        "friction_running": running,
+        "friction_difference": compounds.to_first(octaves, "surface", text),
+    }
+    return data.assign(
+        compounds.total_differences(data, "surface") | by_octave | _measured(surfaces)
+    )
 
 
 def _by_octave(roads: xr.Dataset) -> xr.DataArray:
@@ -157,44 +144,40 @@ def _by_octave(roads: xr.Dataset) -> xr.DataArray:
         output_core_dims=[["octave"]],
         vectorize=True,
     )
-    octave = xr.Variable("octave", ends, {"units": "m", "long_name": "shortest wave of the octave"})
+    octave = xr.Variable("octave", ends, attributes("shortest wave of the octave", "m"))
     text = "friction coefficient of the octave and all longer waves"
     return running.assign_coords(octave=octave).assign_attrs(attributes(text))
 
 
 def _measured(surfaces: Mapping[str, Surface]) -> dict[str, Any]:
-    """Return height difference correlation and spectrum of the roads that were measured."""
-    correlations, spectra = {}, {}
+    """Return height difference correlation and spectrum of the roads that were measured.
+
+    At common places, NaN beyond the ends of each.
+    """
+    curves: dict[str, dict[str, tuple[Array, Array]]] = {"correlation": {}, "spectrum": {}}
     for name, surface in surfaces.items():
         if surface.correlation is not None:
-            correlations[name] = (surface.correlation.lag, surface.correlation.value)
+            curves["correlation"][name] = (surface.correlation.lag, surface.correlation.value)
         if surface.measured is not None:
             spectrum = profile_spectrum(surface.measured.cleaned).averaged()
-            spectra[name] = (spectrum.wavenumber, spectrum.density)
+            curves["spectrum"][name] = (spectrum.wavenumber, spectrum.density)
     out: dict[str, Any] = {}
-    for name, axis, curves, unit, units, text in (
-        ("correlation", "lag", correlations, "m", "m2", "height difference correlation C_z"),
-        ("spectrum", "wavenumber", spectra, "rad/m", "m3", "one-sided power spectrum of lines"),
+    for name, axis, unit, units, text in (
+        ("correlation", "lag", "m", "m2", "height difference correlation C_z"),
+        ("spectrum", "wavenumber", "rad/m", "m3", "one-sided power spectrum of lines"),
     ):
-        if curves:
-            places, values = _together(curves, list(surfaces))
-            out[name] = (("surface", axis), values, {"units": units, "long_name": text})
-            out[axis] = (axis, places, {"units": unit, "long_name": axis})
+        if not curves[name]:
+            continue
+        low, high = (pick(float(pick(x)) for x, _ in curves[name].values()) for pick in (min, max))
+        places = np.geomspace(low, high, max(2, int(PER_DECADE * np.log10(high / low)) + 1))
+        values = np.full((len(surfaces), places.size), np.nan)
+        for road, (x, y) in curves[name].items():
+            good = (x > 0.0) & (y > 0.0)
+            logs = np.interp(np.log(places), np.log(x[good]), np.log(y[good]), np.nan, np.nan)
+            values[list(surfaces).index(road)] = np.exp(logs)
+        out[name] = (("surface", axis), values, attributes(text, units))
+        out[axis] = (axis, places, attributes(axis, unit))
     return out
-
-
-def _together(
-    curves: Mapping[str, tuple[NDArray[np.float64], NDArray[np.float64]]], names: list[str]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return curves of positive numbers at common places, NaN beyond the ends of each."""
-    low, high = (pick(float(pick(x)) for x, _ in curves.values()) for pick in (min, max))
-    places = np.geomspace(low, high, max(2, int(PER_DECADE * np.log10(high / low)) + 1))
-    values = np.full((len(names), places.size), np.nan)
-    for name, (x, y) in curves.items():
-        good = (x > 0.0) & (y > 0.0)
-        logs = np.interp(np.log(places), np.log(x[good]), np.log(y[good]), np.nan, np.nan)
-        values[names.index(name)] = np.exp(logs)
-    return places, values
 
 
 RESULT = "surfaces.nc"
@@ -256,16 +239,24 @@ def compare_surfaces(
     InputError, FileError
         If there are fewer than two or more than six roads, or one cannot be read.
     """
-    require_some("surfaces", surfaces, "roads")
+    compounds.require_some("surfaces", surfaces, "roads")
     if samples is not None:
         checks.whole("samples", samples, least=FEWEST_SAMPLES, most=MOST_SAMPLES)
     file = case if isinstance(case, CaseFile) else read_case(case)
-    roads = {name: _surface(value, file) for name, value in surfaces.items()}
+    roads = {
+        # a synthetic road with its profile, for the direct contact
+        name: with_profile(value)
+        if isinstance(value, str) and value in SYNTHETIC_SURFACES
+        else surface_of(value, file)
+        for name, value in surfaces.items()
+    }
     load, rubber = file.case.load.nominal, case_rubber(file)
     points: list[Point] = []
     notes: list[str] = []
     for (i, name), (j, (road, surface)) in product(enumerate(MODELS), enumerate(roads.items())):
-        model = _model(name, file)
+        model = model_of(name, file)
+        if isinstance(model, DirectContact):
+            model = replace(model, tolerance=None)  # on one full grid
         if "measurement" in model.needs and surface.measured is None:
             notes.append(f"{road} was not measured: no direct contact")
             continue
@@ -300,37 +291,20 @@ def compare_surfaces(
     return Roads(roads, tuple(notes), netcdf.load(netcdf.save(data, Path(folder) / RESULT)))
 
 
-def _surface(value: Any, file: CaseFile) -> Surface:
-    """Return a road; a synthetic one with its profile, for the direct contact."""
-    if isinstance(value, str) and value in SYNTHETIC_SURFACES:
-        return with_profile(value)
-    return surface_of(value, file)
-
-
-def _model(name: str, file: CaseFile) -> Model:
-    """Return a model under the conditions of the case; the direct contact on one full grid."""
-    model = model_of(name, file)
-    return replace(model, tolerance=None) if isinstance(model, DirectContact) else model
-
-
 def _drawn(measurement: Measurement, model: Model, load: Load, samples: int) -> dict[int, Task]:
     """Return the tasks of a road's samples, and the one they are compared with, by their number.
 
     Raises `InputError` if no samples can be drawn.
     """
-    source = ProfileSource.of(measurement, SourceOptions(models=(model.name,)))
+    source = SOURCES["profile"].of(measurement, SourceOptions(models=(model.name,)))
     case = Inputs.of(measurement)
     if isinstance(model, Chain):
         model = replace(model, solver=HalfPlane(points=POINTS))
     else:  # no waves are fitted: the roughness ends where it does as measured, to the last bit
         case = replace(case, fit={})
-    inputs_by_sample = {REFERENCE: case}
-    for number, sample in enumerate(draws(case, [source], samples, SEED), start=REFERENCE + 1):
-        if sample.inputs is not None:
-            inputs_by_sample[number] = sample.inputs
-    tasks = {}
-    for number, inputs in inputs_by_sample.items():
-        surface, changed = inputs.for_model(model)
-        relevant = surface.only(changed.needs)
-        tasks[number] = Task(measurement.rubber, relevant, load, FailSafeModel(changed))
-    return tasks
+    drawn = [case, *(sample.inputs for sample in draws(case, [source], samples, SEED))]
+    return {
+        number: inputs.tasks(model, [load])[0]
+        for number, inputs in enumerate(drawn, start=REFERENCE)
+        if inputs is not None
+    }

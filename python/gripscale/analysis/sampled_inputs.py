@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -15,8 +16,11 @@ from gripscale.case.results import CaseResults
 from gripscale.chain.chain import Chain
 from gripscale.conditions import Conditions
 from gripscale.core import checks, provenance
+from gripscale.core.checks import Checked
 from gripscale.core.errors import InputError
 from gripscale.core.units import parse_quantity
+from gripscale.experiment.axis import plain_number
+from gripscale.experiment.task import Task
 from gripscale.model import Load, LoadTime, Model
 from gripscale.rubber import PronyFit, Rubber
 from gripscale.rubber.master_curve import MasterCurve
@@ -37,18 +41,11 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-# A solver of one wave that takes every wave to be loaded a factor longer.
-#
-#     t_i = factor A_(i-1) / v
-#
-# The load time is that of a mean contact; contacts are shorter and longer than their mean, and the
-# modulus of the mean state goes with it.
-
-
 def loaded_longer(solver: WaveSolver, factor: float) -> WaveSolver:
-    """Return the solver for waves loaded `factor` [-] times as long as it is told.
+    """Return the solver for waves loaded `factor` [-] times as long: t_i = factor A_(i-1) / v.
 
-    Raises `InputError` if the factor is not above zero.
+    The load time is that of a mean contact; contacts are shorter and longer than their mean, and
+    the modulus of the mean state goes with it. Raises `InputError` if the factor is not above zero.
     """
     times = checks.positive("factor", factor)
     if isinstance(solver, RefinableSolver):
@@ -127,28 +124,18 @@ class Measurement:
 
 @dataclass(frozen=True, eq=False)
 class Inputs:
-    """The inputs of one sample, before any model is asked.
-
-    Attributes
-    ----------
-    surface, rubber
-        As prepared, or as a source drew them.
-    correlation
-        What the waves are fitted to; None for waves stated by hand.
-    fit
-        Arguments of `fit_sines`.
-    redrawn
-        Gives what the direct contact is solved on, where it is not what was measured.
-    load_time_factor
-        How much longer each wave is loaded than the model says [-].
-    """
+    """The inputs of one sample, before any model is asked: as prepared, or as drawn."""
 
     surface: Surface
     rubber: Rubber
     correlation: HeightDifference | None = None
+    """What the waves are fitted to; None for waves stated by hand."""
     fit: Mapping[str, Any] = field(default_factory=dict)
+    """Arguments of `fit_sines`."""
     redrawn: Callable[[], tuple[Profile, ...]] | None = None
+    """Gives what the direct contact is solved on, where it is not what was measured."""
     load_time_factor: float = 1.0
+    """How much longer each wave is loaded than the model says [-]."""
 
     @classmethod
     def of(cls, measurement: Measurement) -> Inputs:
@@ -176,38 +163,34 @@ class Inputs:
     def for_model(self, model: Model) -> tuple[Surface, Model]:
         """Return surface and model as `model` takes this sample.
 
-        Raises `InputError` if no waves fit.
+        Without waves only where they end is kept of them. Raises `InputError` if no waves fit.
         """
+        surface = self.surface
         if "waves" not in model.needs:
-            return self._measured(), model
+            measured = surface.measured if self.redrawn is None else Measured.of(self.redrawn())
+            return Surface(None, surface.source, measured=measured, end=self.end), model
         if isinstance(model, Chain) and self.load_time_factor != 1.0:
             model = replace(model, solver=loaded_longer(model.solver, self.load_time_factor))
-        if self.correlation is None or self._as_prepared:
-            return self.surface, model
-        return replace(self.surface, waves=fit_sines(self.correlation, **self.fit)), model
+        prepared = self.correlation is surface.correlation and dict(self.fit) == dict(surface.fit)
+        if self.correlation is None or prepared:
+            return surface, model
+        return replace(surface, waves=fit_sines(self.correlation, **self.fit)), model
 
-    @property
-    def _as_prepared(self) -> bool:
-        same = self.correlation is self.surface.correlation
-        return same and dict(self.fit) == dict(self.surface.fit)
+    def tasks(self, model: Model, loads: Sequence[Load]) -> list[Task]:
+        """Return what has to be solved under each load; a refusal of the model is an answer.
 
-    def _measured(self) -> Surface:
-        """Return lines or map, and nothing of the waves but where they end."""
-        measured = self.surface.measured
-        if self.redrawn is not None:
-            measured = Measured.of(self.redrawn())
-        return Surface(None, self.surface.source, measured=measured, end=self.end)
+        Raises `InputError` as `for_model` does.
+        """
+        surface, changed = self.for_model(model)
+        relevant = surface.only(changed.needs)
+        return [Task(self.rubber, relevant, load, FailSafeModel(changed)) for load in loads]
 
 
-# A number that is not known: anywhere between two ends, one of a few, or one.
-#
-# Between two ends it is spread evenly in its logarithm, as befits a factor that may be too large or
-# too small by as much: its reciprocal is then spread evenly, too.
+class Range(Checked):
+    """Values a number may have: anywhere between two ends, one of a few, or one.
 
-
-@dataclass(frozen=True)
-class Range:
-    """Values a number may have.
+    Between two ends it is spread evenly in its logarithm, as befits a factor that may be too large
+    or too small by as much: its reciprocal is then spread evenly, too.
 
     Parameters
     ----------
@@ -233,7 +216,7 @@ class Range:
             raise InputError(f"a range must be rising values; got {checks.short_repr(self.values)}")
         if self.between and len(values) != 2:
             raise InputError(f"a range must have two ends; got {checks.short_repr(self.values)}")
-        object.__setattr__(self, "values", values)
+        self._set(values=values)
 
     @classmethod
     def about(cls, value: float, factor: float) -> Range:
@@ -249,16 +232,13 @@ class Range:
         """
         if isinstance(text, Range):
             return text
-        between = True
-        if isinstance(text, str) and ":" in text:
-            entries: list[Any] = text.split(":")
-        elif isinstance(text, str):
-            entries, between = text.split(","), False
+        entries: list[Any] = [text]
+        between = isinstance(text, str) and ":" in text
+        if isinstance(text, str):
+            entries = text.split(":" if between else ",")
         elif isinstance(text, Iterable):
             entries = list(text)
             between = len(entries) == 2
-        else:
-            entries, between = [text], False
         try:
             return cls(tuple(quantity(entry) for entry in entries), between)
         except InputError as error:
@@ -272,31 +252,19 @@ class Range:
         return float(np.exp(low + quantile * (high - low)))
 
 
-# Numbers that a user states for a source: with a unit, in SI units without.
-
-
-def modulus(text: Any) -> float:
-    """Return a modulus [Pa]; raise `InputError` for what is none."""
-    return _quantity(text, "pressure", "Pa")
-
-
-def length(text: Any) -> float:
-    """Return a length [m]; raise `InputError` for what is none."""
-    return _quantity(text, "length", "m")
-
-
 def factor(text: Any) -> float:
     """Return a factor [-]; raise `InputError` for what is none."""
-    return checks.positive("a factor", _bare(text))
+    return checks.positive("a factor", plain_number(text))
 
 
 def count(text: Any) -> float:
     """Return a number of waves; raise `InputError` for what is none."""
-    return float(checks.whole("waves", _bare(text), least=2, most=MOST_WAVES))
+    return float(checks.whole("waves", plain_number(text), least=2, most=MOST_WAVES))
 
 
 def _quantity(text: Any, kind: str, unit: str) -> float:
-    value = _bare(text)
+    """Return a quantity [SI] above zero; raise `InputError` for what is none."""
+    value = plain_number(text)
     if isinstance(value, str):
         try:
             value = parse_quantity(value, kind)
@@ -305,20 +273,16 @@ def _quantity(text: Any, kind: str, unit: str) -> float:
     return checks.positive(f"a {kind}", value, unit=unit)
 
 
-def _bare(text: Any) -> Any:
-    """Return the number a text spells, or what was given."""
-    try:
-        return float(text) if isinstance(text, str) else text
-    except ValueError:
-        return text
-
-
-# A model that answers where it would refuse, so that one sample of many does not end them all.
+modulus = partial(_quantity, kind="pressure", unit="Pa")
+length = partial(_quantity, kind="length", unit="m")
 
 
 @dataclass(frozen=True)
 class FailSafeModel(Model):
-    """Another model, whose refusal of an input is an answer without totals that says why."""
+    """Another model, whose refusal of an input is an answer without totals that says why.
+
+    So one sample of many does not end them all.
+    """
 
     model: Model
 

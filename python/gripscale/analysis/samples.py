@@ -17,9 +17,9 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from gripscale.conditions.conditions import Conditions
+from gripscale.core.arrays import Array, Mask
 from gripscale.experiment.design import CONVERGED
 from gripscale.experiment.task import Task
 from gripscale.model import (
@@ -32,8 +32,6 @@ from gripscale.model import (
     extrapolation_of,
 )
 
-Array = NDArray[np.float64]
-
 QUANTITIES = ("contact_fraction", "friction", "friction_from_dissipation")
 """Totals every sample has, as `gripscale.model.TOTALS` without `total_`."""
 
@@ -42,9 +40,6 @@ ROUNDING = 1e-6
 
 SMOOTH = {"contact_fraction": 1.0, "friction": 0.0}
 """Contact fraction and friction of a smooth surface."""
-
-
-# What is kept of an answer.
 
 
 def sample_numbers(
@@ -75,7 +70,7 @@ def sample_numbers(
     numbers |= {name: getattr(exponents, part) for name, (part, _) in CUT_OFF_EXPONENTS.items()}
     numbers[WHY_NO_EXPONENT] = exponents.why_not
     numbers["prediction_status"] = str(answer["prediction_status"].item())
-    return xr.Dataset(numbers).assign(_curve(answer))
+    return xr.Dataset(numbers | _curve(answer))
 
 
 def _error(answer: xr.Dataset, name: str) -> float:
@@ -104,12 +99,12 @@ def _curve(answer: xr.Dataset) -> dict[str, Any]:
     (its area is that of another contact, without the shorter waves), the theories integrate: both
     are interpolated in the logarithm of the wavelength.
     """
-    if "octave_running_friction" in answer:
+    by_octave = "octave_running_friction" in answer
+    if by_octave:
+        names = ("contact_fraction_without_shorter", "octave_running_friction")
         weight = answer["weight"].values
-        area, friction = (
-            weight @ answer[name].transpose("profile", ...).values
-            for name in ("contact_fraction_without_shorter", "octave_running_friction")
-        )
+        parts = (answer[name].transpose("profile", ...).values for name in names)
+        area, friction = (weight @ part for part in parts)
     elif "running_friction" in answer:
         friction = answer["running_friction"].values
         area = np.full(friction.size, np.nan)
@@ -121,7 +116,7 @@ def _curve(answer: xr.Dataset) -> dict[str, Any]:
         "curve_wavelength": ("curve", answer["wavelength"].values),
         "curve_contact_fraction": ("curve", area),
         "curve_friction": ("curve", friction),
-        "curve_stepped": float("amplitude" in answer and "octave_running_friction" not in answer),
+        "curve_stepped": float("amplitude" in answer and not by_octave),
     }
 
 
@@ -131,19 +126,9 @@ def curve_at(
     """Return `contact_fraction` or `friction` of all waves not shorter than `at` [m].
 
     Above the longest wave nothing of the surface counts yet; below the shortest no more is added;
-    NaN where the model has the wave and not the number.
-
-    Parameters
-    ----------
-    name : str
-        Of the number.
-    at : array, shape (m,)
-        Wavelengths [m].
-    wavelength, values : array, shape (n,)
-        The curve: wavelengths falling [m], NaN beyond its end, and the numbers [-], NaN where
-        unknown.
-    stepped : bool
-        Whether each wavelength is one wave, and nothing lies between.
+    NaN where the model has the wave and not the number. Of a curve of falling `wavelength` [m], NaN
+    beyond its end, and `values` [-], NaN where unknown; if `stepped` each wavelength is one wave,
+    and nothing lies between.
     """
     finite = np.isfinite(values) & np.isfinite(wavelength)
     if not finite.any():
@@ -188,9 +173,6 @@ def running(samples: xr.Dataset, name: str, wavelength: Array) -> xr.DataArray:
     curves = xr.DataArray(values, dims=(*dims, "wavelength"))
     unknown = (curves.isnull() & there).any("sample")
     return curves.where(there).mean("sample").where(~unknown)
-
-
-# Means over the samples, and how well they are known.
 
 
 def converged(samples: xr.Dataset) -> xr.DataArray:
@@ -278,7 +260,7 @@ def paired(first: xr.Dataset, second: xr.Dataset) -> bool:
     return len(subjects) > 1 and subjects == others and len(set(subjects)) == len(subjects)
 
 
-def _present(samples: xr.Dataset) -> NDArray[np.bool_]:
+def _present(samples: xr.Dataset) -> Mask:
     """Return which places along `sample` hold one, at whatever load."""
     there = samples["prediction_status"] != ""
     return np.asarray(there.any([dim for dim in there.dims if dim != "sample"]).values)
@@ -287,16 +269,18 @@ def _present(samples: xr.Dataset) -> NDArray[np.bool_]:
 def outside_band(samples: xr.Dataset) -> xr.Dataset:
     """Return what of the mean friction rests on the rubber beyond its measured frequencies."""
     share, below, above = (usable(samples, name) for name in OUTSIDE_BAND)
-    weight = abs(usable(samples, "friction"))
-    there = converged(samples)
-    total = weight.where(there, 0.0).sum("sample", skipna=False)
+    weight, there = abs(usable(samples, "friction")), converged(samples)
+    total = _sum(weight, there)
     # a sample without friction has no share, and adds none
-    parts = (weight * share.where(weight > 0.0, 0.0)).where(there, 0.0).sum("sample", skipna=False)
-    mean = parts / total.where(total > 0.0)
+    mean = _sum(weight * share.where(weight > 0.0, 0.0), there) / total.where(total > 0.0)
     mean = mean.where(((share != 0.0) & there).any("sample"), 0.0)
-    names = list(OUTSIDE_BAND)
-    data = {names[0]: mean, names[1]: below.max("sample"), names[2]: above.max("sample")}
-    return xr.Dataset(data).where(there.any("sample"))
+    parts = (mean, below.max("sample"), above.max("sample"))
+    return xr.Dataset(dict(zip(OUTSIDE_BAND, parts, strict=True))).where(there.any("sample"))
+
+
+def _sum(values: xr.DataArray, there: xr.DataArray) -> xr.DataArray:
+    """Return the sum over the samples that may be used, NaN if one of them is."""
+    return values.where(there, 0.0).sum("sample", skipna=False)
 
 
 def cut_off_exponents(samples: xr.Dataset) -> xr.Dataset:
@@ -308,9 +292,9 @@ def cut_off_exponents(samples: xr.Dataset) -> xr.Dataset:
     data: dict[str, Any] = {}
     for name, (quantity, _) in CUT_OFF_EXPONENTS.items():
         weight = usable(samples, quantity)
-        parts = (weight * samples[name]).where(there, 0.0).sum("sample", skipna=False)
-        total = weight.where(there, 0.0).sum("sample", skipna=False)
-        data[name] = (parts / total.where(total != 0.0)).where(there.any("sample"))
+        total = _sum(weight, there)
+        mean = _sum(weight * samples[name], there) / total.where(total != 0.0)
+        data[name] = mean.where(there.any("sample"))
     texts = samples[WHY_NO_EXPONENT].where(there, "").transpose(..., "sample")
     first = texts.isel(sample=0).copy(deep=True)
     for at in np.ndindex(first.shape):
@@ -326,8 +310,7 @@ def status(samples: xr.Dataset) -> xr.DataArray:
     for at in np.ndindex(words.shape):
         present = [text for text in texts.values[at] if text]
         bad = [text for text in present if text != CONVERGED]
-        count = len(present)
-        words[at] = CONVERGED
-        if bad:
-            words[at] = bad[0] if count == 1 else f"{len(bad)} of {count} samples failed: {bad[0]}"
+        words[at] = next(iter(bad), CONVERGED)
+        if bad and len(present) > 1:
+            words[at] = f"{len(bad)} of {len(present)} samples failed: {bad[0]}"
     return xr.DataArray(words, dims=texts.dims[:-1])

@@ -77,13 +77,13 @@ class Uncertainty:
 
         Raises `InputError` as the constructor does.
         """
-        in_case = {} if table.ranges is None else table.ranges.model_dump(exclude_none=True)
+        merged = {} if table.ranges is None else table.ranges.model_dump(exclude_none=True)
+        merged = {name: value for name, value in merged.items() if name not in (without or ())}
         now = dict(ranges or {})
-        kept = {name: value for name, value in in_case.items() if name not in (without or ())}
         if without is None:
             without = [name for name in table.without if name not in now]
         length = table.block_length if block_length is None else block_length
-        return cls(tuple(without), {**kept, **now}, length)
+        return cls(tuple(without), merged | now, length)
 
     def of(self, measurement: Measurement, models: Sequence[str]) -> Chosen:
         """Return the sources of a case that have an effect on one of `models`.
@@ -91,18 +91,18 @@ class Uncertainty:
         Raises `InputError` if a source that is given has nothing to draw, or none is left.
         """
         chosen = Chosen([], [])
-        for name, maker in SOURCES.items():
+        for name, source in SOURCES.items():
             try:
                 if name in self.without:
                     raise SourceNotApplicable("left out as asked")
-                if not set(maker.models) & set(models):
+                if not set(source.models) & set(models):
                     raise SourceNotApplicable(f"no effect on the model {' or '.join(models)}")
                 options = SourceOptions(self.ranges.get(name), self.block_length, models)
-                chosen.sources.append(maker.of(measurement, options))
+                chosen.sources.append(source.of(measurement, options))
             except SourceNotApplicable as why:
                 if name in self.ranges:
                     raise InputError(f"{name} is given and has nothing to draw: {why}") from None
-                chosen.left_out.append(f"{maker.label}: {why}")
+                chosen.left_out.append(f"{source.label}: {why}")
         if not chosen.sources:
             raise InputError(f"no source of uncertainty is left; {'; '.join(chosen.left_out)}")
         return chosen
@@ -128,25 +128,21 @@ def draws(
     case: Inputs, sources: Sequence[Source], samples: int, seed: int
 ) -> Iterator[SampledInputs]:
     """Yield the samples of a case."""
-    columns = {source.name: _column(source.name, samples, seed) for source in sources}
+    numbers = {source.name: zlib.crc32(source.name.encode()) for source in sources}
+    columns = {
+        name: qmc.LatinHypercube(1, rng=np.random.default_rng([seed, number])).random(samples)[:, 0]
+        for name, number in numbers.items()
+    }
     for sample in range(samples):
         inputs, why_not = case, ""
         coordinates: dict[str, float] = {}
         for source in sources:
-            random = np.random.default_rng([seed, _number(source.name), sample])
+            assert source.draw is not None
+            random = np.random.default_rng([seed, numbers[source.name], sample])
+            drawn: Sequence[float] = [np.nan] * len(source.coordinates)
             try:
                 inputs, drawn = source.draw(columns[source.name][sample], random, inputs)
             except InputError as error:
-                drawn, why_not = dict.fromkeys(source.coordinates, np.nan), str(error)
-            coordinates |= drawn
+                why_not = str(error)
+            coordinates |= dict(zip(source.coordinates, drawn, strict=True))
         yield SampledInputs(None if why_not else inputs, coordinates, why_not)
-
-
-def _column(name: str, samples: int, seed: int) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
-    """Return the places of a source in all samples, above 0 and below 1."""
-    random = np.random.default_rng([seed, _number(name)])
-    return qmc.LatinHypercube(1, rng=random).random(samples)[:, 0]
-
-
-def _number(name: str) -> int:
-    return zlib.crc32(name.encode())

@@ -22,13 +22,11 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gripscale.core.arrays import Array
 from gripscale.rubber import MasterCurve, PronyFit, Rubber
 from gripscale.rubber.maxwell_fit import LEAST_SCATTER, Curve, Equations, Spectrum, non_negative
 from gripscale.rubber.prony import BEYOND, largest_modulus, open_equations
-
-Array = NDArray[np.float64]
 
 FEWEST_BLOCKS = 8
 """Blocks there are at least to draw from."""
@@ -40,18 +38,12 @@ MOST_TAKEN = 0.75
 
 @dataclass(frozen=True, eq=False)
 class SeriesScatter:
-    """The equations of a fit in units of the scatter of its rows.
-
-    Parameters
-    ----------
-    problem : Equations
-        Of `open_equations`: first all rows of E', then those of E'', of the prior, and one limit.
-    omega : array, shape (rows,)
-        Angular frequency of the measured rows [rad/s], rising.
-    """
+    """The equations of a fit in units of the scatter of its rows."""
 
     problem: Equations
+    """Of `open_equations`: first all rows of E', then those of E'', of the prior, and one limit."""
     omega: Array
+    """Angular frequency of the measured rows [rad/s], rising, shape (rows,)."""
 
     @classmethod
     def of(cls, master: MasterCurve, fit: PronyFit, bulk_modulus: float) -> SeriesScatter:

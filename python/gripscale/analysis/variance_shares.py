@@ -29,7 +29,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from gripscale.core.arrays import Array
 
 SURE = 1.645
 """Standard errors by which a share exceeds zero, or another, to be told from it: 95 %, one side."""
@@ -41,28 +41,20 @@ SWING = (0.05, 0.95)
 
 @dataclass(frozen=True, eq=False)
 class Shares:
-    """Shares of the variance of an answer, source by source.
-
-    Attributes
-    ----------
-    names : tuple of str
-        The sources.
-    share : array, shape (sources,)
-        S_k [-]; below zero by chance.
-    covariance : array, shape (sources, sources)
-        Of their errors.
-    low, high : array, shape (sources,)
-        The answer at 5 % and 95 % of what a source alone does to it, all others in their middle.
-    unexplained : float
-        Share of none.
-    """
+    """Shares of the variance of an answer, source by source; arrays of shape (sources,)."""
 
     names: tuple[str, ...]
+    """The sources."""
     share: Array
+    """S_k [-]; below zero by chance."""
     covariance: Array
+    """Of their errors, shape (sources, sources)."""
     low: Array
+    """The answer at 5 % of what a source alone does to it, all others in their middle."""
     high: Array
+    """The same at 95 %."""
     unexplained: float
+    """Share of none."""
 
     @property
     def error(self) -> Array:

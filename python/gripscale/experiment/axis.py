@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -42,22 +42,6 @@ COUNTS = {"waves": MOST_WAVES, "pressure_classes": MOST_CLASSES}
 NUMBERS = (*QUANTITIES, *COUNTS, "top_height_fraction")
 """Axes whose values are numbers."""
 
-UNITS = {
-    "speed": "m/s",
-    "pressure": "Pa",
-    "temperature": "K",
-    "smallest_wavelength": "m",
-    "cut_off": "m",
-    "top_height_fraction": "1",
-    "waves": "1",
-    "pressure_classes": "1",
-    "factors": "1",
-    "effects": "1",
-    "rubber": "1",
-    "surface": "1",
-}
-"""All axes, with the units of their values."""
-
 LONG_NAMES = {
     "speed": "sliding speed",
     "pressure": "nominal pressure",
@@ -72,6 +56,18 @@ LONG_NAMES = {
     "rubber": "rubber",
     "surface": "surface",
 }
+"""All axes."""
+
+_SI = {"speed": "m/s", "pressure": "Pa", "temperature": "K", "length": "m"}
+UNITS = {name: _SI.get(QUANTITIES.get(name, ""), "1") for name in LONG_NAMES}
+"""All axes, with the units of their values."""
+
+LABELS = {name: LONG_NAMES[name] for name in NUMBERS} | {
+    "speed": "sliding speed $v$",
+    "pressure": "nominal pressure $p$",
+    "temperature": "temperature $T$",
+}
+"""Numeric axes by name, and what they are called in tables and figures."""
 
 
 @dataclass(frozen=True)
@@ -108,69 +104,56 @@ class Axis:
         return self.labels[i] if how is None else how.text(self.values[i])
 
 
-# One value of a varied input, from Python or from a text, and what it is called.
-
-
 def axis_value(name: str, value: Any) -> Any:
     """Return a value of an input, other than rubber and surface, in SI units.
 
     Raises `InputError` if it cannot be used.
     """
-    return _READERS[name](name, value)
+    if name in QUANTITIES:
+        return _cut_off(name, value) if name == "cut_off" else _quantity(name, value)
+    if name in COUNTS:
+        return checks.whole(name, plain_number(value), least=1, most=COUNTS[name])
+    if name == "factors":
+        return _pair(name, value)
+    if name == "effects":
+        text = value.replace("_", " ") if isinstance(value, str) else value
+        return checks.one_of(name, text, SELECTIONS)
+    share = checks.positive(name, plain_number(value))
+    if share > 1.0:
+        raise InputError(f"{name} must be at most 1; got {share:g}")
+    return share
 
 
-def value_label(name: str, value: Any) -> str:
-    """Return what a value is called: a temperature in degrees C, other numbers without unit."""
-    if isinstance(value, str | RmsSlope):
-        return str(value)
-    if isinstance(value, tuple):
-        return "/".join(f"{part:g}" for part in value)
-    return f"{value - ZERO_CELSIUS:.6g} C" if name == "temperature" else f"{value:.6g}"
-
-
-def bare(text: str) -> bool:
-    """Return whether `text` is a number without a unit."""
+def plain_number(value: Any) -> Any:
+    """Return the number that a text without a unit spells, or `value` as it is."""
     try:
-        float(text)
+        return float(value) if isinstance(value, str) else value
     except ValueError:
-        return False
-    return True
+        return value
 
 
 def _quantity(name: str, value: Any) -> float:
     """Read a number in SI units or a text with a unit."""
-    if isinstance(value, str) and not bare(value):
+    number = plain_number(value)
+    if isinstance(number, str):
         try:
-            value = parse_quantity(value, QUANTITIES[name])
+            number = parse_quantity(number, QUANTITIES[name])
         except ValueError as error:
             raise InputError(f"{name} = {value!r}: {error}") from error
-    if isinstance(value, str) and name == "temperature":
+    elif isinstance(value, str) and name == "temperature":
         raise InputError(f'temperature must have a unit, such as "20 C"; got {value!r}')
     check = checks.not_negative if name == "speed" else checks.positive
-    return check(name, float(value) if isinstance(value, str) else value, unit=UNITS[name])
+    return check(name, number, unit=UNITS[name])
 
 
 def _cut_off(name: str, value: Any) -> CutOffRule:
     """Read a length, or one of the other rules."""
-    if not isinstance(value, str | dict | RmsSlope) or (isinstance(value, str) and bare(value)):
+    if not isinstance(plain_number(value), str | dict | RmsSlope):
         return _quantity(name, value)
     try:
         return cut_off_rule(value)
     except ValueError as error:
         raise InputError(f"{name} = {value!r}: {error}") from error
-
-
-def _count(name: str, value: Any) -> int:
-    if isinstance(value, str) and bare(value):
-        value = float(value)
-    return checks.whole(name, value, least=1, most=COUNTS[name])
-
-
-def _share(name: str, value: Any) -> float:
-    share = checks.positive(name, float(value) if isinstance(value, str) and bare(value) else value)
-    if share > 1.0:
-        raise InputError(f"{name} must be at most 1; got {share:g}")
-    return share
 
 
 def _pair(name: str, value: Any) -> tuple[float, float]:
@@ -185,35 +168,6 @@ def _pair(name: str, value: Any) -> tuple[float, float]:
             raise InputError(f"factors must be greater than 1; got {part:g}")
     return first, second
 
-
-def _selection(name: str, value: Any) -> str:
-    text = value.replace("_", " ") if isinstance(value, str) else value
-    return checks.one_of(name, text, SELECTIONS)
-
-
-_READERS: dict[str, Callable[[str, Any], Any]] = {
-    **dict.fromkeys(QUANTITIES, _quantity),
-    **dict.fromkeys(COUNTS, _count),
-    "top_height_fraction": _share,
-    "factors": _pair,
-    "cut_off": _cut_off,
-    "effects": _selection,
-}
-
-
-# What the axes of a study are called in tables and figures, in readable units.
-
-LABELS = {
-    "speed": "sliding speed $v$",
-    "pressure": "nominal pressure $p$",
-    "temperature": "temperature $T$",
-    "smallest_wavelength": "smallest wavelength",
-    "cut_off": "shortest wavelength of the roughness",
-    "top_height_fraction": "fraction of the heights, from the top, that counts",
-    "pressure_classes": "number of pressure classes",
-    "waves": "number of waves",
-}
-"""Numeric axes by name, and what they are called."""
 
 FIXED = {
     "temperature": DisplayUnit("°C", zero=ZERO_CELSIUS),
@@ -241,18 +195,16 @@ EFFECTS = {"all": "all effects", "none": "no effects"}
 
 def axis_shown(result: xr.Dataset | xr.DataArray, axis: str) -> DisplayUnit:
     """Return how the values of a numeric axis are shown: in the unit they were given in."""
-    return FIXED[axis] if axis in FIXED else display_unit(axis, unit=_given(result, axis))
+    if axis in FIXED:
+        return FIXED[axis]
+    unit = result[axis].attrs.get(GIVEN, "") if axis in result.coords else ""
+    return display_unit(axis, unit=str(unit))
 
 
 def axis_label(result: xr.Dataset, axis: str) -> str:
     """Return what a figure calls a numeric axis, with its unit."""
     unit = axis_shown(result, axis).unit if axis in (*KEYS, "temperature") else "-"
     return f"{LABELS[axis]} [{unit}]"
-
-
-def _given(result: xr.Dataset | xr.DataArray, axis: str) -> str:
-    """Return the unit of an axis; of one that was not varied, that of the case."""
-    return str(result[axis].attrs.get(GIVEN, "")) if axis in result.coords else ""
 
 
 def dimensions(result: xr.Dataset) -> list[str]:
@@ -281,7 +233,7 @@ def name_of(result: xr.Dataset, axis: str, i: int) -> str:
     return axis_shown(result, axis).text(value, digits=3)
 
 
-# What a study varies: axes with their values, from Python or from a text such as one of these.
+# Axes with their values, from Python or from a text such as one of these.
 #
 # - speed=0.003:30:log9: nine speeds [m/s], evenly spaced in their logarithm (lin9: evenly)
 # - pressure=1 bar,3 bar: a list, with units
@@ -294,6 +246,15 @@ def name_of(result: xr.Dataset, axis: str, i: int) -> str:
 
 MOST_VALUES = 1000
 MOST_AXES = 2
+
+EXAMPLES = {
+    "speed": "0.01 m/s:10 m/s:log7",
+    "pressure": "1 bar:5 bar:lin5",
+    "temperature": "0 C:60 C:lin7",
+    "smallest_wavelength": "0.1 mm:1 mm:log4",
+    "cut_off": "0.1 mm:1 mm:log4",
+}
+"""Ranges of the quantities."""
 
 _RANGE = re.compile(r"\s*([^:]+?)\s*:\s*([^:]+?)\s*:\s*(lin|log)(\d+)\s*")
 
@@ -324,54 +285,48 @@ def _axis(name: str, value: Any) -> Axis:
         values = tuple(axis_value(name, entry) for entry in _entries(name, value))
         worded = any(isinstance(value, RmsSlope | str) for value in values)
         unit = f" {UNITS[name]}" if worded else ""
-        labels = tuple(
-            f"{value_label(name, v)}{unit if isinstance(v, float) else ''}" for v in values
-        )
+        labels = tuple(_label(name, value, unit) for value in values)
     if not 1 <= len(values) <= MOST_VALUES:
         raise InputError(f"{name} must have 1 to {MOST_VALUES} values; got {len(values)}")
     twice = {label for label in labels if labels.count(label) > 1}
     if twice:
         raise InputError(f"{name} must have different values; got {min(twice)} more than once")
-    return Axis(name, values, labels, _unit_given(name, value))
+    units: Iterable[str | None] = ()
+    if name in KEYS:
+        texts = re.split("[,:]", value) if isinstance(value, str) else _entries(name, value)
+        units = (unit_of(text, QUANTITIES[name]) for text in texts)
+    return Axis(name, values, labels, next(filter(None, units), ""))
 
 
-def _unit_given(name: str, value: Any) -> str:
-    """Return the first unit among the values of an axis; empty where all are plain numbers."""
-    if name not in KEYS:
-        return ""
-    texts = re.split("[,:]", value) if isinstance(value, str) else _entries(name, value)
-    units = (unit_of(text, QUANTITIES[name]) for text in texts)
-    return next(filter(None, units), "")
+def _label(name: str, value: Any, unit: str) -> str:
+    """Return what a value is called: a temperature in degrees C, other numbers with a `unit`."""
+    if isinstance(value, tuple):
+        return "/".join(f"{part:g}" for part in value)
+    if isinstance(value, str | RmsSlope):
+        return str(value)
+    text = f"{value - ZERO_CELSIUS:.6g} C" if name == "temperature" else f"{value:.6g}"
+    return f"{text}{unit if isinstance(value, float) else ''}"
 
 
 def _entries(name: str, value: Any) -> Iterable[Any]:
     """Return single values of a list, a text `a,b,c`, a text `a:b:log5`, or a single value."""
-    if isinstance(value, str):
-        match = _RANGE.fullmatch(value)
-        if match is not None:
-            return _spaced(name, *match.groups())
-        if ":" in value:
-            raise InputError(_no_range(name, value))
+    if not isinstance(value, str):
+        return value if isinstance(value, Iterable) else [value]
+    match = _RANGE.fullmatch(value)
+    if match is not None:
+        return _spaced(name, *match.groups())
+    if ":" not in value:
         return [part.strip() for part in value.split(",")]
-    return value if isinstance(value, Iterable) else [value]
-
-
-def _no_range(name: str, text: str) -> str:
-    """Return a sentence on a text with colons that is no range: which of its parts is wrong."""
-    example = {"speed": "0.01 m/s:10 m/s:log7", "pressure": "1 bar:5 bar:lin5"}
-    example |= {"temperature": "0 C:60 C:lin7"}
-    example |= dict.fromkeys(("smallest_wavelength", "cut_off"), "0.1 mm:1 mm:log4")
-    parts = text.split(":")
-    wrong = (
-        "the third part is missing"
-        if len(parts) == 2
-        else f"{parts[2].strip()!r} is neither lin nor log with a number"
-        if len(parts) == 3 and parts[0].strip() and parts[1].strip()
-        else f"it has {len(parts)} parts, or an empty one"
-    )
-    return (
+    parts = value.split(":")
+    if len(parts) == 2:
+        wrong = "the third part is missing"
+    elif len(parts) == 3 and parts[0].strip() and parts[1].strip():
+        wrong = f"{parts[2].strip()!r} is neither lin nor log with a number"
+    else:
+        wrong = f"it has {len(parts)} parts, or an empty one"
+    raise InputError(
         f"{name} must be a range of first value, last value and spacing with the number of values, "
-        f'such as "{example.get(name, "1:10:log5")}"; {wrong} in {text!r}'
+        f'such as "{EXAMPLES.get(name, "1:10:log5")}"; {wrong} in {value!r}'
     )
 
 
@@ -379,7 +334,7 @@ def _spaced(name: str, first: str, last: str, spacing: str, count: str) -> list[
     """Return evenly spaced values between two ends in SI units, the ends exactly."""
     if name not in NUMBERS:
         raise InputError(f"{name} must be a list, not a range; got {first}:{last}")
-    if bare(first) != bare(last):
+    if isinstance(plain_number(first), str) != isinstance(plain_number(last), str):
         raise InputError(f"{name} must have a unit at both ends or none; got {first}:{last}")
     number = checks.whole(f"{name}: number of values", int(count), least=2, most=MOST_VALUES)
     low, high = axis_value(name, first), axis_value(name, last)

@@ -38,43 +38,28 @@ SURFACE = (*NUMBERS, WHY_NO_EXPONENT, "prediction_status")
 
 @dataclass(frozen=True)
 class Point:
-    """One point of a design.
-
-    Parameters
-    ----------
-    index : tuple of int
-        Position along each dimension.
-    label : str
-        Name of the task while it is solved; different from all others.
-    task : Task
-        What is solved.
-    """
+    """One point of a design."""
 
     index: Index
+    """Position along each dimension."""
     label: str
+    """Name of the task while it is solved; different from all others."""
     task: Task
+    """What is solved."""
 
 
 @dataclass(frozen=True, eq=False)
 class Design:
-    """Labelled dimensions with a task at each point.
-
-    Parameters
-    ----------
-    sizes : mapping of str to int
-        Dimensions in order, with their sizes.
-    points : sequence of Point
-        In the order in which they are solved.
-    coords : mapping
-        Coordinates of the Dataset, as xarray takes them.
-    refused : mapping of index to str
-        Why there is no task at a point.
-    """
+    """Labelled dimensions with a task at each point."""
 
     sizes: Mapping[str, int]
+    """Dimensions in order, with their sizes."""
     points: Sequence[Point]
+    """In the order in which they are solved."""
     coords: Mapping[str, Any] = field(default_factory=dict)
+    """Coordinates of the Dataset, as xarray takes them."""
     refused: Mapping[Index, str] = field(default_factory=dict)
+    """Why there is no task at a point."""
 
     @property
     def tasks(self) -> dict[str, Task]:
@@ -99,21 +84,19 @@ class Design:
             status[point.index] = str(answers[key]["prediction_status"].item())
             keys[point.index] = key
             seconds[point.index] = answers[key].attrs.get("seconds", math.nan)
-        texts = {
-            "prediction_status": (status, "1", "converged, or why not"),
-            "prediction_key": (keys, "1", "name of the file the prediction is kept in"),
-            "seconds": (seconds, "s", "time to solve the prediction"),
-        }
-        return (
-            stack(parts, self.sizes)
-            .assign(
-                {
-                    name: (tuple(self.sizes), values, {"units": unit, "long_name": text})
-                    for name, (values, unit, text) in texts.items()
-                }
-            )
-            .assign_coords(self.coords)
+        dims = tuple(self.sizes)
+        kept_in = attributes("name of the file the prediction is kept in")
+        data = stack(parts, self.sizes).assign(
+            prediction_status=(dims, status, attributes("converged, or why not")),
+            prediction_key=(dims, keys, kept_in),
+            seconds=(dims, seconds, attributes("time to solve the prediction", "s")),
         )
+        return data.assign_coords(self.coords)
+
+
+def attributes(long_name: str, unit: str = "1") -> dict[str, str]:
+    """Return the attributes of a variable."""
+    return {"units": unit, "long_name": long_name}
 
 
 def surface_numbers(answer: xr.Dataset, _: Task) -> xr.Dataset:
@@ -172,10 +155,9 @@ def stack(parts: Mapping[Index, xr.Dataset], sizes: Mapping[str, int]) -> xr.Dat
         shape = (*sizes.values(), *(lengths[dim] for dim in inner))
         filled = sum(variable.size for variable in variables.values()) == math.prod(shape)
         fill: Any = "" if example.dtype.kind in "OUST" else math.nan
-        if fill == "":
-            dtype: Any = object
-        else:
-            kinds = {variable.dtype for variable in variables.values()}
+        kinds = {variable.dtype for variable in variables.values()}
+        dtype: Any = object
+        if fill != "":
             dtype = np.result_type(*kinds, *([] if filled else [np.float64]))
         values = np.empty(shape, dtype) if filled else np.full(shape, fill, dtype)
         for at, variable in variables.items():

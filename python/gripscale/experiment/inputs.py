@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 from gripscale.case.prepare import case_chain, prepare_rubber, prepare_surface
 from gripscale.case.read import CaseFile, read_case, validate
@@ -90,22 +90,15 @@ def rubber_of(value: Any, file: CaseFile) -> Rubber:
     path = _found("rubber", value, file, ("case", *NAMED_RUBBERS))
     if path.suffix == ".toml":
         return case_rubber(read_case(path))
-    taken = _taken(case, path)
+    names = (*OF_A_FILE, "sheet") if is_excel(path) else OF_A_FILE
+    taken = {name: getattr(case, name) for name in names if getattr(case, name) is not None}
+    if "reference_temperature" in taken:
+        taken["reference_temperature"] = f"{taken['reference_temperature']!r} K"
     source = f"{path}, read like the rubber of the case where it does not say: {', '.join(taken)}"
     said = {"source": source} if taken else {}
     if case.outlier_threshold is not None:
         settings["outlier_threshold"] = case.outlier_threshold
     return _rubber({"file": str(path), **settings, **taken, **said}, titles_first=True)
-
-
-def _taken(case: RubberSource, path: Path) -> dict[str, Any]:
-    """Return what the case says of its own file that may hold for the file `path`, too."""
-    names = (*OF_A_FILE, "sheet") if is_excel(path) else OF_A_FILE
-    settings = {name: getattr(case, name) for name in names}
-    kelvin = settings["reference_temperature"]
-    if kelvin is not None:
-        settings["reference_temperature"] = f"{kelvin!r} K"
-    return {name: value for name, value in settings.items() if value is not None}
 
 
 def stated_by(value: Any, file: CaseFile) -> Any:
@@ -147,10 +140,6 @@ def _rubber(settings: dict[str, Any], *, titles_first: bool = False) -> Rubber:
     source = validate(RubberSource, settings, "vary rubber")
     return prepare_rubber(source, titles_first=titles_first).rubber
 
-
-# A model in other conditions: at another temperature, or without some of what was asked for.
-
-M = TypeVar("M", bound=Model)
 
 EFFECTS = ("temperature", "softening", "heat")
 """What conditions do to the rubber; the area term does nothing to it."""
@@ -205,8 +194,6 @@ def rubber_before(rubber: Rubber, model: Model) -> Rubber:
     """
     return rubber if model.conditions is None else model.conditions.before(rubber)
 
-
-# The models a study can be made of by name, as a case asks for them.
 
 NAMED_MODELS = (Chain.name, DirectContact.name)
 

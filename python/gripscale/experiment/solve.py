@@ -16,9 +16,10 @@ system. A worker that dies loses only the prediction it was solving; its tasks g
 from __future__ import annotations
 
 import importlib
-from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
+from collections.abc import Callable, Generator, Iterator, Mapping
 from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -46,31 +47,24 @@ class Progress:
 
 
 OnTask = Callable[[Progress], None]
+Solve = Callable[[list[Task]], Generator[Solved, None, None]]
 Pick = Callable[[xr.Dataset, Task], xr.Dataset]
 """Reduces the answer of a task to what is kept in memory."""
 
 
 @dataclass(frozen=True)
 class Bench:
-    """Where tasks are solved.
-
-    Parameters
-    ----------
-    store : Store
-        Keeps every answer as soon as it is there.
-    workers : int, optional
-        Threads, or processes of a local cluster; one per core by default.
-    client
-        None: threads of this process. "local": a Dask cluster of processes on this machine.
-        "tcp://...": the address of a Dask scheduler. Or a `distributed.Client`.
-    on_task : callable, optional
-        Called after each task with its `Progress`.
-    """
+    """Where tasks are solved."""
 
     store: Store
+    """Keeps every answer as soon as it is there."""
     workers: int | None = None
+    """Threads, or processes of a local cluster; one per core by default."""
     client: Any = None
+    """None: threads of this process. "local": a Dask cluster of processes on this machine.
+    "tcp://...": the address of a Dask scheduler. Or a `distributed.Client`."""
     on_task: OnTask | None = None
+    """Called after each task with its `Progress`."""
 
     def solve(self, tasks: Mapping[str, Task], pick: Pick | None = None) -> dict[str, xr.Dataset]:
         """Return the answer of every task by its key; only what the store lacks is solved.
@@ -112,8 +106,12 @@ class Bench:
             if answer is not None:
                 finish(key, answer, 0.0, stored=True)
         missing = [task for key, (_, task) in wanted.items() if key not in answers]
-        with _solver(missing, self.workers, self.client) as stream:
-            for key, solved, seconds in stream:
+        count = worker_count(self.workers)
+        with ExitStack() as ending:
+            solve: Solve = partial(_in_threads, workers=count)
+            if missing and self.client is not None:
+                solve = ending.enter_context(cluster(self.client, count))
+            for key, solved, seconds in ending.enter_context(closing(solve(missing))):
                 answer = self.store.put(key, solved.assign_attrs(seconds=seconds))
                 finish(key, answer, seconds, stored=False)
         return answers
@@ -161,21 +159,10 @@ def solve_all(
     return Bench(store, workers, client, on_task).solve(tasks)
 
 
-@contextmanager
-def _solver(tasks: list[Task], workers: int | None, client: Any) -> Iterator[Iterable[Solved]]:
-    """Give the answers of `tasks` as they come, from threads or from a cluster."""
-    count = worker_count(workers)
-    if not tasks:
-        yield ()
-    elif client is None:
-        with closing(in_threads([task.solve for task in tasks], count)) as stream:
-            yield (solved for _, solved in stream)
-    else:
-        with cluster(client, count) as solve, closing(solve(tasks)) as stream:
-            yield stream
+def _in_threads(tasks: list[Task], workers: int) -> Generator[Solved, None, None]:
+    with closing(in_threads([task.solve for task in tasks], workers)) as stream:
+        yield from (solved for _, solved in stream)
 
-
-Solve = Callable[[list[Task]], Generator[Solved, None, None]]
 
 CONNECT_SECONDS = 10
 """How long to wait for a scheduler to answer."""
@@ -196,7 +183,12 @@ def cluster(client: Any, workers: int) -> Iterator[Solve]:
     InputError
         If Dask is not installed, the scheduler does not answer or has another gripscale.
     """
-    distributed = _distributed()
+    try:
+        distributed = importlib.import_module("distributed")
+    except ModuleNotFoundError as error:
+        raise InputError(
+            "a cluster needs Dask, which is not installed: pip install gripscale[cluster]"
+        ) from error
     with ExitStack() as ending:
         if client == "local":
             local = distributed.LocalCluster(
@@ -204,18 +196,31 @@ def cluster(client: Any, workers: int) -> Iterator[Solve]:
             )
             client = ending.enter_context(local)
         if not isinstance(client, distributed.Client):
-            client = ending.enter_context(_connected(distributed, client))
-        _require_same_software(client)
+            try:
+                connected = distributed.Client(
+                    client, timeout=CONNECT_SECONDS, set_as_default=False
+                )
+            except (OSError, ValueError, TimeoutError) as error:
+                raise InputError(
+                    f'cluster must be "local" or the address of a Dask scheduler that answers, '
+                    f'such as "tcp://host:8786"; got {client!r}'
+                ) from error
+            client = ending.enter_context(connected)
+        here = software()
+        for worker, there in client.run(_software_there).items():
+            if there != here:  # other code, whatever its version says
+                raise InputError(
+                    f"worker {worker} has {there}, this machine {here}; install the same"
+                )
         yield lambda tasks: _solve(distributed, client, tasks)
 
 
 def _solve(distributed: Any, client: Any, tasks: list[Task]) -> Generator[Solved, None, None]:
     """Yield results as they come."""
     futures = [client.submit(_alone, task.reduced(), key=f"gripscale-{task.key}") for task in tasks]
+    stream = distributed.as_completed(futures, loop=client.loop, with_results=True)
     try:
-        for future, result in distributed.as_completed(
-            futures, loop=client.loop, with_results=True
-        ):
+        for future, result in stream:
             yield result
             future.release()
     except distributed.KilledWorker as error:
@@ -231,34 +236,6 @@ def _alone(task: Task) -> Solved:
     """Solve in a worker, whose neighbours have the other cores."""
     with sharing(1):
         return task.solve()
-
-
-def _distributed() -> Any:
-    """Return Dask's package, or say how to get it."""
-    try:
-        return importlib.import_module("distributed")
-    except ModuleNotFoundError as error:
-        raise InputError(
-            "a cluster needs Dask, which is not installed: pip install gripscale[cluster]"
-        ) from error
-
-
-def _connected(distributed: Any, address: Any) -> Any:
-    try:
-        return distributed.Client(address, timeout=CONNECT_SECONDS, set_as_default=False)
-    except (OSError, ValueError, TimeoutError) as error:
-        raise InputError(
-            f'cluster must be "local" or the address of a Dask scheduler that answers, such as '
-            f'"tcp://host:8786"; got {address!r}'
-        ) from error
-
-
-def _require_same_software(client: Any) -> None:
-    """Raise `InputError` if a worker would solve with other code, whatever its version says."""
-    here = software()
-    for worker, there in client.run(_software_there).items():
-        if there != here:
-            raise InputError(f"worker {worker} has {there}, this machine {here}; install the same")
 
 
 def _software_there() -> str:

@@ -15,9 +15,11 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gripscale.core.arrays import Array
 from gripscale.experiment.axis import Axis
+from gripscale.experiment.design import attributes
 from gripscale.experiment.inputs import rubber_before
 from gripscale.experiment.task import Task
 from gripscale.model import TOTALS
@@ -38,7 +40,6 @@ from gripscale.wave.result import harmonics
 # a series of one relaxation time a decade may ripple by the decade, which coarser points do not
 # show. So curves that are one are found to lie less than 1e-3 apart, however coarse their points.
 
-Array = NDArray[np.float64]
 Curve = tuple[Array, Array]
 
 TRUSTED = 4e-4
@@ -67,30 +68,20 @@ class Collapse:
 
 
 def collapse(curves: Sequence[tuple[ArrayLike, ArrayLike]]) -> Collapse:
-    """Return how far curves lie apart.
-
-    Parameters
-    ----------
-    curves : sequence of (x, y)
-        Abscissas and values, arrays of the same shape; what is not above zero and finite is left
-        out.
-    """
-    usable = [_logarithms(x, y) for x, y in curves]
+    """Return how far curves of abscissas and values lie apart; they are above zero and finite."""
+    usable: list[Curve] = []
+    for x, y in curves:
+        both = np.array([np.ravel(x), np.ravel(y)], dtype=float)
+        with np.errstate(invalid="ignore"):
+            logs = np.log(both[:, ((both > 0.0) & np.isfinite(both)).all(axis=0)])
+        abscissas, values = logs[:, np.argsort(logs[0])]
+        usable.append((abscissas, values))
     pairs = [point for two in permutations(usable, 2) for point in _apart(*two)]
     counted = [(distance, error) for distance, error in pairs if error <= TRUSTED]
     if not counted:
         return Collapse(math.nan, math.nan, 0, len(pairs))
     distances, errors = zip(*counted, strict=True)
     return Collapse(max(distances), max(errors), len(counted), len(pairs))
-
-
-def _logarithms(x: ArrayLike, y: ArrayLike) -> Curve:
-    """Return the logarithms of a curve, its abscissas rising."""
-    both = np.array([np.ravel(x), np.ravel(y)], dtype=float)
-    with np.errstate(invalid="ignore"):
-        logs = np.log(both[:, ((both > 0.0) & np.isfinite(both)).all(axis=0)])
-    abscissas, values = logs[:, np.argsort(logs[0])]
-    return abscissas, values
 
 
 def _apart(first: Curve, other: Curve) -> Iterator[tuple[float, float]]:
@@ -147,15 +138,14 @@ def beyond_shift(tasks: Sequence[Task], axes: Sequence[Axis]) -> dict[str, xr.Da
 
     Of the tasks of all points, last axis fastest. Empty where no temperature is stated.
     """
-    if not any(_states_temperature(task) for task in tasks):
+    asked = [task.model.conditions for task in tasks]
+    if all(conditions is None or conditions.temperature is None for conditions in asked):
         return {}
     flags = [rubber_before(task.rubber, task.model).shift_extrapolated for task in tasks]
     values = np.reshape(flags, [len(axis.values) for axis in axes])
-    attrs = {
-        "units": "1",
-        "long_name": "whether the temperature lies beyond those the shift of the rubber rests on",
-    }
-    return {BEYOND_SHIFT: xr.DataArray(values, dims=[axis.name for axis in axes], attrs=attrs)}
+    text = "whether the temperature lies beyond those the shift of the rubber rests on"
+    dims = [axis.name for axis in axes]
+    return {BEYOND_SHIFT: xr.DataArray(values, dims=dims, attrs=attributes(text))}
 
 
 def with_master_curve(result: xr.Dataset, rubber: Rubber) -> xr.Dataset:
@@ -166,40 +156,28 @@ def with_master_curve(result: xr.Dataset, rubber: Rubber) -> xr.Dataset:
     assert rubber.shift is not None
     assert rubber.reference_temperature is not None
     kelvin, reference = result.temperature.values, rubber.reference_temperature
-    factors = {
-        "shift_factor": (rubber.shift.a(kelvin, reference), "horizontal shift factor a_T"),
-        "vertical_shift_factor": (rubber.shift.b(kelvin, reference), "vertical factor b_T"),
-    }
+    horizontal = attributes(f"horizontal shift factor a_T to {reference:g} K")
+    vertical = attributes(f"vertical factor b_T to {reference:g} K")
     result = result.assign_coords(
-        {
-            name: ("temperature", values, {"units": "1", "long_name": f"{text} to {reference:g} K"})
-            for name, (values, text) in factors.items()
-        }
+        shift_factor=("temperature", rubber.shift.a(kelvin, reference), horizontal),
+        vertical_shift_factor=("temperature", rubber.shift.b(kelvin, reference), vertical),
     )
-    reduced = result.speed * result.shift_factor
-    attrs = {"units": "m/s", "long_name": "reduced speed a_T v"}
-    result = result.assign_coords({REDUCED_SPEED: reduced.assign_attrs(attrs)})
-    return result.assign({COLLAPSED[name]: _collapsed(result, name) for name in COLLAPSED})
-
-
-def _collapsed(result: xr.Dataset, name: str) -> xr.DataArray:
-    """Return how far a total at the temperatures lies apart over the reduced speed."""
-    values = result[name].transpose("speed", "temperature").values
-    reduced = result[REDUCED_SPEED].transpose("speed", "temperature").values
-    overlap = collapse(list(zip(reduced.T, values.T, strict=True)))
-    attrs: dict[str, Any] = {
-        "units": "1",
-        "long_name": f"largest relative distance of temperatures at the same a_T v, {TOTALS[name]}",
-        "interpolation_error": overlap.interpolation_error,
-        "points": overlap.points,
-        "overlapping_points": overlap.overlapping,
-    }
-    return xr.DataArray(overlap.distance, attrs=attrs)
-
-
-def _states_temperature(task: Task) -> bool:
-    conditions = task.model.conditions
-    return conditions is not None and conditions.temperature is not None
+    product = result.speed * result.shift_factor
+    speed = product.assign_attrs(attributes("reduced speed a_T v", "m/s"))
+    result = result.assign_coords({REDUCED_SPEED: speed})
+    reduced = speed.transpose("speed", "temperature").values
+    for name, collapsed in COLLAPSED.items():
+        values = result[name].transpose("speed", "temperature").values
+        overlap = collapse(list(zip(reduced.T, values.T, strict=True)))
+        text = f"largest relative distance of temperatures at the same a_T v, {TOTALS[name]}"
+        attrs: dict[str, Any] = {
+            **attributes(text),
+            "interpolation_error": overlap.interpolation_error,
+            "points": overlap.points,
+            "overlapping_points": overlap.overlapping,
+        }
+        result[collapsed] = xr.DataArray(overlap.distance, attrs=attrs)
+    return result
 
 
 # Which relaxation times of the rubber make the friction: an estimate in small-strain terms.
@@ -228,21 +206,11 @@ NEAR = 1.0
 
 
 def friction_by_decade(solved: xr.Dataset, rubber: Rubber) -> dict[int, float]:
-    """Return the friction coefficient of all waves by decade of relaxation time.
+    """Return the friction coefficient [-] of all waves by decade of relaxation time.
 
-    Parameters
-    ----------
-    solved
-        A prediction in motion, as `Prediction.to_dataset` returns it.
-    rubber
-        What it was solved for; of waves that say which rubber they met, that one counts.
-
-    Returns
-    -------
-    dict
-        From n, for relaxation times of 10^n s up to 10^(n+1) s, to its part of the friction
-        coefficient [-]. Empty where nothing slides, the rubber is elastic, a wave failed or the
-        model has no waves.
+    From n, for relaxation times of 10^n s up to 10^(n+1) s, to its part. Empty where nothing
+    slides, the rubber is elastic, a wave failed or the model has no waves. Of waves that say which
+    rubber they met, conditions having made it another one, that one counts.
     """
     needed = {"surface_pressure", "angular_frequency", "friction"}
     if not needed <= set(solved.data_vars) or solved.prediction_status != "converged":
@@ -252,7 +220,8 @@ def friction_by_decade(solved: xr.Dataset, rubber: Rubber) -> dict[int, float]:
     parts: dict[int, float] = {}
     for i in range(solved.sizes["scale"]):
         wave = solved.isel(scale=i)
-        matching = _rubber_of(wave, rubber)
+        text = str(wave.rubber_parameters.item()) if "rubber_parameters" in wave else ""
+        matching = Rubber.from_dict(json.loads(text)) if text else rubber
         share = _shares(wave, matching) * float(wave.friction)
         for n, part in _in_decades(np.log10(matching.relaxation_times), share):
             parts[n] = parts.get(n, 0.0) + part
@@ -279,12 +248,6 @@ def _ends(decade: Array) -> tuple[Array, Array]:
     below, above = np.append(np.nan, half), np.append(half, np.nan)
     lower, upper = (np.where(np.isnan(a), b, a) for a, b in ((below, above), (above, below)))
     return decade - np.nan_to_num(lower), decade + np.nan_to_num(upper)
-
-
-def _rubber_of(wave: xr.Dataset, rubber: Rubber) -> Rubber:
-    """Return the rubber a wave met: conditions may have made it another one than was given."""
-    text = str(wave.rubber_parameters.item()) if "rubber_parameters" in wave else ""
-    return Rubber.from_dict(json.loads(text)) if text else rubber
 
 
 def _shares(wave: xr.Dataset, rubber: Rubber) -> Array:

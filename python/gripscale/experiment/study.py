@@ -26,34 +26,21 @@ from gripscale.case.read import CaseFile, read_case
 from gripscale.chain.chain import Chain
 from gripscale.conditions import Conditions
 from gripscale.core import provenance
-from gripscale.core.errors import FileError, InputError
+from gripscale.core.errors import InputError
 from gripscale.core.provenance import software
 from gripscale.core.units import GIVEN
+from gripscale.experiment import inputs
 from gripscale.experiment.axis import LONG_NAMES, UNITS, Axis, axes_of
-from gripscale.experiment.design import SURFACE, Design, Index, Point
-from gripscale.experiment.inputs import (
-    at_temperature,
-    case_rubber,
-    case_surface,
-    contents,
-    model_of,
-    rubber_before,
-    rubber_of,
-    stated_by,
-    surface_of,
-    with_effects,
-)
+from gripscale.experiment.design import SURFACE, Design, Index, Point, attributes
 from gripscale.experiment.solve import Bench, OnTask, Progress
 from gripscale.experiment.speed_and_temperature import (
     beyond_shift,
     friction_by_decade,
     with_master_curve,
 )
-from gripscale.experiment.task import PREDICTIONS, Store, Task, canonical_json
+from gripscale.experiment.task import PREDICTIONS, Store, Task, canonical_json, load_stored
 from gripscale.io import netcdf
-from gripscale.model import (
-    Model,
-)
+from gripscale.model import Model
 from gripscale.rubber import Rubber
 from gripscale.surface import Surface
 
@@ -69,10 +56,11 @@ def study_numbers(answer: xr.Dataset, task: Task) -> xr.Dataset:
         if name in SURFACE
         or (variable.dims == ("scale",) and np.issubdtype(variable.dtype, np.number))
     ]
-    parts = friction_by_decade(answer, task.rubber)
-    decades = xr.DataArray(list(parts.values()), {"decade": list(parts)}) if parts else None
     kept = answer[names].rename({old: new for old, new in RENAMED.items() if old in names})
-    return kept if decades is None else kept.assign(friction_by_decade=decades)
+    parts = friction_by_decade(answer, task.rubber)
+    if not parts:
+        return kept
+    return kept.assign(friction_by_decade=xr.DataArray([*parts.values()], {"decade": [*parts]}))
 
 
 def with_decades(data: xr.Dataset) -> xr.Dataset:
@@ -84,40 +72,32 @@ def with_decades(data: xr.Dataset) -> xr.Dataset:
     parts = data.friction_by_decade.transpose(..., "decade")
     parts = parts.fillna(0.0).where(parts.notnull().any("decade"))
     text = "friction coefficient by relaxation time, split as at small strain"
-    time = _labelled(
-        "decade",
-        [10.0**n for n in data.decade.values.tolist()],
-        "s",
-        "shortest relaxation time of the decade",
-    )
-    return data.assign(
-        friction_by_decade=parts.assign_attrs(units="1", long_name=text)
-    ).assign_coords(decade=time)
+    data = data.assign(friction_by_decade=parts.assign_attrs(attributes(text)))
+    time = [10.0**n for n in data.decade.values.tolist()]
+    described = attributes("shortest relaxation time of the decade", "s")
+    return data.assign_coords(decade=xr.Variable("decade", time, described))
 
 
-def coordinates(axes: Iterable[Axis], case: str) -> dict[str, xr.DataArray]:
+def coordinates(axes: Iterable[Axis], case: str) -> dict[str, xr.Variable]:
     """Return the coordinates of the axes of a study of this text of a case."""
     coords = {}
     for axis in axes:
         values = np.array(axis.coordinate, dtype=None if axis.numeric else object)
-        coords[axis.name] = _labelled(
-            axis.name, values, UNITS[axis.name] if axis.numeric else "1", LONG_NAMES[axis.name]
-        )
-        unit = axis.display_unit(case)
-        if unit is not None:
-            coords[axis.name].attrs[GIVEN] = unit.unit
+        attrs = attributes(LONG_NAMES[axis.name], UNITS[axis.name] if axis.numeric else "1")
+        display = axis.display_unit(case)
+        if display is not None:
+            attrs[GIVEN] = display.unit
+        coords[axis.name] = xr.Variable(axis.name, values, attrs)
         if axis.name == "factors":
             for at, name in enumerate(("s_wavelength", "s_amplitude")):
                 factors = [pair[at] for pair in axis.values]
-                coords[name] = _labelled("factors", factors, "1", f"magnification factor {name}")
+                attrs = attributes(f"magnification factor {name}")
+                coords[name] = xr.Variable("factors", factors, attrs)
     return coords
 
 
-def _labelled(dims: Any, values: Any, unit: str, long_name: str) -> xr.DataArray:
-    return xr.DataArray(
-        np.asarray(values), dims=dims, attrs={"units": unit, "long_name": long_name}
-    )
-
+OF_A_SURFACE = ("factors", "waves", "smallest_wavelength", "cut_off", "top_height_fraction")
+"""Inputs that vary the waves of a surface."""
 
 RESULT = "study.nc"
 """The Dataset, in the folder of the study."""
@@ -161,11 +141,11 @@ class Study:
         self.file = case if isinstance(case, CaseFile) else read_case(case)
         self.axes: tuple[Axis, ...] = axes_of(vary)
         self.static = self.file.case.load.static if static is None else static
-        self.model = model_of(model, self.file)
+        self.model = inputs.model_of(model, self.file)
         for value in self._values("temperature"):
-            at_temperature(self.model, value)
+            inputs.at_temperature(self.model, value)
         for value in self._values("effects"):
-            with_effects(self.model, value)
+            inputs.with_effects(self.model, value)
         if "pressure_classes" in vary and not isinstance(self.model, Chain):
             raise InputError(
                 f"pressure_classes belongs to the chain; got the model {self.model.name}"
@@ -175,14 +155,14 @@ class Study:
     @cached_property
     def surfaces(self) -> list[Surface]:
         """The varied surfaces, or the one of the case, read and fitted."""
-        values = self._values("surface")
-        return [surface_of(value, self.file) for value in values] or [case_surface(self.file)]
+        values = self._values("surface") or ("case",)
+        return [inputs.surface_of(value, self.file) for value in values]
 
     @cached_property
     def rubbers(self) -> list[Rubber]:
         """The varied rubbers, or the one of the case, read and fitted."""
-        values = self._values("rubber")
-        return [rubber_of(value, self.file) for value in values] or [case_rubber(self.file)]
+        values = self._values("rubber") or ("case",)
+        return [inputs.rubber_of(value, self.file) for value in values]
 
     @cached_property
     def _case_conditions(self) -> Conditions | None:
@@ -197,14 +177,14 @@ class Study:
         named = {name: self._values(name) for name in ("surface", "rubber")}
         settings = {
             "software": software(),
-            "case": contents(self.file),
+            "case": inputs.contents(self.file),
             "axes": {axis.name: axis.labels for axis in self.axes},
             "values": {
                 axis.name: canonical_json(axis.values)
                 for axis in self.axes
                 if axis.name not in named
             },
-            "named": {n: [stated_by(v, self.file) for v in vs] for n, vs in named.items()},
+            "named": {n: [inputs.stated_by(v, self.file) for v in vs] for n, vs in named.items()},
             "static": self.static,
             "model": canonical_json(self.model),
         }
@@ -212,15 +192,12 @@ class Study:
 
     def description(self) -> list[str]:
         """Return in words what is varied, and on what."""
-        count = len({point.task.key for point in [*self.points, *self.static_points]})
+        count = len({point.task.key for point in [*self.points, *self.static_design.points]})
         names = " x ".join(f"{axis.name} ({len(axis.values)})" for axis in self.axes)
         return [
             f"Study of {self.file.path}",
             f"  varied: {names}; {count} different predictions",
-            *(
-                f"  surface: {surface.source}, {len(surface.sines)} sine waves"
-                for surface in self.surfaces
-            ),
+            *(f"  surface: {s.source}, {len(s.sines)} sine waves" for s in self.surfaces),
             *(f"  rubber: {rubber.name}, {rubber.source}" for rubber in self.rubbers),
         ]
 
@@ -243,11 +220,6 @@ class Study:
     def points(self) -> Sequence[Point]:
         """All points of `design`."""
         return self.design.points
-
-    @property
-    def static_points(self) -> Sequence[Point]:
-        """All points of `static_design`."""
-        return self.static_design.points
 
     def run(
         self,
@@ -288,11 +260,8 @@ class Study:
 
     def stored(self, folder: str | Path) -> xr.Dataset | None:
         """Return the Dataset an earlier run of just this study left in `folder`, or None."""
-        try:
-            result = netcdf.load(Path(folder) / RESULT)
-        except FileError:
-            return None
-        return result if result.attrs.get("study_key") == self.key else None
+        data = load_stored(Path(folder) / RESULT)
+        return data if data is not None and data.attrs.get("study_key") == self.key else None
 
     def _all_there(self, data: xr.Dataset, bench: Bench) -> bool:
         """Report every prediction as stored, if the store misses none that `data` rests on."""
@@ -302,11 +271,14 @@ class Study:
                 keys = data[f"{prefix}prediction_key"]
                 for index, label in self._labels(axes, static=bool(prefix)):
                     labels.setdefault(str(keys.values[index]), label)
-        answers = {key: bench.store.get(key) for key in labels}
-        if any(answer is None for answer in answers.values()):
-            return False
+        answers: dict[str, xr.Dataset] = {}
+        for key in labels:
+            answer = bench.store.get(key)
+            if answer is None:
+                return False
+            answers[key] = answer
         for number, (key, answer) in enumerate(answers.items(), start=1):
-            if bench.on_task is not None and answer is not None:
+            if bench.on_task is not None:
                 count = number, len(answers)
                 bench.on_task(Progress(*count, labels[key], answer, 0.0, stored=True))
         return True
@@ -314,7 +286,7 @@ class Study:
     def assemble(self, answers: Mapping[str, xr.Dataset]) -> xr.Dataset:
         """Return the Dataset of the study from its predictions by their keys."""
         result = with_decades(self.design.dataset(answers)).drop_vars("seconds")
-        if self.static_points:
+        if self.static_design.points:
             rest = _at_rest(self.static_design.dataset(answers).drop_vars("seconds"))
             result = xr.merge([result, rest], join="outer", compat="no_conflicts")
         result = result.assign_coords(coordinates(self.axes, self.file.text))
@@ -342,44 +314,28 @@ class Study:
 
     def _task(self, values: dict[str, Any], at: dict[str, int], *, static: bool) -> Task:
         load = self.file.case.load.nominal
-        speed = 0.0 if static else values.get("speed", load.speed)
+        pressure, speed = (values.get(key, getattr(load, key)) for key in ("pressure", "speed"))
+        speed = 0.0 if static else speed
+        load_time = load.load_time if speed > 0.0 else "passage"
         model, rubber = self._model(values), self.rubbers[at.get("rubber", 0)]
         if not model.takes_conditions and self._case_conditions is not None:
             rubber = self._case_conditions.before(rubber)
-        rubber_before(rubber, model)  # nothing is solved if one point of the study is impossible
-        return Task(
-            rubber=rubber,
-            surface=self._surface(at.get("surface", 0), values),
-            load=replace(
-                load,
-                pressure=values.get("pressure", load.pressure),
-                speed=speed,
-                load_time=load.load_time if speed > 0.0 else "passage",
-            ),
-            model=model,
-        )
+        # nothing is solved if one point of the study is impossible
+        inputs.rubber_before(rubber, model)
+        load = replace(load, pressure=pressure, speed=speed, load_time=load_time)
+        return Task(rubber, self._surface(at.get("surface", 0), values), load, model)
 
     def _model(self, values: dict[str, Any]) -> Model:
         model = self.model
         if "pressure_classes" in values and isinstance(model, Chain):
             model = replace(model, pressure_classes=values["pressure_classes"])
         if "temperature" in values:
-            model = at_temperature(model, values["temperature"])
-        return with_effects(model, values["effects"]) if "effects" in values else model
+            model = inputs.at_temperature(model, values["temperature"])
+        return inputs.with_effects(model, values["effects"]) if "effects" in values else model
 
     def _surface(self, number: int, values: dict[str, Any]) -> Surface:
         """Return the surface of a point; each choice of waves is fitted once."""
-        changes = {
-            name: values[name]
-            for name in (
-                "factors",
-                "waves",
-                "smallest_wavelength",
-                "cut_off",
-                "top_height_fraction",
-            )
-            if name in values
-        }
+        changes = {name: value for name, value in values.items() if name in OF_A_SURFACE}
         key = (number, *sorted(changes.items()))
         if key not in self._varied:
             self._varied[key] = self.surfaces[number].varied(**changes)
@@ -407,15 +363,7 @@ class Study:
 
 def _at_rest(data: xr.Dataset) -> xr.Dataset:
     """Return what `data` says of rubber at rest, where there is no friction, as `static_...`."""
-    moving = (
-        "friction",
-        "angular_frequency",
-        "loss_factor",
-        "loss_modulus_ratio",
-        "load_time",
-        "speed",
-        "_band",
-        "_missing",
-    )
+    moving = ["friction", "angular_frequency", "loss_factor", "loss_modulus_ratio", "load_time"]
+    moving += ["speed", "_band", "_missing"]
     names = [str(name) for name in data.data_vars if not any(word in str(name) for word in moving)]
     return data[names].rename({name: f"static_{name}" for name in names})

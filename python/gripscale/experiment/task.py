@@ -105,17 +105,23 @@ def canonical_json(value: Any) -> Any:
     )
 
 
-# Finished predictions on disk: one small netCDF file each, named by the key of its task.
-#
-# A file is written beside its place and renamed into it, so a file that is there is whole. One that
-# cannot be read back all the same (a disk that was full, a power cut) counts as not there.
+def load_stored(path: Path) -> xr.Dataset | None:
+    """Return the Dataset at `path`, or None if it is not there whole."""
+    try:
+        return netcdf.load(path)
+    except FileError:
+        return None
+
 
 PREDICTIONS = "predictions"
 """Folder of the finished predictions, in the folder of a result."""
 
 
 class Store:
-    """A folder of finished predictions.
+    """A folder of finished predictions: one small netCDF file each, named by the key of its task.
+
+    A file is written beside its place and renamed into it, so a file that is there is whole. One
+    that cannot be read back all the same (a disk that was full, a power cut) counts as not there.
 
     Parameters
     ----------
@@ -142,11 +148,8 @@ class Store:
 
     def get(self, key: str) -> xr.Dataset | None:
         """Return the prediction of `key`, or None if it is not there whole."""
-        try:
-            stored = netcdf.load(self.path(key))
-        except FileError:
-            return None
-        return stored if stored.attrs.get("prediction_key") == key else None
+        data = load_stored(self.path(key))
+        return data if data is not None and data.attrs.get("prediction_key") == key else None
 
     def put(self, key: str, solved: xr.Dataset) -> xr.Dataset:
         """Write the prediction of `key` and return it as read back.
