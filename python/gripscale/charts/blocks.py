@@ -13,7 +13,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
-from numpy.typing import NDArray
 from PIL import Image as Picture
 
 from gripscale.charts.page_elements import Image
@@ -21,13 +20,13 @@ from gripscale.charts.paper import DASHES, DPI, ROUND, RULES, write_png
 from gripscale.charts.style import BLUE, FAINT, GREY, INK, ORANGE, WIDE
 from gripscale.charts.view import PredictionView
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI
 
 if TYPE_CHECKING:
     import xarray as xr
 
 
-Array = NDArray[np.float64]
 LINE = 0.12
 """Of a title beyond its third line [inch]."""
 FOR_WORDS = 0.2
@@ -210,8 +209,6 @@ def _joined(rows: Array) -> Array:
     """Return the rows as one, NaN after each: one line with gaps draws as fast as a single one."""
     return np.hstack([rows, np.full((len(rows), 1), math.nan)]).ravel()
 
-
-# Figures as pictures inside the page.
 
 PICTURE_DPI = 170
 

@@ -59,6 +59,7 @@ from gripscale.charts.style import (
     down_to,
     predictions_beyond,
 )
+from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI, DisplayUnit, display_unit
 from gripscale.experiment.axis import axis_label, axis_shown
 from gripscale.model import with_adhesive
@@ -66,7 +67,6 @@ from gripscale.model import with_adhesive
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 QUANTITIES = {
     "contact_fraction": "contact area $A_r/A_0$",
     "friction": "friction coefficient $\\mu$",
@@ -305,8 +305,6 @@ def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
         height=400,
     )
 
-
-# Panels of friction over speed: one for each temperature and pressure that was measured.
 
 MOST_COLUMNS = 3
 MOST_PANELS = 9

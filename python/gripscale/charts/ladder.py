@@ -24,9 +24,9 @@ from gripscale.charts.style import (
     YELLOW,
     predictions_beyond,
 )
+from gripscale.core.arrays import Array
 from gripscale.core.units import ZERO_CELSIUS, DisplayUnit, display_unit
 
-Array = NDArray[np.float64]
 ASIDE = ("windows", "map")
 """Groups of other surfaces, which only give the factors of the best estimate."""
 SEEN = 0.01
@@ -94,8 +94,6 @@ def on_the_surface(comparison: xr.Dataset) -> xr.Dataset:
     """Return the comparison without the rungs that are not of the surface itself."""
     return comparison.isel(rung=[str(group) not in ASIDE for group in comparison.group.values])
 
-
-# Friction measured elsewhere, as a comparison holds it: by temperature, and at one speed.
 
 MARKERS = "osD^v"
 """Of measurements at several temperatures or pressures."""

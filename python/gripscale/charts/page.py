@@ -18,8 +18,8 @@ from numpy.typing import ArrayLike, NDArray
 from gripscale.charts import page_elements
 from gripscale.charts.chart import Axis, Band, Bars, CrossLine, Mark, Panel, Series, spelled_out
 from gripscale.charts.style import BEYOND, FAINT, GREY, INK, stretches
+from gripscale.core.arrays import Array
 
-Array = NDArray[np.float64]
 FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Liberation Sans', Arial, sans-serif"
 LEGEND_ROW = 28
 """Height of a row of the legend [px]; of more than two rows the figure grows."""

@@ -39,8 +39,6 @@ class Image:
     kind: ClassVar[str] = "image"
 
 
-# What the numbers of a study are called on its page, and which of them tell nothing.
-
 AT_REST = "static_"
 """Before the name of what a study says of rubber at rest."""
 

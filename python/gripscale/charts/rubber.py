@@ -31,6 +31,7 @@ from gripscale.charts.chart import (
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, COLOURS, GREEN, GREY, INK, NARROW, ORANGE, shades
 from gripscale.charts.view import PredictionView
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.core.units import MEGA, ZERO_CELSIUS
 from gripscale.rubber import (
@@ -51,7 +52,6 @@ from gripscale.rubber.superposition import temperatures_in
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 OMEGA = Axis("angular frequency $\\omega$ [rad/s]", log=True)
 CELSIUS = Axis("temperature [°C]")
 KILO = 1e3

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from gripscale.charts.chart import (
     Axis,
@@ -21,12 +20,12 @@ from gripscale.charts.chart import (
     wavelength_axis,
 )
 from gripscale.charts.style import COLOURS, power_of_ten
+from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI, SQUARE_MM
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 LEAST_MODULUS_SHARE = 0.005
 """Of the largest difference: decades at either end with less are not drawn."""
 CUBIC_MM = 1e-9

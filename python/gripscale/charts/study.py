@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from gripscale.charts.chart import (
     Axis,
@@ -44,6 +43,7 @@ from gripscale.charts.style import (
     shades,
     waves_beyond,
 )
+from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI
 from gripscale.experiment.axis import (
     WORDS,
@@ -59,7 +59,6 @@ from gripscale.experiment.speed_and_temperature import BEYOND_SHIFT, COLLAPSED, 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 MOST_CURVES = 12
 """Curves of a chart of the page, evenly spaced among more; and names in a legend on paper."""
 PER_WAVE = ("running_contact_fraction", "running_friction", "contact_fraction", "friction")
@@ -250,8 +249,6 @@ def wavelength_figure(result: xr.Dataset, axis: str, title: str = "") -> Figure:
     return on_paper(Sheet(panels, legend="beside", title=title))
 
 
-# Which waves, and which relaxation times of the rubber, make the grip.
-
 HEIGHT = 3.4
 LEAST_SHARE = 0.005
 """Decades of relaxation time that never reach this share of the friction are not drawn."""
@@ -410,9 +407,6 @@ def _relaxation_panel(data: xr.Dataset) -> Panel:
         "small strain.",
         alt="Friction summed up over relaxation times.",
     )
-
-
-# Friction and contact area over speed and temperature, as maps and as one curve over a_T v.
 
 
 def map_figure(result: xr.Dataset) -> Figure:

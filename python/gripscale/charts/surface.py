@@ -29,6 +29,7 @@ from gripscale.charts.chart import (
 )
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, COLOURS, GREY, INK, NARROW, ORANGE, WIDE
+from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI, SQUARE_MM
 from gripscale.surface import HeightDifference, SelfAffineFit, SineStack
 from gripscale.surface.profile import Profile
@@ -36,7 +37,6 @@ from gripscale.surface.profile import Profile
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 DISTANCE, HEIGHT = Axis("distance $x$ [mm]"), Axis("height $z$ [mm]")
 PIECES = 5000
 """Pieces a profile is drawn in on paper: several to a pixel, so that most gaps are still seen."""

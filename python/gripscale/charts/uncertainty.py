@@ -141,8 +141,6 @@ def band_figure(data: xr.Dataset, axis: str) -> Figure:
     return on_paper(Sheet(panels, keys=[case]))
 
 
-# The area term fitted to measured friction: the fit, its residuals, the profiles of parameters.
-
 UNITS = {"Pa": (MEGA, "MPa"), "m/s": (1.0, "m/s"), "eV": (1.0, "eV"), "1": (1.0, "-")}
 """What a parameter is divided by to be drawn, and its unit then."""
 PARAMETER_LABELS = {

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from gripscale.analysis.effects import CHANGES, WITH_AREA_TERM
 from gripscale.analysis.measured_comparison import measured_variables
@@ -48,6 +47,7 @@ from gripscale.charts.style import (
     waves_beyond,
 )
 from gripscale.charts.view import JUDGE, PredictionView
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.core.units import MILLI, ZERO_CELSIUS, display_unit
 from gripscale.experiment.axis import EFFECTS, MODELS
@@ -57,7 +57,6 @@ from gripscale.model import with_adhesive
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 Views = Sequence[PredictionView]
 
 
@@ -210,9 +209,6 @@ def _pressure_panel(view: PredictionView) -> Panel:
     )
 
 
-# The evidence: two measures of friction, error estimates, residuals, iterations.
-
-
 def verification_charts(predictions: Views) -> list[Chart]:
     """Return the figures that say how far the numbers may be trusted."""
     panels: list[Panel] = []
@@ -331,8 +327,6 @@ def measured_chart(friction: MeasuredFriction, predictions: Views) -> Chart:
     return on_page([panel])[0]
 
 
-# How warm the rubber gets in a contact: on every scale, and along the surface.
-
 PARTS = {
     "flash_temperature_rise_uniform": ("all waves, spread evenly", SKY),
     "flash_temperature_rise_larger_waves": ("in the contact of larger waves", BLUE),
@@ -450,8 +444,6 @@ def direct_heat_figure(contact: RoughContact, title: str = "") -> Figure:
     layout = {"width_ratios": [1.0, 1.5]}
     return on_paper(Sheet([octaves, surface], height=3.2, title=title, legend="", layout=layout))
 
-
-# What each effect of the conditions is worth: area and friction with and without it.
 
 HEIGHT, ROW = 1.5, 0.32
 """Of the figure without rows, and of each [inch]."""

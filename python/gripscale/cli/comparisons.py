@@ -144,9 +144,6 @@ def compare(
     )
 
 
-# What the commands that put things side by side share.
-
-
 def case_of(arguments: Sequence[str], case: Path | None, what: str) -> Path:
     """Return the case the rest is taken from: the one stated, or the first of those given.
 
@@ -167,9 +164,6 @@ def names_of(arguments: Sequence[str]) -> list[str]:
         count = sum(other == name or other.startswith(f"{name} ") for other in names)
         names.append(f"{name} {count + 1}" if count else name)
     return names
-
-
-# `gripscale compare-surfaces A B ... --case CASE.toml`: roads side by side under one rubber.
 
 
 @command
@@ -239,9 +233,6 @@ def compare_surfaces(
         page="surfaces.nc",
         failure=first_of(failed_totals(data), data.prediction_status.size, "predictions"),
     )
-
-
-# `gripscale compare-rubbers A B ... --case CASE.toml`: compounds side by side on one road.
 
 
 @command

@@ -95,9 +95,6 @@ def study(
     )
 
 
-# `gripscale uncertainty CASE.toml`: what is not known of a case, and what it does to friction.
-
-
 @command
 def uncertainty(
     case: CasePath,
@@ -220,9 +217,6 @@ def uncertainty(
         draw=lambda: draw_uncertainty(data, figures),
         failure=failures(data),
     )
-
-
-# `gripscale calibrate CASE.toml`: the area term fitted to measured friction.
 
 
 @command

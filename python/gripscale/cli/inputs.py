@@ -23,9 +23,6 @@ if TYPE_CHECKING:
     from gripscale.surface import Surface
 
 
-# `gripscale init FOLDER`: an example to start from, with its data.
-
-
 class Choice(StrEnum):
     """Names of the examples."""
 
@@ -62,9 +59,6 @@ def init(
         print_wrapped(console, f'  pip install "gripscale[{EXAMPLES[example].needs}]"')
     for words in (("run", written[0]), ("report", folder / "results"), ("compare", written[0])):
         print_wrapped(console, f"  {shlex.join(['gripscale', *map(str, words)])}")
-
-
-# `gripscale keys [SECTION]`: what a case file may say.
 
 
 @command
@@ -104,9 +98,6 @@ def keys(
             print_parts(console, ["", table])
             pages = dict.fromkeys(chapter_words(key.chapter) for key in part.keys)
             print_wrapped(console, f"More in {', '.join(pages)}.")
-
-
-# `gripscale fit-surface FILES`: the surface half of a run, from profiles to sine waves.
 
 
 def _surface_option(text: str) -> Any:
@@ -203,9 +194,6 @@ def _ambiguity(prepared: Surface) -> Iterator[str]:
         f"first wave {low:.3g} to {high:.3g} mm, "
         f"rms slope {same.rms_slope.low:.2f} to {same.rms_slope.high:.2f}."
     )
-
-
-# `gripscale fit-rubber FILE`: the rubber half of a run, from a measurement to a Prony series.
 
 
 def _rubber_option(text: str) -> Any:

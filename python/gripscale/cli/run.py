@@ -256,9 +256,6 @@ def _parts(
     return parts, heat
 
 
-# `gripscale report RESULT`: one self-contained HTML page of a result.
-
-
 @command
 def report(
     result: Annotated[
@@ -286,8 +283,6 @@ def report(
     print_wrapped(screen(), f"Report, {page.stat().st_size / 1e6:.1f} MB, is {page}")
 
 
-# `gripscale reproduce`: hands over to the paper's figures beside the package, in a clone.
-
 PASS_ON = {"allow_extra_args": True, "ignore_unknown_options": True, "help_option_names": []}
 """Settings of the command: whatever follows its name is for the reproduction."""
 
@@ -303,9 +298,6 @@ def reproduce(context: typer.Context) -> None:
         )
     sys.path.insert(0, str(root))
     raise typer.Exit(importlib.import_module("reproduction.__main__").main(context.args))
-
-
-# `gripscale app [CASE.toml]`: a page in the browser, from measurement to friction.
 
 
 @command

@@ -193,8 +193,6 @@ def progress_printer(console: Console) -> Callable[[Progress], None]:
     return print_line
 
 
-# Options that several commands share.
-
 CasePath = Annotated[
     Path, typer.Argument(help="The case file (TOML).", metavar="CASE.toml", readable=False)
 ]

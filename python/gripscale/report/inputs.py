@@ -124,9 +124,6 @@ class InputRecord:
             )
 
 
-# Tables of surface and rubber, for the terminal and for pages.
-
-
 def waves_table(wavelength: ArrayLike, amplitude: ArrayLike) -> Table:
     """Return the sine waves of a surface, largest first."""
     length, height = np.asarray(wavelength), np.asarray(amplitude)
@@ -232,9 +229,6 @@ def cleaning_tables(record: InputRecord) -> Iterator[Table]:
         yield Table(f"cleaning-{i + 1}", columns, caption)
 
 
-# Sentences in the terminal, from the inputs as prepared.
-
-
 def surface_lines(surface: Surface) -> Iterator[str]:
     """Yield what was read and removed, the fits, the sine waves and notes."""
     measured = surface.measured
@@ -331,9 +325,6 @@ def _numbers(law: Any) -> str:
 def _end(end: End, plateau: str) -> str:
     kind = plateau if end.plateau else "end of the data"
     return f"{significant(end.modulus / MEGA)} MPa ({kind})"
-
-
-# Facts on a page.
 
 
 def load_facts(run: Run) -> Facts:
@@ -460,8 +451,6 @@ def rubber_facts(record: InputRecord) -> Facts:
         pairs.append(("Rows left out as outliers", f"{texts} Hz" if texts else "none"))
     return Facts("Rubber", pairs)
 
-
-# What a study rests on, as far as its file tells: load, surface and rubber of the case.
 
 LOAD = (
     ("pressure", "Nominal pressure", "Pa"),

@@ -30,8 +30,6 @@ from gripscale.wave.result import LARGE_MISMATCH
 if TYPE_CHECKING:
     from gripscale.report.source import Run
 
-# What a reader must know of the rubber in its conditions: what is held, what is missed.
-
 LARGE_MISFIT = 0.05
 """Of the softened series: friction errs by about as much."""
 
@@ -64,9 +62,6 @@ def _of_waves(flagged: np.ndarray, words: str) -> Iterator[str]:
         yield f"Wave{many} {', '.join(numbers)}: {words}."
 
 
-# What to do about a failure, and where the documentation says more.
-
-
 def explained(failure: object) -> str:
     """Return a failure with what to do about it, and what says more about it."""
     text = str(failure)
@@ -91,9 +86,6 @@ def chapter_words(see: str) -> str:
         if heading
         else (f'"{words}" in the documentation')
     )
-
-
-# What rests on the rubber beyond its measured frequencies, in one sentence for each result.
 
 
 def _share(value: float) -> str:
@@ -147,9 +139,6 @@ def comparison_sentences(comparison: xr.Dataset) -> Iterator[tuple[str, str]]:
         text = friction_sentence(extrapolation_of(rung)) if alone else study_sentence(rung)
         if text:
             yield str(label), text
-
-
-# The notices and cards of a run.
 
 
 def notices(run: Run) -> list[Notice]:
@@ -262,9 +251,6 @@ def _cards(view: PredictionView) -> Iterator[Card]:
     largest = percent(np.nanmax(mismatch)) if np.isfinite(mismatch).any() else NONE
     bad = bool(np.nanmax(mismatch, initial=0.0) > LARGE_MISMATCH)
     yield Card("Largest mismatch of μ", largest, "traction against energy lost", bad=bad)
-
-
-# What the choice of the smallest wavelength means for a result, in one sentence.
 
 
 def exponent_sentence(data: xr.Dataset) -> str:

@@ -149,9 +149,6 @@ def _elements(parts: Iterable[str | Table]) -> list[Element]:
     return [Text(part) if isinstance(part, str) else part for part in parts]
 
 
-# A run: inputs, surface, rubber, contact, evidence, method, how to run it again.
-
-
 def run_page(run: Run) -> Page:
     """Return the report of `run`."""
     case = case_name(run.attrs)
@@ -286,9 +283,6 @@ def rerun_section(attrs: dict[object, object], command: str) -> Section:
     return Section("again", "Software, and how to run it again", elements)
 
 
-# A study: what was varied, totals of every prediction, curves over the axes.
-
-
 def study_page(source: Study) -> Page:
     """Return the report of a study."""
     data = source.data
@@ -340,9 +334,6 @@ def _study_cards(source: Study) -> list[Card]:
         Card("Predictions", str(count), axes),
         Card("Not converged", str(failed), "see the table of totals", bad=failed > 0),
     ]
-
-
-# Models side by side.
 
 
 def comparison_page(compared: Compared) -> Page:
@@ -403,9 +394,6 @@ def comparison_elements(compared: Compared) -> list[Element]:
         elements += [comparison.axis_table(data, varied(data), name) for name in comparison.SYMBOLS]
         elements += axis_charts(data)
     return elements
-
-
-# Roads and compounds side by side.
 
 
 def roads_page(data: xr.Dataset) -> Page:
@@ -485,9 +473,6 @@ def compounds_page(source: RubberComparison) -> Page:
             rerun_section(data.attrs, f"gripscale compare-rubbers {options} --case case.toml"),
         ],
     )
-
-
-# Uncertainty and calibration.
 
 
 def uncertainty_page(data: xr.Dataset) -> Page:

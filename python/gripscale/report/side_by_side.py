@@ -120,9 +120,6 @@ def difference_words(data: xr.Dataset, name: str, first: str, measured: str) -> 
     return f"{text}, {'' if beyond else 'not '}beyond what {measured} leave open"
 
 
-# Roads under one rubber: `gripscale compare-surfaces`.
-
-
 def roads_tables(data: xr.Dataset) -> list[Table]:
     """Return for each model the totals of the roads and the differences to the first."""
     models = data.model.values.tolist()
@@ -160,9 +157,6 @@ def roads_sentences(data: xr.Dataset) -> Iterator[str]:
                     f"{significant(2 * end)} mm"
                 )
             yield f"{model}: {text}."
-
-
-# Compounds on one road: `gripscale compare-rubbers`.
 
 
 def compounds_table(data: xr.Dataset) -> Table:

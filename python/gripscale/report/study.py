@@ -112,9 +112,6 @@ def failed_predictions(data: xr.Dataset) -> tuple[list[str], int]:
     return [text for text in statuses if text != CONVERGED], len(statuses)
 
 
-# What a study over temperatures tells beside its table.
-
-
 def shift_sentence(data: xr.Dataset) -> str:
     """Return which temperatures lie beyond the shift; empty if none does."""
     if BEYOND_SHIFT not in data or not bool(data[BEYOND_SHIFT].any()):
@@ -156,9 +153,6 @@ def _collapse(collapsed: xr.DataArray) -> str:
     if distance <= ONE_CURVE:
         return f"one curve, {reached}"
     return f"{reached}; one curve would be below {100.0 * ONE_CURVE:g} % but for errors of the mesh"
-
-
-# Tables of a page: the axes, and every total of every prediction.
 
 
 def axes_table(data: xr.Dataset) -> Table:

@@ -172,9 +172,6 @@ def failures(data: xr.Dataset) -> str:
     return "; ".join(sentences)
 
 
-# Quantiles of the uncertainty of a case, for the summaries of its other reports.
-
-
 def uncertainty_lines(
     data: xr.Dataset | None, text: str, digests: Iterable[str] | None = None
 ) -> list[str]:
