@@ -16,9 +16,10 @@ from gripscale.cli.terminal import (
     command,
     conclude,
     first_of,
+    open_folder,
+    option,
     print_wrapped,
     progress_printer,
-    screen,
 )
 from gripscale.core.errors import InputError
 
@@ -44,11 +45,7 @@ def study(
     cluster: Cluster = None,
     static: Annotated[
         bool | None,
-        typer.Option(
-            "--static/--no-static",
-            help="Also the rubber at rest; as the case says by default.",
-            show_default=False,
-        ),
+        option("Also the rubber at rest; as the case says by default.", "--static/--no-static"),
     ] = None,
 ) -> None:
     """Vary one or two inputs of a case: table, figures, one result file; resumes where stopped."""
@@ -62,9 +59,7 @@ def study(
     if len(axes) < len(pairs):
         raise InputError(f"vary must name different inputs; got {', '.join(n for n, _ in pairs)}")
     planned = Study(case, axes, static=static, model=model)
-    target = output or planned.file.resolve(planned.file.case.output.folder) / "study"
-    folder.require_writable(target)
-    console = screen()
+    console, target = open_folder(planned.file, output, "study")
     stored = planned.stored(target)
     opening = planned.description()
     if stored is not None:
@@ -99,64 +94,51 @@ def study(
 def uncertainty(
     case: CasePath,
     samples: Annotated[
-        int | None,
-        typer.Option(help="Samples, of all inputs at once; 200 by default.", show_default=False),
+        int | None, option("Samples, of all inputs at once; 200 by default.")
     ] = None,
     model: Annotated[
-        str | None,
-        typer.Option(
-            help="chain (the default), direct (contact of the whole profile) or both.",
-            show_default=False,
-        ),
+        str | None, option("chain (the default), direct (contact of the whole profile) or both.")
     ] = None,
     without: Annotated[
         list[str] | None,
-        typer.Option(
-            help="A source to be left out: profile, modulus, bulk_modulus, equilibrium_modulus, "
+        option(
+            "A source to be left out: profile, modulus, bulk_modulus, equilibrium_modulus, "
             "load_time, cut_off, waves. May be given several times.",
             metavar="NAME",
-            show_default=False,
         ),
     ] = None,
     ranges: Annotated[
         list[str] | None,
-        typer.Option(
-            "--range",
-            help="What is known of a source, in place of its default: two ends as "
+        option(
+            "What is known of a source, in place of its default: two ends as "
             "bulk_modulus='1.5 GPa:3 GPa', cut_off='50 um:200 um', load_time=0.5:2 (factors), or "
             "equally likely values as waves=6,8. May be given several times.",
+            "--range",
             metavar="NAME=VALUES",
-            show_default=False,
         ),
     ] = None,
     vary: Annotated[
         str | None,
-        typer.Option(
-            help="Speeds or pressures, the same samples at each: speed=0.003:30:log9.",
+        option(
+            "Speeds or pressures, the same samples at each: speed=0.003:30:log9.",
             metavar="NAME=VALUES",
-            show_default=False,
         ),
     ] = None,
     block_length: Annotated[
         str | None,
-        typer.Option(
-            help="Length of the blocks of profiles that are drawn, such as '120 mm'; four of the "
-            "largest waves by default.",
-            show_default=False,
+        option(
+            "Length of the blocks of profiles that are drawn, such as '120 mm'; four of the "
+            "largest waves by default."
         ),
     ] = None,
     tolerance: Annotated[
         float | None,
-        typer.Option(
-            help="Estimated relative error of each direct contact; by default that of its first "
-            "full grid, about a tenth.",
-            show_default=False,
+        option(
+            "Estimated relative error of each direct contact; by default that of its first "
+            "full grid, about a tenth."
         ),
     ] = None,
-    seed: Annotated[
-        int | None,
-        typer.Option(help="Seed of the random numbers; 0 by default.", show_default=False),
-    ] = None,
+    seed: Annotated[int | None, option("Seed of the random numbers; 0 by default.")] = None,
     output: OwnFolder = None,
     workers: Workers = None,
     cluster: Cluster = None,
@@ -189,10 +171,7 @@ def uncertainty(
     choice = Uncertainty.of_case(
         file.case.uncertainty, without=without or None, ranges=values, block_length=blocks
     )
-    target = output or file.resolve(file.case.output.folder) / "uncertainty"
-    folder.require_writable(target)
-    console = screen()
-    print_wrapped(console, f"Uncertainty of {file.path}")
+    console, target = open_folder(file, output, "uncertainty", f"Uncertainty of {file.path}")
     figures = target / "figures"
     folder.make(figures)
     data = propagate(
@@ -230,19 +209,17 @@ def calibrate(
     ] = "gaussian",
     hold_out: Annotated[
         str | None,
-        typer.Option(
-            help="Predict each temperature, or each decade of speed, from the others.",
+        option(
+            "Predict each temperature, or each decade of speed, from the others.",
             metavar="temperature|speed",
-            show_default=False,
         ),
     ] = None,
     fixed: Annotated[
         list[str] | None,
-        typer.Option(
-            help="A parameter that is known, such as width=0.1 or activation_energy='0.97 eV'; "
+        option(
+            "A parameter that is known, such as width=0.1 or activation_energy='0.97 eV'; "
             "may be repeated.",
             metavar="NAME=VALUE",
-            show_default=False,
         ),
     ] = None,
     measured: Measured = None,
@@ -254,7 +231,7 @@ def calibrate(
     from gripscale.analysis.calibration import calibrate_case, measured_of
     from gripscale.analysis.calibration_text import notes, parse_fixed, shear_stress_table
     from gripscale.analysis.measured_friction import read_measured_friction
-    from gripscale.case import folder, read_case
+    from gripscale.case import read_case
     from gripscale.charts.write import draw_calibration
     from gripscale.io import netcdf
     from gripscale.report.calibration import calibration_parts, failures
@@ -262,11 +239,8 @@ def calibrate(
     values = parse_fixed(fixed or [])
     file = read_case(case)
     friction = measured_of(file) if measured is None else read_measured_friction(measured)
-    target = output or file.resolve(file.case.output.folder) / "calibration"
-    folder.require_writable(target)
-    console = screen()
-    print_wrapped(console, f"Area term of {file.path} from {friction.source}")
-    folder.make(target)
+    opening = f"Area term of {file.path} from {friction.source}"
+    console, target = open_folder(file, output, "calibration", opening)
     fitted = calibrate_case(
         file,
         model=model,

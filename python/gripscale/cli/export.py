@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from gripscale.cli.terminal import command, print_wrapped, screen
+from gripscale.cli.terminal import argument, command, option, print_wrapped, screen
 from gripscale.core.errors import FileError, InputError
 
 if TYPE_CHECKING:
@@ -21,14 +21,7 @@ export = typer.Typer(
     rich_markup_mode=None,
 )
 
-Result = Annotated[
-    Path,
-    typer.Argument(help="The .nc file of a result.", metavar="RESULT.nc", readable=False),
-]
-
-
-def _option(text: str) -> Any:
-    return typer.Option(help=text, show_default=False)
+Result = Annotated[Path, argument("The .nc file of a result.", "RESULT.nc")]
 
 
 @export.command("rubber")
@@ -36,24 +29,20 @@ def _option(text: str) -> Any:
 def rubber(
     source: Annotated[
         Path,
-        typer.Argument(
-            help="A case file (TOML), a measured master curve, or a rubber.json of fit-rubber.",
-            metavar="FILE",
-            readable=False,
+        argument(
+            "A case file (TOML), a measured master curve, or a rubber.json of fit-rubber.", "FILE"
         ),
     ],
     to: Annotated[str, typer.Option(help="abaqus, ansys or febio.")],
-    output: Annotated[
-        Path, typer.Option(help="The file to write.", metavar="FILE", readable=False)
-    ],
+    output: Annotated[Path, option("The file to write.", metavar="FILE")],
     temperature: Annotated[
-        str | None, _option('Such as "40 C": of moduli and times, where the rubber has a shift.')
+        str | None, option('Such as "40 C": of moduli and times, where the rubber has a shift.')
     ] = None,
-    name: Annotated[str | None, _option("Of the material; not for ansys.")] = None,
-    material: Annotated[int | None, _option("Number of the material; not for abaqus.")] = None,
-    modulus_unit: Annotated[str | None, _option("Pa (as by default), kPa, MPa or GPa.")] = None,
+    name: Annotated[str | None, option("Of the material; not for ansys.")] = None,
+    material: Annotated[int | None, option("Number of the material; not for abaqus.")] = None,
+    modulus_unit: Annotated[str | None, option("Pa (as by default), kPa, MPa or GPa.")] = None,
     temperature_unit: Annotated[
-        str | None, _option("K (as by default) or C, of the shift; not for febio.")
+        str | None, option("K (as by default) or C, of the shift; not for febio.")
     ] = None,
 ) -> None:
     """Write a rubber as a material of a finite element program."""
@@ -85,9 +74,7 @@ def rubber(
 @command
 def tables(
     result: Result,
-    output: Annotated[
-        Path, typer.Option(help="Folder for the tables.", metavar="DIR", readable=False)
-    ],
+    output: Annotated[Path, option("Folder for the tables.", metavar="DIR")],
     format: Annotated[str, typer.Option(help="csv, or xlsx for one workbook.")] = "csv",
 ) -> None:
     """Write a result as tables, one for each set of dimensions, with units in the headings."""
@@ -102,9 +89,7 @@ def tables(
 def mesh(
     result: Result,
     wave: Annotated[int, typer.Option(help="Number of the wave, from 1.")],
-    output: Annotated[
-        Path, typer.Option(help="The file to write.", metavar="FILE.vtu", readable=False)
-    ],
+    output: Annotated[Path, option("The file to write.", metavar="FILE.vtu")],
 ) -> None:
     """Write the deformed block of a wave, with pressure and stress, for ParaView and the like."""
     from gripscale.export import wave_of, write_mesh
@@ -113,8 +98,7 @@ def mesh(
     chosen = wave_of(netcdf.load(result), wave)
     write_mesh(chosen, output)
     print_wrapped(
-        screen(),
-        f"Wave {wave}, {chosen.wavelength:.4g} m long, {chosen.why}, is {output}",
+        screen(), f"Wave {wave}, {chosen.wavelength:.4g} m long, {chosen.why}, is {output}"
     )
 
 

@@ -15,9 +15,11 @@ import typer
 
 from gripscale.cli.terminal import (
     CasePath,
+    argument,
     command,
     conclude,
     failure_of,
+    option,
     print_error,
     print_wrapped,
     screen,
@@ -49,10 +51,7 @@ class ProgressFormat(StrEnum):
 def run(
     case: CasePath,
     output: Annotated[
-        Path | None,
-        typer.Option(
-            help="Results folder, instead of the one in the case.", metavar="DIR", readable=False
-        ),
+        Path | None, option("Results folder, instead of the one in the case.", metavar="DIR")
     ] = None,
     fresh: Annotated[
         bool,
@@ -64,7 +63,7 @@ def run(
         ProgressFormat,
         typer.Option(
             help="json: write a line of JSON for each event to standard output, and all text to "
-            "standard error.",
+            "standard error."
         ),
     ] = ProgressFormat.TEXT,
 ) -> None:
@@ -99,12 +98,7 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
     from gripscale.analysis.measured_comparison import friction_of_case
     from gripscale.analysis.propagation import input_digests, stored_uncertainty
     from gripscale.case import folder, prepare_case, read_case, run_case
-    from gripscale.case.events import (
-        DirectContactSolved,
-        EffectsSolved,
-        FileWritten,
-        WaveSolved,
-    )
+    from gripscale.case.events import DirectContactSolved, EffectsSolved, FileWritten, WaveSolved
     from gripscale.charts.background import background_figures
     from gripscale.charts.write import draw_effects, draw_heat
     from gripscale.report.measured import measured_lines
@@ -260,20 +254,15 @@ def _parts(
 def report(
     result: Annotated[
         Path,
-        typer.Argument(
-            help="Results folder of a run, comparison, study, calibration or uncertainty, or of "
+        argument(
+            "Results folder of a run, comparison, study, calibration or uncertainty, or of "
             "surfaces or rubbers side by side; or one of its .nc files.",
-            metavar="RESULT",
-            readable=False,
+            "RESULT",
         ),
     ],
     output: Annotated[
         Path | None,
-        typer.Option(
-            help="The page, instead of report.html in the results folder.",
-            metavar="FILE.html",
-            readable=False,
-        ),
+        option("The page, instead of report.html in the results folder.", metavar="FILE.html"),
     ] = None,
 ) -> None:
     """Write one HTML page with inputs, results, figures and evidence; it needs no network."""
@@ -304,12 +293,7 @@ def reproduce(context: typer.Context) -> None:
 def app(
     case: Annotated[
         Path | None,
-        typer.Argument(
-            help="A case file to start with, instead of the shipped road.",
-            metavar="CASE.toml",
-            readable=False,
-            show_default=False,
-        ),
+        argument("A case file to start with, instead of the shipped road.", "CASE.toml"),
     ] = None,
     port: Annotated[int, typer.Option(help="Port of 127.0.0.1; 0 takes a free one.")] = 0,
     folder: Annotated[

@@ -8,7 +8,7 @@ import textwrap
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import wraps
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, ParamSpec
+from typing import TYPE_CHECKING, Annotated, Any, ParamSpec
 
 import typer
 
@@ -17,6 +17,7 @@ from gripscale.core.errors import ConvergenceError, GripscaleError, InputError
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from gripscale.case import CaseFile
     from gripscale.experiment.solve import Progress
     from gripscale.io.table import Table
 
@@ -193,38 +194,50 @@ def progress_printer(console: Console) -> Callable[[Progress], None]:
     return print_line
 
 
-CasePath = Annotated[
-    Path, typer.Argument(help="The case file (TOML).", metavar="CASE.toml", readable=False)
-]
+def option(text: str, *names: str, metavar: str | None = None) -> Any:
+    """Return an option whose default is not printed."""
+    return typer.Option(*names, help=text, metavar=metavar, readable=False, show_default=False)
 
+
+def argument(text: str, metavar: str | None = None) -> Any:
+    """Return an argument whose default is not printed."""
+    return typer.Argument(help=text, metavar=metavar, readable=False, show_default=False)
+
+
+CasePath = Annotated[Path, argument("The case file (TOML).", "CASE.toml")]
 OwnFolder = Annotated[
     Path | None,
-    typer.Option(
+    option(
+        "Results folder, instead of this command's own in that of the case.",
         "--output",
-        help="Results folder, instead of this command's own in that of the case.",
         metavar="DIR",
-        readable=False,
     ),
 ]
-
 Measured = Annotated[
     Path | None,
-    typer.Option(
-        "--measured",
-        help="Measured friction, instead of what the case names: a table with columns speed and "
+    option(
+        "Measured friction, instead of what the case names: a table with columns speed and "
         "friction, and if known spread, temperature and pressure.",
+        "--measured",
         metavar="FILE.csv",
-        readable=False,
     ),
 ]
-
-Workers = Annotated[
-    int | None, typer.Option(help="Cores to use; all by default.", show_default=False)
-]
-
+Workers = Annotated[int | None, option("Cores to use; all by default.")]
 Cluster = Annotated[
-    str | None,
-    typer.Option(
-        help='"local", or the address of a Dask scheduler: tcp://host:8786.', show_default=False
-    ),
+    str | None, option('"local", or the address of a Dask scheduler: tcp://host:8786.')
 ]
+
+
+def open_folder(
+    file: CaseFile, output: Path | None, name: str, *opening: str
+) -> tuple[Console, Path]:
+    """Print what a command begins with and make its folder `name`, by default in the case's."""
+    from gripscale.case import folder
+
+    target = output or file.resolve(file.case.output.folder) / name
+    folder.require_writable(target)
+    console = screen()
+    for line in opening:
+        print_wrapped(console, line)
+    folder.make(target)
+    return console, target
