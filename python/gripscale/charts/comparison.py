@@ -17,21 +17,8 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from gripscale.analysis.ladder import DIRECT
-from gripscale.charts.chart import (
-    Axis,
-    Band,
-    Bars,
-    CrossLine,
-    Mark,
-    Note,
-    Panel,
-    Series,
-    Sheet,
-    on_page,
-    on_paper,
-    spelled_out,
-    wavelength_axis,
-)
+from gripscale.charts import chart, style
+from gripscale.charts.chart import Axis, Band, Bars, CrossLine, Mark, Note, Panel, Series, Sheet
 from gripscale.charts.ladder import (
     BEST,
     STAR,
@@ -47,18 +34,7 @@ from gripscale.charts.ladder import (
     worth_drawing,
 )
 from gripscale.charts.page_elements import Chart
-from gripscale.charts.style import (
-    BEYOND,
-    BLUE,
-    FAINT,
-    FLAG,
-    GREY,
-    INK,
-    ORANGE,
-    WIDE,
-    down_to,
-    predictions_beyond,
-)
+from gripscale.charts.style import BEYOND, BLUE, FAINT, FLAG, GREY, INK, ORANGE, WIDE
 from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI, DisplayUnit, display_unit
 from gripscale.experiment.axis import axis_label, axis_shown
@@ -94,7 +70,7 @@ def comparison_figure(comparison: xr.Dataset) -> Figure:
     panels = [_ladder_panel(comparison, name) for name in QUANTITIES]
     labels = list((panels[0].y.ticks or {}).values())
     star = any(label.endswith(STAR) for label in labels)
-    return on_paper(
+    return chart.on_paper(
         Sheet(
             panels,
             height=0.95 + 0.33 * len(labels),
@@ -119,7 +95,7 @@ def ladder_charts(comparison: xr.Dataset) -> list[Chart]:
     on_surface = on_the_surface(comparison)
     if np.isfinite(on_surface.running_friction.values).any():
         panels += [_wavelength_panel(on_surface, name) for name in QUANTITIES]
-    return on_page(panels)
+    return chart.on_page(panels)
 
 
 def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
@@ -145,7 +121,7 @@ def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
     labels = zip(comparison.rung.values, comparison.label.values, strict=True)
     strong = {BEST} | {f"{label}{end}" for rung, label in labels if rung == DIRECT
                        for end in ("", STAR)}  # fmt: skip
-    words = spelled_out(QUANTITIES[name])
+    words = chart.spelled_out(QUANTITIES[name])
     capital = words[0].upper() + words[1:]
     return Panel(
         Axis(f"{QUANTITIES[name]} [-]", log=True, low=low / room, high=high * room**2),
@@ -194,23 +170,25 @@ def comparison_wavelength_figure(comparison: xr.Dataset) -> Figure:
     contact do that. Their area is that of the contact without the shorter waves.
     """
     on_surface = on_the_surface(comparison)
-    return on_paper(Sheet([_wavelength_panel(on_surface, name) for name in QUANTITIES], height=3.5))
+    return chart.on_paper(
+        Sheet([_wavelength_panel(on_surface, name) for name in QUANTITIES], height=3.5)
+    )
 
 
 def _wavelength_panel(comparison: xr.Dataset, name: str) -> Panel:
     data = comparison.isel(wavelength=worth_drawing(comparison))
     length = data.wavelength.values / MILLI
-    beyond = down_to(data[FLAG] == 1) if FLAG in data else np.zeros(length.size, dtype=bool)
+    beyond = style.down_to(data[FLAG] == 1) if FLAG in data else np.zeros(length.size, dtype=bool)
     marks: list[Mark] = []
     for rung, look in _rungs(data):
         values = rung[f"running_{name}"].values
         solved = np.isfinite(values)
         if solved.any():
             marks.append(_curve(length[solved], values[solved], rung, look, beyond[solved]))
-    area, words = name == "contact_fraction", spelled_out(QUANTITIES[name])
+    area, words = name == "contact_fraction", chart.spelled_out(QUANTITIES[name])
     capital = words[0].upper() + words[1:]
     return Panel(
-        wavelength_axis(length),
+        chart.wavelength_axis(length),
         Axis(f"{QUANTITIES[name]} of longer waves [-]", log=area, low=None if area else 0.0),
         marks,
         name=f"by-wavelength-{name}",
@@ -253,25 +231,25 @@ def comparison_axis_figure(comparison: xr.Dataset) -> Figure:
     best estimate, where it has a factor, is drawn with its standard uncertainty; measured friction
     with its own.
     """
-    return on_paper(Sheet([_axis_panel(comparison, name) for name in QUANTITIES], height=3.7))
+    return chart.on_paper(Sheet([_axis_panel(comparison, name) for name in QUANTITIES], height=3.7))
 
 
 def axis_charts(comparison: xr.Dataset) -> list[Chart]:
     """Return area and friction of every rung over the axis of a comparison."""
-    return on_page([_axis_panel(comparison, name) for name in QUANTITIES])
+    return chart.on_page([_axis_panel(comparison, name) for name in QUANTITIES])
 
 
 def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
     comparison, axis = on_the_surface(comparison), varied(comparison)
     x = axis_shown(comparison, axis).of(comparison[axis].values)
-    area, words = name == "contact_fraction", spelled_out(QUANTITIES[name])
+    area, words = name == "contact_fraction", chart.spelled_out(QUANTITIES[name])
     capital = words[0].upper() + words[1:]
     marks: list[Mark] = []
     for rung, look in _rungs(comparison):
         values, spread = rung[f"total_{name}"].values, rung[f"{name}_spread"].values
         if not np.isfinite(values).any():
             continue
-        curve = _curve(x, values, rung, look, predictions_beyond(rung))
+        curve = _curve(x, values, rung, look, style.predictions_beyond(rung))
         marks.append(replace(curve, filled=(rung.converged_samples == rung.samples).values))
         if np.isfinite(spread).any():
             # A spread above the number itself has no end on a logarithmic axis.
@@ -333,13 +311,11 @@ def at_measured_figure(data: xr.Dataset, labels: dict[str, str]) -> Figure:
                 yield Series(how.of(series.speed[order]), values, look.colour,
                              labels.get(name, name), look.dash, 1.2, look.marker, 3.5)  # fmt: skip
 
-    return on_paper(measured_sheet(data, models, head=1.2))
+    return chart.on_paper(measured_sheet(data, models, head=1.2))
 
 
 def measured_sheet(
-    data: xr.Dataset,
-    marks_of: Callable[[MeasuredSeries, DisplayUnit], Iterable[Mark]],
-    head: float,
+    data: xr.Dataset, marks_of: Callable[[MeasuredSeries, DisplayUnit], Iterable[Mark]], head: float
 ) -> Sheet:
     """Return a panel for each measured series, its points over other marks.
 

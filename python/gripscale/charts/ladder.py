@@ -12,18 +12,9 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from gripscale.analysis.ladder import DIRECT
+from gripscale.charts import style
 from gripscale.charts.chart import Series
-from gripscale.charts.style import (
-    BLUE,
-    GREEN,
-    GREY,
-    INK,
-    ORANGE,
-    PURPLE,
-    SKY,
-    YELLOW,
-    predictions_beyond,
-)
+from gripscale.charts.style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, SKY, YELLOW
 from gripscale.core.arrays import Array
 from gripscale.core.units import ZERO_CELSIUS, DisplayUnit, display_unit
 
@@ -209,7 +200,7 @@ def rows_of(comparison: xr.Dataset, name: str) -> Iterator[Row]:
         solved = comparison.isel(rung=at)
         theory, judge = str(solved.group.item()) == "theory", rung == DIRECT
         samples = solved[f"sample_{name}"].values
-        star = STAR if predictions_beyond(solved) else ""
+        star = STAR if style.predictions_beyond(solved) else ""
         yield Row(
             f"{solved.label.item()}{star}",
             values[rung],

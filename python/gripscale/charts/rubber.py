@@ -15,6 +15,7 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from gripscale.case.record import band, rubber_variables
+from gripscale.charts import chart
 from gripscale.charts.chart import (
     Axis,
     Band,
@@ -25,8 +26,6 @@ from gripscale.charts.chart import (
     Panel,
     Series,
     Sheet,
-    on_page,
-    on_paper,
 )
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, COLOURS, GREEN, GREY, INK, NARROW, ORANGE, shades
@@ -81,7 +80,7 @@ def master_curve_figure(
     variables, attrs = rubber_variables(rubber, master, fit, omega)
     panels = _moduli_panels(xr.Dataset(variables, attrs=attrs), omega, rubber)
     layout = {"sharex": True, "height_ratios": [2.0, 1.0]}
-    return on_paper(Sheet(panels, 1, NARROW, 4.9, legend_columns=2, gap=0.02, layout=layout))
+    return chart.on_paper(Sheet(panels, 1, NARROW, 4.9, legend_columns=2, gap=0.02, layout=layout))
 
 
 def rubber_charts(inputs: xr.Dataset, excited: PredictionView | None) -> list[Chart]:
@@ -102,7 +101,7 @@ def rubber_charts(inputs: xr.Dataset, excited: PredictionView | None) -> list[Ch
         panels.append(_residual_panel(inputs))
     if "term_modulus" in inputs:
         panels.append(_spectrum_panel(inputs))
-    return on_page(panels)
+    return chart.on_page(panels)
 
 
 def _moduli_panels(
@@ -237,7 +236,7 @@ def compound_moduli_figure(rubbers: Mapping[str, Rubber]) -> Figure:
         Panel(OMEGA, Axis("loss factor [-]", low=0.0), loss),
     ]
     layout = {"sharex": True}
-    return on_paper(Sheet(panels, 1, NARROW, 4.9, legend_columns=2, gap=0.02, layout=layout))
+    return chart.on_paper(Sheet(panels, 1, NARROW, 4.9, legend_columns=2, gap=0.02, layout=layout))
 
 
 def superposition_figure(sweeps: Sweeps, master: MasterCurve) -> Figure:
@@ -288,7 +287,7 @@ def superposition_figure(sweeps: Sweeps, master: MasterCurve) -> Figure:
     ]
     layout = {"sharex": "col", "sharey": "row"}
     bar = _temperatures(sweeps)
-    return on_paper(Sheet(panels, height=6.2, gap=0.02, colour_bar=bar, layout=layout))
+    return chart.on_paper(Sheet(panels, height=6.2, gap=0.02, colour_bar=bar, layout=layout))
 
 
 def _temperatures(sweeps: Sweeps) -> ColourBar:
@@ -342,7 +341,7 @@ def shift_figure(table: ShiftTable, fits: Sequence[ShiftFit] = ()) -> Figure:
     rows = len(panels)
     layout = {"sharex": True, "height_ratios": [2.0, *[1.0] * (rows - 1)]}
     height = 1.5 * rows + 1.4
-    return on_paper(Sheet(panels, 1, NARROW, height, legend="", gap=0.02, layout=layout))
+    return chart.on_paper(Sheet(panels, 1, NARROW, height, legend="", gap=0.02, layout=layout))
 
 
 def _formula(table: ShiftTable, fit: ShiftFit, colour: str) -> Iterator[Series]:
@@ -377,10 +376,7 @@ def superposition_tests_figure(sweeps: Sweeps, report: Superposition) -> Figure:
     for sweep, colour in _coloured(sweeps, sweeps):
         size = np.hypot(sweep.storage, sweep.loss) / MEGA
         angle = np.degrees(np.arctan2(sweep.loss, sweep.storage))
-        for marks, x, y in (
-            (gurp, size, angle),
-            (cole, sweep.storage / MEGA, sweep.loss / MEGA),
-        ):
+        for marks, x, y in ((gurp, size, angle), (cole, sweep.storage / MEGA, sweep.loss / MEGA)):
             marks.append(Series(x, y, colour, marker="o", size=2.2, width=0.8))
     overlaps = report.overlaps
     middle = np.array([0.5 * (pair.colder + pair.warmer) for pair in overlaps]) - ZERO_CELSIUS
@@ -399,7 +395,7 @@ def superposition_tests_figure(sweeps: Sweeps, report: Superposition) -> Figure:
               legend="best" if overlaps else ""),
     ]  # fmt: skip
     bar = replace(_temperatures(sweeps), first_row=True)
-    return on_paper(Sheet(panels, height=5.4, gap=0.02, legend="", colour_bar=bar))
+    return chart.on_paper(Sheet(panels, height=5.4, gap=0.02, legend="", colour_bar=bar))
 
 
 def finite_strain_figure(fits: Mapping[str, FiniteStrainFit]) -> Figure:
@@ -420,7 +416,7 @@ def finite_strain_figure(fits: Mapping[str, FiniteStrainFit]) -> Figure:
         raise InputError("fits must hold at least one fit, all of the same tests")
     panels = [_test_panel(test, fits, number) for number, test in enumerate(first.tests)]
     height = 2.6 * -(-len(panels) // 2) + 0.3
-    return on_paper(Sheet(panels, height=height, legend_columns=1 + len(fits), gap=0.02))
+    return chart.on_paper(Sheet(panels, height=height, legend_columns=1 + len(fits), gap=0.02))
 
 
 def _test_panel(test: UniaxialTest, fits: Mapping[str, FiniteStrainFit], number: int) -> Panel:

@@ -8,17 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
-from gripscale.charts.chart import (
-    Axis,
-    Bars,
-    CrossLine,
-    Mark,
-    Panel,
-    Series,
-    Sheet,
-    on_paper,
-    wavelength_axis,
-)
+from gripscale.charts import chart
+from gripscale.charts.chart import Axis, Bars, CrossLine, Mark, Panel, Series, Sheet
 from gripscale.charts.style import COLOURS, power_of_ten
 from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI, SQUARE_MM
@@ -47,14 +38,14 @@ def compound_friction_figure(data: xr.Dataset) -> Figure:
         marks += _running(wavelength, compound, colour, name, float(wavelength[-1]))
     panels = [
         Panel(
-            wavelength_axis(data.wavelength.values / MILLI),
+            chart.wavelength_axis(data.wavelength.values / MILLI),
             Axis("$\\mu$ of this and larger waves [-]", low=0.0),
             marks,
         )
     ]
     if "friction_by_decade_difference" in data:
         panels.append(_decades_panel(data))
-    return on_paper(Sheet(panels, len(panels)))
+    return chart.on_paper(Sheet(panels, len(panels)))
 
 
 def _running(x: Array, data: xr.Dataset, colour: str, label: str, end: float) -> list[Mark]:
@@ -122,7 +113,7 @@ def roads_statistics_figure(data: xr.Dataset) -> Figure:
             spectrum,
         ),
     ]
-    return on_paper(Sheet(panels, height=3.2))
+    return chart.on_paper(Sheet(panels, height=3.2))
 
 
 def roads_friction_figure(data: xr.Dataset) -> Figure:
@@ -149,11 +140,11 @@ def roads_friction_figure(data: xr.Dataset) -> Figure:
             marks += _running(wavelength, of_model.sel(surface=name), colour, name, end)
         ends = [*wavelength, wavelength[-1] / STEP ** len(roads)]
         panels.append(Panel(
-            wavelength_axis(ends),
+            chart.wavelength_axis(ends),
             Axis("$\\mu$ of this and longer waves [-]", low=0.0),
             marks,
             title=str(model),
         ))  # fmt: skip
     layout = {"sharey": True}
     panels = panels or [Panel(Axis(), Axis())]
-    return on_paper(Sheet(panels, len(panels), height=3.2, layout=layout))
+    return chart.on_paper(Sheet(panels, len(panels), height=3.2, layout=layout))

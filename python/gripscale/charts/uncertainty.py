@@ -9,17 +9,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.analysis.variance_shares import SURE
-from gripscale.charts.chart import (
-    Axis,
-    Band,
-    Bars,
-    CrossLine,
-    Mark,
-    Panel,
-    Series,
-    Sheet,
-    on_paper,
-)
+from gripscale.charts.chart import Axis, Band, Bars, CrossLine, Mark, Panel, Series, Sheet, on_paper
 from gripscale.charts.comparison import measured_sheet
 from gripscale.charts.ladder import MARKERS, MeasuredSeries, measured
 from gripscale.charts.study import varied_axis
