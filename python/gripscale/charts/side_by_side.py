@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,12 +11,16 @@ import xarray as xr
 
 from gripscale.charts import chart
 from gripscale.charts.chart import Axis, Bars, CrossLine, Mark, Panel, Series, Sheet
+from gripscale.charts.page_elements import Picture
+from gripscale.charts.rubber import compound_moduli_figure
 from gripscale.charts.style import COLOURS, power_of_ten
 from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI, SQUARE_MM
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from gripscale.rubber import Rubber
 
 LEAST_MODULUS_SHARE = 0.005
 """Of the largest difference: decades at either end with less are not drawn."""
@@ -24,6 +29,42 @@ LEAST_POWER_SHARE = 0.02
 """Share of the largest friction of an octave from which one is drawn."""
 STEP = 1.12
 """Between the bars of roads beside the smallest wavelength, as a ratio of wavelengths."""
+
+
+def compound_pictures(data: xr.Dataset, rubbers: Mapping[str, Rubber]) -> Iterator[Picture]:
+    """Yield the figures of `gripscale.analysis.Compounds`: friction by wave, and moduli."""
+    if "friction_running" in data:
+        yield Picture(
+            "compound_friction",
+            compound_friction_figure(data),
+            "Friction of all waves down to each; bars are the ranges of the totals. Beside it the "
+            "difference to the first compound by relaxation time.",
+            "A curve for each compound, rising towards short waves, and bars of differences.",
+        )
+    if rubbers:
+        yield Picture(
+            "compound_moduli",
+            compound_moduli_figure(rubbers),
+            "Storage modulus and loss factor of each compound, dashed beyond what was measured.",
+            "Two panels of curves over the frequency, one curve for each compound.",
+        )
+
+
+def road_pictures(data: xr.Dataset) -> Iterator[Picture]:
+    """Yield the figures of `gripscale.analysis.Roads`: statistics, and friction by wavelength."""
+    yield Picture(
+        "roads_statistics",
+        roads_statistics_figure(data),
+        "Height difference correlation and spectrum of each road.",
+        "Two panels of curves, one for each road.",
+    )
+    yield Picture(
+        "roads_friction",
+        roads_friction_figure(data),
+        "Friction of all waves down to each wavelength, of the direct contact by the energy lost; "
+        "bars are the ranges of the totals.",
+        "A panel for each model with a curve for each road, rising towards short waves.",
+    )
 
 
 def compound_friction_figure(data: xr.Dataset) -> Figure:

@@ -185,8 +185,8 @@ def compare_surfaces(
     """Compare roads under the same rubber: friction, area, and which scale makes the difference."""
     from gripscale.analysis.roads import compare_surfaces as compare
     from gripscale.case import read_case
-    from gripscale.charts.paper import save_figure
-    from gripscale.charts.side_by_side import roads_friction_figure, roads_statistics_figure
+    from gripscale.charts.side_by_side import road_pictures
+    from gripscale.charts.write import draw
     from gripscale.report.side_by_side import failed_totals, roads_sentences, roads_tables
 
     file = read_case(case_of(surfaces, case, "the rubber and the load"))
@@ -200,18 +200,13 @@ def compare_surfaces(
         on_task=progress_printer(console),
     )
     data = roads.data
-
-    def draw_figures() -> None:
-        save_figure(roads_statistics_figure(data), target, "roads_statistics")
-        save_figure(roads_friction_figure(data), target, "roads_friction")
-
     conclude(
         console,
         target,
         [*roads_tables(data), *roads_sentences(data), *(f"note: {note}" for note in roads.notes)],
         text="surfaces.txt",
         closing="Result (surfaces.nc), tables and figures are in",
-        draw=draw_figures,
+        draw=lambda: draw(road_pictures(data), target),
         page="surfaces.nc",
         failure=first_of(failed_totals(data), data.prediction_status.size, "predictions"),
     )
@@ -246,9 +241,8 @@ def compare_rubbers(
     """Compare compounds on the same road: friction, area, and what makes the difference."""
     from gripscale.analysis.compounds import compare_compounds
     from gripscale.case import read_case
-    from gripscale.charts.paper import save_figure
-    from gripscale.charts.rubber import compound_moduli_figure
-    from gripscale.charts.side_by_side import compound_friction_figure
+    from gripscale.charts.side_by_side import compound_pictures
+    from gripscale.charts.write import draw
     from gripscale.core.units import parse_quantity
     from gripscale.report.side_by_side import compounds_sentences, compounds_table, failed_totals
 
@@ -270,12 +264,6 @@ def compare_rubbers(
         on_task=progress_printer(console),
     )
     data = compounds.data
-
-    def draw_figures() -> None:
-        save_figure(compound_moduli_figure(compounds.rubbers), target, "compound_moduli")
-        if "friction_running" in data:
-            save_figure(compound_friction_figure(data), target, "compound_friction")
-
     conclude(
         console,
         target,
@@ -286,7 +274,7 @@ def compare_rubbers(
         ],
         text="compounds.txt",
         closing="Result (compounds.nc), table and figures are in",
-        draw=draw_figures,
+        draw=lambda: draw(compound_pictures(data, compounds.rubbers), target),
         page="compounds.nc",
         failure=first_of(failed_totals(data), data.prediction_status.size, "compounds"),
     )

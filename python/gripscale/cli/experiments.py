@@ -151,7 +151,8 @@ def uncertainty(
     from gripscale.analysis.sampled_inputs import length
     from gripscale.analysis.sampling import Uncertainty
     from gripscale.case import folder, read_case
-    from gripscale.charts.write import draw_uncertainty
+    from gripscale.charts.uncertainty import uncertainty_pictures
+    from gripscale.charts.write import draw
     from gripscale.core import checks
     from gripscale.experiment.axis import parse_vary
     from gripscale.report.uncertainty import failures, uncertainty_parts
@@ -193,7 +194,7 @@ def uncertainty(
         list(uncertainty_parts(data)),
         text="uncertainty.txt",
         closing="Result (uncertainty.nc), tables and figures are in",
-        draw=lambda: draw_uncertainty(data, figures),
+        draw=lambda: draw(uncertainty_pictures(data), figures),
         failure=failures(data),
     )
 

@@ -11,26 +11,15 @@ import xarray as xr
 
 from gripscale.analysis.ladder import DIRECT
 from gripscale.case.run import KEY
-from gripscale.charts.blocks import blocks_image, picture
+from gripscale.charts.blocks import blocks_image, image
 from gripscale.charts.comparison import axis_charts, ladder_charts
 from gripscale.charts.ladder import varied
 from gripscale.charts.page_elements import words_of
-from gripscale.charts.rubber import compound_moduli_figure, rubber_charts
-from gripscale.charts.side_by_side import (
-    compound_friction_figure,
-    roads_friction_figure,
-    roads_statistics_figure,
-)
+from gripscale.charts.rubber import rubber_charts
+from gripscale.charts.side_by_side import compound_pictures, road_pictures
 from gripscale.charts.study import study_charts
 from gripscale.charts.surface import correlation_charts, profile_charts
-from gripscale.charts.uncertainty import (
-    band_figure,
-    distribution_figure,
-    fitted_figure,
-    profiles_figure,
-    residual_figure,
-    tornado_figure,
-)
+from gripscale.charts.uncertainty import calibration_pictures, uncertainty_pictures
 from gripscale.charts.wave_and_chain import contact_charts, verification_charts
 from gripscale.core.provenance import versions
 from gripscale.io.table import Table
@@ -56,17 +45,7 @@ from gripscale.report.notices import (
     notices,
     study_sentence,
 )
-from gripscale.report.source import (
-    CalibrationResult,
-    Compared,
-    RubberComparison,
-    Run,
-    Source,
-    Study,
-    SurfaceComparison,
-    UncertaintyResult,
-    case_name,
-)
+from gripscale.report.source import Compared, Run, Source, Study, case_name
 from gripscale.report.waves import wave_tables
 
 METHOD = (
@@ -118,18 +97,16 @@ def page_of(source: Source) -> Page:
     """Return the page of a result."""
     if isinstance(source, Run):
         return run_page(source)
-    if isinstance(source, RubberComparison):
-        return compounds_page(source)
-    if isinstance(source, Study):
-        return study_page(source)
     if isinstance(source, Compared):
         return comparison_page(source)
-    if isinstance(source, SurfaceComparison):
-        return roads_page(source.data)
-    if isinstance(source, UncertaintyResult):
-        return uncertainty_page(source.data)
-    assert isinstance(source, CalibrationResult)
-    return calibration_page(source.data)
+    pages = {
+        "study": study_page,
+        "compounds": compounds_page,
+        "roads": roads_page,
+        "uncertainty": uncertainty_page,
+        "calibration": calibration_page,
+    }
+    return pages[source.kind](source)
 
 
 def _page(
@@ -275,9 +252,7 @@ def rerun_section(attrs: dict[object, object], command: str) -> Section:
                 f"Save the text below as {name}; the files it names are sought from its own "
                 "folder, and their checksums are among the inputs."
             ),
-            Code(
-                "command", "Command", command if isinstance(command, str) else shlex.join(command)
-            ),
+            Code("command", "Command", command),
             Code("case", f"Case file {name}", str(attrs["case"])),
         ]
     return Section("again", "Software, and how to run it again", elements)
@@ -396,22 +371,11 @@ def comparison_elements(compared: Compared) -> list[Element]:
     return elements
 
 
-def roads_page(data: xr.Dataset) -> Page:
+def roads_page(source: Study) -> Page:
     """Return the report of roads side by side."""
+    data = source.data
     case = case_name(data.attrs) or "case.toml"
-    statistics = picture(
-        roads_statistics_figure(data),
-        "roads-statistics",
-        "Height difference correlation and spectrum of each road.",
-        "Two panels of curves, one for each road.",
-    )
-    friction = picture(
-        roads_friction_figure(data),
-        "roads-friction",
-        "Friction of all waves down to each wavelength, of the direct contact by the energy lost; "
-        "bars are the ranges of the totals.",
-        "A panel for each model with a curve for each road, rising towards short waves.",
-    )
+    statistics, friction = map(image, road_pictures(data))
     sentences = [
         *side_by_side.roads_sentences(data),
         *str(data.attrs.get("notes", "")).splitlines(),
@@ -435,31 +399,15 @@ def roads_page(data: xr.Dataset) -> Page:
     )
 
 
-def compounds_page(source: RubberComparison) -> Page:
+def compounds_page(source: Study) -> Page:
     """Return the report of compounds side by side: differences, then what a study has."""
     data = source.data
     names = [str(name) for name in data.rubber.values]
     elements: list[Element] = [Text(COMPOUNDS), side_by_side.compounds_table(data)]
     elements += map(Text, side_by_side.compounds_sentences(data))
-    if "friction_running" in data:
-        elements.append(
-            picture(
-                compound_friction_figure(data),
-                "compound-friction",
-                "Friction of all waves down to each; bars are the ranges of the totals. Beside it "
-                "the difference to the first compound by relaxation time.",
-                "A curve for each compound, rising towards short waves, and bars of differences.",
-            )
-        )
     rubbers = inputs.rubbers_of(data)
-    if len(rubbers) == len(names):
-        moduli = picture(
-            compound_moduli_figure(dict(zip(names, rubbers, strict=True))),
-            "compound-moduli",
-            "Storage modulus and loss factor of each compound, dashed beyond what was measured.",
-            "Two panels of curves over the frequency, one curve for each compound.",
-        )
-        elements.append(moduli)
+    moduli = dict(zip(names, rubbers, strict=True)) if len(rubbers) == len(names) else {}
+    elements += map(image, compound_pictures(data, moduli))
     options = shlex.join(names)
     return _page(
         f"Compounds side by side: {', '.join(names)}",
@@ -475,38 +423,10 @@ def compounds_page(source: RubberComparison) -> Page:
     )
 
 
-def uncertainty_page(data: xr.Dataset) -> Page:
+def uncertainty_page(source: Study) -> Page:
     """Return the report of an uncertainty."""
-    case, axis = case_name(data.attrs), uncertainty.axis_of(data)
-    if axis:
-        images = [
-            picture(
-                band_figure(data, axis),
-                f"over-{axis}",
-                f"Medians over the {axis}, with bands of 50 and 90 % of the samples.",
-                f"Friction and contact area over the {axis} with their bands.",
-            )
-        ]
-    else:
-        images = [
-            picture(
-                distribution_figure(data),
-                "distributions",
-                "How friction and contact area are distributed: quantiles, and the case.",
-                "Histograms of the samples, a row for each model.",
-            ),
-            *(
-                picture(
-                    tornado_figure(data.sel(model=name)),
-                    f"tornado-{name}",
-                    f"What each source does alone to the friction of the model {name}, and its "
-                    "share of the variance.",
-                    "Bars for each source, the most important on top.",
-                )
-                for name in data.model.values
-                if np.isfinite(data.sel(model=name).friction_share).any()
-            ),
-        ]
+    data = source.data
+    case = case_name(data.attrs)
     failed = uncertainty.failures(data)
     return _page(
         f"{data.attrs.get('title', 'Uncertainty')}{f': {case}' if case else ''}",
@@ -519,7 +439,7 @@ def uncertainty_page(data: xr.Dataset) -> Page:
                 "Quantiles, and what matters most",
                 [Text(UNCERTAINTY), *_elements(uncertainty.uncertainty_parts(data))],
             ),
-            Section("figures", "Figures", images),
+            Section("figures", "Figures", list(map(image, uncertainty_pictures(data)))),
             rerun_section(
                 data.attrs, shlex.join(["gripscale", "uncertainty", case or "case.toml"])
             ),
@@ -527,31 +447,12 @@ def uncertainty_page(data: xr.Dataset) -> Page:
     )
 
 
-def calibration_page(data: xr.Dataset) -> Page:
+def calibration_page(source: Study) -> Page:
     """Return the report of a calibration."""
+    data = source.data
     case, failed = case_name(data.attrs), calibration.failures(data)
     tables, facts = _elements(calibration.calibration_parts(data)), calibration.law_facts(data)
-    images = [
-        picture(
-            fitted_figure(data),
-            "measured-and-fitted",
-            "Measured friction with its spread, the hysteresis alone, and the fit with its band, "
-            "at each temperature.",
-            "A panel for each temperature with points and two curves over the speed.",
-        ),
-        picture(
-            residual_figure(data),
-            "residuals",
-            "Fitted less measured friction over the speed.",
-            "Points around zero over the speed, a marker for each temperature.",
-        ),
-        picture(
-            profiles_figure(data),
-            "profiles",
-            "By how much the sum of squares rises where a parameter is held elsewhere.",
-            "A panel for each parameter with a valley around its best value.",
-        ),
-    ]
+    fit, residuals, profiles = map(image, calibration_pictures(data))
     return _page(
         f"{data.attrs.get('title', 'Calibration')}{f': {case}' if case else ''}",
         str(data.attrs.get("model", "")).replace("_", " "),
@@ -559,8 +460,8 @@ def calibration_page(data: xr.Dataset) -> Page:
         calibration.calibration_cards(data),
         [
             Section("law", "The law", [Text(CALIBRATION), facts, *tables[1:]]),
-            Section("points", "Point by point", [*images[:2], tables[0]]),
-            Section("profiles", "How well the data determine the law", images[2:]),
+            Section("points", "Point by point", [fit, residuals, tables[0]]),
+            Section("profiles", "How well the data determine the law", [profiles]),
             rerun_section(data.attrs, shlex.join(["gripscale", "calibrate", case or "case.toml"])),
         ],
     )
