@@ -17,22 +17,9 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from gripscale.analysis.ladder import DIRECT
-from gripscale.charts import chart, style
+from gripscale.charts import chart, ladder, style
 from gripscale.charts.chart import Axis, Band, Bars, CrossLine, Mark, Note, Panel, Series, Sheet
-from gripscale.charts.ladder import (
-    BEST,
-    STAR,
-    Look,
-    MeasuredSeries,
-    Row,
-    looks,
-    measured,
-    measured_points,
-    on_the_surface,
-    rows_of,
-    varied,
-    worth_drawing,
-)
+from gripscale.charts.ladder import BEST, STAR, Look, MeasuredSeries, Row
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BEYOND, BLUE, FAINT, FLAG, GREY, INK, ORANGE, WIDE
 from gripscale.core.arrays import Array
@@ -86,20 +73,20 @@ def ladder_charts(comparison: xr.Dataset) -> list[Chart]:
     """Return the steps from rung to rung, and the rungs down to each wavelength."""
     panels = []
     for name in QUANTITIES:
-        panel, rows = _ladder_panel(comparison, name), list(rows_of(comparison, name))
+        panel, rows = _ladder_panel(comparison, name), list(ladder.rows_of(comparison, name))
         texts = (
             row.label if math.isfinite(row.value) else f"{row.label} ({row.note})" for row in rows
         )
         ticks = {float(at): textwrap.fill(text, LINE) for at, text in enumerate(texts)}
         panels.append(replace(panel, y=replace(panel.y, ticks=ticks)))
-    on_surface = on_the_surface(comparison)
+    on_surface = ladder.on_the_surface(comparison)
     if np.isfinite(on_surface.running_friction.values).any():
         panels += [_wavelength_panel(on_surface, name) for name in QUANTITIES]
     return chart.on_page(panels)
 
 
 def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
-    rows = list(rows_of(comparison, name))
+    rows = list(ladder.rows_of(comparison, name))
     numbers = [
         end
         for row in rows
@@ -111,7 +98,7 @@ def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
     low, high = low / widen, high * widen
     room = (high / low) ** 0.13
     theories = int((comparison.group == "theory").sum())
-    rungs = on_the_surface(comparison).sizes["rung"]
+    rungs = ladder.on_the_surface(comparison).sizes["rung"]
     borders = [rungs - theories - 0.5, rungs - 0.5] if theories else [rungs - 0.5]
     marks: list[Mark] = [CrossLine(at, FAINT, order=0.0) for at in borders]
     for at, (row, follower) in enumerate(pairwise(rows)):
@@ -169,14 +156,14 @@ def comparison_wavelength_figure(comparison: xr.Dataset) -> Figure:
     Friction of the direct contacts goes on below the smallest wave of the surface: the edges of the
     contact do that. Their area is that of the contact without the shorter waves.
     """
-    on_surface = on_the_surface(comparison)
+    on_surface = ladder.on_the_surface(comparison)
     return chart.on_paper(
         Sheet([_wavelength_panel(on_surface, name) for name in QUANTITIES], height=3.5)
     )
 
 
 def _wavelength_panel(comparison: xr.Dataset, name: str) -> Panel:
-    data = comparison.isel(wavelength=worth_drawing(comparison))
+    data = comparison.isel(wavelength=ladder.worth_drawing(comparison))
     length = data.wavelength.values / MILLI
     beyond = style.down_to(data[FLAG] == 1) if FLAG in data else np.zeros(length.size, dtype=bool)
     marks: list[Mark] = []
@@ -201,7 +188,7 @@ def _wavelength_panel(comparison: xr.Dataset, name: str) -> Panel:
 
 def _rungs(data: xr.Dataset) -> Iterator[tuple[xr.Dataset, Look]]:
     names = [str(name) for name in data["rung"].values]
-    for at, look in enumerate(looks(names)):
+    for at, look in enumerate(ladder.looks(names)):
         yield data.isel(rung=at), look
 
 
@@ -240,7 +227,7 @@ def axis_charts(comparison: xr.Dataset) -> list[Chart]:
 
 
 def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
-    comparison, axis = on_the_surface(comparison), varied(comparison)
+    comparison, axis = ladder.on_the_surface(comparison), ladder.varied(comparison)
     x = axis_shown(comparison, axis).of(comparison[axis].values)
     area, words = name == "contact_fraction", chart.spelled_out(QUANTITIES[name])
     capital = words[0].upper() + words[1:]
@@ -266,7 +253,7 @@ def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
             marks.append(Series(x, values, look.colour, "with the area term", "dashdot", width=0.9))
     low, high = float(x.min()), float(x.max())
     if axis == "speed" and name == "friction":
-        points = list(measured_points(comparison, axis_shown(comparison, "speed")))
+        points = list(ladder.measured_points(comparison, axis_shown(comparison, "speed")))
         marks += points
         speeds = [speed for series in points for speed in np.asarray(series.x)]
         low, high = min([low, *speeds]), max([high, *speeds])
@@ -305,7 +292,7 @@ def at_measured_figure(data: xr.Dataset, labels: dict[str, str]) -> Figure:
 
     def models(series: MeasuredSeries, how: DisplayUnit) -> Iterator[Mark]:
         order = np.argsort(series.speed)
-        for name, look in zip(names, looks(names), strict=True):
+        for name, look in zip(names, ladder.looks(names), strict=True):
             values = data.friction.sel(model=name).values[series.rows][order]
             if np.isfinite(values).any():
                 yield Series(how.of(series.speed[order]), values, look.colour,
@@ -330,7 +317,7 @@ def measured_sheet(
     """
     how = display_unit("speed", data.attrs)
     panels = []
-    series = zip(measured(data), measured_points(data, how), strict=True)
+    series = zip(ladder.measured(data), ladder.measured_points(data, how), strict=True)
     for _, (values, points) in zip(range(MOST_PANELS), series, strict=False):
         points = replace(points, marker="o", size=4.5, label="measured")
         panels.append(Panel(

@@ -16,17 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gripscale.case.record import band, rubber_variables
 from gripscale.charts import chart
-from gripscale.charts.chart import (
-    Axis,
-    Band,
-    ColourBar,
-    CrossLine,
-    Mark,
-    Note,
-    Panel,
-    Series,
-    Sheet,
-)
+from gripscale.charts.chart import Axis, Band, CrossLine, Mark, Note, Panel, Series, Sheet
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, COLOURS, GREEN, GREY, INK, NARROW, ORANGE, shades
 from gripscale.charts.view import PredictionView
@@ -290,10 +280,10 @@ def superposition_figure(sweeps: Sweeps, master: MasterCurve) -> Figure:
     return chart.on_paper(Sheet(panels, height=6.2, gap=0.02, colour_bar=bar, layout=layout))
 
 
-def _temperatures(sweeps: Sweeps) -> ColourBar:
+def _temperatures(sweeps: Sweeps) -> chart.ColourBar:
     """Return what the colours of sweeps mean, cold blue to warm red."""
     celsius = sweeps.temperatures - ZERO_CELSIUS
-    return ColourBar(celsius[0], celsius[-1], "Turbo", CELSIUS.label)
+    return chart.ColourBar(celsius[0], celsius[-1], "Turbo", CELSIUS.label)
 
 
 def _coloured(drawn: Iterable[Sweep], sweeps: Sweeps) -> Iterator[tuple[Sweep, str]]:

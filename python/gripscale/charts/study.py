@@ -15,17 +15,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.charts import chart, style
-from gripscale.charts.chart import (
-    Axis,
-    Band,
-    ColourBar,
-    CrossLine,
-    Mark,
-    Panel,
-    Series,
-    Sheet,
-    ValueMap,
-)
+from gripscale.charts.chart import Axis, Band, CrossLine, Mark, Panel, Series, Sheet
 from gripscale.charts.page_elements import Chart, telling, words_of
 from gripscale.charts.style import BEYOND, BLUE, GREY, INK, NARROW, Flags
 from gripscale.core.arrays import Array
@@ -426,7 +416,7 @@ def map_figure(result: xr.Dataset) -> Figure:
         Panel(
             replace(abscissa, grid=False),
             replace(ordinate, grid=False),
-            [ValueMap(speeds, celsius, result[name].values, TOTALS[name], levels=9), *points],
+            [chart.ValueMap(speeds, celsius, result[name].values, TOTALS[name], levels=9), *points],
         )
         for name in reversed(TOTALS)
     ]
@@ -441,7 +431,7 @@ def friction_master_figure(result: xr.Dataset) -> Figure:
     """
     celsius = axis_shown(result, "temperature").of(result.temperature)
     label = axis_label(result, "temperature")
-    bar = ColourBar(float(celsius.min()), float(celsius.max()), "Plasma", label)
+    bar = chart.ColourBar(float(celsius.min()), float(celsius.max()), "Plasma", label)
     panels = [_reduced_panel(result, name) for name in reversed(TOTALS)]
     return chart.on_paper(Sheet(panels, height=3.3, colour_bar=bar))
 

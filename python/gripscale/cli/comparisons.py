@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from gripscale.cli import terminal
 from gripscale.cli.terminal import (
     CasePath,
     Cluster,
@@ -16,11 +17,7 @@ from gripscale.cli.terminal import (
     Workers,
     argument,
     command,
-    conclude,
-    first_of,
-    open_folder,
     option,
-    progress_printer,
 )
 from gripscale.core.errors import InputError
 
@@ -80,8 +77,8 @@ def compare(
     axes = None if vary is None else dict([parse_vary(vary)])
     file = read_case(case)
     opening = f"Comparison of models for {file.path}"
-    console, target = open_folder(file, output, "comparison", opening)
-    on_task = progress_printer(console)
+    console, target = terminal.open_folder(file, output, "comparison", opening)
+    on_task = terminal.progress_printer(console)
     solving: dict[str, Any] = {"workers": workers, "client": cluster, "on_task": on_task}
     options: dict[str, Any] = solving | {
         "seeds": seeds,
@@ -125,14 +122,14 @@ def compare(
             save_figure(at_measured_figure(residuals, labels), target, "at_measured")
 
     failed = [f"{where} did not converge: {status}" for where, status in failures(data)]
-    conclude(
+    terminal.conclude(
         console,
         target,
         parts,
         text=f"{name}.txt",
         closing=f"Tables, figures and result ({name}.nc) are in",
         draw=draw_figures,
-        failure=first_of(failed, data.status.size, "models with all their samples"),
+        failure=terminal.first_of(failed, data.status.size, "models with all their samples"),
     )
 
 
@@ -190,17 +187,17 @@ def compare_surfaces(
     from gripscale.report.side_by_side import failed_totals, roads_sentences, roads_tables
 
     file = read_case(case_of(surfaces, case, "the rubber and the load"))
-    console, target = open_folder(file, output, "surfaces")
+    console, target = terminal.open_folder(file, output, "surfaces")
     roads = compare(
         file,
         dict(zip(names_of(surfaces), surfaces, strict=True)),
         target,
         samples=samples or None,
         workers=workers,
-        on_task=progress_printer(console),
+        on_task=terminal.progress_printer(console),
     )
     data = roads.data
-    conclude(
+    terminal.conclude(
         console,
         target,
         [*roads_tables(data), *roads_sentences(data), *(f"note: {note}" for note in roads.notes)],
@@ -208,7 +205,7 @@ def compare_surfaces(
         closing="Result (surfaces.nc), tables and figures are in",
         draw=lambda: draw(road_pictures(data), target),
         page="surfaces.nc",
-        failure=first_of(failed_totals(data), data.prediction_status.size, "predictions"),
+        failure=terminal.first_of(failed_totals(data), data.prediction_status.size, "predictions"),
     )
 
 
@@ -253,7 +250,7 @@ def compare_rubbers(
         raise InputError(f"--temperature = {temperature!r}: {error}") from error
     file = read_case(chosen)
     opening = "The compounds; then, for what their measurements leave open, half-planes."
-    console, target = open_folder(file, output, "rubbers", *[opening] * uncertainty)
+    console, target = terminal.open_folder(file, output, "rubbers", *[opening] * uncertainty)
     compounds = compare_compounds(
         file,
         dict(zip(names_of(rubbers), rubbers, strict=True)),
@@ -261,10 +258,10 @@ def compare_rubbers(
         temperature=kelvin,
         uncertainty=uncertainty,
         workers=workers,
-        on_task=progress_printer(console),
+        on_task=terminal.progress_printer(console),
     )
     data = compounds.data
-    conclude(
+    terminal.conclude(
         console,
         target,
         [
@@ -276,5 +273,5 @@ def compare_rubbers(
         closing="Result (compounds.nc), table and figures are in",
         draw=lambda: draw(compound_pictures(data, compounds.rubbers), target),
         page="compounds.nc",
-        failure=first_of(failed_totals(data), data.prediction_status.size, "compounds"),
+        failure=terminal.first_of(failed_totals(data), data.prediction_status.size, "compounds"),
     )

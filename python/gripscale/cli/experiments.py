@@ -7,20 +7,8 @@ from typing import Annotated
 
 import typer
 
-from gripscale.cli.terminal import (
-    CasePath,
-    Cluster,
-    Measured,
-    OwnFolder,
-    Workers,
-    command,
-    conclude,
-    first_of,
-    open_folder,
-    option,
-    print_wrapped,
-    progress_printer,
-)
+from gripscale.cli import terminal
+from gripscale.cli.terminal import CasePath, Cluster, Measured, OwnFolder, Workers, command, option
 from gripscale.core.errors import InputError
 
 
@@ -59,17 +47,19 @@ def study(
     if len(axes) < len(pairs):
         raise InputError(f"vary must name different inputs; got {', '.join(n for n, _ in pairs)}")
     planned = Study(case, axes, static=static, model=model)
-    console, target = open_folder(planned.file, output, "study")
+    console, target = terminal.open_folder(planned.file, output, "study")
     stored = planned.stored(target)
     opening = planned.description()
     if stored is not None:
         opening = json.loads(stored.attrs["description"])
     for line in [*opening, ""]:
-        print_wrapped(console, line)
+        terminal.print_wrapped(console, line)
     figures = target / "figures"
     folder.make(figures)
     folder.save_case(planned.file, target)
-    result = planned.run(target, workers=workers, client=cluster, on_task=progress_printer(console))
+    result = planned.run(
+        target, workers=workers, client=cluster, on_task=terminal.progress_printer(console)
+    )
     drawn = stored is not None and any(figures.iterdir())
 
     def draw_figures() -> None:
@@ -78,7 +68,7 @@ def study(
         draw_study(result, figures)
 
     failed, total = failed_predictions(result)
-    conclude(
+    terminal.conclude(
         console,
         target,
         list(study_parts(result)),
@@ -86,7 +76,7 @@ def study(
         closing="Result (study.nc), table and figures are in",
         opening=opening,
         draw=None if drawn else draw_figures,
-        failure=first_of(failed, total, "predictions"),
+        failure=terminal.first_of(failed, total, "predictions"),
     )
 
 
@@ -172,7 +162,9 @@ def uncertainty(
     choice = Uncertainty.of_case(
         file.case.uncertainty, without=without or None, ranges=values, block_length=blocks
     )
-    console, target = open_folder(file, output, "uncertainty", f"Uncertainty of {file.path}")
+    console, target = terminal.open_folder(
+        file, output, "uncertainty", f"Uncertainty of {file.path}"
+    )
     figures = target / "figures"
     folder.make(figures)
     data = propagate(
@@ -186,9 +178,9 @@ def uncertainty(
         folder=target,
         workers=workers,
         client=cluster,
-        on_task=progress_printer(console),
+        on_task=terminal.progress_printer(console),
     )
-    conclude(
+    terminal.conclude(
         console,
         target,
         list(uncertainty_parts(data)),
@@ -241,7 +233,7 @@ def calibrate(
     file = read_case(case)
     friction = measured_of(file) if measured is None else read_measured_friction(measured)
     opening = f"Area term of {file.path} from {friction.source}"
-    console, target = open_folder(file, output, "calibration", opening)
+    console, target = terminal.open_folder(file, output, "calibration", opening)
     fitted = calibrate_case(
         file,
         model=model,
@@ -252,13 +244,13 @@ def calibrate(
         folder=target,
         workers=workers,
         client=cluster,
-        on_task=progress_printer(console),
+        on_task=terminal.progress_printer(console),
     )
     data = fitted.to_dataset().assign_attrs(
         case=file.text, case_file=str(file.path), model=model, notes="\n".join(notes(fitted))
     )
     netcdf.save(data, target / "calibration.nc")
-    conclude(
+    terminal.conclude(
         console,
         target,
         list(calibration_parts(data)),

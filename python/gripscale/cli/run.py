@@ -13,17 +13,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from gripscale.cli.terminal import (
-    CasePath,
-    argument,
-    command,
-    conclude,
-    failure_of,
-    option,
-    print_error,
-    print_wrapped,
-    screen,
-)
+from gripscale.cli import terminal
+from gripscale.cli.terminal import CasePath, argument, command, option
 from gripscale.core.errors import FileError, GripscaleError
 
 if TYPE_CHECKING:
@@ -69,7 +60,7 @@ def run(
 ) -> None:
     """Predict contact area and friction of a case; goes on where it was stopped."""
     with _json_events(progress) as emit:
-        _run(screen(stderr=progress == ProgressFormat.JSON), emit, case, output, fresh)
+        _run(terminal.screen(stderr=progress == ProgressFormat.JSON), emit, case, output, fresh)
 
 
 @contextmanager
@@ -84,7 +75,7 @@ def _json_events(progress: ProgressFormat) -> Iterator[OnEvent]:
     try:
         yield emit
     except (GripscaleError, KeyboardInterrupt) as error:
-        emit(RunFailed(*failure_of(error)))
+        emit(RunFailed(*terminal.failure_of(error)))
         raise
     emit(RunFinished())
 
@@ -112,7 +103,7 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
     results = prepare_case(file)
     opening = _opening(results)
     for line in opening:
-        print_wrapped(console, line)
+        terminal.print_wrapped(console, line)
     print_event = _event_printer(console, results.display_unit("speed"))
     with background_figures(results, target / "figures") as draw_solved:
 
@@ -144,7 +135,7 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
             if effects is not None:
                 draw_effects([effects], target / "figures")
 
-        conclude(
+        terminal.conclude(
             console,
             target,
             parts,
@@ -161,10 +152,10 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
     if first is not None and written is not None and results.key(first) not in written:
         words = shlex.join(["gripscale", "report", str(target)])
         text = f"{page.name} in it is older and shows another result; `{words}` renews it"
-        print_wrapped(console, text)
+        terminal.print_wrapped(console, text)
     failures = list(results.failures.values())
     for failure in failures[:-1]:
-        print_error(explained(failure))
+        terminal.print_error(explained(failure))
     if failures:
         raise failures[-1]
 
@@ -200,13 +191,13 @@ def _event_printer(console: Console, speed_unit: DisplayUnit) -> OnEvent:
     def print_event(event: Event) -> None:
         match event:
             case ResultsReplaced():
-                print_wrapped(console, event.message)
+                terminal.print_wrapped(console, event.message)
             case WaveSolved():
                 if event.number == 1 and event.pass_number == 1:
                     console.print()
-                    print_wrapped(console, title(event.speed, speed_unit))
+                    terminal.print_wrapped(console, title(event.speed, speed_unit))
                 elif event.number == 1:
-                    print_wrapped(console, f"  pass {event.pass_number}")
+                    terminal.print_wrapped(console, f"  pass {event.pass_number}")
                 parts = [
                     f"  wave {event.number} of {event.count}: {event.wavelength * 1e3:.3g} mm",
                     f"contact {event.contact_fraction:.3f}",
@@ -216,10 +207,10 @@ def _event_printer(console: Console, speed_unit: DisplayUnit) -> OnEvent:
                 if event.status != "conditions not settled":
                     parts.append(event.message)
                 parts.append("already solved" if event.stored else f"{event.seconds:.1f} s")
-                print_wrapped(console, ", ".join(parts))
+                terminal.print_wrapped(console, ", ".join(parts))
             case PredictionFinished(passes=int(passes)):
                 agree = "agree" if event.converged else f"do not agree ({event.message})"
-                print_wrapped(
+                terminal.print_wrapped(
                     console, f"  rubber and contact {agree} after {passes} passes on these meshes"
                 )
 
@@ -269,7 +260,9 @@ def report(
     from gripscale.report import write_report
 
     page = write_report(result, output)
-    print_wrapped(screen(), f"Report, {page.stat().st_size / 1e6:.1f} MB, is {page}")
+    terminal.print_wrapped(
+        terminal.screen(), f"Report, {page.stat().st_size / 1e6:.1f} MB, is {page}"
+    )
 
 
 PASS_ON = {"allow_extra_args": True, "ignore_unknown_options": True, "help_option_names": []}

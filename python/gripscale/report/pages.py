@@ -9,7 +9,6 @@ from collections.abc import Iterable
 import numpy as np
 import xarray as xr
 
-from gripscale.analysis.ladder import DIRECT
 from gripscale.case.run import KEY
 from gripscale.charts.blocks import blocks_image, image
 from gripscale.charts.comparison import axis_charts, ladder_charts
@@ -23,28 +22,17 @@ from gripscale.charts.uncertainty import calibration_pictures, uncertainty_pictu
 from gripscale.charts.wave_and_chain import contact_charts, verification_charts
 from gripscale.core.provenance import versions
 from gripscale.io.table import Table
-from gripscale.report import calibration, comparison, inputs, side_by_side, study, uncertainty
-from gripscale.report.elements import (
-    Card,
-    Code,
-    Element,
-    Facts,
-    Notice,
-    Page,
-    Section,
-    Text,
-    number,
-    percent,
-)
-from gripscale.report.equations import equations
-from gripscale.report.notices import (
-    cards,
-    comparison_sentences,
-    explained,
-    exponent_sentence,
+from gripscale.report import (
+    calibration,
+    comparison,
+    inputs,
     notices,
-    study_sentence,
+    side_by_side,
+    study,
+    uncertainty,
 )
+from gripscale.report.elements import Card, Code, Element, Facts, Notice, Page, Section, Text
+from gripscale.report.equations import equations
 from gripscale.report.source import Compared, Run, Source, Study, case_name
 from gripscale.report.waves import wave_tables
 
@@ -139,8 +127,8 @@ def run_page(run: Run) -> Page:
     return _page(
         f"Contact and friction: {case or 'result'}",
         "; ".join(view.title for view in run.predictions),
-        [*notices(run), *([Notice("warning", uncertainty.OF_ANOTHER)] if stale else [])],
-        [*cards(run), *uncertainty.uncertainty_cards(run.own_uncertainty)],
+        [*notices.notices(run), *([Notice("warning", uncertainty.OF_ANOTHER)] if stale else [])],
+        [*notices.cards(run), *uncertainty.uncertainty_cards(run.own_uncertainty)],
         [
             Section("inputs", "Inputs and their origin", origin),
             Section("surface", "Surface", _surface(run)),
@@ -165,9 +153,9 @@ def _surface(run: Run) -> list[Element]:
     if "sines_wavelength" not in run.data or record.is_empty:
         return []
     elements: list[Element] = []
-    if record.has_profiles:
+    if record.has("profile_name"):
         elements += [*inputs.cleaning_tables(record), *profile_charts(record.data)]
-    if record.has_correlation:
+    if record.has("lag"):
         facts = inputs.surface_facts(record, run.data.sizes["wave"])
         elements += [*facts, *correlation_charts(record.data)]
     else:
@@ -178,7 +166,7 @@ def _surface(run: Run) -> list[Element]:
 
 def _rubber(run: Run) -> list[Element]:
     record = run.record
-    if not record.has_rubber:
+    if not record.has("equilibrium_modulus_Pa"):
         return []
     moving = [view for view in run.by_wave if view.moving]
     charts = rubber_charts(record.data, moving[0] if moving else None)
@@ -188,7 +176,7 @@ def _rubber(run: Run) -> list[Element]:
 
 
 def _results(run: Run, tables: dict[str, Table]) -> list[Element]:
-    sentences = [(view.title, exponent_sentence(view.data)) for view in run.predictions]
+    sentences = [(view.title, notices.exponent_sentence(view.data)) for view in run.predictions]
     below: list[Element] = [Text(f"{title}. {text}") for title, text in sentences if text]
     below += judgement_elements(run)
     if not run.by_wave:
@@ -223,7 +211,7 @@ def _comparison(run: Run) -> list[Element]:
 def _verification(run: Run, tables: dict[str, Table]) -> list[Element]:
     if not run.by_wave:
         return []
-    errors: list[Element] = [notice for notice in notices(run) if notice.level == "error"]
+    errors: list[Element] = [notice for notice in notices.notices(run) if notice.level == "error"]
     names = ("errors", "solution", "mesh")
     return [
         *(errors or [Notice("good", "Every wave converged.")]),
@@ -290,11 +278,11 @@ def _study_sections(source: Study) -> list[Section]:
 
 def _study_notices(data: xr.Dataset) -> list[Notice]:
     failed = list(study.failures(data))
-    heads = [Notice("error", explained(text)) for text in failed[:NAMED_FAILURES]]
+    heads = [Notice("error", notices.explained(text)) for text in failed[:NAMED_FAILURES]]
     if len(failed) > NAMED_FAILURES:
         rest = len(failed) - NAMED_FAILURES
         heads.append(Notice("error", f"{rest} more did not converge; see the table of totals."))
-    beyond = study_sentence(data)
+    beyond = notices.study_sentence(data)
     warnings = [f"{beyond} There the Prony series is an extrapolation."] if beyond else []
     warnings += filter(None, [study.shift_sentence(data)])
     warnings += str(data.attrs.get("notes", "")).splitlines()
@@ -318,18 +306,6 @@ def comparison_page(compared: Compared) -> Page:
     elements = comparison_elements(compared)
     sampled = compared.own_uncertainty
     stale = sampled is None and compared.uncertainty is not None
-    numbers: list[Card] = []
-    if (ladder := compared.ladder) is not None:
-        names = [str(name) for name in ladder.rung.values]
-        rung = ladder.isel(rung=names.index(DIRECT) if DIRECT in names else 0)
-        bad = int(rung.converged_samples) < int(rung.samples)
-        titles = {
-            "contact_fraction": "Real contact area A_r/A_0",
-            "friction": "Friction coefficient μ",
-        }
-        for name, text in titles.items():
-            detail = f"{rung.label.item()}; ± {percent(rung[f'{name}_uncertainty'])}"
-            numbers.append(Card(text, number(rung[f"total_{name}"]), detail, bad))
     return _page(
         f"Models side by side: {case}",
         str(first.attrs.get("title", "")),
@@ -337,7 +313,7 @@ def comparison_page(compared: Compared) -> Page:
             *(element for element in elements if isinstance(element, Notice)),
             *([Notice("warning", uncertainty.OF_ANOTHER)] if stale else []),
         ],
-        [*numbers, *uncertainty.uncertainty_cards(sampled)],
+        [*comparison.ladder_cards(compared.ladder), *uncertainty.uncertainty_cards(sampled)],
         [
             Section("comparison", "Models side by side", elements),
             rerun_section(first.attrs, shlex.join(["gripscale", "compare", case])),
@@ -352,11 +328,11 @@ def comparison_elements(compared: Compared) -> list[Element]:
     elements: list[Element] = [Text(LADDER)]
     for data in compared.parts:
         for where, status in comparison.failures(data):
-            elements.append(Notice("error", f"{explained(f'{where}: {status}')}."))
+            elements.append(Notice("error", f"{notices.explained(f'{where}: {status}')}."))
     for data in compared.parts:
         axis = varied(data)
         over = f" over {axis.replace('_', ' ')}" if axis else ""
-        for label, text in comparison_sentences(data):
+        for label, text in notices.comparison_sentences(data):
             elements.append(Notice("warning", f"{label}{over}: {text}"))
     ladder = compared.ladder
     if ladder is not None:
@@ -383,7 +359,7 @@ def roads_page(source: Study) -> Page:
     return _page(
         f"Roads side by side: {', '.join(data.surface.values.tolist())}",
         str(data.attrs.get("title", "")),
-        [Notice("error", explained(text)) for text in side_by_side.failed_totals(data)],
+        [Notice("error", notices.explained(text)) for text in side_by_side.failed_totals(data)],
         [],
         [
             Section(
@@ -431,7 +407,7 @@ def uncertainty_page(source: Study) -> Page:
     return _page(
         f"{data.attrs.get('title', 'Uncertainty')}{f': {case}' if case else ''}",
         f"{data.sizes['sample']} samples; {', '.join(str(name) for name in data.model.values)}",
-        [Notice("error", f"{explained(failed)}.")] if failed else [],
+        [Notice("error", f"{notices.explained(failed)}.")] if failed else [],
         uncertainty.uncertainty_cards(data),
         [
             Section(
@@ -456,7 +432,7 @@ def calibration_page(source: Study) -> Page:
     return _page(
         f"{data.attrs.get('title', 'Calibration')}{f': {case}' if case else ''}",
         str(data.attrs.get("model", "")).replace("_", " "),
-        [Notice("error", f"{explained(failed)}.")] if failed else [],
+        [Notice("error", f"{notices.explained(failed)}.")] if failed else [],
         calibration.calibration_cards(data),
         [
             Section("law", "The law", [Text(CALIBRATION), facts, *tables[1:]]),
