@@ -108,8 +108,7 @@ def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
     labels = zip(comparison.rung.values, comparison.label.values, strict=True)
     strong = {BEST} | {f"{label}{end}" for rung, label in labels if rung == DIRECT
                        for end in ("", STAR)}  # fmt: skip
-    words = chart.spelled_out(QUANTITIES[name])
-    capital = words[0].upper() + words[1:]
+    words, capital = _words(name)
     return Panel(
         Axis(f"{QUANTITIES[name]} [-]", log=True, low=low / room, high=high * room**2),
         Axis("", low=len(rows) - 0.4, high=-0.6, grid=False, bold=frozenset(strong),
@@ -123,6 +122,12 @@ def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
         height=90 + ROW * len(rows),
         legend="none",
     )  # fmt: skip
+
+
+def _words(name: str) -> tuple[str, str]:
+    """Return what a quantity is called within a sentence, and at its beginning."""
+    words = chart.spelled_out(QUANTITIES[name])
+    return words, words[0].upper() + words[1:]
 
 
 def _row_marks(at: int, row: Row) -> Iterator[Mark]:
@@ -157,9 +162,8 @@ def comparison_wavelength_figure(comparison: xr.Dataset) -> Figure:
     contact do that. Their area is that of the contact without the shorter waves.
     """
     on_surface = ladder.on_the_surface(comparison)
-    return chart.on_paper(
-        Sheet([_wavelength_panel(on_surface, name) for name in QUANTITIES], height=3.5)
-    )
+    panels = [_wavelength_panel(on_surface, name) for name in QUANTITIES]
+    return chart.on_paper(Sheet(panels, height=3.5))
 
 
 def _wavelength_panel(comparison: xr.Dataset, name: str) -> Panel:
@@ -172,8 +176,7 @@ def _wavelength_panel(comparison: xr.Dataset, name: str) -> Panel:
         solved = np.isfinite(values)
         if solved.any():
             marks.append(_curve(length[solved], values[solved], rung, look, beyond[solved]))
-    area, words = name == "contact_fraction", chart.spelled_out(QUANTITIES[name])
-    capital = words[0].upper() + words[1:]
+    area, (words, capital) = name == "contact_fraction", _words(name)
     return Panel(
         chart.wavelength_axis(length),
         Axis(f"{QUANTITIES[name]} of longer waves [-]", log=area, low=None if area else 0.0),
@@ -195,19 +198,9 @@ def _rungs(data: xr.Dataset) -> Iterator[tuple[xr.Dataset, Look]]:
 def _curve(x: Array, y: Array, rung: xr.Dataset, look: Look, beyond: NDArray[np.bool_]) -> Series:
     """Return the curve of a rung; the one the others are judged by is drawn stronger."""
     strong = str(rung.rung.item()) == DIRECT
-    return Series(
-        x,
-        y,
-        look.colour,
-        str(rung.label.item()),
-        look.dash,
-        width=2.0 if strong else 1.2,
-        marker=look.marker,
-        size=4.0 if strong else 3.2,
-        beyond=beyond,
-        order=3.0 if strong else 2.0,
-        clip=False,
-    )
+    width, size, order = (2.0, 4.0, 3.0) if strong else (1.2, 3.2, 2.0)
+    return Series(x, y, look.colour, str(rung.label.item()), look.dash, width, look.marker, size,
+                  beyond=beyond, order=order, clip=False)  # fmt: skip
 
 
 def comparison_axis_figure(comparison: xr.Dataset) -> Figure:
@@ -229,8 +222,7 @@ def axis_charts(comparison: xr.Dataset) -> list[Chart]:
 def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
     comparison, axis = ladder.on_the_surface(comparison), ladder.varied(comparison)
     x = axis_shown(comparison, axis).of(comparison[axis].values)
-    area, words = name == "contact_fraction", chart.spelled_out(QUANTITIES[name])
-    capital = words[0].upper() + words[1:]
+    area, (words, capital) = name == "contact_fraction", _words(name)
     marks: list[Mark] = []
     for rung, look in _rungs(comparison):
         values, spread = rung[f"total_{name}"].values, rung[f"{name}_spread"].values
@@ -281,12 +273,7 @@ LEAST_WIDTH = 4.5
 def at_measured_figure(data: xr.Dataset, labels: dict[str, str]) -> Figure:
     """Draw measured friction with its spread, and the total of every model at the same points.
 
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Of `gripscale.analysis.comparison`.
-    labels : dict of str
-        Of the models, in words.
+    `data` is what `gripscale.analysis.comparison` answers; `labels` are the models in words.
     """
     names = [str(name) for name in data.model.values]
 
@@ -304,16 +291,9 @@ def at_measured_figure(data: xr.Dataset, labels: dict[str, str]) -> Figure:
 def measured_sheet(
     data: xr.Dataset, marks_of: Callable[[MeasuredSeries, DisplayUnit], Iterable[Mark]], head: float
 ) -> Sheet:
-    """Return a panel for each measured series, its points over other marks.
+    """Return a panel for each measured series of `data`, its points over the marks of `marks_of`.
 
-    Parameters
-    ----------
-    data : xarray.Dataset
-        With measured friction.
-    marks_of : callable
-        Returns what belongs to a series, over speeds as the `DisplayUnit` shows them.
-    head : float
-        Height of the legend [inch].
+    Speeds are shown as the `DisplayUnit` says; `head` is the height of the legend [inch].
     """
     how = display_unit("speed", data.attrs)
     panels = []

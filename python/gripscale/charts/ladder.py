@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -145,20 +145,10 @@ def measured_points(data: xr.Dataset, how: DisplayUnit) -> Iterator[Series]:
     """Yield the points of each measured series over speed, shown as `how`, with their spread."""
     for number, series in enumerate(measured(data)):
         spread = np.nan_to_num(series.spread)
-        yield Series(
-            how.of(series.speed),
-            series.friction,
-            INK,
-            series.label,
-            dash="",
-            marker=MARKERS[number % len(MARKERS)],
-            size=5.5,
-            filled=False,
-            low=series.friction - spread,
-            high=series.friction + spread,
-            order=5.0,
-            clip=False,
-        )
+        ends: dict[str, Any] = {"low": series.friction - spread, "high": series.friction + spread}
+        yield Series(how.of(series.speed), series.friction, INK, series.label, "",
+                     marker=MARKERS[number % len(MARKERS)], size=5.5, filled=False, order=5.0,
+                     clip=False, **ends)  # fmt: skip
 
 
 BEST = "best estimate"

@@ -88,9 +88,35 @@ def rubber_charts(inputs: xr.Dataset, excited: PredictionView | None) -> list[Ch
             for panel, value, label in zip(panels, values, labels, strict=True)
         ]
     if "master_frequency" in inputs:
-        panels.append(_residual_panel(inputs))
+        kept = ~_left_out(inputs)
+        omega = 2.0 * math.pi * inputs["master_frequency"].values[kept]
+        marks: list[Mark] = [CrossLine(0.0, INK)]
+        for part, name, colour in MODULI:
+            ratio = inputs[f"master_series_{part}"].values / inputs[f"master_{part}"].values
+            marks.append(Series(omega, 100.0 * (ratio - 1.0)[kept], colour, name, "", marker="."))
+        panels.append(Panel(
+            OMEGA,
+            Axis("Prony series / measured − 1 [%]"),
+            marks,
+            name="prony-residual",
+            caption="What the Prony series leaves over at the rows that were fitted.",
+            alt="Relative error of the Prony series in both moduli against angular frequency.",
+        ))  # fmt: skip
     if "term_modulus" in inputs:
-        panels.append(_spectrum_panel(inputs))
+        times, moduli = inputs["term_relaxation_time"].values, inputs["term_modulus"].values / MEGA
+        foot = np.full_like(moduli, float(moduli.min()) / 10.0)
+        stems = np.column_stack([foot, moduli, np.full_like(moduli, math.nan)]).ravel()
+        panels.append(Panel(
+            Axis("relaxation time $\\tau$ [s]", log=True),
+            Axis("modulus of the element [MPa]", log=True),
+            [
+                Series(np.repeat(times, 3), stems, width=1.1),
+                Series(times, moduli, dash="", marker="o", size=5.0),
+            ],
+            name="prony-spectrum",
+            caption="The Maxwell elements of the Prony series.",
+            alt="Modulus of each Maxwell element against its relaxation time.",
+        ))  # fmt: skip
     return chart.on_page(panels)
 
 
@@ -170,40 +196,6 @@ def _rows(
     if out.any():
         yield Series(omega[out], values[out], colour, "left out of the fit", "",
                      marker="x", listed=listed)  # fmt: skip
-
-
-def _residual_panel(inputs: xr.Dataset) -> Panel:
-    kept = ~_left_out(inputs)
-    omega = 2.0 * math.pi * inputs["master_frequency"].values[kept]
-    marks: list[Mark] = [CrossLine(0.0, INK)]
-    for part, name, colour in MODULI:
-        ratio = inputs[f"master_series_{part}"].values / inputs[f"master_{part}"].values
-        marks.append(Series(omega, 100.0 * (ratio - 1.0)[kept], colour, name, "", marker="."))
-    return Panel(
-        OMEGA,
-        Axis("Prony series / measured − 1 [%]"),
-        marks,
-        name="prony-residual",
-        caption="What the Prony series leaves over at the rows that were fitted.",
-        alt="Relative error of the Prony series in both moduli against angular frequency.",
-    )
-
-
-def _spectrum_panel(inputs: xr.Dataset) -> Panel:
-    times, moduli = inputs["term_relaxation_time"].values, inputs["term_modulus"].values / MEGA
-    foot = np.full_like(moduli, float(moduli.min()) / 10.0)
-    stems = np.column_stack([foot, moduli, np.full_like(moduli, math.nan)]).ravel()
-    return Panel(
-        Axis("relaxation time $\\tau$ [s]", log=True),
-        Axis("modulus of the element [MPa]", log=True),
-        [
-            Series(np.repeat(times, 3), stems, width=1.1),
-            Series(times, moduli, dash="", marker="o", size=5.0),
-        ],
-        name="prony-spectrum",
-        caption="The Maxwell elements of the Prony series.",
-        alt="Modulus of each Maxwell element against its relaxation time.",
-    )
 
 
 def compound_moduli_figure(rubbers: Mapping[str, Rubber]) -> Figure:
