@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -27,6 +27,7 @@ Result = Annotated[Path, argument("The .nc file of a result.", "RESULT.nc")]
 @export.command("rubber")
 @command
 def rubber(
+    context: typer.Context,
     source: Annotated[
         Path,
         argument(
@@ -56,13 +57,8 @@ def rubber(
         except ValueError as error:
             raise InputError(f"temperature: {error}") from error
         rubber = rubber.at(kelvin)
-    settings = {
-        "name": name,
-        "material": material,
-        "modulus_unit": modulus_unit,
-        "temperature_unit": temperature_unit,
-    }
-    options = {key: value for key, value in settings.items() if value is not None}
+    names = ("name", "material", "modulus_unit", "temperature_unit")
+    options = {key: context.params[key] for key in names if context.params[key] is not None}
     written = write_rubber(rubber, output, to=to, **options)
     console = screen()
     for remark in written.remarks:
@@ -111,15 +107,11 @@ def _rubber_of(source: Path) -> Rubber:
         file = read_case(source)
         return prepare_rubber(file.case.rubber, file.resolve).rubber
     if source.suffix == ".json":
-        return Rubber.from_dict(_json(source))
+        try:
+            values = json.loads(source.read_text(encoding="utf-8"))
+        except (OSError, ValueError) as error:
+            raise FileError(f"{source} cannot be read as a rubber: {error}") from error
+        if not isinstance(values, dict):
+            raise FileError(f"{source} cannot be read as a rubber: it is no JSON object")
+        return Rubber.from_dict(values)
     return prepare_rubber(validate(RubberSource, {"file": str(source)}, str(source))).rubber
-
-
-def _json(path: Path) -> dict[str, Any]:
-    try:
-        values = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise FileError(f"{path} cannot be read as a rubber: {error}") from error
-    if not isinstance(values, dict):
-        raise FileError(f"{path} cannot be read as a rubber: it is no JSON object")
-    return values

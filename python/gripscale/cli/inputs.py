@@ -12,7 +12,15 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from gripscale.cli.terminal import argument, command, option, print_parts, print_wrapped, screen
+from gripscale.cli.terminal import (
+    argument,
+    command,
+    keys_of,
+    option,
+    print_parts,
+    print_wrapped,
+    screen,
+)
 from gripscale.core.errors import InputError
 
 if TYPE_CHECKING:
@@ -97,6 +105,7 @@ def keys(
 
 @command
 def fit_surface(
+    context: typer.Context,
     files: Annotated[list[str], argument("Profiles.")],
     scales: Annotated[int | None, option("Number of sine waves.")] = None,
     smallest_wavelength: Annotated[str | None, option('The last wave, such as "0.1 mm".')] = None,
@@ -125,23 +134,12 @@ def fit_surface(
     from gripscale.case import SurfaceTable, folder, prepare_surface, validate
     from gripscale.report.inputs import slopes_table, surface_lines, waves_table
 
-    settings = {
-        "files": files,
-        "scales": scales,
-        "smallest_wavelength": smallest_wavelength,
-        "cut_off": cut_off,
-        "top_height_fraction": top_height_fraction,
-        "s_wavelength": s_wavelength,
-        "s_amplitude": s_amplitude,
-        "crop": None if crop is None else list(crop),
-        "x_unit": x_unit,
-        "z_unit": z_unit,
-    }
-    values = {key: value for key, value in settings.items() if value is not None}
+    values = keys_of(context, SurfaceTable) | {"remove_spikes": not keep_spikes}
+    if crop is not None:
+        values["crop"] = list(crop)
     if scales is None and smallest_wavelength is None and cut_off is None:
         values["scales"] = 8
-    flags = {"remove_spikes": not keep_spikes, "detrend": detrend, "single_factor": single_factor}
-    surface = validate(SurfaceTable, values | flags, "options")
+    surface = validate(SurfaceTable, values, "options")
     if output is not None:
         folder.require_writable(output)
     prepared = prepare_surface(surface)
@@ -183,6 +181,7 @@ def _ambiguity(prepared: Surface) -> Iterator[str]:
 
 @command
 def fit_rubber(
+    context: typer.Context,
     file: Annotated[str, argument("A master curve, or sweeps to make one of.")],
     terms: Annotated[int | None, option("Relaxation times; chosen if not given.")] = None,
     frequency_unit: Annotated[str | None, option("Where the header does not state it.")] = None,
@@ -220,23 +219,11 @@ def fit_rubber(
     from gripscale.case import RubberSource, folder, prepare_rubber, validate
     from gripscale.report.inputs import band_table, prony_table, rubber_parts
 
-    settings = {
-        "file": file,
-        "terms": terms,
-        "frequency_unit": frequency_unit,
-        "modulus_unit": modulus_unit,
-        "modulus": modulus,
-        "bulk_modulus": bulk_modulus,
-        "reference_temperature": reference_temperature,
-        "temperature_unit": temperature_unit,
-        "columns": None if columns is None else _columns(columns),
-        "sheet": None if sheet is None else _column(sheet),
-        "header": header,
-        "outlier_threshold": outlier_threshold,
-        "shift": shift,
-        "vertical": vertical or None,
-    }
-    values = {key: value for key, value in settings.items() if value is not None}
+    values = keys_of(context, RubberSource)
+    if columns is not None:
+        values["columns"] = _columns(columns)
+    if sheet is not None:
+        values["sheet"] = _column(sheet)
     source = validate(RubberSource, values, "options")
     if output is not None:
         folder.require_writable(output)
@@ -244,22 +231,17 @@ def fit_rubber(
     try:
         prepared = prepare_rubber(source)
     except InputError as error:
-        raise InputError(_with_options(str(error))) from error
+        # a key of a case it names is an option here
+        key = r"\b([a-z_]+)(?= must (be given|name|give|say)\b)"
+        raise InputError(
+            re.sub(key, lambda match: f"--{match[1].replace('_', '-')}", str(error))
+        ) from error
     rubber = prepared.rubber
     tables = [band_table(rubber), prony_table(rubber.relaxation_times, rubber.moduli)]
     print_parts(console, [*rubber_parts(prepared), *(table for table in tables if table)])
     if output is not None:
         console.print()
         _write(console, prepared, output)
-
-
-def _with_options(message: str) -> str:
-    """Return a complaint that names a key of a case with the option of that name."""
-    return re.sub(
-        r"\b([a-z_]+)(?= must (be given|name|give|say)\b)",
-        lambda key: f"--{key[1].replace('_', '-')}",
-        message,
-    )
 
 
 def _column(text: str) -> str | int:

@@ -15,6 +15,7 @@ import typer
 from gripscale.core.errors import ConvergenceError, GripscaleError, InputError
 
 if TYPE_CHECKING:
+    from pydantic import BaseModel
     from rich.console import Console
 
     from gripscale.case import CaseFile
@@ -105,26 +106,10 @@ def conclude(
 ) -> None:
     """End a command: print and write what it found, draw its figures, set the exit code.
 
-    Parameters
-    ----------
-    console, target
-        The screen, and the results folder.
-    parts
-        Tables and sentences, printed and written to the file `text`.
-    closing
-        What is in the folder, as "Result (study.nc), table and figures are in".
-    opening
-        Above the parts in the file, which the screen shows already.
-    width
-        Of a line in the file.
-    files
-        Further texts by file name.
-    draw
-        Draws the figures.
-    page
-        Result file whose page is written, where the libraries for it are installed.
-    failure
-        What has no result; it sets the exit code.
+    `parts` are printed, and written below `opening`, which the screen shows already, to the file
+    `text` with lines of `width`; `files` are further texts by name. `closing` says what is in the
+    folder. `page` is the result whose page is written, where the libraries for it are installed;
+    `failure` is what has no result, and sets the exit code.
     """
     from gripscale.case import folder
     from gripscale.io.table import as_text
@@ -226,6 +211,12 @@ Workers = Annotated[int | None, option("Cores to use; all by default.")]
 Cluster = Annotated[
     str | None, option('"local", or the address of a Dask scheduler: tcp://host:8786.')
 ]
+
+
+def keys_of(context: typer.Context, table: type[BaseModel]) -> dict[str, Any]:
+    """Return the options of a command that are keys of a table of the case, those that are set."""
+    values = {key: context.params.get(key) for key in table.model_fields}
+    return {key: value for key, value in values.items() if value is not None and value is not False}
 
 
 def open_folder(

@@ -22,12 +22,8 @@ QUANTITIES = {"total_contact_fraction": "A_r/A_0", "total_friction": "μ"}
 def effects_table(*results: xr.Dataset) -> Table:
     """Return area and friction with all effects, without each in turn, and without any.
 
-    Beside each number stands what the effects left out change, relative to it.
-
-    Parameters
-    ----------
-    *results : xarray.Dataset
-        As `gripscale.analysis.effects` returns them, one for each model.
+    Beside each number stands what the effects left out change, relative to it. `results` are of
+    `gripscale.analysis.effects`, one for each model.
     """
 
     def every(name: str) -> list[object]:

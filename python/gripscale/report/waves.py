@@ -173,12 +173,7 @@ def filled(view: PredictionView, column: Column, rows: int = 0) -> Column:
 def prediction_table(data: xr.Dataset, title: str) -> Table:
     """Return one row a wave of a prediction, with its totals and what to know of them below.
 
-    Parameters
-    ----------
-    data
-        The answer of any model; of one without waves only the totals are shown.
-    title
-        Printed above it.
+    `data` is the answer of any model; of one without waves only the totals are shown.
     """
     view = PredictionView(data)
     notes = [totals(data), *filter(None, [exponent_sentence(data)])]
