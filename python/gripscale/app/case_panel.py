@@ -12,7 +12,7 @@ from typing import Any
 import panel as pn
 
 from gripscale.app.case import MAX_UPLOAD, CaseState
-from gripscale.app.elements import error_notice, html
+from gripscale.app.elements import column, error_notice, html
 from gripscale.case.examples import EXAMPLES
 from gripscale.core.errors import GripscaleError
 from gripscale.report.elements import Notice
@@ -29,7 +29,7 @@ def file_upload(label: str, on_upload: OnUpload, *, several: bool = False) -> pn
         margin=(0, 8),
         previews=[],
     )
-    message = pn.Column(sizing_mode="stretch_width")
+    message = column()
 
     def receive(_: object) -> None:
         message.objects = []
@@ -45,7 +45,7 @@ def file_upload(label: str, on_upload: OnUpload, *, several: bool = False) -> pn
 
     area.param.watch(receive, "value")
     title = pn.pane.Markdown(label, margin=(4, 8, 0, 8), sizing_mode="stretch_width")
-    return pn.Column(title, area, message, sizing_mode="stretch_width")
+    return column(title, area, message)
 
 
 def case_panel(state: CaseState) -> pn.Column:
@@ -60,7 +60,7 @@ def case_panel(state: CaseState) -> pn.Column:
         css_classes=["case"],
         stylesheets=["textarea { font: 12.5px/1.4 ui-monospace, Consolas, monospace; }"],
     )
-    message = pn.Column(sizing_mode="stretch_width")
+    message = column()
     text.param.watch(lambda event: state.set_text(event.new), "value")
 
     def follow(*_: Any) -> None:
@@ -95,19 +95,18 @@ def case_panel(state: CaseState) -> pn.Column:
         margin=(4, 8),
     )
     prompt = "Drop a case together with the files it names to open it."
-    return pn.Column(
+    return column(
         pn.FlexBox(example, load, align_items="end", sizing_mode="stretch_width"),
         text,
         message,
         save,
         file_upload(prompt, state.open, several=True),
-        sizing_mode="stretch_width",
     )
 
 
 def validation_pane(state: CaseState, *tables: str) -> pn.Column:
     """Return a pane that shows what is wrong with the case if it is about one of `tables`."""
-    pane = pn.Column(sizing_mode="stretch_width")
+    pane = column()
 
     def follow(*_: object) -> None:
         message = state.validation_message

@@ -44,6 +44,11 @@ def _style() -> str:
     return files("gripscale.app").joinpath("templates/elements.css").read_text(encoding="utf-8")
 
 
+def column(*parts: Any, **options: Any) -> pn.Column:
+    """Return a column as wide as the page."""
+    return pn.Column(*parts, sizing_mode="stretch_width", **options)
+
+
 def panes(elements: Iterable[Element | Cards]) -> list[pn.viewable.Viewable]:
     """Return the panes that show `elements`, in order."""
     return [chart_pane(e) if isinstance(e, Chart) else html(e) for e in elements]
@@ -64,9 +69,7 @@ def chart_pane(chart: Chart) -> pn.Column:
     """Return the pane of a chart and its caption."""
     chart.model.html_attributes = {"role": "img", "aria-label": chart.alt}
     figure = pn.pane.Bokeh(chart.model, sizing_mode="stretch_width", margin=(4, 8))
-    return pn.Column(
-        figure, html(Text(chart.caption)), sizing_mode="stretch_width", css_classes=["chart"]
-    )
+    return column(figure, html(Text(chart.caption)), css_classes=["chart"])
 
 
 def error_notice(sentence: str) -> pn.pane.HTML:

@@ -11,7 +11,7 @@ from typing import Any, Literal, get_args, get_origin
 import panel as pn
 
 from gripscale.app.case import CaseState, field_text, field_value
-from gripscale.app.elements import PageElements, error_notice, in_worker, panes
+from gripscale.app.elements import PageElements, column, error_notice, in_worker, panes
 from gripscale.case import CaseFile
 from gripscale.case.keys import NEEDED, NOTHING, TABLES, Key, Section, sections
 from gripscale.case.schema import table_of
@@ -48,7 +48,7 @@ def table_form(state: CaseState, name: str, first: Collection[str]) -> pn.Column
             )
         )
     laws = [law_form(state, table) for table, _, _ in TABLES if table in tables]
-    return pn.Column(*parts, *laws, sizing_mode="stretch_width")
+    return column(*parts, *laws)
 
 
 def law_form(state: CaseState, name: str) -> pn.Column:
@@ -66,7 +66,7 @@ def law_form(state: CaseState, name: str) -> pn.Column:
         description=laws[""].about if single else "",
         **LOOK,
     )
-    body = pn.Column(sizing_mode="stretch_width", margin=(0, 0, 6, 16))
+    body = column(margin=(0, 0, 6, 16))
     body_kind: list[str | None] = [None]
 
     def kind_of_case() -> str | None:
@@ -95,7 +95,7 @@ def law_form(state: CaseState, name: str) -> pn.Column:
                 body.objects = [_rows([field(state, laws[kind], key) for key in keys])]
 
     _bind(state, choice, edit, follow)
-    return pn.Column(_rows([choice]), body, sizing_mode="stretch_width")
+    return column(_rows([choice]), body)
 
 
 def field(state: CaseState, section: Section, key: Key) -> pn.widgets.Select | pn.widgets.TextInput:
@@ -198,7 +198,7 @@ class PreviewPanel:
     ) -> None:
         self._state, self._make = state, make
         self.button = pn.widgets.Button(label=label, color="primary", margin=(8, 8))
-        self.body = pn.Column(sizing_mode="stretch_width")
+        self.body = column()
         self.button.on_click(self.update)
 
     async def update(self, _: Any = None) -> None:

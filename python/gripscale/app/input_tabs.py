@@ -14,6 +14,7 @@ import panel as pn
 
 from gripscale.app.case import CaseState
 from gripscale.app.case_panel import file_upload, validation_pane
+from gripscale.app.elements import column
 from gripscale.app.forms import PreviewPanel, table_form
 from gripscale.case import (
     CaseFile,
@@ -112,7 +113,7 @@ def road_tab(state: CaseState) -> pn.Column:
         state.set(("surface",), {kind.value: source, "scales": SCALES})
         pn.state.execute(preview.update)
 
-    return pn.Column(
+    return column(
         validation_pane(state, "surface"),
         kind,
         file_upload(
@@ -123,7 +124,6 @@ def road_tab(state: CaseState) -> pn.Column:
         table_form(state, "surface", ROAD_FIELDS),
         preview.button,
         preview.body,
-        sizing_mode="stretch_width",
     )
 
 
@@ -138,7 +138,7 @@ def rubber_tab(state: CaseState) -> pn.Column:
     def upload_shift(uploads: Mapping[str, bytes]) -> None:
         state.set(("rubber", "shift"), store_last(state, uploads))
 
-    return pn.Column(
+    return column(
         validation_pane(state, "rubber"),
         file_upload(
             "Drop a master curve, or sweeps at several temperatures; it replaces the rubber "
@@ -151,7 +151,6 @@ def rubber_tab(state: CaseState) -> pn.Column:
         ),
         preview.button,
         preview.body,
-        sizing_mode="stretch_width",
     )
 
 
@@ -179,7 +178,7 @@ def load_tab(state: CaseState) -> pn.Column:
         if name == "conditions":
             prompt = "Drop strain sweeps; they replace the softening of the case."
             parts.append(file_upload(prompt, upload_softening, several=True))
-    return pn.Column(
+    return column(
         validation_pane(state, *LOAD_TABLES, "measured"),
         *parts,
         pn.pane.Markdown("### Measured friction", margin=(4, 8)),
@@ -187,5 +186,4 @@ def load_tab(state: CaseState) -> pn.Column:
             "Drop a table of speed and friction; the results show it beside the predictions.",
             upload_friction,
         ),
-        sizing_mode="stretch_width",
     )

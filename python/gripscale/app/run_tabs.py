@@ -22,6 +22,7 @@ from gripscale.app.elements import (
     Cards,
     PageElements,
     code,
+    column,
     error_notice,
     html,
     in_worker,
@@ -54,7 +55,7 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
     start = pn.widgets.Button(label="Run the case", color="primary", margin=(8, 8))
     stop = pn.widgets.Button(label="Stop", color="danger", disabled=True, margin=(8, 8))
     bar = pn.indicators.Progress(value=0, max=100, sizing_mode="stretch_width", visible=False)
-    status = pn.Column(sizing_mode="stretch_width")
+    status = column()
     last_state: list[tuple[str, int, str]] = []
 
     def on_start(_: Any) -> None:
@@ -88,7 +89,7 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
     stop.on_click(on_stop)
     runs.param.watch(lambda _: update(), "changes")
     pn.state.add_periodic_callback(update, period=POLL)
-    return pn.Column(pn.Row(start, stop), bar, status, sizing_mode="stretch_width")
+    return column(pn.Row(start, stop), bar, status)
 
 
 def run_status(run: Run, state: CaseState) -> Element:
@@ -108,8 +109,8 @@ def run_status(run: Run, state: CaseState) -> Element:
 def results_tab(state: CaseState, runs: Runs) -> pn.Column:
     """Return the tab that shows one run: results, output, downloads and the report."""
     choice = pn.widgets.Select(label="Run", options=[], margin=(4, 8), width=200)
-    body = pn.Column(raw(NO_RUN), sizing_mode="stretch_width")
-    footer = pn.Column(sizing_mode="stretch_width")
+    body = column(raw(NO_RUN))
+    footer = column()
 
     async def show(*_: Any) -> None:
         run = next((run for run in runs.all if run.name == choice.value), None)
@@ -133,7 +134,7 @@ def results_tab(state: CaseState, runs: Runs) -> pn.Column:
 
     choice.param.watch(show, "value")
     runs.param.watch(follow, "changes")
-    return pn.Column(choice, body, footer, sizing_mode="stretch_width")
+    return column(choice, body, footer)
 
 
 def results_elements(folder: Path) -> Iterator[Element | Cards]:
@@ -203,7 +204,7 @@ def new_report(run: Run) -> bytes:
 def report_pane(state: CaseState, run: Run) -> pn.Column:
     """Return a button that shows the report of a run inside the page."""
     button = pn.widgets.Button(label="Show the report here", margin=(8, 8))
-    pane = pn.Column(button, sizing_mode="stretch_width")
+    pane = column(button)
 
     async def show(_: Any) -> None:
         try:
@@ -224,7 +225,7 @@ COMPARED_CHARTS = ("contact-area", "friction")
 
 def compare_tab(state: CaseState, runs: Runs) -> pn.Column:
     """Return the tab that compares all runs of the visit."""
-    body = pn.Column(raw(NO_RUN), sizing_mode="stretch_width")
+    body = column(raw(NO_RUN))
 
     async def follow(_: Any) -> None:
         if any(not run.running for run in runs.all):

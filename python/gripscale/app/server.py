@@ -13,7 +13,7 @@ from bokeh.util.warnings import BokehUserWarning
 
 from gripscale.app.case import MAX_UPLOAD, CaseState, VisitFolder
 from gripscale.app.case_panel import case_panel
-from gripscale.app.elements import raw
+from gripscale.app.elements import column, raw
 from gripscale.app.input_tabs import load_tab, road_tab, rubber_tab
 from gripscale.app.run_tabs import compare_tab, results_tab, run_tab
 from gripscale.app.runs import Runs
@@ -60,13 +60,11 @@ def visit_page(root: Path, case: Path | None) -> pn.Column:
         stylesheets=[TABS_STYLE],
         styles={"flex": "3 1 560px", "min-width": "0", "max-width": "100%"},
     )
-    side = pn.Column(
-        case_panel(state),
-        sizing_mode="stretch_width",
-        styles={"flex": "1 1 300px", "min-width": "0", "max-width": "100%"},
+    side = column(
+        case_panel(state), styles={"flex": "1 1 300px", "min-width": "0", "max-width": "100%"}
     )
     body = pn.FlexBox(tabs, side, sizing_mode="stretch_width", align_items="start")
-    return pn.Column(raw(INTRO), body, sizing_mode="stretch_width", max_width=1500)
+    return column(raw(INTRO), body, max_width=1500)
 
 
 def serve(root: Path, case: Path | None, port: int, browser: bool) -> None:

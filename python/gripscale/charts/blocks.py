@@ -10,24 +10,23 @@ from typing import TYPE_CHECKING, Any
 
 import matplotlib as mpl
 import numpy as np
+import PIL.Image
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
-from numpy.typing import NDArray
-from PIL import Image as Picture
 
-from gripscale.charts.page_elements import Image
+from gripscale.charts.page_elements import Image, Picture
 from gripscale.charts.paper import DASHES, DPI, ROUND, RULES, write_png
 from gripscale.charts.style import BLUE, FAINT, GREY, INK, ORANGE, WIDE
 from gripscale.charts.view import PredictionView
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI
 
 if TYPE_CHECKING:
     import xarray as xr
 
 
-Array = NDArray[np.float64]
 LINE = 0.12
 """Of a title beyond its third line [inch]."""
 FOR_WORDS = 0.2
@@ -211,8 +210,6 @@ def _joined(rows: Array) -> Array:
     return np.hstack([rows, np.full((len(rows), 1), math.nan)]).ravel()
 
 
-# Figures as pictures inside the page.
-
 PICTURE_DPI = 170
 
 
@@ -220,23 +217,25 @@ SHADES = 96
 """Colours the picture is reduced to: a third of the bytes, no visible loss."""
 
 
-def picture(figure: Figure, name: str, caption: str, alt: str) -> Image:
-    """Return a figure as a picture with its caption and a text for who cannot see it."""
+def image(picture: Picture) -> Image:
+    """Return a picture as a page holds it."""
     drawn, packed = io.BytesIO(), io.BytesIO()
-    write_png(figure, drawn, PICTURE_DPI)
-    image = Picture.open(drawn).convert("RGB")
-    image.quantize(SHADES).save(packed, "PNG", optimize=True)
+    write_png(picture.figure, drawn, PICTURE_DPI)
+    pixels = PIL.Image.open(drawn).convert("RGB")
+    pixels.quantize(SHADES).save(packed, "PNG", optimize=True)
     data = base64.b64encode(packed.getvalue()).decode("ascii")
-    return Image(name, caption, alt, data, "image/png", *image.size)
+    name = picture.name.replace("_", "-")
+    return Image(name, picture.caption, picture.alt, data, "image/png", *pixels.size)
 
 
 def blocks_image(prediction: PredictionView) -> Image:
     """Draw the blocks of `prediction`."""
-    return picture(
+    picture = Picture(
+        f"blocks_{prediction.name}",
         blocks_figure(prediction.data),
-        f"blocks-{prediction.name}",
         f"{prediction.title}: deformed rubber on each rigid wave, contact pressure above. Lengths "
         "in wavelengths, to scale.",
         f"{prediction.waves} panels, largest wave first: contact pressure and deformed mesh of the "
         f"{prediction.name} prediction.",
     )
+    return image(picture)

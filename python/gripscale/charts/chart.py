@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from gripscale.charts.style import BLUE, GREY, INK, WIDE
 
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
 
     from gripscale.charts.page_elements import Chart
 
-Array = NDArray[np.float64]
 
 LETTERS = {
     "\\lambda": "λ", "\\mu": "μ", "\\omega": "ω", "\\tau": "τ", "\\epsilon": "ε", "'": "′",

@@ -17,48 +17,12 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from gripscale.analysis.ladder import DIRECT
-from gripscale.charts.chart import (
-    Axis,
-    Band,
-    Bars,
-    CrossLine,
-    Mark,
-    Note,
-    Panel,
-    Series,
-    Sheet,
-    on_page,
-    on_paper,
-    spelled_out,
-    wavelength_axis,
-)
-from gripscale.charts.ladder import (
-    BEST,
-    STAR,
-    Look,
-    MeasuredSeries,
-    Row,
-    looks,
-    measured,
-    measured_points,
-    on_the_surface,
-    rows_of,
-    varied,
-    worth_drawing,
-)
+from gripscale.charts import chart, ladder, style
+from gripscale.charts.chart import Axis, Band, Bars, CrossLine, Mark, Note, Panel, Series, Sheet
+from gripscale.charts.ladder import BEST, STAR, Look, MeasuredSeries, Row
 from gripscale.charts.page_elements import Chart
-from gripscale.charts.style import (
-    BEYOND,
-    BLUE,
-    FAINT,
-    FLAG,
-    GREY,
-    INK,
-    ORANGE,
-    WIDE,
-    down_to,
-    predictions_beyond,
-)
+from gripscale.charts.style import BEYOND, BLUE, FAINT, FLAG, GREY, INK, ORANGE, WIDE
+from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI, DisplayUnit, display_unit
 from gripscale.experiment.axis import axis_label, axis_shown
 from gripscale.model import with_adhesive
@@ -66,7 +30,6 @@ from gripscale.model import with_adhesive
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 QUANTITIES = {
     "contact_fraction": "contact area $A_r/A_0$",
     "friction": "friction coefficient $\\mu$",
@@ -94,7 +57,7 @@ def comparison_figure(comparison: xr.Dataset) -> Figure:
     panels = [_ladder_panel(comparison, name) for name in QUANTITIES]
     labels = list((panels[0].y.ticks or {}).values())
     star = any(label.endswith(STAR) for label in labels)
-    return on_paper(
+    return chart.on_paper(
         Sheet(
             panels,
             height=0.95 + 0.33 * len(labels),
@@ -110,20 +73,20 @@ def ladder_charts(comparison: xr.Dataset) -> list[Chart]:
     """Return the steps from rung to rung, and the rungs down to each wavelength."""
     panels = []
     for name in QUANTITIES:
-        panel, rows = _ladder_panel(comparison, name), list(rows_of(comparison, name))
+        panel, rows = _ladder_panel(comparison, name), list(ladder.rows_of(comparison, name))
         texts = (
             row.label if math.isfinite(row.value) else f"{row.label} ({row.note})" for row in rows
         )
         ticks = {float(at): textwrap.fill(text, LINE) for at, text in enumerate(texts)}
         panels.append(replace(panel, y=replace(panel.y, ticks=ticks)))
-    on_surface = on_the_surface(comparison)
+    on_surface = ladder.on_the_surface(comparison)
     if np.isfinite(on_surface.running_friction.values).any():
         panels += [_wavelength_panel(on_surface, name) for name in QUANTITIES]
-    return on_page(panels)
+    return chart.on_page(panels)
 
 
 def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
-    rows = list(rows_of(comparison, name))
+    rows = list(ladder.rows_of(comparison, name))
     numbers = [
         end
         for row in rows
@@ -135,7 +98,7 @@ def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
     low, high = low / widen, high * widen
     room = (high / low) ** 0.13
     theories = int((comparison.group == "theory").sum())
-    rungs = on_the_surface(comparison).sizes["rung"]
+    rungs = ladder.on_the_surface(comparison).sizes["rung"]
     borders = [rungs - theories - 0.5, rungs - 0.5] if theories else [rungs - 0.5]
     marks: list[Mark] = [CrossLine(at, FAINT, order=0.0) for at in borders]
     for at, (row, follower) in enumerate(pairwise(rows)):
@@ -145,8 +108,7 @@ def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
     labels = zip(comparison.rung.values, comparison.label.values, strict=True)
     strong = {BEST} | {f"{label}{end}" for rung, label in labels if rung == DIRECT
                        for end in ("", STAR)}  # fmt: skip
-    words = spelled_out(QUANTITIES[name])
-    capital = words[0].upper() + words[1:]
+    words, capital = _words(name)
     return Panel(
         Axis(f"{QUANTITIES[name]} [-]", log=True, low=low / room, high=high * room**2),
         Axis("", low=len(rows) - 0.4, high=-0.6, grid=False, bold=frozenset(strong),
@@ -160,6 +122,12 @@ def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
         height=90 + ROW * len(rows),
         legend="none",
     )  # fmt: skip
+
+
+def _words(name: str) -> tuple[str, str]:
+    """Return what a quantity is called within a sentence, and at its beginning."""
+    words = chart.spelled_out(QUANTITIES[name])
+    return words, words[0].upper() + words[1:]
 
 
 def _row_marks(at: int, row: Row) -> Iterator[Mark]:
@@ -193,24 +161,24 @@ def comparison_wavelength_figure(comparison: xr.Dataset) -> Figure:
     Friction of the direct contacts goes on below the smallest wave of the surface: the edges of the
     contact do that. Their area is that of the contact without the shorter waves.
     """
-    on_surface = on_the_surface(comparison)
-    return on_paper(Sheet([_wavelength_panel(on_surface, name) for name in QUANTITIES], height=3.5))
+    on_surface = ladder.on_the_surface(comparison)
+    panels = [_wavelength_panel(on_surface, name) for name in QUANTITIES]
+    return chart.on_paper(Sheet(panels, height=3.5))
 
 
 def _wavelength_panel(comparison: xr.Dataset, name: str) -> Panel:
-    data = comparison.isel(wavelength=worth_drawing(comparison))
+    data = comparison.isel(wavelength=ladder.worth_drawing(comparison))
     length = data.wavelength.values / MILLI
-    beyond = down_to(data[FLAG] == 1) if FLAG in data else np.zeros(length.size, dtype=bool)
+    beyond = style.down_to(data[FLAG] == 1) if FLAG in data else np.zeros(length.size, dtype=bool)
     marks: list[Mark] = []
     for rung, look in _rungs(data):
         values = rung[f"running_{name}"].values
         solved = np.isfinite(values)
         if solved.any():
             marks.append(_curve(length[solved], values[solved], rung, look, beyond[solved]))
-    area, words = name == "contact_fraction", spelled_out(QUANTITIES[name])
-    capital = words[0].upper() + words[1:]
+    area, (words, capital) = name == "contact_fraction", _words(name)
     return Panel(
-        wavelength_axis(length),
+        chart.wavelength_axis(length),
         Axis(f"{QUANTITIES[name]} of longer waves [-]", log=area, low=None if area else 0.0),
         marks,
         name=f"by-wavelength-{name}",
@@ -223,26 +191,16 @@ def _wavelength_panel(comparison: xr.Dataset, name: str) -> Panel:
 
 def _rungs(data: xr.Dataset) -> Iterator[tuple[xr.Dataset, Look]]:
     names = [str(name) for name in data["rung"].values]
-    for at, look in enumerate(looks(names)):
+    for at, look in enumerate(ladder.looks(names)):
         yield data.isel(rung=at), look
 
 
 def _curve(x: Array, y: Array, rung: xr.Dataset, look: Look, beyond: NDArray[np.bool_]) -> Series:
     """Return the curve of a rung; the one the others are judged by is drawn stronger."""
     strong = str(rung.rung.item()) == DIRECT
-    return Series(
-        x,
-        y,
-        look.colour,
-        str(rung.label.item()),
-        look.dash,
-        width=2.0 if strong else 1.2,
-        marker=look.marker,
-        size=4.0 if strong else 3.2,
-        beyond=beyond,
-        order=3.0 if strong else 2.0,
-        clip=False,
-    )
+    width, size, order = (2.0, 4.0, 3.0) if strong else (1.2, 3.2, 2.0)
+    return Series(x, y, look.colour, str(rung.label.item()), look.dash, width, look.marker, size,
+                  beyond=beyond, order=order, clip=False)  # fmt: skip
 
 
 def comparison_axis_figure(comparison: xr.Dataset) -> Figure:
@@ -253,25 +211,24 @@ def comparison_axis_figure(comparison: xr.Dataset) -> Figure:
     best estimate, where it has a factor, is drawn with its standard uncertainty; measured friction
     with its own.
     """
-    return on_paper(Sheet([_axis_panel(comparison, name) for name in QUANTITIES], height=3.7))
+    return chart.on_paper(Sheet([_axis_panel(comparison, name) for name in QUANTITIES], height=3.7))
 
 
 def axis_charts(comparison: xr.Dataset) -> list[Chart]:
     """Return area and friction of every rung over the axis of a comparison."""
-    return on_page([_axis_panel(comparison, name) for name in QUANTITIES])
+    return chart.on_page([_axis_panel(comparison, name) for name in QUANTITIES])
 
 
 def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
-    comparison, axis = on_the_surface(comparison), varied(comparison)
+    comparison, axis = ladder.on_the_surface(comparison), ladder.varied(comparison)
     x = axis_shown(comparison, axis).of(comparison[axis].values)
-    area, words = name == "contact_fraction", spelled_out(QUANTITIES[name])
-    capital = words[0].upper() + words[1:]
+    area, (words, capital) = name == "contact_fraction", _words(name)
     marks: list[Mark] = []
     for rung, look in _rungs(comparison):
         values, spread = rung[f"total_{name}"].values, rung[f"{name}_spread"].values
         if not np.isfinite(values).any():
             continue
-        curve = _curve(x, values, rung, look, predictions_beyond(rung))
+        curve = _curve(x, values, rung, look, style.predictions_beyond(rung))
         marks.append(replace(curve, filled=(rung.converged_samples == rung.samples).values))
         if np.isfinite(spread).any():
             # A spread above the number itself has no end on a logarithmic axis.
@@ -288,7 +245,7 @@ def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
             marks.append(Series(x, values, look.colour, "with the area term", "dashdot", width=0.9))
     low, high = float(x.min()), float(x.max())
     if axis == "speed" and name == "friction":
-        points = list(measured_points(comparison, axis_shown(comparison, "speed")))
+        points = list(ladder.measured_points(comparison, axis_shown(comparison, "speed")))
         marks += points
         speeds = [speed for series in points for speed in np.asarray(series.x)]
         low, high = min([low, *speeds]), max([high, *speeds])
@@ -306,8 +263,6 @@ def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
     )
 
 
-# Panels of friction over speed: one for each temperature and pressure that was measured.
-
 MOST_COLUMNS = 3
 MOST_PANELS = 9
 """Series that are drawn; more would not be read."""
@@ -318,45 +273,31 @@ LEAST_WIDTH = 4.5
 def at_measured_figure(data: xr.Dataset, labels: dict[str, str]) -> Figure:
     """Draw measured friction with its spread, and the total of every model at the same points.
 
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Of `gripscale.analysis.comparison`.
-    labels : dict of str
-        Of the models, in words.
+    `data` is what `gripscale.analysis.comparison` answers; `labels` are the models in words.
     """
     names = [str(name) for name in data.model.values]
 
     def models(series: MeasuredSeries, how: DisplayUnit) -> Iterator[Mark]:
         order = np.argsort(series.speed)
-        for name, look in zip(names, looks(names), strict=True):
+        for name, look in zip(names, ladder.looks(names), strict=True):
             values = data.friction.sel(model=name).values[series.rows][order]
             if np.isfinite(values).any():
                 yield Series(how.of(series.speed[order]), values, look.colour,
                              labels.get(name, name), look.dash, 1.2, look.marker, 3.5)  # fmt: skip
 
-    return on_paper(measured_sheet(data, models, head=1.2))
+    return chart.on_paper(measured_sheet(data, models, head=1.2))
 
 
 def measured_sheet(
-    data: xr.Dataset,
-    marks_of: Callable[[MeasuredSeries, DisplayUnit], Iterable[Mark]],
-    head: float,
+    data: xr.Dataset, marks_of: Callable[[MeasuredSeries, DisplayUnit], Iterable[Mark]], head: float
 ) -> Sheet:
-    """Return a panel for each measured series, its points over other marks.
+    """Return a panel for each measured series of `data`, its points over the marks of `marks_of`.
 
-    Parameters
-    ----------
-    data : xarray.Dataset
-        With measured friction.
-    marks_of : callable
-        Returns what belongs to a series, over speeds as the `DisplayUnit` shows them.
-    head : float
-        Height of the legend [inch].
+    Speeds are shown as the `DisplayUnit` says; `head` is the height of the legend [inch].
     """
     how = display_unit("speed", data.attrs)
     panels = []
-    series = zip(measured(data), measured_points(data, how), strict=True)
+    series = zip(ladder.measured(data), ladder.measured_points(data, how), strict=True)
     for _, (values, points) in zip(range(MOST_PANELS), series, strict=False):
         points = replace(points, marker="o", size=4.5, label="measured")
         panels.append(Panel(

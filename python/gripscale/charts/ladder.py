@@ -5,28 +5,19 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from gripscale.analysis.ladder import DIRECT
+from gripscale.charts import style
 from gripscale.charts.chart import Series
-from gripscale.charts.style import (
-    BLUE,
-    GREEN,
-    GREY,
-    INK,
-    ORANGE,
-    PURPLE,
-    SKY,
-    YELLOW,
-    predictions_beyond,
-)
+from gripscale.charts.style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, SKY, YELLOW
+from gripscale.core.arrays import Array
 from gripscale.core.units import ZERO_CELSIUS, DisplayUnit, display_unit
 
-Array = NDArray[np.float64]
 ASIDE = ("windows", "map")
 """Groups of other surfaces, which only give the factors of the best estimate."""
 SEEN = 0.01
@@ -95,8 +86,6 @@ def on_the_surface(comparison: xr.Dataset) -> xr.Dataset:
     return comparison.isel(rung=[str(group) not in ASIDE for group in comparison.group.values])
 
 
-# Friction measured elsewhere, as a comparison holds it: by temperature, and at one speed.
-
 MARKERS = "osD^v"
 """Of measurements at several temperatures or pressures."""
 
@@ -156,20 +145,10 @@ def measured_points(data: xr.Dataset, how: DisplayUnit) -> Iterator[Series]:
     """Yield the points of each measured series over speed, shown as `how`, with their spread."""
     for number, series in enumerate(measured(data)):
         spread = np.nan_to_num(series.spread)
-        yield Series(
-            how.of(series.speed),
-            series.friction,
-            INK,
-            series.label,
-            dash="",
-            marker=MARKERS[number % len(MARKERS)],
-            size=5.5,
-            filled=False,
-            low=series.friction - spread,
-            high=series.friction + spread,
-            order=5.0,
-            clip=False,
-        )
+        ends: dict[str, Any] = {"low": series.friction - spread, "high": series.friction + spread}
+        yield Series(how.of(series.speed), series.friction, INK, series.label, "",
+                     marker=MARKERS[number % len(MARKERS)], size=5.5, filled=False, order=5.0,
+                     clip=False, **ends)  # fmt: skip
 
 
 BEST = "best estimate"
@@ -211,7 +190,7 @@ def rows_of(comparison: xr.Dataset, name: str) -> Iterator[Row]:
         solved = comparison.isel(rung=at)
         theory, judge = str(solved.group.item()) == "theory", rung == DIRECT
         samples = solved[f"sample_{name}"].values
-        star = STAR if predictions_beyond(solved) else ""
+        star = STAR if style.predictions_beyond(solved) else ""
         yield Row(
             f"{solved.label.item()}{star}",
             values[rung],

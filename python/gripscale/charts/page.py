@@ -18,8 +18,8 @@ from numpy.typing import ArrayLike, NDArray
 from gripscale.charts import page_elements
 from gripscale.charts.chart import Axis, Band, Bars, CrossLine, Mark, Panel, Series, spelled_out
 from gripscale.charts.style import BEYOND, FAINT, GREY, INK, stretches
+from gripscale.core.arrays import Array
 
-Array = NDArray[np.float64]
 FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Liberation Sans', Arial, sans-serif"
 LEGEND_ROW = 28
 """Height of a row of the legend [px]; of more than two rows the figure grows."""
@@ -139,11 +139,14 @@ def _set_axis(figure: Any, which: str, axis: Axis, values: Array) -> None:
         drawn.ticker = grid.ticker = FixedTicker(ticks=list(axis.ticks))
         drawn.major_label_overrides = {at: spelled_out(name) for at, name in axis.ticks.items()}
     if axis.low is not None and axis.high is not None:
-        start, end = _widened(axis.low, axis.high, log=axis.log)
-        setattr(figure, f"{which}_range", Range1d(start=start, end=end))
+        # room for markers at the ends, which Bokeh would cut
+        ends = np.log([axis.low, axis.high]) if axis.log else np.array([axis.low, axis.high])
+        ends += 0.02 * (ends[1] - ends[0]) * np.array([-1.0, 1.0])
+        start, end = np.exp(ends) if axis.log else ends
+        setattr(figure, f"{which}_range", Range1d(start=float(start), end=float(end)))
     elif not axis.log:
-        ends = {"start": axis.low, "end": axis.high}
-        limits.update(**{end: at for end, at in ends.items() if at is not None})
+        limited = {"start": axis.low, "end": axis.high}
+        limits.update(**{end: at for end, at in limited.items() if at is not None})
     if axis.whole and values.size and axis.ticks is None:
         whole = list(range(int(np.ceil(values.min())), int(values.max()) + 1))
         drawn.ticker = grid.ticker = FixedTicker(ticks=whole)
@@ -161,14 +164,6 @@ def _set_axis(figure: Any, which: str, axis: Axis, values: Array) -> None:
         ticks = [step * 10.0**n for n in range(first, first + 5) for step in steps]
         drawn.ticker = grid.ticker = FixedTicker(ticks=ticks)
         drawn.formatter = BasicTickFormatter()
-
-
-def _widened(start: float, end: float, *, log: bool) -> tuple[float, float]:
-    """Return the ends of an axis with room for markers at them, which Bokeh would cut."""
-    ends = np.log([start, end]) if log else np.array([start, end])
-    ends += 0.02 * (ends[1] - ends[0]) * np.array([-1.0, 1.0])
-    start, end = np.exp(ends) if log else ends
-    return float(start), float(end)
 
 
 def _draw_series(figure: Any, series: Series, *, positive: bool) -> list[Any]:

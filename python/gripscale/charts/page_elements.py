@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 import xarray as xr
@@ -11,6 +11,9 @@ import xarray as xr
 from gripscale.experiment.axis import LABELS
 from gripscale.experiment.speed_and_temperature import BEYOND_SHIFT
 from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, WHY_NO_EXPONENT
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 @dataclass(frozen=True)
@@ -26,6 +29,16 @@ class Chart:
 
 
 @dataclass(frozen=True)
+class Picture:
+    """A figure of a results folder and its page: the name of its file, caption and alternative."""
+
+    name: str
+    figure: Figure
+    caption: str
+    alt: str
+
+
+@dataclass(frozen=True)
 class Image:
     """A picture inside the page, base64."""
 
@@ -38,8 +51,6 @@ class Image:
     height: int
     kind: ClassVar[str] = "image"
 
-
-# What the numbers of a study are called on its page, and which of them tell nothing.
 
 AT_REST = "static_"
 """Before the name of what a study says of rubber at rest."""

@@ -20,13 +20,11 @@ from matplotlib.lines import Line2D
 from matplotlib.markers import TICKDOWN, TICKLEFT
 from matplotlib.patches import Patch
 from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator
-from numpy.typing import NDArray
 
 from gripscale.charts.chart import (
     Axis,
     Band,
     Bars,
-    ColourBar,
     CrossLine,
     Mark,
     Note,
@@ -117,8 +115,11 @@ def draw_sheet(sheet: Sheet) -> Figure:
                     axes.tick_params(labelbottom=True)
         _legend(figure, list(grid.flat)[: len(sheet.panels)], sheet)
         if sheet.colour_bar is not None:
-            panels = grid[0] if sheet.colour_bar.first_row else grid
-            _colour_bar(figure, panels, sheet.colour_bar)
+            bar, panels = sheet.colour_bar, grid[:1] if sheet.colour_bar.first_row else grid
+            scale = ListedColormap(shades(256, bar.scale))
+            mappable = ScalarMappable(Normalize(bar.low, bar.high), scale)
+            look: Any = {"label": bar.label, "aspect": 40, "pad": 0.02}
+            figure.colorbar(mappable, ax=list(panels.flat), **look).outline.set_visible(False)
         if sheet.title:
             figure.suptitle(sheet.title)
         return figure
@@ -276,13 +277,6 @@ def _draw_field(figure: Figure, axes: Axes, field: ValueMap) -> None:
     bar = figure.colorbar(mappable, ax=axes, label=field.label, pad=0.02)
     bar.outline.set_linewidth(0.0)
     bar.ax.yaxis.set_major_formatter(lambda value, _: short_number(value))
-
-
-def _colour_bar(figure: Figure, panels: NDArray[Any], bar: ColourBar) -> None:
-    scale = ListedColormap(shades(256, bar.scale))
-    mappable = ScalarMappable(Normalize(bar.low, bar.high), scale)
-    drawn = figure.colorbar(mappable, ax=list(panels.flat), label=bar.label, aspect=40, pad=0.02)
-    drawn.outline.set_visible(False)
 
 
 def _legend(figure: Figure, panels: Sequence[Axes], sheet: Sheet) -> None:

@@ -15,22 +15,12 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from gripscale.case.record import band, rubber_variables
-from gripscale.charts.chart import (
-    Axis,
-    Band,
-    ColourBar,
-    CrossLine,
-    Mark,
-    Note,
-    Panel,
-    Series,
-    Sheet,
-    on_page,
-    on_paper,
-)
+from gripscale.charts import chart
+from gripscale.charts.chart import Axis, Band, CrossLine, Mark, Note, Panel, Series, Sheet
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, COLOURS, GREEN, GREY, INK, NARROW, ORANGE, shades
 from gripscale.charts.view import PredictionView
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.core.units import MEGA, ZERO_CELSIUS
 from gripscale.rubber import (
@@ -51,7 +41,6 @@ from gripscale.rubber.superposition import temperatures_in
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 OMEGA = Axis("angular frequency $\\omega$ [rad/s]", log=True)
 CELSIUS = Axis("temperature [°C]")
 KILO = 1e3
@@ -81,7 +70,7 @@ def master_curve_figure(
     variables, attrs = rubber_variables(rubber, master, fit, omega)
     panels = _moduli_panels(xr.Dataset(variables, attrs=attrs), omega, rubber)
     layout = {"sharex": True, "height_ratios": [2.0, 1.0]}
-    return on_paper(Sheet(panels, 1, NARROW, 4.9, legend_columns=2, gap=0.02, layout=layout))
+    return chart.on_paper(Sheet(panels, 1, NARROW, 4.9, legend_columns=2, gap=0.02, layout=layout))
 
 
 def rubber_charts(inputs: xr.Dataset, excited: PredictionView | None) -> list[Chart]:
@@ -99,10 +88,36 @@ def rubber_charts(inputs: xr.Dataset, excited: PredictionView | None) -> list[Ch
             for panel, value, label in zip(panels, values, labels, strict=True)
         ]
     if "master_frequency" in inputs:
-        panels.append(_residual_panel(inputs))
+        kept = ~_left_out(inputs)
+        omega = 2.0 * math.pi * inputs["master_frequency"].values[kept]
+        marks: list[Mark] = [CrossLine(0.0, INK)]
+        for part, name, colour in MODULI:
+            ratio = inputs[f"master_series_{part}"].values / inputs[f"master_{part}"].values
+            marks.append(Series(omega, 100.0 * (ratio - 1.0)[kept], colour, name, "", marker="."))
+        panels.append(Panel(
+            OMEGA,
+            Axis("Prony series / measured − 1 [%]"),
+            marks,
+            name="prony-residual",
+            caption="What the Prony series leaves over at the rows that were fitted.",
+            alt="Relative error of the Prony series in both moduli against angular frequency.",
+        ))  # fmt: skip
     if "term_modulus" in inputs:
-        panels.append(_spectrum_panel(inputs))
-    return on_page(panels)
+        times, moduli = inputs["term_relaxation_time"].values, inputs["term_modulus"].values / MEGA
+        foot = np.full_like(moduli, float(moduli.min()) / 10.0)
+        stems = np.column_stack([foot, moduli, np.full_like(moduli, math.nan)]).ravel()
+        panels.append(Panel(
+            Axis("relaxation time $\\tau$ [s]", log=True),
+            Axis("modulus of the element [MPa]", log=True),
+            [
+                Series(np.repeat(times, 3), stems, width=1.1),
+                Series(times, moduli, dash="", marker="o", size=5.0),
+            ],
+            name="prony-spectrum",
+            caption="The Maxwell elements of the Prony series.",
+            alt="Modulus of each Maxwell element against its relaxation time.",
+        ))  # fmt: skip
+    return chart.on_page(panels)
 
 
 def _moduli_panels(
@@ -183,40 +198,6 @@ def _rows(
                      marker="x", listed=listed)  # fmt: skip
 
 
-def _residual_panel(inputs: xr.Dataset) -> Panel:
-    kept = ~_left_out(inputs)
-    omega = 2.0 * math.pi * inputs["master_frequency"].values[kept]
-    marks: list[Mark] = [CrossLine(0.0, INK)]
-    for part, name, colour in MODULI:
-        ratio = inputs[f"master_series_{part}"].values / inputs[f"master_{part}"].values
-        marks.append(Series(omega, 100.0 * (ratio - 1.0)[kept], colour, name, "", marker="."))
-    return Panel(
-        OMEGA,
-        Axis("Prony series / measured − 1 [%]"),
-        marks,
-        name="prony-residual",
-        caption="What the Prony series leaves over at the rows that were fitted.",
-        alt="Relative error of the Prony series in both moduli against angular frequency.",
-    )
-
-
-def _spectrum_panel(inputs: xr.Dataset) -> Panel:
-    times, moduli = inputs["term_relaxation_time"].values, inputs["term_modulus"].values / MEGA
-    foot = np.full_like(moduli, float(moduli.min()) / 10.0)
-    stems = np.column_stack([foot, moduli, np.full_like(moduli, math.nan)]).ravel()
-    return Panel(
-        Axis("relaxation time $\\tau$ [s]", log=True),
-        Axis("modulus of the element [MPa]", log=True),
-        [
-            Series(np.repeat(times, 3), stems, width=1.1),
-            Series(times, moduli, dash="", marker="o", size=5.0),
-        ],
-        name="prony-spectrum",
-        caption="The Maxwell elements of the Prony series.",
-        alt="Modulus of each Maxwell element against its relaxation time.",
-    )
-
-
 def compound_moduli_figure(rubbers: Mapping[str, Rubber]) -> Figure:
     """Draw E' [MPa] and the loss factor of compounds, dashed beyond what was measured.
 
@@ -237,7 +218,7 @@ def compound_moduli_figure(rubbers: Mapping[str, Rubber]) -> Figure:
         Panel(OMEGA, Axis("loss factor [-]", low=0.0), loss),
     ]
     layout = {"sharex": True}
-    return on_paper(Sheet(panels, 1, NARROW, 4.9, legend_columns=2, gap=0.02, layout=layout))
+    return chart.on_paper(Sheet(panels, 1, NARROW, 4.9, legend_columns=2, gap=0.02, layout=layout))
 
 
 def superposition_figure(sweeps: Sweeps, master: MasterCurve) -> Figure:
@@ -288,13 +269,13 @@ def superposition_figure(sweeps: Sweeps, master: MasterCurve) -> Figure:
     ]
     layout = {"sharex": "col", "sharey": "row"}
     bar = _temperatures(sweeps)
-    return on_paper(Sheet(panels, height=6.2, gap=0.02, colour_bar=bar, layout=layout))
+    return chart.on_paper(Sheet(panels, height=6.2, gap=0.02, colour_bar=bar, layout=layout))
 
 
-def _temperatures(sweeps: Sweeps) -> ColourBar:
+def _temperatures(sweeps: Sweeps) -> chart.ColourBar:
     """Return what the colours of sweeps mean, cold blue to warm red."""
     celsius = sweeps.temperatures - ZERO_CELSIUS
-    return ColourBar(celsius[0], celsius[-1], "Turbo", CELSIUS.label)
+    return chart.ColourBar(celsius[0], celsius[-1], "Turbo", CELSIUS.label)
 
 
 def _coloured(drawn: Iterable[Sweep], sweeps: Sweeps) -> Iterator[tuple[Sweep, str]]:
@@ -342,7 +323,7 @@ def shift_figure(table: ShiftTable, fits: Sequence[ShiftFit] = ()) -> Figure:
     rows = len(panels)
     layout = {"sharex": True, "height_ratios": [2.0, *[1.0] * (rows - 1)]}
     height = 1.5 * rows + 1.4
-    return on_paper(Sheet(panels, 1, NARROW, height, legend="", gap=0.02, layout=layout))
+    return chart.on_paper(Sheet(panels, 1, NARROW, height, legend="", gap=0.02, layout=layout))
 
 
 def _formula(table: ShiftTable, fit: ShiftFit, colour: str) -> Iterator[Series]:
@@ -377,10 +358,7 @@ def superposition_tests_figure(sweeps: Sweeps, report: Superposition) -> Figure:
     for sweep, colour in _coloured(sweeps, sweeps):
         size = np.hypot(sweep.storage, sweep.loss) / MEGA
         angle = np.degrees(np.arctan2(sweep.loss, sweep.storage))
-        for marks, x, y in (
-            (gurp, size, angle),
-            (cole, sweep.storage / MEGA, sweep.loss / MEGA),
-        ):
+        for marks, x, y in ((gurp, size, angle), (cole, sweep.storage / MEGA, sweep.loss / MEGA)):
             marks.append(Series(x, y, colour, marker="o", size=2.2, width=0.8))
     overlaps = report.overlaps
     middle = np.array([0.5 * (pair.colder + pair.warmer) for pair in overlaps]) - ZERO_CELSIUS
@@ -399,7 +377,7 @@ def superposition_tests_figure(sweeps: Sweeps, report: Superposition) -> Figure:
               legend="best" if overlaps else ""),
     ]  # fmt: skip
     bar = replace(_temperatures(sweeps), first_row=True)
-    return on_paper(Sheet(panels, height=5.4, gap=0.02, legend="", colour_bar=bar))
+    return chart.on_paper(Sheet(panels, height=5.4, gap=0.02, legend="", colour_bar=bar))
 
 
 def finite_strain_figure(fits: Mapping[str, FiniteStrainFit]) -> Figure:
@@ -420,7 +398,7 @@ def finite_strain_figure(fits: Mapping[str, FiniteStrainFit]) -> Figure:
         raise InputError("fits must hold at least one fit, all of the same tests")
     panels = [_test_panel(test, fits, number) for number, test in enumerate(first.tests)]
     height = 2.6 * -(-len(panels) // 2) + 0.3
-    return on_paper(Sheet(panels, height=height, legend_columns=1 + len(fits), gap=0.02))
+    return chart.on_paper(Sheet(panels, height=height, legend_columns=1 + len(fits), gap=0.02))
 
 
 def _test_panel(test: UniaxialTest, fits: Mapping[str, FiniteStrainFit], number: int) -> Panel:

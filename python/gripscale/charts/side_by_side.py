@@ -3,30 +3,25 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
-from gripscale.charts.chart import (
-    Axis,
-    Bars,
-    CrossLine,
-    Mark,
-    Panel,
-    Series,
-    Sheet,
-    on_paper,
-    wavelength_axis,
-)
+from gripscale.charts import chart
+from gripscale.charts.chart import Axis, Bars, CrossLine, Mark, Panel, Series, Sheet
+from gripscale.charts.page_elements import Picture
+from gripscale.charts.rubber import compound_moduli_figure
 from gripscale.charts.style import COLOURS, power_of_ten
+from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI, SQUARE_MM
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
+    from gripscale.rubber import Rubber
+
 LEAST_MODULUS_SHARE = 0.005
 """Of the largest difference: decades at either end with less are not drawn."""
 CUBIC_MM = 1e-9
@@ -34,6 +29,42 @@ LEAST_POWER_SHARE = 0.02
 """Share of the largest friction of an octave from which one is drawn."""
 STEP = 1.12
 """Between the bars of roads beside the smallest wavelength, as a ratio of wavelengths."""
+
+
+def compound_pictures(data: xr.Dataset, rubbers: Mapping[str, Rubber]) -> Iterator[Picture]:
+    """Yield the figures of `gripscale.analysis.Compounds`: friction by wave, and moduli."""
+    if "friction_running" in data:
+        yield Picture(
+            "compound_friction",
+            compound_friction_figure(data),
+            "Friction of all waves down to each; bars are the ranges of the totals. Beside it the "
+            "difference to the first compound by relaxation time.",
+            "A curve for each compound, rising towards short waves, and bars of differences.",
+        )
+    if rubbers:
+        yield Picture(
+            "compound_moduli",
+            compound_moduli_figure(rubbers),
+            "Storage modulus and loss factor of each compound, dashed beyond what was measured.",
+            "Two panels of curves over the frequency, one curve for each compound.",
+        )
+
+
+def road_pictures(data: xr.Dataset) -> Iterator[Picture]:
+    """Yield the figures of `gripscale.analysis.Roads`: statistics, and friction by wavelength."""
+    yield Picture(
+        "roads_statistics",
+        roads_statistics_figure(data),
+        "Height difference correlation and spectrum of each road.",
+        "Two panels of curves, one for each road.",
+    )
+    yield Picture(
+        "roads_friction",
+        roads_friction_figure(data),
+        "Friction of all waves down to each wavelength, of the direct contact by the energy lost; "
+        "bars are the ranges of the totals.",
+        "A panel for each model with a curve for each road, rising towards short waves.",
+    )
 
 
 def compound_friction_figure(data: xr.Dataset) -> Figure:
@@ -48,14 +79,14 @@ def compound_friction_figure(data: xr.Dataset) -> Figure:
         marks += _running(wavelength, compound, colour, name, float(wavelength[-1]))
     panels = [
         Panel(
-            wavelength_axis(data.wavelength.values / MILLI),
+            chart.wavelength_axis(data.wavelength.values / MILLI),
             Axis("$\\mu$ of this and larger waves [-]", low=0.0),
             marks,
         )
     ]
     if "friction_by_decade_difference" in data:
         panels.append(_decades_panel(data))
-    return on_paper(Sheet(panels, len(panels)))
+    return chart.on_paper(Sheet(panels, len(panels)))
 
 
 def _running(x: Array, data: xr.Dataset, colour: str, label: str, end: float) -> list[Mark]:
@@ -123,7 +154,7 @@ def roads_statistics_figure(data: xr.Dataset) -> Figure:
             spectrum,
         ),
     ]
-    return on_paper(Sheet(panels, height=3.2))
+    return chart.on_paper(Sheet(panels, height=3.2))
 
 
 def roads_friction_figure(data: xr.Dataset) -> Figure:
@@ -150,11 +181,11 @@ def roads_friction_figure(data: xr.Dataset) -> Figure:
             marks += _running(wavelength, of_model.sel(surface=name), colour, name, end)
         ends = [*wavelength, wavelength[-1] / STEP ** len(roads)]
         panels.append(Panel(
-            wavelength_axis(ends),
+            chart.wavelength_axis(ends),
             Axis("$\\mu$ of this and longer waves [-]", low=0.0),
             marks,
             title=str(model),
         ))  # fmt: skip
     layout = {"sharey": True}
     panels = panels or [Panel(Axis(), Axis())]
-    return on_paper(Sheet(panels, len(panels), height=3.2, layout=layout))
+    return chart.on_paper(Sheet(panels, len(panels), height=3.2, layout=layout))

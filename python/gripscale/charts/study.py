@@ -13,37 +13,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
-from gripscale.charts.chart import (
-    Axis,
-    Band,
-    ColourBar,
-    CrossLine,
-    Mark,
-    Panel,
-    Series,
-    Sheet,
-    ValueMap,
-    on_page,
-    on_paper,
-    wavelength_axis,
-)
+from gripscale.charts import chart, style
+from gripscale.charts.chart import Axis, Band, CrossLine, Mark, Panel, Series, Sheet
 from gripscale.charts.page_elements import Chart, telling, words_of
-from gripscale.charts.style import (
-    BEYOND,
-    BLUE,
-    GREY,
-    INK,
-    NARROW,
-    Flags,
-    colours,
-    down_to,
-    power_of_ten,
-    predictions_beyond,
-    shades,
-    waves_beyond,
-)
+from gripscale.charts.style import BEYOND, BLUE, GREY, INK, NARROW, Flags
+from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI
 from gripscale.experiment.axis import (
     WORDS,
@@ -59,7 +34,6 @@ from gripscale.experiment.speed_and_temperature import BEYOND_SHIFT, COLLAPSED, 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 MOST_CURVES = 12
 """Curves of a chart of the page, evenly spaced among more; and names in a legend on paper."""
 PER_WAVE = ("running_contact_fraction", "running_friction", "contact_fraction", "friction")
@@ -102,7 +76,7 @@ def study_charts(data: xr.Dataset) -> list[Chart]:
     for name in PER_WAVE if "wavelength" in data else ():
         if name in data and "scale" in data[name].dims and np.isfinite(data[name].values).any():
             panels.append(_wave_panel(data, name, thinned=True))
-    return on_page(panels)
+    return chart.on_page(panels)
 
 
 def _curves(
@@ -114,7 +88,7 @@ def _curves(
         chosen = np.linspace(0, len(points) - 1, MOST_CURVES).round().astype(int)
         points = [points[i] for i in chosen]
     ordered = len(over) == 1 and over[0] in numeric(data)
-    for point, colour in zip(points, colours(len(points), ordered=ordered), strict=True):
+    for point, colour in zip(points, style.colours(len(points), ordered=ordered), strict=True):
         at = dict(zip(over, point, strict=True))
         names = [
             name_of(data, name, i) if name in data.coords else f"{name.replace('_', ' ')} {i + 1}"
@@ -125,7 +99,7 @@ def _curves(
 
 def _beyond(data: xr.Dataset, variable: xr.DataArray) -> xr.DataArray:
     """Return which predictions rest on extrapolation; at rest, or where it is not known, none."""
-    flags = data["total_friction"].copy(data=predictions_beyond(data))
+    flags = data["total_friction"].copy(data=style.predictions_beyond(data))
     covered = set(flags.dims) <= set(variable.dims)
     return xr.broadcast(flags if covered else xr.DataArray(False), variable)[0]
 
@@ -195,7 +169,7 @@ def totals_figure(result: xr.Dataset) -> Figure:
     several = len(area.marks) > 1 or bool(keys)
     several |= any(np.any(mark.beyond) for mark in area.marks if isinstance(mark, Series))
     legend = "above" if several else ""
-    return on_paper(Sheet([area, friction], legend=legend, legend_columns=4, keys=keys))
+    return chart.on_paper(Sheet([area, friction], legend=legend, legend_columns=4, keys=keys))
 
 
 def _rest(result: xr.Dataset, axis: str, others: list[str]) -> Iterator[Mark]:
@@ -215,7 +189,7 @@ def _rest(result: xr.Dataset, axis: str, others: list[str]) -> Iterator[Mark]:
 
 def _wave_panel(data: xr.Dataset, name: str, *, thinned: bool) -> Panel:
     """Return a number of each wave against wavelength, a curve for each prediction."""
-    flags = data["wavelength"].copy(data=waves_beyond(data))
+    flags = data["wavelength"].copy(data=style.waves_beyond(data))
     values, lengths, flags = xr.broadcast(data[name], data["wavelength"] / MILLI, flags)
     over = [str(dim) for dim in values.dims if dim != "scale"]
     curves = list(_curves(data, over, thinned=thinned))
@@ -223,14 +197,14 @@ def _wave_panel(data: xr.Dataset, name: str, *, thinned: bool) -> Panel:
     marks: list[Mark] = []
     for i, (at, colour, label) in enumerate(curves):
         x, y, beyond = (part.isel(at).values for part in (lengths, values, flags))
-        beyond = down_to(beyond) if name.startswith("running") else beyond
+        beyond = style.down_to(beyond) if name.startswith("running") else beyond
         marks.append(Series(x, y, colour, label or words_of(data, name), marker="o", size=3.0,
                             beyond=beyond, listed=i % every == 0))  # fmt: skip
     area = "fraction" in name
     running = ", running" * name.startswith("running")
     label = f"relative contact area{running} [-]" if area else f"friction coefficient{running} [-]"
     return Panel(
-        wavelength_axis(lengths.values),
+        chart.wavelength_axis(lengths.values),
         Axis(label, log=area, low=None if area else 0.0, high=1.15 if area else None),
         marks,
         name=f"{name}-per-wave",
@@ -247,10 +221,8 @@ def wavelength_figure(result: xr.Dataset, axis: str, title: str = "") -> Figure:
     """
     assert axis in result.dims
     panels = [_wave_panel(result, name, thinned=False) for name in PER_WAVE[:2]]
-    return on_paper(Sheet(panels, legend="beside", title=title))
+    return chart.on_paper(Sheet(panels, legend="beside", title=title))
 
-
-# Which waves, and which relaxation times of the rubber, make the grip.
 
 HEIGHT = 3.4
 LEAST_SHARE = 0.005
@@ -292,7 +264,9 @@ def stacked_figure(result: xr.Dataset, axis: str, title: str = "") -> Figure:
     upper = [np.ones_like(x)]
     for row in running:
         upper.append(np.where(np.isnan(row), upper[-1], row))
-    total = Series(x, result.total_friction, INK, width=1.2, beyond=predictions_beyond(result))
+    total = Series(
+        x, result.total_friction, INK, width=1.2, beyond=style.predictions_beyond(result)
+    )
     area = Series(x, upper[-1], INK, width=1.2, beyond=beyond.any(axis=0))
     panels = [
         Panel(
@@ -307,7 +281,7 @@ def stacked_figure(result: xr.Dataset, axis: str, title: str = "") -> Figure:
             [*_wave_bands(result, x, running, np.array(upper[:-1]), beyond), area],
         ),
     ]  # fmt: skip
-    return on_paper(Sheet(panels, height=HEIGHT, legend="beside", legend_title="wavelength",
+    return chart.on_paper(Sheet(panels, height=HEIGHT, legend="beside", legend_title="wavelength",
                           title=title))  # fmt: skip
 
 
@@ -320,7 +294,7 @@ def shares_figure(result: xr.Dataset, axis: str, title: str = "") -> Figure:
     beyond = _waves_beyond(result, axis)
     friction = result.friction.transpose("scale", axis).values
     shares = _stack(friction / result.total_friction.values)
-    looks = zip(friction, shades(len(friction)), beyond, strict=True)
+    looks = zip(friction, style.shades(len(friction)), beyond, strict=True)
     panels = [
         Panel(
             abscissa,
@@ -333,13 +307,13 @@ def shares_figure(result: xr.Dataset, axis: str, title: str = "") -> Figure:
             [Series(x, row, colour, beyond=flags) for row, colour, flags in looks],
         ),
     ]
-    return on_paper(Sheet(panels, height=HEIGHT, legend="beside", legend_title="wavelength",
+    return chart.on_paper(Sheet(panels, height=HEIGHT, legend="beside", legend_title="wavelength",
                           title=title))  # fmt: skip
 
 
 def _waves_beyond(result: xr.Dataset, axis: str) -> Flags:
     """Return for each wave and point whether it excites the rubber beyond the measured band."""
-    return waves_beyond(result.transpose("scale", axis, ...))
+    return style.waves_beyond(result.transpose("scale", axis, ...))
 
 
 def _stack(rows: Array) -> tuple[Array, Array]:
@@ -354,7 +328,7 @@ def _wave_bands(result: xr.Dataset, x: Array, low: Array, high: Array, beyond: F
     bands: list[Mark] = [
         Band(x, least, most, colour, name, 1.0, flags, edged=True)
         for least, most, colour, name, flags in zip(
-            low, high, shades(len(low)), wavelength_names(result), beyond, strict=True
+            low, high, style.shades(len(low)), wavelength_names(result), beyond, strict=True
         )
     ]
     return bands[::-1]
@@ -370,13 +344,13 @@ def decades_figure(result: xr.Dataset, axis: str, title: str = "") -> Figure:
     share = share.isel(decade=np.nanmax(share.values, axis=1) >= LEAST_SHARE)
     abscissa, x = varied_axis(result, axis)
     low, high = _stack(np.nan_to_num(share.values))
-    scale = shades(max(share.sizes["decade"], 2), "Cividis")
+    scale = style.shades(max(share.sizes["decade"], 2), "Cividis")
     marks: list[Mark] = [
-        Band(x, least, most, colour, power_of_ten(round(math.log10(time))), 1.0, edged=True)
+        Band(x, least, most, colour, style.power_of_ten(round(math.log10(time))), 1.0, edged=True)
         for least, most, colour, time in zip(low, high, scale, share.decade.values, strict=False)
     ]
     total = Series(x, high[-1] if len(high) else 0.0 * x, INK, width=1.2, clip=False,
-                   beyond=predictions_beyond(result))  # fmt: skip
+                   beyond=style.predictions_beyond(result))  # fmt: skip
     ordinate = Axis("share in $\\mu$, split as at small strain [-]", low=0.0, high=1.0)
     panel = Panel(abscissa, ordinate, [*marks[::-1], total])
     look: dict[str, Any] = {
@@ -384,7 +358,7 @@ def decades_figure(result: xr.Dataset, axis: str, title: str = "") -> Figure:
         "legend_title": "relaxation\ntime from [s]",
         "title": title,
     }
-    return on_paper(Sheet([panel], 1, NARROW, 3.6, gap=0.02, **look))
+    return chart.on_paper(Sheet([panel], 1, NARROW, 3.6, gap=0.02, **look))
 
 
 def _relaxation_panel(data: xr.Dataset) -> Panel:
@@ -412,9 +386,6 @@ def _relaxation_panel(data: xr.Dataset) -> Panel:
     )
 
 
-# Friction and contact area over speed and temperature, as maps and as one curve over a_T v.
-
-
 def map_figure(result: xr.Dataset) -> Figure:
     """Draw friction and A_r/A_0 over the speed, to the right, and the temperature.
 
@@ -426,7 +397,7 @@ def map_figure(result: xr.Dataset) -> Figure:
     (abscissa, speeds), (ordinate, celsius) = (
         varied_axis(result, name) for name in ("speed", "temperature")
     )
-    beyond = predictions_beyond(result).astype(bool)
+    beyond = style.predictions_beyond(result).astype(bool)
     shifted = result[BEYOND_SHIFT].values.astype(bool)
     solved = np.isfinite(result.total_friction.values)
     x, y = np.meshgrid(speeds, celsius)
@@ -445,11 +416,11 @@ def map_figure(result: xr.Dataset) -> Figure:
         Panel(
             replace(abscissa, grid=False),
             replace(ordinate, grid=False),
-            [ValueMap(speeds, celsius, result[name].values, TOTALS[name], levels=9), *points],
+            [chart.ValueMap(speeds, celsius, result[name].values, TOTALS[name], levels=9), *points],
         )
         for name in reversed(TOTALS)
     ]
-    return on_paper(Sheet(panels, height=3.3, layout={"sharey": True}))
+    return chart.on_paper(Sheet(panels, height=3.3, layout={"sharey": True}))
 
 
 def friction_master_figure(result: xr.Dataset) -> Figure:
@@ -460,9 +431,9 @@ def friction_master_figure(result: xr.Dataset) -> Figure:
     """
     celsius = axis_shown(result, "temperature").of(result.temperature)
     label = axis_label(result, "temperature")
-    bar = ColourBar(float(celsius.min()), float(celsius.max()), "Plasma", label)
+    bar = chart.ColourBar(float(celsius.min()), float(celsius.max()), "Plasma", label)
     panels = [_reduced_panel(result, name) for name in reversed(TOTALS)]
-    return on_paper(Sheet(panels, height=3.3, colour_bar=bar))
+    return chart.on_paper(Sheet(panels, height=3.3, colour_bar=bar))
 
 
 def _reduced_panel(data: xr.Dataset, name: str) -> Panel:
@@ -470,7 +441,7 @@ def _reduced_panel(data: xr.Dataset, name: str) -> Panel:
     speeds = axis_shown(data, "speed")
     celsius = axis_shown(data, "temperature").of(data.temperature)
     shares = (celsius - celsius.min()) / max(float(np.ptp(celsius)), 1e-9)
-    scale = shades(256, "Plasma")
+    scale = style.shades(256, "Plasma")
     flags = _beyond(data, data[name])
     marks: list[Mark] = []
     for i, share in enumerate(shares):

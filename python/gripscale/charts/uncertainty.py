@@ -9,19 +9,10 @@ import numpy as np
 import xarray as xr
 
 from gripscale.analysis.variance_shares import SURE
-from gripscale.charts.chart import (
-    Axis,
-    Band,
-    Bars,
-    CrossLine,
-    Mark,
-    Panel,
-    Series,
-    Sheet,
-    on_paper,
-)
+from gripscale.charts.chart import Axis, Band, Bars, CrossLine, Mark, Panel, Series, Sheet, on_paper
 from gripscale.charts.comparison import measured_sheet
 from gripscale.charts.ladder import MARKERS, MeasuredSeries, measured
+from gripscale.charts.page_elements import Picture
 from gripscale.charts.study import varied_axis
 from gripscale.charts.style import BLUE, COLOURS, FAINT, GREY, INK, ORANGE
 from gripscale.core.units import MEGA, DisplayUnit, display_unit
@@ -38,6 +29,39 @@ MEDIAN, END = 1.6, 0.9
 """Widths of the lines at median and ends."""
 FEWEST_SAMPLES = 2
 """Samples there must be for a distribution."""
+
+
+def axis_of(data: xr.Dataset) -> str:
+    """Return what is varied beside the samples, or nothing."""
+    return next((str(name) for name in data.failed.dims if name != "model"), "")
+
+
+def uncertainty_pictures(data: xr.Dataset) -> Iterator[Picture]:
+    """Yield bands where a load is varied, else distributions and what matters most."""
+    if axis := axis_of(data):
+        yield Picture(
+            f"over_{axis}",
+            band_figure(data, axis),
+            f"Medians over the {axis}, with bands of 50 and 90 % of the samples.",
+            f"Friction and contact area over the {axis} with their bands.",
+        )
+        return
+    yield Picture(
+        "distributions",
+        distribution_figure(data),
+        "How friction and contact area are distributed: quantiles, and the case.",
+        "Histograms of the samples, a row for each model.",
+    )
+    for name in data.model.values:
+        samples = data.sel(model=name)
+        if np.isfinite(samples.friction_share).any():
+            yield Picture(
+                f"tornado_{name}",
+                tornado_figure(samples),
+                f"What each source does alone to the friction of the model {name}, and its share "
+                "of the variance.",
+                "Bars for each source, the most important on top.",
+            )
 
 
 def distribution_figure(data: xr.Dataset) -> Figure:
@@ -141,8 +165,6 @@ def band_figure(data: xr.Dataset, axis: str) -> Figure:
     return on_paper(Sheet(panels, keys=[case]))
 
 
-# The area term fitted to measured friction: the fit, its residuals, the profiles of parameters.
-
 UNITS = {"Pa": (MEGA, "MPa"), "m/s": (1.0, "m/s"), "eV": (1.0, "eV"), "1": (1.0, "-")}
 """What a parameter is divided by to be drawn, and its unit then."""
 PARAMETER_LABELS = {
@@ -156,6 +178,29 @@ PARAMETER_LABELS = {
 }
 CEILING = 2.5
 """Highest excess that is drawn, over the threshold."""
+
+
+def calibration_pictures(data: xr.Dataset) -> Iterator[Picture]:
+    """Yield the figures of a calibration."""
+    yield Picture(
+        "measured_and_fitted",
+        fitted_figure(data),
+        "Measured friction with its spread, the hysteresis alone, and the fit with its band, at "
+        "each temperature.",
+        "A panel for each temperature with points and two curves over the speed.",
+    )
+    yield Picture(
+        "residuals",
+        residual_figure(data),
+        "Fitted less measured friction over the speed.",
+        "Points around zero over the speed, a marker for each temperature.",
+    )
+    yield Picture(
+        "profiles",
+        profiles_figure(data),
+        "By how much the sum of squares rises where a parameter is held elsewhere.",
+        "A panel for each parameter with a valley around its best value.",
+    )
 
 
 def fitted_figure(data: xr.Dataset) -> Figure:

@@ -14,13 +14,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from gripscale.core.arrays import Array
 from gripscale.core.units import DisplayUnit, display_unit
 
 if TYPE_CHECKING:
     import xarray as xr
 
 
-Array = NDArray[np.float64]
 CONVERGED = "converged"
 JUDGE = "direct contact of the profiles"
 """What a figure of a chain calls the model that judges it."""

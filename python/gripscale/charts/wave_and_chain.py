@@ -7,47 +7,22 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from gripscale.analysis.effects import CHANGES, WITH_AREA_TERM
 from gripscale.analysis.measured_comparison import measured_variables
 from gripscale.analysis.measured_friction import MeasuredFriction
-from gripscale.charts.chart import (
-    Axis,
-    Bars,
-    CrossLine,
-    Mark,
-    Note,
-    Panel,
-    Series,
-    Sheet,
-    ValueMap,
-    on_page,
-    on_paper,
-    wavelength_axis,
-)
+from gripscale.charts import chart, style
+from gripscale.charts.chart import Axis, Bars, CrossLine, Mark, Note, Panel, Series, Sheet, ValueMap
 from gripscale.charts.ladder import measured_points
 from gripscale.charts.page_elements import Chart
-from gripscale.charts.style import (
-    BLUE,
-    COLOURS,
-    GREEN,
-    GREY,
-    INK,
-    NARROW,
-    ORANGE,
-    RED,
-    SKY,
-    down_to,
-    shades,
-    waves_beyond,
-)
+from gripscale.charts.style import BLUE, COLOURS, GREEN, GREY, INK, NARROW, ORANGE, RED, SKY
 from gripscale.charts.view import JUDGE, PredictionView
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.core.units import MILLI, ZERO_CELSIUS, display_unit
 from gripscale.experiment.axis import EFFECTS, MODELS
@@ -57,7 +32,6 @@ from gripscale.model import with_adhesive
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 Views = Sequence[PredictionView]
 
 
@@ -70,7 +44,7 @@ def contact_figure(predictions: Mapping[str, xr.Dataset]) -> Figure:
     Lines are dashed beyond the measured band of the rubber.
     """
     views = [PredictionView(data, name) for name, data in predictions.items()]
-    return on_paper(Sheet([_area_panel(views), _friction_panel(views)]))
+    return chart.on_paper(Sheet([_area_panel(views), _friction_panel(views)]))
 
 
 def contact_charts(predictions: Views, direct: xr.Dataset | None = None) -> list[Chart]:
@@ -85,16 +59,38 @@ def contact_charts(predictions: Views, direct: xr.Dataset | None = None) -> list
     moving = [view for view in predictions if view.moving]
     if moving:
         panels.append(friction.with_marks(_failed(moving, "friction")))
-    panels.append(_load_panel(predictions))
+    abscissa, how = _wavelengths(predictions), predictions[0].display_unit("pressure")
+    panels.append(Panel(
+        abscissa,
+        Axis(f"pressure, modulus [{how.unit}]", log=True),
+        _pairs(
+            predictions,
+            {"mean pressure": "pressure_received", "|E*|": "modulus"},
+            lambda view, name: how.of(view.column(name)),
+        ),
+        name="load",
+        caption="What each wave receives: mean pressure (filled) against the modulus of the rubber "
+        "there (open).",
+        alt="Mean pressure and modulus against wavelength.",
+    ))  # fmt: skip
     if any(view.shows("max_stretch") for view in predictions):
-        panels.append(_stretch_panel(predictions))
+        columns = {"largest": "max_stretch", "smallest": "min_stretch"}
+        panels.append(Panel(
+            abscissa,
+            Axis("principal stretch [-]"),
+            _pairs(predictions, columns, PredictionView.usable),
+            name="stretch",
+            caption="Largest and smallest principal stretch in the block: how far the strains are "
+            "from small.",
+            alt="Largest and smallest principal stretch against wavelength.",
+        ))  # fmt: skip
     panels += [_pressure_panel(view) for view in predictions if view.has("surface_pressure")]
-    return on_page(panels)
+    return chart.on_page(panels)
 
 
 def _area_panel(views: Views) -> Panel:
     return Panel(
-        wavelength_axis(_wavelengths(views)),
+        _wavelengths(views),
         Axis("relative contact area [-]", log=True, high=1.15),
         [mark for view, colour in zip(views, COLOURS, strict=False)
          for mark in _running_and_each(view, "contact_fraction", colour)],
@@ -108,7 +104,7 @@ def _area_panel(views: Views) -> Panel:
 def _friction_panel(views: Views) -> Panel:
     least = [float(np.nanmin(view.usable("friction"), initial=0.0)) for view in views if view.waves]
     return Panel(
-        wavelength_axis(_wavelengths(views)),
+        _wavelengths(views),
         Axis("friction coefficient [-]", low=min(0.0, *least, 0.0)),
         [mark for view, colour in zip(views, COLOURS, strict=False) if view.moving
          for mark in _running_and_each(view, "friction", colour)],
@@ -119,9 +115,10 @@ def _friction_panel(views: Views) -> Panel:
     )  # fmt: skip
 
 
-def _wavelengths(views: Views) -> list[float]:
-    """Return the wavelengths of all predictions [mm]."""
-    return [length for view in views if view.waves for length in view.column("wavelength") / MILLI]
+def _wavelengths(views: Views) -> Axis:
+    """Return the axis of the wavelengths of all predictions."""
+    columns = [view.column("wavelength") / MILLI for view in views if view.waves]
+    return chart.wavelength_axis(np.concatenate([*columns, []]))
 
 
 def _running_and_each(view: PredictionView, quantity: str, colour: str) -> Iterator[Mark]:
@@ -135,9 +132,11 @@ def _running_and_each(view: PredictionView, quantity: str, colour: str) -> Itera
         label = f"{view.name}: {view.why(view.waves - 1)}"
         yield Series([], [], colour, label, dash="")
         return
-    x, beyond = view.column("wavelength") / MILLI, waves_beyond(view.data)
+    x, beyond = view.column("wavelength") / MILLI, style.waves_beyond(view.data)
     running, each = view.usable(f"running_{quantity}"), view.usable(quantity)
-    yield Series(x, running, colour, f"{view.name}, running", marker="o", beyond=down_to(beyond))
+    yield Series(
+        x, running, colour, f"{view.name}, running", marker="o", beyond=style.down_to(beyond)
+    )
     yield Series(x, each, colour, f"{view.name}, each wave", marker="o", beyond=beyond, width=0.8,
                  filled=False)  # fmt: skip
 
@@ -152,49 +151,23 @@ def _failed(views: Views, quantity: str, *, by_number: bool = False) -> Iterator
             yield Series(x[bad], y[bad], RED, "not converged", "", 2.3, marker="x", size=8.0)
 
 
-def _load_panel(views: Views) -> Panel:
-    how = views[0].display_unit("pressure")
-    columns = [(how.of(view.column("pressure_received")), how.of(view.column("modulus")))
-               for view in views]  # fmt: skip
-    return Panel(
-        wavelength_axis(_wavelengths(views)),
-        Axis(f"pressure, modulus [{how.unit}]", log=True),
-        list(_pairs(views, ("mean pressure", "|E*|"), columns)),
-        name="load",
-        caption="What each wave receives: mean pressure (filled) against the modulus of the rubber "
-        "there (open).",
-        alt="Mean pressure and modulus against wavelength.",
-    )
-
-
-def _stretch_panel(views: Views) -> Panel:
-    columns = [(view.usable("max_stretch"), view.usable("min_stretch")) for view in views]
-    return Panel(
-        wavelength_axis(_wavelengths(views)),
-        Axis("principal stretch [-]"),
-        list(_pairs(views, ("largest", "smallest"), columns)),
-        name="stretch",
-        caption="Largest and smallest principal stretch in the block: how far the strains are from "
-        "small.",
-        alt="Largest and smallest principal stretch against wavelength.",
-    )
-
-
 def _pairs(
-    views: Views, labels: tuple[str, str], columns: Sequence[tuple[Array, Array]]
-) -> Iterator[Mark]:
-    """Yield two columns of each prediction over wavelength: filled and solid, open and dotted."""
-    for view, colour, pair in zip(views, COLOURS, columns, strict=False):
-        x = view.column("wavelength") / MILLI
-        for label, y, filled in zip(labels, pair, (True, False), strict=True):
-            yield Series(x, y, colour, f"{view.name}, {label}", "solid" if filled else "dotted",
-                         marker="o", filled=filled)  # fmt: skip
+    views: Views, columns: dict[str, str], values: Callable[[PredictionView, str], Array]
+) -> list[Mark]:
+    """Return two labelled columns over wavelength: filled and solid, open and dotted."""
+    looks = tuple(zip(columns.items(), ("solid", "dotted"), strict=True))
+    return [
+        Series(view.column("wavelength") / MILLI, values(view, name), colour,
+               f"{view.name}, {label}", dash, marker="o", filled=dash == "solid")
+        for view, colour in zip(views, COLOURS, strict=False)
+        for (label, name), dash in looks
+    ]  # fmt: skip
 
 
 def _pressure_panel(view: PredictionView) -> Panel:
     how, wavelength = view.display_unit("pressure"), view.column("wavelength") / MILLI
     marks: list[Mark] = []
-    for i, colour in enumerate(shades(view.waves)):
+    for i, colour in enumerate(style.shades(view.waves)):
         phase, pressure = view.pressure_along(i)
         good = view.converged[i]
         label = f"{i + 1}: {wavelength[i]:.3g} mm{'' if good else ', not converged'}"
@@ -210,15 +183,27 @@ def _pressure_panel(view: PredictionView) -> Panel:
     )
 
 
-# The evidence: two measures of friction, error estimates, residuals, iterations.
-
-
 def verification_charts(predictions: Views) -> list[Chart]:
     """Return the figures that say how far the numbers may be trusted."""
     panels: list[Panel] = []
     for view in predictions:
         if view.moving:
-            panels.append(_two_frictions_panel(view))
+            traction, lost = view.usable("friction"), view.usable("friction_from_dissipation")
+            panels.append(Panel(
+                _wave_axis([view]),
+                Axis("friction coefficient of the wave [-]"),
+                [
+                    Series(view.number, traction, BLUE, "from the contact traction", "",
+                           marker="o", size=7.0, filled=False),
+                    Series(view.number, lost, ORANGE, "from the energy lost", "", marker="+",
+                           size=7.0),
+                    *_failed([view], "friction", by_number=True),
+                ],
+                name=f"two-frictions-{view.name}",
+                caption="The two measures of friction, found independently; a cross in its circle "
+                "means they agree.",
+                alt="Friction coefficient of each wave from traction and from dissipation.",
+            ))  # fmt: skip
             if view.shows("friction_mismatch"):
                 panels.append(_errors_panel(view))
     if any((view.column("residual") > 0.0).any() for view in predictions):
@@ -234,30 +219,12 @@ def verification_charts(predictions: Views) -> list[Chart]:
             caption="What is left of the equations when Newton's iteration ends.",
             alt="Residual of each wave on a logarithmic axis.",
         ))  # fmt: skip
-    return on_page([*panels, _iterations_panel(predictions)])
+    return chart.on_page([*panels, _iterations_panel(predictions)])
 
 
 def _wave_axis(views: Views) -> Axis:
     most = max(view.waves for view in views)
     return Axis("number of the wave [-]", ticks={float(i): str(i) for i in range(1, most + 1)})
-
-
-def _two_frictions_panel(view: PredictionView) -> Panel:
-    traction, lost = view.usable("friction"), view.usable("friction_from_dissipation")
-    return Panel(
-        _wave_axis([view]),
-        Axis("friction coefficient of the wave [-]"),
-        [
-            Series(view.number, traction, BLUE, "from the contact traction", "", marker="o",
-                   size=7.0, filled=False),
-            Series(view.number, lost, ORANGE, "from the energy lost", "", marker="+", size=7.0),
-            *_failed([view], "friction", by_number=True),
-        ],
-        name=f"two-frictions-{view.name}",
-        caption="The two measures of friction, found independently; a cross in its circle means "
-        "they agree.",
-        alt="Friction coefficient of each wave from traction and from dissipation.",
-    )  # fmt: skip
 
 
 def _errors_panel(view: PredictionView) -> Panel:
@@ -285,15 +252,12 @@ def _iterations_panel(views: Views) -> Panel:
     width = 0.8 / len(views)
     marks: list[Mark] = []
     for i, (view, colour) in enumerate(zip(views, COLOURS, strict=False)):
-        start = view.number + (i - 0.5 * len(views)) * width
+        start, good = view.number + (i - 0.5 * len(views)) * width, view.converged
         count = view.column("newton_iterations")
-        for rows, shade, label in (
-            (view.converged, colour, view.name),
-            (~view.converged, RED, "not converged"),
-        ):
+        for rows, shade, label in ((good, colour, view.name), (~good, RED, "not converged")):
             if rows.any():
-                marks.append(Bars(start[rows], start[rows] + 0.9 * width, 0.0, count[rows], shade,
-                                  label))  # fmt: skip
+                ends = start[rows], start[rows] + 0.9 * width
+                marks.append(Bars(*ends, 0.0, count[rows], shade, label))
     return Panel(
         _wave_axis(views),
         Axis("Newton iterations [-]", low=0.0),
@@ -328,10 +292,8 @@ def measured_chart(friction: MeasuredFriction, predictions: Views) -> Chart:
         alt="Measured friction against speed, and predicted friction at one speed.",
         height=400,
     )
-    return on_page([panel])[0]
+    return chart.on_page([panel])[0]
 
-
-# How warm the rubber gets in a contact: on every scale, and along the surface.
 
 PARTS = {
     "flash_temperature_rise_uniform": ("all waves, spread evenly", SKY),
@@ -378,27 +340,19 @@ def heat_figure(data: xr.Dataset, title: str = "") -> Figure:
         start = np.where(part > 0.0, above, below)
         marks.append(Bars(length / BAR, length * BAR, start, start + part, colour, label))
         above, below = above + np.maximum(part, 0.0), below + np.minimum(part, 0.0)
-    before = _temperature_before(data)
+    before = (json.loads(data.attrs.get("conditions", "null")) or {}).get("temperature")
+    if before is None:
+        # the least that is left of any wave's without what warms it: of the temperature a wave was
+        # solved at and the warming it found, which agree to some tenths of a kelvin
+        rest = data.temperature - sum(data[name] for name in PARTS)
+        before = float(rest.mean()) if rest.size else math.nan
     surface = data.contact_temperature - before
     marks.append(Series(length, surface, INK, "at the surface, in contact", "", marker="o",
                         size=4.0, filled=False))  # fmt: skip
     label = f"above the {before - ZERO_CELSIUS:.3g} °C before the contact [K]"
-    panel = Panel(wavelength_axis(length), Axis(label, margin=0.08), marks)
+    panel = Panel(chart.wavelength_axis(length), Axis(label, margin=0.08), marks)
     look: dict[str, Any] = {"legend_columns": 2, "legend_title": title, "gap": 0.02}
-    return on_paper(Sheet([panel], 1, NARROW, 3.4, **look))
-
-
-def _temperature_before(data: xr.Dataset) -> float:
-    """Return the temperature before the contact [K], NaN without waves.
-
-    Stated, or else the least that is left of any wave's without what warms it: of the temperature a
-    wave was solved at and the warming it found, which agree to some tenths of a kelvin.
-    """
-    temperature = (json.loads(data.attrs.get("conditions", "null")) or {}).get("temperature")
-    if temperature is not None:
-        return float(temperature)
-    rest = data.temperature - sum(data[name] for name in PARTS)
-    return float(rest.mean()) if rest.size else math.nan
+    return chart.on_paper(Sheet([panel], 1, NARROW, 3.4, **look))
 
 
 def direct_heat_figure(contact: RoughContact, title: str = "") -> Figure:
@@ -424,7 +378,7 @@ def direct_heat_figure(contact: RoughContact, title: str = "") -> Figure:
     length = 2.0 * math.pi / contact.scales.wavenumber / MILLI
     top = 1.1 * float(contact.scales.warming.max())
     octaves = Panel(
-        wavelength_axis(length),
+        chart.wavelength_axis(length),
         Axis("warming where the octave loses energy [K]", low=0.0, high=top),
         [Series(length, contact.scales.warming, ORANGE, marker="o")],
     )
@@ -448,10 +402,10 @@ def direct_heat_figure(contact: RoughContact, title: str = "") -> Figure:
         field = ValueMap(x, contact.y / MILLI, warming.T, "warming of the surface [K]")
         surface = Panel(Axis(along.label, grid=False), Axis("$y$ [mm]", grid=False), [field])
     layout = {"width_ratios": [1.0, 1.5]}
-    return on_paper(Sheet([octaves, surface], height=3.2, title=title, legend="", layout=layout))
+    return chart.on_paper(
+        Sheet([octaves, surface], height=3.2, title=title, legend="", layout=layout)
+    )
 
-
-# What each effect of the conditions is worth: area and friction with and without it.
 
 HEIGHT, ROW = 1.5, 0.32
 """Of the figure without rows, and of each [inch]."""
@@ -499,7 +453,7 @@ def effects_figure(*results: xr.Dataset, title: str = "") -> Figure:
         ]
         high = 1.3 * longest or None
         panels.append(Panel(Axis(label, low=0.0, high=high, numbers=4), rows, marks))
-    return on_paper(
+    return chart.on_paper(
         Sheet(
             panels,
             len(panels),

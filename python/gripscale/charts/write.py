@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,6 +15,7 @@ from gripscale.case.record import excited
 from gripscale.charts import comparison, rubber, study, surface, uncertainty, wave_and_chain
 from gripscale.charts.blocks import blocks_figure
 from gripscale.charts.ladder import on_the_surface, varied, worth_drawing
+from gripscale.charts.page_elements import Picture
 from gripscale.charts.paper import save_figure
 from gripscale.charts.view import JUDGE, PredictionView
 from gripscale.experiment.axis import dimensions, numeric
@@ -28,6 +29,13 @@ if TYPE_CHECKING:
 
 MOST_PIECES = 8
 """Values of a second axis of a study up to which each gets figures of its own."""
+
+
+def draw(pictures: Iterable[Picture], folder: Path) -> list[Path]:
+    """Write pictures into `folder`; return the paths."""
+    return [
+        path for picture in pictures for path in save_figure(picture.figure, folder, picture.name)
+    ]
 
 
 def draw_inputs(results: CaseResults, folder: Path) -> None:
@@ -121,29 +129,9 @@ def draw_comparison(data: xr.Dataset, folder: Path) -> None:
         save_figure(comparison.comparison_wavelength_figure(data), folder, "by_wavelength")
 
 
-def draw_uncertainty(data: xr.Dataset, folder: Path) -> None:
-    """Draw distributions and what matters most, or bands where a load is varied, into `folder`."""
-    axis = next((str(name) for name in data.failed.dims if name != "model"), "")
-    if axis:
-        save_figure(uncertainty.band_figure(data, axis), folder, f"over_{axis}")
-        return
-    save_figure(uncertainty.distribution_figure(data), folder, "distributions")
-    for name in data.model.values:
-        samples = data.sel(model=name)
-        if np.isfinite(samples.friction_share).any():
-            save_figure(uncertainty.tornado_figure(samples), folder, f"tornado_{name}")
-
-
 def draw_calibration(data: xr.Dataset, folder: Path) -> list[Path]:
     """Write every figure of a calibration into `folder`; return the paths.
 
     Raises `FileError` if one cannot be written.
     """
-    figures = {
-        "measured_and_fitted": uncertainty.fitted_figure,
-        "residuals": uncertainty.residual_figure,
-        "profiles": uncertainty.profiles_figure,
-    }
-    return [
-        path for name, make in figures.items() for path in save_figure(make(data), folder, name)
-    ]
+    return draw(uncertainty.calibration_pictures(data), folder)

@@ -57,8 +57,7 @@ def _version(wanted: bool) -> None:
 @app.callback()
 def gripscale(
     version: Annotated[
-        bool,
-        typer.Option("--version", callback=_version, is_eager=True, help="Show the version."),
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version.")
     ] = False,
 ) -> None:
     """Real contact area and friction of rubber on rough surfaces."""

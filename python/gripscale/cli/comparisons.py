@@ -8,18 +8,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from gripscale.cli import terminal
 from gripscale.cli.terminal import (
     CasePath,
     Cluster,
     Measured,
     OwnFolder,
     Workers,
+    argument,
     command,
-    conclude,
-    first_of,
-    print_wrapped,
-    progress_printer,
-    screen,
+    option,
 )
 from gripscale.core.errors import InputError
 
@@ -34,21 +32,19 @@ def compare(
     case: CasePath,
     vary: Annotated[
         str | None,
-        typer.Option(
-            help="Compare over one input, as `gripscale study` varies it: speed=0.003:30:log9, "
+        option(
+            "Compare over one input, as `gripscale study` varies it: speed=0.003:30:log9, "
             "pressure='1 bar,3 bar', temperature='20 C,40 C', smallest_wavelength, cut_off, "
             "top_height_fraction, waves.",
             metavar="NAME=VALUES",
-            show_default=False,
         ),
     ] = None,
     measured: Measured = None,
     rungs: Annotated[
         str | None,
-        typer.Option(
-            help="Models wanted, by name or group (waves, measured, theory, windows, map), such "
-            "as 'chain,measured'; windows and map take a minute or two. By default all.",
-            show_default=False,
+        option(
+            "Models wanted, by name or group (waves, measured, theory, windows, map), such "
+            "as 'chain,measured'; windows and map take a minute or two. By default all."
         ),
     ] = None,
     output: OwnFolder = None,
@@ -64,7 +60,7 @@ def compare(
     from gripscale.analysis.effects import case_effects
     from gripscale.analysis.measured_friction import read_measured_friction
     from gripscale.analysis.propagation import input_digests, stored_uncertainty
-    from gripscale.case import folder, prepare_case, read_case
+    from gripscale.case import prepare_case, read_case
     from gripscale.charts.comparison import at_measured_figure
     from gripscale.charts.ladder import varied
     from gripscale.charts.paper import save_figure
@@ -80,23 +76,16 @@ def compare(
 
     axes = None if vary is None else dict([parse_vary(vary)])
     file = read_case(case)
-    target = output or file.resolve(file.case.output.folder) / "comparison"
-    folder.require_writable(target)
-    console = screen()
-    print_wrapped(console, f"Comparison of models for {file.path}")
-    folder.make(target)
-    solving: dict[str, Any] = {
-        "workers": workers,
-        "client": cluster,
-        "on_task": progress_printer(console),
-    }
-    options: dict[str, Any] = {
+    opening = f"Comparison of models for {file.path}"
+    console, target = terminal.open_folder(file, output, "comparison", opening)
+    on_task = terminal.progress_printer(console)
+    solving: dict[str, Any] = {"workers": workers, "client": cluster, "on_task": on_task}
+    options: dict[str, Any] = solving | {
         "seeds": seeds,
         "tolerance": tolerance,
         "rungs": [] if rungs is None else [name.strip() for name in rungs.split(",")],
         "measured": None if measured is None else read_measured_friction(measured),
         "folder": target,
-        **solving,
     }
     worth: list[xr.Dataset] = []
     residuals: xr.Dataset | None = None
@@ -133,18 +122,15 @@ def compare(
             save_figure(at_measured_figure(residuals, labels), target, "at_measured")
 
     failed = [f"{where} did not converge: {status}" for where, status in failures(data)]
-    conclude(
+    terminal.conclude(
         console,
         target,
         parts,
         text=f"{name}.txt",
         closing=f"Tables, figures and result ({name}.nc) are in",
         draw=draw_figures,
-        failure=first_of(failed, data.status.size, "models with all their samples"),
+        failure=terminal.first_of(failed, data.status.size, "models with all their samples"),
     )
-
-
-# What the commands that put things side by side share.
 
 
 def case_of(arguments: Sequence[str], case: Path | None, what: str) -> Path:
@@ -169,27 +155,21 @@ def names_of(arguments: Sequence[str]) -> list[str]:
     return names
 
 
-# `gripscale compare-surfaces A B ... --case CASE.toml`: roads side by side under one rubber.
-
-
 @command
 def compare_surfaces(
     surfaces: Annotated[
         list[str],
-        typer.Argument(
-            help="Two to six roads: files of profiles, cases (their surface), or surfaces known by "
+        argument(
+            "Two to six roads: files of profiles, cases (their surface), or surfaces known by "
             "name. The others are compared with the first.",
-            metavar="SURFACE...",
-            show_default=False,
+            "SURFACE...",
         ),
     ],
     case: Annotated[
         Path | None,
-        typer.Option(
-            help="Case whose rubber, load and solver are taken; by default the first case given.",
+        option(
+            "Case whose rubber, load and solver are taken; by default the first case given.",
             metavar="CASE.toml",
-            readable=False,
-            show_default=False,
         ),
     ] = None,
     samples: Annotated[
@@ -201,75 +181,53 @@ def compare_surfaces(
 ) -> None:
     """Compare roads under the same rubber: friction, area, and which scale makes the difference."""
     from gripscale.analysis.roads import compare_surfaces as compare
-    from gripscale.case import folder, read_case
-    from gripscale.charts.paper import save_figure
-    from gripscale.charts.side_by_side import roads_friction_figure, roads_statistics_figure
+    from gripscale.case import read_case
+    from gripscale.charts.side_by_side import road_pictures
+    from gripscale.charts.write import draw
     from gripscale.report.side_by_side import failed_totals, roads_sentences, roads_tables
 
     file = read_case(case_of(surfaces, case, "the rubber and the load"))
-    target = output or file.resolve(file.case.output.folder) / "surfaces"
-    folder.require_writable(target)
-    console = screen()
-    folder.make(target)
+    console, target = terminal.open_folder(file, output, "surfaces")
     roads = compare(
         file,
         dict(zip(names_of(surfaces), surfaces, strict=True)),
         target,
         samples=samples or None,
         workers=workers,
-        on_task=progress_printer(console),
+        on_task=terminal.progress_printer(console),
     )
     data = roads.data
-
-    def draw_figures() -> None:
-        save_figure(roads_statistics_figure(data), target, "roads_statistics")
-        save_figure(roads_friction_figure(data), target, "roads_friction")
-
-    conclude(
+    terminal.conclude(
         console,
         target,
-        [
-            *roads_tables(data),
-            *roads_sentences(data),
-            *(f"note: {note}" for note in roads.notes),
-        ],
+        [*roads_tables(data), *roads_sentences(data), *(f"note: {note}" for note in roads.notes)],
         text="surfaces.txt",
         closing="Result (surfaces.nc), tables and figures are in",
-        draw=draw_figures,
+        draw=lambda: draw(road_pictures(data), target),
         page="surfaces.nc",
-        failure=first_of(failed_totals(data), data.prediction_status.size, "predictions"),
+        failure=terminal.first_of(failed_totals(data), data.prediction_status.size, "predictions"),
     )
-
-
-# `gripscale compare-rubbers A B ... --case CASE.toml`: compounds side by side on one road.
 
 
 @command
 def compare_rubbers(
     rubbers: Annotated[
         list[str],
-        typer.Argument(
-            help="Two to six compounds: files of moduli, cases (their rubber), or rubbers known by "
+        argument(
+            "Two to six compounds: files of moduli, cases (their rubber), or rubbers known by "
             "name. The others are compared with the first.",
-            metavar="RUBBER...",
-            show_default=False,
+            "RUBBER...",
         ),
     ],
     case: Annotated[
         Path | None,
-        typer.Option(
-            help="Case whose road, load and solver are taken; by default the first case given.",
+        option(
+            "Case whose road, load and solver are taken; by default the first case given.",
             metavar="CASE.toml",
-            readable=False,
-            show_default=False,
         ),
     ] = None,
     temperature: Annotated[
-        str | None,
-        typer.Option(
-            help='Such as "20 C"; by default one that all have or can be shifted to.',
-            show_default=False,
-        ),
+        str | None, option('Such as "20 C"; by default one that all have or can be shifted to.')
     ] = None,
     uncertainty: Annotated[
         bool, typer.Option(help="Predict what each measurement leaves open, too.")
@@ -279,16 +237,11 @@ def compare_rubbers(
 ) -> None:
     """Compare compounds on the same road: friction, area, and what makes the difference."""
     from gripscale.analysis.compounds import compare_compounds
-    from gripscale.case import folder, read_case
-    from gripscale.charts.paper import save_figure
-    from gripscale.charts.rubber import compound_moduli_figure
-    from gripscale.charts.side_by_side import compound_friction_figure
+    from gripscale.case import read_case
+    from gripscale.charts.side_by_side import compound_pictures
+    from gripscale.charts.write import draw
     from gripscale.core.units import parse_quantity
-    from gripscale.report.side_by_side import (
-        compounds_sentences,
-        compounds_table,
-        failed_totals,
-    )
+    from gripscale.report.side_by_side import compounds_sentences, compounds_table, failed_totals
 
     chosen = case_of(rubbers, case, "the road and the load")
     try:
@@ -296,14 +249,8 @@ def compare_rubbers(
     except ValueError as error:
         raise InputError(f"--temperature = {temperature!r}: {error}") from error
     file = read_case(chosen)
-    target = output or file.resolve(file.case.output.folder) / "rubbers"
-    folder.require_writable(target)
-    console = screen()
-    folder.make(target)
-    if uncertainty:
-        print_wrapped(
-            console, "The compounds; then, for what their measurements leave open, half-planes."
-        )
+    opening = "The compounds; then, for what their measurements leave open, half-planes."
+    console, target = terminal.open_folder(file, output, "rubbers", *[opening] * uncertainty)
     compounds = compare_compounds(
         file,
         dict(zip(names_of(rubbers), rubbers, strict=True)),
@@ -311,16 +258,10 @@ def compare_rubbers(
         temperature=kelvin,
         uncertainty=uncertainty,
         workers=workers,
-        on_task=progress_printer(console),
+        on_task=terminal.progress_printer(console),
     )
     data = compounds.data
-
-    def draw_figures() -> None:
-        save_figure(compound_moduli_figure(compounds.rubbers), target, "compound_moduli")
-        if "friction_running" in data:
-            save_figure(compound_friction_figure(data), target, "compound_friction")
-
-    conclude(
+    terminal.conclude(
         console,
         target,
         [
@@ -330,7 +271,7 @@ def compare_rubbers(
         ],
         text="compounds.txt",
         closing="Result (compounds.nc), table and figures are in",
-        draw=draw_figures,
+        draw=lambda: draw(compound_pictures(data, compounds.rubbers), target),
         page="compounds.nc",
-        failure=first_of(failed_totals(data), data.prediction_status.size, "compounds"),
+        failure=terminal.first_of(failed_totals(data), data.prediction_status.size, "compounds"),
     )

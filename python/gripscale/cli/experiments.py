@@ -7,19 +7,8 @@ from typing import Annotated
 
 import typer
 
-from gripscale.cli.terminal import (
-    CasePath,
-    Cluster,
-    Measured,
-    OwnFolder,
-    Workers,
-    command,
-    conclude,
-    first_of,
-    print_wrapped,
-    progress_printer,
-    screen,
-)
+from gripscale.cli import terminal
+from gripscale.cli.terminal import CasePath, Cluster, Measured, OwnFolder, Workers, command, option
 from gripscale.core.errors import InputError
 
 
@@ -44,11 +33,7 @@ def study(
     cluster: Cluster = None,
     static: Annotated[
         bool | None,
-        typer.Option(
-            "--static/--no-static",
-            help="Also the rubber at rest; as the case says by default.",
-            show_default=False,
-        ),
+        option("Also the rubber at rest; as the case says by default.", "--static/--no-static"),
     ] = None,
 ) -> None:
     """Vary one or two inputs of a case: table, figures, one result file; resumes where stopped."""
@@ -62,19 +47,19 @@ def study(
     if len(axes) < len(pairs):
         raise InputError(f"vary must name different inputs; got {', '.join(n for n, _ in pairs)}")
     planned = Study(case, axes, static=static, model=model)
-    target = output or planned.file.resolve(planned.file.case.output.folder) / "study"
-    folder.require_writable(target)
-    console = screen()
+    console, target = terminal.open_folder(planned.file, output, "study")
     stored = planned.stored(target)
     opening = planned.description()
     if stored is not None:
         opening = json.loads(stored.attrs["description"])
     for line in [*opening, ""]:
-        print_wrapped(console, line)
+        terminal.print_wrapped(console, line)
     figures = target / "figures"
     folder.make(figures)
     folder.save_case(planned.file, target)
-    result = planned.run(target, workers=workers, client=cluster, on_task=progress_printer(console))
+    result = planned.run(
+        target, workers=workers, client=cluster, on_task=terminal.progress_printer(console)
+    )
     drawn = stored is not None and any(figures.iterdir())
 
     def draw_figures() -> None:
@@ -83,7 +68,7 @@ def study(
         draw_study(result, figures)
 
     failed, total = failed_predictions(result)
-    conclude(
+    terminal.conclude(
         console,
         target,
         list(study_parts(result)),
@@ -91,75 +76,59 @@ def study(
         closing="Result (study.nc), table and figures are in",
         opening=opening,
         draw=None if drawn else draw_figures,
-        failure=first_of(failed, total, "predictions"),
+        failure=terminal.first_of(failed, total, "predictions"),
     )
-
-
-# `gripscale uncertainty CASE.toml`: what is not known of a case, and what it does to friction.
 
 
 @command
 def uncertainty(
     case: CasePath,
     samples: Annotated[
-        int | None,
-        typer.Option(help="Samples, of all inputs at once; 200 by default.", show_default=False),
+        int | None, option("Samples, of all inputs at once; 200 by default.")
     ] = None,
     model: Annotated[
-        str | None,
-        typer.Option(
-            help="chain (the default), direct (contact of the whole profile) or both.",
-            show_default=False,
-        ),
+        str | None, option("chain (the default), direct (contact of the whole profile) or both.")
     ] = None,
     without: Annotated[
         list[str] | None,
-        typer.Option(
-            help="A source to be left out: profile, modulus, bulk_modulus, equilibrium_modulus, "
+        option(
+            "A source to be left out: profile, modulus, bulk_modulus, equilibrium_modulus, "
             "load_time, cut_off, waves. May be given several times.",
             metavar="NAME",
-            show_default=False,
         ),
     ] = None,
     ranges: Annotated[
         list[str] | None,
-        typer.Option(
-            "--range",
-            help="What is known of a source, in place of its default: two ends as "
+        option(
+            "What is known of a source, in place of its default: two ends as "
             "bulk_modulus='1.5 GPa:3 GPa', cut_off='50 um:200 um', load_time=0.5:2 (factors), or "
             "equally likely values as waves=6,8. May be given several times.",
+            "--range",
             metavar="NAME=VALUES",
-            show_default=False,
         ),
     ] = None,
     vary: Annotated[
         str | None,
-        typer.Option(
-            help="Speeds or pressures, the same samples at each: speed=0.003:30:log9.",
+        option(
+            "Speeds or pressures, the same samples at each: speed=0.003:30:log9.",
             metavar="NAME=VALUES",
-            show_default=False,
         ),
     ] = None,
     block_length: Annotated[
         str | None,
-        typer.Option(
-            help="Length of the blocks of profiles that are drawn, such as '120 mm'; four of the "
-            "largest waves by default.",
-            show_default=False,
+        option(
+            "Length of the blocks of profiles that are drawn, such as '120 mm'; four of the "
+            "largest waves by default."
         ),
     ] = None,
     tolerance: Annotated[
         float | None,
-        typer.Option(
-            help="Estimated relative error of each direct contact; by default that of its first "
-            "full grid, about a tenth.",
-            show_default=False,
+        option(
+            "Estimated relative error of each direct contact; by default that of its first "
+            "full grid, about a tenth."
         ),
     ] = None,
-    seed: Annotated[
-        int | None,
-        typer.Option(help="Seed of the random numbers; 0 by default.", show_default=False),
-    ] = None,
+    seed: Annotated[int | None, option("Seed of the random numbers; 0 by default.")] = None,
     output: OwnFolder = None,
     workers: Workers = None,
     cluster: Cluster = None,
@@ -172,7 +141,8 @@ def uncertainty(
     from gripscale.analysis.sampled_inputs import length
     from gripscale.analysis.sampling import Uncertainty
     from gripscale.case import folder, read_case
-    from gripscale.charts.write import draw_uncertainty
+    from gripscale.charts.uncertainty import uncertainty_pictures
+    from gripscale.charts.write import draw
     from gripscale.core import checks
     from gripscale.experiment.axis import parse_vary
     from gripscale.report.uncertainty import failures, uncertainty_parts
@@ -192,10 +162,9 @@ def uncertainty(
     choice = Uncertainty.of_case(
         file.case.uncertainty, without=without or None, ranges=values, block_length=blocks
     )
-    target = output or file.resolve(file.case.output.folder) / "uncertainty"
-    folder.require_writable(target)
-    console = screen()
-    print_wrapped(console, f"Uncertainty of {file.path}")
+    console, target = terminal.open_folder(
+        file, output, "uncertainty", f"Uncertainty of {file.path}"
+    )
     figures = target / "figures"
     folder.make(figures)
     data = propagate(
@@ -209,20 +178,17 @@ def uncertainty(
         folder=target,
         workers=workers,
         client=cluster,
-        on_task=progress_printer(console),
+        on_task=terminal.progress_printer(console),
     )
-    conclude(
+    terminal.conclude(
         console,
         target,
         list(uncertainty_parts(data)),
         text="uncertainty.txt",
         closing="Result (uncertainty.nc), tables and figures are in",
-        draw=lambda: draw_uncertainty(data, figures),
+        draw=lambda: draw(uncertainty_pictures(data), figures),
         failure=failures(data),
     )
-
-
-# `gripscale calibrate CASE.toml`: the area term fitted to measured friction.
 
 
 @command
@@ -236,19 +202,17 @@ def calibrate(
     ] = "gaussian",
     hold_out: Annotated[
         str | None,
-        typer.Option(
-            help="Predict each temperature, or each decade of speed, from the others.",
+        option(
+            "Predict each temperature, or each decade of speed, from the others.",
             metavar="temperature|speed",
-            show_default=False,
         ),
     ] = None,
     fixed: Annotated[
         list[str] | None,
-        typer.Option(
-            help="A parameter that is known, such as width=0.1 or activation_energy='0.97 eV'; "
+        option(
+            "A parameter that is known, such as width=0.1 or activation_energy='0.97 eV'; "
             "may be repeated.",
             metavar="NAME=VALUE",
-            show_default=False,
         ),
     ] = None,
     measured: Measured = None,
@@ -260,7 +224,7 @@ def calibrate(
     from gripscale.analysis.calibration import calibrate_case, measured_of
     from gripscale.analysis.calibration_text import notes, parse_fixed, shear_stress_table
     from gripscale.analysis.measured_friction import read_measured_friction
-    from gripscale.case import folder, read_case
+    from gripscale.case import read_case
     from gripscale.charts.write import draw_calibration
     from gripscale.io import netcdf
     from gripscale.report.calibration import calibration_parts, failures
@@ -268,11 +232,8 @@ def calibrate(
     values = parse_fixed(fixed or [])
     file = read_case(case)
     friction = measured_of(file) if measured is None else read_measured_friction(measured)
-    target = output or file.resolve(file.case.output.folder) / "calibration"
-    folder.require_writable(target)
-    console = screen()
-    print_wrapped(console, f"Area term of {file.path} from {friction.source}")
-    folder.make(target)
+    opening = f"Area term of {file.path} from {friction.source}"
+    console, target = terminal.open_folder(file, output, "calibration", opening)
     fitted = calibrate_case(
         file,
         model=model,
@@ -283,13 +244,13 @@ def calibrate(
         folder=target,
         workers=workers,
         client=cluster,
-        on_task=progress_printer(console),
+        on_task=terminal.progress_printer(console),
     )
     data = fitted.to_dataset().assign_attrs(
         case=file.text, case_file=str(file.path), model=model, notes="\n".join(notes(fitted))
     )
     netcdf.save(data, target / "calibration.nc")
-    conclude(
+    terminal.conclude(
         console,
         target,
         list(calibration_parts(data)),

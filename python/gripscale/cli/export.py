@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from gripscale.cli.terminal import command, print_wrapped, screen
+from gripscale.cli.terminal import argument, command, option, print_wrapped, screen
 from gripscale.core.errors import FileError, InputError
 
 if TYPE_CHECKING:
@@ -21,39 +21,29 @@ export = typer.Typer(
     rich_markup_mode=None,
 )
 
-Result = Annotated[
-    Path,
-    typer.Argument(help="The .nc file of a result.", metavar="RESULT.nc", readable=False),
-]
-
-
-def _option(text: str) -> Any:
-    return typer.Option(help=text, show_default=False)
+Result = Annotated[Path, argument("The .nc file of a result.", "RESULT.nc")]
 
 
 @export.command("rubber")
 @command
 def rubber(
+    context: typer.Context,
     source: Annotated[
         Path,
-        typer.Argument(
-            help="A case file (TOML), a measured master curve, or a rubber.json of fit-rubber.",
-            metavar="FILE",
-            readable=False,
+        argument(
+            "A case file (TOML), a measured master curve, or a rubber.json of fit-rubber.", "FILE"
         ),
     ],
     to: Annotated[str, typer.Option(help="abaqus, ansys or febio.")],
-    output: Annotated[
-        Path, typer.Option(help="The file to write.", metavar="FILE", readable=False)
-    ],
+    output: Annotated[Path, option("The file to write.", metavar="FILE")],
     temperature: Annotated[
-        str | None, _option('Such as "40 C": of moduli and times, where the rubber has a shift.')
+        str | None, option('Such as "40 C": of moduli and times, where the rubber has a shift.')
     ] = None,
-    name: Annotated[str | None, _option("Of the material; not for ansys.")] = None,
-    material: Annotated[int | None, _option("Number of the material; not for abaqus.")] = None,
-    modulus_unit: Annotated[str | None, _option("Pa (as by default), kPa, MPa or GPa.")] = None,
+    name: Annotated[str | None, option("Of the material; not for ansys.")] = None,
+    material: Annotated[int | None, option("Number of the material; not for abaqus.")] = None,
+    modulus_unit: Annotated[str | None, option("Pa (as by default), kPa, MPa or GPa.")] = None,
     temperature_unit: Annotated[
-        str | None, _option("K (as by default) or C, of the shift; not for febio.")
+        str | None, option("K (as by default) or C, of the shift; not for febio.")
     ] = None,
 ) -> None:
     """Write a rubber as a material of a finite element program."""
@@ -67,13 +57,8 @@ def rubber(
         except ValueError as error:
             raise InputError(f"temperature: {error}") from error
         rubber = rubber.at(kelvin)
-    settings = {
-        "name": name,
-        "material": material,
-        "modulus_unit": modulus_unit,
-        "temperature_unit": temperature_unit,
-    }
-    options = {key: value for key, value in settings.items() if value is not None}
+    names = ("name", "material", "modulus_unit", "temperature_unit")
+    options = {key: context.params[key] for key in names if context.params[key] is not None}
     written = write_rubber(rubber, output, to=to, **options)
     console = screen()
     for remark in written.remarks:
@@ -85,9 +70,7 @@ def rubber(
 @command
 def tables(
     result: Result,
-    output: Annotated[
-        Path, typer.Option(help="Folder for the tables.", metavar="DIR", readable=False)
-    ],
+    output: Annotated[Path, option("Folder for the tables.", metavar="DIR")],
     format: Annotated[str, typer.Option(help="csv, or xlsx for one workbook.")] = "csv",
 ) -> None:
     """Write a result as tables, one for each set of dimensions, with units in the headings."""
@@ -102,9 +85,7 @@ def tables(
 def mesh(
     result: Result,
     wave: Annotated[int, typer.Option(help="Number of the wave, from 1.")],
-    output: Annotated[
-        Path, typer.Option(help="The file to write.", metavar="FILE.vtu", readable=False)
-    ],
+    output: Annotated[Path, option("The file to write.", metavar="FILE.vtu")],
 ) -> None:
     """Write the deformed block of a wave, with pressure and stress, for ParaView and the like."""
     from gripscale.export import wave_of, write_mesh
@@ -113,8 +94,7 @@ def mesh(
     chosen = wave_of(netcdf.load(result), wave)
     write_mesh(chosen, output)
     print_wrapped(
-        screen(),
-        f"Wave {wave}, {chosen.wavelength:.4g} m long, {chosen.why}, is {output}",
+        screen(), f"Wave {wave}, {chosen.wavelength:.4g} m long, {chosen.why}, is {output}"
     )
 
 
@@ -127,15 +107,11 @@ def _rubber_of(source: Path) -> Rubber:
         file = read_case(source)
         return prepare_rubber(file.case.rubber, file.resolve).rubber
     if source.suffix == ".json":
-        return Rubber.from_dict(_json(source))
+        try:
+            values = json.loads(source.read_text(encoding="utf-8"))
+        except (OSError, ValueError) as error:
+            raise FileError(f"{source} cannot be read as a rubber: {error}") from error
+        if not isinstance(values, dict):
+            raise FileError(f"{source} cannot be read as a rubber: it is no JSON object")
+        return Rubber.from_dict(values)
     return prepare_rubber(validate(RubberSource, {"file": str(source)}, str(source))).rubber
-
-
-def _json(path: Path) -> dict[str, Any]:
-    try:
-        values = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise FileError(f"{path} cannot be read as a rubber: {error}") from error
-    if not isinstance(values, dict):
-        raise FileError(f"{path} cannot be read as a rubber: it is no JSON object")
-    return values

@@ -8,11 +8,19 @@ import shlex
 from collections.abc import Iterator
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from gripscale.cli.terminal import command, print_parts, print_wrapped, screen
+from gripscale.cli.terminal import (
+    argument,
+    command,
+    keys_of,
+    option,
+    print_parts,
+    print_wrapped,
+    screen,
+)
 from gripscale.core.errors import InputError
 
 if TYPE_CHECKING:
@@ -21,9 +29,6 @@ if TYPE_CHECKING:
     from gripscale.case.prepare import PreparedRubber
     from gripscale.io.table import Table
     from gripscale.surface import Surface
-
-
-# `gripscale init FOLDER`: an example to start from, with its data.
 
 
 class Choice(StrEnum):
@@ -36,10 +41,7 @@ class Choice(StrEnum):
 
 @command
 def init(
-    folder: Annotated[
-        Path,
-        typer.Argument(help="Where to write; made if needed.", metavar="FOLDER", readable=False),
-    ],
+    folder: Annotated[Path, argument("Where to write; made if needed.", "FOLDER")],
     example: Annotated[
         Choice,
         typer.Option(
@@ -64,17 +66,12 @@ def init(
         print_wrapped(console, f"  {shlex.join(['gripscale', *map(str, words)])}")
 
 
-# `gripscale keys [SECTION]`: what a case file may say.
-
-
 @command
 def keys(
     section: Annotated[
         str | None,
-        typer.Argument(
-            help="A table of the case, such as rubber or conditions.heat; all by default.",
-            metavar="SECTION",
-            show_default=False,
+        argument(
+            "A table of the case, such as rubber or conditions.heat; all by default.", "SECTION"
         ),
     ] = None,
 ) -> None:
@@ -106,66 +103,43 @@ def keys(
             print_wrapped(console, f"More in {', '.join(pages)}.")
 
 
-# `gripscale fit-surface FILES`: the surface half of a run, from profiles to sine waves.
-
-
-def _surface_option(text: str) -> Any:
-    return typer.Option(help=text, show_default=False)
-
-
 @command
 def fit_surface(
-    files: Annotated[list[str], typer.Argument(help="Profiles.", show_default=False)],
-    scales: Annotated[int | None, _surface_option("Number of sine waves.")] = None,
-    smallest_wavelength: Annotated[
-        str | None, _surface_option('The last wave, such as "0.1 mm".')
-    ] = None,
+    context: typer.Context,
+    files: Annotated[list[str], argument("Profiles.")],
+    scales: Annotated[int | None, option("Number of sine waves.")] = None,
+    smallest_wavelength: Annotated[str | None, option('The last wave, such as "0.1 mm".')] = None,
     cut_off: Annotated[
         str | None,
-        _surface_option(
+        option(
             'Where the roughness ends, in its place: "0.1 mm", "instrument", "rms_slope 1.3" (of '
             'the surface), "rms_slope 1.3 of profile", either with "extrapolate" at its end.'
         ),
     ] = None,
-    slopes: Annotated[
-        bool, _surface_option("Print the rms slope down to each wavelength.")
-    ] = False,
+    slopes: Annotated[bool, option("Print the rms slope down to each wavelength.")] = False,
     top_height_fraction: Annotated[
         float, typer.Option(help="Part of the heights, from the top.")
     ] = 1.0,
-    s_wavelength: Annotated[float | None, _surface_option("Given instead of fitted.")] = None,
-    s_amplitude: Annotated[float | None, _surface_option("Given instead of fitted.")] = None,
-    single_factor: Annotated[bool, _surface_option("One factor for both lengths.")] = False,
-    crop: Annotated[tuple[str, str] | None, _surface_option('Such as "120 mm" "1780 mm".')] = None,
-    x_unit: Annotated[str | None, _surface_option("Where the file does not state it.")] = None,
-    z_unit: Annotated[str | None, _surface_option("Where the file does not state it.")] = None,
-    keep_spikes: Annotated[bool, _surface_option("Leave spikes in.")] = False,
+    s_wavelength: Annotated[float | None, option("Given instead of fitted.")] = None,
+    s_amplitude: Annotated[float | None, option("Given instead of fitted.")] = None,
+    single_factor: Annotated[bool, option("One factor for both lengths.")] = False,
+    crop: Annotated[tuple[str, str] | None, option('Such as "120 mm" "1780 mm".')] = None,
+    x_unit: Annotated[str | None, option("Where the file does not state it.")] = None,
+    z_unit: Annotated[str | None, option("Where the file does not state it.")] = None,
+    keep_spikes: Annotated[bool, option("Leave spikes in.")] = False,
     detrend: Annotated[str, typer.Option(help="linear, mean or none.")] = "linear",
-    output: Annotated[
-        Path | None, typer.Option(help="Folder for figures.", metavar="DIR", readable=False)
-    ] = None,
+    output: Annotated[Path | None, option("Folder for figures.", metavar="DIR")] = None,
 ) -> None:
     """Clean profiles, find their height difference correlation and fit sine waves to it."""
     from gripscale.case import SurfaceTable, folder, prepare_surface, validate
     from gripscale.report.inputs import slopes_table, surface_lines, waves_table
 
-    settings = {
-        "files": files,
-        "scales": scales,
-        "smallest_wavelength": smallest_wavelength,
-        "cut_off": cut_off,
-        "top_height_fraction": top_height_fraction,
-        "s_wavelength": s_wavelength,
-        "s_amplitude": s_amplitude,
-        "crop": None if crop is None else list(crop),
-        "x_unit": x_unit,
-        "z_unit": z_unit,
-    }
-    values = {key: value for key, value in settings.items() if value is not None}
+    values = keys_of(context, SurfaceTable) | {"remove_spikes": not keep_spikes}
+    if crop is not None:
+        values["crop"] = list(crop)
     if scales is None and smallest_wavelength is None and cut_off is None:
         values["scales"] = 8
-    flags = {"remove_spikes": not keep_spikes, "detrend": detrend, "single_factor": single_factor}
-    surface = validate(SurfaceTable, values | flags, "options")
+    surface = validate(SurfaceTable, values, "options")
     if output is not None:
         folder.require_writable(output)
     prepared = prepare_surface(surface)
@@ -205,81 +179,51 @@ def _ambiguity(prepared: Surface) -> Iterator[str]:
     )
 
 
-# `gripscale fit-rubber FILE`: the rubber half of a run, from a measurement to a Prony series.
-
-
-def _rubber_option(text: str) -> Any:
-    return typer.Option(help=text, show_default=False)
-
-
 @command
 def fit_rubber(
-    file: Annotated[
-        str, typer.Argument(help="A master curve, or sweeps to make one of.", show_default=False)
-    ],
-    terms: Annotated[int | None, _rubber_option("Relaxation times; chosen if not given.")] = None,
-    frequency_unit: Annotated[
-        str | None, _rubber_option("Where the header does not state it.")
-    ] = None,
-    modulus_unit: Annotated[
-        str | None, _rubber_option("Where the header does not state it.")
-    ] = None,
-    modulus: Annotated[str | None, _rubber_option("E (Young) or G (shear).")] = None,
-    bulk_modulus: Annotated[str | None, _rubber_option('Such as "2 GPa".')] = None,
+    context: typer.Context,
+    file: Annotated[str, argument("A master curve, or sweeps to make one of.")],
+    terms: Annotated[int | None, option("Relaxation times; chosen if not given.")] = None,
+    frequency_unit: Annotated[str | None, option("Where the header does not state it.")] = None,
+    modulus_unit: Annotated[str | None, option("Where the header does not state it.")] = None,
+    modulus: Annotated[str | None, option("E (Young) or G (shear).")] = None,
+    bulk_modulus: Annotated[str | None, option('Such as "2 GPa".')] = None,
     reference_temperature: Annotated[
-        str | None, _rubber_option('Such as "20 C": where sweeps are shifted to.')
+        str | None, option('Such as "20 C": where sweeps are shifted to.')
     ] = None,
-    temperature_unit: Annotated[str | None, _rubber_option("K, C or F, if not stated.")] = None,
+    temperature_unit: Annotated[str | None, option("K, C or F, if not stated.")] = None,
     columns: Annotated[
         str | None,
-        _rubber_option(
+        option(
             "Columns of frequency, storage and loss by name or number from 1, such as 1,3,4, or "
             "frequency=1,storage=3,loss_factor=5."
         ),
     ] = None,
     sheet: Annotated[
-        str | None,
-        _rubber_option("Excel sheet, by name or number from 1, if several hold numbers."),
+        str | None, option("Excel sheet, by name or number from 1, if several hold numbers.")
     ] = None,
     header: Annotated[
-        int | None, _rubber_option("Lines above the rows, if there are numbers among them.")
+        int | None, option("Lines above the rows, if there are numbers among them.")
     ] = None,
     outlier_threshold: Annotated[
         float | None,
-        _rubber_option("Times the typical scatter beyond which a row is left out; inf keeps all."),
+        option("Times the typical scatter beyond which a row is left out; inf keeps all."),
     ] = None,
-    shift: Annotated[
-        str | None, _rubber_option("Table of shift factors to be taken; sweeps.")
-    ] = None,
+    shift: Annotated[str | None, option("Table of shift factors to be taken; sweeps.")] = None,
     vertical: Annotated[
         bool, typer.Option("--vertical", help="Find vertical shifts as well; sweeps.")
     ] = False,
-    output: Annotated[
-        Path | None,
-        typer.Option(help="Folder for figures and files.", metavar="DIR", readable=False),
-    ] = None,
+    output: Annotated[Path | None, option("Folder for figures and files.", metavar="DIR")] = None,
 ) -> None:
     """Fit a Prony series to a master curve, or to sweeps at several temperatures."""
     from gripscale.case import RubberSource, folder, prepare_rubber, validate
     from gripscale.report.inputs import band_table, prony_table, rubber_parts
 
-    settings = {
-        "file": file,
-        "terms": terms,
-        "frequency_unit": frequency_unit,
-        "modulus_unit": modulus_unit,
-        "modulus": modulus,
-        "bulk_modulus": bulk_modulus,
-        "reference_temperature": reference_temperature,
-        "temperature_unit": temperature_unit,
-        "columns": None if columns is None else _columns(columns),
-        "sheet": None if sheet is None else _column(sheet),
-        "header": header,
-        "outlier_threshold": outlier_threshold,
-        "shift": shift,
-        "vertical": vertical or None,
-    }
-    values = {key: value for key, value in settings.items() if value is not None}
+    values = keys_of(context, RubberSource)
+    if columns is not None:
+        values["columns"] = _columns(columns)
+    if sheet is not None:
+        values["sheet"] = _column(sheet)
     source = validate(RubberSource, values, "options")
     if output is not None:
         folder.require_writable(output)
@@ -287,22 +231,17 @@ def fit_rubber(
     try:
         prepared = prepare_rubber(source)
     except InputError as error:
-        raise InputError(_with_options(str(error))) from error
+        # a key of a case it names is an option here
+        key = r"\b([a-z_]+)(?= must (be given|name|give|say)\b)"
+        raise InputError(
+            re.sub(key, lambda match: f"--{match[1].replace('_', '-')}", str(error))
+        ) from error
     rubber = prepared.rubber
     tables = [band_table(rubber), prony_table(rubber.relaxation_times, rubber.moduli)]
     print_parts(console, [*rubber_parts(prepared), *(table for table in tables if table)])
     if output is not None:
         console.print()
         _write(console, prepared, output)
-
-
-def _with_options(message: str) -> str:
-    """Return a complaint that names a key of a case with the option of that name."""
-    return re.sub(
-        r"\b([a-z_]+)(?= must (be given|name|give|say)\b)",
-        lambda key: f"--{key[1].replace('_', '-')}",
-        message,
-    )
 
 
 def _column(text: str) -> str | int:

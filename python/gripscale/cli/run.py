@@ -13,15 +13,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from gripscale.cli.terminal import (
-    CasePath,
-    command,
-    conclude,
-    failure_of,
-    print_error,
-    print_wrapped,
-    screen,
-)
+from gripscale.cli import terminal
+from gripscale.cli.terminal import CasePath, argument, command, option
 from gripscale.core.errors import FileError, GripscaleError
 
 if TYPE_CHECKING:
@@ -49,10 +42,7 @@ class ProgressFormat(StrEnum):
 def run(
     case: CasePath,
     output: Annotated[
-        Path | None,
-        typer.Option(
-            help="Results folder, instead of the one in the case.", metavar="DIR", readable=False
-        ),
+        Path | None, option("Results folder, instead of the one in the case.", metavar="DIR")
     ] = None,
     fresh: Annotated[
         bool,
@@ -64,13 +54,13 @@ def run(
         ProgressFormat,
         typer.Option(
             help="json: write a line of JSON for each event to standard output, and all text to "
-            "standard error.",
+            "standard error."
         ),
     ] = ProgressFormat.TEXT,
 ) -> None:
     """Predict contact area and friction of a case; goes on where it was stopped."""
     with _json_events(progress) as emit:
-        _run(screen(stderr=progress == ProgressFormat.JSON), emit, case, output, fresh)
+        _run(terminal.screen(stderr=progress == ProgressFormat.JSON), emit, case, output, fresh)
 
 
 @contextmanager
@@ -85,7 +75,7 @@ def _json_events(progress: ProgressFormat) -> Iterator[OnEvent]:
     try:
         yield emit
     except (GripscaleError, KeyboardInterrupt) as error:
-        emit(RunFailed(*failure_of(error)))
+        emit(RunFailed(*terminal.failure_of(error)))
         raise
     emit(RunFinished())
 
@@ -99,12 +89,7 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
     from gripscale.analysis.measured_comparison import friction_of_case
     from gripscale.analysis.propagation import input_digests, stored_uncertainty
     from gripscale.case import folder, prepare_case, read_case, run_case
-    from gripscale.case.events import (
-        DirectContactSolved,
-        EffectsSolved,
-        FileWritten,
-        WaveSolved,
-    )
+    from gripscale.case.events import DirectContactSolved, EffectsSolved, FileWritten, WaveSolved
     from gripscale.charts.background import background_figures
     from gripscale.charts.write import draw_effects, draw_heat
     from gripscale.report.measured import measured_lines
@@ -118,7 +103,7 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
     results = prepare_case(file)
     opening = _opening(results)
     for line in opening:
-        print_wrapped(console, line)
+        terminal.print_wrapped(console, line)
     print_event = _event_printer(console, results.display_unit("speed"))
     with background_figures(results, target / "figures") as draw_solved:
 
@@ -150,7 +135,7 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
             if effects is not None:
                 draw_effects([effects], target / "figures")
 
-        conclude(
+        terminal.conclude(
             console,
             target,
             parts,
@@ -167,10 +152,10 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
     if first is not None and written is not None and results.key(first) not in written:
         words = shlex.join(["gripscale", "report", str(target)])
         text = f"{page.name} in it is older and shows another result; `{words}` renews it"
-        print_wrapped(console, text)
+        terminal.print_wrapped(console, text)
     failures = list(results.failures.values())
     for failure in failures[:-1]:
-        print_error(explained(failure))
+        terminal.print_error(explained(failure))
     if failures:
         raise failures[-1]
 
@@ -206,13 +191,13 @@ def _event_printer(console: Console, speed_unit: DisplayUnit) -> OnEvent:
     def print_event(event: Event) -> None:
         match event:
             case ResultsReplaced():
-                print_wrapped(console, event.message)
+                terminal.print_wrapped(console, event.message)
             case WaveSolved():
                 if event.number == 1 and event.pass_number == 1:
                     console.print()
-                    print_wrapped(console, title(event.speed, speed_unit))
+                    terminal.print_wrapped(console, title(event.speed, speed_unit))
                 elif event.number == 1:
-                    print_wrapped(console, f"  pass {event.pass_number}")
+                    terminal.print_wrapped(console, f"  pass {event.pass_number}")
                 parts = [
                     f"  wave {event.number} of {event.count}: {event.wavelength * 1e3:.3g} mm",
                     f"contact {event.contact_fraction:.3f}",
@@ -222,10 +207,10 @@ def _event_printer(console: Console, speed_unit: DisplayUnit) -> OnEvent:
                 if event.status != "conditions not settled":
                     parts.append(event.message)
                 parts.append("already solved" if event.stored else f"{event.seconds:.1f} s")
-                print_wrapped(console, ", ".join(parts))
+                terminal.print_wrapped(console, ", ".join(parts))
             case PredictionFinished(passes=int(passes)):
                 agree = "agree" if event.converged else f"do not agree ({event.message})"
-                print_wrapped(
+                terminal.print_wrapped(
                     console, f"  rubber and contact {agree} after {passes} passes on these meshes"
                 )
 
@@ -256,37 +241,29 @@ def _parts(
     return parts, heat
 
 
-# `gripscale report RESULT`: one self-contained HTML page of a result.
-
-
 @command
 def report(
     result: Annotated[
         Path,
-        typer.Argument(
-            help="Results folder of a run, comparison, study, calibration or uncertainty, or of "
+        argument(
+            "Results folder of a run, comparison, study, calibration or uncertainty, or of "
             "surfaces or rubbers side by side; or one of its .nc files.",
-            metavar="RESULT",
-            readable=False,
+            "RESULT",
         ),
     ],
     output: Annotated[
         Path | None,
-        typer.Option(
-            help="The page, instead of report.html in the results folder.",
-            metavar="FILE.html",
-            readable=False,
-        ),
+        option("The page, instead of report.html in the results folder.", metavar="FILE.html"),
     ] = None,
 ) -> None:
     """Write one HTML page with inputs, results, figures and evidence; it needs no network."""
     from gripscale.report import write_report
 
     page = write_report(result, output)
-    print_wrapped(screen(), f"Report, {page.stat().st_size / 1e6:.1f} MB, is {page}")
+    terminal.print_wrapped(
+        terminal.screen(), f"Report, {page.stat().st_size / 1e6:.1f} MB, is {page}"
+    )
 
-
-# `gripscale reproduce`: hands over to the paper's figures beside the package, in a clone.
 
 PASS_ON = {"allow_extra_args": True, "ignore_unknown_options": True, "help_option_names": []}
 """Settings of the command: whatever follows its name is for the reproduction."""
@@ -305,19 +282,11 @@ def reproduce(context: typer.Context) -> None:
     raise typer.Exit(importlib.import_module("reproduction.__main__").main(context.args))
 
 
-# `gripscale app [CASE.toml]`: a page in the browser, from measurement to friction.
-
-
 @command
 def app(
     case: Annotated[
         Path | None,
-        typer.Argument(
-            help="A case file to start with, instead of the shipped road.",
-            metavar="CASE.toml",
-            readable=False,
-            show_default=False,
-        ),
+        argument("A case file to start with, instead of the shipped road.", "CASE.toml"),
     ] = None,
     port: Annotated[int, typer.Option(help="Port of 127.0.0.1; 0 takes a free one.")] = 0,
     folder: Annotated[

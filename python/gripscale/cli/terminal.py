@@ -8,15 +8,17 @@ import textwrap
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import wraps
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, ParamSpec
+from typing import TYPE_CHECKING, Annotated, Any, ParamSpec
 
 import typer
 
 from gripscale.core.errors import ConvergenceError, GripscaleError, InputError
 
 if TYPE_CHECKING:
+    from pydantic import BaseModel
     from rich.console import Console
 
+    from gripscale.case import CaseFile
     from gripscale.experiment.solve import Progress
     from gripscale.io.table import Table
 
@@ -104,26 +106,10 @@ def conclude(
 ) -> None:
     """End a command: print and write what it found, draw its figures, set the exit code.
 
-    Parameters
-    ----------
-    console, target
-        The screen, and the results folder.
-    parts
-        Tables and sentences, printed and written to the file `text`.
-    closing
-        What is in the folder, as "Result (study.nc), table and figures are in".
-    opening
-        Above the parts in the file, which the screen shows already.
-    width
-        Of a line in the file.
-    files
-        Further texts by file name.
-    draw
-        Draws the figures.
-    page
-        Result file whose page is written, where the libraries for it are installed.
-    failure
-        What has no result; it sets the exit code.
+    `parts` are printed, and written below `opening`, which the screen shows already, to the file
+    `text` with lines of `width`; `files` are further texts by name. `closing` says what is in the
+    folder. `page` is the result whose page is written, where the libraries for it are installed;
+    `failure` is what has no result, and sets the exit code.
     """
     from gripscale.case import folder
     from gripscale.io.table import as_text
@@ -193,40 +179,56 @@ def progress_printer(console: Console) -> Callable[[Progress], None]:
     return print_line
 
 
-# Options that several commands share.
+def option(text: str, *names: str, metavar: str | None = None) -> Any:
+    """Return an option whose default is not printed."""
+    return typer.Option(*names, help=text, metavar=metavar, readable=False, show_default=False)
 
-CasePath = Annotated[
-    Path, typer.Argument(help="The case file (TOML).", metavar="CASE.toml", readable=False)
-]
 
+def argument(text: str, metavar: str | None = None) -> Any:
+    """Return an argument whose default is not printed."""
+    return typer.Argument(help=text, metavar=metavar, readable=False, show_default=False)
+
+
+CasePath = Annotated[Path, argument("The case file (TOML).", "CASE.toml")]
 OwnFolder = Annotated[
     Path | None,
-    typer.Option(
+    option(
+        "Results folder, instead of this command's own in that of the case.",
         "--output",
-        help="Results folder, instead of this command's own in that of the case.",
         metavar="DIR",
-        readable=False,
     ),
 ]
-
 Measured = Annotated[
     Path | None,
-    typer.Option(
-        "--measured",
-        help="Measured friction, instead of what the case names: a table with columns speed and "
+    option(
+        "Measured friction, instead of what the case names: a table with columns speed and "
         "friction, and if known spread, temperature and pressure.",
+        "--measured",
         metavar="FILE.csv",
-        readable=False,
     ),
 ]
-
-Workers = Annotated[
-    int | None, typer.Option(help="Cores to use; all by default.", show_default=False)
-]
-
+Workers = Annotated[int | None, option("Cores to use; all by default.")]
 Cluster = Annotated[
-    str | None,
-    typer.Option(
-        help='"local", or the address of a Dask scheduler: tcp://host:8786.', show_default=False
-    ),
+    str | None, option('"local", or the address of a Dask scheduler: tcp://host:8786.')
 ]
+
+
+def keys_of(context: typer.Context, table: type[BaseModel]) -> dict[str, Any]:
+    """Return the options of a command that are keys of a table of the case, those that are set."""
+    values = {key: context.params.get(key) for key in table.model_fields}
+    return {key: value for key, value in values.items() if value is not None and value is not False}
+
+
+def open_folder(
+    file: CaseFile, output: Path | None, name: str, *opening: str
+) -> tuple[Console, Path]:
+    """Print what a command begins with and make its folder `name`, by default in the case's."""
+    from gripscale.case import folder
+
+    target = output or file.resolve(file.case.output.folder) / name
+    folder.require_writable(target)
+    console = screen()
+    for line in opening:
+        print_wrapped(console, line)
+    folder.make(target)
+    return console, target

@@ -21,6 +21,8 @@ from gripscale.model import (
     extrapolation_of,
     with_adhesive,
 )
+from gripscale.report import elements
+from gripscale.report.elements import Card
 from gripscale.report.notices import comparison_sentences, friction_sentence
 from gripscale.rubber.extrapolation import WORTH_SAYING
 
@@ -156,6 +158,19 @@ def temperature_only(comparison: xr.Dataset) -> Iterator[str]:
             "theories, and the windows and maps whose ratios make the best estimate's factors, "
             "know the temperature before the contact only."
         )
+
+
+def ladder_cards(ladder: xr.Dataset | None) -> Iterator[Card]:
+    """Yield area and friction of the direct contact, or else of the first model."""
+    if ladder is None:
+        return
+    names = ladder.rung.values.tolist()
+    rung = ladder.isel(rung=names.index(DIRECT) if DIRECT in names else 0)
+    bad = int(rung.converged_samples) < int(rung.samples)
+    for name, symbol in SYMBOLS.items():
+        words = f"{GROUPS[name].capitalize()} {symbol}"
+        detail = f"{rung.label.item()}; ± {elements.percent(rung[f'{name}_uncertainty'])}"
+        yield Card(words, elements.number(rung[f"total_{name}"]), detail, bad)
 
 
 def beyond_band(comparison: xr.Dataset) -> Iterator[str]:

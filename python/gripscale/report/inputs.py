@@ -20,7 +20,7 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from gripscale.core.units import MEGA, MILLI, ZERO_CELSIUS
-from gripscale.io.table import NONE, Column, Table, digits, fixed, significant, whole
+from gripscale.io.table import NONE, Column, Flags, Table, digits, fixed, significant, whole
 from gripscale.report.elements import Element, Facts, Section, number, percent
 from gripscale.rubber import Rubber, ShiftTable
 from gripscale.rubber.material import BEYOND, AdmissibleSeries, End, fast_end, slow_end
@@ -69,21 +69,6 @@ class InputRecord:
         return not self.data.data_vars
 
     @property
-    def has_profiles(self) -> bool:
-        """Whether profiles were measured."""
-        return "profile_name" in self.data
-
-    @property
-    def has_correlation(self) -> bool:
-        """Whether the waves were fitted to a height difference correlation."""
-        return "lag" in self.data
-
-    @property
-    def has_rubber(self) -> bool:
-        """Whether the rubber was recorded."""
-        return "equilibrium_modulus_Pa" in self.data.attrs
-
-    @property
     def bulk_modulus(self) -> float:
         """Bulk modulus of the rubber [Pa]."""
         return self.number("bulk_modulus_Pa")
@@ -91,9 +76,9 @@ class InputRecord:
     @property
     def relaxation_times(self) -> tuple[ArrayLike, ArrayLike]:
         """Times [s] and moduli [Pa] of the Maxwell elements."""
-        if "term_modulus" not in self.data:
-            return np.zeros(0), np.zeros(0)
-        return self.data["term_relaxation_time"].values, self.data["term_modulus"].values
+        names = ("term_relaxation_time", "term_modulus")
+        times, moduli = (self.data.get(name, xr.DataArray(np.zeros(0))).values for name in names)
+        return times, moduli
 
     @property
     def findings(self) -> list[str]:
@@ -124,14 +109,16 @@ class InputRecord:
             )
 
 
-# Tables of surface and rubber, for the terminal and for pages.
+def numbers(name: str, count: int, heading: str | None = None, bad: Flags = ()) -> Column:
+    """Return a column of numbers from 1."""
+    return Column(name, list(range(1, count + 1)), heading, format="{:.0f}".format, bad=bad)
 
 
 def waves_table(wavelength: ArrayLike, amplitude: ArrayLike) -> Table:
     """Return the sine waves of a surface, largest first."""
     length, height = np.asarray(wavelength), np.asarray(amplitude)
     columns = [
-        Column("wave", list(range(1, length.size + 1)), format="{:.0f}".format),
+        numbers("wave", length.size),
         Column("wavelength", length, "λ", "mm", MILLI, format=digits(4)),
         Column("amplitude", height, "A", "mm", MILLI, format=digits(4)),
         Column("slope", 2.0 * math.pi * height / length, unit="2πA/λ"),
@@ -142,22 +129,17 @@ def waves_table(wavelength: ArrayLike, amplitude: ArrayLike) -> Table:
 def slopes_table(slopes: SlopeByWavelength) -> Table:
     """Return the rms slope down to each wavelength."""
     lengths = slopes.wavelength
-    of = {
-        kind: [slopes.down_to(float(length), kind) for length in lengths]
-        for kind in ("surface", "profile")
-    }
-    columns = [
-        Column("wavelength", lengths, "down to", "mm", MILLI),
-        Column("surface_slope", of["surface"], "rms slope of the surface"),
-        Column("profile_slope", of["profile"], "rms slope along a profile"),
-    ]
+    columns = [Column("wavelength", lengths, "down to", "mm", MILLI)]
+    for kind, heading in (("surface", "of the surface"), ("profile", "along a profile")):
+        values = [slopes.down_to(float(length), kind) for length in lengths]
+        columns.append(Column(f"{kind}_slope", values, f"rms slope {heading}"))
     return Table("slopes", columns, "Rms slope by the smallest wavelength that counts")
 
 
 def prony_table(times: ArrayLike, moduli: ArrayLike) -> Table:
     """Return the Maxwell elements of a Prony series."""
     columns = [
-        Column("element", list(range(1, np.size(times) + 1)), format="{:.0f}".format),
+        numbers("element", np.size(times)),
         Column("relaxation_time", np.asarray(times), "τ", "s", format=digits(4)),
         Column("modulus", np.asarray(moduli), "E", "MPa", MEGA, format=digits(5)),
     ]
@@ -215,24 +197,17 @@ def cleaning_tables(record: InputRecord) -> Iterator[Table]:
     }
     for i, name in enumerate(data["profile_name"].values):
         part = data.isel(profile=i)
-        columns = [
-            Column("step", data["cleaning_step_name"].values),
-            *(
-                Column(field, part[f"cleaning_{field}"].values, heading, format=whole)
-                for field, heading in headings.items()
-            ),
-            Column("note", part["cleaning_note"].values, "what was done", words=True),
+        columns = [Column("step", data["cleaning_step_name"].values)]
+        columns += [
+            Column(name, part[f"cleaning_{name}"].values, heading, format=whole)
+            for name, heading in headings.items()
         ]
-        step, length = (
-            number(part[f"profile_{part_name}"], MILLI, digits(4))
-            for part_name in ("step", "length")
-        )
+        columns.append(Column("note", part["cleaning_note"].values, "what was done", words=True))
+        ends = (part[f"profile_{end}"] for end in ("step", "length"))
+        step, length = (number(value, MILLI, digits(4)) for value in ends)
         points = number(part["profile_points"], format=whole)
         caption = f"Cleaning of {name}: {points} points read, step {step} mm, length {length} mm"
         yield Table(f"cleaning-{i + 1}", columns, caption)
-
-
-# Sentences in the terminal, from the inputs as prepared.
 
 
 def surface_lines(surface: Surface) -> Iterator[str]:
@@ -331,9 +306,6 @@ def _numbers(law: Any) -> str:
 def _end(end: End, plateau: str) -> str:
     kind = plateau if end.plateau else "end of the data"
     return f"{significant(end.modulus / MEGA)} MPa ({kind})"
-
-
-# Facts on a page.
 
 
 def load_facts(run: Run) -> Facts:
@@ -460,8 +432,6 @@ def rubber_facts(record: InputRecord) -> Facts:
         pairs.append(("Rows left out as outliers", f"{texts} Hz" if texts else "none"))
     return Facts("Rubber", pairs)
 
-
-# What a study rests on, as far as its file tells: load, surface and rubber of the case.
 
 LOAD = (
     ("pressure", "Nominal pressure", "Pa"),

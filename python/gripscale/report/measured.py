@@ -75,9 +75,9 @@ def measured_lines(friction: MeasuredFriction, speed: float, how: DisplayUnit) -
             low, high = (significant(float(how.of(series.speed[end]))) for end in (0, -1))
             yield f"{where}: nothing at {how.text(speed)}, only from {low} to {high} {how.unit}."
             continue
-        friction, spread = at
+        value, spread = at
         about = f" ± {significant(spread, 2)}" if math.isfinite(spread) else ""
         yield (
-            f"{where}: mu = {significant(friction)}{about} at {how.text(speed)}; "
+            f"{where}: mu = {significant(value)}{about} at {how.text(speed)}; "
             "`gripscale compare` puts every model beside every measured point."
         )

@@ -9,18 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
+from gripscale import model
 from gripscale.charts.view import CONVERGED, PredictionView
 from gripscale.core.provenance import versions
 from gripscale.io.table import NONE
-from gripscale.model import (
-    FRICTION_OUTSIDE_BAND,
-    NOT_CONVERGED,
-    NOT_TOLD,
-    OCTAVE,
-    cut_off_exponents_of,
-    extrapolation_of,
-    with_adhesive,
-)
 from gripscale.report.elements import Card, Notice, number, percent
 from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
 from gripscale.rubber.material import LEAST_POISSON_RATIO
@@ -29,8 +21,6 @@ from gripscale.wave.result import LARGE_MISMATCH
 
 if TYPE_CHECKING:
     from gripscale.report.source import Run
-
-# What a reader must know of the rubber in its conditions: what is held, what is missed.
 
 LARGE_MISFIT = 0.05
 """Of the softened series: friction errs by about as much."""
@@ -64,9 +54,6 @@ def _of_waves(flagged: np.ndarray, words: str) -> Iterator[str]:
         yield f"Wave{many} {', '.join(numbers)}: {words}."
 
 
-# What to do about a failure, and where the documentation says more.
-
-
 def explained(failure: object) -> str:
     """Return a failure with what to do about it, and what says more about it."""
     text = str(failure)
@@ -93,16 +80,13 @@ def chapter_words(see: str) -> str:
     )
 
 
-# What rests on the rubber beyond its measured frequencies, in one sentence for each result.
-
-
 def _share(value: float) -> str:
     return f"{100.0 * value:.3g} %"
 
 
 def prediction_sentence(view: PredictionView) -> str:
     """Return how many waves, how much of the friction and how far; empty within the band."""
-    beyond = extrapolation_of(view.data)
+    beyond = model.extrapolation_of(view.data)
     if not view.has("outside_band"):
         return friction_sentence(beyond)
     outside = int(np.count_nonzero(view.column("outside_band") == 1.0))
@@ -123,11 +107,11 @@ def friction_sentence(beyond: Extrapolation) -> str:
 
 def study_sentence(data: xr.Dataset) -> str:
     """Return how many predictions of a study, how much of their friction and how far."""
-    if FRICTION_OUTSIDE_BAND not in data:
+    if model.FRICTION_OUTSIDE_BAND not in data:
         return ""
-    share = data[FRICTION_OUTSIDE_BAND]
+    share = data[model.FRICTION_OUTSIDE_BAND]
     every = [
-        extrapolation_of(data.isel(dict(zip(share.dims, index, strict=True))))
+        model.extrapolation_of(data.isel(dict(zip(share.dims, index, strict=True))))
         for index in np.ndindex(share.shape)
     ]
     beyond = [part for part in every if part.share > WORTH_SAYING]
@@ -143,13 +127,10 @@ def comparison_sentences(comparison: xr.Dataset) -> Iterator[tuple[str, str]]:
     """Yield the label of each rung with friction beyond the band, and its sentence."""
     for at, label in enumerate(comparison.label.values):
         rung = comparison.isel(rung=at)
-        alone = not rung[FRICTION_OUTSIDE_BAND].ndim
-        text = friction_sentence(extrapolation_of(rung)) if alone else study_sentence(rung)
+        alone = not rung[model.FRICTION_OUTSIDE_BAND].ndim
+        text = friction_sentence(model.extrapolation_of(rung)) if alone else study_sentence(rung)
         if text:
             yield str(label), text
-
-
-# The notices and cards of a run.
 
 
 def notices(run: Run) -> list[Notice]:
@@ -253,7 +234,7 @@ def _cards(view: PredictionView) -> Iterator[Card]:
     lost = number(view.total("friction_from_dissipation"))
     friction = number(view.total("friction"))
     yield Card("Friction coefficient μ", friction, f"{view.title}; {lost} from energy lost")
-    both = with_adhesive(view.data)
+    both = model.with_adhesive(view.data)
     if both is not None:
         yield Card("With the area term, μ", number(float(both)), f"{view.title}; as stated")
     if not view.has("friction_mismatch"):
@@ -264,16 +245,13 @@ def _cards(view: PredictionView) -> Iterator[Card]:
     yield Card("Largest mismatch of μ", largest, "traction against energy lost", bad=bad)
 
 
-# What the choice of the smallest wavelength means for a result, in one sentence.
-
-
 def exponent_sentence(data: xr.Dataset) -> str:
     """Return how a prediction changes with its smallest wavelength, or why that is not known.
 
     Empty where there are no totals, or the model does not tell.
     """
-    exponents = cut_off_exponents_of(data)
-    if exponents.why_not in (NOT_TOLD.why_not, NOT_CONVERGED.why_not):
+    exponents = model.cut_off_exponents_of(data)
+    if exponents.why_not in (model.NOT_TOLD.why_not, model.NOT_CONVERGED.why_not):
         return ""
     pairs = (("μ", exponents.friction), ("A_r/A_0", exponents.contact_fraction))
     texts = [
@@ -285,6 +263,6 @@ def exponent_sentence(data: xr.Dataset) -> str:
         return f"How it depends on the cut-off is not known: {exponents.why_not}."
     text = f"By the cut-off, over its last octave: {', '.join(texts)}"
     if math.isfinite(exponents.friction):
-        factor = OCTAVE**-exponents.friction
+        factor = model.OCTAVE**-exponents.friction
         text += f" (half the smallest wavelength: about {factor:.2g} times the friction)"
     return f"{text}."

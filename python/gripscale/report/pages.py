@@ -9,64 +9,31 @@ from collections.abc import Iterable
 import numpy as np
 import xarray as xr
 
-from gripscale.analysis.ladder import DIRECT
 from gripscale.case.run import KEY
-from gripscale.charts.blocks import blocks_image, picture
+from gripscale.charts.blocks import blocks_image, image
 from gripscale.charts.comparison import axis_charts, ladder_charts
 from gripscale.charts.ladder import varied
 from gripscale.charts.page_elements import words_of
-from gripscale.charts.rubber import compound_moduli_figure, rubber_charts
-from gripscale.charts.side_by_side import (
-    compound_friction_figure,
-    roads_friction_figure,
-    roads_statistics_figure,
-)
+from gripscale.charts.rubber import rubber_charts
+from gripscale.charts.side_by_side import compound_pictures, road_pictures
 from gripscale.charts.study import study_charts
 from gripscale.charts.surface import correlation_charts, profile_charts
-from gripscale.charts.uncertainty import (
-    band_figure,
-    distribution_figure,
-    fitted_figure,
-    profiles_figure,
-    residual_figure,
-    tornado_figure,
-)
+from gripscale.charts.uncertainty import calibration_pictures, uncertainty_pictures
 from gripscale.charts.wave_and_chain import contact_charts, verification_charts
 from gripscale.core.provenance import versions
 from gripscale.io.table import Table
-from gripscale.report import calibration, comparison, inputs, side_by_side, study, uncertainty
-from gripscale.report.elements import (
-    Card,
-    Code,
-    Element,
-    Facts,
-    Notice,
-    Page,
-    Section,
-    Text,
-    number,
-    percent,
-)
-from gripscale.report.equations import equations
-from gripscale.report.notices import (
-    cards,
-    comparison_sentences,
-    explained,
-    exponent_sentence,
+from gripscale.report import (
+    calibration,
+    comparison,
+    inputs,
     notices,
-    study_sentence,
+    side_by_side,
+    study,
+    uncertainty,
 )
-from gripscale.report.source import (
-    CalibrationResult,
-    Compared,
-    RubberComparison,
-    Run,
-    Source,
-    Study,
-    SurfaceComparison,
-    UncertaintyResult,
-    case_name,
-)
+from gripscale.report.elements import Card, Code, Element, Facts, Notice, Page, Section, Text
+from gripscale.report.equations import equations
+from gripscale.report.source import Compared, Run, Source, Study, case_name
 from gripscale.report.waves import wave_tables
 
 METHOD = (
@@ -118,18 +85,16 @@ def page_of(source: Source) -> Page:
     """Return the page of a result."""
     if isinstance(source, Run):
         return run_page(source)
-    if isinstance(source, RubberComparison):
-        return compounds_page(source)
-    if isinstance(source, Study):
-        return study_page(source)
     if isinstance(source, Compared):
         return comparison_page(source)
-    if isinstance(source, SurfaceComparison):
-        return roads_page(source.data)
-    if isinstance(source, UncertaintyResult):
-        return uncertainty_page(source.data)
-    assert isinstance(source, CalibrationResult)
-    return calibration_page(source.data)
+    pages = {
+        "study": study_page,
+        "compounds": compounds_page,
+        "roads": roads_page,
+        "uncertainty": uncertainty_page,
+        "calibration": calibration_page,
+    }
+    return pages[source.kind](source)
 
 
 def _page(
@@ -149,9 +114,6 @@ def _elements(parts: Iterable[str | Table]) -> list[Element]:
     return [Text(part) if isinstance(part, str) else part for part in parts]
 
 
-# A run: inputs, surface, rubber, contact, evidence, method, how to run it again.
-
-
 def run_page(run: Run) -> Page:
     """Return the report of `run`."""
     case = case_name(run.attrs)
@@ -165,8 +127,8 @@ def run_page(run: Run) -> Page:
     return _page(
         f"Contact and friction: {case or 'result'}",
         "; ".join(view.title for view in run.predictions),
-        [*notices(run), *([Notice("warning", uncertainty.OF_ANOTHER)] if stale else [])],
-        [*cards(run), *uncertainty.uncertainty_cards(run.own_uncertainty)],
+        [*notices.notices(run), *([Notice("warning", uncertainty.OF_ANOTHER)] if stale else [])],
+        [*notices.cards(run), *uncertainty.uncertainty_cards(run.own_uncertainty)],
         [
             Section("inputs", "Inputs and their origin", origin),
             Section("surface", "Surface", _surface(run)),
@@ -191,9 +153,9 @@ def _surface(run: Run) -> list[Element]:
     if "sines_wavelength" not in run.data or record.is_empty:
         return []
     elements: list[Element] = []
-    if record.has_profiles:
+    if record.has("profile_name"):
         elements += [*inputs.cleaning_tables(record), *profile_charts(record.data)]
-    if record.has_correlation:
+    if record.has("lag"):
         facts = inputs.surface_facts(record, run.data.sizes["wave"])
         elements += [*facts, *correlation_charts(record.data)]
     else:
@@ -204,7 +166,7 @@ def _surface(run: Run) -> list[Element]:
 
 def _rubber(run: Run) -> list[Element]:
     record = run.record
-    if not record.has_rubber:
+    if not record.has("equilibrium_modulus_Pa"):
         return []
     moving = [view for view in run.by_wave if view.moving]
     charts = rubber_charts(record.data, moving[0] if moving else None)
@@ -214,7 +176,7 @@ def _rubber(run: Run) -> list[Element]:
 
 
 def _results(run: Run, tables: dict[str, Table]) -> list[Element]:
-    sentences = [(view.title, exponent_sentence(view.data)) for view in run.predictions]
+    sentences = [(view.title, notices.exponent_sentence(view.data)) for view in run.predictions]
     below: list[Element] = [Text(f"{title}. {text}") for title, text in sentences if text]
     below += judgement_elements(run)
     if not run.by_wave:
@@ -249,7 +211,7 @@ def _comparison(run: Run) -> list[Element]:
 def _verification(run: Run, tables: dict[str, Table]) -> list[Element]:
     if not run.by_wave:
         return []
-    errors: list[Element] = [notice for notice in notices(run) if notice.level == "error"]
+    errors: list[Element] = [notice for notice in notices.notices(run) if notice.level == "error"]
     names = ("errors", "solution", "mesh")
     return [
         *(errors or [Notice("good", "Every wave converged.")]),
@@ -278,15 +240,10 @@ def rerun_section(attrs: dict[object, object], command: str) -> Section:
                 f"Save the text below as {name}; the files it names are sought from its own "
                 "folder, and their checksums are among the inputs."
             ),
-            Code(
-                "command", "Command", command if isinstance(command, str) else shlex.join(command)
-            ),
+            Code("command", "Command", command),
             Code("case", f"Case file {name}", str(attrs["case"])),
         ]
     return Section("again", "Software, and how to run it again", elements)
-
-
-# A study: what was varied, totals of every prediction, curves over the axes.
 
 
 def study_page(source: Study) -> Page:
@@ -321,11 +278,11 @@ def _study_sections(source: Study) -> list[Section]:
 
 def _study_notices(data: xr.Dataset) -> list[Notice]:
     failed = list(study.failures(data))
-    heads = [Notice("error", explained(text)) for text in failed[:NAMED_FAILURES]]
+    heads = [Notice("error", notices.explained(text)) for text in failed[:NAMED_FAILURES]]
     if len(failed) > NAMED_FAILURES:
         rest = len(failed) - NAMED_FAILURES
         heads.append(Notice("error", f"{rest} more did not converge; see the table of totals."))
-    beyond = study_sentence(data)
+    beyond = notices.study_sentence(data)
     warnings = [f"{beyond} There the Prony series is an extrapolation."] if beyond else []
     warnings += filter(None, [study.shift_sentence(data)])
     warnings += str(data.attrs.get("notes", "")).splitlines()
@@ -342,9 +299,6 @@ def _study_cards(source: Study) -> list[Card]:
     ]
 
 
-# Models side by side.
-
-
 def comparison_page(compared: Compared) -> Page:
     """Return the report of a comparison alone."""
     first = compared.parts[0]
@@ -352,18 +306,6 @@ def comparison_page(compared: Compared) -> Page:
     elements = comparison_elements(compared)
     sampled = compared.own_uncertainty
     stale = sampled is None and compared.uncertainty is not None
-    numbers: list[Card] = []
-    if (ladder := compared.ladder) is not None:
-        names = [str(name) for name in ladder.rung.values]
-        rung = ladder.isel(rung=names.index(DIRECT) if DIRECT in names else 0)
-        bad = int(rung.converged_samples) < int(rung.samples)
-        titles = {
-            "contact_fraction": "Real contact area A_r/A_0",
-            "friction": "Friction coefficient μ",
-        }
-        for name, text in titles.items():
-            detail = f"{rung.label.item()}; ± {percent(rung[f'{name}_uncertainty'])}"
-            numbers.append(Card(text, number(rung[f"total_{name}"]), detail, bad))
     return _page(
         f"Models side by side: {case}",
         str(first.attrs.get("title", "")),
@@ -371,7 +313,7 @@ def comparison_page(compared: Compared) -> Page:
             *(element for element in elements if isinstance(element, Notice)),
             *([Notice("warning", uncertainty.OF_ANOTHER)] if stale else []),
         ],
-        [*numbers, *uncertainty.uncertainty_cards(sampled)],
+        [*comparison.ladder_cards(compared.ladder), *uncertainty.uncertainty_cards(sampled)],
         [
             Section("comparison", "Models side by side", elements),
             rerun_section(first.attrs, shlex.join(["gripscale", "compare", case])),
@@ -386,11 +328,11 @@ def comparison_elements(compared: Compared) -> list[Element]:
     elements: list[Element] = [Text(LADDER)]
     for data in compared.parts:
         for where, status in comparison.failures(data):
-            elements.append(Notice("error", f"{explained(f'{where}: {status}')}."))
+            elements.append(Notice("error", f"{notices.explained(f'{where}: {status}')}."))
     for data in compared.parts:
         axis = varied(data)
         over = f" over {axis.replace('_', ' ')}" if axis else ""
-        for label, text in comparison_sentences(data):
+        for label, text in notices.comparison_sentences(data):
             elements.append(Notice("warning", f"{label}{over}: {text}"))
     ladder = compared.ladder
     if ladder is not None:
@@ -405,25 +347,11 @@ def comparison_elements(compared: Compared) -> list[Element]:
     return elements
 
 
-# Roads and compounds side by side.
-
-
-def roads_page(data: xr.Dataset) -> Page:
+def roads_page(source: Study) -> Page:
     """Return the report of roads side by side."""
+    data = source.data
     case = case_name(data.attrs) or "case.toml"
-    statistics = picture(
-        roads_statistics_figure(data),
-        "roads-statistics",
-        "Height difference correlation and spectrum of each road.",
-        "Two panels of curves, one for each road.",
-    )
-    friction = picture(
-        roads_friction_figure(data),
-        "roads-friction",
-        "Friction of all waves down to each wavelength, of the direct contact by the energy lost; "
-        "bars are the ranges of the totals.",
-        "A panel for each model with a curve for each road, rising towards short waves.",
-    )
+    statistics, friction = map(image, road_pictures(data))
     sentences = [
         *side_by_side.roads_sentences(data),
         *str(data.attrs.get("notes", "")).splitlines(),
@@ -431,7 +359,7 @@ def roads_page(data: xr.Dataset) -> Page:
     return _page(
         f"Roads side by side: {', '.join(data.surface.values.tolist())}",
         str(data.attrs.get("title", "")),
-        [Notice("error", explained(text)) for text in side_by_side.failed_totals(data)],
+        [Notice("error", notices.explained(text)) for text in side_by_side.failed_totals(data)],
         [],
         [
             Section(
@@ -447,31 +375,15 @@ def roads_page(data: xr.Dataset) -> Page:
     )
 
 
-def compounds_page(source: RubberComparison) -> Page:
+def compounds_page(source: Study) -> Page:
     """Return the report of compounds side by side: differences, then what a study has."""
     data = source.data
     names = [str(name) for name in data.rubber.values]
     elements: list[Element] = [Text(COMPOUNDS), side_by_side.compounds_table(data)]
     elements += map(Text, side_by_side.compounds_sentences(data))
-    if "friction_running" in data:
-        elements.append(
-            picture(
-                compound_friction_figure(data),
-                "compound-friction",
-                "Friction of all waves down to each; bars are the ranges of the totals. Beside it "
-                "the difference to the first compound by relaxation time.",
-                "A curve for each compound, rising towards short waves, and bars of differences.",
-            )
-        )
     rubbers = inputs.rubbers_of(data)
-    if len(rubbers) == len(names):
-        moduli = picture(
-            compound_moduli_figure(dict(zip(names, rubbers, strict=True))),
-            "compound-moduli",
-            "Storage modulus and loss factor of each compound, dashed beyond what was measured.",
-            "Two panels of curves over the frequency, one curve for each compound.",
-        )
-        elements.append(moduli)
+    moduli = dict(zip(names, rubbers, strict=True)) if len(rubbers) == len(names) else {}
+    elements += map(image, compound_pictures(data, moduli))
     options = shlex.join(names)
     return _page(
         f"Compounds side by side: {', '.join(names)}",
@@ -487,46 +399,15 @@ def compounds_page(source: RubberComparison) -> Page:
     )
 
 
-# Uncertainty and calibration.
-
-
-def uncertainty_page(data: xr.Dataset) -> Page:
+def uncertainty_page(source: Study) -> Page:
     """Return the report of an uncertainty."""
-    case, axis = case_name(data.attrs), uncertainty.axis_of(data)
-    if axis:
-        images = [
-            picture(
-                band_figure(data, axis),
-                f"over-{axis}",
-                f"Medians over the {axis}, with bands of 50 and 90 % of the samples.",
-                f"Friction and contact area over the {axis} with their bands.",
-            )
-        ]
-    else:
-        images = [
-            picture(
-                distribution_figure(data),
-                "distributions",
-                "How friction and contact area are distributed: quantiles, and the case.",
-                "Histograms of the samples, a row for each model.",
-            ),
-            *(
-                picture(
-                    tornado_figure(data.sel(model=name)),
-                    f"tornado-{name}",
-                    f"What each source does alone to the friction of the model {name}, and its "
-                    "share of the variance.",
-                    "Bars for each source, the most important on top.",
-                )
-                for name in data.model.values
-                if np.isfinite(data.sel(model=name).friction_share).any()
-            ),
-        ]
+    data = source.data
+    case = case_name(data.attrs)
     failed = uncertainty.failures(data)
     return _page(
         f"{data.attrs.get('title', 'Uncertainty')}{f': {case}' if case else ''}",
         f"{data.sizes['sample']} samples; {', '.join(str(name) for name in data.model.values)}",
-        [Notice("error", f"{explained(failed)}.")] if failed else [],
+        [Notice("error", f"{notices.explained(failed)}.")] if failed else [],
         uncertainty.uncertainty_cards(data),
         [
             Section(
@@ -534,7 +415,7 @@ def uncertainty_page(data: xr.Dataset) -> Page:
                 "Quantiles, and what matters most",
                 [Text(UNCERTAINTY), *_elements(uncertainty.uncertainty_parts(data))],
             ),
-            Section("figures", "Figures", images),
+            Section("figures", "Figures", list(map(image, uncertainty_pictures(data)))),
             rerun_section(
                 data.attrs, shlex.join(["gripscale", "uncertainty", case or "case.toml"])
             ),
@@ -542,40 +423,21 @@ def uncertainty_page(data: xr.Dataset) -> Page:
     )
 
 
-def calibration_page(data: xr.Dataset) -> Page:
+def calibration_page(source: Study) -> Page:
     """Return the report of a calibration."""
+    data = source.data
     case, failed = case_name(data.attrs), calibration.failures(data)
     tables, facts = _elements(calibration.calibration_parts(data)), calibration.law_facts(data)
-    images = [
-        picture(
-            fitted_figure(data),
-            "measured-and-fitted",
-            "Measured friction with its spread, the hysteresis alone, and the fit with its band, "
-            "at each temperature.",
-            "A panel for each temperature with points and two curves over the speed.",
-        ),
-        picture(
-            residual_figure(data),
-            "residuals",
-            "Fitted less measured friction over the speed.",
-            "Points around zero over the speed, a marker for each temperature.",
-        ),
-        picture(
-            profiles_figure(data),
-            "profiles",
-            "By how much the sum of squares rises where a parameter is held elsewhere.",
-            "A panel for each parameter with a valley around its best value.",
-        ),
-    ]
+    fit, residuals, profiles = map(image, calibration_pictures(data))
     return _page(
         f"{data.attrs.get('title', 'Calibration')}{f': {case}' if case else ''}",
         str(data.attrs.get("model", "")).replace("_", " "),
-        [Notice("error", f"{explained(failed)}.")] if failed else [],
+        [Notice("error", f"{notices.explained(failed)}.")] if failed else [],
         calibration.calibration_cards(data),
         [
             Section("law", "The law", [Text(CALIBRATION), facts, *tables[1:]]),
-            Section("points", "Point by point", [*images[:2], tables[0]]),
-            Section("profiles", "How well the data determine the law", images[2:]),
+            Section("points", "Point by point", [fit, residuals, tables[0]]),
+            Section("profiles", "How well the data determine the law", [profiles]),
             rerun_section(data.attrs, shlex.join(["gripscale", "calibrate", case or "case.toml"])),
         ],
     )

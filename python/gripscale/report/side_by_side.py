@@ -22,12 +22,8 @@ QUANTITIES = {"total_contact_fraction": "A_r/A_0", "total_friction": "μ"}
 def effects_table(*results: xr.Dataset) -> Table:
     """Return area and friction with all effects, without each in turn, and without any.
 
-    Beside each number stands what the effects left out change, relative to it.
-
-    Parameters
-    ----------
-    *results : xarray.Dataset
-        As `gripscale.analysis.effects` returns them, one for each model.
+    Beside each number stands what the effects left out change, relative to it. `results` are of
+    `gripscale.analysis.effects`, one for each model.
     """
 
     def every(name: str) -> list[object]:
@@ -120,9 +116,6 @@ def difference_words(data: xr.Dataset, name: str, first: str, measured: str) -> 
     return f"{text}, {'' if beyond else 'not '}beyond what {measured} leave open"
 
 
-# Roads under one rubber: `gripscale compare-surfaces`.
-
-
 def roads_tables(data: xr.Dataset) -> list[Table]:
     """Return for each model the totals of the roads and the differences to the first."""
     models = data.model.values.tolist()
@@ -160,9 +153,6 @@ def roads_sentences(data: xr.Dataset) -> Iterator[str]:
                     f"{significant(2 * end)} mm"
                 )
             yield f"{model}: {text}."
-
-
-# Compounds on one road: `gripscale compare-rubbers`.
 
 
 def compounds_table(data: xr.Dataset) -> Table:

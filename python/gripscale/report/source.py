@@ -108,8 +108,13 @@ class Run:
 
 @dataclass(frozen=True)
 class Study:
-    """The Dataset of a study."""
+    """The Dataset of many predictions.
 
+    `kind` is study, compounds (a study over rubbers, with the differences to the first), roads,
+    uncertainty or calibration.
+    """
+
+    kind: str
     name: str
     data: xr.Dataset
 
@@ -119,41 +124,7 @@ class Study:
         return dimensions(self.data)
 
 
-@dataclass(frozen=True)
-class SurfaceComparison:
-    """Roads side by side."""
-
-    data: xr.Dataset
-
-
-@dataclass(frozen=True)
-class RubberComparison(Study):
-    """Compounds side by side: a study over rubbers, with the differences to the first."""
-
-
-@dataclass(frozen=True)
-class UncertaintyResult:
-    """Samples of a case and their quantiles."""
-
-    data: xr.Dataset
-
-
-@dataclass(frozen=True)
-class CalibrationResult:
-    """A law of the area term fitted to measured friction."""
-
-    data: xr.Dataset
-
-
-Source = (
-    Run
-    | Study
-    | Compared
-    | SurfaceComparison
-    | RubberComparison
-    | UncertaintyResult
-    | CalibrationResult
-)
+Source = Run | Study | Compared
 
 
 def case_name(attrs: dict[Any, Any]) -> str:
@@ -171,20 +142,22 @@ def read_result(path: Path) -> Source:
     if not path.exists():
         raise FileError(f"result {path} does not exist")
     tree = netcdf.load_tree(path)
-    if "profile_excess" in tree.variables:
-        return CalibrationResult(tree.to_dataset())
-    if "friction_quantile" in tree.variables:
-        return UncertaintyResult(tree.to_dataset())
-    _require_totals(tree, path)
-    if "rung" in tree.dims:
-        return Compared.holding([tree.to_dataset()])
-    if {"model", "surface"} <= set(tree.dims):
-        return SurfaceComparison(tree.to_dataset())
-    if "total_friction_difference" in tree.variables:
-        return RubberComparison(path.stem, tree.to_dataset())
-    if tree["total_friction"].ndim:
-        return Study(path.stem, tree.to_dataset())
-    return _run({path.stem: tree})
+    names, kind = set(tree.variables), ""
+    if "profile_excess" in names:
+        kind = "calibration"
+    elif "friction_quantile" in names:
+        kind = "uncertainty"
+    else:
+        _require_totals(tree, path)
+        if "rung" in tree.dims:
+            return Compared.holding([tree.to_dataset()])
+        if {"model", "surface"} <= set(tree.dims):
+            kind = "roads"
+        elif "total_friction_difference" in names:
+            kind = "compounds"
+        elif tree["total_friction"].ndim:
+            kind = "study"
+    return Study(kind, path.stem, tree.to_dataset()) if kind else _run({path.stem: tree})
 
 
 def _read_folder(folder: Path) -> Source:

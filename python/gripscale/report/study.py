@@ -42,17 +42,10 @@ def study_table(data: xr.Dataset) -> Table:
     def each(name: str) -> list[float]:
         return [float(row[name]) for row in rows]
 
-    columns = [
-        Column(
-            axis,
-            [name_of(data, axis, index[axis]) for index in chosen[:MOST_ROWS]],
-            axis.replace("_", " "),
-        )
-        for axis in dimensions(data)
-    ]
-    columns = [
-        column.of(column.values, heading=column.name.replace("_", " ")) for column in columns
-    ]
+    columns = []
+    for axis in dimensions(data):
+        names = [name_of(data, axis, index[axis]) for index in chosen[:MOST_ROWS]]
+        columns.append(Column(axis, names, axis.replace("_", " ")))
     if BEYOND_SHIFT in data:
         marks = [" *" if bool(row[BEYOND_SHIFT]) else "" for row in rows]
         columns[-1] = columns[-1].of(columns[-1].values, marks=marks)
@@ -69,7 +62,12 @@ def study_table(data: xr.Dataset) -> Table:
             Column("area_term", term, "μ", "area term"),
             Column("friction_with_area_term", total, "μ", "with it"),
         ]
-    largest = [_largest(row) for row in rows]
+    largest = [
+        float(row.wavelength[int(np.nanargmax(row.friction.values))])
+        if "wavelength" in row and float(row.total_friction) > 1e-9
+        else math.nan
+        for row in rows
+    ]
     columns.append(
         Column("largest_wave", largest, "largest μ of", "mm", MILLI, format="{:.3g}".format)
     )
@@ -88,13 +86,6 @@ def study_table(data: xr.Dataset) -> Table:
     return Table("study", columns, "Predictions of the study", notes, keys=keys, bad=bad)
 
 
-def _largest(row: xr.Dataset) -> float:
-    """Return the length of the wave with the most friction [m], NaN without waves."""
-    if "wavelength" not in row or not float(row.total_friction) > 1e-9:
-        return math.nan
-    return float(row.wavelength[int(np.nanargmax(row.friction.values))])
-
-
 def study_parts(data: xr.Dataset) -> Iterator[str | Table]:
     """Yield the table and the sentences below it: extrapolation, temperatures over a_T v."""
     yield study_table(data)
@@ -110,9 +101,6 @@ def failed_predictions(data: xr.Dataset) -> tuple[list[str], int]:
     names = [name for name in ("prediction_status", "static_prediction_status") if name in data]
     statuses = [str(text) for name in names for text in data[name].values.ravel()]
     return [text for text in statuses if text != CONVERGED], len(statuses)
-
-
-# What a study over temperatures tells beside its table.
 
 
 def shift_sentence(data: xr.Dataset) -> str:
@@ -156,9 +144,6 @@ def _collapse(collapsed: xr.DataArray) -> str:
     if distance <= ONE_CURVE:
         return f"one curve, {reached}"
     return f"{reached}; one curve would be below {100.0 * ONE_CURVE:g} % but for errors of the mesh"
-
-
-# Tables of a page: the axes, and every total of every prediction.
 
 
 def axes_table(data: xr.Dataset) -> Table:
@@ -251,12 +236,15 @@ def failures(data: xr.Dataset) -> Iterator[str]:
 
 def command(data: xr.Dataset) -> str:
     """Return the command that makes a study of these axes."""
-    options = " ".join(
-        shlex.join(["--vary", f"{name}={_spacing(data, name) or ','.join(_given(data, name))}"])
-        for name in dimensions(data)
-    )
-    chosen = " --model direct" if data.attrs.get("model") == "direct" else ""
-    return f"gripscale study case.toml {options}{chosen}"
+    words = ["gripscale", "study", "case.toml"]
+    for name in dimensions(data):
+        unit = " K" if name == "temperature" else ""
+        texts = (
+            f"{value:.12g}{unit}" if isinstance(value, float) else f"{value or NONE}{unit}"
+            for value in _values(data, name)
+        )
+        words += ["--vary", f"{name}={_spacing(data, name) or ','.join(texts)}"]
+    return shlex.join([*words, *["--model", "direct"] * (data.attrs.get("model") == "direct")])
 
 
 def _values(data: xr.Dataset, name: str) -> Sequence[Any]:
@@ -277,10 +265,3 @@ def _spacing(data: xr.Dataset, name: str) -> str:
         if np.allclose(values, spaced(first, last, len(values)), rtol=1e-11, atol=0.0):
             return f"{first:.12g}{unit}:{last:.12g}{unit}:{word}{len(values)}"
     return ""
-
-
-def _given(data: xr.Dataset, name: str) -> Iterator[str]:
-    """Yield the values of an axis as `--vary` takes them."""
-    unit = " K" if name == "temperature" else ""
-    for value in _values(data, name):
-        yield f"{value:.12g}{unit}" if isinstance(value, float) else f"{value or NONE}{unit}"

@@ -12,6 +12,7 @@ import xarray as xr
 
 from gripscale.analysis.propagation import LEVELS, QUANTITIES, of_same_inputs, summary
 from gripscale.analysis.variance_shares import SURE
+from gripscale.charts.uncertainty import axis_of
 from gripscale.charts.view import CONVERGED
 from gripscale.experiment.axis import name_of
 from gripscale.io.table import Column, Table
@@ -24,11 +25,6 @@ OF_ANOTHER = (
 )
 SUMMARY = (0.05, 0.5, 0.95)
 """Quantiles in the summaries of other reports."""
-
-
-def axis_of(data: xr.Dataset) -> str:
-    """Return what is varied beside the samples, or nothing."""
-    return next((str(name) for name in data.failed.dims if name != "model"), "")
 
 
 def places(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
@@ -170,9 +166,6 @@ def failures(data: xr.Dataset) -> str:
     if of_case:
         sentences.append(f"the case itself has no answer: {of_case[0]}")
     return "; ".join(sentences)
-
-
-# Quantiles of the uncertainty of a case, for the summaries of its other reports.
 
 
 def uncertainty_lines(

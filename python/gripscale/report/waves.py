@@ -6,7 +6,7 @@ beside each other.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from itertools import chain
 from typing import TYPE_CHECKING
@@ -28,6 +28,7 @@ from gripscale.io.table import (
     yes_no,
 )
 from gripscale.model import with_adhesive
+from gripscale.report.inputs import numbers
 from gripscale.report.notices import conditions_sentences, exponent_sentence, prediction_sentence
 
 if TYPE_CHECKING:
@@ -172,12 +173,7 @@ def filled(view: PredictionView, column: Column, rows: int = 0) -> Column:
 def prediction_table(data: xr.Dataset, title: str) -> Table:
     """Return one row a wave of a prediction, with its totals and what to know of them below.
 
-    Parameters
-    ----------
-    data
-        The answer of any model; of one without waves only the totals are shown.
-    title
-        Printed above it.
+    `data` is the answer of any model; of one without waves only the totals are shown.
     """
     view = PredictionView(data)
     notes = [totals(data), *filter(None, [exponent_sentence(data)])]
@@ -185,7 +181,7 @@ def prediction_table(data: xr.Dataset, title: str) -> Table:
     if not view.waves:
         return Table("waves", [], title, [*notes, *filter(None, [beyond])])
     columns = [
-        Column("wave", list(range(1, view.waves + 1)), heading="#", format="{:.0f}".format),
+        numbers("wave", view.waves, "#"),
         *(
             replace(filled(view, ALL[name]), group=group)
             for group, names in IN_TERMINAL.items()
@@ -237,11 +233,13 @@ def heat_table(data: xr.Dataset) -> Table:
     view = PredictionView(data)
     names = [column.name for column in CONDITIONS]
     first, last = names.index("flash_temperature_rise_uniform"), names.index("contact_temperature")
-    columns = [
-        Column("wave", list(range(1, view.waves + 1)), heading="#", format="{:.0f}".format),
-        *(filled(view, column) for column in [WAVE[0], *CONDITIONS[first : last + 1]]),
-    ]
+    warming = [WAVE[0], *CONDITIONS[first : last + 1]]
+    columns = [numbers("wave", view.waves, "#"), *(filled(view, column) for column in warming)]
     return Table("heat", columns, "Temperature of the rubber on each wave")
+
+
+def _plain(value: float) -> str:
+    return whole(value) if value.is_integer() else significant(value)
 
 
 def wave_tables(predictions: Sequence[PredictionView]) -> list[Table]:
@@ -256,10 +254,6 @@ def wave_tables(predictions: Sequence[PredictionView]) -> list[Table]:
     all_tables = TABLES | {"further": ("Further columns of the result", list(further.values()))}
     tables = [_table(name, *content, predictions) for name, content in all_tables.items()]
     return [table for table in tables if len(table.columns) > 2]
-
-
-def _plain(value: float) -> str:
-    return whole(value) if value.is_integer() else significant(value)
 
 
 def _table(
@@ -277,22 +271,19 @@ def _table(
             if view.has(column.name) and (view.moving or column.name not in MOVING_ONLY)
         ]
         if name == "solution":
-            texts = list(_states(view, rows))
-            parts.append(Column("status", texts, group=view.title, bad=_failed(view, rows)))
+            states = [
+                f"{'' if good else 'NOT CONVERGED: '}{view.why(i)}"
+                for i, good in enumerate(view.converged)
+            ]
+            states += ["not reached"] * (rows - view.waves)
+            parts.append(Column("status", states, group=view.title, bad=_failed(view, rows)))
     if not parts:
         return Table(name, [])
     waves = [replace(filled(longest, c), bad=()) for c in (WAVE if name == "load" else WAVE[:1])]
-    numbers = Column("wave", list(range(1, rows + 1)), format="{:.0f}".format, bad=failed)
     gaps = any("-" in column.texts() for column in parts)
-    return Table(name, [numbers, *waves, *parts], caption, [NOTE] if gaps else [])
-
-
-def _states(view: PredictionView, rows: int) -> Iterator[str]:
-    for i in range(rows):
-        if i >= view.waves:
-            yield "not reached"
-        else:
-            yield view.why(i) if view.converged[i] else f"NOT CONVERGED: {view.why(i)}"
+    return Table(
+        name, [numbers("wave", rows, bad=failed), *waves, *parts], caption, [NOTE] if gaps else []
+    )
 
 
 def _failed(view: PredictionView, rows: int) -> NDArray[np.bool_]:
