@@ -24,16 +24,20 @@ import json
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 import xarray as xr
 
 from gripscale import model
+import gripscale
 from gripscale.conditions.conditions import Conditions
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
 from gripscale.core.errors import ConvergenceError, InputError
+from gripscale.io import netcdf
 from gripscale.model import NOT_CONVERGED, CutOffExponents, Load, of_curve
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import Extrapolation, of_sum
@@ -315,9 +319,13 @@ class Prediction:
 
     def plot(self) -> Figure:
         """Draw area and friction down to each wave; see `gripscale.charts.contact_figure`."""
-        from gripscale.charts import contact_figure
+        return gripscale.charts.contact_figure({"chain": self.to_dataset()})
 
-        return contact_figure({"chain": self.to_dataset()})
+    def report(self, output: str | Path) -> Path:
+        """Write a page of this prediction at `output`; see `gripscale.report.write_report`."""
+        with TemporaryDirectory() as folder:
+            stored = netcdf.save(self.to_dataset(), Path(folder) / "prediction.nc")
+            return gripscale.report.write_report(stored, output)
 
     @classmethod
     def from_dataset(cls, data: xr.Dataset) -> Prediction:

@@ -23,6 +23,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+import gripscale
 from gripscale.core import checks
 from gripscale.core.arrays import Array, Mask
 from gripscale.core.checks import Checked, checked
@@ -31,9 +32,6 @@ from gripscale.surface.profile import Profile, of_one_step
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-    from gripscale.surface.self_affine import SelfAffineFit
-    from gripscale.surface.sines import SineStack
 
 BAND_LEVEL = 0.95
 """Nominal confidence level of the band."""
@@ -83,25 +81,21 @@ class HeightDifference(Checked, eq=False):
             elif values.size != size:
                 raise InputError(f"{name} must have {size} entries as lag; got {values.size}")
 
-    def fit_self_affine(self, **options: Any) -> SelfAffineFit:
+    def fit_self_affine(self, **options: Any) -> gripscale.SelfAffineFit:
         """Return power law and plateau; options as in `gripscale.fit_self_affine`."""
-        from gripscale.surface.self_affine import fit_self_affine
+        return gripscale.fit_self_affine(self, **options)
 
-        return fit_self_affine(self, **options)
-
-    def fit_sines(self, **options: Any) -> SineStack:
+    def fit_sines(self, **options: Any) -> gripscale.SineStack:
         """Return the sine waves of the same C_z; options as in `gripscale.fit_sines`."""
-        from gripscale.surface.sine_fit import fit_sines
-
-        return fit_sines(self, **options)
+        return gripscale.fit_sines(self, **options)
 
     def plot(
-        self, sines: Mapping[str, SineStack] | None = None, self_affine: SelfAffineFit | None = None
+        self,
+        sines: Mapping[str, gripscale.SineStack] | None = None,
+        self_affine: gripscale.SelfAffineFit | None = None,
     ) -> Figure:
         """Draw the curve with its band, with fitted waves by name and the self-affine fit."""
-        from gripscale.charts import correlation_figure
-
-        return correlation_figure(self, sines or {}, self_affine)
+        return gripscale.charts.correlation_figure(self, sines or {}, self_affine)
 
     def __len__(self) -> int:
         return int(self.lag.size)

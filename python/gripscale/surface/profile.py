@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+import gripscale
 from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.checks import Checked, checked
@@ -24,10 +25,6 @@ from gripscale.core.errors import InputError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-    from gripscale.surface.cleaning import CleaningReport
-    from gripscale.surface.height_difference import HeightDifference
-    from gripscale.surface.spectrum import ArealSpectrum, ProfileSpectrum
 
 GRID_TOLERANCE = 0.05
 """Largest distance of a point from the even grid that fits best, in steps.
@@ -217,29 +214,21 @@ class Profile(Checked, eq=False):
         """Number of points whose height is missing."""
         return int(np.isnan(self.z).sum())
 
-    def clean(self, **options: Any) -> tuple[Profile, CleaningReport]:
+    def clean(self, **options: Any) -> tuple[Profile, gripscale.surface.CleaningReport]:
         """Return the cleaned profile and a report; options as in `gripscale.clean`."""
-        from gripscale.surface.cleaning import clean
+        return gripscale.clean(self, **options)
 
-        return clean(self, **options)
-
-    def height_difference(self, **options: Any) -> HeightDifference:
+    def height_difference(self, **options: Any) -> gripscale.HeightDifference:
         """Return the correlation C_z; options as in `gripscale.height_difference`."""
-        from gripscale.surface.height_difference import height_difference
+        return gripscale.height_difference(self, **options)
 
-        return height_difference(self, **options)
-
-    def spectrum(self, **options: Any) -> ProfileSpectrum:
+    def spectrum(self, **options: Any) -> gripscale.surface.ProfileSpectrum:
         """Return the power spectrum; options as in `gripscale.surface.profile_spectrum`."""
-        from gripscale.surface.spectrum import profile_spectrum
-
-        return profile_spectrum(self, **options)
+        return gripscale.surface.profile_spectrum(self, **options)
 
     def plot(self, cleaned: Profile | None = None) -> Figure:
         """Draw the profile, with the `cleaned` one if it is there."""
-        from gripscale.charts import profile_figure
-
-        return profile_figure([(self, self if cleaned is None else cleaned)])
+        return gripscale.charts.profile_figure([(self, self if cleaned is None else cleaned)])
 
     def __len__(self) -> int:
         return int(self.x.size)
@@ -361,17 +350,14 @@ class HeightMap(Checked, eq=False):
         heights = self.z[::-1].T
         return HeightMap(self.y, -self.x[::-1], heights, self.name, self.source, self.reliable)
 
-    def clean(self, **options: Any) -> tuple[HeightMap, CleaningReport]:
+    def clean(self, **options: Any) -> tuple[HeightMap, gripscale.surface.CleaningReport]:
         """Return the cleaned map and a report; options as in `gripscale.clean_map`."""
-        from gripscale.surface.cleaning import clean_map
+        return gripscale.clean_map(self, **options)
 
-        return clean_map(self, **options)
-
-    def spectrum(self, **options: Any) -> ArealSpectrum:
+    def spectrum(self, **options: Any) -> gripscale.surface.ArealSpectrum:
         """Return the power spectrum; options as in `gripscale.surface.map_spectrum`."""
-        from gripscale.surface.spectrum import map_spectrum
-
-        return map_spectrum(self.z, x_step=self.step[0], y_step=self.step[1], **options)
+        dx, dy = self.step
+        return gripscale.surface.map_spectrum(self.z, x_step=dx, y_step=dy, **options)
 
     def plot(self) -> Figure:
         """Draw the middle line of the map along the way of sliding."""

@@ -18,6 +18,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+import gripscale
 from gripscale.core.arrays import Array
 from gripscale.rubber import Rubber, extrapolation
 from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
@@ -212,9 +213,7 @@ class WaveResult:
 
     def plot(self) -> Figure:
         """Draw contact pressure and deformed mesh; see `gripscale.charts.block_figure`."""
-        from gripscale.charts import block_figure
-
-        return block_figure(waves_to_dataset([self]))
+        return gripscale.charts.block_figure(waves_to_dataset([self]))
 
     def _complex_modulus(self) -> complex:
         if self.rubber is None:
