@@ -203,20 +203,9 @@ def network_states(
 ) -> Array:
     """Return the states A_i of the temporary networks along a history, by the recurrence above.
 
-    Parameters
-    ----------
-    relaxation_times : ndarray, shape (terms,)
-        tau_i [s].
-    time : ndarray, shape (samples,)
-        Not falling [s].
-    inverse : ndarray, shape (samples, components)
-        Y, components of C^-1 [-].
-    rest : tuple of float, length components
-        The same components of the unit tensor: the state at the first time.
-
-    Returns
-    -------
-    ndarray, shape (samples, terms, components)
+    `relaxation_times` [s] has shape (terms,), `time` [s], not falling, (samples,) and `inverse`,
+    components of C^-1 [-], (samples, components); `rest` are those of the unit tensor: the state at
+    the first time. The result has shape (samples, terms, components).
     """
     step = np.diff(time)[:, None] / relaxation_times
     kept = np.exp(-step)
