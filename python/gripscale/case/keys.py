@@ -56,18 +56,12 @@ TABLES: tuple[tuple[str, type | Mapping[str, type], str], ...] = (
 )
 """Tables of a case by name, those of one kind or another by their kinds, and their chapters."""
 
+_OF_THE_METHOD = ("scales", "smallest_wavelength", "s_wavelength", "s_amplitude", "single_factor")
 CHAPTERS = {
-    "top_height_fraction": "chain-and-direct-contact.md",
-    "cut_off": "chain-and-direct-contact.md",
-    "scales": "method.md",
-    "smallest_wavelength": "method.md",
-    "s_wavelength": "method.md",
-    "s_amplitude": "method.md",
-    "single_factor": "method.md",
-    "strain_energy": "material.md",
-    "terms": "material.md",
-    "extrapolate": "inputs.md",
-    "time_limit": "inputs.md",
+    **dict.fromkeys(("top_height_fraction", "cut_off"), "chain-and-direct-contact.md"),
+    **dict.fromkeys(_OF_THE_METHOD, "method.md"),
+    **dict.fromkeys(("strain_energy", "terms"), "material.md"),
+    **dict.fromkeys(("extrapolate", "time_limit"), "inputs.md"),
 }
 """Chapters of keys that are explained elsewhere than their tables."""
 
@@ -110,15 +104,12 @@ def sections() -> list[Section]:
 def _keys(law: type, page: str) -> Iterator[Key]:
     """Yield the keys of a table or a law, its own before those it shares with others."""
     table = table_of(law)
-    meanings: dict[str, str | None]
-    meanings = {name: item.description for name, item in table.model_fields.items()}
-    if table is not law:
-        meanings = {"kind": _about(law), **_field_texts(law)}
+    meanings = {} if table is law else {"kind": _about(law), **_field_texts(law)}
     for name in sorted(table.model_fields, key=lambda name: name not in table.__annotations__):
         item = table.model_fields[name]
         default = NEEDED if item.is_required() else _written(item.default)
-        chapter = CHAPTERS.get(name, page)
-        yield Key(name, expected(item), default, meanings[name] or "", chapter)
+        meaning = meanings.get(name) or item.description or ""
+        yield Key(name, expected(item), default, meaning, CHAPTERS.get(name, page))
 
 
 def _field_texts(law: type) -> dict[str, str]:

@@ -48,7 +48,6 @@ from gripscale.export.rubber import (
     comment,
     heading,
     label,
-    material_number,
     prony_shares,
     with_one_series,
     wlf,
@@ -98,13 +97,8 @@ def abaqus_rubber(
     """
     checks.instance("rubber", rubber, Rubber)
     units = Units(modulus_unit, temperature_unit)
-    remarks, law = with_one_series(
-        rubber,
-        units,
-        "Abaqus",
-        "hybrid elements",
-        "MODULI=LONG TERM: the constants of *HYPERELASTIC are those of the relaxed rubber.",
-    )
+    about = "MODULI=LONG TERM: the constants of *HYPERELASTIC are those of the relaxed rubber."
+    remarks, law = with_one_series(rubber, units, "Abaqus", "hybrid elements", about)
     c = coefficients(rubber)
     form, orders, compliances = FORMS[rubber.strain_energy.kind]
     constants = [units.stress(c.get(powers, 0.0)) for powers in orders]
@@ -135,6 +129,13 @@ def _row(numbers: Sequence[float]) -> str:
     return ", ".join(texts)
 
 
+ANSYS_FORMS = {
+    "neo_hookean": ("NEO", 2),
+    "mooney_rivlin": ("MOONEY", 2),
+    "yeoh": ("YEOH", 3),
+    "isihara": ("POLY", 2),
+}
+"""Option and number of TB,HYPER of each strain energy; constants in the order of `FORMS`."""
 _ON_A_LINE = 6
 """Constants in a line of TBDATA."""
 
@@ -171,15 +172,10 @@ def ansys_rubber(
         If a unit or the number cannot be used, or E_inf is below 1e-7 of E_inf + sum E_i.
     """
     checks.instance("rubber", rubber, Rubber)
-    number = material_number(material)
+    number = checks.whole("material", material, least=1, most=99999)
     units = Units(modulus_unit, temperature_unit)
-    remarks, law = with_one_series(
-        rubber,
-        units,
-        "Ansys MAPDL",
-        "elements with mixed u-P",
-        "The constants of TB,HYPER are those of the fast limit, as TB,PRONY wants them.",
-    )
+    about = "The constants of TB,HYPER are those of the fast limit, as TB,PRONY wants them."
+    remarks, law = with_one_series(rubber, units, "Ansys MAPDL", "elements with mixed u-P", about)
     fast = rubber.glassy_modulus / rubber.equilibrium_modulus
     relaxed = coefficients(rubber)
     compliance = 2.0 / units.stress(rubber.bulk_modulus)
@@ -187,22 +183,12 @@ def ansys_rubber(
     def c(i: int, j: int) -> float:
         return units.stress(relaxed.get((i, j), 0.0)) * fast
 
-    match rubber.strain_energy.kind:
-        case "neo_hookean":
-            option, count, data = "NEO", 2, [2.0 * c(1, 0), compliance]
-        case "mooney_rivlin":
-            option, count, data = "MOONEY", 2, [c(1, 0), c(0, 1), compliance]
-        case "yeoh":
-            parts = [c(1, 0), c(2, 0), c(3, 0)]
-            option, count, data = "YEOH", 3, [*parts, compliance, 0.0, 0.0]
-        case _:
-            parts = [c(1, 0), c(0, 1), c(2, 0), c(1, 1), c(0, 2)]
-            option, count, data = "POLY", 2, [*parts, compliance, 0.0]
-    lines = [
-        *comment(remarks, "!"),
-        f"TB,HYPER,{number},1,{count},{option}",
-        *_data(data),
-    ]
+    kind = rubber.strain_energy.kind
+    _, orders, compliances = FORMS[kind]
+    option, count = ANSYS_FORMS[kind]
+    data = [2.0 * c(1, 0)] if kind == "neo_hookean" else [c(*powers) for powers in orders]
+    data += [compliance, *[0.0] * (compliances - 1)]
+    lines = [*comment(remarks, "!"), f"TB,HYPER,{number},1,{count},{option}", *_data(data)]
     if len(rubber.moduli):
         pairs = zip(prony_shares(rubber), rubber.relaxation_times, strict=True)
         lines.append(f"TB,PRONY,{number},1,{len(rubber.moduli)},SHEAR")
@@ -260,7 +246,7 @@ def febio_rubber(
         energy.
     """
     checks.instance("rubber", rubber, Rubber)
-    number = material_number(material)
+    number = checks.whole("material", material, least=1, most=99999)
     units = Units(modulus_unit)
     root = ET.Element("febio_spec", version="4.0")
     section = ET.SubElement(root, "Material")
@@ -270,9 +256,8 @@ def febio_rubber(
     if solids == 1:
         _permanent(ET.SubElement(section, "material", attributes), rubber, bulk, units)
     else:
-        mixture = ET.SubElement(
-            section, "material", attributes | {"type": "uncoupled solid mixture"}
-        )
+        attributes["type"] = "uncoupled solid mixture"
+        mixture = ET.SubElement(section, "material", attributes)
         _value(mixture, "k", bulk)
         _permanent(ET.SubElement(mixture, "solid"), rubber, bulk / solids, units)
         for first in range(0, len(rubber.moduli), TERMS):
@@ -296,10 +281,8 @@ def febio_rubber(
     if solids > 1:
         law, shift_remark = wlf(rubber)
         if law is not None:
-            shift_remark = (
-                "FEBio has no time-temperature shift: for another temperature, export the rubber "
-                "there."
-            )
+            shift_remark = "FEBio has no time-temperature shift: for another temperature, export "
+            shift_remark += "the rubber there."
         remarks += [
             f"{solids - 1} solids of at most {TERMS} Maxwell elements and the permanent network: "
             "the whole series, not a fit of it.",
