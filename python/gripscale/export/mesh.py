@@ -117,7 +117,7 @@ class ReferenceBlock:
         Shape (rows, columns, points across, points along, 2).
         """
         local = self.elements(values)
-        shape, slope = shapes(self.order), slopes(self.order)
+        shape, slope = lagrange(self.order)
         along = np.einsum("rclk,pl,qk->rcpq", local, shape, slope) * (2.0 / self.width)
         up = np.einsum("rclk,pl,qk->rcpq", local, slope, shape)
         up = up * (2.0 / self.heights)[:, None, None, None]
@@ -144,20 +144,19 @@ class ReferenceBlock:
         return np.stack([constant, *(linear if self.order == 2 else [])])
 
 
-def shapes(order: int) -> Array:
-    """Return the Lagrange functions at the Gauss points, shape (points, nodes)."""
+def lagrange(order: int) -> tuple[Array, Array]:
+    """Return the Lagrange functions on [-1, 1] and their derivatives at the Gauss points.
+
+    Both of shape (points, nodes).
+    """
     s, _ = np.polynomial.legendre.leggauss(order + 1)
     if order == 1:
-        return np.stack([0.5 * (1.0 - s), 0.5 * (1.0 + s)], axis=1)
-    return np.stack([0.5 * s * (s - 1.0), 1.0 - s * s, 0.5 * s * (s + 1.0)], axis=1)
-
-
-def slopes(order: int) -> Array:
-    """Return their derivatives on [-1, 1] at the Gauss points, shape (points, nodes)."""
-    s, _ = np.polynomial.legendre.leggauss(order + 1)
-    if order == 1:
-        return np.stack([np.full_like(s, -0.5), np.full_like(s, 0.5)], axis=1)
-    return np.stack([s - 0.5, -2.0 * s, s + 0.5], axis=1)
+        shape = [0.5 * (1.0 - s), 0.5 * (1.0 + s)]
+        slope = [np.full_like(s, -0.5), np.full_like(s, 0.5)]
+    else:
+        shape = [0.5 * s * (s - 1.0), 1.0 - s * s, 0.5 * s * (s + 1.0)]
+        slope = [s - 0.5, -2.0 * s, s + 0.5]
+    return np.stack(shape, axis=1), np.stack(slope, axis=1)
 
 
 EQUILIBRIUM = (Status.CONVERGED, Status.TOLERANCE_NOT_MET, Status.FRICTIONS_DISAGREE)

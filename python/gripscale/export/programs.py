@@ -54,14 +54,14 @@ from gripscale.export.rubber import (
 )
 from gripscale.rubber import Rubber
 
-FORMS: dict[str, tuple[str, tuple[tuple[int, int], ...], int]] = {
-    "neo_hookean": ("NEO HOOKE", ((1, 0),), 1),
-    "mooney_rivlin": ("MOONEY-RIVLIN", ((1, 0), (0, 1)), 1),
-    "yeoh": ("YEOH", ((1, 0), (2, 0), (3, 0)), 3),
-    "isihara": ("POLYNOMIAL, N=2", ((1, 0), (0, 1), (2, 0), (1, 1), (0, 2)), 2),
+FORMS: dict[str, tuple[str, str, int, tuple[tuple[int, int], ...], int]] = {
+    "neo_hookean": ("NEO HOOKE", "NEO", 2, ((1, 0),), 1),
+    "mooney_rivlin": ("MOONEY-RIVLIN", "MOONEY", 2, ((1, 0), (0, 1)), 1),
+    "yeoh": ("YEOH", "YEOH", 3, ((1, 0), (2, 0), (3, 0)), 3),
+    "isihara": ("POLYNOMIAL, N=2", "POLY", 2, ((1, 0), (0, 1), (2, 0), (1, 1), (0, 2)), 2),
 }
-"""Keyword, order of the C_ij and number of the D_k of each strain energy; D_2 and on are zero,
-which leaves their terms out."""
+"""Of each strain energy the form in Abaqus, option and number of TB,HYPER, order of the C_ij and
+number of the D_k; D_2 and on are zero, which leaves their terms out."""
 
 
 def abaqus_rubber(
@@ -100,7 +100,7 @@ def abaqus_rubber(
     about = "MODULI=LONG TERM: the constants of *HYPERELASTIC are those of the relaxed rubber."
     remarks, law = with_one_series(rubber, units, "Abaqus", "hybrid elements", about)
     c = coefficients(rubber)
-    form, orders, compliances = FORMS[rubber.strain_energy.kind]
+    form, _, _, orders, compliances = FORMS[rubber.strain_energy.kind]
     constants = [units.stress(c.get(powers, 0.0)) for powers in orders]
     constants += [2.0 / units.stress(rubber.bulk_modulus), *[0.0] * (compliances - 1)]
     moduli = ", MODULI=LONG TERM" if len(rubber.moduli) else ""
@@ -129,13 +129,6 @@ def _row(numbers: Sequence[float]) -> str:
     return ", ".join(texts)
 
 
-ANSYS_FORMS = {
-    "neo_hookean": ("NEO", 2),
-    "mooney_rivlin": ("MOONEY", 2),
-    "yeoh": ("YEOH", 3),
-    "isihara": ("POLY", 2),
-}
-"""Option and number of TB,HYPER of each strain energy; constants in the order of `FORMS`."""
 _ON_A_LINE = 6
 """Constants in a line of TBDATA."""
 
@@ -184,8 +177,7 @@ def ansys_rubber(
         return units.stress(relaxed.get((i, j), 0.0)) * fast
 
     kind = rubber.strain_energy.kind
-    _, orders, compliances = FORMS[kind]
-    option, count = ANSYS_FORMS[kind]
+    _, option, count, orders, compliances = FORMS[kind]
     data = [2.0 * c(1, 0)] if kind == "neo_hookean" else [c(*powers) for powers in orders]
     data += [compliance, *[0.0] * (compliances - 1)]
     lines = [*comment(remarks, "!"), f"TB,HYPER,{number},1,{count},{option}", *_data(data)]

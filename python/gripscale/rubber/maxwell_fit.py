@@ -194,10 +194,7 @@ def _expected_modulus(curve: Curve, position: Array) -> Array:
 
 
 def _end_slope(position: Array, value: Array, end: int) -> float:
-    """Return the slope of `value` over the first (0) or the last (-1) decade, between -1 and 1.
-
-    One is the steepest a Maxwell element's E'' can be.
-    """
+    """Return the slope over the first (0) or last (-1) decade, at most 1 in size, as of E''."""
     away = np.abs(position - position[end])
     near = away <= math.log(10.0)
     near[np.argsort(away, kind="stable")[:_FEWEST_FOR_SLOPE]] = True

@@ -124,10 +124,7 @@ def open_equations(
 def _furthest(
     reduced: _Reduced, row: Array, offset: float, direction: float, least: float
 ) -> Array:
-    """Return the solution with the largest (1) or least (-1) value of `row` the data allow.
-
-    Values below `least` count as nothing.
-    """
+    """Return the allowed solution with the largest (1) or least (-1) `row`, down to `least`."""
     start = max(float(row @ reduced.best) + offset, least)
     inside, outside, best = 0.0, _FIRST_STEP, reduced.best
     matrix = np.vstack([reduced.triangle, _HEAVY * (row / start)])

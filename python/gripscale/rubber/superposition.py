@@ -112,10 +112,7 @@ def _distance(cold: Points, warm: Points, noise: Array, lifts: Array) -> tuple[f
 
 
 def _roughness(rows: Rows, modulus: int) -> float:
-    """Return the scatter of a modulus from row to row [decades], at least 0.002 (half a per cent).
-
-    From the distance of each row to the straight line between its neighbours.
-    """
+    """Return the scatter [decades] about lines between neighbouring rows, at least 0.002."""
     distances = []
     for sweep in range(rows.sweeps):
         x, y = rows.of(sweep)

@@ -153,11 +153,11 @@ class Sweeps(Checked, eq=False):
         return f"{where}, {low:.3g} to {high:.3g} Hz, {len(self.frequency)} rows"
 
 
-def _groups(temperature: Array, tolerance: float) -> NDArray[np.intp]:
-    """Return which sweep each row belongs to, counted from the coldest."""
-    order = np.argsort(temperature, kind="stable")
-    group = np.empty(len(temperature), dtype=np.intp)
-    group[order] = np.cumsum(np.diff(temperature[order], prepend=temperature[order[0]]) > tolerance)
+def _groups(values: Array, tolerance: float) -> NDArray[np.intp]:
+    """Return which group of neighbouring values each belongs to, counted from the lowest."""
+    order = np.argsort(values, kind="stable")
+    group = np.empty(len(values), dtype=np.intp)
+    group[order] = np.cumsum(np.diff(values[order], prepend=values[order[0]]) > tolerance)
     return group
 
 
@@ -227,17 +227,14 @@ def sweeps_from_ramps(
         As `Sweeps` does; if `step` is not above zero, or no frequency was measured at two
         temperatures with a nominal one in between.
     """
-    columns = dict(zip(ROW, (temperature, frequency, storage, loss), strict=True))
-    units = dict(zip(ROW, ("K", "Hz", "Pa", "Pa"), strict=True))
-    rows = {name: checks.in_limits(name, columns[name], unit=units[name]) for name in ROW}
+    units = ("K", "Hz", "Pa", "Pa")
+    columns = zip(ROW, (temperature, frequency, storage, loss), units, strict=True)
+    rows = {name: checks.in_limits(name, values, unit=unit) for name, values, unit in columns}
     checks.same_length(1, **rows)
     step = checks.positive("step", step, unit="K")
     if step < _LEAST_STEP:
         raise InputError(f"step must be at least {_LEAST_STEP:g} K; got {step:g}")
-    order = np.argsort(rows["frequency"], kind="stable")
-    logs = np.log(rows["frequency"][order])
-    group = np.empty(len(logs), dtype=int)
-    group[order] = np.cumsum(np.diff(logs, prepend=logs[0]) > _ONE_FREQUENCY)
+    group = _groups(np.log(rows["frequency"]), _ONE_FREQUENCY)
     parts = [_at_steps(rows, group == number, step) for number in range(int(group.max()) + 1)]
     nominal = np.concatenate(parts, axis=1)
     if not nominal.size:
