@@ -14,20 +14,9 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
+from gripscale.case import tables
 from gripscale.case.rubber_tables import SHIFT_LAWS, SOFTENING, ConditionsTable, RubberSource
 from gripscale.case.schema import expected, table_of
-from gripscale.case.tables import (
-    ChainOptions,
-    CompareTable,
-    LoadTable,
-    MeasuredTable,
-    OutputTable,
-    RangesTable,
-    SolverTable,
-    SurfaceTable,
-    UncertaintyTable,
-    WaveTable,
-)
 from gripscale.conditions.area_term import SHEAR_STRESSES
 from gripscale.conditions.flash_temperature import ThermalProperties
 from gripscale.rubber.strain_energy import STRAIN_ENERGIES, StrainEnergy
@@ -36,23 +25,23 @@ NEEDED, NOTHING = "needed", "-"
 """The default of a key that must be there, and of one that may be left out for nothing."""
 
 TABLES: tuple[tuple[str, type | Mapping[str, type], str], ...] = (
-    ("surface", SurfaceTable, "inputs.md"),
-    ("surface.sines", WaveTable, "method.md"),
+    ("surface", tables.SurfaceTable, "inputs.md"),
+    ("surface.sines", tables.WaveTable, "method.md"),
     ("rubber", RubberSource, "temperature.md"),
     ("rubber.shift", SHIFT_LAWS, "temperature.md"),
     ("rubber.strain_energy", STRAIN_ENERGIES, "material.md"),
-    ("load", LoadTable, "method.md"),
-    ("solver", SolverTable, "method.md"),
-    ("chain", ChainOptions, "chain-and-direct-contact.md"),
+    ("load", tables.LoadTable, "method.md"),
+    ("solver", tables.SolverTable, "method.md"),
+    ("chain", tables.ChainOptions, "chain-and-direct-contact.md"),
     ("conditions", ConditionsTable, "conditions.md"),
     ("conditions.softening", SOFTENING, "conditions.md"),
     ("conditions.heat", ThermalProperties, "conditions.md"),
     ("conditions.shear_stress", SHEAR_STRESSES, "conditions.md"),
-    ("measured", MeasuredTable, "direct-contact.md"),
-    ("output", OutputTable, "reading-results.md"),
-    ("compare", CompareTable, "theories.md"),
-    ("uncertainty", UncertaintyTable, "uncertainty.md"),
-    ("uncertainty.ranges", RangesTable, "uncertainty.md"),
+    ("measured", tables.MeasuredTable, "direct-contact.md"),
+    ("output", tables.OutputTable, "reading-results.md"),
+    ("compare", tables.CompareTable, "theories.md"),
+    ("uncertainty", tables.UncertaintyTable, "uncertainty.md"),
+    ("uncertainty.ranges", tables.RangesTable, "uncertainty.md"),
 )
 """Tables of a case by name, those of one kind or another by their kinds, and their chapters."""
 

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from gripscale import surface as surfaces
 from gripscale.case.read import CaseFile
 from gripscale.case.rubber_tables import ConditionsTable, RubberSource, StrainSweeps
 from gripscale.case.schema import Table
@@ -39,19 +40,6 @@ from gripscale.rubber import (
 from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.softening import SofteningLaw, softening_of_sweeps
 from gripscale.rubber.sweeps import holds_sweeps
-from gripscale.surface import (
-    Measured,
-    SineStack,
-    Surface,
-    clean,
-    clean_map,
-    find_cut_off,
-    fit_self_affine,
-    fit_sines,
-    height_difference,
-    read_map,
-    read_profile,
-)
 
 Resolve = Callable[[str], Path]
 
@@ -73,7 +61,7 @@ def _options(table: Table, function: Callable[..., Any]) -> dict[str, Any]:
 
 
 @about_keys("surface")
-def prepare_surface(surface: SurfaceTable, resolve: Resolve = Path) -> Surface:
+def prepare_surface(surface: SurfaceTable, resolve: Resolve = Path) -> surfaces.Surface:
     """Read, clean and describe the profiles or the map of `surface`, or take its waves as stated.
 
     `resolve` turns the name of a file into its path.
@@ -82,22 +70,22 @@ def prepare_surface(surface: SurfaceTable, resolve: Resolve = Path) -> Surface:
     """
     if surface.sines is not None:
         waves = np.array([(wave.wavelength, wave.amplitude) for wave in surface.sines])
-        return Surface(SineStack(*waves.T), "sine waves stated in the case")
+        return surfaces.Surface(surfaces.SineStack(*waves.T), "sine waves stated in the case")
     paths = [resolve(name) for name in surface.measured_files]
     measured = _map(surface, paths[0]) if surface.map else _profiles(surface, paths)
-    counted = _options(surface, height_difference)
-    correlation = height_difference(measured.cleaned, **counted)
+    counted = _options(surface, surfaces.height_difference)
+    correlation = surfaces.height_difference(measured.cleaned, **counted)
     try:
-        measured = replace(measured, self_affine=fit_self_affine(correlation))
+        measured = replace(measured, self_affine=surfaces.fit_self_affine(correlation))
     except GripscaleError as error:  # the sine waves do not need a self-affine surface
         measured = replace(measured, no_self_affine=str(error))
-    fit = _options(surface, fit_sines)
+    fit = _options(surface, surfaces.fit_sines)
     if not (surface.cut_off is None or isinstance(surface.cut_off, float)):
         where = str(paths[0]) if len(paths) == 1 else f"{len(paths)} profiles"
         with _in_file(where):
-            fit["cut_off"] = find_cut_off(measured.slopes, surface.cut_off).wavelength
-    return Surface(
-        fit_sines(correlation, **fit),
+            fit["cut_off"] = surfaces.find_cut_off(measured.slopes, surface.cut_off).wavelength
+    return surfaces.Surface(
+        surfaces.fit_sines(correlation, **fit),
         ", ".join(str(path) for path in paths),
         correlation,
         fit,
@@ -107,25 +95,25 @@ def prepare_surface(surface: SurfaceTable, resolve: Resolve = Path) -> Surface:
     )
 
 
-def _profiles(surface: SurfaceTable, paths: list[Path]) -> Measured:
+def _profiles(surface: SurfaceTable, paths: list[Path]) -> surfaces.Measured:
     """Read and clean profiles."""
     profiles, reports = [], []
     for path in paths:
-        raw = read_profile(path, **_options(surface, read_profile))
+        raw = surfaces.read_profile(path, **_options(surface, surfaces.read_profile))
         with _in_file(path):
-            cleaned, report = clean(raw, **_options(surface, clean))
+            cleaned, report = surfaces.clean(raw, **_options(surface, surfaces.clean))
         profiles.append((raw, cleaned))
         reports.append(report)
-    return Measured(profiles, reports, None, "")
+    return surfaces.Measured(profiles, reports, None, "")
 
 
-def _map(surface: SurfaceTable, path: Path) -> Measured:
+def _map(surface: SurfaceTable, path: Path) -> surfaces.Measured:
     """Read and clean a map, turned so that its x is the way of sliding."""
-    raw = read_map(path, **_options(surface, read_map))
+    raw = surfaces.read_map(path, **_options(surface, surfaces.read_map))
     raw = raw if surface.direction == "x" else raw.turned()
-    options = _options(surface, clean_map)
+    options = _options(surface, surfaces.clean_map)
     with _in_file(path):
-        cleaned, report = clean_map(
+        cleaned, report = surfaces.clean_map(
             raw, **options | {"crop": (options["crop"], surface.crop_across)}
         )
     # The line to be drawn is the fullest, nearest to the middle.
@@ -135,7 +123,7 @@ def _map(surface: SurfaceTable, path: Path) -> Measured:
         each.line(int(np.argmin(np.abs(each.y - cleaned.y[fullest])))) for each in (raw, cleaned)
     )
     after = replace(after, name=before.name, source=before.source)
-    return Measured([(before, after)], [report], None, "", cleaned)
+    return surfaces.Measured([(before, after)], [report], None, "", cleaned)
 
 
 OF_SWEEPS = ("temperature_step", "vertical")

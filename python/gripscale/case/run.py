@@ -10,16 +10,8 @@ import time
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from gripscale.case import folder, record
-from gripscale.case.events import (
-    PASSES,
-    FileWritten,
-    OnEvent,
-    PredictionFinished,
-    ResultsReplaced,
-    RunStarted,
-    WaveSolved,
-)
+from gripscale.case import events, folder, record
+from gripscale.case.events import OnEvent
 from gripscale.case.prepare import case_chain, prepare_rubber, prepare_surface
 from gripscale.case.read import CaseFile, read_case
 from gripscale.case.results import CaseResults
@@ -149,12 +141,12 @@ def run_case(
         paths = {name: results.folder / f"{name}.nc" for name in names}
         stored = {name: earlier(paths[name], results.key(name), results.chain) for name in names}
     iterated = results.file.case.conditions.iterated
-    emit(RunStarted(names, len(results.surface.sines), iterated))
+    emit(events.RunStarted(names, len(results.surface.sines), iterated))
     if results.folder is not None:
         keep = [f"{name}.nc" for name, prediction in stored.items() if prediction is not None]
         replaced = folder.earlier_run(results.folder, keep)
         if replaced:
-            emit(ResultsReplaced(replaced))
+            emit(events.ResultsReplaced(replaced))
         folder.prepare(results.folder, results.file, keep)
     for name, speed in results.planned():
         _solve(results, name, speed, emit, stored.get(name))
@@ -198,11 +190,11 @@ def _solve(
         is_stored = len(so_far.scales) <= stored_waves
         if not is_stored:
             _save(results, name)
-            if PASSES in so_far.scales[-1].details:
+            if events.PASSES in so_far.scales[-1].details:
                 return  # rubber and contact agree: no wave was solved anew
         pass_number += len(so_far.scales) == 1
         seconds, clock = time.perf_counter() - clock, time.perf_counter()
-        emit(WaveSolved.last_of(so_far, name, pass_number, seconds, stored=is_stored))
+        emit(events.WaveSolved.last_of(so_far, name, pass_number, seconds, stored=is_stored))
 
     finished = False
     try:
@@ -221,9 +213,10 @@ def _solve(
     finally:
         _save(results, name, with_inputs=True, finished=finished)
     if name in results.predictions:
-        emit(PredictionFinished.of(results.predictions[name], name, results.failures.get(name)))
+        failed = results.failures.get(name)
+        emit(events.PredictionFinished.of(results.predictions[name], name, failed))
         if results.folder is not None:
-            emit(FileWritten(str(results.folder / f"{name}.nc")))
+            emit(events.FileWritten(str(results.folder / f"{name}.nc")))
 
 
 def _save(

@@ -28,22 +28,10 @@ import numpy as np
 from gripscale.core import checks
 from gripscale.core.arrays import Array, Mask
 from gripscale.core.errors import InputError
-from gripscale.rubber import material
+from gripscale.rubber import material, maxwell_fit
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.material import AdmissibleSeries, Rubber, loss_shape, storage_shape
-from gripscale.rubber.maxwell_fit import (
-    Candidate,
-    Curve,
-    Equations,
-    Prior,
-    Spectrum,
-    choose_terms,
-    equations,
-    fit_spectrum,
-    non_negative,
-    relaxation_times,
-    screen,
-)
+from gripscale.rubber.maxwell_fit import Curve, Prior, Spectrum
 from gripscale.rubber.prony_report import PronyFit, report, rms, swapped_moduli
 
 _RISE = 9.0
@@ -87,7 +75,7 @@ def extremes(
     decades = math.log10(curve.omega[-1] / curve.omega[0])
     orthogonal, triangle = np.linalg.qr(problem.matrix)
     right = orthogonal.T @ problem.right
-    reduced = _Reduced(triangle, right, non_negative(triangle, right))
+    reduced = _Reduced(triangle, right, maxwell_fit.non_negative(triangle, right))
     solutions, least = [reduced.best], _LEAST_SHARE * float(curve.loss.min())
     # Sought in the band, and once and twice half-way beyond it.
     low, high = curve.omega[0], curve.omega[-1]
@@ -109,16 +97,18 @@ def extremes(
 
 def open_equations(
     curve: Curve, scatter: tuple[float, float], beyond: float, largest_modulus: float
-) -> Equations:
+) -> maxwell_fit.Equations:
     """Return the equations in units of the scatter, smoothed so little that the data decide.
 
     Arguments as for `extremes`.
     """
     decades = math.log10(curve.omega[-1] / curve.omega[0])
     terms = min(max(2, round(_PER_DECADE * decades) + 1), _MOST_TERMS)
-    times = relaxation_times(curve.omega, terms, beyond)
+    times = maxwell_fit.relaxation_times(curve.omega, terms, beyond)
     weights = largest_modulus, 1.0 / scatter[0], 1.0 / scatter[1]
-    return equations(curve, times, Prior(EXTREME_SMOOTHING, EXTREME_SMOOTHING, *weights))
+    return maxwell_fit.equations(
+        curve, times, Prior(EXTREME_SMOOTHING, EXTREME_SMOOTHING, *weights)
+    )
 
 
 def _furthest(
@@ -132,7 +122,9 @@ def _furthest(
 
     def at(step: float) -> tuple[Array, bool]:
         value = max(start * math.exp(direction * step) - offset, 0.0)
-        solution = non_negative(matrix, np.append(reduced.right, _HEAVY * (value / start)))
+        solution = maxwell_fit.non_negative(
+            matrix, np.append(reduced.right, _HEAVY * (value / start))
+        )
         return solution, reduced.squares(solution) - lowest <= _RISE
 
     solution, allowed = at(outside)
@@ -261,12 +253,14 @@ def fit_prony_report(
     # Outliers are found with one fixed fit, so that they do not depend on the series wanted.
     plain = Prior(SMOOTHING, 0.0, 2.0 * float(master.storage.max()))
     coarse = max(4, min(round(2.0 * master.decades), 60))
-    screening = screen(curve, partial(_fit, curve, 0.0, plain, terms=coarse), outlier_threshold)
+    screening = maxwell_fit.screen(
+        curve, partial(_fit, curve, 0.0, plain, terms=coarse), outlier_threshold
+    )
     kept, rows = screening.kept, curve.rows(screening.kept)
     limit = largest_modulus(float(rows.storage.max()), bulk)
     prior = Prior(smoothing, _SHRINKAGE * smoothing, limit, loss_weight=loss_weight)
     fit = partial(_fit, curve, beyond, prior)
-    candidates: tuple[Candidate, ...] = ()
+    candidates: tuple[maxwell_fit.Candidate, ...] = ()
     if terms is None:
         positions = np.flatnonzero(kept)
 
@@ -275,7 +269,7 @@ def fit_prony_report(
             among_all[positions[chosen]] = True
             return fit(among_all, terms)
 
-        terms, candidates = choose_terms(rows, fit_among_kept)
+        terms, candidates = maxwell_fit.choose_terms(rows, fit_among_kept)
     spectrum = fit(kept, terms)
     # The scatter about the fit: what any series has to live with.
     storage_scatter, loss_scatter = (
@@ -324,5 +318,5 @@ def largest_modulus(measured: float, bulk: float) -> float:
 
 
 def _fit(curve: Curve, beyond: float, prior: Prior, rows: Mask, terms: int) -> Spectrum:
-    times = relaxation_times(curve.omega, terms, beyond)
-    return fit_spectrum(curve.rows(rows), times, prior)
+    times = maxwell_fit.relaxation_times(curve.omega, terms, beyond)
+    return maxwell_fit.fit_spectrum(curve.rows(rows), times, prior)
