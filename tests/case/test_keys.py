@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 
 from gripscale.case import Case
 from gripscale.case.keys import NEEDED, sections
-from gripscale.case.schema import ByKind, StatedLaw, table_of
+from gripscale.case.schema import Reading, table_of
 from gripscale.cli import app
 from gripscale.rubber.strain_energy import STRAIN_ENERGIES
 from tests.samples import DOCS
@@ -21,9 +21,7 @@ from tests.samples import DOCS
 def nested(annotation: Any, metadata: Any = ()) -> Iterator[type[BaseModel]]:
     """Yield the tables inside an annotation; where a kind chooses, all it chooses from."""
     for one in metadata:
-        if isinstance(one, StatedLaw):
-            yield table_of(one.law)
-        if isinstance(one, ByKind):
+        if isinstance(one, Reading):
             yield from map(table_of, one.laws.values())
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         yield from () if annotation.__subclasses__() else (annotation,)

@@ -15,7 +15,7 @@ import json
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, TypeAlias, get_args
+from typing import TYPE_CHECKING, TypeAlias, get_args
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -79,21 +79,10 @@ class WaveSolved:
     ) -> WaveSolved:
         """Return the event of the last wave of a prediction."""
         wave = so_far.scales[-1]
-        return cls(
-            prediction,
-            pass_number,
-            number=len(so_far.scales),
-            count=so_far.planned,
-            wavelength=wave.wavelength,
-            speed=wave.speed,
-            contact_fraction=wave.contact_fraction,
-            friction=wave.friction,
-            status=wave.status,
-            message=wave.why,
-            seconds=seconds,
-            stored=stored,
-            so_far=so_far,
-        )
+        names = ("wavelength", "speed", "contact_fraction", "friction", "status")
+        values = {name: getattr(wave, name) for name in names}
+        values |= {"message": wave.why, "seconds": seconds, "stored": stored, "so_far": so_far}
+        return cls(prediction, pass_number, len(so_far.scales), so_far.planned, **values)
 
 
 @dataclass(frozen=True)
@@ -196,14 +185,11 @@ OnEvent: TypeAlias = Callable[[Event], None]
 
 def to_json(event: Event) -> str:
     """Return an event as one line of JSON."""
-    values: dict[str, Any] = {"event": type(event).__name__}
-    for item in dataclasses.fields(event):
-        if item.name == "so_far":
-            continue
-        value = getattr(event, item.name)
-        finite = not isinstance(value, float) or math.isfinite(value)
-        values[item.name] = value if finite else None
-    return json.dumps(values, allow_nan=False)
+    names = [item.name for item in dataclasses.fields(event) if item.name != "so_far"]
+    values = {name: getattr(event, name) for name in names}
+    infinite = {k for k, v in values.items() if isinstance(v, float) and not math.isfinite(v)}
+    values |= dict.fromkeys(infinite)
+    return json.dumps({"event": type(event).__name__, **values}, allow_nan=False)
 
 
 def from_json(line: str) -> Event | None:

@@ -32,24 +32,16 @@ CASE = "case.toml"
 
 @dataclass(frozen=True)
 class Example:
-    """A case with the files it names.
-
-    Attributes
-    ----------
-    about
-        What slides on what.
-    files
-        Files of the package, by the path they get; origin and licence among them.
-    made
-        Texts that are computed instead, by the path they get.
-    needs
-        Extra of the package without which its files cannot be read, or nothing.
-    """
+    """A case with the files it names."""
 
     about: str
+    """What slides on what."""
     files: tuple[str, ...] = ()
+    """Files of the package, by the path they get; origin and licence among them."""
     made: tuple[tuple[str, Callable[[], str]], ...] = ()
+    """Texts that are computed instead, by the path they get."""
     needs: str = ""
+    """Extra of the package without which its files cannot be read, or nothing."""
 
 
 _ROAD, _RUBBER, _SURFACES = "data/road", "data/rubber", "data/surfaces"

@@ -113,14 +113,8 @@ def _free_target(
     return next(filter(is_free, targets))
 
 
-FIGURES = (
-    "profile",
-    "correlation",
-    "master_curve",
-    "contact_and_friction",
-    "blocks_dynamic",
-    "blocks_static",
-)
+BLOCKS = ("blocks_dynamic", "blocks_static")
+FIGURES = ("profile", "correlation", "master_curve", "contact_and_friction", *BLOCKS)
 AT_TIMES = ("heat", "effects", "superposition", "superposition_tests", "shift")
 """Figures of cases with conditions, or with sweeps at several temperatures."""
 RESULTS = (

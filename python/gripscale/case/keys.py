@@ -14,20 +14,9 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
+from gripscale.case import tables
 from gripscale.case.rubber_tables import SHIFT_LAWS, SOFTENING, ConditionsTable, RubberSource
 from gripscale.case.schema import expected, table_of
-from gripscale.case.tables import (
-    ChainOptions,
-    CompareTable,
-    LoadTable,
-    MeasuredTable,
-    OutputTable,
-    RangesTable,
-    SolverTable,
-    SurfaceTable,
-    UncertaintyTable,
-    WaveTable,
-)
 from gripscale.conditions.area_term import SHEAR_STRESSES
 from gripscale.conditions.flash_temperature import ThermalProperties
 from gripscale.rubber.strain_energy import STRAIN_ENERGIES, StrainEnergy
@@ -36,38 +25,32 @@ NEEDED, NOTHING = "needed", "-"
 """The default of a key that must be there, and of one that may be left out for nothing."""
 
 TABLES: tuple[tuple[str, type | Mapping[str, type], str], ...] = (
-    ("surface", SurfaceTable, "inputs.md"),
-    ("surface.sines", WaveTable, "method.md"),
+    ("surface", tables.SurfaceTable, "inputs.md"),
+    ("surface.sines", tables.WaveTable, "method.md"),
     ("rubber", RubberSource, "temperature.md"),
     ("rubber.shift", SHIFT_LAWS, "temperature.md"),
     ("rubber.strain_energy", STRAIN_ENERGIES, "material.md"),
-    ("load", LoadTable, "method.md"),
-    ("solver", SolverTable, "method.md"),
-    ("chain", ChainOptions, "chain-and-direct-contact.md"),
+    ("load", tables.LoadTable, "method.md"),
+    ("solver", tables.SolverTable, "method.md"),
+    ("chain", tables.ChainOptions, "chain-and-direct-contact.md"),
     ("conditions", ConditionsTable, "conditions.md"),
     ("conditions.softening", SOFTENING, "conditions.md"),
     ("conditions.heat", ThermalProperties, "conditions.md"),
     ("conditions.shear_stress", SHEAR_STRESSES, "conditions.md"),
-    ("measured", MeasuredTable, "direct-contact.md"),
-    ("output", OutputTable, "reading-results.md"),
-    ("compare", CompareTable, "theories.md"),
-    ("uncertainty", UncertaintyTable, "uncertainty.md"),
-    ("uncertainty.ranges", RangesTable, "uncertainty.md"),
+    ("measured", tables.MeasuredTable, "direct-contact.md"),
+    ("output", tables.OutputTable, "reading-results.md"),
+    ("compare", tables.CompareTable, "theories.md"),
+    ("uncertainty", tables.UncertaintyTable, "uncertainty.md"),
+    ("uncertainty.ranges", tables.RangesTable, "uncertainty.md"),
 )
 """Tables of a case by name, those of one kind or another by their kinds, and their chapters."""
 
+_OF_THE_METHOD = ("scales", "smallest_wavelength", "s_wavelength", "s_amplitude", "single_factor")
 CHAPTERS = {
-    "top_height_fraction": "chain-and-direct-contact.md",
-    "cut_off": "chain-and-direct-contact.md",
-    "scales": "method.md",
-    "smallest_wavelength": "method.md",
-    "s_wavelength": "method.md",
-    "s_amplitude": "method.md",
-    "single_factor": "method.md",
-    "strain_energy": "material.md",
-    "terms": "material.md",
-    "extrapolate": "inputs.md",
-    "time_limit": "inputs.md",
+    **dict.fromkeys(("top_height_fraction", "cut_off"), "chain-and-direct-contact.md"),
+    **dict.fromkeys(_OF_THE_METHOD, "method.md"),
+    **dict.fromkeys(("strain_energy", "terms"), "material.md"),
+    **dict.fromkeys(("extrapolate", "time_limit"), "inputs.md"),
 }
 """Chapters of keys that are explained elsewhere than their tables."""
 
@@ -110,15 +93,12 @@ def sections() -> list[Section]:
 def _keys(law: type, page: str) -> Iterator[Key]:
     """Yield the keys of a table or a law, its own before those it shares with others."""
     table = table_of(law)
-    meanings: dict[str, str | None]
-    meanings = {name: item.description for name, item in table.model_fields.items()}
-    if table is not law:
-        meanings = {"kind": _about(law), **_field_texts(law)}
+    meanings = {} if table is law else {"kind": _about(law), **_field_texts(law)}
     for name in sorted(table.model_fields, key=lambda name: name not in table.__annotations__):
         item = table.model_fields[name]
         default = NEEDED if item.is_required() else _written(item.default)
-        chapter = CHAPTERS.get(name, page)
-        yield Key(name, expected(item), default, meanings[name] or "", chapter)
+        meaning = meanings.get(name) or item.description or ""
+        yield Key(name, expected(item), default, meaning, CHAPTERS.get(name, page))
 
 
 def _field_texts(law: type) -> dict[str, str]:

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from inspect import signature
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from gripscale import surface as surfaces
 from gripscale.case.read import CaseFile
 from gripscale.case.rubber_tables import ConditionsTable, RubberSource, StrainSweeps
+from gripscale.case.schema import Table
 from gripscale.case.tables import SurfaceTable
 from gripscale.chain.chain import Chain, wave_solver
 from gripscale.conditions.conditions import Conditions
@@ -36,45 +40,28 @@ from gripscale.rubber import (
 from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.softening import SofteningLaw, softening_of_sweeps
 from gripscale.rubber.sweeps import holds_sweeps
-from gripscale.surface import (
-    CutOffRule,
-    HeightMap,
-    Measured,
-    Profile,
-    SineStack,
-    Surface,
-    clean,
-    clean_map,
-    find_cut_off,
-    fit_self_affine,
-    fit_sines,
-    height_difference,
-    read_map,
-    read_profile,
-)
 
 Resolve = Callable[[str], Path]
 
-FIT_KEYS = (
-    "scales",
-    "smallest_wavelength",
-    "cut_off",
-    "s_wavelength",
-    "s_amplitude",
-    "first_wavelength",
-    "first_amplitude",
-    "single_factor",
-    "smallest_lag",
-    "largest_lag",
-)
-"""Keys of the case's [surface] that say how sine waves are fitted."""
 
-COUNTED_KEYS = ("top_height_fraction", "max_lag")
-"""Keys of the case's [surface] that say which heights and lags count in the correlation."""
+@contextmanager
+def _in_file(path: Path | str) -> Iterator[None]:
+    """Name the file in an `InputError` about what was read from it."""
+    try:
+        yield
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from error
+
+
+def _options(table: Table, function: Callable[..., Any]) -> dict[str, Any]:
+    """Return the keys of a table that are options of a function by the same name."""
+    names = [name for name in signature(function).parameters if name in type(table).model_fields]
+    values = {name: getattr(table, name) for name in names}
+    return {name: tuple(v) if isinstance(v, list) else v for name, v in values.items()}
 
 
 @about_keys("surface")
-def prepare_surface(surface: SurfaceTable, resolve: Resolve = Path) -> Surface:
+def prepare_surface(surface: SurfaceTable, resolve: Resolve = Path) -> surfaces.Surface:
     """Read, clean and describe the profiles or the map of `surface`, or take its waves as stated.
 
     `resolve` turns the name of a file into its path.
@@ -82,25 +69,23 @@ def prepare_surface(surface: SurfaceTable, resolve: Resolve = Path) -> Surface:
     Raises `FileError` and `InputError` as reading, cleaning and fitting do.
     """
     if surface.sines is not None:
-        stack = SineStack(
-            wavelength=np.array([wave.wavelength for wave in surface.sines]),
-            amplitude=np.array([wave.amplitude for wave in surface.sines]),
-        )
-        return Surface(stack, "sine waves stated in the case")
+        waves = np.array([(wave.wavelength, wave.amplitude) for wave in surface.sines])
+        return surfaces.Surface(surfaces.SineStack(*waves.T), "sine waves stated in the case")
     paths = [resolve(name) for name in surface.measured_files]
     measured = _map(surface, paths[0]) if surface.map else _profiles(surface, paths)
-    counted = {key: getattr(surface, key) for key in COUNTED_KEYS}
-    correlation = height_difference(measured.cleaned, **counted)
+    counted = _options(surface, surfaces.height_difference)
+    correlation = surfaces.height_difference(measured.cleaned, **counted)
     try:
-        measured = replace(measured, self_affine=fit_self_affine(correlation))
+        measured = replace(measured, self_affine=surfaces.fit_self_affine(correlation))
     except GripscaleError as error:  # the sine waves do not need a self-affine surface
         measured = replace(measured, no_self_affine=str(error))
-    fit = {key: getattr(surface, key) for key in FIT_KEYS}
-    if surface.cut_off is not None:
+    fit = _options(surface, surfaces.fit_sines)
+    if not (surface.cut_off is None or isinstance(surface.cut_off, float)):
         where = str(paths[0]) if len(paths) == 1 else f"{len(paths)} profiles"
-        fit["cut_off"] = _cut_off_wavelength(measured, surface.cut_off, where)
-    return Surface(
-        fit_sines(correlation, **fit),
+        with _in_file(where):
+            fit["cut_off"] = surfaces.find_cut_off(measured.slopes, surface.cut_off).wavelength
+    return surfaces.Surface(
+        surfaces.fit_sines(correlation, **fit),
         ", ".join(str(path) for path in paths),
         correlation,
         fit,
@@ -110,85 +95,35 @@ def prepare_surface(surface: SurfaceTable, resolve: Resolve = Path) -> Surface:
     )
 
 
-def _cut_off_wavelength(measured: Measured, rule: CutOffRule, where: str) -> float:
-    """Return where the roughness ends [m]; an error begins with `where`."""
-    if isinstance(rule, float):
-        return rule
-    try:
-        return find_cut_off(measured.slopes, rule).wavelength
-    except InputError as error:
-        raise InputError(f"{where}: {error}") from error
-
-
-def _profiles(surface: SurfaceTable, paths: list[Path]) -> Measured:
+def _profiles(surface: SurfaceTable, paths: list[Path]) -> surfaces.Measured:
     """Read and clean profiles."""
     profiles, reports = [], []
     for path in paths:
-        raw = read_profile(
-            path,
-            x_unit=surface.x_unit,
-            z_unit=surface.z_unit,
-            direction=surface.direction,
-            channel=surface.channel,
-            sheet=surface.sheet,
-            reader=surface.reader,
-        )
-        try:
-            cleaned, report = clean(
-                raw,
-                crop=_pair(surface.crop),
-                valid_range=_pair(surface.valid_range),
-                remove_spikes=surface.remove_spikes,
-                spike_slope=surface.spike_slope,
-                across_gaps=surface.across_gaps,
-                detrend=surface.detrend,
-            )
-        except InputError as error:
-            raise InputError(f"{path}: {error}") from error
+        raw = surfaces.read_profile(path, **_options(surface, surfaces.read_profile))
+        with _in_file(path):
+            cleaned, report = surfaces.clean(raw, **_options(surface, surfaces.clean))
         profiles.append((raw, cleaned))
         reports.append(report)
-    return Measured(profiles, reports, None, "")
+    return surfaces.Measured(profiles, reports, None, "")
 
 
-def _map(surface: SurfaceTable, path: Path) -> Measured:
+def _map(surface: SurfaceTable, path: Path) -> surfaces.Measured:
     """Read and clean a map, turned so that its x is the way of sliding."""
-    raw = read_map(
-        path,
-        x_unit=surface.x_unit,
-        z_unit=surface.z_unit,
-        step=_pair(surface.step),
-        channel=surface.channel,
-        reader=surface.reader,
-    )
+    raw = surfaces.read_map(path, **_options(surface, surfaces.read_map))
     raw = raw if surface.direction == "x" else raw.turned()
-    try:
-        cleaned, report = clean_map(
-            raw,
-            crop=(_pair(surface.crop), _pair(surface.crop_across)),
-            valid_range=_pair(surface.valid_range),
-            trim=surface.trim,
-            remove_spikes=surface.remove_spikes,
-            spike_slope=surface.spike_slope,
-            form=surface.form,
+    options = _options(surface, surfaces.clean_map)
+    with _in_file(path):
+        cleaned, report = surfaces.clean_map(
+            raw, **options | {"crop": (options["crop"], surface.crop_across)}
         )
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from error
-    return Measured([_middle(raw, cleaned)], [report], None, "", cleaned)
-
-
-def _middle(raw: HeightMap, cleaned: HeightMap) -> tuple[Profile, Profile]:
-    """Return a line as read and as cleaned: the fullest, nearest to the middle."""
+    # The line to be drawn is the fullest, nearest to the middle.
     away = np.abs(np.arange(cleaned.y.size) - cleaned.y.size // 2)
     fullest = np.lexsort((away, np.isnan(cleaned.z).sum(axis=0)))[0]
     before, after = (
-        surface.line(int(np.argmin(np.abs(surface.y - cleaned.y[fullest]))))
-        for surface in (raw, cleaned)
+        each.line(int(np.argmin(np.abs(each.y - cleaned.y[fullest])))) for each in (raw, cleaned)
     )
-    return before, replace(after, name=before.name, source=before.source)
-
-
-def _pair(limits: list[float] | None) -> tuple[float, float] | None:
-    return None if limits is None else (limits[0], limits[1])
+    after = replace(after, name=before.name, source=before.source)
+    return surfaces.Measured([(before, after)], [report], None, "", cleaned)
 
 
 OF_SWEEPS = ("temperature_step", "vertical")
@@ -232,11 +167,10 @@ def prepare_rubber(
 
     Raises `FileError` and `InputError` as reading, superposition and fitting do.
     """
-    bulk: dict[str, Any] = (
-        {} if source.bulk_modulus is None else {"bulk_modulus": source.bulk_modulus}
-    )
+    options = _options(source, fit_prony_report)
+    options = {name: value for name, value in options.items() if value is not None}
     if source.file is None:
-        rubber = replace(styrene_butadiene(**bulk), strain_energy=source.strain_energy)
+        rubber = replace(styrene_butadiene(**options), strain_energy=source.strain_energy)
         return PreparedRubber(_shifted(rubber, source, resolve), rubber.source)
     path, layout = resolve(source.file), source.layout()
     reading = layout | {"titles_first": titles_first, "source": source.source or str(path)}
@@ -251,13 +185,8 @@ def prepare_rubber(
         reference = source.reference_temperature
         master = read_master_curve(path, reference_temperature=reference, **reading)
         sweeps, report = None, None
-    choice = (
-        {} if source.outlier_threshold is None else {"outlier_threshold": source.outlier_threshold}
-    )
-    try:
-        rubber, fit = fit_prony_report(master, terms=source.terms, **bulk, **choice)
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from error
+    with _in_file(path):
+        rubber, fit = fit_prony_report(master, **options)
     rubber = replace(rubber, strain_energy=source.strain_energy)
     if sweeps is None:
         rubber = _shifted(rubber, source, resolve)
@@ -299,11 +228,8 @@ def _shifted(rubber: Rubber, source: RubberSource, resolve: Resolve) -> Rubber:
 
 
 def _shift(source: RubberSource, resolve: Resolve) -> Shift | None:
-    if source.shift is None:
-        return None
-    if isinstance(source.shift, str):
-        return read_shift_table(resolve(source.shift))
-    return source.shift
+    shift = source.shift
+    return read_shift_table(resolve(shift)) if isinstance(shift, str) else shift
 
 
 @about_keys("conditions")
@@ -316,24 +242,17 @@ def prepare_conditions(table: ConditionsTable, resolve: Resolve = Path) -> Condi
     """
     if table == ConditionsTable():
         return None
-    softening: SofteningLaw | None = None
-    if isinstance(table.softening, StrainSweeps):
-        source = table.softening
-        layout = source.layout() | {"strain_unit": source.strain_unit}
-        sweeps = [
-            read_strain_sweep(resolve(name), amplitude=source.amplitude, **layout)
-            for name in source.files
-        ]
+    source = table.softening
+    softening: SofteningLaw | None
+    if isinstance(source, StrainSweeps):
+        options: dict[str, Any] = {"strain_unit": source.strain_unit}
+        options |= {"amplitude": source.amplitude, **source.layout()}
+        sweeps = [read_strain_sweep(resolve(name), **options) for name in source.files]
         softening = softening_of_sweeps(sweeps, measured_at=source.measured_at)
     else:
-        softening = table.softening
-    return Conditions(
-        temperature=table.temperature,
-        softening=softening,
-        strain_norm=table.strain_norm or "slope",
-        heat=table.heat,
-        shear_stress=table.shear_stress,
-    )
+        softening = source
+    norm = table.strain_norm or "slope"
+    return Conditions(table.temperature, softening, norm, table.heat, table.shear_stress)
 
 
 def case_chain(file: CaseFile) -> Chain:
@@ -342,9 +261,8 @@ def case_chain(file: CaseFile) -> Chain:
     Raises `FileError` and `InputError` for conditions that cannot be used.
     """
     case = file.case
-    solver = wave_solver(case.solver.model, case.solver.options())
     return Chain(
-        solver,
+        wave_solver(case.solver.model, case.solver.options()),
         pressure_classes=case.chain.pressure_classes,
         extrapolate=case.rubber.extrapolate,
         conditions=prepare_conditions(case.conditions, file.resolve),

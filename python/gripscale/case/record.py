@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gripscale.case.read import CaseFile
 from gripscale.case.results import CaseResults
+from gripscale.core.arrays import Array, ComplexArray
 from gripscale.io.text_table import read_bytes
 from gripscale.rubber import MasterCurve, PronyFit, Rubber
 from gripscale.rubber.material import fast_end, slow_end
@@ -26,9 +27,6 @@ from gripscale.surface import HeightDifference, Measured, Profile, SineStack, Su
 from gripscale.surface.cut_off import DEFINITIONS
 from gripscale.surface.sine_fit import as_fitted
 
-# What is drawn of the inputs of a case, on paper and on the page, by the fits themselves.
-
-Array = NDArray[np.float64]
 BINS = 1200
 """Pieces a profile is cut into; each keeps its lowest and its highest height."""
 CLOSE_UP = 30e-3
@@ -71,13 +69,13 @@ def sine_curves(sines: SineStack, lag: ArrayLike) -> tuple[Array, Array]:
     the first wave both are NaN.
     """
     lags, longest = np.asarray(lag, dtype=float), float(sines.wavelength[0])
-    value = np.where(lags <= longest, lags, math.nan)
-    pure = np.where(lags <= longest, sines.height_difference(np.minimum(lags, longest)), math.nan)
+    inside = np.minimum(lags, longest)
     first = SineStack(sines.wavelength[:1], sines.amplitude[:1])
     held = first.height_difference(np.minimum(lags, 0.25 * longest))
-    counted = as_fitted(sines).height_difference(np.minimum(lags, longest))
-    rest = counted - first.height_difference(np.minimum(lags, longest))
-    return np.where(np.isnan(value), math.nan, rest + held), pure
+    rest = as_fitted(sines).height_difference(inside) - first.height_difference(inside)
+    curves = rest + held, sines.height_difference(inside)
+    fitted, pure = (np.where(lags <= longest, curve, math.nan) for curve in curves)
+    return fitted, pure
 
 
 def excited(speed: float, sines: SineStack) -> Array:
@@ -100,6 +98,8 @@ def band(rubber: Rubber, master: MasterCurve | None, excitation: ArrayLike, poin
 
 
 Variables = dict[str, Any]
+Part = tuple[Variables, Variables]
+"""Variables and attributes of the record."""
 POINTS = 600
 """Points of a curve that is drawn."""
 
@@ -110,39 +110,36 @@ def inputs(results: CaseResults) -> xr.Dataset:
     excitation = excited(results.file.case.load.speed, surface.sines)
     rubber = results.rubber
     of_rubber = rubber_variables(rubber.rubber, rubber.master, rubber.fit, excitation)
-    parts = [_waves(surface), _files(results.file), of_rubber]
-    notes = [*results.conditions_notes(), *results.load_notes()]
-    parts.append(({}, {"conditions_notes": "\n".join(notes) or None}))
+    notes = "\n".join([*results.conditions_notes(), *results.load_notes()]) or None
+    parts = [({}, _waves(surface)), (_files(results.file), {}), of_rubber]
+    parts.append(({}, {"conditions_notes": notes}))
     if surface.measured is not None and surface.correlation is not None:
-        parts.append(_profiles(surface.measured))
+        parts.append((_profiles(surface.measured), {}))
         parts.append(_cut_off(surface, surface.measured))
         parts.append(_correlation(surface.correlation, surface.measured, surface.sines))
-    data: Variables = {}
-    attrs: Variables = {}
-    for more_data, more_attrs in parts:
-        data |= more_data
-        attrs |= more_attrs
-    return xr.Dataset(data, attrs={k: v for k, v in attrs.items() if v is not None})
+    data = {name: value for part, _ in parts for name, value in part.items()}
+    attrs = {name: value for _, part in parts for name, value in part.items() if value is not None}
+    return xr.Dataset(data, attrs=attrs)
 
 
-def _files(file: CaseFile) -> tuple[Variables, Variables]:
+def _files(file: CaseFile) -> Variables:
     """Return names, sizes and checksums of the measured files of the case."""
     named = file.case.named_files()
     contents = [read_bytes(file.resolve(name)) for _, name in named]
     if not named:
-        return {}, {}
+        return {}
     return {
         "file_role": ("file", _texts([role for role, _ in named])),
         "file_name": ("file", _texts([name for _, name in named])),
         "file_bytes": ("file", np.array([len(content) for content in contents])),
         "file_sha256": ("file", _texts([hashlib.sha256(c).hexdigest() for c in contents])),
-    }, {}
+    }
 
 
-def _waves(surface: Surface) -> tuple[Variables, Variables]:
+def _waves(surface: Surface) -> Variables:
     sines = surface.sines
     low, high = sines.lag_range or (None, None)
-    return {}, {
+    return {
         "sines_s_wavelength": sines.s_wavelength,
         "sines_s_amplitude": sines.s_amplitude,
         "sines_residual_decades": sines.residual,
@@ -154,7 +151,7 @@ def _waves(surface: Surface) -> tuple[Variables, Variables]:
     }
 
 
-def _cut_off(surface: Surface, measured: Measured) -> tuple[Variables, Variables]:
+def _cut_off(surface: Surface, measured: Measured) -> Part:
     """Return where the roughness ends and why, and the rms slope down to each wavelength."""
     cut_off, slopes = surface.cut_off, measured.slopes
     assert cut_off is not None
@@ -173,7 +170,7 @@ def _cut_off(surface: Surface, measured: Measured) -> tuple[Variables, Variables
     }
 
 
-def _profiles(measured: Measured) -> tuple[Variables, Variables]:
+def _profiles(measured: Measured) -> Variables:
     """Return the profiles as drawn, and what each step of their cleaning did."""
     raw, cleaned = (list(column) for column in zip(*measured.profiles, strict=True))
     steps = measured.cleaning[0].steps
@@ -198,12 +195,10 @@ def _profiles(measured: Measured) -> tuple[Variables, Variables]:
     for i, part in enumerate("xz"):
         values = np.array([piece[i, :longest] for piece in pieces])
         data[f"close_up_{part}"] = (("profile", "close_up_point"), values, {"units": "m"})
-    return data, {}
+    return data
 
 
-def _correlation(
-    hdc: HeightDifference, measured: Measured, sines: SineStack
-) -> tuple[Variables, Variables]:
+def _correlation(hdc: HeightDifference, measured: Measured, sines: SineStack) -> Part:
     """Return C_z as measured and as fitted, the waves also at lags between the measured ones."""
     fit = measured.self_affine
     lag = np.asarray(hdc.lag)
@@ -220,28 +215,22 @@ def _correlation(
     data |= {name: ("lag", np.asarray(v), {"units": "m^2"}) for name, v in curves.items()}
     data["correlation_pairs"] = ("lag", np.asarray(hdc.pairs))
     data["fine_lag"] = ("fine_lag", fine, {"units": "m"})
-    for name, values in zip(
-        ("fine_sines", "fine_pure_sines"), sine_curves(sines, fine), strict=True
-    ):
-        data[name] = ("fine_lag", values, {"units": "m^2"})
+    fitted, pure = sine_curves(sines, fine)
+    data["fine_sines"] = ("fine_lag", fitted, {"units": "m^2"})
+    data["fine_pure_sines"] = ("fine_lag", pure, {"units": "m^2"})
     if fit is None:
         return data, {"no_self_affine": measured.no_self_affine}
+    lengths = ("xi_parallel", "xi_perpendicular", "lag_min", "lag_max")
     return data, {
         "self_affine_hurst": fit.hurst,
-        "self_affine_xi_parallel_m": fit.xi_parallel,
-        "self_affine_xi_perpendicular_m": fit.xi_perpendicular,
-        "self_affine_lag_min_m": fit.lag_min,
-        "self_affine_lag_max_m": fit.lag_max,
+        **{f"self_affine_{name}_m": getattr(fit, name) for name in lengths},
         "self_affine_residual_decades": fit.residual,
     }
 
 
 def rubber_variables(
-    rubber: Rubber,
-    master: MasterCurve | None,
-    fit: PronyFit | None,
-    excitation: NDArray[np.float64],
-) -> tuple[Variables, Variables]:
+    rubber: Rubber, master: MasterCurve | None, fit: PronyFit | None, excitation: Array
+) -> Part:
     """Return variables and attributes of a Prony series and the master curve it was fitted to."""
     low, high = rubber.valid_band or (None, None)
     attrs: Variables = {
@@ -256,7 +245,7 @@ def rubber_variables(
         attrs |= {f"{name}_modulus_Pa": end.modulus, f"{name}_plateau": int(end.plateau)}
     omega = band(rubber, master, excitation, POINTS)
     data: Variables = {"series_omega": ("series_omega", omega, {"units": "rad/s"})}
-    data |= _series("series", "series_omega", rubber, omega)
+    data |= _moduli("series", "series_omega", rubber.complex_modulus(omega))
     if rubber.admissible is not None:
         for side, modulus in zip(("low", "high"), rubber.complex_modulus_band(omega), strict=True):
             data |= _moduli(f"series_{side}", "series_omega", modulus)
@@ -266,33 +255,22 @@ def rubber_variables(
         data["term_modulus"] = ("term", np.asarray(rubber.moduli), {"units": "Pa"})
     if master is not None:
         attrs["reference_temperature_K"] = master.reference_temperature
-        columns = {"frequency": "Hz", "storage": "Pa", "loss": "Pa"}
-        for name, unit in columns.items():
-            values = np.asarray(getattr(master, name))
-            data[f"master_{name}"] = ("row", values, {"units": unit})
-        data |= _series("master_series", "row", rubber, master.angular_frequency)
+        data["master_frequency"] = ("row", master.frequency, {"units": "Hz"})
+        data |= _moduli("master", "row", master.storage + 1j * master.loss)
+        fitted = rubber.complex_modulus(master.angular_frequency)
+        data |= _moduli("master_series", "row", fitted)
     if master is not None and fit is not None:
         out = np.isin(master.frequency, fit.outlier_frequency)
         data["master_left_out"] = ("row", out.astype(np.int8))
-        attrs |= {
-            "prony_rms_storage": fit.rms_storage,
-            "prony_rms_loss": fit.rms_loss,
-            "prony_rms_loss_factor": fit.rms_loss_factor,
-            "prony_mean_loss_factor_error": fit.mean_loss_factor_error,
-            "prony_storage_scatter": fit.storage_scatter,
-            "prony_loss_scatter": fit.loss_scatter,
-            "prony_consistent": int(fit.consistent),
-            "prony_findings": "\n".join(fit.findings),
-        }
+        errors = ("rms_storage", "rms_loss", "rms_loss_factor", "mean_loss_factor_error")
+        for name in (*errors, "storage_scatter", "loss_scatter"):
+            attrs[f"prony_{name}"] = getattr(fit, name)
+        attrs["prony_consistent"] = int(fit.consistent)
+        attrs["prony_findings"] = "\n".join(fit.findings)
     return data, attrs
 
 
-def _series(name: str, along: str, rubber: Rubber, omega: NDArray[np.float64]) -> dict[str, Any]:
-    """Return storage and loss modulus of the Prony series at `omega` [rad/s]."""
-    return _moduli(name, along, rubber.complex_modulus(omega))
-
-
-def _moduli(name: str, along: str, modulus: NDArray[np.complex128]) -> dict[str, Any]:
+def _moduli(name: str, along: str, modulus: ComplexArray) -> Variables:
     return {
         f"{name}_storage": (along, modulus.real, {"units": "Pa"}),
         f"{name}_loss": (along, modulus.imag, {"units": "Pa"}),

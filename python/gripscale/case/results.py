@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 
 from gripscale.case.prepare import PreparedRubber
 from gripscale.case.read import CaseFile, prediction_key
-from gripscale.case.tables import LoadTable
 from gripscale.chain import Chain, ChainError
 from gripscale.chain.prediction import Prediction
 from gripscale.conditions.conditions import Conditions
@@ -28,30 +27,21 @@ DYNAMIC, STATIC = "dynamic", "static"
 
 @dataclass
 class CaseResults:
-    """Everything a case gave.
-
-    Attributes
-    ----------
-    file, surface, rubber, chain
-        What was run, the inputs as prepared, and the chain with its conditions.
-    predictions
-        By name, "dynamic" and "static", as far as they were asked for and got.
-    failures
-        Why a prediction has no totals, by name.
-    folder
-        Where the results were written, or None.
-    direct
-        Totals of the direct contact of the measured profiles, which judges the predictions.
-    """
+    """Everything a case gave: its inputs as prepared, and predictions as far as they were got."""
 
     file: CaseFile
     surface: Surface
     rubber: PreparedRubber
     chain: Chain
+    """With its conditions."""
     predictions: dict[str, Prediction] = field(default_factory=dict)
+    """By name, "dynamic" and "static"."""
     failures: dict[str, ChainError] = field(default_factory=dict)
+    """Why a prediction has no totals, by name."""
     folder: Path | None = None
+    """Where the results were written."""
     direct: xr.Dataset | None = None
+    """Totals of the direct contact of the measured profiles, which judges the predictions."""
     _keys: dict[str, str] = field(default_factory=dict, init=False, repr=False)
 
     @property
@@ -70,17 +60,10 @@ class CaseResults:
 
     def dataset(self, name: str) -> xr.Dataset:
         """Return the prediction `name` with what it is of: case, surface, rubber."""
-        return (
-            self.predictions[name]
-            .to_dataset()
-            .assign_attrs(
-                case=self.file.text,
-                case_file=str(self.file.path),
-                **{DISPLAY_UNITS: json.dumps(self.file.units)},
-                surface_source=self.surface.source,
-                rubber_source=self.rubber.source,
-            )
-        )
+        attributes = {"case": self.file.text, "case_file": str(self.file.path)}
+        attributes[DISPLAY_UNITS] = json.dumps(self.file.units)
+        sources = {"surface_source": self.surface.source, "rubber_source": self.rubber.source}
+        return self.predictions[name].to_dataset().assign_attrs(attributes | sources)
 
     def display_unit(self, name: str) -> DisplayUnit:
         """Return how `pressure`, `speed` or `footprint` is shown: as the case gives it."""
@@ -101,11 +84,8 @@ class CaseResults:
         """Return what the conditions ask for that was not measured."""
         if self.conditions is None or self.conditions.temperature is None:
             return []
-        name = self.rubber.rubber.name or "rubber"
-        return [
-            f"{text[0].upper()}{text[1:]}."
-            for text in temperature_doubts({name: self.rubber_before})
-        ]
+        doubts = temperature_doubts({self.rubber.rubber.name or "rubber": self.rubber_before})
+        return [f"{text[0].upper()}{text[1:]}." for text in doubts]
 
     def load_notes(self) -> list[str]:
         """Return what is doubtful about the load on this surface."""
@@ -136,15 +116,11 @@ class CaseResults:
 
     def planned(self) -> Iterator[tuple[str, float]]:
         """Yield name and speed [m/s] of the predictions the case asks for."""
-        return planned(self.file.case.load)
-
-
-def planned(load: LoadTable) -> Iterator[tuple[str, float]]:
-    """Yield name and speed [m/s] of the predictions a load of a case asks for."""
-    if load.speed > 0.0:
-        yield DYNAMIC, load.speed
-    if load.static or load.speed == 0.0:
-        yield STATIC, 0.0
+        load = self.file.case.load
+        if load.speed > 0.0:
+            yield DYNAMIC, load.speed
+        if load.static or load.speed == 0.0:
+            yield STATIC, 0.0
 
 
 def title(speed: float, how: DisplayUnit) -> str:

@@ -34,14 +34,12 @@ NAMED_RUBBERS = ("styrene_butadiene",)
 SHIFT_LAWS = {kind: law for kind, law in SHIFTS.items() if law is not ShiftTable}
 """Shifts a case states with their numbers; a table of factors is a file."""
 
-
 OF_ANY_RUBBER = {"file", "name", "bulk_modulus", "strain_energy", "extrapolate", "shift"}
 """Keys of [rubber] that a named rubber may have."""
 
 
-def _say_is_warn(value: Any) -> Any:
-    """Refuse the word of older cases with the one of today."""
-    if value == "say":
+def _warn_or_refuse(value: Any) -> Any:
+    if value == "say":  # the word of older cases
         raise ValueError('"say" is called "warn" now')
     return value
 
@@ -95,7 +93,7 @@ class RubberSource(LayoutKeys):
     """Times the typical scatter beyond which a measured row is left out of the fit."""
     bulk_modulus: Pressure | None = None
     """Bulk modulus, which a DMA measurement does not give."""
-    extrapolate: Annotated[Literal["warn", "refuse"], BeforeValidator(_say_is_warn)] = "warn"
+    extrapolate: Annotated[Literal["warn", "refuse"], BeforeValidator(_warn_or_refuse)] = "warn"
     """Waves beyond the measured frequencies: solved with a warning, or refused."""
     strain_energy: Annotated[InstanceOf[StrainEnergy], by_kind(STRAIN_ENERGIES)] = NeoHookean()
     """Law of the permanent network at large strain."""

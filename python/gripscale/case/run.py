@@ -10,16 +10,8 @@ import time
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from gripscale.case import folder, record
-from gripscale.case.events import (
-    PASSES,
-    FileWritten,
-    OnEvent,
-    PredictionFinished,
-    ResultsReplaced,
-    RunStarted,
-    WaveSolved,
-)
+from gripscale.case import events, folder, record
+from gripscale.case.events import OnEvent
 from gripscale.case.prepare import case_chain, prepare_rubber, prepare_surface
 from gripscale.case.read import CaseFile, read_case
 from gripscale.case.results import CaseResults
@@ -33,12 +25,6 @@ from gripscale.wave.kernel import WaveSolver
 from gripscale.wave.problem import WaveProblem
 from gripscale.wave.result import WaveResult
 
-# What an earlier run of the same case left in its folder, taken up instead of solved again.
-#
-# A finished prediction is taken up whole. Of an unfinished one the waves that converged are, where
-# each wave depends on nothing but the one above it: under one pressure class, and without
-# conditions that are solved for in several passes.
-
 KEY, FINISHED = "prediction_key", "prediction_finished"
 """Attributes of a result: what it depends on, and whether its chain came to its end."""
 
@@ -49,10 +35,6 @@ class StoredPrediction:
 
     prediction: Prediction
     finished: bool
-
-    def solver(self, solver: WaveSolver) -> WaveSolver:
-        """Return `solver`, which need not solve what is known."""
-        return ReplayedWaves(solver, tuple(self.prediction.scales))
 
 
 @dataclass(frozen=True)
@@ -77,7 +59,11 @@ class ReplayedWaves:
 
 
 def earlier(path: Path, key: str, chain: Chain) -> StoredPrediction | None:
-    """Return the prediction stored at `path`, or None if it is not of `key` or of no use."""
+    """Return the prediction stored at `path`, or None if it is not of `key` or of no use.
+
+    Of an unfinished one the waves that converged are of use if each depends on nothing but the one
+    above it: under one pressure class, without conditions that are solved in several passes.
+    """
     try:
         data = netcdf.load(path)
         prediction = Prediction.from_dataset(data) if data.attrs.get(KEY) == key else None
@@ -145,35 +131,26 @@ def run_case(
     """
     results = case if isinstance(case, CaseResults) else prepare_case(case)
     emit = on_event or (lambda event: None)
-    _require_load_bearing(results)
-    _require_measured(results)
+    _require_feasible(results)
     if output is not None:
         results.folder = Path(output)
         folder.require_writable(results.folder)
-    stored = {} if fresh else _known(results)
     names = tuple(name for name, _ in results.planned())
+    stored: dict[str, StoredPrediction | None] = {}
+    if results.folder is not None and not fresh:
+        paths = {name: results.folder / f"{name}.nc" for name in names}
+        stored = {name: earlier(paths[name], results.key(name), results.chain) for name in names}
     iterated = results.file.case.conditions.iterated
-    emit(RunStarted(names, len(results.surface.sines), iterated))
+    emit(events.RunStarted(names, len(results.surface.sines), iterated))
     if results.folder is not None:
-        keep = [f"{name}.nc" for name in stored]
+        keep = [f"{name}.nc" for name, prediction in stored.items() if prediction is not None]
         replaced = folder.earlier_run(results.folder, keep)
         if replaced:
-            emit(ResultsReplaced(replaced))
+            emit(events.ResultsReplaced(replaced))
         folder.prepare(results.folder, results.file, keep)
     for name, speed in results.planned():
         _solve(results, name, speed, emit, stored.get(name))
     return results
-
-
-def _known(results: CaseResults) -> dict[str, StoredPrediction]:
-    """Return what an earlier run left of the predictions of exactly this case, by name."""
-    if results.folder is None:
-        return {}
-    stored = {
-        name: earlier(results.folder / f"{name}.nc", results.key(name), results.chain)
-        for name, _ in results.planned()
-    }
-    return {name: prediction for name, prediction in stored.items() if prediction is not None}
 
 
 @about_keys("rubber.shift")
@@ -185,27 +162,22 @@ def _require_shift(results: CaseResults) -> None:
         raise InputError(f"{results.file.path}: [conditions] {error}") from error
 
 
-def _require_load_bearing(results: CaseResults) -> None:
-    """Raise `InputError` before anything is solved or written if the rubber cannot carry a load."""
+def _require_feasible(results: CaseResults) -> None:
+    """Raise `InputError` if the rubber cannot carry a load or would be excited beyond its band.
+
+    Before anything is solved or written; the latter only if the case refuses it.
+    """
+    rubber = results.rubber_before
     for _, speed in results.planned():
         load = replace(results.load, speed=speed)
-        time = load.time_under(load.footprint)
-        require_load_bearing(results.rubber_before, load.pressure, time)
-
-
-def _require_measured(results: CaseResults) -> None:
-    """Raise `ExtrapolationError` before anything is solved or written if the case refuses it."""
+        require_load_bearing(rubber, load.pressure, load.time_under(load.footprint))
     if results.file.case.rubber.extrapolate == "refuse":
         for _, speed in results.planned():
-            require_measured(results.rubber_before, results.surface.sines.wavelength, speed)
+            require_measured(rubber, results.surface.sines.wavelength, speed)
 
 
 def _solve(
-    results: CaseResults,
-    name: str,
-    speed: float,
-    emit: OnEvent,
-    stored: StoredPrediction | None,
+    results: CaseResults, name: str, speed: float, emit: OnEvent, stored: StoredPrediction | None
 ) -> None:
     """Add one prediction to `results`, on disk after each wave; the inputs follow at the end."""
     chain = results.chain
@@ -218,13 +190,11 @@ def _solve(
         is_stored = len(so_far.scales) <= stored_waves
         if not is_stored:
             _save(results, name)
-            if (
-                PASSES in so_far.scales[-1].details
-            ):  # rubber and contact agree: no wave was solved anew
-                return
+            if events.PASSES in so_far.scales[-1].details:
+                return  # rubber and contact agree: no wave was solved anew
         pass_number += len(so_far.scales) == 1
         seconds, clock = time.perf_counter() - clock, time.perf_counter()
-        emit(WaveSolved.last_of(so_far, name, pass_number, seconds, stored=is_stored))
+        emit(events.WaveSolved.last_of(so_far, name, pass_number, seconds, stored=is_stored))
 
     finished = False
     try:
@@ -232,22 +202,21 @@ def _solve(
             for count in range(1, stored_waves + 1):
                 keep(replace(stored.prediction, scales=stored.prediction.scales[:count]))
         else:
-            solver = chain.solver if stored is None else stored.solver(chain.solver)
-            replace(chain, solver=solver).solve(
-                results.rubber.rubber,
-                results.surface.sines,
-                replace(results.load, speed=speed),
-                on_scale=keep,
-            )
+            if stored is not None:
+                waves = ReplayedWaves(chain.solver, tuple(stored.prediction.scales))
+                chain = replace(chain, solver=waves)
+            load = replace(results.load, speed=speed)
+            chain.solve(results.rubber.rubber, results.surface.sines, load, on_scale=keep)
         finished = True
     except ChainError as failure:
         results.failures[name] = failure
     finally:
         _save(results, name, with_inputs=True, finished=finished)
     if name in results.predictions:
-        emit(PredictionFinished.of(results.predictions[name], name, results.failures.get(name)))
+        failed = results.failures.get(name)
+        emit(events.PredictionFinished.of(results.predictions[name], name, failed))
         if results.folder is not None:
-            emit(FileWritten(str(results.folder / f"{name}.nc")))
+            emit(events.FileWritten(str(results.folder / f"{name}.nc")))
 
 
 def _save(

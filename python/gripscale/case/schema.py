@@ -4,19 +4,11 @@ from __future__ import annotations
 
 import difflib
 import json
-from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import MISSING, Field, dataclass, field, fields
-from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, Literal, cast, get_args, get_origin, get_type_hints
 
-from pydantic import (
-    BaseModel,
-    BeforeValidator,
-    ConfigDict,
-    GetCoreSchemaHandler,
-    ValidationError,
-    create_model,
-)
+from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, ValidationError, create_model
 from pydantic import Field as PydanticField
 from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails, core_schema
@@ -25,8 +17,6 @@ from gripscale.core import checks
 from gripscale.core.checks import short_repr
 from gripscale.core.units import UNITS, listed, parse_quantity, spelled, such_as
 from gripscale.rubber.columns import FileLayout
-
-# What a key of the case file takes, in words: for complaints and for the list of keys.
 
 _PLAIN = {bool: "true or false", int: "a whole number", float: "a number", str: "a text"}
 _LIMITS = {
@@ -40,10 +30,21 @@ _LIMITS = {
 
 
 @dataclass(frozen=True)
-class Words:
-    """Beside a type whose values Python's names do not tell: what is expected, in words."""
+class Reading:
+    """Beside a type: reads a value as a person writes it, before pydantic looks at its type."""
 
     words: str
+    """What is expected."""
+    read: Callable[[Any], Any]
+    """Returns what the type asks for; raises `ValueError` with one sentence."""
+    laws: Mapping[str, type] = field(default_factory=dict, hash=False)
+    """The laws whose tables it reads, by kind."""
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> core_schema.CoreSchema:
+        """Read the value before pydantic looks at it."""
+        return core_schema.no_info_before_validator_function(self.read, handler(source))
 
 
 def expected(field: FieldInfo) -> str:
@@ -54,7 +55,7 @@ def expected(field: FieldInfo) -> str:
 def _of_type(annotation: Any, metadata: Iterable[Any] = ()) -> str:
     marks = list(metadata)
     for mark in marks:
-        if isinstance(mark, Words):
+        if isinstance(mark, Reading):
             return mark.words
     if get_origin(annotation) is Annotated:
         inner, *more = get_args(annotation)
@@ -66,25 +67,20 @@ def _of_type(annotation: Any, metadata: Iterable[Any] = ()) -> str:
         for name, words in _LIMITS.items()
         if (value := getattr(mark, name, None)) is not None
     ]
-    return ", ".join([_of_plain(annotation, marks), *limits])
-
-
-def _of_plain(annotation: Any, metadata: list[Any]) -> str:
     origin, parts = get_origin(annotation), get_args(annotation)
     if origin is Literal:
-        return " or ".join(json.dumps(part) for part in parts)
-    if origin is list:
-        least = max((getattr(mark, "min_length", 1) for mark in metadata), default=1)
-        count = f" of {least}" if least > 1 else ""
-        return f"a list{count}, each {_of_type(parts[0])}"
-    if parts:
-        return " or ".join(_of_type(part) for part in parts if part is not type(None))
-    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
-        return f"a table with {', '.join(annotation.model_fields)}"
-    return _PLAIN.get(annotation, "a value")
+        words = " or ".join(json.dumps(part) for part in parts)
+    elif origin is list:
+        least = max((getattr(mark, "min_length", 1) for mark in marks), default=1)
+        words = f"a list{f' of {least}' * (least > 1)}, each {_of_type(parts[0])}"
+    elif parts:
+        words = " or ".join(_of_type(part) for part in parts if part is not type(None))
+    elif isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        words = f"a table with {', '.join(annotation.model_fields)}"
+    else:
+        words = _PLAIN.get(annotation, "a value")
+    return ", ".join([words, *limits])
 
-
-# What pydantic finds wrong with a table, as one sentence: key, value, expectation.
 
 _EXPECTED = {
     "bool_type": "true or false",
@@ -171,24 +167,6 @@ def _model_in(annotation: Any) -> type[BaseModel] | None:
     return next((m for part in get_args(annotation) if (m := _model_in(part))), None)
 
 
-# Reading a value of the case file as a person writes it, before pydantic looks at its type.
-
-
-@dataclass(frozen=True)
-class Reading(Words, ABC):
-    """Beside a type: reads its value, and says in words what is expected."""
-
-    @abstractmethod
-    def read(self, value: Any) -> Any:
-        """Return what the type asks for; raise `ValueError` with one sentence."""
-
-    def __get_pydantic_core_schema__(
-        self, source: Any, handler: GetCoreSchemaHandler
-    ) -> core_schema.CoreSchema:
-        """Read the value before pydantic looks at it."""
-        return core_schema.no_info_before_validator_function(self.read, handler(source))
-
-
 class Table(BaseModel):
     """One table of the case file: unknown keys are refused, values are not bent into shape.
 
@@ -198,9 +176,6 @@ class Table(BaseModel):
     model_config = ConfigDict(
         extra="forbid", strict=True, frozen=True, use_attribute_docstrings=True
     )
-
-
-# Quantities a case file states with their unit, "3 bar" or "100 mm", or as plain SI numbers.
 
 
 def _positive(value: float) -> float:
@@ -215,43 +190,21 @@ def _not_negative(value: float) -> float:
     return value
 
 
-@dataclass(frozen=True)
-class Quantity(Reading):
-    """Read with its unit, then checked."""
-
-    kind: str
-    check: Callable[[float], float]
-
-    def read(self, value: Any) -> float:
-        """Return a number in SI units."""
-        return self.check(parse_quantity(value, self.kind))
+def _quantity(kind: str, check: Callable[[float], float] = float) -> Reading:
+    """Return what reads a quantity with its unit, "3 bar", or a plain SI number, and checks it."""
+    return Reading(f"a {kind} {such_as(kind)}", lambda value: check(parse_quantity(value, kind)))
 
 
-def _quantity(kind: str, check: Callable[[float], float] = float) -> Quantity:
-    return Quantity(f"a {kind} {such_as(kind)}", kind, check)
+def unit_of_file(kind: str) -> Reading:
+    """Return the type of a key that names the unit of a file."""
+    words = f"one of {listed(kind)}"
 
-
-@dataclass(frozen=True)
-class Unit(Words):
-    """A unit of one kind of quantity."""
-
-    kind: str
-
-    def __get_pydantic_core_schema__(
-        self, source: Any, handler: GetCoreSchemaHandler
-    ) -> core_schema.CoreSchema:
-        """Look at the text once pydantic knows that it is one."""
-        return core_schema.no_info_after_validator_function(self._check, handler(source))
-
-    def _check(self, value: str) -> str:
-        if spelled(value, self.kind) is None:
-            raise ValueError(f"expected {self.words}")
+    def read(value: Any) -> Any:
+        if isinstance(value, str) and spelled(value, kind) is None:
+            raise ValueError(f"expected {words}")
         return value
 
-
-def unit_of_file(kind: str) -> Unit:
-    """Return the type of a key that names the unit of a file."""
-    return Unit(f"one of {listed(kind)}", kind)
+    return Reading(words, read)
 
 
 Pressure = Annotated[float, _quantity("pressure", _positive)]
@@ -286,21 +239,14 @@ def table_of(law: Any) -> type[Table]:
     The law is a `Checked` dataclass; the unit of a field says which quantity it is, and its check
     which values it takes. A law with a kind has a key for it. A table is returned as it is.
     """
-    table: type[Table]
     if issubclass(law, Table):
-        table = law
-        return table
+        return cast(type[Table], law)
     hints = get_type_hints(law)
     keys: dict[str, Any] = {"kind": (Literal[law.kind], ...)} if hasattr(law, "kind") else {}
-    keys |= {
-        item.name: (
-            _type_of_key(item, hints[item.name]),
-            ... if item.default is MISSING else item.default,
-        )
-        for item in fields(law)
-    }
-    table = create_model(law.__name__, __base__=Table, **keys)
-    return table
+    for item in fields(law):
+        default = ... if item.default is MISSING else item.default
+        keys[item.name] = (_type_of_key(item, hints[item.name]), default)
+    return create_model(law.__name__, __base__=Table, **keys)
 
 
 def _type_of_key(item: Field[Any], hint: Any) -> Any:
@@ -317,12 +263,11 @@ def _type_of_key(item: Field[Any], hint: Any) -> Any:
             if kind
             else Annotated[float, PydanticField(allow_inf_nan=False, **_NUMBERS.get(rule, {}))]
         )
-        if get_origin(value) is tuple:
-            value = Annotated[list[number], PydanticField(min_length=2, max_length=2)]
-        elif get_origin(value) is Sequence:
-            value = Annotated[list[number], PydanticField(min_length=2)]
-        else:
+        if value is float:
             value = number
+        else:
+            most = 2 if get_origin(value) is tuple else None
+            value = Annotated[list[number], PydanticField(min_length=2, max_length=most)]
     return value | None if optional else value
 
 
@@ -338,57 +283,39 @@ def law_from_table(law: type, value: Any) -> Any:
     return law(**{item.name: getattr(read, item.name) for item in fields(law)})
 
 
-@dataclass(frozen=True)
-class StatedLaw(Reading):
-    """Reads the table of a law, such as { conductivity = "0.25 W/(m K)", ... }."""
+def stated_law(law: type) -> Reading:
+    """Return what reads the table of `law`, such as { conductivity = "0.25 W/(m K)", ... }."""
+    words = f"a table with {', '.join(table_of(law).model_fields)}"
 
-    law: type
-
-    def read(self, value: Any) -> Any:
-        """Return the law that `value` states."""
-        if isinstance(value, self.law):
+    def read(value: Any) -> Any:
+        if isinstance(value, law):
             return value
         if not isinstance(value, Mapping):
-            raise ValueError(f"expected {self.words}")
-        return law_from_table(self.law, value)
+            raise ValueError(f"expected {words}")
+        return law_from_table(law, value)
+
+    return Reading(words, read, {"": law})
 
 
-@dataclass(frozen=True)
-class ByKind(Reading):
-    """Reads tables such as { kind = "wlf", c1 = 8.0, c2 = "120 K" }, or the name of a file."""
+def by_kind(laws: Mapping[str, type], *, or_file: bool = False) -> Reading:
+    """Return what reads the table of one of `laws` by its kind, or the name of a file."""
+    kinds = ", ".join(laws)
+    words = f"{'the name of a file or ' * or_file}a table with kind (one of {kinds}) and its keys"
 
-    laws: Mapping[str, type] = field(hash=False)
-    or_file: bool = False
-
-    def read(self, value: Any) -> Any:
-        """Return the law of the kind that `value` names."""
-        kinds = ", ".join(self.laws)
-        if isinstance(value, tuple(self.laws.values())):
-            return value
-        if self.or_file and isinstance(value, str):
+    def read(value: Any) -> Any:
+        if isinstance(value, tuple(laws.values())) or (or_file and isinstance(value, str)):
             return value
         if not isinstance(value, Mapping):
-            raise ValueError(f"expected {self.words}")
+            raise ValueError(f"expected {words}")
         if "kind" not in value:
             raise ValueError(f"kind is missing; expected one of {kinds}")
         kind = value["kind"]
-        if not isinstance(kind, str) or kind not in self.laws:
+        if not isinstance(kind, str) or kind not in laws:
             raise ValueError(f"kind = {short_repr(kind)}: expected one of {kinds}")
-        return law_from_table(self.laws[kind], value)
+        return law_from_table(laws[kind], value)
 
+    return Reading(words, read, laws)
 
-def stated_law(law: type) -> StatedLaw:
-    """Return what reads the table of `law`."""
-    return StatedLaw(f"a table with {', '.join(table_of(law).model_fields)}", law)
-
-
-def by_kind(laws: Mapping[str, type], *, or_file: bool = False) -> ByKind:
-    """Return what reads the table of one of `laws` by its kind, or the name of a file."""
-    table = f"a table with kind (one of {', '.join(laws)}) and its keys"
-    return ByKind(f"the name of a file or {table}" if or_file else table, laws, or_file)
-
-
-# Columns, channels and sheets of a file, as a case names or counts them.
 
 COLUMN = "its name or its number from 1"
 COLUMNS = (
@@ -413,5 +340,5 @@ def _columns(value: Any) -> dict[str, str | int]:
     return {name: _column(column) for name, column in FileLayout(columns=value).by_quantity.items()}
 
 
-Column = Annotated[str | int, BeforeValidator(_column), Words(COLUMN)]
-Columns = Annotated[dict[str, str | int], BeforeValidator(_columns), Words(COLUMNS)]
+Column = Annotated[str | int, Reading(COLUMN, _column)]
+Columns = Annotated[dict[str, str | int], Reading(COLUMNS, _columns)]

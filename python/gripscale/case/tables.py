@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field, model_validator
+from pydantic import Field, model_validator
 
 from gripscale.case.rubber_tables import ConditionsTable, RubberSource
 from gripscale.case.schema import (
@@ -19,18 +18,13 @@ from gripscale.case.schema import (
     Reading,
     Speed,
     Table,
-    Words,
     unit_of_file,
 )
 from gripscale.core.units import in_mm, parse_quantity, such_as
 from gripscale.model import MOST_CLASSES, Load
 from gripscale.rubber.strain_energy import NeoHookean
 
-# [surface] of a case: measured profiles or a map, or waves stated by hand.
-#
-# Lengths in m once read.
-
-CUT_OFF_WORDS = Words('a length, "instrument" or a table such as { rms_slope = 1.3 }')
+CUT_OFF = 'a length, "instrument" or a table such as { rms_slope = 1.3 }'
 
 
 def _cut_off(value: Any) -> Any:
@@ -103,7 +97,7 @@ class SurfaceTable(Table):
     """Number of waves."""
     smallest_wavelength: Length | None = None
     """Wavelength of the last wave."""
-    cut_off: Annotated[Any, BeforeValidator(_cut_off), CUT_OFF_WORDS] = None
+    cut_off: Annotated[Any, Reading(CUT_OFF, _cut_off)] = None
     """Where the roughness ends, in place of smallest_wavelength."""
     s_wavelength: float | None = Field(default=None, gt=1.0, allow_inf_nan=False)
     """Factor from one wavelength to the next, if given instead of fitted."""
@@ -163,10 +157,6 @@ class SurfaceTable(Table):
         return [self.map] if self.map is not None else self.files or []
 
 
-# [load] of a case: how hard, how fast and over what length.
-#
-# Lengths in m, pressures in Pa, speeds in m/s and times in s once read.
-
 LOAD_TIME = '"passage", "infinite" or a time such as "1 s"'
 
 
@@ -196,16 +186,13 @@ class LoadTable(Table):
     """Length of the nominal contact: how long the largest wave is loaded."""
     static: bool = False
     """The relaxed rubber at rest, too."""
-    load_time: Annotated[Any, BeforeValidator(_load_time), Words(LOAD_TIME)] = "passage"
+    load_time: Annotated[Any, Reading(LOAD_TIME, _load_time)] = "passage"
     """How long a wave is loaded: while the contact above it passes, for ever, or a time."""
 
     @property
     def nominal(self) -> Load:
         """The load on the whole surface, at the speed stated."""
         return Load(self.pressure, self.speed, self.footprint, self.load_time)
-
-
-# [solver] and [chain] of a case: what solves a wave, and what goes on from wave to wave.
 
 
 class SolverTable(Table):
@@ -249,20 +236,10 @@ class ChainOptions(Table):
     """Classes of equal load in which the pressure is handed down; 1: its mean."""
 
 
-# The table [uncertainty] of a case: what `gripscale uncertainty` takes to be not known.
-#
-# Lengths in m, moduli in Pa once read.
-
 FEWEST_SAMPLES, MOST_SAMPLES, MOST_SEED = 10, 100_000, 2**32 - 1
 
 SourceName = Literal[
-    "profile",
-    "modulus",
-    "bulk_modulus",
-    "equilibrium_modulus",
-    "load_time",
-    "cut_off",
-    "waves",
+    "profile", "modulus", "bulk_modulus", "equilibrium_modulus", "load_time", "cut_off", "waves"
 ]
 """What may be taken to be uncertain."""
 
@@ -270,32 +247,27 @@ FACTOR = "factor"
 """Kind of values that have no unit."""
 
 
-@dataclass(frozen=True)
-class Values(Reading):
-    """Values of a source: quantities of one kind, or factors."""
+def _values(kind: str) -> Reading:
+    """Return what reads values of a source: quantities of one kind, or factors."""
+    each = f"a {kind}" if kind == FACTOR else f"a {kind} {such_as(kind)}"
+    words = f"a list of two ends or of equally likely values, each {each}"
 
-    kind: str
+    def number(value: Any) -> float:
+        if kind != FACTOR:
+            return parse_quantity(value, kind)
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            raise ValueError(f"expected {words}")
+        return float(value)
 
-    def read(self, value: Any) -> list[float]:
-        """Return rising numbers in SI units."""
+    def read(value: Any) -> list[float]:
         if not isinstance(value, list) or not value:
-            raise ValueError(f"expected {self.words}")
-        numbers = [self._number(item) for item in value]
+            raise ValueError(f"expected {words}")
+        numbers = [number(item) for item in value]
         if numbers[0] <= 0.0 or any(b <= a for a, b in pairwise(numbers)):
             raise ValueError("expected rising values greater than zero")
         return numbers
 
-    def _number(self, value: Any) -> float:
-        if self.kind != FACTOR:
-            return parse_quantity(value, self.kind)
-        if isinstance(value, bool) or not isinstance(value, int | float):
-            raise ValueError(f"expected {self.words}")
-        return float(value)
-
-
-def _values(kind: str) -> Values:
-    each = f"a {kind}" if kind == FACTOR else f"a {kind} {such_as(kind)}"
-    return Values(f"a list of two ends or of equally likely values, each {each}", kind)
+    return Reading(words, read)
 
 
 Moduli = Annotated[list[float], _values("pressure")]

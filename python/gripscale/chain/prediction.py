@@ -31,8 +31,8 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 import xarray as xr
 
-from gripscale import model
 import gripscale
+from gripscale import model
 from gripscale.conditions.conditions import Conditions
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array

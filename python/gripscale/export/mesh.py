@@ -69,9 +69,8 @@ class ReferenceBlock:
                 f"result must be of the finite-strain block, which has a mesh; got {result.model}"
             )
         columns, rows, depth, order = (result.details[name] for name in names)
-        block = cls(
-            result.wavelength, depth * result.wavelength, int(columns), int(rows), int(order)
-        )
+        whole = (int(columns), int(rows), int(order))
+        block = cls(result.wavelength, depth * result.wavelength, *whole)
         x, z = result.deformed_mesh
         if x.shape != block.shape or z.shape != block.shape:
             raise InputError(
@@ -112,20 +111,13 @@ class ReferenceBlock:
         along, up = np.meshgrid(x, z)
         return along, up
 
-    def gradients(self, x: Array, z: Array) -> Array:
-        """Return F at the Gauss points of deformed nodes [m].
-
-        Shape (rows, columns, points across, points along, 2, 2), components (x, z).
-        """
-        return np.stack([self.slopes(x), self.slopes(z)], axis=-2)
-
     def slopes(self, values: Array) -> Array:
         """Return d/dx and d/dz of nodal values at the Gauss points [1/m times their unit].
 
         Shape (rows, columns, points across, points along, 2).
         """
         local = self.elements(values)
-        shape, slope = shapes(self.order), slopes(self.order)
+        shape, slope = lagrange(self.order)
         along = np.einsum("rclk,pl,qk->rcpq", local, shape, slope) * (2.0 / self.width)
         up = np.einsum("rclk,pl,qk->rcpq", local, slope, shape)
         up = up * (2.0 / self.heights)[:, None, None, None]
@@ -152,20 +144,19 @@ class ReferenceBlock:
         return np.stack([constant, *(linear if self.order == 2 else [])])
 
 
-def shapes(order: int) -> Array:
-    """Return the Lagrange functions at the Gauss points, shape (points, nodes)."""
+def lagrange(order: int) -> tuple[Array, Array]:
+    """Return the Lagrange functions on [-1, 1] and their derivatives at the Gauss points.
+
+    Both of shape (points, nodes).
+    """
     s, _ = np.polynomial.legendre.leggauss(order + 1)
     if order == 1:
-        return np.stack([0.5 * (1.0 - s), 0.5 * (1.0 + s)], axis=1)
-    return np.stack([0.5 * s * (s - 1.0), 1.0 - s * s, 0.5 * s * (s + 1.0)], axis=1)
-
-
-def slopes(order: int) -> Array:
-    """Return their derivatives on [-1, 1] at the Gauss points, shape (points, nodes)."""
-    s, _ = np.polynomial.legendre.leggauss(order + 1)
-    if order == 1:
-        return np.stack([np.full_like(s, -0.5), np.full_like(s, 0.5)], axis=1)
-    return np.stack([s - 0.5, -2.0 * s, s + 0.5], axis=1)
+        shape = [0.5 * (1.0 - s), 0.5 * (1.0 + s)]
+        slope = [np.full_like(s, -0.5), np.full_like(s, 0.5)]
+    else:
+        shape = [0.5 * s * (s - 1.0), 1.0 - s * s, 0.5 * s * (s + 1.0)]
+        slope = [s - 0.5, -2.0 * s, s + 0.5]
+    return np.stack(shape, axis=1), np.stack(slope, axis=1)
 
 
 EQUILIBRIUM = (Status.CONVERGED, Status.TOLERANCE_NOT_MET, Status.FRICTIONS_DISAGREE)
@@ -229,7 +220,7 @@ def block_stress(result: WaveResult) -> BlockStress:
             "result must be in equilibrium and have its rubber for the stress to be known; got a "
             f"wave with status {result.status}"
         )
-    gradient = block.gradients(*result.deformed_mesh)
+    gradient = np.stack([block.slopes(values) for values in result.deformed_mesh], axis=-2)
     volume = np.linalg.det(gradient)
     # p = K (J - 1) projected on the pressure modes of each element
     modes, weights = block.modes(), block.weights
@@ -264,31 +255,23 @@ def block_stress(result: WaveResult) -> BlockStress:
     return BlockStress(block, gradient, pressure, deviator + pressure[..., None, None] * np.eye(3))
 
 
-Fields = Mapping[str, Array]
-
-QUAD, BIQUADRATIC_QUAD = 9, 28
-"""VTK's numbers of the element types."""
+CELL_TYPES = {4: 9, 9: 28}
+"""VTK's numbers of the bilinear and the biquadratic quadrilateral, by their points."""
 
 
-@dataclass(frozen=True)
-class VtuGrid:
-    """Points, cells of one kind, and fields on them."""
+def write_vtu(
+    path: Path,
+    points: Array,
+    cells: NDArray[np.int64],
+    data: Mapping[str, Mapping[str, Array]],
+    numbers: Mapping[str, float],
+) -> Path:
+    """Write quadrilaterals to `path`; return it. Raises `FileError` if it cannot be written.
 
-    points: Array
-    """Shape (points, 3)."""
-    cells: NDArray[np.int64]
-    """Numbers of the points of each cell in VTK's order, shape (cells, points of a cell)."""
-    cell_type: int
-    point_data: Fields = field(default_factory=dict)
-    """Shape (points,) or (points, components)."""
-    cell_data: Fields = field(default_factory=dict)
-    """Shape (cells,) or (cells, components)."""
-    field_data: Mapping[str, float] = field(default_factory=dict)
-    """Numbers of the whole grid."""
-
-
-def write_vtu(grid: VtuGrid, path: Path) -> Path:
-    """Write a grid to `path`; return it. Raises `FileError` if it cannot be written."""
+    `points` has shape (points, 3), `cells` their numbers in VTK's order, shape (cells, points of a
+    cell), `data` fields by name of `PointData` and `CellData`, shape (places,) or (places,
+    components), and `numbers` those of the whole grid.
+    """
     root = ET.Element(
         "VTKFile",
         type="UnstructuredGrid",
@@ -297,21 +280,21 @@ def write_vtu(grid: VtuGrid, path: Path) -> Path:
         header_type="UInt64",
     )
     whole = ET.SubElement(root, "UnstructuredGrid")
-    numbers = ET.SubElement(whole, "FieldData")
-    for name, value in grid.field_data.items():
-        _array(numbers, name, np.array([value]), NumberOfTuples="1")
-    counts = {"NumberOfPoints": len(grid.points), "NumberOfCells": len(grid.cells)}
+    part = ET.SubElement(whole, "FieldData")
+    for name, value in numbers.items():
+        _array(part, name, np.array([value]), NumberOfTuples="1")
+    counts = {"NumberOfPoints": len(points), "NumberOfCells": len(cells)}
     piece = ET.SubElement(whole, "Piece", {name: str(count) for name, count in counts.items()})
-    for tag, fields in (("PointData", grid.point_data), ("CellData", grid.cell_data)):
+    for tag, fields in data.items():
         part = ET.SubElement(piece, tag)
         for name, values in fields.items():
             _array(part, name, values)
-    _array(ET.SubElement(piece, "Points"), "Points", grid.points)
-    cells = ET.SubElement(piece, "Cells")
-    ends = grid.cells.shape[1] * np.arange(1, len(grid.cells) + 1)
-    _array(cells, "connectivity", grid.cells.ravel())
-    _array(cells, "offsets", ends)
-    _array(cells, "types", np.full(len(grid.cells), grid.cell_type, dtype=np.uint8))
+    _array(ET.SubElement(piece, "Points"), "Points", points)
+    part = ET.SubElement(piece, "Cells")
+    count, corners = cells.shape
+    _array(part, "connectivity", cells.ravel())
+    _array(part, "offsets", corners * np.arange(1, count + 1))
+    _array(part, "types", np.full(count, CELL_TYPES[corners], dtype=np.uint8))
     ET.indent(root)
     text = ET.tostring(root, xml_declaration=True, encoding="utf-8")
     return write_whole(path, lambda part: part.write_bytes(text))
@@ -392,18 +375,13 @@ def write_mesh(result: WaveResult, path: str | Path) -> Path:
             "pressure": -np.trace(stress, axis1=-2, axis2=-1).ravel() / 3.0,
             "volume_ratio": (areas / weights.sum(axis=(2, 3))).ravel(),
         }
-    grid = VtuGrid(
-        points=_vectors(x, z),
-        cells=element_nodes(block),
-        cell_type=QUAD if block.order == 1 else BIQUADRATIC_QUAD,
-        point_data={
-            "displacement": _vectors(x - rest_x, z - rest_z),
-            "contact_pressure": contact_pressure.ravel(),
-        },
-        cell_data=cell_data,
-        field_data={name: float(getattr(result, name)) for name in NUMBERS},
-    )
-    return write_vtu(grid, file_path(path))
+    point_data = {
+        "displacement": _vectors(x - rest_x, z - rest_z),
+        "contact_pressure": contact_pressure.ravel(),
+    }
+    data = {"PointData": point_data, "CellData": cell_data}
+    numbers = {name: float(getattr(result, name)) for name in NUMBERS}
+    return write_vtu(file_path(path), _vectors(x, z), element_nodes(block), data, numbers)
 
 
 def wave_of(data: xr.Dataset, number: int) -> WaveResult:

@@ -48,21 +48,20 @@ from gripscale.export.rubber import (
     comment,
     heading,
     label,
-    material_number,
     prony_shares,
     with_one_series,
     wlf,
 )
 from gripscale.rubber import Rubber
 
-FORMS: dict[str, tuple[str, tuple[tuple[int, int], ...], int]] = {
-    "neo_hookean": ("NEO HOOKE", ((1, 0),), 1),
-    "mooney_rivlin": ("MOONEY-RIVLIN", ((1, 0), (0, 1)), 1),
-    "yeoh": ("YEOH", ((1, 0), (2, 0), (3, 0)), 3),
-    "isihara": ("POLYNOMIAL, N=2", ((1, 0), (0, 1), (2, 0), (1, 1), (0, 2)), 2),
+FORMS: dict[str, tuple[str, str, int, tuple[tuple[int, int], ...], int]] = {
+    "neo_hookean": ("NEO HOOKE", "NEO", 2, ((1, 0),), 1),
+    "mooney_rivlin": ("MOONEY-RIVLIN", "MOONEY", 2, ((1, 0), (0, 1)), 1),
+    "yeoh": ("YEOH", "YEOH", 3, ((1, 0), (2, 0), (3, 0)), 3),
+    "isihara": ("POLYNOMIAL, N=2", "POLY", 2, ((1, 0), (0, 1), (2, 0), (1, 1), (0, 2)), 2),
 }
-"""Keyword, order of the C_ij and number of the D_k of each strain energy; D_2 and on are zero,
-which leaves their terms out."""
+"""Of each strain energy the form in Abaqus, option and number of TB,HYPER, order of the C_ij and
+number of the D_k; D_2 and on are zero, which leaves their terms out."""
 
 
 def abaqus_rubber(
@@ -98,15 +97,10 @@ def abaqus_rubber(
     """
     checks.instance("rubber", rubber, Rubber)
     units = Units(modulus_unit, temperature_unit)
-    remarks, law = with_one_series(
-        rubber,
-        units,
-        "Abaqus",
-        "hybrid elements",
-        "MODULI=LONG TERM: the constants of *HYPERELASTIC are those of the relaxed rubber.",
-    )
+    about = "MODULI=LONG TERM: the constants of *HYPERELASTIC are those of the relaxed rubber."
+    remarks, law = with_one_series(rubber, units, "Abaqus", "hybrid elements", about)
     c = coefficients(rubber)
-    form, orders, compliances = FORMS[rubber.strain_energy.kind]
+    form, _, _, orders, compliances = FORMS[rubber.strain_energy.kind]
     constants = [units.stress(c.get(powers, 0.0)) for powers in orders]
     constants += [2.0 / units.stress(rubber.bulk_modulus), *[0.0] * (compliances - 1)]
     moduli = ", MODULI=LONG TERM" if len(rubber.moduli) else ""
@@ -171,15 +165,10 @@ def ansys_rubber(
         If a unit or the number cannot be used, or E_inf is below 1e-7 of E_inf + sum E_i.
     """
     checks.instance("rubber", rubber, Rubber)
-    number = material_number(material)
+    number = checks.whole("material", material, least=1, most=99999)
     units = Units(modulus_unit, temperature_unit)
-    remarks, law = with_one_series(
-        rubber,
-        units,
-        "Ansys MAPDL",
-        "elements with mixed u-P",
-        "The constants of TB,HYPER are those of the fast limit, as TB,PRONY wants them.",
-    )
+    about = "The constants of TB,HYPER are those of the fast limit, as TB,PRONY wants them."
+    remarks, law = with_one_series(rubber, units, "Ansys MAPDL", "elements with mixed u-P", about)
     fast = rubber.glassy_modulus / rubber.equilibrium_modulus
     relaxed = coefficients(rubber)
     compliance = 2.0 / units.stress(rubber.bulk_modulus)
@@ -187,22 +176,11 @@ def ansys_rubber(
     def c(i: int, j: int) -> float:
         return units.stress(relaxed.get((i, j), 0.0)) * fast
 
-    match rubber.strain_energy.kind:
-        case "neo_hookean":
-            option, count, data = "NEO", 2, [2.0 * c(1, 0), compliance]
-        case "mooney_rivlin":
-            option, count, data = "MOONEY", 2, [c(1, 0), c(0, 1), compliance]
-        case "yeoh":
-            parts = [c(1, 0), c(2, 0), c(3, 0)]
-            option, count, data = "YEOH", 3, [*parts, compliance, 0.0, 0.0]
-        case _:
-            parts = [c(1, 0), c(0, 1), c(2, 0), c(1, 1), c(0, 2)]
-            option, count, data = "POLY", 2, [*parts, compliance, 0.0]
-    lines = [
-        *comment(remarks, "!"),
-        f"TB,HYPER,{number},1,{count},{option}",
-        *_data(data),
-    ]
+    kind = rubber.strain_energy.kind
+    _, option, count, orders, compliances = FORMS[kind]
+    data = [2.0 * c(1, 0)] if kind == "neo_hookean" else [c(*powers) for powers in orders]
+    data += [compliance, *[0.0] * (compliances - 1)]
+    lines = [*comment(remarks, "!"), f"TB,HYPER,{number},1,{count},{option}", *_data(data)]
     if len(rubber.moduli):
         pairs = zip(prony_shares(rubber), rubber.relaxation_times, strict=True)
         lines.append(f"TB,PRONY,{number},1,{len(rubber.moduli)},SHEAR")
@@ -260,7 +238,7 @@ def febio_rubber(
         energy.
     """
     checks.instance("rubber", rubber, Rubber)
-    number = material_number(material)
+    number = checks.whole("material", material, least=1, most=99999)
     units = Units(modulus_unit)
     root = ET.Element("febio_spec", version="4.0")
     section = ET.SubElement(root, "Material")
@@ -270,9 +248,8 @@ def febio_rubber(
     if solids == 1:
         _permanent(ET.SubElement(section, "material", attributes), rubber, bulk, units)
     else:
-        mixture = ET.SubElement(
-            section, "material", attributes | {"type": "uncoupled solid mixture"}
-        )
+        attributes["type"] = "uncoupled solid mixture"
+        mixture = ET.SubElement(section, "material", attributes)
         _value(mixture, "k", bulk)
         _permanent(ET.SubElement(mixture, "solid"), rubber, bulk / solids, units)
         for first in range(0, len(rubber.moduli), TERMS):
@@ -296,10 +273,8 @@ def febio_rubber(
     if solids > 1:
         law, shift_remark = wlf(rubber)
         if law is not None:
-            shift_remark = (
-                "FEBio has no time-temperature shift: for another temperature, export the rubber "
-                "there."
-            )
+            shift_remark = "FEBio has no time-temperature shift: for another temperature, export "
+            shift_remark += "the rubber there."
         remarks += [
             f"{solids - 1} solids of at most {TERMS} Maxwell elements and the permanent network: "
             "the whole series, not a fit of it.",

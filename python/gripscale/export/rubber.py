@@ -136,13 +136,11 @@ def label(rubber: Rubber, name: str | None) -> str:
     return name
 
 
-Coefficients = dict[tuple[int, int], float]
-
 LEAST_SHARE = 1e-7
 """Relaxed over instantaneous modulus below which 1 - sum g_i has lost its digits."""
 
 
-def coefficients(rubber: Rubber) -> Coefficients:
+def coefficients(rubber: Rubber) -> dict[tuple[int, int], float]:
     """Return C_ij [Pa] of the permanent network by (i, j).
 
     Raises `InputError` if its strain energy has no such polynomial.
@@ -157,11 +155,10 @@ def coefficients(rubber: Rubber) -> Coefficients:
             return {(1, 0): half, (2, 0): half * second, (3, 0): half * third}
         case Isihara(share=share, second=second):
             return {(1, 0): half * (1.0 - share), (0, 1): half * share, (2, 0): half * second}
-        case _:
-            raise InputError(
-                "strain_energy must be neo_hookean, mooney_rivlin, yeoh or isihara to be "
-                f"exported; got {energy.kind}"
-            )
+    raise InputError(
+        "strain_energy must be neo_hookean, mooney_rivlin, yeoh or isihara to be exported; got "
+        f"{energy.kind}"
+    )
 
 
 def prony_shares(rubber: Rubber) -> Array:
@@ -227,20 +224,11 @@ def with_one_series(
 ) -> tuple[list[str], WLF | None]:
     """Return remarks and shift for a program that relaxes the whole energy by one Prony series.
 
-    Parameters
-    ----------
-    elements, constants
-        The program's word for elements for rubber, and a sentence on its constants.
-
-    Returns
-    -------
-    list of str, WLF or None
-        The remarks, and the shift that is exported; None for an elastic rubber.
+    `elements` is its word for elements for rubber, `constants` a sentence on its constants. The
+    shift is None for an elastic rubber.
     """
-    remarks = [
-        *heading(rubber, units, program),
-        f"Use {elements}: the rubber is nearly incompressible.",
-    ]
+    remarks = heading(rubber, units, program)
+    remarks.append(f"Use {elements}: the rubber is nearly incompressible.")
     if not len(rubber.moduli):
         return remarks, None
     law, shift_remark = wlf(rubber)
@@ -255,8 +243,3 @@ def with_one_series(
             "gripscale it is neo-Hookean."
         )
     return [*remarks, constants, form, shift_remark], law
-
-
-def material_number(material: int) -> int:
-    """Return the number of a material; raise `InputError` unless it is from 1 to 99999."""
-    return checks.whole("material", material, least=1, most=99999)

@@ -65,15 +65,10 @@ _TITLES = {
 _OTHER = re.compile(
     r"log|ln\b|lg\b|eta\b|η|visco|visko|complian|torque|phase|rate\b|static|statisch"
 )
-_LETTERS = {
-    "T": "temperature",
-    "f": "frequency",
-    "ω": "frequency",
-    "w": "frequency",
-    "γ": "strain",
-}
+_LETTERS = {"T": "temperature", "f": "frequency", "ω": "frequency", "w": "frequency", "γ": "strain"}
 """Letters that are a title by themselves: t is a time and F a force."""
 _BARE_PRIMES = re.compile(r'(?<!["\w])[EG]"(?=\s*(?:[\t;,(\[/]|\s|$))')
+_PRIMES = str.maketrans(dict.fromkeys("’′`´", "'") | dict.fromkeys('″”"', "''"))
 _NUMBER = r"[-+]?\d+(?:[.,]\d+)?"
 _STATED = re.compile(
     rf"(?:^|[\s;,#%!])(?:T|Temp\w*|Sample temp\w*|Probentemp\w*)\.?\s*"
@@ -109,10 +104,7 @@ def modulus_kind(name: str) -> str | None:
 
 def plain(name: str) -> str:
     """Return the name with one kind of prime, so that E'' can be told from E'."""
-    text = name.strip()
-    for prime in ("’", "′", "`", "´"):
-        text = text.replace(prime, "'")
-    return text.replace("″", "''").replace("”", "''").replace('"', "''")
+    return name.strip().translate(_PRIMES)
 
 
 def with_primes(line: str) -> str:
@@ -155,6 +147,10 @@ def unit_name(name: str, value: object) -> str:
     """Return a unit; raise `InputError` unless it is one of the kind `name` says: `strain_unit`."""
     in_si(1.0, value, name.removesuffix("_unit"), name)  # type: ignore[arg-type]
     return str(value)
+
+
+ReadColumn = Callable[[TextTable, int, str], Array]
+"""Reads the column of a quantity, such as `above_zero`."""
 
 
 class LayoutOptions(TypedDict, total=False):
@@ -259,6 +255,12 @@ class FileLayout(Checked):
             raise missing(table, wanted, argument)
         return column
 
+    def read(self, table: TextTable, wanted: str, numbers: ReadColumn | None = None) -> Array:
+        """Return a column in SI units, of a quantity that must be there; as `young_moduli`."""
+        column = self.needed_column(table, wanted)
+        values = (numbers or above_zero)(table, column, wanted)
+        return np.asarray(in_si(values, self.unit(table, [column], wanted), wanted))
+
     def unit(self, table: TextTable, chosen: Sequence[int], kind: str) -> str:
         """Return the unit of the `chosen` columns; raise `InputError` if nothing states it."""
         chosen_unit: str | None = getattr(self, f"{kind}_unit")
@@ -276,10 +278,6 @@ class FileLayout(Checked):
                 f"states {what if len(written) == 1 else 'different units'}"
             )
         return unit
-
-    def quantities(self, table: TextTable, column: int, kind: str, values: Array) -> Array:
-        """Return the `values` of a column in SI units."""
-        return np.asarray(in_si(values, self.unit(table, [column], kind), kind))
 
     def modulus_of(self, table: TextTable, chosen: Sequence[int]) -> str:
         """Return E or G, whichever modulus the `chosen` columns hold."""
@@ -319,18 +317,14 @@ _ROUNDING = 0.05
 
 
 def young_moduli(
-    table: TextTable,
-    layout: FileLayout,
-    numbers: Callable[[TextTable, int, str], Array] | None = None,
+    table: TextTable, layout: FileLayout, numbers: ReadColumn | None = None
 ) -> tuple[Array, Array]:
-    """Return E' and E'' [Pa] of each row.
-
-    `numbers` reads a column of a quantity; by default NaN where a value is missing.
+    """Return E' and E'' [Pa] of each row, by default NaN where a value is missing.
 
     Raises `InputError` if columns, units or the kind of modulus are not known, or the loss factor
     beside E' and E'' is E'/E''.
     """
-    read = above_zero if numbers is None else numbers
+    read = numbers or above_zero
     positions = {name: layout.column(table, name) for name in MODULI}
     at = {name: position for name, position in positions.items() if position is not None}
     pair = next((pair for pair in PAIRS if set(pair) <= set(at)), None)
@@ -407,11 +401,9 @@ class Block:
 
 
 def read_blocks(path: Path, layout: FileLayout, *, temperature_unit: str | None) -> list[Block]:
-    """Return the tables of a file, in its order.
+    """Return the tables of a file, in its order; errors as of `read_sweeps`.
 
     `temperature_unit` is that of temperatures above a table which have none.
-
-    Raises `FileError` and `InputError` as `read_sweeps` does.
     """
     expected = [column for column in layout.by_quantity.values() if isinstance(column, str)]
     lines = [

@@ -8,7 +8,7 @@ the friction that comes from there, and how many decades below and above the ban
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -68,20 +68,10 @@ def of_frequencies(rubber: Rubber, omega: ArrayLike) -> Extrapolation:
 
 
 def of_spectrum(rubber: Rubber, omega: ArrayLike, friction: ArrayLike) -> Extrapolation:
-    """Return what of a friction that is split by frequency lies beyond the band.
+    """Return what of a friction lies beyond the band: `omega` [rad/s] and what each adds [-].
 
-    Parameters
-    ----------
-    rubber : Rubber
-        The rubber.
-    omega, friction : array_like, same shape
-        Frequencies [rad/s] and the friction each adds [-].
-
-    Returns
-    -------
-    Extrapolation
-        How far: without the slowest and the fastest frequencies that `WORTH_SAYING` of the friction
-        comes from.
+    Both have one shape. The slowest and the fastest frequencies that `WORTH_SAYING` of the friction
+    comes from do not count in how far it goes.
     """
     if rubber.valid_band is None:
         return UNKNOWN
@@ -103,17 +93,9 @@ def by_wavelength(
 ) -> Extrapolation:
     """Return what of a friction lies beyond the band, of a model that tells it by wavelength.
 
-    Parameters
-    ----------
-    rubber : Rubber
-        The rubber.
-    speed : float
-        Of sliding [m/s].
-    wavelength : array, shape (n,)
-        Falling [m].
-    running_friction : array, shape (n,)
-        Friction of the waves not shorter [-]. What an interval adds counts at its middle, at the
-        frequency 2 pi speed/wavelength.
+    `speed` is that of sliding [m/s], `wavelength` falls [m] and `running_friction` is that of the
+    waves not shorter [-], both of shape (n,). What an interval adds counts at its middle, at the
+    frequency 2 pi speed/wavelength.
     """
     if speed == 0.0:
         return NONE
@@ -154,17 +136,8 @@ def _decades(band: tuple[float, float], omega: Array) -> tuple[float, float]:
 def require_measured(rubber: Rubber, wavelength: ArrayLike, speed: float) -> None:
     """Raise `ExtrapolationError` if a wave excites the rubber beyond its band.
 
-    Looked at are the fundamental frequencies 2 pi speed/wavelength; which harmonics there are only
-    the solution tells.
-
-    Parameters
-    ----------
-    rubber : Rubber
-        The rubber; without a band nothing is refused.
-    wavelength : array_like, shape (waves,)
-        Falling [m].
-    speed : float
-        Of sliding [m/s]; at rest nothing is excited.
+    Looked at are the fundamental frequencies 2 pi speed/wavelength of falling wavelengths [m] at a
+    speed [m/s]. Without a band nothing is refused, and at rest nothing is excited.
     """
     lengths = np.atleast_1d(np.asarray(wavelength, dtype=float))
     omega = 2.0 * np.pi * speed / lengths
@@ -173,11 +146,13 @@ def require_measured(rubber: Rubber, wavelength: ArrayLike, speed: float) -> Non
     low, high = rubber.valid_band
     at = int(np.argmax(np.maximum(np.log(low / omega), np.log(omega / high))))
     if omega[at] > high:
-        side, most, end = "above", _down(high * lengths[-1] / (2.0 * np.pi)), "smallest"
-        reach, limit = f"at most {most} m/s", _up(2e3 * np.pi * speed / high)
+        most = _three_digits(high * lengths[-1] / (2.0 * np.pi), math.floor)
+        limit = _three_digits(2e3 * np.pi * speed / high, math.ceil)
+        side, end, reach = "above", "smallest", f"at most {most} m/s"
     else:
-        side, least, end = "below", _up(low * lengths[0] / (2.0 * np.pi)), "largest"
-        reach, limit = f"at least {least} m/s", _down(2e3 * np.pi * speed / low)
+        least = _three_digits(low * lengths[0] / (2.0 * np.pi), math.ceil)
+        limit = _three_digits(2e3 * np.pi * speed / low, math.floor)
+        side, end, reach = "below", "largest", f"at least {least} m/s"
     raise ExtrapolationError(
         f"wave {at + 1} of {lengths.size} (wavelength {1e3 * lengths[at]:.4g} mm) excites the "
         f"rubber at {omega[at]:.3g} rad/s, {side} the measured band, {low:.3g} to {high:.3g} "
@@ -186,13 +161,6 @@ def require_measured(rubber: Rubber, wavelength: ArrayLike, speed: float) -> Non
     )
 
 
-def _down(value: float) -> str:
-    """Return three digits of a number that must not be exceeded."""
+def _three_digits(value: float, rounding: Callable[[float], int]) -> str:
     step = 10.0 ** (math.floor(math.log10(value)) - 2)
-    return f"{math.floor(value / step) * step:.3g}"
-
-
-def _up(value: float) -> str:
-    """Return three digits of a number that must be reached."""
-    step = 10.0 ** (math.floor(math.log10(value)) - 2)
-    return f"{math.ceil(value / step) * step:.3g}"
+    return f"{rounding(value / step) * step:.3g}"

@@ -203,20 +203,9 @@ def network_states(
 ) -> Array:
     """Return the states A_i of the temporary networks along a history, by the recurrence above.
 
-    Parameters
-    ----------
-    relaxation_times : ndarray, shape (terms,)
-        tau_i [s].
-    time : ndarray, shape (samples,)
-        Not falling [s].
-    inverse : ndarray, shape (samples, components)
-        Y, components of C^-1 [-].
-    rest : tuple of float, length components
-        The same components of the unit tensor: the state at the first time.
-
-    Returns
-    -------
-    ndarray, shape (samples, terms, components)
+    `relaxation_times` [s] has shape (terms,), `time` [s], not falling, (samples,) and `inverse`,
+    components of C^-1 [-], (samples, components); `rest` are those of the unit tensor: the state at
+    the first time. The result has shape (samples, terms, components).
     """
     step = np.diff(time)[:, None] / relaxation_times
     kept = np.exp(-step)
@@ -337,7 +326,16 @@ def fit_finite_strain(
     """
     tests = checks.instances("tests", tests, UniaxialTest)
     law = STRAIN_ENERGIES[checks.one_of("energy", energy, STRAIN_ENERGIES)]
-    times = _relaxation_times(tests, checks.whole("terms", terms, least=1, most=40), band)
+    terms = checks.whole("terms", terms, least=1, most=40)
+    if band is None:
+        durations = [test.duration for test in tests]
+        band = _FASTEST * min(durations), max(durations)
+    ends = checks.positive_vector("band", band, unit="s")
+    if len(ends) != 2 or ends[0] >= ends[1]:
+        got = checks.short_repr(band)
+        raise InputError(f"band [s] must be a shorter and a longer time; got {got}")
+    low, high = ends
+    times = np.geomspace(low, high, terms) if terms > 1 else np.array([np.sqrt(low * high)])
     # Nominal stress per unit of each coefficient; the squares of a test sum to its rms_error^2.
     columns, measured = [], []
     for test in tests:
@@ -362,18 +360,3 @@ def fit_finite_strain(
     used = moduli > 1e-9 * (shear + moduli.sum())
     rubber = Rubber(3.0 * shear, 3.0 * moduli[used], times[used], strain_energy=strain_energy)
     return FiniteStrainFit(rubber, tuple(tests))
-
-
-def _relaxation_times(
-    tests: Sequence[UniaxialTest], terms: int, band: tuple[float, float] | None
-) -> Array:
-    if band is None:
-        durations = [test.duration for test in tests]
-        band = _FASTEST * min(durations), max(durations)
-    ends = checks.positive_vector("band", band, unit="s")
-    if len(ends) != 2 or ends[0] >= ends[1]:
-        raise InputError(
-            f"band [s] must be a shorter and a longer time; got {checks.short_repr(band)}"
-        )
-    low, high = ends
-    return np.geomspace(low, high, terms) if terms > 1 else np.array([np.sqrt(low * high)])

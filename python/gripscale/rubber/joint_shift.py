@@ -79,12 +79,10 @@ def smooth(
     """
     normal = functions.T @ (trust[:, None] * functions)
     right = functions.T @ (trust * values)
-    best: Smooth | None = None
-    least = np.inf
+    best, least = None, np.inf
     unit = float(trust.mean())
     ridge = _RIDGE * unit * np.eye(len(normal))
-    candidates = [unit * factor for factor in _PENALTIES] if weight is None else [weight]
-    for candidate in candidates:
+    for candidate in [unit * factor for factor in _PENALTIES] if weight is None else [weight]:
         matrix = np.asarray(normal + candidate * penalty.T @ penalty + ridge, dtype=np.float64)
         both = np.column_stack([right, normal])
         solved = np.asarray(np.linalg.solve(matrix, both), dtype=np.float64)

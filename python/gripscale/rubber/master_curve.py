@@ -164,34 +164,24 @@ def read_master_curve(
             f"(frequency, storage, loss); got {len(table.columns)}"
         )
     if len(table.rows) < 2:
-        raise FileError(
-            f"{file}: expected at least 2 rows of frequency, storage and loss; "
-            f"got {len(table.rows)}"
-        )
+        wanted = "expected at least 2 rows of frequency, storage and loss"
+        raise FileError(f"{file}: {wanted}; got {len(table.rows)}")
     if not table.names and len(table.columns) == len(THREE) and layout.columns is None:
         layout = replace(layout, columns=(1, 2, 3))
     layout = layout.for_table(table)
     column = layout.needed_column(table, "frequency")
     _refuse_sweeps(table, column, with_columns=bool(layout.columns))
-    hertz = layout.quantities(table, column, "frequency", _positive(table, column, "frequency"))
-    storage, loss = young_moduli(table, layout, _positive)
+    columns = layout.read(table, "frequency", _positive), *young_moduli(table, layout, _positive)
     if reference_temperature is None or (layout.titles_first and above is not None):
         reference_temperature = above
-    return MasterCurve(
-        hertz,
-        storage,
-        loss,
-        reference_temperature=reference_temperature,
-        name=file.stem if name is None else name,
-        source=source,
-    )
+    name = file.stem if name is None else name
+    return MasterCurve(*columns, reference_temperature, name, source)
 
 
 def _refuse_sweeps(table: TextTable, frequency: int, *, with_columns: bool) -> None:
-    """Raise `FileError` if the rows are sweeps at several temperatures and no master curve.
+    """Raise `FileError` for sweeps at several temperatures; a shifted curve may have them, too.
 
-    A shifted curve may still tell at what temperature each row was measured. Its frequencies do not
-    repeat from one to the next, and the caller has stated the columns.
+    Its frequencies do not repeat from one to the next, and the caller has stated the columns.
     """
     for column, title in enumerate(table.columns):
         if quantity(title.name) != "temperature":

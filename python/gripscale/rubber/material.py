@@ -63,9 +63,7 @@ def loss_shape(phase: Array) -> Array:
 def complex_sum(omega: Array, times: Array, moduli: Array) -> ComplexArray:
     """Return sum E_i (E' + i E'')(w tau_i)/E_i [Pa] at `omega` [rad/s], same shape.
 
-    `times` [s] and `moduli` [Pa] have shape (terms,). In blocks that stay in the processor's cache:
-    a direct contact asks for as many frequencies as its grid has points, and memory would take
-    longer than the sums.
+    `times` [s] and `moduli` [Pa] have shape (terms,). In blocks that stay in the processor's cache.
     """
     flat = np.abs(omega).reshape(-1)
     total = np.empty(flat.size, dtype=np.complex128)
@@ -124,10 +122,7 @@ class AdmissibleSeries(Checked, eq=False):
         self._set(moduli=elements.reshape(shape))
 
     def given_to(self, fingerprint: str) -> AdmissibleSeries:
-        """Return them as those of the series with this fingerprint.
-
-        Raises `InputError` if they belong to another.
-        """
+        """Return them as those of this fingerprint; `InputError` if they belong to another."""
         if self.belongs_to not in ("", fingerprint):
             raise InputError(
                 "admissible must be what fits beside this series; got that of other moduli or "
@@ -158,32 +153,31 @@ class AdmissibleSeries(Checked, eq=False):
     @classmethod
     def from_dict(cls, values: Mapping[str, Any]) -> AdmissibleSeries:
         """Return the series of `to_dict`; raise `InputError` if a key is another."""
-        if not isinstance(values, Mapping) or set(values) != set(_SERIES):
-            raise InputError(
-                f"admissible must have the keys {', '.join(_SERIES)}; "
-                f"got {checks.short_repr(values)}"
-            )
-        return cls(**values)
+        if isinstance(values, Mapping) and set(values) == set(_SERIES):
+            return cls(**values)
+        keys = ", ".join(_SERIES)
+        raise InputError(f"admissible must have the keys {keys}; got {checks.short_repr(values)}")
 
 
 LEAST_POISSON_RATIO = 0.3
 """Below this no rubber and hardly a glassy polymer is: the bulk modulus is too small."""
 
 
-def too_compressible(bulk: float, modulus: float, where: str) -> str:
-    """Return a sentence if Poisson's ratio is below `LEAST_POISSON_RATIO`, else nothing.
+def poisson_ratio(bulk: ArrayLike, modulus: ArrayLike) -> Array:
+    """Return nu = (3K - 2|G|) / (2 (3K + |G|)) [-] of K and |E*| = 3 |G| [Pa]."""
+    bulk, shear = 3.0 * np.asarray(bulk), np.asarray(modulus) / 3.0
+    return np.asarray((bulk - 2.0 * shear) / (2.0 * (bulk + shear)))
 
-    Parameters
-    ----------
-    bulk, modulus : float
-        Bulk modulus and |E*| [Pa].
-    where : str
-        The frequency in words.
+
+def too_compressible(bulk: float, modulus: float, where: str) -> str:
+    """Return a sentence if Poisson's ratio at K and |E*| [Pa] is below 0.3, else nothing.
+
+    `where` is the frequency in words.
     """
-    shear = modulus / 3.0
-    ratio = (3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear))
+    ratio = float(poisson_ratio(bulk, modulus))
     if ratio >= LEAST_POISSON_RATIO:
         return ""
+    shear = modulus / 3.0
     least = 2.0 * shear * (1.0 + LEAST_POISSON_RATIO) / (3.0 - 6.0 * LEAST_POISSON_RATIO)
     return (
         f"the bulk modulus, {bulk / 1e6:.4g} MPa, gives Poisson's ratio {ratio:.2f} {where}; "
@@ -204,14 +198,9 @@ def check_modulus(name: str, value: float) -> float:
 
 def check_strain_energy(name: str, value: StrainEnergy) -> StrainEnergy:
     """Return `value`; raise `InputError` if it is something else."""
-    if not isinstance(value, StrainEnergy):
-        raise InputError(
-            f"{name} must be a StrainEnergy, such as Yeoh; got {checks.short_repr(value)}"
-        )
-    return value
-
-
-DEFAULT_ENERGY = NeoHookean()
+    if isinstance(value, StrainEnergy):
+        return value
+    raise InputError(f"{name} must be a StrainEnergy, such as Yeoh; got {checks.short_repr(value)}")
 
 
 class Rubber(Checked, eq=False):
@@ -263,7 +252,7 @@ class Rubber(Checked, eq=False):
     name: str = checked(checks.text, default="")
     source: str = checked(checks.text, default="")
     valid_band: tuple[float, float] | None = checked(checks.interval, unit="rad/s", default=None)
-    strain_energy: StrainEnergy = checked(check_strain_energy, default=DEFAULT_ENERGY)
+    strain_energy: StrainEnergy = checked(check_strain_energy, default=NeoHookean())
     admissible: AdmissibleSeries | None = checked(
         checks.instance, kind=AdmissibleSeries, default=None, repr=False
     )
@@ -275,7 +264,9 @@ class Rubber(Checked, eq=False):
         self._set(shift=shift_at(self.shift, self.reference_temperature))
         self._check_together()
         if self.admissible is not None:
-            self._set(admissible=self.admissible.given_to(self._fingerprint()))
+            series = np.array([self.equilibrium_modulus, *self.moduli, *self.relaxation_times])
+            fingerprint = hashlib.sha256(series.tobytes()).hexdigest()  # to the last bit
+            self._set(admissible=self.admissible.given_to(fingerprint))
             return
         if self.valid_band is None:
             modulus, where = self.glassy_modulus, "at high frequency"
@@ -285,11 +276,6 @@ class Rubber(Checked, eq=False):
         doubt = too_compressible(self.bulk_modulus, modulus, where)
         if doubt:
             warn_once(doubt)
-
-    def _fingerprint(self) -> str:
-        """Return a text that only this series has: its moduli and times, to the last bit."""
-        series = np.array([self.equilibrium_modulus, *self.moduli, *self.relaxation_times])
-        return hashlib.sha256(series.tobytes()).hexdigest()
 
     def _check_together(self) -> None:
         checks.same_length(0, moduli=self.moduli, relaxation_times=self.relaxation_times)
@@ -380,33 +366,24 @@ class Rubber(Checked, eq=False):
         others = self.admissible.complex_moduli(np.abs(np.asarray(omega, dtype=float)))
         others.imag *= np.sign(omega)
         every = np.concatenate([modulus[None], others])
-        low = every.real.min(axis=0) + 1j * every.imag.min(axis=0)
-        high = every.real.max(axis=0) + 1j * every.imag.max(axis=0)
-        return np.asarray(low), np.asarray(high)
+        low, high = (np.asarray(f(every.real, 0) + 1j * f(every.imag, 0)) for f in (np.min, np.max))
+        return low, high
 
     def admissible_rubbers(self) -> list[Rubber]:
         """Return each admissible series as a rubber; none if there are none."""
         if self.admissible is None:
             return []
+        rubbers, times = [], self.admissible.relaxation_times
+        values = {item.name: getattr(self, item.name) for item in fields(self)}
         series = zip(self.admissible.equilibrium_moduli, self.admissible.moduli, strict=True)
-        times = self.admissible.relaxation_times
-        return [
-            self._with_series(float(equilibrium), moduli[moduli > 0.0], times[moduli > 0.0])
-            for equilibrium, moduli in series
-        ]
-
-    def _with_series(self, equilibrium: float, moduli: Array, times: Array) -> Rubber:
-        """Return this rubber with another series that fits; what it warned of is said already."""
-        other = object.__new__(Rubber)
-        other._set(**{item.name: getattr(self, item.name) for item in fields(self)})
-        other._set(
-            equilibrium_modulus=equilibrium,
-            moduli=moduli,
-            relaxation_times=times,
-            admissible=None,
-        )
-        other._check_together()
-        return other
+        for equilibrium, moduli in series:
+            present = moduli > 0.0
+            other = object.__new__(Rubber)  # what this rubber warned of is said already
+            other._set(**values | {"equilibrium_modulus": float(equilibrium), "admissible": None})
+            other._set(moduli=moduli[present], relaxation_times=times[present])
+            other._check_together()
+            rubbers.append(other)
+        return rubbers
 
     def at(self, temperature: float) -> Rubber:
         """Return the same rubber at another temperature [K].
@@ -467,9 +444,7 @@ class Rubber(Checked, eq=False):
 
     def poisson_ratio(self, omega: ArrayLike) -> Array:
         """Return nu = (3K - 2|G|) / (2 (3K + |G|)) [-] at `omega` [rad/s], with |G| = |E*|/3."""
-        shear = np.abs(self.complex_modulus(omega)) / 3.0
-        bulk = self.bulk_modulus
-        return np.asarray((3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear)))
+        return poisson_ratio(self.bulk_modulus, np.abs(self.complex_modulus(omega)))
 
     def plane_strain_modulus(self, omega: ArrayLike) -> ComplexArray:
         """Return the complex E/(1 - nu^2) = 4 G* (3K + G*) / (3K + 4 G*) [Pa] at `omega` [rad/s].
@@ -510,26 +485,24 @@ def slow_end(rubber: Rubber) -> End:
 
     A rubber without a measured band is what its series says it is.
     """
-    return _end(rubber, rubber.equilibrium_modulus, 0, 1.0 / BEYOND)
+    return _end(rubber, rubber.equilibrium_modulus, 0)
 
 
 def fast_end(rubber: Rubber) -> End:
     """Return the glassy modulus, or what was measured last on the way to it, likewise."""
-    return _end(rubber, rubber.glassy_modulus, 1, BEYOND)
+    return _end(rubber, rubber.glassy_modulus, 1)
 
 
-def _end(rubber: Rubber, limit: float, side: int, factor: float) -> End:
-    """Return the `limit` of the series where the admissible ones hardly leave the last modulus.
-
-    `side` is 0 for the low end of the band and of the envelope, 1 for the high end.
-    """
+def _end(rubber: Rubber, limit: float, side: int) -> End:
+    """Return the `limit` where the admissible series hardly leave the modulus measured last."""
     if rubber.valid_band is None:
         return End(limit, True)
     omega = rubber.valid_band[side]
     last = float(rubber.complex_modulus(omega).real)
     if rubber.admissible is None:
         return End(last, False)
-    furthest = float(rubber.complex_modulus_band(omega * factor)[side].real)
+    beyond = omega * (1.0 / BEYOND, BEYOND)[side]
+    furthest = float(rubber.complex_modulus_band(beyond)[side].real)
     plateau = max(furthest / last, last / furthest) <= _CHANGE
     return End(limit if plateau else last, plateau)
 
@@ -539,21 +512,18 @@ MOST_PRESSURE = 10.0
 
 
 def require_load_bearing(rubber: Rubber, pressure: float, load_time: float) -> None:
-    """Raise `InputError` unless E(t) after `load_time` [s] can carry `pressure` [Pa].
+    """Raise `InputError` unless E(t) after `load_time` [s], infinite at rest, carries the pressure.
 
-    At rest the time is infinite and E(t) the equilibrium modulus. A block under a mean pressure of
-    many times its modulus is squeezed into full contact and beyond what a solid can be: there is no
-    partial contact to solve for.
+    Under a mean `pressure` [Pa] of many times its modulus a block has no partial contact.
     """
     checks.instance("rubber", rubber, Rubber)
     modulus = float(rubber.relaxation_modulus(load_time))
     if pressure <= MOST_PRESSURE * modulus:
         return
-    at_rest = math.isinf(load_time)
-    name = "equilibrium_modulus" if at_rest else f"the relaxation modulus after {load_time:.3g} s"
-    flows = (
-        "; leave out the static contact of a melt, in a case by static = false" if at_rest else ""
-    )
+    name, flows = f"the relaxation modulus after {load_time:.3g} s", ""
+    if math.isinf(load_time):
+        name = "equilibrium_modulus"
+        flows = "; leave out the static contact of a melt, in a case by static = false"
     raise InputError(
         f"{name} [Pa] must be at least 1/{MOST_PRESSURE:g} of the pressure, "
         f"{pressure / MOST_PRESSURE:.3g}, for a contact that is not squeezed flat{flows}; "
@@ -586,9 +556,7 @@ def temperature_doubts(rubbers: Mapping[str, Rubber]) -> tuple[str, ...]:
     }
     doubts = []
     if kelvins and max(kelvins.values()) - min(kelvins.values()) > _SAME:
-        each = ", ".join(
-            f"{name} {kelvin - ZERO_CELSIUS:.1f} °C" for name, kelvin in kelvins.items()
-        )
+        each = ", ".join(f"{name} {k - ZERO_CELSIUS:.1f} °C" for name, k in kelvins.items())
         doubts.append(f"the rubbers hold for different temperatures: {each}")
     if kelvins and len(kelvins) < len(rubbers):
         others = ", ".join(name for name in rubbers if name not in kelvins)

@@ -74,6 +74,10 @@ class Spectrum:
         """Return E'' [Pa] at `omega` [rad/s]."""
         return np.asarray(loss_shape(np.outer(omega, self.times)) @ self.moduli)
 
+    def ratios(self, curve: Curve) -> tuple[Array, Array]:
+        """Return E' and E'' over those of the rows of a curve [-]."""
+        return self.storage(curve.omega) / curve.storage, self.loss(curve.omega) / curve.loss
+
 
 @dataclass(frozen=True)
 class Curve:
@@ -118,10 +122,9 @@ class Equations:
 
 
 def relaxation_times(omega: Array, terms: int, beyond: float) -> Array:
-    """Return log-spaced times [s]: `terms` over the band of `omega` [rad/s], more beyond its ends.
+    """Return log-spaced times [s]: `terms` over the band of `omega` [rad/s], a single one mid-band.
 
-    Beyond each end they go on for `beyond` decades, at the spacing of the band or half a decade,
-    whichever is wider. A single time stands in the middle, alone.
+    Beyond each end they go on for `beyond` decades, half a decade apart or wider, as in the band.
     """
     low, high = -math.log10(omega.max()), -math.log10(omega.min())
     if terms == 1:
@@ -158,12 +161,9 @@ def equations(curve: Curve, times: Array, prior: Prior) -> Equations:
     slow = -np.log(times) < np.log(curve.omega[0]) - 1e-9
     # Second differences within the data, shrinkage beyond the slow end; E_inf and slack are free.
     terms = len(times)
-    differences = np.zeros((max(terms - 2, 0), terms + 2))
-    for row in range(len(differences)):
-        differences[row, row + 1 : row + 4] = 1.0, -2.0, 1.0
-    within = ~slow[2:] if terms > 2 else np.zeros(0, dtype=bool)
-    shrinking = np.eye(terms, terms + 2, 1)[slow]
-    penalties = np.vstack([prior.smoothing * differences[within], prior.shrinkage * shrinking])
+    shrinking = np.eye(terms, terms + 2, 1)
+    differences = np.diff(shrinking, 2, axis=0)[~slow[2:]]
+    penalties = np.vstack([prior.smoothing * differences, prior.shrinkage * shrinking[slow]])
     matrix = np.vstack(
         [
             storage * (prior.storage_weight / curve.storage)[:, None],
@@ -194,10 +194,7 @@ def _expected_modulus(curve: Curve, position: Array) -> Array:
 
 
 def _end_slope(position: Array, value: Array, end: int) -> float:
-    """Return the slope of `value` over the first (0) or the last (-1) decade, between -1 and 1.
-
-    One is the steepest a Maxwell element's E'' can be.
-    """
+    """Return the slope over the first (0) or last (-1) decade, at most 1 in size, as of E''."""
     away = np.abs(position - position[end])
     near = away <= math.log(10.0)
     near[np.argsort(away, kind="stable")[:_FEWEST_FOR_SLOPE]] = True
@@ -224,53 +221,38 @@ class Candidate:
 
 
 def choose_terms(
-    omega: Array,
-    storage: Array,
-    loss: Array,
-    fit: Callable[[Mask, int], Spectrum],
+    curve: Curve, fit: Callable[[Mask, int], Spectrum]
 ) -> tuple[int, tuple[Candidate, ...]]:
     """Return the number of terms and all candidates tried.
 
-    `fit` is the Maxwell fit to a choice of rows with a number of terms; `omega` [rad/s], `storage`
-    and `loss` [Pa] have shape (rows,).
+    `fit` is the Maxwell fit to a choice of rows of `curve` with a number of terms.
     """
-    decades = float(np.log10(omega.max() / omega.min()))
-    numbers = sorted({min(_terms(decades, density), _MOST_TERMS) for density in _PER_DECADE})
-    if len(omega) < 2 * _FOLDS:
-        return min(_terms(decades, _LEAST_PER_DECADE), len(omega)), ()
-    candidates = tuple(_cross_validate(omega, storage, loss, fit, n) for n in numbers)
+    decades = float(np.log10(curve.omega.max() / curve.omega.min()))
+    numbers = [max(1, round(decades * density) + 1) for density in _PER_DECADE]
+    least = max(1, round(decades * _LEAST_PER_DECADE) + 1)
+    if len(curve.omega) < 2 * _FOLDS:
+        return min(least, len(curve.omega)), ()
+    fold = np.arange(len(curve.omega)) % _FOLDS
+    candidates = []
+    for terms in sorted({min(number, _MOST_TERMS) for number in numbers}):
+        squares = np.empty(len(fold))
+        for held_out in range(_FOLDS):
+            out = fold == held_out
+            storage, loss = fit(~out, terms).ratios(curve.rows(out))
+            squares[out] = 0.5 * (storage - 1.0) ** 2
+            squares[out] += 0.5 * (loss - 1.0) ** 2
+        error = float(np.sqrt(squares.mean()))
+        most = max(float(squares.max()), np.finfo(float).tiny)  # its square may overflow
+        spread = most * float((squares / most).std(ddof=1) / np.sqrt(len(squares)))
+        candidates.append(Candidate(terms, error, 0.5 * spread / error if error > 0.0 else 0.0))
     best = min(candidates, key=lambda candidate: candidate.error)
-    least = min(_terms(decades, _LEAST_PER_DECADE), _MOST_TERMS)
     good = [
         candidate.terms
         for candidate in candidates
-        if candidate.terms >= least and candidate.error <= best.error + best.standard_error
+        if candidate.terms >= min(least, _MOST_TERMS)
+        and candidate.error <= best.error + best.standard_error
     ]
-    return min(good, default=best.terms), candidates
-
-
-def _terms(decades: float, density: float) -> int:
-    return max(1, round(decades * density) + 1)
-
-
-def _cross_validate(
-    omega: Array,
-    storage: Array,
-    loss: Array,
-    fit: Callable[[Mask, int], Spectrum],
-    terms: int,
-) -> Candidate:
-    fold = np.arange(len(omega)) % _FOLDS
-    squares = np.empty(len(omega))
-    for held_out in range(_FOLDS):
-        out = fold == held_out
-        spectrum = fit(~out, terms)
-        squares[out] = 0.5 * (spectrum.storage(omega[out]) / storage[out] - 1.0) ** 2
-        squares[out] += 0.5 * (spectrum.loss(omega[out]) / loss[out] - 1.0) ** 2
-    error = float(np.sqrt(squares.mean()))
-    most = max(float(squares.max()), np.finfo(float).tiny)  # its square may overflow
-    spread = most * float((squares / most).std(ddof=1) / np.sqrt(len(squares)))
-    return Candidate(terms, error, 0.5 * spread / error if error > 0.0 else 0.0)
+    return min(good, default=best.terms), tuple(candidates)
 
 
 _NEIGHBOURS = 8
@@ -299,35 +281,23 @@ class Screening:
         return max(self.storage_scatter, LEAST_SCATTER), max(self.loss_scatter, LEAST_SCATTER)
 
 
-def screen(
-    omega: Array,
-    storage: Array,
-    loss: Array,
-    fit: Callable[[Mask], Spectrum],
-    threshold: float,
-) -> Screening:
-    """Return which rows belong to the curve; `fit` is the Maxwell fit to a choice of rows.
-
-    `omega` [rad/s] ascending, `storage` and `loss` [Pa], all of shape (rows,).
-    """
-    kept = np.ones(len(omega), dtype=bool)
-    position = np.log(omega)
+def screen(curve: Curve, fit: Callable[[Mask], Spectrum], threshold: float) -> Screening:
+    """Return which rows belong to `curve`; `fit` is the Maxwell fit to a choice of rows."""
+    kept = np.ones(len(curve.omega), dtype=bool)
+    position = np.log(curve.omega)
+    measured = np.log([curve.storage, curve.loss])
     for _ in range(_PASSES):
         spectrum = fit(kept)
-        raw = [
-            _deviation(position, np.log(storage), kept),
-            _deviation(position, np.log(loss), kept),
-        ]
-        relative = [
-            _deviation(position, _log_ratio(storage, spectrum.storage(omega)), kept),
-            _deviation(position, _log_ratio(loss, spectrum.loss(omega)), kept),
-        ]
+        # A fit may have no loss at all where it is far off.
+        fitted = [spectrum.storage(curve.omega), spectrum.loss(curve.omega)]
+        relative = measured - np.log(np.maximum(fitted, checks.LEAST))
+        raw = [_deviation(position, values, kept) for values in measured]
         scores = [
             np.minimum(np.abs(a) / _scatter(a[kept]), np.abs(b) / _scatter(b[kept]))
-            for a, b in zip(raw, relative, strict=True)
+            for a, b in zip(raw, (_deviation(position, v, kept) for v in relative), strict=True)
         ]
-        new = np.maximum(scores[0], scores[1]) <= threshold
-        if len(omega) < _FEWEST_ROWS or new.sum() < _FEWEST_ROWS or (new == kept).all():
+        new = np.maximum(*scores) <= threshold
+        if len(kept) < _FEWEST_ROWS or new.sum() < _FEWEST_ROWS or (new == kept).all():
             break
         kept = new
     return Screening(kept, raw[0], raw[1], _spread(raw[0][kept]), _spread(raw[1][kept]))
@@ -346,16 +316,10 @@ def _deviation(position: Array, value: Array, kept: Mask) -> Array:
         run, rise = position[near] - position[row], value[near]
         across = run[:, None] - run
         pairs = across > 0.0
-        slope = (
-            float(np.median((rise[:, None] - rise)[pairs] / across[pairs])) if pairs.any() else 0.0
-        )
+        slopes = (rise[:, None] - rise)[pairs] / across[pairs]
+        slope = float(np.median(slopes)) if slopes.size else 0.0
         result[row] = value[row] - np.median(rise - slope * run)
     return result
-
-
-def _log_ratio(measured: Array, fitted: Array) -> Array:
-    """Return log(measured/fitted); a fit may have no loss at all where it is far off."""
-    return np.asarray(np.log(measured) - np.log(np.maximum(fitted, checks.LEAST)))
 
 
 def _spread(deviation: Array) -> float:

@@ -107,18 +107,8 @@ def styrene_butadiene(
 def _styrene_butadiene(low: float, high: float, bulk_modulus: float) -> Rubber:
     decades = float(np.log10(high / low))
     omega = np.geomspace(low, high, round(10 * decades) + 1)
-    modulus = springpot_modulus(omega)
-    master = MasterCurve(
-        omega / (2.0 * np.pi),
-        modulus.real,
-        modulus.imag,
-        reference_temperature=293.15,
-        name="unfilled styrene-butadiene rubber, 20 C",
-        source=_ORIGIN,
-    )
-    return fit_prony(
-        master,
-        terms=round(2 * decades) + 1,
-        bulk_modulus=bulk_modulus,
-        outlier_threshold=float("inf"),
-    )
+    hertz, modulus = omega / (2.0 * np.pi), springpot_modulus(omega)
+    name = "unfilled styrene-butadiene rubber, 20 C"
+    master = MasterCurve(hertz, modulus.real, modulus.imag, 293.15, name, _ORIGIN)
+    terms, keep_all = round(2 * decades) + 1, float("inf")
+    return fit_prony(master, terms=terms, bulk_modulus=bulk_modulus, outlier_threshold=keep_all)

@@ -28,23 +28,11 @@ import numpy as np
 from gripscale.core import checks
 from gripscale.core.arrays import Array, Mask
 from gripscale.core.errors import InputError
-from gripscale.rubber import material
+from gripscale.rubber import material, maxwell_fit
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.material import AdmissibleSeries, Rubber, loss_shape, storage_shape
-from gripscale.rubber.maxwell_fit import (
-    Candidate,
-    Curve,
-    Equations,
-    Prior,
-    Spectrum,
-    choose_terms,
-    equations,
-    fit_spectrum,
-    non_negative,
-    relaxation_times,
-    screen,
-)
-from gripscale.rubber.prony_report import PronyFit, report, swapped_moduli
+from gripscale.rubber.maxwell_fit import Curve, Prior, Spectrum
+from gripscale.rubber.prony_report import PronyFit, report, rms, swapped_moduli
 
 _RISE = 9.0
 """Allowed rise of the sum of squares in units of the scatter."""
@@ -69,16 +57,8 @@ class _Reduced:
     right: Array
     best: Array
 
-    def rise(self, solution: Array) -> float:
-        """Return the sum of squares of a solution over the least one."""
-        return self._squares(solution) - self._squares(self.best)
-
-    def held(self, row: Array, value: float) -> Array:
-        """Return the best solution for which `row` has about this value."""
-        matrix = np.vstack([self.triangle, _HEAVY * row])
-        return non_negative(matrix, np.append(self.right, _HEAVY * value))
-
-    def _squares(self, solution: Array) -> float:
+    def squares(self, solution: Array) -> float:
+        """Return the sum of squares of a solution."""
         error = self.triangle @ solution - self.right
         return float(error @ error)
 
@@ -95,7 +75,7 @@ def extremes(
     decades = math.log10(curve.omega[-1] / curve.omega[0])
     orthogonal, triangle = np.linalg.qr(problem.matrix)
     right = orthogonal.T @ problem.right
-    reduced = _Reduced(triangle, right, non_negative(triangle, right))
+    reduced = _Reduced(triangle, right, maxwell_fit.non_negative(triangle, right))
     solutions, least = [reduced.best], _LEAST_SHARE * float(curve.loss.min())
     # Sought in the band, and once and twice half-way beyond it.
     low, high = curve.omega[0], curve.omega[-1]
@@ -117,34 +97,35 @@ def extremes(
 
 def open_equations(
     curve: Curve, scatter: tuple[float, float], beyond: float, largest_modulus: float
-) -> Equations:
+) -> maxwell_fit.Equations:
     """Return the equations in units of the scatter, smoothed so little that the data decide.
 
     Arguments as for `extremes`.
     """
     decades = math.log10(curve.omega[-1] / curve.omega[0])
     terms = min(max(2, round(_PER_DECADE * decades) + 1), _MOST_TERMS)
-    times = relaxation_times(curve.omega, terms, beyond)
-    weights = 1.0 / scatter[0], 1.0 / scatter[1]
-    return equations(
-        curve, times, Prior(EXTREME_SMOOTHING, EXTREME_SMOOTHING, largest_modulus, *weights)
+    times = maxwell_fit.relaxation_times(curve.omega, terms, beyond)
+    weights = largest_modulus, 1.0 / scatter[0], 1.0 / scatter[1]
+    return maxwell_fit.equations(
+        curve, times, Prior(EXTREME_SMOOTHING, EXTREME_SMOOTHING, *weights)
     )
 
 
 def _furthest(
     reduced: _Reduced, row: Array, offset: float, direction: float, least: float
 ) -> Array:
-    """Return the solution with the largest (1) or least (-1) value of `row` the data allow.
-
-    Values below `least` count as nothing.
-    """
+    """Return the allowed solution with the largest (1) or least (-1) `row`, down to `least`."""
     start = max(float(row @ reduced.best) + offset, least)
     inside, outside, best = 0.0, _FIRST_STEP, reduced.best
+    matrix = np.vstack([reduced.triangle, _HEAVY * (row / start)])
+    lowest = reduced.squares(reduced.best)
 
     def at(step: float) -> tuple[Array, bool]:
         value = max(start * math.exp(direction * step) - offset, 0.0)
-        solution = reduced.held(row / start, value / start)
-        return solution, reduced.rise(solution) <= _RISE
+        solution = maxwell_fit.non_negative(
+            matrix, np.append(reduced.right, _HEAVY * (value / start))
+        )
+        return solution, reduced.squares(solution) - lowest <= _RISE
 
     solution, allowed = at(outside)
     while allowed and outside < _LARGEST_STEP:
@@ -270,20 +251,16 @@ def fit_prony_report(
         raise InputError(str(swapped))
     curve = Curve(master.angular_frequency, master.storage, master.loss)
     # Outliers are found with one fixed fit, so that they do not depend on the series wanted.
-    screened_by = partial(
-        _fit,
-        curve,
-        0.0,
-        Prior(SMOOTHING, 0.0, 2.0 * float(master.storage.max())),
-        terms=max(4, min(round(2.0 * master.decades), 60)),
+    plain = Prior(SMOOTHING, 0.0, 2.0 * float(master.storage.max()))
+    coarse = max(4, min(round(2.0 * master.decades), 60))
+    screening = maxwell_fit.screen(
+        curve, partial(_fit, curve, 0.0, plain, terms=coarse), outlier_threshold
     )
-    screening = screen(curve.omega, curve.storage, curve.loss, screened_by, outlier_threshold)
-    kept = screening.kept
-    rows = curve.rows(kept)
+    kept, rows = screening.kept, curve.rows(screening.kept)
     limit = largest_modulus(float(rows.storage.max()), bulk)
     prior = Prior(smoothing, _SHRINKAGE * smoothing, limit, loss_weight=loss_weight)
     fit = partial(_fit, curve, beyond, prior)
-    candidates: tuple[Candidate, ...] = ()
+    candidates: tuple[maxwell_fit.Candidate, ...] = ()
     if terms is None:
         positions = np.flatnonzero(kept)
 
@@ -292,19 +269,26 @@ def fit_prony_report(
             among_all[positions[chosen]] = True
             return fit(among_all, terms)
 
-        terms, candidates = choose_terms(rows.omega, rows.storage, rows.loss, fit_among_kept)
+        terms, candidates = maxwell_fit.choose_terms(rows, fit_among_kept)
     spectrum = fit(kept, terms)
     # The scatter about the fit: what any series has to live with.
-    errors = (
-        spectrum.storage(rows.omega) / rows.storage - 1.0,
-        spectrum.loss(rows.omega) / rows.loss - 1.0,
-    )
     storage_scatter, loss_scatter = (
-        max(least, float(np.sqrt(np.mean(error**2))))
-        for least, error in zip(screening.believed_scatter, errors, strict=True)
+        max(least, rms(ratio - 1.0))
+        for least, ratio in zip(screening.believed_scatter, spectrum.ratios(rows), strict=True)
     )
-    others = extremes(rows, (storage_scatter, loss_scatter), beyond, _STIFFEST * bulk)
-    rubber = _rubber(master, rows, spectrum, bulk, others)
+    present = spectrum.moduli > 1e-9 * spectrum.moduli.sum()
+    rubber = Rubber(
+        spectrum.equilibrium,
+        spectrum.moduli[present],
+        spectrum.times[present],
+        bulk_modulus=bulk,
+        name=master.name,
+        source=master.source,
+        valid_band=(float(rows.omega[0]), float(rows.omega[-1])),
+        admissible=extremes(rows, (storage_scatter, loss_scatter), beyond, _STIFFEST * bulk),
+        reference_temperature=master.reference_temperature,
+        shift=master.shift,
+    )
     fit_report = report(master, rows, screening, candidates, rubber)
     if swapped.likely:
         fit_report = replace(fit_report, findings=(str(swapped), *fit_report.findings))
@@ -334,27 +318,5 @@ def largest_modulus(measured: float, bulk: float) -> float:
 
 
 def _fit(curve: Curve, beyond: float, prior: Prior, rows: Mask, terms: int) -> Spectrum:
-    times = relaxation_times(curve.omega, terms, beyond)
-    return fit_spectrum(curve.rows(rows), times, prior)
-
-
-def _rubber(
-    master: MasterCurve,
-    rows: Curve,
-    spectrum: Spectrum,
-    bulk_modulus: float,
-    admissible: AdmissibleSeries,
-) -> Rubber:
-    present = spectrum.moduli > 1e-9 * spectrum.moduli.sum()
-    return Rubber(
-        spectrum.equilibrium,
-        spectrum.moduli[present],
-        spectrum.times[present],
-        bulk_modulus=bulk_modulus,
-        name=master.name,
-        source=master.source,
-        valid_band=(float(rows.omega[0]), float(rows.omega[-1])),
-        admissible=admissible,
-        reference_temperature=master.reference_temperature,
-        shift=master.shift,
-    )
+    times = maxwell_fit.relaxation_times(curve.omega, terms, beyond)
+    return maxwell_fit.fit_spectrum(curve.rows(rows), times, prior)

@@ -20,7 +20,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from gripscale.core.arrays import Array, ComplexArray, Mask
+from gripscale.core.arrays import Array
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.material import BEYOND, Rubber, fast_end, slow_end, too_compressible
 from gripscale.rubber.maxwell_fit import (
@@ -59,38 +59,34 @@ class Misfit:
         )
 
 
-def local_misfits(
-    curve: Curve, modulus: ComplexArray, scatter: tuple[float, float]
-) -> tuple[Misfit, ...]:
-    """Return where the local mean of `modulus` over `curve` less one exceeds the scatter [-].
+Misfits = tuple[Misfit, ...]
+Ends = tuple[Misfit | None, Misfit | None]
 
-    `modulus` is E* of the fit [Pa] at the rows of the curve.
-    """
+
+def local_misfits(
+    curve: Curve, errors: tuple[Array, Array], scatter: tuple[float, float]
+) -> Misfits:
+    """Return where the local mean of the `errors` of E' and E'' [-] exceeds their scatter [-]."""
     size = min(_WINDOW, len(curve.omega))
     # The mean of each row and its neighbours, of as many near the ends.
     start = np.arange(len(curve.omega)) - size // 2
     inside = np.clip(start, 0, len(curve.omega) - size)
-    local = [
-        np.convolve(error, np.full(size, 1.0 / size), mode="valid")[inside]
-        for error in _errors(curve, modulus)
-    ]
+    window = np.full(size, 1.0 / size)
+    local = [np.convolve(error, window, mode="valid")[inside] for error in errors]
     beyond = [np.abs(mean) > _ALLOWED * width for mean, width in zip(local, scatter, strict=True)]
-    return tuple(
-        Misfit(
-            float(curve.omega[first]),
-            float(curve.omega[last]),
-            _largest(local[0][first : last + 1]),
-            _largest(local[1][first : last + 1]),
-        )
-        for first, last in _runs(beyond[0] | beyond[1])
-    )
+    rows = np.flatnonzero(beyond[0] | beyond[1])
+    misfits = []
+    # Runs with at most two rows between count as one.
+    for run in np.split(rows, np.flatnonzero(np.diff(rows) > 3) + 1) if rows.size else []:
+        first, last = int(run[0]), int(run[-1])
+        parts = (mean[first : last + 1] for mean in local)
+        largest = (float(part[np.argmax(np.abs(part))]) for part in parts)
+        misfits.append(Misfit(float(curve.omega[first]), float(curve.omega[last]), *largest))
+    return tuple(misfits)
 
 
-def end_misfits(
-    curve: Curve, modulus: ComplexArray, scatter: tuple[float, float]
-) -> tuple[Misfit | None, Misfit | None]:
-    """Return the mean misfit of the first and of the last five rows, None within the scatter."""
-    errors = _errors(curve, modulus)
+def end_misfits(curve: Curve, errors: tuple[Array, Array], scatter: tuple[float, float]) -> Ends:
+    """Return the mean `errors` of the first and of the last five rows, None within the scatter."""
     ends: list[Misfit | None] = []
     for rows in (slice(None, END_ROWS), slice(-END_ROWS, None)):
         omega = curve.omega[rows]
@@ -99,25 +95,6 @@ def end_misfits(
         misfit = Misfit(float(omega[0]), float(omega[-1]), storage, loss)
         ends.append(misfit if missed else None)
     return ends[0], ends[1]
-
-
-def _errors(curve: Curve, modulus: ComplexArray) -> tuple[Array, Array]:
-    return modulus.real / curve.storage - 1.0, modulus.imag / curve.loss - 1.0
-
-
-def _largest(values: Array) -> float:
-    return float(values[np.argmax(np.abs(values))])
-
-
-def _runs(chosen: Mask) -> list[tuple[int, int]]:
-    """Return first and last row of each run, runs with at most two rows between as one."""
-    rows = np.flatnonzero(chosen)
-    if not rows.size:
-        return []
-    breaks = np.flatnonzero(np.diff(rows) > 3)
-    first = rows[np.concatenate([[0], breaks + 1])]
-    last = rows[np.concatenate([breaks, [len(rows) - 1]])]
-    return list(zip(first.tolist(), last.tolist(), strict=True))
 
 
 _CERTAIN, _CERTAIN_RATIO = 0.5, 3.0
@@ -179,17 +156,10 @@ def _misfit(curve: Curve) -> float:
     times = relaxation_times(curve.omega, terms, _BEYOND)
     spectrum = fit_spectrum(curve, times, Prior(0.0, 0.0, limit))
     with np.errstate(divide="ignore"):
-        errors = np.log(
-            [spectrum.storage(curve.omega) / curve.storage, spectrum.loss(curve.omega) / curve.loss]
-        )
-    return float(np.sqrt(np.mean(np.clip(errors, -_WORST, _WORST) ** 2)))
+        return rms(np.clip(np.log(spectrum.ratios(curve)), -_WORST, _WORST))
 
 
-def fit_warnings(
-    rubber: Rubber,
-    inconsistencies: tuple[Misfit, ...],
-    ends: tuple[Misfit | None, Misfit | None],
-) -> Iterator[str]:
+def fit_warnings(rubber: Rubber, inconsistencies: Misfits, ends: Ends) -> Iterator[str]:
     """Yield what a reader must know before the rubber is used, a sentence each."""
     if inconsistencies:
         yield (
@@ -306,23 +276,24 @@ def report(
     rubber: Rubber,
 ) -> PronyFit:
     """Return the report on `rubber`, fitted to the `rows` of `master` that the screening kept."""
-    kept = screening.kept
+    left_out, scatter = ~screening.kept, screening.believed_scatter
     modulus = rubber.complex_modulus(rows.omega)
+    errors = modulus.real / rows.storage - 1.0, modulus.imag / rows.loss - 1.0
     loss_factor_error = modulus.imag / modulus.real / (rows.loss / rows.storage) - 1.0
-    scatter = screening.believed_scatter
     assert rubber.admissible is not None
     best = rubber.admissible.complex_moduli(rows.omega)[0]
-    inconsistencies = local_misfits(rows, best, scatter)
-    slow, fast = end_misfits(rows, modulus, scatter)
+    of_best = best.real / rows.storage - 1.0, best.imag / rows.loss - 1.0
+    inconsistencies = local_misfits(rows, of_best, scatter)
+    slow, fast = end_misfits(rows, errors, scatter)
     return PronyFit(
         terms=len(rubber.moduli),
         candidates=candidates,
-        outlier_frequency=master.frequency[~kept],
-        outlier_storage_deviation=screening.storage_deviation[~kept],
-        outlier_loss_deviation=screening.loss_deviation[~kept],
-        rms_storage=_rms(modulus.real / rows.storage - 1.0),
-        rms_loss=_rms(modulus.imag / rows.loss - 1.0),
-        rms_loss_factor=_rms(loss_factor_error),
+        outlier_frequency=master.frequency[left_out],
+        outlier_storage_deviation=screening.storage_deviation[left_out],
+        outlier_loss_deviation=screening.loss_deviation[left_out],
+        rms_storage=rms(errors[0]),
+        rms_loss=rms(errors[1]),
+        rms_loss_factor=rms(loss_factor_error),
         mean_loss_factor_error=float(loss_factor_error.mean()),
         storage_scatter=screening.storage_scatter,
         loss_scatter=screening.loss_scatter,
@@ -334,5 +305,6 @@ def report(
     )
 
 
-def _rms(values: Array) -> float:
+def rms(values: Array) -> float:
+    """Return the root mean square."""
     return float(np.sqrt(np.mean(values**2)))

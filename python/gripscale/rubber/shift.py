@@ -91,13 +91,13 @@ class Shift(Checked, ABC, eq=False):
         Raises `InputError` if a temperature is beyond `limits`.
         """
         law = self.bound(reference_temperature)
-        here, there = law._in_limits(temperature), law._in_limits(reference_temperature)
+        here, there = map(law._in_limits, (temperature, reference_temperature))
         return np.asarray(law._log_a(here) - law._log_a(there))
 
     def log_b(self, temperature: ArrayLike, reference_temperature: float) -> Array:
         """Return log10 b_T [-] at `temperature` [K], same shape; errors as `log_a`."""
         law = self.bound(reference_temperature)
-        here, there = law._in_limits(temperature), law._in_limits(reference_temperature)
+        here, there = map(law._in_limits, (temperature, reference_temperature))
         return np.asarray(law._log_b(here) - law._log_b(there))
 
     def a(self, temperature: ArrayLike, reference_temperature: float) -> Array:
@@ -136,10 +136,8 @@ class Shift(Checked, ABC, eq=False):
     def to_dict(self) -> dict[str, Any]:
         """Return the kind and all settings, arrays and ranges as lists."""
         values = {item.name: getattr(self, item.name) for item in fields(self)}
-        for name, value in values.items():
-            if isinstance(value, np.ndarray | tuple):
-                values[name] = [float(number) for number in value]
-        return {"kind": self.kind, **values}
+        several = (name for name, v in values.items() if isinstance(v, np.ndarray | tuple))
+        return {"kind": self.kind, **values, **{n: list(map(float, values[n])) for n in several}}
 
 
 class Formula(Shift, eq=False):
@@ -164,6 +162,12 @@ class Formula(Shift, eq=False):
     def limits(self) -> tuple[float, float]:
         """Above absolute zero [K]."""
         return _COLDEST, _HOTTEST
+
+    def bound(self, reference_temperature: float) -> Self:
+        """Return the law with `reference_temperature` [K], if it needs one and has none."""
+        reference = {"reference_temperature": reference_temperature}
+        needed = reference.keys() <= {item.name for item in fields(self)}
+        return replace(self, **reference) if needed and not self.reference_temperature else self
 
     @property
     def _reference(self) -> float:
@@ -190,12 +194,6 @@ class WLF(Formula, eq=False):
     """Temperatures between which the law was found [K]."""
 
     kind: ClassVar[str] = "wlf"
-
-    def bound(self, reference_temperature: float) -> Self:
-        """Return the law with `reference_temperature` [K], if it has none of its own."""
-        if self.reference_temperature is not None:
-            return self
-        return replace(self, reference_temperature=reference_temperature)
 
     def referred_to(self, reference_temperature: float) -> WLF:
         """Return the same law with the constants that hold for another temperature [K].
@@ -263,12 +261,6 @@ class WLFArrhenius(Formula, eq=False):
                 f"{reference - self.c2:g} K; got {self.glass_temperature:g}"
             )
 
-    def bound(self, reference_temperature: float) -> Self:
-        """Return the law with `reference_temperature` [K], if it has none of its own."""
-        if self.reference_temperature is not None:
-            return self
-        return replace(self, reference_temperature=reference_temperature)
-
     def _log_a(self, temperature: Array) -> Array:
         reference = self._reference
         above = np.maximum(temperature, self.glass_temperature) - reference
@@ -324,12 +316,10 @@ class ShiftTable(Shift, eq=False):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        rows = len(self.temperature)
-        unknown, zero = np.full(rows, np.nan), np.zeros(rows)
-        without_vertical = {"vertical": zero, "vertical_error": zero}
+        unknown, zero = np.full(len(self.temperature), np.nan), np.zeros(len(self.temperature))
         defaults = {"horizontal_error": unknown, "vertical_error": unknown}
         if self.vertical is None:
-            defaults |= without_vertical
+            defaults |= {"vertical": zero, "vertical_error": zero}
         self._set(**{name: v for name, v in defaults.items() if getattr(self, name) is None})
         columns = {item.name: getattr(self, item.name) for item in fields(self)[:5]}
         checks.same_length(1, **columns)

@@ -97,8 +97,7 @@ def fit_wlf(
         If T_0 is missing or outside the table, too few rows count, or they do not follow the law:
         log10 a_T must fall ever more slowly.
     """
-    reference = _reference(table, reference_temperature)
-    kelvin, log_a, error = _rows(table, reference, lowest, None, 3)
+    reference, kelvin, log_a, error = _rows(table, reference_temperature, 3, lowest)
 
     def law(constants: Array) -> Array:
         above = kelvin - reference
@@ -126,9 +125,9 @@ def fit_wlf(
             "table must follow WLF, log10 a_T falling ever more slowly with temperature; the best "
             f"constants found are c1 = {c1:.3g}, c2 = {c2:.3g} K"
         )
-    shift = WLF(c1, c2, reference, _span(kelvin))
     residual = log_a - law(optimum.x)
     errors = _errors(np.asarray(optimum.jac), residual / error)
+    shift = WLF(c1, c2, reference, _span(kelvin))
     return ShiftFit(shift, dict(zip(("c1", "c2"), errors, strict=True)), kelvin, residual)
 
 
@@ -162,8 +161,7 @@ def fit_arrhenius(
         If T_0 is missing or outside the table, too few rows count, or log10 a_T does not fall with
         temperature.
     """
-    reference = _reference(table, reference_temperature)
-    kelvin, log_a, error = _rows(table, reference, lowest, highest, 2)
+    reference, kelvin, log_a, error = _rows(table, reference_temperature, 2, lowest, highest)
     matrix = 1.0 / (GAS_CONSTANT * math.log(10.0)) * (1.0 / kelvin - 1.0 / reference)[:, None]
     if not kelvin[0] - EDGE <= reference <= kelvin[-1] + EDGE:
         matrix = np.column_stack([matrix, np.ones(len(kelvin))])
@@ -176,27 +174,25 @@ def fit_arrhenius(
             f"{energy:.3g} J/mol"
         )
     residual = log_a - matrix @ solution
-    errors = _errors(weighted, residual / error)
-    return ShiftFit(
-        Arrhenius(energy, _span(kelvin)), {"activation_energy": errors[0]}, kelvin, residual
-    )
+    errors = {"activation_energy": _errors(weighted, residual / error)[0]}
+    return ShiftFit(Arrhenius(energy, _span(kelvin)), errors, kelvin, residual)
 
 
-def _reference(table: ShiftTable, temperature: float | None) -> float:
+def _rows(
+    table: ShiftTable,
+    temperature: float | None,
+    least: int,
+    lowest: float | None,
+    highest: float | None = None,
+) -> tuple[float, Array, Array, Array]:
+    """Return T_0, and of the rows that count temperature, log10 a against T_0 and its error."""
     checks.instance("table", table, ShiftTable)
     reference = table.reference_temperature if temperature is None else temperature
     if reference is None:
         raise InputError("reference_temperature [K] must be given, because the table states none")
     reference = checks.positive("reference_temperature", reference, unit="K")
-    table.log_a(reference, reference)
-    return reference
-
-
-def _rows(
-    table: ShiftTable, reference: float, lowest: float | None, highest: float | None, least: int
-) -> tuple[Array, Array, Array]:
-    """Return temperature, log10 a against the reference and its error, of the rows that count."""
     kelvin = table.temperature
+    log_a = table.log_a(kelvin, reference)
     low = 0.0 if lowest is None else checks.not_negative("lowest", lowest, unit="K")
     high = math.inf if highest is None else checks.positive("highest", highest, unit="K")
     chosen = (kelvin >= low - EDGE) & (kelvin <= high + EDGE)
@@ -206,7 +202,7 @@ def _rows(
             f"{chosen.sum()}"
         )
     error = np.maximum(np.nan_to_num(table.horizontal_error, nan=_LEAST_ERROR), _LEAST_ERROR)
-    return kelvin[chosen], table.log_a(kelvin, reference)[chosen], error[chosen]
+    return reference, kelvin[chosen], log_a[chosen], error[chosen]
 
 
 def _span(kelvin: Array) -> tuple[float, float] | None:
@@ -221,13 +217,7 @@ def _errors(matrix: Array, residual: Array) -> list[float]:
     return [float(v) for v in np.sqrt(np.diag(covariance) * max(excess, 1.0))]
 
 
-_TITLES = (
-    "temperature (C)",
-    "log10 a_T",
-    "standard error of log10 a_T",
-    "b_T",
-    "standard error of log10 b_T",
-)
+_TITLES = "temperature (C),log10 a_T,standard error of log10 a_T,b_T,standard error of log10 b_T"
 _REFERENCE = re.compile(r"^\s*[#%!].*reference temperature \((\w)\):\s*([-+.\deE]+)", re.MULTILINE)
 _DECIMALS = 6
 """Of a temperature in degrees Celsius: 20.1, not 20.100000000000023."""
@@ -250,7 +240,7 @@ def write_shift_table(path: str | Path, table: ShiftTable) -> Path:
     if table.reference_temperature is not None:
         celsius = round(table.reference_temperature - ZERO_CELSIUS, _DECIMALS)
         lines.append(f"# reference temperature (C): {celsius!r}")
-    lines.append(",".join(_TITLES))
+    lines.append(_TITLES)
     lines += [",".join(repr(float(v)) for v in row) for row in zip(*columns, strict=True)]
     text = "\n".join(lines) + "\n"
     return write_whole(file_path(path), lambda part: part.write_bytes(text.encode("utf-8")))
@@ -294,9 +284,7 @@ def read_shift_table(path: str | Path, *, temperature_unit: str | None = None) -
             f"{file}: expected columns of temperature and log10 a_T; the header has "
             f"{', '.join(table.names) or 'no names'}"
         )
-    columns = {
-        str(name): table.numbers(at, "a number", missing=True) for name, at in titles.items()
-    }
+    columns = {str(n): table.numbers(at, "a number", missing=True) for n, at in titles.items()}
     unit = temperature_unit or table.columns[titles["temperature"]].unit
     if unit is None or spelled(unit, "temperature") is None:
         raise InputError(
@@ -309,15 +297,17 @@ def read_shift_table(path: str | Path, *, temperature_unit: str | None = None) -
         if not (columns["b"] > 0.0).all():
             raise FileError(f"{file}: expected b_T above zero; got {np.nanmin(columns['b']):g}")
         vertical = np.log10(columns["b"])
+    reference = None
+    if match := _REFERENCE.search(read_text(file)):
+        try:
+            reference = float(in_si(float(match[2]), match[1], "temperature"))
+        except ValueError as error:
+            raise FileError(
+                f"{file}: expected a number as reference temperature; got {match[2]}"
+            ) from error
+    errors = columns.get("log_a_error"), columns.get("log_b_error")
     try:
-        return ShiftTable(
-            kelvin,
-            columns["log_a"],
-            columns.get("log_a_error"),
-            vertical,
-            columns.get("log_b_error"),
-            _read_reference(file),
-        )
+        return ShiftTable(kelvin, columns["log_a"], errors[0], vertical, errors[1], reference)
     except InputError as error:
         raise InputError(f"{file}: {error}") from error
 
@@ -333,15 +323,3 @@ def _meaning(name: str) -> str | None:
     if "error" in low or "uncertainty" in low:
         return f"log_{factor}_error"
     return f"log_{factor}" if "log" in low else (factor if factor == "b" else None)
-
-
-def _read_reference(path: Path) -> float | None:
-    match = _REFERENCE.search(read_text(path))
-    if match is None:
-        return None
-    try:
-        return float(in_si(float(match[2]), match[1], "temperature"))
-    except ValueError as error:
-        raise FileError(
-            f"{path}: expected a number as reference temperature; got {match[2]}"
-        ) from error

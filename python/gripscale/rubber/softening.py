@@ -24,7 +24,7 @@ there, follow f; E_inf keeps at least a third of f of it. The misfit of the seri
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Literal, Protocol, runtime_checkable
 
@@ -171,13 +171,10 @@ class Kraus(Checked):
     def factors(self, strain: ArrayLike, temperature: float | None = None) -> SofteningFactors:
         """Return f and g at uniaxial strain amplitudes `strain` [-], at any temperature."""
         amplitude = in_deformation(strain, self.deformation)
-        softened_at = self._moduli(np.maximum(amplitude, self.measured_at))
+        softer = self._moduli(np.maximum(amplitude, self.measured_at))
         measured = self._moduli(np.full(amplitude.shape, self.measured_at))
-        return SofteningFactors(
-            storage=softened_at[0] / measured[0],
-            loss=softened_at[1] / measured[1],
-            outside=np.zeros(amplitude.shape, dtype=bool),
-        )
+        storage, loss = (soft / hard for soft, hard in zip(softer, measured, strict=True))
+        return SofteningFactors(storage, loss, np.zeros(amplitude.shape, dtype=bool))
 
     def to_dict(self) -> dict[str, Any]:
         """Return kind and parameters."""
@@ -201,10 +198,7 @@ def in_deformation(strain: ArrayLike, deformation: Deformation) -> Array:
 
 def rows_of_sweeps(name: str, values: Any) -> tuple[tuple[float, ...], ...]:
     """Return values above zero of each sweep; raise `InputError` if there is no sweep."""
-    try:
-        rows = list(values)
-    except TypeError:
-        rows = []
+    rows = list(values) if isinstance(values, Iterable) else []
     if not rows:
         raise InputError(f"{name} must hold at least one sweep; got {checks.short_repr(values)}")
     return tuple(tuple(checks.positive_vector(name, row).tolist()) for row in rows)
@@ -283,13 +277,12 @@ class SofteningTable(Checked):
         amplitude = in_deformation(strain, self.deformation)
         shares, beyond = self._shares(temperature)
         used = [(float(share), at) for at, share in enumerate(shares) if share > 0.0]
-        storage = sum(share * self._ratio(self.storage[at], at, amplitude) for share, at in used)
-        loss = sum(share * self._ratio(self.loss[at], at, amplitude) for share, at in used)
-        return SofteningFactors(
-            storage=np.asarray(storage),
-            loss=np.asarray(loss),
-            outside=(amplitude > max(self.strain[at][-1] for _, at in used)) | beyond,
+        storage, loss = (
+            np.asarray(sum(share * self._ratio(sweeps[at], at, amplitude) for share, at in used))
+            for sweeps in (self.storage, self.loss)
         )
+        largest = max(self.strain[at][-1] for _, at in used)
+        return SofteningFactors(storage, loss, (amplitude > largest) | beyond)
 
     def to_dict(self) -> dict[str, Any]:
         """Return kind and numbers."""
@@ -319,19 +312,9 @@ class SofteningTable(Checked):
 def softening_of_sweeps(sweeps: Sequence[StrainSweep], *, measured_at: float) -> SofteningTable:
     """Return the softening that strain sweeps at one or several temperatures show.
 
-    Parameters
-    ----------
-    sweeps : sequence of StrainSweep
-        In any order; of several, each with another temperature.
-    measured_at : float
-        Strain amplitude at which the master curve was measured [-], in the deformation of the
-        sweeps and within each of them.
-
-    Raises
-    ------
-    InputError
-        If sweeps are of different deformations, several are without or at one temperature, or
-        `measured_at` lies outside a sweep.
+    `measured_at` is the strain amplitude at which the master curve was measured [-], in the
+    deformation of the sweeps. Raises `InputError` if sweeps are of different deformations, several
+    are without or at one temperature, or `measured_at` lies outside a sweep.
     """
     sweeps = checks.instances("sweeps", sweeps, StrainSweep)
     kinds = sorted({sweep.deformation for sweep in sweeps})
@@ -344,16 +327,12 @@ def softening_of_sweeps(sweeps: Sequence[StrainSweep], *, measured_at: float) ->
             + ", ".join("none" if kelvin is None else f"{kelvin:g} K" for kelvin in kelvins)
         )
     ordered = sorted(sweeps, key=lambda sweep: sweep.temperature or 0.0)
-    deformation: Deformation = "shear" if kinds[0] == "shear" else "tension"
-    temperatures = [kelvin for kelvin in kelvins if kelvin is not None]
-    return SofteningTable(
-        strain=[sweep.strain.tolist() for sweep in ordered],
-        storage=[sweep.storage.tolist() for sweep in ordered],
-        loss=[sweep.loss.tolist() for sweep in ordered],
-        measured_at=measured_at,
-        deformation=deformation,
-        temperature=sorted(temperatures) if len(temperatures) == len(sweeps) else None,
+    strain, storage, loss = (
+        [getattr(s, name).tolist() for s in ordered] for name in ("strain", "storage", "loss")
     )
+    temperatures = sorted(kelvin for kelvin in kelvins if kelvin is not None) or None
+    deformation: Deformation = "shear" if kinds[0] == "shear" else "tension"
+    return SofteningTable(strain, storage, loss, measured_at, deformation, temperatures)
 
 
 SOFTENING_LAWS: dict[str, Any] = {law.kind: law for law in (Kraus, SofteningTable)}

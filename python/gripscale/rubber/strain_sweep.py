@@ -21,7 +21,6 @@ from gripscale.rubber.columns import (
     MODULI,
     FileLayout,
     LayoutOptions,
-    above_zero,
     read_blocks,
     young_moduli,
 )
@@ -138,6 +137,7 @@ def read_strain_sweep(
     strain = _single_amplitude(table, layout, amplitude)
     storage, loss = young_moduli(table, layout)
     complete = np.isfinite([strain, storage, loss]).all(axis=0)
+    strain, storage, loss = (values[complete] for values in (strain, storage, loss))
     moduli = [layout.column(table, name) for name in MODULI if name != "loss_factor"]
     kind = layout.modulus_of(table, [column for column in moduli if column is not None])
     column = layout.column(table, "temperature")
@@ -151,30 +151,21 @@ def read_strain_sweep(
         temperature = float(kelvin.mean()) if kelvin.size else None
     column = layout.column(table, "frequency")
     if frequency is None and column is not None:
-        printed = above_zero(table, column, "frequency")
-        hertz = layout.quantities(table, column, "frequency", printed)
+        hertz = layout.read(table, "frequency")
         hertz = hertz[np.isfinite(hertz)]
         if hertz.size and hertz.max() > (1.0 + _ONE_FREQUENCY) * hertz.min():
             raise FileError(
                 f"{file}: expected one frequency; got {hertz.min():g} to {hertz.max():g} Hz"
             )
         frequency = float(hertz.mean()) if hertz.size else None
-    return StrainSweep(
-        strain[complete],
-        storage[complete],
-        loss[complete],
-        "shear" if kind == "G" else "uniaxial",
-        temperature,
-        frequency,
-        name=file.stem if name is None else name,
-        source=source,
-    )
+    deformation = "shear" if kind == "G" else "uniaxial"
+    name = file.stem if name is None else name
+    return StrainSweep(strain, storage, loss, deformation, temperature, frequency, name, source)
 
 
 def _single_amplitude(table: TextTable, layout: FileLayout, amplitude: str | None) -> Array:
     """Return the single amplitude of strain [-]."""
-    column = layout.needed_column(table, "strain")
-    title = table.columns[column].name
+    title = table.columns[layout.needed_column(table, "strain")].name
     if amplitude is None:
         patterns = {"peak-to-peak": _DOUBLE, "single": _SINGLE}
         meanings = [word for word, pattern in patterns.items() if pattern.search(title)]
@@ -185,4 +176,4 @@ def _single_amplitude(table: TextTable, layout: FileLayout, amplitude: str | Non
             )
         amplitude = meanings[0]
     size = AMPLITUDES[checks.one_of("amplitude", amplitude, AMPLITUDES)]
-    return size * layout.quantities(table, column, "strain", above_zero(table, column, "strain"))
+    return size * layout.read(table, "strain")

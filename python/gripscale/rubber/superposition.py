@@ -16,6 +16,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 
@@ -68,22 +69,10 @@ def start(rows: Rows, lifted: bool) -> tuple[Array, Array]:
     """Return log10 a and log10 b of each sweep against the warmest, pair by pair."""
     noise = np.array([_roughness(rows, at) for at in range(len(rows.y))])
     lifts = rows.lifts if lifted else np.zeros_like(rows.lifts)
-    pairs = np.array(
-        [
-            *(
-                _distance(rows.of(colder), rows.of(colder + 1), noise, lifts)
-                for colder in range(rows.sweeps - 1)
-            ),
-            (0.0, 0.0),
-        ]
-    )
-    total = np.cumsum(pairs[::-1], axis=0)[::-1]
+    sweeps = [rows.of(sweep) for sweep in range(rows.sweeps)]
+    pairs = [_distance(cold, warm, noise, lifts) for cold, warm in pairwise(sweeps)]
+    total = np.cumsum([*pairs, (0.0, 0.0)][::-1], axis=0)[::-1]
     return total[:, 0], total[:, 1]
-
-
-def no_common_modulus(cold: Points, warm: Points, noise: float) -> bool:
-    """Return whether E' of two sweeps, their first modulus, has no value in common."""
-    return bool(warm[1][0].max() + 3.0 * noise < cold[1][0].min())
 
 
 def difference(cold: Points, warm: Points) -> Array:
@@ -100,11 +89,6 @@ def difference(cold: Points, warm: Points) -> Array:
             for colder, warmer in zip(cold[1], warm[1], strict=True)
         ]
     )
-
-
-def overlap_width(cold: Array, warm: Array) -> float:
-    """Return the width of the overlap of two rising x [decades]; below zero that of the gap."""
-    return float(min(cold[-1], warm[-1]) - max(cold[0], warm[0]))
 
 
 def _distance(cold: Points, warm: Points, noise: Array, lifts: Array) -> tuple[float, float]:
@@ -128,10 +112,7 @@ def _distance(cold: Points, warm: Points, noise: Array, lifts: Array) -> tuple[f
 
 
 def _roughness(rows: Rows, modulus: int) -> float:
-    """Return the scatter of a modulus from row to row [decades], at least 0.002 (half a per cent).
-
-    From the distance of each row to the straight line between its neighbours.
-    """
+    """Return the scatter [decades] about lines between neighbouring rows, at least 0.002."""
     distances = []
     for sweep in range(rows.sweeps):
         x, y = rows.of(sweep)
@@ -177,17 +158,14 @@ class Superposition:
         lines = [f"{len(self.temperatures)} sweeps superposed, shift {how}"]
         if self.overlaps:
             width = [pair.decades for pair in self.overlaps]
-            storage, loss = (self._median(name) for name in ("storage", "loss"))
+            apart = np.array([(pair.storage, pair.loss) for pair in self.overlaps])
+            apart = apart[np.isfinite(apart).all(axis=1)]
+            storage, loss = np.median(apart, axis=0) if apart.size else (math.nan, math.nan)
             lines.append(
                 f"neighbours overlap by {min(width):.2f} to {max(width):.2f} decades and differ in "
-                f"the median by E' {storage:.1%}, E'' {loss:.1%}"
+                f"the median by E' {10.0**storage - 1.0:.1%}, E'' {10.0**loss - 1.0:.1%}"
             )
         return "\n".join([*lines, *self.findings])
-
-    def _median(self, name: str) -> float:
-        values = np.array([getattr(pair, name) for pair in self.overlaps])
-        finite = values[np.isfinite(values)]
-        return float(10.0 ** np.median(finite) - 1.0) if finite.size else float("nan")
 
 
 def report(
@@ -204,8 +182,8 @@ def report(
         y = np.log10([sweep.storage, sweep.loss, sweep.loss / sweep.storage])
         y[:2] += up
         shifted.append((np.log10(sweep.frequency) + along, y))
-    pairs = zip(kelvin, kelvin[1:], shifted, shifted[1:], strict=False)
-    overlaps = tuple(overlap(float(t), float(u), cold, warm) for t, u, cold, warm in pairs)
+    pairs = zip(pairwise(kelvin.tolist()), pairwise(shifted), strict=True)
+    overlaps = tuple(overlap(*temperatures, *points) for temperatures, points in pairs)
     warnings = list(superposition_warnings(overlaps, shift))
     if joint and isinstance(shift, ShiftTable) and (shift.vertical != 0.0).any():
         warnings.append(
@@ -230,7 +208,7 @@ def temperatures_in(shift: Shift, temperatures: Array, tolerance: float) -> Arra
 
 def overlap(colder: float, warmer: float, cold: Points, warm: Points) -> Overlap:
     """Return how two shifted sweeps at two temperatures [K] meet; their y are E', E'', E''/E'."""
-    width = overlap_width(cold[0], warm[0])
+    width = float(min(cold[0][-1], warm[0][-1]) - max(cold[0][0], warm[0][0]))
     apart = difference(cold, warm) if width >= 0.0 else np.empty((3, 0))
     rms = np.sqrt((apart**2).mean(axis=1)) if apart.size else np.full(3, np.nan)
     return Overlap(colder, warmer, width, apart.shape[1], *map(float, rms))
@@ -367,25 +345,23 @@ def _fitted_shift(
         )
     if len(kelvin) == 1:
         return ShiftTable(kelvin, [0.0], [0.0], reference_temperature=reference), {}
-    _require_common(sweeps, rows_of(sweeps, "both"))
-    rows = rows_of(sweeps, moduli)
-    first = "storage" if "storage" in MODULI[moduli] and not lifted else moduli
-    joint = align(rows, *start(rows_of(sweeps, first), lifted), lifted)
-    scatter = dict(zip(MODULI[moduli], joint.scatter.tolist(), strict=True))
-    return _table(kelvin, reference, joint, lifted), scatter
-
-
-def _require_common(sweeps: Sweeps, rows: Rows) -> None:
-    """Raise `InputError` unless E' of neighbouring sweeps has values in common."""
-    for colder in range(rows.sweeps - 1):
-        cold, warm = rows.of(colder), rows.of(colder + 1)
-        if min(len(cold[0]), len(warm[0])) < 2 or no_common_modulus(cold, warm, _NOISE):
+    both = rows_of(sweeps, "both")
+    pairs = pairwise([both.of(sweep) for sweep in range(both.sweeps)])
+    for colder, ((x, cold), (next_x, warm)) in enumerate(pairs):
+        # E' of neighbours, their first modulus, must have a value in common.
+        apart = warm[0].max() + 3.0 * _NOISE < cold[0].min()
+        if min(len(x), len(next_x)) < 2 or apart:
             low, high = sweeps.temperatures[colder : colder + 2] - ZERO_CELSIUS
             raise InputError(
                 "sweeps at neighbouring temperatures must overlap for a shift to be found; those "
                 f"at {low:.2f} and {high:.2f} °C do not: give the shift, or superpose either side "
                 "alone"
             )
+    rows = rows_of(sweeps, moduli)
+    first = "storage" if "storage" in MODULI[moduli] and not lifted else moduli
+    joint = align(rows, *start(rows_of(sweeps, first), lifted), lifted)
+    scatter = dict(zip(MODULI[moduli], joint.scatter.tolist(), strict=True))
+    return _table(kelvin, reference, joint, lifted), scatter
 
 
 def _table(kelvin: Array, reference: float, joint: Joint, lifted: bool) -> ShiftTable:
@@ -398,11 +374,7 @@ def _table(kelvin: Array, reference: float, joint: Joint, lifted: bool) -> Shift
         for block in (joint.covariance[:count, :count], joint.covariance[count:, count:])
     ]
     held = ShiftTable(kelvin, joint.log_a, vertical=joint.log_b)
-    return ShiftTable(
-        kelvin,
-        held.log_a(kelvin, reference),
-        error[0],
-        held.log_b(kelvin, reference) if lifted else None,
-        error[1] if lifted else None,
-        reference_temperature=reference,
-    )
+    log_a, log_b = held.log_a(kelvin, reference), held.log_b(kelvin, reference)
+    if not lifted:
+        return ShiftTable(kelvin, log_a, error[0], reference_temperature=reference)
+    return ShiftTable(kelvin, log_a, error[0], log_b, error[1], reference)

@@ -20,13 +20,12 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array, Mask, Vector
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import FileError, GripscaleError, InputError
-from gripscale.core.units import ZERO_CELSIUS
+from gripscale.core.units import ZERO_CELSIUS, in_si
 from gripscale.io.text_table import file_paths
 from gripscale.rubber.columns import (
     Block,
     FileLayout,
     LayoutOptions,
-    above_zero,
     check_rows,
     read_blocks,
     young_moduli,
@@ -36,7 +35,6 @@ TOLERANCE = 1.0
 """Temperatures of one sweep follow each other within this [K]: instruments print 19.9 and 20.1."""
 _WIDEST = 3.0
 """Largest span of a sweep's temperatures over the tolerance; a ramp runs on."""
-NO_LAYOUT = FileLayout()
 ROW = ("temperature", "frequency", "storage", "loss")
 """The columns of measured rows."""
 
@@ -118,12 +116,8 @@ class Sweeps(Checked, eq=False):
     def __iter__(self) -> Iterator[Sweep]:
         """Yield the sweeps, the coldest first."""
         for rows in self._rows():
-            yield Sweep(
-                float(self.temperature[rows].mean()),
-                self.frequency[rows],
-                self.storage[rows],
-                self.loss[rows],
-            )
+            kelvin, *columns = (getattr(self, name)[rows] for name in ROW)
+            yield Sweep(float(kelvin.mean()), *columns)
 
     def between(self, lowest: float, highest: float) -> Sweeps:
         """Return the rows from a lowest to a highest frequency [Hz].
@@ -133,13 +127,11 @@ class Sweeps(Checked, eq=False):
         """
         low, high = checks.not_negative("lowest", lowest), checks.positive("highest", highest)
         kept = (self.frequency >= low) & (self.frequency <= high)
-        if not kept.any():
-            raise InputError(
-                f"lowest and highest [Hz] must enclose a measured frequency; got {low:g} and "
-                f"{high:g}"
-            )
-        rows = {name: getattr(self, name)[kept] for name in ROW}
-        return replace(self, **rows)
+        if kept.any():
+            return replace(self, **{name: getattr(self, name)[kept] for name in ROW})
+        raise InputError(
+            f"lowest and highest [Hz] must enclose a measured frequency; got {low:g} and {high:g}"
+        )
 
     @property
     def temperatures(self) -> Array:
@@ -157,29 +149,25 @@ class Sweeps(Checked, eq=False):
         where = f"{len(self)} sweeps from {celsius[0]:.1f} to {celsius[-1]:.1f} °C"
         if len(self) == 1:
             where = f"one sweep at {celsius[0]:.1f} °C"
-        return (
-            f"{where}, "
-            f"{self.frequency.min():.3g} to {self.frequency.max():.3g} Hz, "
-            f"{len(self.frequency)} rows"
-        )
+        low, high = self.frequency.min(), self.frequency.max()
+        return f"{where}, {low:.3g} to {high:.3g} Hz, {len(self.frequency)} rows"
 
 
-def _groups(temperature: Array, tolerance: float) -> NDArray[np.intp]:
-    """Return which sweep each row belongs to, counted from the coldest."""
-    order = np.argsort(temperature, kind="stable")
-    group = np.empty(len(temperature), dtype=np.intp)
-    group[order] = np.cumsum(np.diff(temperature[order], prepend=temperature[order[0]]) > tolerance)
+def _groups(values: Array, tolerance: float) -> NDArray[np.intp]:
+    """Return which group of neighbouring values each belongs to, counted from the lowest."""
+    order = np.argsort(values, kind="stable")
+    group = np.empty(len(values), dtype=np.intp)
+    group[order] = np.cumsum(np.diff(values[order], prepend=values[order[0]]) > tolerance)
     return group
 
 
-def holds_sweeps(path: Path, layout: FileLayout = NO_LAYOUT) -> bool:
+def holds_sweeps(path: Path, layout: FileLayout | None = None) -> bool:
     """Return whether `read_sweeps` is the reader of a file, and not `read_master_curve`.
 
     It is for RepTate's files, for several tables that state a temperature each, and for a column of
-    temperatures over which the same frequencies come again. A master curve may say at what
-    temperature each row was measured: its frequencies do not come again.
+    temperatures over which the same frequencies come again, as in no master curve.
     """
-    layout = FileLayout(layout.columns, layout.sheet, layout.header)
+    layout = (layout and FileLayout(layout.columns, layout.sheet, layout.header)) or FileLayout()
     try:
         blocks = read_blocks(path, layout, temperature_unit="C")
         with_column = [layout.column(block.table, "temperature") is not None for block in blocks]
@@ -239,17 +227,14 @@ def sweeps_from_ramps(
         As `Sweeps` does; if `step` is not above zero, or no frequency was measured at two
         temperatures with a nominal one in between.
     """
-    columns = dict(zip(ROW, (temperature, frequency, storage, loss), strict=True))
-    units = dict(zip(ROW, ("K", "Hz", "Pa", "Pa"), strict=True))
-    rows = {name: checks.in_limits(name, columns[name], unit=units[name]) for name in ROW}
+    units = ("K", "Hz", "Pa", "Pa")
+    columns = zip(ROW, (temperature, frequency, storage, loss), units, strict=True)
+    rows = {name: checks.in_limits(name, values, unit=unit) for name, values, unit in columns}
     checks.same_length(1, **rows)
     step = checks.positive("step", step, unit="K")
     if step < _LEAST_STEP:
         raise InputError(f"step must be at least {_LEAST_STEP:g} K; got {step:g}")
-    order = np.argsort(rows["frequency"], kind="stable")
-    logs = np.log(rows["frequency"][order])
-    group = np.empty(len(logs), dtype=int)
-    group[order] = np.cumsum(np.diff(logs, prepend=logs[0]) > _ONE_FREQUENCY)
+    group = _groups(np.log(rows["frequency"]), _ONE_FREQUENCY)
     parts = [_at_steps(rows, group == number, step) for number in range(int(group.max()) + 1)]
     nominal = np.concatenate(parts, axis=1)
     if not nominal.size:
@@ -349,16 +334,9 @@ def read_sweeps(
 
 def _rows(block: Block, layout: FileLayout, temperature: float | None) -> Array:
     """Return temperature, frequency, E' and E'' of the complete rows of a table, in SI units."""
-    table = block.table
-    column = layout.needed_column(table, "frequency")
-    hertz = above_zero(table, column, "frequency")
-    rows = np.array(
-        [
-            row_temperatures(block, layout, temperature),
-            layout.quantities(table, column, "frequency", hertz),
-            *young_moduli(table, layout),
-        ]
-    )
+    hertz = layout.read(block.table, "frequency")
+    kelvin = row_temperatures(block, layout, temperature)
+    rows = np.array([kelvin, hertz, *young_moduli(block.table, layout)])
     return rows[:, np.isfinite(rows).all(axis=0)]
 
 
@@ -371,6 +349,7 @@ def row_temperatures(block: Block, layout: FileLayout, temperature: float | None
         return np.full(len(table.rows), temperature)
     column = layout.needed_column(table, "temperature", "columns or temperature")
     degrees = table.numbers(column, "a temperature", missing=True)
-    kelvin = layout.quantities(table, column, "temperature", degrees)
+    unit = layout.unit(table, [column], "temperature")
+    kelvin = np.asarray(in_si(degrees, unit, "temperature"))
     check_rows(table, column, kelvin > 0.0, kelvin, "a temperature above absolute zero")
     return kelvin
