@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
+from gripscale.charts import draw
 from gripscale.charts.chart import (
     Axis,
     CrossLine,
@@ -17,7 +18,6 @@ from gripscale.charts.chart import (
     Panel,
     Series,
     Sheet,
-    on_paper,
     wavelength_axis,
 )
 from gripscale.charts.style import COLOURS, GREY, INK, NARROW, ORANGE, WIDE, colours
@@ -66,7 +66,7 @@ def master_curves_figure(
         Panel(omega_axis, Axis("storage modulus $E'$ [MPa]", log=True), storage),
         Panel(omega_axis, Axis("loss modulus $E''$ [MPa]", log=True), loss),
     ]
-    return on_paper(Sheet(panels, height=3.3, legend="below"))
+    return draw.on_paper(Sheet(panels, height=3.3, legend="below"))
 
 
 def correlations_figure(
@@ -115,7 +115,7 @@ def _surface(curve: HeightDifference) -> Series:
 
 def _correlations(panels: Sequence[Panel], height: float) -> Figure:
     layout = {"sharey": True}
-    return on_paper(Sheet(panels, len(panels), height=height, legend="", layout=layout))
+    return draw.on_paper(Sheet(panels, len(panels), height=height, legend="", layout=layout))
 
 
 def predictions_figure(
@@ -151,7 +151,7 @@ def predictions_figure(
             name if several else "",
             legend="" if alike else "best",
         ))  # fmt: skip
-    return on_paper(
+    return draw.on_paper(
         Sheet(
             drawn,
             len(drawn),

@@ -12,7 +12,8 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from gripscale.charts.chart import Axis, Mark, Panel, Series, Sheet, on_paper
+from gripscale.charts import draw
+from gripscale.charts.chart import Axis, Mark, Panel, Series, Sheet
 from gripscale.charts.paper import write_png
 from gripscale.charts.style import COLOURS, GREY
 from reproduction.inputs import read_inputs
@@ -51,8 +52,10 @@ def chain_and_whole_figure(found: Sequence[Found]) -> Figure:
                 Series([x, area.mean()], [y, friction.mean()], GREY, width=0.6),
             ]
     panel = Panel(Axis("contact fraction [-]"), Axis("friction coefficient [-]", log=True), marks)
-    title = "open squares: the chain"
-    return on_paper(Sheet([panel], 1, height=3.6, legend="beside", legend_title=title, gap=0.02))
+    look = {"legend": "beside", "legend_title": "open squares: the chain"}
+    return draw.on_paper(
+        Sheet([panel], 1, height=3.6, legend="beside", legend_title=title, gap=0.02)
+    )
 
 
 if __name__ == "__main__":

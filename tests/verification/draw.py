@@ -9,7 +9,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import gripscale as gs
-from gripscale.charts.chart import Axis, CrossLine, Mark, Panel, Series, Sheet, on_paper
+from gripscale.charts import draw
+from gripscale.charts.chart import Axis, CrossLine, Mark, Panel, Series, Sheet
 from gripscale.charts.paper import save_figure
 from gripscale.charts.style import BLUE, GREEN, GREY, ORANGE
 from tests.verification.test_convergence import COLUMNS, FAMILIES, Errors, errors_of
@@ -34,7 +35,7 @@ def convergence_figure(errors: dict[str, Errors]) -> Figure:
         marks.append(Series(COLUMNS, slope, GREY, "slope 2", "dotted", 1.0))
         columns = Axis("columns (rows = columns / 8)", log=True, ticks=ticks)
         panels.append(Panel(columns, Axis(label, log=True), marks, legend="best"))
-    return on_paper(Sheet(panels, legend=""))
+    return draw.on_paper(Sheet(panels, legend=""))
 
 
 def start_stop_return() -> tuple[gs.TransientResult, gs.ScaleResult]:
@@ -61,7 +62,7 @@ def transient_figure(moving: gs.TransientResult, steady: gs.ScaleResult) -> Figu
             Series(distance[turn:], values[turn:], GREEN, "back"),
         ]
         panels.append(Panel(Axis("sliding distance over wavelength [-]"), Axis(label), marks))
-    return on_paper(Sheet(panels))
+    return draw.on_paper(Sheet(panels))
 
 
 def main(folder: str) -> None:

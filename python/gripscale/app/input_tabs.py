@@ -32,13 +32,13 @@ from gripscale.charts.rubber import rubber_charts
 from gripscale.charts.surface import correlation_charts, profile_charts
 from gripscale.report.elements import Element, Notice, Text
 from gripscale.report.inputs import (
-    InputRecord,
     cleaning_tables,
     rubber_facts,
     shift_parts,
     sines_line,
     surface_facts,
 )
+from gripscale.report.record import InputRecord
 
 ROAD_FIELDS = (
     "scales",

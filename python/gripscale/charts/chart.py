@@ -10,18 +10,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gripscale.charts.style import BLUE, GREY, INK, WIDE
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from gripscale.charts.page_elements import Chart
-
 
 LETTERS = {
     "\\lambda": "λ", "\\mu": "μ", "\\omega": "ω", "\\tau": "τ", "\\epsilon": "ε", "'": "′",
@@ -242,17 +236,3 @@ class Sheet:
     colour_bar: ColourBar | None = None
     layout: Mapping[str, Any] = field(default_factory=dict)
     """`sharex`, `sharey`, `width_ratios` and `height_ratios` of matplotlib's `subplots`."""
-
-
-def on_paper(sheet: Sheet) -> Figure:
-    """Draw a figure with matplotlib, which is imported here."""
-    from gripscale.charts.paper import draw_sheet
-
-    return draw_sheet(sheet)
-
-
-def on_page(panels: Iterable[Panel]) -> list[Chart]:
-    """Draw interactive charts with Bokeh, which is imported here."""
-    from gripscale.charts.page import draw_panel
-
-    return [draw_panel(panel) for panel in panels]

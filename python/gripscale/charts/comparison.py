@@ -17,7 +17,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from gripscale.analysis.ladder import DIRECT
-from gripscale.charts import chart, ladder, style
+from gripscale.charts import chart, draw, ladder, style
 from gripscale.charts.chart import Axis, Band, Bars, CrossLine, Mark, Note, Panel, Series, Sheet
 from gripscale.charts.ladder import BEST, STAR, Look, MeasuredSeries, Row
 from gripscale.charts.page_elements import Chart
@@ -57,7 +57,7 @@ def comparison_figure(comparison: xr.Dataset) -> Figure:
     panels = [_ladder_panel(comparison, name) for name in QUANTITIES]
     labels = list((panels[0].y.ticks or {}).values())
     star = any(label.endswith(STAR) for label in labels)
-    return chart.on_paper(
+    return draw.on_paper(
         Sheet(
             panels,
             height=0.95 + 0.33 * len(labels),
@@ -82,7 +82,7 @@ def ladder_charts(comparison: xr.Dataset) -> list[Chart]:
     on_surface = ladder.on_the_surface(comparison)
     if np.isfinite(on_surface.running_friction.values).any():
         panels += [_wavelength_panel(on_surface, name) for name in QUANTITIES]
-    return chart.on_page(panels)
+    return draw.on_page(panels)
 
 
 def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
@@ -163,7 +163,7 @@ def comparison_wavelength_figure(comparison: xr.Dataset) -> Figure:
     """
     on_surface = ladder.on_the_surface(comparison)
     panels = [_wavelength_panel(on_surface, name) for name in QUANTITIES]
-    return chart.on_paper(Sheet(panels, height=3.5))
+    return draw.on_paper(Sheet(panels, height=3.5))
 
 
 def _wavelength_panel(comparison: xr.Dataset, name: str) -> Panel:
@@ -211,12 +211,12 @@ def comparison_axis_figure(comparison: xr.Dataset) -> Figure:
     best estimate, where it has a factor, is drawn with its standard uncertainty; measured friction
     with its own.
     """
-    return chart.on_paper(Sheet([_axis_panel(comparison, name) for name in QUANTITIES], height=3.7))
+    return draw.on_paper(Sheet([_axis_panel(comparison, name) for name in QUANTITIES], height=3.7))
 
 
 def axis_charts(comparison: xr.Dataset) -> list[Chart]:
     """Return area and friction of every rung over the axis of a comparison."""
-    return chart.on_page([_axis_panel(comparison, name) for name in QUANTITIES])
+    return draw.on_page([_axis_panel(comparison, name) for name in QUANTITIES])
 
 
 def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
@@ -285,7 +285,7 @@ def at_measured_figure(data: xr.Dataset, labels: dict[str, str]) -> Figure:
                 yield Series(how.of(series.speed[order]), values, look.colour,
                              labels.get(name, name), look.dash, 1.2, look.marker, 3.5)  # fmt: skip
 
-    return chart.on_paper(measured_sheet(data, models, head=1.2))
+    return draw.on_paper(measured_sheet(data, models, head=1.2))
 
 
 def measured_sheet(

@@ -15,7 +15,7 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from gripscale.case.record import band, rubber_variables
-from gripscale.charts import chart
+from gripscale.charts import chart, draw
 from gripscale.charts.chart import Axis, Band, CrossLine, Mark, Note, Panel, Series, Sheet
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, COLOURS, GREEN, GREY, INK, NARROW, ORANGE, shades
@@ -70,7 +70,7 @@ def master_curve_figure(
     variables, attrs = rubber_variables(rubber, master, fit, omega)
     panels = _moduli_panels(xr.Dataset(variables, attrs=attrs), omega, rubber)
     layout = {"sharex": True, "height_ratios": [2.0, 1.0]}
-    return chart.on_paper(Sheet(panels, 1, NARROW, 4.9, legend_columns=2, gap=0.02, layout=layout))
+    return draw.on_paper(Sheet(panels, 1, NARROW, 4.9, legend_columns=2, gap=0.02, layout=layout))
 
 
 def rubber_charts(inputs: xr.Dataset, excited: PredictionView | None) -> list[Chart]:
@@ -117,7 +117,7 @@ def rubber_charts(inputs: xr.Dataset, excited: PredictionView | None) -> list[Ch
             caption="The Maxwell elements of the Prony series.",
             alt="Modulus of each Maxwell element against its relaxation time.",
         ))  # fmt: skip
-    return chart.on_page(panels)
+    return draw.on_page(panels)
 
 
 def _moduli_panels(
@@ -218,7 +218,7 @@ def compound_moduli_figure(rubbers: Mapping[str, Rubber]) -> Figure:
         Panel(OMEGA, Axis("loss factor [-]", low=0.0), loss),
     ]
     layout = {"sharex": True}
-    return chart.on_paper(Sheet(panels, 1, NARROW, 4.9, legend_columns=2, gap=0.02, layout=layout))
+    return draw.on_paper(Sheet(panels, 1, NARROW, 4.9, legend_columns=2, gap=0.02, layout=layout))
 
 
 def superposition_figure(sweeps: Sweeps, master: MasterCurve) -> Figure:
@@ -269,7 +269,7 @@ def superposition_figure(sweeps: Sweeps, master: MasterCurve) -> Figure:
     ]
     layout = {"sharex": "col", "sharey": "row"}
     bar = _temperatures(sweeps)
-    return chart.on_paper(Sheet(panels, height=6.2, gap=0.02, colour_bar=bar, layout=layout))
+    return draw.on_paper(Sheet(panels, height=6.2, gap=0.02, colour_bar=bar, layout=layout))
 
 
 def _temperatures(sweeps: Sweeps) -> chart.ColourBar:
@@ -323,7 +323,7 @@ def shift_figure(table: ShiftTable, fits: Sequence[ShiftFit] = ()) -> Figure:
     rows = len(panels)
     layout = {"sharex": True, "height_ratios": [2.0, *[1.0] * (rows - 1)]}
     height = 1.5 * rows + 1.4
-    return chart.on_paper(Sheet(panels, 1, NARROW, height, legend="", gap=0.02, layout=layout))
+    return draw.on_paper(Sheet(panels, 1, NARROW, height, legend="", gap=0.02, layout=layout))
 
 
 def _formula(table: ShiftTable, fit: ShiftFit, colour: str) -> Iterator[Series]:
@@ -377,7 +377,7 @@ def superposition_tests_figure(sweeps: Sweeps, report: Superposition) -> Figure:
               legend="best" if overlaps else ""),
     ]  # fmt: skip
     bar = replace(_temperatures(sweeps), first_row=True)
-    return chart.on_paper(Sheet(panels, height=5.4, gap=0.02, legend="", colour_bar=bar))
+    return draw.on_paper(Sheet(panels, height=5.4, gap=0.02, legend="", colour_bar=bar))
 
 
 def finite_strain_figure(fits: Mapping[str, FiniteStrainFit]) -> Figure:
@@ -398,7 +398,7 @@ def finite_strain_figure(fits: Mapping[str, FiniteStrainFit]) -> Figure:
         raise InputError("fits must hold at least one fit, all of the same tests")
     panels = [_test_panel(test, fits, number) for number, test in enumerate(first.tests)]
     height = 2.6 * -(-len(panels) // 2) + 0.3
-    return chart.on_paper(Sheet(panels, height=height, legend_columns=1 + len(fits), gap=0.02))
+    return draw.on_paper(Sheet(panels, height=height, legend_columns=1 + len(fits), gap=0.02))
 
 
 def _test_panel(test: UniaxialTest, fits: Mapping[str, FiniteStrainFit], number: int) -> Panel:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
-from gripscale.charts import chart
+from gripscale.charts import chart, draw
 from gripscale.charts.chart import Axis, Bars, CrossLine, Mark, Panel, Series, Sheet
 from gripscale.charts.page_elements import Picture
 from gripscale.charts.rubber import compound_moduli_figure
@@ -86,7 +86,7 @@ def compound_friction_figure(data: xr.Dataset) -> Figure:
     ]
     if "friction_by_decade_difference" in data:
         panels.append(_decades_panel(data))
-    return chart.on_paper(Sheet(panels, len(panels)))
+    return draw.on_paper(Sheet(panels, len(panels)))
 
 
 def _running(x: Array, data: xr.Dataset, colour: str, label: str, end: float) -> list[Mark]:
@@ -154,7 +154,7 @@ def roads_statistics_figure(data: xr.Dataset) -> Figure:
             spectrum,
         ),
     ]
-    return chart.on_paper(Sheet(panels, height=3.2))
+    return draw.on_paper(Sheet(panels, height=3.2))
 
 
 def roads_friction_figure(data: xr.Dataset) -> Figure:
@@ -188,4 +188,4 @@ def roads_friction_figure(data: xr.Dataset) -> Figure:
         ))  # fmt: skip
     layout = {"sharey": True}
     panels = panels or [Panel(Axis(), Axis())]
-    return chart.on_paper(Sheet(panels, len(panels), height=3.2, layout=layout))
+    return draw.on_paper(Sheet(panels, len(panels), height=3.2, layout=layout))

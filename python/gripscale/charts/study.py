@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
-from gripscale.charts import chart, style
+from gripscale.charts import chart, draw, style
 from gripscale.charts.chart import Axis, Band, CrossLine, Mark, Panel, Series, Sheet
 from gripscale.charts.page_elements import Chart, telling, words_of
 from gripscale.charts.style import BEYOND, BLUE, GREY, INK, NARROW, Flags
@@ -76,7 +76,7 @@ def study_charts(data: xr.Dataset) -> list[Chart]:
     for name in PER_WAVE if "wavelength" in data else ():
         if name in data and "scale" in data[name].dims and np.isfinite(data[name].values).any():
             panels.append(_wave_panel(data, name, thinned=True))
-    return chart.on_page(panels)
+    return draw.on_page(panels)
 
 
 def _curves(
@@ -169,7 +169,7 @@ def totals_figure(result: xr.Dataset) -> Figure:
     several = len(area.marks) > 1 or bool(keys)
     several |= any(np.any(mark.beyond) for mark in area.marks if isinstance(mark, Series))
     legend = "above" if several else ""
-    return chart.on_paper(Sheet([area, friction], legend=legend, legend_columns=4, keys=keys))
+    return draw.on_paper(Sheet([area, friction], legend=legend, legend_columns=4, keys=keys))
 
 
 def _rest(result: xr.Dataset, axis: str, others: list[str]) -> Iterator[Mark]:
@@ -221,7 +221,7 @@ def wavelength_figure(result: xr.Dataset, axis: str, title: str = "") -> Figure:
     """
     assert axis in result.dims
     panels = [_wave_panel(result, name, thinned=False) for name in PER_WAVE[:2]]
-    return chart.on_paper(Sheet(panels, legend="beside", title=title))
+    return draw.on_paper(Sheet(panels, legend="beside", title=title))
 
 
 HEIGHT = 3.4
@@ -281,7 +281,7 @@ def stacked_figure(result: xr.Dataset, axis: str, title: str = "") -> Figure:
             [*_wave_bands(result, x, running, np.array(upper[:-1]), beyond), area],
         ),
     ]  # fmt: skip
-    return chart.on_paper(Sheet(panels, height=HEIGHT, legend="beside", legend_title="wavelength",
+    return draw.on_paper(Sheet(panels, height=HEIGHT, legend="beside", legend_title="wavelength",
                           title=title))  # fmt: skip
 
 
@@ -307,7 +307,7 @@ def shares_figure(result: xr.Dataset, axis: str, title: str = "") -> Figure:
             [Series(x, row, colour, beyond=flags) for row, colour, flags in looks],
         ),
     ]
-    return chart.on_paper(Sheet(panels, height=HEIGHT, legend="beside", legend_title="wavelength",
+    return draw.on_paper(Sheet(panels, height=HEIGHT, legend="beside", legend_title="wavelength",
                           title=title))  # fmt: skip
 
 
@@ -358,7 +358,7 @@ def decades_figure(result: xr.Dataset, axis: str, title: str = "") -> Figure:
         "legend_title": "relaxation\ntime from [s]",
         "title": title,
     }
-    return chart.on_paper(Sheet([panel], 1, NARROW, 3.6, gap=0.02, **look))
+    return draw.on_paper(Sheet([panel], 1, NARROW, 3.6, gap=0.02, **look))
 
 
 def _relaxation_panel(data: xr.Dataset) -> Panel:
@@ -420,7 +420,7 @@ def map_figure(result: xr.Dataset) -> Figure:
         )
         for name in reversed(TOTALS)
     ]
-    return chart.on_paper(Sheet(panels, height=3.3, layout={"sharey": True}))
+    return draw.on_paper(Sheet(panels, height=3.3, layout={"sharey": True}))
 
 
 def friction_master_figure(result: xr.Dataset) -> Figure:
@@ -433,7 +433,7 @@ def friction_master_figure(result: xr.Dataset) -> Figure:
     label = axis_label(result, "temperature")
     bar = chart.ColourBar(float(celsius.min()), float(celsius.max()), "Plasma", label)
     panels = [_reduced_panel(result, name) for name in reversed(TOTALS)]
-    return chart.on_paper(Sheet(panels, height=3.3, colour_bar=bar))
+    return draw.on_paper(Sheet(panels, height=3.3, colour_bar=bar))
 
 
 def _reduced_panel(data: xr.Dataset, name: str) -> Panel:

@@ -16,7 +16,7 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from gripscale.case.record import CLOSE_UP, close_up, envelope, sine_curves, trace
-from gripscale.charts import chart
+from gripscale.charts import draw
 from gripscale.charts.chart import Axis, Band, CrossLine, Mark, Panel, Series, Sheet
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, COLOURS, GREY, INK, NARROW, ORANGE, WIDE
@@ -41,7 +41,7 @@ def profile_figure(pairs: Sequence[tuple[Profile, Profile]]) -> Figure:
     where the missing heights are gaps.
     """
     columns = [_profile_panels(raw, cleaned, i) for i, (raw, cleaned) in enumerate(pairs)]
-    return chart.on_paper(
+    return draw.on_paper(
         Sheet(
             [panel for row in zip(*columns, strict=True) for panel in row],
             columns=len(pairs),
@@ -132,7 +132,7 @@ def profile_charts(inputs: xr.Dataset) -> list[Chart]:
             alt=f"Close-up of the cleaned profile {name}.",
             height=300,
         ))  # fmt: skip
-    return chart.on_page(panels)
+    return draw.on_page(panels)
 
 
 def correlation_figure(
@@ -154,7 +154,7 @@ def correlation_figure(
         marks.append(Series(stack.wavelength / MILLI, foot, colour, "their wavelengths", dash="",
                             marker="|", size=9.0, width=1.4, clip=False))  # fmt: skip
     panel = panel.with_marks(marks)
-    return chart.on_paper(Sheet([panel], columns=1, width=NARROW, height=3.7, legend="", gap=0.02))
+    return draw.on_paper(Sheet([panel], columns=1, width=NARROW, height=3.7, legend="", gap=0.02))
 
 
 def correlation_charts(inputs: xr.Dataset) -> list[Chart]:
@@ -168,7 +168,7 @@ def correlation_charts(inputs: xr.Dataset) -> list[Chart]:
     if SELF_AFFINE in inputs:
         label = f"self-affine, $H$ = {inputs.attrs['self_affine_hurst']:.2f}"
         marks.append(_self_affine(lag, inputs[SELF_AFFINE].values, label))
-    return chart.on_page([panel.with_marks(marks), _residual_panel(inputs, lag, value)])
+    return draw.on_page([panel.with_marks(marks), _residual_panel(inputs, lag, value)])
 
 
 def _correlation_panel(lag: Array, value: Array, low: Array | None, high: Array | None) -> Panel:

@@ -9,7 +9,8 @@ import numpy as np
 import xarray as xr
 
 from gripscale.analysis.variance_shares import SURE
-from gripscale.charts.chart import Axis, Band, Bars, CrossLine, Mark, Panel, Series, Sheet, on_paper
+from gripscale.charts import draw
+from gripscale.charts.chart import Axis, Band, Bars, CrossLine, Mark, Panel, Series, Sheet
 from gripscale.charts.comparison import measured_sheet
 from gripscale.charts.ladder import MARKERS, MeasuredSeries, measured
 from gripscale.charts.page_elements import Picture
@@ -90,7 +91,7 @@ def distribution_figure(data: xr.Dataset) -> Figure:
         CrossLine(0.0, INK, "5 and 95 %", width=END),
         Series([], [], INK, "the case itself", dash="", marker="v"),
     ]
-    return on_paper(Sheet(panels, height=1.2 + 1.7 * data.sizes["model"], keys=keys))
+    return draw.on_paper(Sheet(panels, height=1.2 + 1.7 * data.sizes["model"], keys=keys))
 
 
 def _distribution(
@@ -141,7 +142,7 @@ def tornado_figure(data: xr.Dataset) -> Figure:
     words = {"to 5 %": BLUE, "to 95 %": ORANGE, "not significant": GREY}
     keys = [Bars(0, 0, 0, 0, colour, label) for label, colour in words.items()]
     height = 1.3 + 0.34 * len(ranked)
-    return on_paper(Sheet(panels, height=height, keys=keys, gap=0.03, layout={"sharey": True}))
+    return draw.on_paper(Sheet(panels, height=height, keys=keys, gap=0.03, layout={"sharey": True}))
 
 
 def band_figure(data: xr.Dataset, axis: str) -> Figure:
@@ -162,7 +163,7 @@ def band_figure(data: xr.Dataset, axis: str) -> Figure:
             ]  # fmt: skip
         panels.append(Panel(abscissa, Axis(label, low=0.0), marks))
     case = Series([], [], INK, "the case itself", dash="", marker="o", size=3.5, filled=False)
-    return on_paper(Sheet(panels, keys=[case]))
+    return draw.on_paper(Sheet(panels, keys=[case]))
 
 
 UNITS = {"Pa": (MEGA, "MPa"), "m/s": (1.0, "m/s"), "eV": (1.0, "eV"), "1": (1.0, "-")}
@@ -222,7 +223,7 @@ def fitted_figure(data: xr.Dataset) -> Figure:
             Series(speed, hysteresis, BLUE, "hysteresis alone", marker="."),
         ]
 
-    return on_paper(measured_sheet(data, fit, head=0.5))
+    return draw.on_paper(measured_sheet(data, fit, head=0.5))
 
 
 def residual_figure(data: xr.Dataset) -> Figure:
@@ -239,7 +240,7 @@ def residual_figure(data: xr.Dataset) -> Figure:
         ))  # fmt: skip
     label = f"fitted less measured $\\mu$ [{'spread' if spread else '-'}]"
     panel = Panel(Axis(f"sliding speed $v$ [{how.unit}]", log=True), Axis(label), marks)
-    return on_paper(Sheet([panel], 1, height=2.8, legend="beside", gap=0.02))
+    return draw.on_paper(Sheet([panel], 1, height=2.8, legend="beside", gap=0.02))
 
 
 def profiles_figure(data: xr.Dataset) -> Figure:
@@ -252,7 +253,7 @@ def profiles_figure(data: xr.Dataset) -> Figure:
     panels = [_profile_panel(data.isel(parameter=at)) for at in range(count)]
     height = 0.4 + 2.1 * -(-count // columns)
     look: dict[str, Any] = {"legend_columns": 4, "gap": 0.05}
-    return on_paper(Sheet(panels, columns, 3.5 * columns, height, **look))
+    return draw.on_paper(Sheet(panels, columns, 3.5 * columns, height, **look))
 
 
 def _profile_panel(data: xr.Dataset) -> Panel:

@@ -16,7 +16,7 @@ import xarray as xr
 from gripscale.analysis.effects import CHANGES, WITH_AREA_TERM
 from gripscale.analysis.measured_comparison import measured_variables
 from gripscale.analysis.measured_friction import MeasuredFriction
-from gripscale.charts import chart, style
+from gripscale.charts import chart, draw, style
 from gripscale.charts.chart import Axis, Bars, CrossLine, Mark, Note, Panel, Series, Sheet, ValueMap
 from gripscale.charts.ladder import measured_points
 from gripscale.charts.page_elements import Chart
@@ -44,7 +44,7 @@ def contact_figure(predictions: Mapping[str, xr.Dataset]) -> Figure:
     Lines are dashed beyond the measured band of the rubber.
     """
     views = [PredictionView(data, name) for name, data in predictions.items()]
-    return chart.on_paper(Sheet([_area_panel(views), _friction_panel(views)]))
+    return draw.on_paper(Sheet([_area_panel(views), _friction_panel(views)]))
 
 
 def contact_charts(predictions: Views, direct: xr.Dataset | None = None) -> list[Chart]:
@@ -85,7 +85,7 @@ def contact_charts(predictions: Views, direct: xr.Dataset | None = None) -> list
             alt="Largest and smallest principal stretch against wavelength.",
         ))  # fmt: skip
     panels += [_pressure_panel(view) for view in predictions if view.has("surface_pressure")]
-    return chart.on_page(panels)
+    return draw.on_page(panels)
 
 
 def _area_panel(views: Views) -> Panel:
@@ -219,7 +219,7 @@ def verification_charts(predictions: Views) -> list[Chart]:
             caption="What is left of the equations when Newton's iteration ends.",
             alt="Residual of each wave on a logarithmic axis.",
         ))  # fmt: skip
-    return chart.on_page([*panels, _iterations_panel(predictions)])
+    return draw.on_page([*panels, _iterations_panel(predictions)])
 
 
 def _wave_axis(views: Views) -> Axis:
@@ -292,7 +292,7 @@ def measured_chart(friction: MeasuredFriction, predictions: Views) -> Chart:
         alt="Measured friction against speed, and predicted friction at one speed.",
         height=400,
     )
-    return chart.on_page([panel])[0]
+    return draw.on_page([panel])[0]
 
 
 PARTS = {
@@ -352,7 +352,7 @@ def heat_figure(data: xr.Dataset, title: str = "") -> Figure:
     label = f"above the {before - ZERO_CELSIUS:.3g} °C before the contact [K]"
     panel = Panel(chart.wavelength_axis(length), Axis(label, margin=0.08), marks)
     look: dict[str, Any] = {"legend_columns": 2, "legend_title": title, "gap": 0.02}
-    return chart.on_paper(Sheet([panel], 1, NARROW, 3.4, **look))
+    return draw.on_paper(Sheet([panel], 1, NARROW, 3.4, **look))
 
 
 def direct_heat_figure(contact: RoughContact, title: str = "") -> Figure:
@@ -402,7 +402,7 @@ def direct_heat_figure(contact: RoughContact, title: str = "") -> Figure:
         field = ValueMap(x, contact.y / MILLI, warming.T, "warming of the surface [K]")
         surface = Panel(Axis(along.label, grid=False), Axis("$y$ [mm]", grid=False), [field])
     layout = {"width_ratios": [1.0, 1.5]}
-    return chart.on_paper(
+    return draw.on_paper(
         Sheet([octaves, surface], height=3.2, title=title, legend="", layout=layout)
     )
 
@@ -453,7 +453,7 @@ def effects_figure(*results: xr.Dataset, title: str = "") -> Figure:
         ]
         high = 1.3 * longest or None
         panels.append(Panel(Axis(label, low=0.0, high=high, numbers=4), rows, marks))
-    return chart.on_paper(
+    return draw.on_paper(
         Sheet(
             panels,
             len(panels),

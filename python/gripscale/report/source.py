@@ -16,7 +16,7 @@ from gripscale.charts.view import PredictionView
 from gripscale.core.errors import FileError
 from gripscale.experiment.axis import dimensions
 from gripscale.io import netcdf
-from gripscale.report.inputs import InputRecord
+from gripscale.report.record import InputRecord
 
 PREDICTIONS = ("dynamic", "static")
 COMPARISON = "comparison"

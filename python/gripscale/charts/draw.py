@@ -1,0 +1,27 @@
+"""Draw descriptions of charts; matplotlib and Bokeh are imported at the first use of each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from gripscale.charts.chart import Panel, Sheet
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from gripscale.charts.page_elements import Chart
+
+
+def on_paper(sheet: Sheet) -> Figure:
+    """Draw a figure with matplotlib, which is imported here."""
+    from gripscale.charts.paper import draw_sheet
+
+    return draw_sheet(sheet)
+
+
+def on_page(panels: Iterable[Panel]) -> list[Chart]:
+    """Draw interactive charts with Bokeh, which is imported here."""
+    from gripscale.charts.page import draw_panel
+
+    return [draw_panel(panel) for panel in panels]

@@ -1,0 +1,88 @@
+"""The record that a run keeps of its inputs, as pages read it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike
+
+from gripscale.io.table import significant
+from gripscale.report.elements import number
+
+
+@dataclass(frozen=True)
+class InputRecord:
+    """The record that a run keeps of its inputs, as `gripscale.case.record` writes it."""
+
+    data: xr.Dataset
+
+    def has(self, name: str) -> bool:
+        """Return whether a variable or an attribute is there."""
+        return name in self.data or name in self.data.attrs
+
+    def number(self, name: str) -> float:
+        """Return an attribute, NaN where it is missing."""
+        return float(self.data.attrs.get(name, math.nan))
+
+    def text(self, name: str) -> str:
+        """Return an attribute, empty where it is missing."""
+        return str(self.data.attrs.get(name, ""))
+
+    def quantity(
+        self,
+        name: str,
+        unit: str = "",
+        size: float = 1.0,
+        format: Callable[[float], str] = significant,
+    ) -> str:
+        """Return an attribute as a page shows it, with its unit."""
+        return f"{number(self.number(name), size, format)} {unit}".rstrip()
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether nothing was recorded: not the result of `gripscale run`."""
+        return not self.data.data_vars
+
+    @property
+    def bulk_modulus(self) -> float:
+        """Bulk modulus of the rubber [Pa]."""
+        return self.number("bulk_modulus_Pa")
+
+    @property
+    def relaxation_times(self) -> tuple[ArrayLike, ArrayLike]:
+        """Times [s] and moduli [Pa] of the Maxwell elements."""
+        names = ("term_relaxation_time", "term_modulus")
+        times, moduli = (self.data.get(name, xr.DataArray(np.zeros(0))).values for name in names)
+        return times, moduli
+
+    @property
+    def findings(self) -> list[str]:
+        """What the fit of the Prony series found."""
+        return self.text("prony_findings").splitlines()
+
+    @property
+    def digests(self) -> list[str] | None:
+        """Checksums of the files the prediction rests on; None where none were recorded."""
+        if "file_sha256" not in self.data:
+            return None
+        counted = self.data["file_role"].values != "measured"
+        return [str(digest) for digest in self.data["file_sha256"].values[counted]]
+
+    def doubts(self) -> Iterator[str]:
+        """Yield sentences on what is doubtful about conditions, rubber and surface."""
+        yield from self.text("conditions_notes").splitlines()
+        for finding in self.findings:
+            yield f"Rubber: {finding}."
+        for note in self.text("surface_notes").splitlines():
+            yield f"Surface: {note.removesuffix('.')}."
+        if self.has("no_self_affine"):
+            yield f"The surface was not described as self-affine: {self.text('no_self_affine')}"
+        if self.is_empty:
+            yield (
+                "The result holds no record of its inputs (it was not written by `gripscale run`, "
+                "or by an older version): profiles, fits and master curve are missing here."
+            )
