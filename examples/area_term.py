@@ -13,11 +13,11 @@ from pathlib import Path
 
 import numpy as np
 
-from gripscale.analysis import MeasuredFriction, calibrate_case, predictions_at
+from gripscale.analysis import calibrate_case, predictions_at
 from gripscale.case import prepare_case
 from gripscale.charts.write import draw_calibration
 from gripscale.conditions import GaussianStress
-from gripscale.experiment import Store
+from gripscale.experiment import MeasuredFriction, Store
 
 CASE = Path(__file__).parent / "measured_friction" / "case.toml"
 TRUE = GaussianStress(

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from matplotlib.figure import Figure
@@ -52,10 +53,8 @@ def chain_and_whole_figure(found: Sequence[Found]) -> Figure:
                 Series([x, area.mean()], [y, friction.mean()], GREY, width=0.6),
             ]
     panel = Panel(Axis("contact fraction [-]"), Axis("friction coefficient [-]", log=True), marks)
-    look = {"legend": "beside", "legend_title": "open squares: the chain"}
-    return draw.on_paper(
-        Sheet([panel], 1, height=3.6, legend="beside", legend_title=title, gap=0.02)
-    )
+    sheet = Sheet([panel], 1, height=3.6, legend="beside", gap=0.02)
+    return draw.on_paper(replace(sheet, legend_title="open squares: the chain"))
 
 
 if __name__ == "__main__":

@@ -26,7 +26,7 @@ def test_surface_half_prints_the_waves(shell: Shell, inputs: Path, tmp_path: Pat
 
 
 def test_surface_half_to_a_cut_off_of_the_upper_part(shell: Shell, inputs: Path) -> None:
-    options = ["--scales", 4, "--crop", "10 mm", "390 mm", "--upper-share", 0.5]
+    options = ["--scales", 4, "--crop", "10 mm", "390 mm", "--top-height-fraction", 0.5]
     result = shell("fit-surface", inputs / "road.txt", *options, "--cut-off", "4 mm")
     assert result.exit_code == 0, result.output
     words = " ".join(result.stdout.split())

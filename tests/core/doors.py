@@ -15,6 +15,7 @@ from gripscale import half_space as rough
 from gripscale import rubber, surface, theory, wave
 from gripscale.analysis import calibrate
 from gripscale.conditions import Conditions
+from gripscale.experiment import MeasuredFriction
 from gripscale.model import Load
 from gripscale.rubber import softening
 
@@ -176,12 +177,12 @@ def _conditions() -> Iterator[Door]:
 def _calibration() -> Iterator[Door]:
     speed, kelvin = [0.01, 0.1, 1.0, 10.0, 100.0], [280.0, 290.0, 300.0, 310.0, 320.0]
     columns = {"speed": speed, "friction": [0.5, 0.6, 0.7, 0.6, 0.5], "spread": [0.1] * 5}
-    yield Door(measured.MeasuredFriction, {**columns, "temperature": kelvin, "pressure": [3e5] * 5})
+    yield Door(MeasuredFriction, {**columns, "temperature": kelvin, "pressure": [3e5] * 5})
     answer = {"friction": [0.2] * 5, "contact_fraction": [0.03] * 5, "pressure": [3e5] * 5}
     band = {"outside_band": [0.0] * 5, "status": ["converged"] * 5}
     yield Door(measured.Predicted, {**answer, "temperature": kelvin, **band})
     pair = {
-        "measured": measured.MeasuredFriction(**columns),
+        "measured": MeasuredFriction(**columns),
         "predicted": measured.Predicted(**answer, temperature=kelvin),
     }
     choice = {"law": "gaussian", "fixed": {"width": 0.1}, "hold_out": "speed"}
@@ -274,7 +275,7 @@ def _wave() -> Iterator[Door]:
     yield Door(gs.Stage, {"duration": 1e-3, **PRESSED})
     yield Door(wave.FiniteStrainBlock, {"mesh": wave.Mesh(**MESH), **limits, "settings": {}})
     profile = {"smallest_wavelength": None, "periodic": False, "tolerance": 0.1}
-    yield Door(wave.BlockOnProfile, profile)
+    yield Door(rough.BlockOnProfile, profile)
 
 
 def _rough() -> Iterator[Door]:

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.analysis.measured_friction import read_measured_friction
 from gripscale.core.errors import FileError, InputError
+from gripscale.experiment.measured_friction import read_measured_friction
 from tests.verification import readers as sound
 
 PROFILE = sound.text("x [mm]\tz [um]", sound.STEPS, sound.LINE).decode()

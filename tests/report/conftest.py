@@ -12,13 +12,9 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gripscale.analysis import (
-    Factor,
-    LogNormalValue,
-    MeasuredFriction,
-    compare_case,
-)
+from gripscale.analysis import Factor, LogNormalValue, compare_case
 from gripscale.case import prepare_case, run_case
+from gripscale.experiment import MeasuredFriction
 from gripscale.experiment.axis import axes_of
 from gripscale.io import netcdf
 from gripscale.model import TOTALS

@@ -2,8 +2,8 @@
 
 import pytest
 
-from gripscale.analysis import MeasuredFriction
 from gripscale.core.units import display_unit
+from gripscale.experiment import MeasuredFriction
 from gripscale.report.measured import measured_lines
 
 

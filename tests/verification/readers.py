@@ -14,8 +14,8 @@ import numpy as np
 import xarray as xr
 
 import gripscale as gs
-from gripscale.analysis.measured_friction import MeasuredFriction, read_measured_friction
 from gripscale.case import read_case
+from gripscale.experiment.measured_friction import MeasuredFriction, read_measured_friction
 from gripscale.io import netcdf
 from gripscale.rubber import read_uniaxial_test
 from gripscale.surface import read_profiles

@@ -24,8 +24,6 @@ from .measured_comparison import Predicted as Predicted
 from .measured_comparison import averaged as averaged
 from .measured_comparison import predictions_at as predictions_at
 from .measured_comparison import residuals as residuals
-from .measured_friction import MeasuredFriction as MeasuredFriction
-from .measured_friction import read_measured_friction as read_measured_friction
 from .profile_blocks import ProfileBlocks as ProfileBlocks
 from .profile_likelihood import HeldOut as HeldOut
 from .propagation import of_same_inputs as of_same_inputs

@@ -23,11 +23,9 @@ from gripscale.analysis.measured_comparison import (
     Predicted,
     friction_of_case,
     in_spread,
-    measured_variables,
     points_of,
     predicted_of,
 )
-from gripscale.analysis.measured_friction import MeasuredFriction
 from gripscale.case.read import CaseFile
 from gripscale.case.results import CaseResults
 from gripscale.case.run import prepare_case
@@ -36,6 +34,7 @@ from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.experiment.design import solve_design
+from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.half_space.model import DirectContact
 from gripscale.rubber.extrapolation import require_measured

@@ -15,12 +15,12 @@ import numpy as np
 import scipy.optimize
 
 from gripscale.analysis.measured_comparison import Predicted
-from gripscale.analysis.measured_friction import MeasuredFriction
 from gripscale.conditions.area_term import SHEAR_STRESSES, InterfacialShearStress
 from gripscale.core import checks
 from gripscale.core.arrays import Array, Mask
 from gripscale.core.errors import InputError
 from gripscale.core.units import ZERO_CELSIUS
+from gripscale.experiment.measured_friction import MeasuredFriction
 
 
 @dataclass(frozen=True, eq=False)

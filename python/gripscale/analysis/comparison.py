@@ -15,7 +15,6 @@ from gripscale.analysis import samples as reduce
 from gripscale.analysis.best_estimate import Factor
 from gripscale.analysis.comparison_dataset import Comparison
 from gripscale.analysis.ladder import DIRECT, ComparisonSetup, chosen, each_measured
-from gripscale.analysis.measured_friction import MeasuredFriction
 from gripscale.case.read import CaseFile
 from gripscale.case.results import CaseResults
 from gripscale.case.run import prepare_case
@@ -24,6 +23,7 @@ from gripscale.core import checks
 from gripscale.core.errors import InputError
 from gripscale.experiment.axis import Axis
 from gripscale.experiment.design import Design, Point, solve_design, surface_numbers
+from gripscale.experiment.measured_friction import MeasuredFriction
 from gripscale.experiment.solve import Bench, OnTask, bench_in
 from gripscale.experiment.study import Study
 from gripscale.experiment.task import Store, Task

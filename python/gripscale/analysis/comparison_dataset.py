@@ -14,11 +14,10 @@ import xarray as xr
 from gripscale.analysis import samples as reduce
 from gripscale.analysis.best_estimate import Factor, best_estimate
 from gripscale.analysis.ladder import ComparisonSetup, Rung
-from gripscale.analysis.measured_comparison import measured_variables
-from gripscale.analysis.measured_friction import MeasuredFriction
 from gripscale.case.read import CaseFile
 from gripscale.core import provenance
 from gripscale.experiment.axis import Axis
+from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.experiment.study import coordinates
 from gripscale.model import (
     ADHESIVE_FRICTION,

@@ -20,7 +20,14 @@ from gripscale.case.results import CaseResults
 from gripscale.core import provenance
 from gripscale.core.errors import InputError
 from gripscale.experiment import inputs
-from gripscale.experiment.design import Design, Point, attributes, solve_design
+from gripscale.experiment.design import (
+    CHANGES,
+    WITH_AREA_TERM,
+    Design,
+    Point,
+    attributes,
+    solve_design,
+)
 from gripscale.experiment.solve import Bench, OnTask, bench_in
 from gripscale.experiment.task import Store, Task, load_stored
 from gripscale.io import netcdf
@@ -28,13 +35,6 @@ from gripscale.model import ADHESIVE_FRICTION, OUTSIDE_BAND, TOTALS, Load, Model
 from gripscale.rubber import Rubber
 from gripscale.surface import Surface
 
-WITH_AREA_TERM = "friction_with_area_term"
-CHANGES = {
-    "total_contact_fraction": "contact_fraction_change",
-    "total_friction": "friction_change",
-    WITH_AREA_TERM: "friction_with_area_term_change",
-}
-"""Names of what an effect changes, relative to the answer without it."""
 KEPT = (*TOTALS, ADHESIVE_FRICTION, *OUTSIDE_BAND, "prediction_status", "prediction_key")
 
 

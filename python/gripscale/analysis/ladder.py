@@ -18,7 +18,7 @@ from gripscale.chain.chain import Chain
 from gripscale.conditions.conditions import Conditions
 from gripscale.core import checks
 from gripscale.core.errors import InputError
-from gripscale.half_space.model import DirectContact
+from gripscale.half_space.model import BlockOnProfile, DirectContact
 from gripscale.half_space.windows import random_phases, surface_of_sines
 from gripscale.model import Load, Model
 from gripscale.rubber import Rubber
@@ -37,7 +37,6 @@ from gripscale.surface.spectrum import ArealSpectrum, areal_spectrum, profile_sp
 from gripscale.theory.half_plane import HalfPlane
 from gripscale.theory.models import KlueppelHeinrich, Persson
 from gripscale.wave.kernel import WaveSolver
-from gripscale.wave.profile import BlockOnProfile
 
 
 @dataclass(frozen=True, eq=False)
@@ -192,7 +191,7 @@ def _on_maps(setup: ComparisonSetup, lines: int) -> Sequence[SampleSpec]:
 
 Measurement = TypeVar("Measurement", Profile, HeightMap)
 
-DIRECT = "direct"
+DIRECT = DirectContact.name
 """The rung the chain is judged by, and the best estimate starts from."""
 
 LENGTH_OF_SINES = 10

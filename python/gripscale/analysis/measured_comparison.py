@@ -9,11 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gripscale.analysis.measured_friction import (
-    MeasuredFriction,
-    TemperatureProbe,
-    read_measured_friction,
-)
 from gripscale.case.read import CaseFile
 from gripscale.conditions.area_term import InterfacialShearStress
 from gripscale.conditions.conditions import Conditions
@@ -23,6 +18,12 @@ from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError, about_keys
 from gripscale.core.units import ZERO_CELSIUS
 from gripscale.experiment.design import CONVERGED, Design, Point, solve_design
+from gripscale.experiment.measured_friction import (
+    MeasuredFriction,
+    TemperatureProbe,
+    measured_variables,
+    read_measured_friction,
+)
 from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.task import Store, Task
 from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, Load, Model
@@ -232,15 +233,6 @@ def predicted_of(data: xr.Dataset) -> Predicted:
 
 SOURCE = "gripscale residuals"
 
-MEASURED = {
-    "speed": ("m/s", "speed of the measurement"),
-    "friction": ("1", "measured friction coefficient"),
-    "spread": ("1", "its standard deviation"),
-    "temperature": ("K", "temperature of the rubber before the contact"),
-    "pressure": ("Pa", "nominal pressure"),
-}
-"""Columns of a measurement as result files hold them, with unit and meaning."""
-
 
 def residuals(
     measured: MeasuredFriction,
@@ -315,16 +307,6 @@ def residuals(
         for name, (dims, values, text) in columns.items()
     }
     return xr.Dataset(data | measured_variables(measured), coords={"model": list(predicted)})
-
-
-def measured_variables(measured: MeasuredFriction) -> dict[str, xr.Variable]:
-    """Return the columns of a measurement as variables over `measurement`."""
-    return {
-        f"measured_{name}": labelled(
-            "measurement", getattr(measured, name), unit, text, measured.source
-        )
-        for name, (unit, text) in MEASURED.items()
-    }
 
 
 def in_spread(difference: Array, spread: Array) -> Array:

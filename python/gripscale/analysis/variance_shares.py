@@ -31,8 +31,6 @@ from numpy.typing import NDArray
 
 from gripscale.core.arrays import Array
 
-SURE = 1.645
-"""Standard errors by which a share exceeds zero, or another, to be told from it: 95 %, one side."""
 SAMPLES_PER_TERM = 3
 """Samples there must be for each term of the fit."""
 SWING = (0.05, 0.95)

@@ -191,14 +191,14 @@ class Chain(Checked, model.Model):
     Raises `InputError` if `pressure_classes` is no whole number from 1 to 64, or `extrapolate`
     another word.
 
+    The other fields are arguments of `predict`.
+
     Parameters
     ----------
     solver : WaveSolver
         Solver of one wave.
     rubber_at : RubberAt, optional
         Rubber of each wave; a frozen dataclass, so that stored results can be named by it.
-    pressure_classes, extrapolate, conditions
-        As in `predict`.
     """
 
     name: ClassVar[str] = "chain"

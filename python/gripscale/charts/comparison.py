@@ -16,7 +16,6 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from gripscale.analysis.ladder import DIRECT
 from gripscale.charts import chart, draw, ladder, style
 from gripscale.charts.chart import Axis, Band, Bars, CrossLine, Mark, Note, Panel, Series, Sheet
 from gripscale.charts.ladder import BEST, STAR, Look, MeasuredSeries, Row
@@ -25,6 +24,7 @@ from gripscale.charts.style import BEYOND, BLUE, FAINT, FLAG, GREY, INK, ORANGE,
 from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI, DisplayUnit, display_unit
 from gripscale.experiment.axis import axis_label, axis_shown
+from gripscale.half_space.model import DirectContact
 from gripscale.model import with_adhesive
 
 if TYPE_CHECKING:
@@ -106,7 +106,7 @@ def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
             marks.append(Series([row.value] * 2, [at, at + 1 - HALF], GREY, width=0.7, order=1.0))
     marks += [mark for at, row in enumerate(rows) for mark in _row_marks(at, row)]
     labels = zip(comparison.rung.values, comparison.label.values, strict=True)
-    strong = {BEST} | {f"{label}{end}" for rung, label in labels if rung == DIRECT
+    strong = {BEST} | {f"{label}{end}" for rung, label in labels if rung == DirectContact.name
                        for end in ("", STAR)}  # fmt: skip
     words, capital = _words(name)
     return Panel(
@@ -197,7 +197,7 @@ def _rungs(data: xr.Dataset) -> Iterator[tuple[xr.Dataset, Look]]:
 
 def _curve(x: Array, y: Array, rung: xr.Dataset, look: Look, beyond: NDArray[np.bool_]) -> Series:
     """Return the curve of a rung; the one the others are judged by is drawn stronger."""
-    strong = str(rung.rung.item()) == DIRECT
+    strong = str(rung.rung.item()) == DirectContact.name
     width, size, order = (2.0, 4.0, 3.0) if strong else (1.2, 3.2, 2.0)
     return Series(x, y, look.colour, str(rung.label.item()), look.dash, width, look.marker, size,
                   beyond=beyond, order=order, clip=False)  # fmt: skip

@@ -11,12 +11,12 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from gripscale.analysis.ladder import DIRECT
 from gripscale.charts import style
 from gripscale.charts.chart import Series
 from gripscale.charts.style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, SKY, YELLOW
 from gripscale.core.arrays import Array
 from gripscale.core.units import ZERO_CELSIUS, DisplayUnit, display_unit
+from gripscale.half_space.model import DirectContact
 
 ASIDE = ("windows", "map")
 """Groups of other surfaces, which only give the factors of the best estimate."""
@@ -42,7 +42,7 @@ LOOKS = {
     "chain_upper": Look(SKY, "dotted", "<"),
     "sines": Look(GREEN, "solid", "^"),
     "random_phases": Look(PURPLE, "solid", "v"),
-    DIRECT: Look(ORANGE, "solid", "D"),
+    DirectContact.name: Look(ORANGE, "solid", "D"),
     "persson": Look(GREY, "dotted", "P"),
     "klueppel_heinrich": Look(YELLOW, "dotted", "X"),
 }
@@ -188,7 +188,7 @@ def rows_of(comparison: xr.Dataset, name: str) -> Iterator[Row]:
     )
     for at, (rung, bad) in enumerate(zip(values, flawed(comparison), strict=True)):
         solved = comparison.isel(rung=at)
-        theory, judge = str(solved.group.item()) == "theory", rung == DIRECT
+        theory, judge = str(solved.group.item()) == "theory", rung == DirectContact.name
         samples = solved[f"sample_{name}"].values
         star = STAR if style.predictions_beyond(solved) else ""
         yield Row(
@@ -203,7 +203,7 @@ def rows_of(comparison: xr.Dataset, name: str) -> Iterator[Row]:
             filled=not bad,
             note="failed" if math.isnan(values[rung]) and not theory else "none",
         )
-    yield from _best(comparison, name, values.get(DIRECT, math.nan))
+    yield from _best(comparison, name, values.get(DirectContact.name, math.nan))
     yield from _measured(comparison, name)
 
 

@@ -21,7 +21,8 @@ from gripscale.charts.chart import Axis, Band, CrossLine, Mark, Panel, Series, S
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, COLOURS, GREY, INK, NARROW, ORANGE, WIDE
 from gripscale.core.arrays import Array
-from gripscale.core.units import MILLI, SQUARE_MM
+from gripscale.core.units import MEGA, MILLI, SQUARE_MM
+from gripscale.half_space.result import RoughContact
 from gripscale.surface import HeightDifference, SelfAffineFit, SineStack
 from gripscale.surface.profile import Profile
 
@@ -233,4 +234,39 @@ def _residual_panel(inputs: xr.Dataset, lag: Array, value: Array) -> Panel:
         "fit.",
         alt="Difference of fitted and measured height difference correlation against lag.",
         height=400,
+    )
+
+
+def rough_contact_figure(contact: RoughContact) -> Figure:
+    """Draw the contact pressure along a line, and rubber and surface about its highest value.
+
+    Of a map this is the middle line along the way of sliding.
+    """
+    x = contact.x
+    height, gap, pressure = (
+        values if values.ndim == 1 else values[:, values.shape[1] // 2]
+        for values in (contact.height, contact.gap, contact.pressure)
+    )
+    about = np.abs(x - x[np.argmax(pressure)]) <= CLOSE_UP / 2.0
+    whole = Series(x / MILLI, pressure / MEGA, BLUE, width=0.8, coarse=True)
+    part, along = x[about] / MILLI, Axis("distance $x$ [mm]")
+    return draw.on_paper(
+        Sheet(
+            [
+                Panel(
+                    Axis("distance $x$ [mm]"), Axis("contact pressure $p$ [MPa]", low=0.0), [whole]
+                ),
+                Panel(
+                    along,
+                    Axis("height $z$ [mm]"),
+                    [
+                        Series(part, height[about] / MILLI, INK, "surface"),
+                        Series(part, (height + gap)[about] / MILLI, BLUE, "rubber"),
+                    ],
+                ),
+            ],
+            columns=1,
+            height=5.2,
+            title=f"$A_r/A_0$ = {contact.contact_fraction:.3g}, $\\mu$ = {contact.friction:.3g}",
+        )
     )

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
-from gripscale.analysis.variance_shares import SURE
 from gripscale.charts import draw
 from gripscale.charts.chart import Axis, Band, Bars, CrossLine, Mark, Panel, Series, Sheet
 from gripscale.charts.comparison import measured_sheet
@@ -16,6 +15,7 @@ from gripscale.charts.ladder import MARKERS, MeasuredSeries, measured
 from gripscale.charts.page_elements import Picture
 from gripscale.charts.study import varied_axis
 from gripscale.charts.style import BLUE, COLOURS, FAINT, GREY, INK, ORANGE
+from gripscale.core.arrays import SURE
 from gripscale.core.units import MEGA, DisplayUnit, display_unit
 
 if TYPE_CHECKING:

@@ -13,9 +13,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
-from gripscale.analysis.effects import CHANGES, WITH_AREA_TERM
-from gripscale.analysis.measured_comparison import measured_variables
-from gripscale.analysis.measured_friction import MeasuredFriction
 from gripscale.charts import chart, draw, style
 from gripscale.charts.chart import Axis, Bars, CrossLine, Mark, Note, Panel, Series, Sheet, ValueMap
 from gripscale.charts.ladder import measured_points
@@ -26,6 +23,8 @@ from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.core.units import MILLI, ZERO_CELSIUS, display_unit
 from gripscale.experiment.axis import EFFECTS, MODELS
+from gripscale.experiment.design import CHANGES, WITH_AREA_TERM
+from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.half_space.result import RoughContact
 from gripscale.model import with_adhesive
 

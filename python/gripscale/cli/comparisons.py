@@ -58,7 +58,6 @@ def compare(
     """Show what each assumption of the chain costs; resumes where it was stopped."""
     from gripscale.analysis.comparison import at_measured, compare_case, compare_over
     from gripscale.analysis.effects import case_effects
-    from gripscale.analysis.measured_friction import read_measured_friction
     from gripscale.analysis.propagation import input_digests, stored_uncertainty
     from gripscale.case import prepare_case, read_case
     from gripscale.charts.comparison import at_measured_figure
@@ -66,6 +65,7 @@ def compare(
     from gripscale.charts.paper import save_figure
     from gripscale.charts.write import draw_comparison, draw_effects
     from gripscale.experiment.axis import parse_vary
+    from gripscale.experiment.measured_friction import read_measured_friction
     from gripscale.experiment.task import PREDICTIONS
     from gripscale.half_space.model import DirectContact
     from gripscale.io import netcdf

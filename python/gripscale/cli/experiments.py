@@ -223,9 +223,9 @@ def calibrate(
     """Fit the area term, never the hysteresis, to measured friction; resumes where stopped."""
     from gripscale.analysis.calibration import calibrate_case, measured_of
     from gripscale.analysis.calibration_text import notes, parse_fixed, shear_stress_table
-    from gripscale.analysis.measured_friction import read_measured_friction
     from gripscale.case import read_case
     from gripscale.charts.write import draw_calibration
+    from gripscale.experiment.measured_friction import read_measured_friction
     from gripscale.io import netcdf
     from gripscale.report.calibration import calibration_parts, failures
 

@@ -1,6 +1,8 @@
 from .design import Design as Design
 from .design import Point as Point
 from .design import solve_design as solve_design
+from .measured_friction import MeasuredFriction as MeasuredFriction
+from .measured_friction import read_measured_friction as read_measured_friction
 from .solve import Bench as Bench
 from .solve import Progress as Progress
 from .solve import solve_all as solve_all

@@ -29,6 +29,14 @@ Index = tuple[int, ...]
 CONVERGED = "converged"
 """Status of an answer whose numbers may be used."""
 
+WITH_AREA_TERM = "friction_with_area_term"
+CHANGES = {
+    "total_contact_fraction": "contact_fraction_change",
+    "total_friction": "friction_change",
+    WITH_AREA_TERM: "friction_with_area_term_change",
+}
+"""Names of what an effect changes, relative to the answer without it."""
+
 NUMBERS = (*TOTALS, ADHESIVE_FRICTION, *OUTSIDE_BAND, *CUT_OFF_EXPONENTS)
 """Numbers of the whole surface that an answer may have."""
 

@@ -8,6 +8,7 @@ from .maps import MapContact as MapContact
 from .maps import MapOverLines as MapOverLines
 from .maps import map_over_lines as map_over_lines
 from .maps import solve_map_and_lines as solve_map_and_lines
+from .model import BlockOnProfile as BlockOnProfile
 from .model import DirectContact as DirectContact
 from .result import RoughContact as RoughContact
 from .solve import solve_rough_contact as solve_rough_contact

@@ -1,4 +1,4 @@
-"""Model of measured surfaces: the direct contact of each profile, or of a map."""
+"""Models of measured surfaces: direct contact, and the finite-strain block on each profile."""
 
 from __future__ import annotations
 
@@ -9,11 +9,13 @@ import numpy as np
 
 from gripscale import model
 from gripscale.conditions.conditions import Conditions
-from gripscale.core import checks
+from gripscale.core import checks, provenance
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.half_space.solve import relative_tolerance, solve_rough_contact
 from gripscale.surface import Surface, SurfacePart
+from gripscale.wave.profile import solve_profile
+from gripscale.wave.result import waves_to_dataset
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -26,15 +28,10 @@ class DirectContact(Checked, model.Model):
     """Direct contact of every cleaned profile, averaged by length; or of a map.
 
     At small strain the mean deformation has no effect, and so the load time has none. The footprint
-    is the length over which the rubber is heated.
-
-    Parameters
-    ----------
-    smallest_wavelength : float, optional
-        Shorter waves are left out [m]. By default the cut-off of the surface's sine waves or,
-        without one, the last of them, so that chain and direct contact have the same roughness.
-    tolerance, most_points, periodic, conditions
-        As in `solve_rough_contact`.
+    is the length over which the rubber is heated. Shorter waves than `smallest_wavelength` [m] are
+    left out: by default than the cut-off of the surface's sine waves or, without one, the last of
+    them, so that chain and direct contact have the same roughness. The other fields are arguments
+    of `solve_rough_contact`.
     """
 
     name: ClassVar[str] = "direct"
@@ -100,3 +97,56 @@ class DirectContact(Checked, model.Model):
         )
         adhesive = [contact.adhesive_friction for contact in contacts]
         return model.with_area_term(answer, float(np.average(adhesive, weights=lengths)))
+
+
+class BlockOnProfile(Checked, model.Model):
+    """Model of measured profiles: each cleaned profile in one block, averaged by length.
+
+    The profiles must be short: a block resolves about a hundred waves (see
+    `gripscale.half_space.windows`). The load time is that of the load, while the footprint passes.
+
+    The fields are arguments of `gripscale.solve_profile`.
+    """
+
+    name: ClassVar[str] = "block_on_profile"
+    needs: ClassVar[frozenset[SurfacePart]] = frozenset({"measurement"})
+
+    smallest_wavelength: float | None = checked(checks.positive, unit="m", default=None)
+    periodic: bool = checked(checks.flag, default=False)
+    tolerance: float | None = checked(checks.positive, default=None)
+
+    def predict(
+        self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
+    ) -> xr.Dataset:
+        """Return the answer, with each profile over `profile`; `on_progress` gets each result.
+
+        Raises `InputError` if the surface has no profile, or one with more waves than a block
+        resolves.
+        """
+        if surface.measured is None:
+            raise InputError(
+                "the block on a profile needs a profile; got sine waves stated by hand, which have "
+                "none (gripscale.half_space.surface_of_sines makes one)"
+            )
+        results = []
+        for profile in surface.measured.cleaned:
+            result = solve_profile(
+                rubber,
+                profile,
+                pressure=load.pressure,
+                speed=load.speed,
+                load_time=load.time_under(load.footprint),
+                smallest_wavelength=self.smallest_wavelength,
+                periodic=self.periodic,
+                tolerance=self.tolerance,
+            )
+            results.append(result)
+            if on_progress is not None:
+                on_progress(result)
+        data = waves_to_dataset(results).drop_vars("scale").rename(scale="profile")
+        data = data.assign_attrs(
+            title="Profiles in the finite-strain block", **provenance.attributes()
+        )
+        why_not = ["" if result.converged else result.why for result in results]
+        lengths = [result.wavelength for result in results]
+        return model.answer_by_length(data, results, why_not, lengths, self.name, load)

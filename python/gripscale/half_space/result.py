@@ -22,7 +22,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from dataclasses import fields as fields_of
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
@@ -30,6 +30,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import ndimage, sparse
 from scipy.sparse import csgraph
 
+import gripscale
 from gripscale.conditions.conditions import Conditions, RubberByScale, StateByScale
 from gripscale.core import provenance
 from gripscale.core.arrays import Array, Mask
@@ -41,6 +42,9 @@ from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import NONE, Extrapolation, of_spectrum
 from gripscale.wave.problem import Status
 from gripscale.wave.result import labelled
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 def patch_points(active: Mask) -> NDArray[np.int64]:
@@ -304,6 +308,10 @@ class RoughContact:
         }
         data = {name: labelled("wavelength", *column) for name, column in columns.items()}
         return xr.Dataset(data).set_coords("wavelength")
+
+    def plot(self) -> Figure:
+        """Draw pressure and gap along a line; see `gripscale.charts.rough_contact_figure`."""
+        return gripscale.charts.rough_contact_figure(self)
 
     def to_dataset(self, *, fields: bool = True) -> xr.Dataset:
         """Return everything as a labelled Dataset, with `fields` the arrays on the grid too."""

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
-from gripscale.analysis.measured_comparison import measured_variables
 from gripscale.charts.ladder import measured
 from gripscale.core.units import ZERO_CELSIUS, DisplayUnit, display_unit
+from gripscale.experiment.measured_friction import measured_variables
 from gripscale.io.table import Column, Table, fixed, significant
 
 if TYPE_CHECKING:
-    from gripscale.analysis.measured_friction import MeasuredFriction
+    from gripscale.experiment.measured_friction import MeasuredFriction
 
 
 def residual_table(data: xr.Dataset) -> Table:

@@ -8,11 +8,11 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 import xarray as xr
 
-from gripscale.analysis.effects import CHANGES, WITH_AREA_TERM
 from gripscale.charts.style import power_of_ten
 from gripscale.charts.view import CONVERGED
 from gripscale.core.units import MILLI
 from gripscale.experiment.axis import EFFECTS, MODELS
+from gripscale.experiment.design import CHANGES, WITH_AREA_TERM
 from gripscale.io.table import Column, Table, change, fixed, significant
 from gripscale.model import ADHESIVE_FRICTION
 

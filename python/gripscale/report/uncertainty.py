@@ -11,9 +11,9 @@ import numpy as np
 import xarray as xr
 
 from gripscale.analysis.propagation import LEVELS, QUANTITIES, of_same_inputs, summary
-from gripscale.analysis.variance_shares import SURE
 from gripscale.charts.uncertainty import axis_of
 from gripscale.charts.view import CONVERGED
+from gripscale.core.arrays import SURE
 from gripscale.experiment.axis import name_of
 from gripscale.io.table import Column, Table
 from gripscale.report.elements import Card

@@ -28,11 +28,12 @@ import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import lru_cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+import gripscale
 from gripscale.core import checks
 from gripscale.core.arrays import Array, ComplexArray, Mask, Vector
 from gripscale.core.checks import Checked, checked
@@ -40,6 +41,9 @@ from gripscale.core.errors import InputError, RubberWarning
 from gripscale.core.units import ZERO_CELSIUS
 from gripscale.rubber.shift import Shift, shift_at, shift_from_dict
 from gripscale.rubber.strain_energy import NeoHookean, StrainEnergy, strain_energy_from_dict
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _BLOCK = 256
 """Frequencies at once: with a hundred terms an array of them is 200 kB."""
@@ -384,6 +388,10 @@ class Rubber(Checked, eq=False):
             other._check_together()
             rubbers.append(other)
         return rubbers
+
+    def plot(self) -> Figure:
+        """Draw moduli and loss factor by frequency; see `gripscale.charts.master_curve_figure`."""
+        return gripscale.charts.master_curve_figure(self)
 
     def at(self, temperature: float) -> Rubber:
         """Return the same rubber at another temperature [K].

@@ -24,7 +24,7 @@ there, follow f; E_inf keeps at least a third of f of it. The misfit of the seri
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Literal, Protocol, runtime_checkable
 
@@ -198,7 +198,10 @@ def in_deformation(strain: ArrayLike, deformation: Deformation) -> Array:
 
 def rows_of_sweeps(name: str, values: Any) -> tuple[tuple[float, ...], ...]:
     """Return values above zero of each sweep; raise `InputError` if there is no sweep."""
-    rows = list(values) if isinstance(values, Iterable) else []
+    try:
+        rows = list(values)
+    except TypeError:
+        rows = []
     if not rows:
         raise InputError(f"{name} must hold at least one sweep; got {checks.short_repr(values)}")
     return tuple(tuple(checks.positive_vector(name, row).tolist()) for row in rows)

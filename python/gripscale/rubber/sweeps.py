@@ -11,11 +11,12 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
-from typing import Unpack
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+import gripscale
 from gripscale.core import checks
 from gripscale.core.arrays import Array, Mask, Vector
 from gripscale.core.checks import Checked, checked
@@ -103,6 +104,10 @@ class Sweeps(Checked, eq=False):
                     f" K; got {len(inside)} rows from {inside.min():.2f} to {inside.max():.2f} K "
                     "without a gap; a ramp needs nominal temperatures (temperature_step)"
                 )
+
+    def superpose(self, *, reference_temperature: float, **options: Any) -> gripscale.MasterCurve:
+        """Return their master curve; options as in `gripscale.superpose`."""
+        return gripscale.superpose(self, reference_temperature=reference_temperature, **options)
 
     def _rows(self) -> list[slice]:
         group = _groups(self.temperature, self.tolerance)

@@ -9,7 +9,6 @@ from .problem import Sine as Sine
 from .problem import Status as Status
 from .problem import WaveLoad as WaveLoad
 from .problem import WaveProblem as WaveProblem
-from .profile import BlockOnProfile as BlockOnProfile
 from .profile import solve_profile as solve_profile
 from .result import WaveResult as WaveResult
 from .transient import Stage as Stage

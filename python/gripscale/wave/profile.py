@@ -8,27 +8,23 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gripscale import model
-from gripscale.core import checks, provenance
-from gripscale.core.checks import Checked, checked
+from gripscale.core import checks
 from gripscale.core.errors import InputError
 from gripscale.rubber import Rubber
 from gripscale.rubber.material import require_load_bearing
-from gripscale.surface import Profile, Surface, SurfacePart
+from gripscale.surface import Profile
 from gripscale.surface.resampling import filled
 from gripscale.wave import kernel
 from gripscale.wave.block import FiniteStrainBlock
 from gripscale.wave.problem import Mesh, SampledProfile, WaveLoad, WaveProblem
-from gripscale.wave.result import WaveResult, waves_to_dataset
+from gripscale.wave.result import WaveResult
 
 if TYPE_CHECKING:
-    import xarray as xr
-
-    from gripscale.model import Load, OnProgress
+    pass
 
 COLUMNS = (128, 192, 256, 384, 512, 768, 1024, 1536, 2048, 3072, 4096)
 """Numbers of columns, all of which can be halved for the coarser meshes of a sequence."""
@@ -171,59 +167,3 @@ def _one_period(profile: Profile, smallest: float | None, periodic: bool) -> Sam
             f"got heights within {after:.3g} m of each other, {before:.3g} m before"
         )
     return SampledProfile(period, z)
-
-
-class BlockOnProfile(Checked, model.Model):
-    """Model of measured profiles: each cleaned profile in one block, averaged by length.
-
-    The profiles must be short: a block resolves about a hundred waves (see
-    `gripscale.half_space.windows`). The load time is that of the load, while the footprint passes.
-
-    Parameters
-    ----------
-    smallest_wavelength, periodic, tolerance
-        As in `gripscale.solve_profile`.
-    """
-
-    name: ClassVar[str] = "block_on_profile"
-    needs: ClassVar[frozenset[SurfacePart]] = frozenset({"measurement"})
-
-    smallest_wavelength: float | None = checked(checks.positive, unit="m", default=None)
-    periodic: bool = checked(checks.flag, default=False)
-    tolerance: float | None = checked(checks.positive, default=None)
-
-    def predict(
-        self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
-    ) -> xr.Dataset:
-        """Return the answer, with each profile over `profile`; `on_progress` gets each result.
-
-        Raises `InputError` if the surface has no profile, or one with more waves than a block
-        resolves.
-        """
-        if surface.measured is None:
-            raise InputError(
-                "the block on a profile needs a profile; got sine waves stated by hand, which have "
-                "none (gripscale.half_space.surface_of_sines makes one)"
-            )
-        results = []
-        for profile in surface.measured.cleaned:
-            result = solve_profile(
-                rubber,
-                profile,
-                pressure=load.pressure,
-                speed=load.speed,
-                load_time=load.time_under(load.footprint),
-                smallest_wavelength=self.smallest_wavelength,
-                periodic=self.periodic,
-                tolerance=self.tolerance,
-            )
-            results.append(result)
-            if on_progress is not None:
-                on_progress(result)
-        data = waves_to_dataset(results).drop_vars("scale").rename(scale="profile")
-        data = data.assign_attrs(
-            title="Profiles in the finite-strain block", **provenance.attributes()
-        )
-        why_not = ["" if result.converged else result.why for result in results]
-        lengths = [result.wavelength for result in results]
-        return model.answer_by_length(data, results, why_not, lengths, self.name, load)

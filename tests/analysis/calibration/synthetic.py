@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from gripscale.analysis import MeasuredFriction, Predicted
+from gripscale.analysis import Predicted
 from gripscale.conditions import GaussianStress, InterfacialShearStress
+from gripscale.experiment import MeasuredFriction
 
 Array = NDArray[np.float64]
 

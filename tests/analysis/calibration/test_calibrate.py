@@ -9,7 +9,7 @@ import tomllib
 import numpy as np
 import pytest
 
-from gripscale.analysis import MeasuredFriction, Predicted, calibrate
+from gripscale.analysis import Predicted, calibrate
 from gripscale.analysis.calibration_text import notes, shear_stress_table
 from gripscale.conditions import (
     ConstantStress,
@@ -19,6 +19,7 @@ from gripscale.conditions import (
     shear_stress_from_dict,
 )
 from gripscale.core.errors import InputError
+from gripscale.experiment import MeasuredFriction
 from gripscale.io import netcdf
 from tests.samples import DOCS
 

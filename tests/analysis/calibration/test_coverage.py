@@ -46,7 +46,7 @@ def below_threshold(factor: float) -> dict[str, int]:
         optimum = best(problem)
         for place, one in enumerate(problem.family.free):
             excess, _ = Profile(problem, optimum, place).excess(one.scaled(TRUTH[one.name]))
-            counts[one.name] += excess < threshold_of(optimum, known=True)
+            counts[one.name] += excess < threshold_of(optimum, spread_known=True)
     return counts
 
 
@@ -89,7 +89,7 @@ def test_intervals_of_the_other_law() -> None:
 
 def test_an_interval_ends_where_the_profile_says() -> None:
     fit = calibrate(*measurement(), fixed=REFERENCE)
-    threshold = threshold_of(fit.optimum, known=True)
+    threshold = threshold_of(fit.optimum, spread_known=True)
     assert threshold == pytest.approx(2.7055, abs=1e-4)  # chi^2 of one degree, 90 %
     for place, one in enumerate(fit.problem.family.free):
         profile = Profile(fit.problem, fit.optimum, place)

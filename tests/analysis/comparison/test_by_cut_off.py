@@ -13,6 +13,7 @@ from gripscale.analysis.samples import cut_off_exponents, sample_numbers
 from gripscale.chain import Chain
 from gripscale.experiment import Task
 from gripscale.experiment.design import stack
+from gripscale.half_space import BlockOnProfile
 from gripscale.half_space.model import DirectContact
 from gripscale.model import (
     CUT_OFF_EXPONENTS,
@@ -31,7 +32,6 @@ from gripscale.surface import (
     self_affine_profile,
 )
 from gripscale.theory import HalfPlane, KlueppelHeinrich, Persson
-from gripscale.wave import BlockOnProfile
 
 RUBBER = styrene_butadiene()
 LOAD = Load(3e5, 3.0, 0.1)

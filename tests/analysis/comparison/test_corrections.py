@@ -12,13 +12,13 @@ import gripscale as gs
 from gripscale.analysis.ladder import LADDER, ComparisonSetup, chosen
 from gripscale.analysis.samples import sample_numbers
 from gripscale.experiment import Task
-from gripscale.half_space import solve_both_ways, surface_of_sines
+from gripscale.half_space import BlockOnProfile, solve_both_ways, surface_of_sines
 from gripscale.half_space.model import DirectContact
 from gripscale.model import Load
 from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Measured, SineStack, Surface, self_affine_profile
 from gripscale.theory import HalfPlane
-from gripscale.wave import BlockOnProfile, Status
+from gripscale.wave import Status
 from tests.samples import GENTLE_SINES as STACK
 
 RUBBER = Rubber(1e6, [9e6], [0.01])

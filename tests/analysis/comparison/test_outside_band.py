@@ -14,12 +14,12 @@ import pytest
 import gripscale as gs
 from gripscale.chain import Chain
 from gripscale.core.errors import ExtrapolationError
+from gripscale.half_space import BlockOnProfile
 from gripscale.half_space.model import DirectContact
 from gripscale.model import OUTSIDE_BAND, Load, extrapolation_of
 from gripscale.surface import Measured, Profile, Surface
 from gripscale.theory import HalfPlane, persson
 from gripscale.theory.elastic import full_contact_friction
-from gripscale.wave import BlockOnProfile
 
 LONG, SHORT = 4e-3, 1e-3
 SINES = gs.SineStack([LONG, SHORT], [1e-5, 4e-6])

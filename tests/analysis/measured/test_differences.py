@@ -7,9 +7,10 @@ import math
 import numpy as np
 import pytest
 
-from gripscale.analysis import MeasuredFriction, Predicted, residuals
+from gripscale.analysis import Predicted, residuals
 from gripscale.conditions import ConstantStress
 from gripscale.core.errors import InputError
+from gripscale.experiment import MeasuredFriction
 from gripscale.io.table import as_text
 from gripscale.report.measured import residual_table
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gripscale.analysis import MeasuredFriction, read_measured_friction
 from gripscale.core.errors import FileError, InputError
+from gripscale.experiment import MeasuredFriction, read_measured_friction
 
 
 def written(folder: Path, text: str) -> Path:
@@ -58,5 +58,5 @@ def test_bad_files_are_one_sentence(tmp_path: Path, text: str, sentence: str) ->
 
 
 def test_lengths_must_agree() -> None:
-    with pytest.raises(InputError, match=r"as many values of each.*got 2 of speed, 1 of friction"):
+    with pytest.raises(InputError, match=r"equal lengths.*got 2 of speed, 1 of friction"):
         MeasuredFriction([0.1, 1.0], [0.3])

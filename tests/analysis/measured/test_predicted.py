@@ -12,12 +12,12 @@ import xarray as xr
 
 import gripscale as gs
 from gripscale import model
-from gripscale.analysis import MeasuredFriction, Predicted, averaged, predictions_at
-from gripscale.analysis.measured_friction import TemperatureProbe
+from gripscale.analysis import Predicted, averaged, predictions_at
 from gripscale.chain.chain import Chain
 from gripscale.conditions import Conditions, GaussianStress, ThermalProperties
 from gripscale.core.errors import InputError
-from gripscale.experiment import Store
+from gripscale.experiment import MeasuredFriction, Store
+from gripscale.experiment.measured_friction import TemperatureProbe
 from gripscale.half_space.model import DirectContact
 from gripscale.model import Load
 from gripscale.surface import Measured, Surface

@@ -153,8 +153,8 @@ def test_waves_by_hand_and_a_named_rubber_leave_what_they_leave():
     ("wrong", "said"),
     [
         ({"without": ["cutoff"]}, "did you mean cut_off"),
-        ({"given": {"profile": 3}}, "drawn from what was measured"),
-        ({"given": {"waves": 3}, "without": ["waves"]}, "got both"),
+        ({"ranges": {"profile": 3}}, "drawn from what was measured"),
+        ({"ranges": {"waves": 3}, "without": ["waves"]}, "got both"),
         ({"block_length": 0.0}, "block_length"),
     ],
 )

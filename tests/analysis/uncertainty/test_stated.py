@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 from gripscale.analysis import Uncertainty, propagate
 from gripscale.analysis.sources import SOURCES
 from gripscale.case import read_case
-from gripscale.case.tables import Given, SourceName
+from gripscale.case.tables import RangesTable, SourceName
 from gripscale.cli import app
 from gripscale.core.errors import InputError
 from gripscale.io import netcdf
@@ -45,7 +45,7 @@ def case(folder: Path, tmp_path: Path):
 
 def test_the_case_knows_the_sources_there_are() -> None:
     assert get_args(SourceName) == tuple(SOURCES)
-    assert set(Given.model_fields) == set(SOURCES) - {"profile", "modulus"}
+    assert set(RangesTable.model_fields) == set(SOURCES) - {"profile", "modulus"}
 
 
 def test_a_case_states_all_of_it(case) -> None:
@@ -101,8 +101,8 @@ def test_options_of_the_command_go_before_the_case(case, tmp_path) -> None:
         ('without = ["weather"]', "profile"),
         ('ranges = { cut_off = ["2 mm", "1 mm"] }', "rising"),
         ('ranges = { cut_off = "2 mm" }', "a list of two ends or of equally likely values"),
-        ("given = { load_time = [0, 1] }", "greater than zero"),
-        ("given = { profile = [1, 2] }", "profile"),
+        ("ranges = { load_time = [0, 1] }", "greater than zero"),
+        ("ranges = { profile = [1, 2] }", "profile"),
         ('block_length = "0 mm"', "block_length"),
     ],
 )

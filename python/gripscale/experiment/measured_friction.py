@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import ClassVar
 
 import numpy as np
+import xarray as xr
 from numpy.typing import ArrayLike
 
 from gripscale.core import checks
@@ -21,6 +22,7 @@ from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import FileError, InputError
 from gripscale.core.units import in_si, listed, spelled
 from gripscale.io.text_table import ColumnTitle, file_path, read_table
+from gripscale.wave.result import labelled
 
 _WORDS = {
     "speed": ("speed", "velocity", "v"),
@@ -200,3 +202,23 @@ class TemperatureProbe:
         """Return T in K as a stress [Pa], shape of the speeds [m/s] and temperatures [K]."""
         kelvin = 0.0 if temperature is None else np.asarray(temperature, dtype=float)
         return np.asarray(np.zeros(np.shape(speed)) + kelvin)
+
+
+MEASURED = {
+    "speed": ("m/s", "speed of the measurement"),
+    "friction": ("1", "measured friction coefficient"),
+    "spread": ("1", "its standard deviation"),
+    "temperature": ("K", "temperature of the rubber before the contact"),
+    "pressure": ("Pa", "nominal pressure"),
+}
+"""Columns of a measurement as result files hold them, with unit and meaning."""
+
+
+def measured_variables(measured: MeasuredFriction) -> dict[str, xr.Variable]:
+    """Return the columns of a measurement as variables over `measurement`."""
+    return {
+        f"measured_{name}": labelled(
+            "measurement", getattr(measured, name), unit, text, measured.source
+        )
+        for name, (unit, text) in MEASURED.items()
+    }

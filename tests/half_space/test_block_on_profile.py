@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 
 import gripscale as gs
+from gripscale.half_space import BlockOnProfile
+from gripscale.half_space import model as half_space_model
 from gripscale.model import Load, Model
 from gripscale.surface import Measured, Profile, SineStack, Surface
-from gripscale.wave import BlockOnProfile, Status, profile
+from gripscale.wave import Status
 from tests.samples import ZENER as RUBBER
 
 LOAD = Load(5e4, 0.1, 0.1)
@@ -50,7 +52,7 @@ def test_profiles_count_by_their_length():
 def test_what_does_not_converge_is_named_and_has_no_totals(monkeypatch):
     good = gs.solve_profile(RUBBER, line(0.0), pressure=5e4, speed=0.1, periodic=True)
     bad = replace(good, status=Status.ITERATION_LIMIT)
-    monkeypatch.setattr(profile, "solve_profile", lambda *_, **__: bad)
+    monkeypatch.setattr(half_space_model, "solve_profile", lambda *_, **__: bad)
     answer = BlockOnProfile(periodic=True).predict(RUBBER, surface_of(line(0.0)), LOAD)
     assert np.isnan(answer.total_friction)
     assert "profile 1 of 1: iteration limit" in str(answer.prediction_status.item())

@@ -1,0 +1,54 @@
+"""The methods of rubbers, sweeps and results are the functions of the same name."""
+
+from pathlib import Path
+
+import numpy as np
+
+import gripscale as gs
+from gripscale.rubber import Sweeps
+from gripscale.surface import self_affine_profile
+from tests.samples import SHIFTED_LOAD, SHIFTED_RUBBER, SHIFTED_SINES
+
+ROAD = self_affine_profile(0.8, 2e-3, 1e-4, 0.1, 1e-4, seed=1)
+
+
+def test_a_rubber_is_drawn():
+    labels = {axes.get_ylabel() for axes in SHIFTED_RUBBER.plot().axes}
+    assert any("MPa" in label for label in labels)
+
+
+def test_sweeps_are_superposed():
+    frequency, kelvin = np.meshgrid(np.geomspace(0.1, 100.0, 13), [283.15, 293.15, 303.15])
+    moduli = [
+        SHIFTED_RUBBER.at(float(t)).complex_modulus(2 * np.pi * f)
+        for f, t in zip(frequency.ravel(), kelvin.ravel(), strict=True)
+    ]
+    sweeps = Sweeps(kelvin.ravel(), frequency.ravel(), np.real(moduli), np.imag(moduli))
+    master = sweeps.superpose(reference_temperature=293.15)
+    expected = gs.superpose(sweeps, reference_temperature=293.15)
+    assert np.array_equal(master.frequency, expected.frequency)
+    assert np.array_equal(master.storage, expected.storage)
+
+
+def test_a_direct_contact_is_drawn():
+    contact = gs.solve_rough_contact(
+        SHIFTED_RUBBER, ROAD, pressure=3e5, speed=1.0, smallest_wavelength=2e-3
+    )
+    pressure, surface = contact.plot().axes
+    (line,) = pressure.get_lines()
+    assert np.array_equal(line.get_ydata(), contact.pressure / 1e6)
+    lower, upper = (line.get_ydata() for line in surface.get_lines())
+    assert (np.asarray(upper) >= np.asarray(lower) - 1e-9).all()  # [mm]: rubber lies on the road
+
+
+def test_a_prediction_writes_its_page(tmp_path: Path):
+    prediction = gs.predict(
+        SHIFTED_RUBBER,
+        SHIFTED_SINES,
+        pressure=SHIFTED_LOAD.pressure,
+        speed=SHIFTED_LOAD.speed,
+        footprint=SHIFTED_LOAD.footprint,
+        solver="half_plane",
+    )
+    page = prediction.report(tmp_path / "page.html")
+    assert f"{prediction.friction:.3g}" in page.read_text(encoding="utf-8")
