@@ -248,25 +248,15 @@ def rough_contact_figure(contact: RoughContact) -> Figure:
         for values in (contact.height, contact.gap, contact.pressure)
     )
     about = np.abs(x - x[np.argmax(pressure)]) <= CLOSE_UP / 2.0
-    whole = Series(x / MILLI, pressure / MEGA, BLUE, width=0.8, coarse=True)
     part, along = x[about] / MILLI, Axis("distance $x$ [mm]")
-    return draw.on_paper(
-        Sheet(
-            [
-                Panel(
-                    Axis("distance $x$ [mm]"), Axis("contact pressure $p$ [MPa]", low=0.0), [whole]
-                ),
-                Panel(
-                    along,
-                    Axis("height $z$ [mm]"),
-                    [
-                        Series(part, height[about] / MILLI, INK, "surface"),
-                        Series(part, (height + gap)[about] / MILLI, BLUE, "rubber"),
-                    ],
-                ),
-            ],
-            columns=1,
-            height=5.2,
-            title=f"$A_r/A_0$ = {contact.contact_fraction:.3g}, $\\mu$ = {contact.friction:.3g}",
-        )
-    )
+    totals = f"$A_r/A_0$ = {contact.contact_fraction:.3g}, $\\mu$ = {contact.friction:.3g}"
+    whole = Series(x / MILLI, pressure / MEGA, width=0.8, coarse=True)
+    close = [
+        Series(part, height[about] / MILLI, INK, "surface"),
+        Series(part, (height + gap)[about] / MILLI, BLUE, "rubber"),
+    ]
+    panels = [
+        Panel(along, Axis("contact pressure $p$ [MPa]", low=0.0), [whole], title=totals),
+        Panel(along, Axis("height $z$ [mm]"), close, legend="lower left"),
+    ]
+    return draw.on_paper(Sheet(panels, columns=1, height=5.2, legend=""))
