@@ -49,7 +49,7 @@ def test_both_models_answer_as_the_pair_does() -> None:
 def test_mesh_too_coarse_counts_as_failed(monkeypatch: pytest.MonkeyPatch) -> None:
     good = gs.solve_profile(RUBBER, LINE, pressure=5e4, speed=0.1, periodic=True)
     bad = replace(good, status=Status.FRICTIONS_DISAGREE)
-    monkeypatch.setattr("gripscale.wave.profile.solve_profile", lambda *_, **__: bad)
+    monkeypatch.setattr("gripscale.half_space.model.solve_profile", lambda *_, **__: bad)
     model = BlockOnProfile(periodic=True)
     task = Task(RUBBER, SURFACE, LOAD, model)
     sample = sample_numbers(model.predict(RUBBER, SURFACE, LOAD), task)
