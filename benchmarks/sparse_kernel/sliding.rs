@@ -10,7 +10,7 @@ use gripscale_kernel::material::sliding_history::SlidingHistory;
 use gripscale_kernel::settings::Settings;
 use gripscale_kernel::solve::bordered::{Bordered, LinearSolution};
 use gripscale_kernel::solve::krylov::{self, Accuracy};
-use gripscale_kernel::solve::newton::Iterate;
+use gripscale_kernel::solve::newton_step::Iterate;
 use gripscale_kernel::solve::residual::Residual;
 
 use crate::clock::timed;

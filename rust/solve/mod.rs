@@ -7,7 +7,7 @@ pub mod krylov;
 pub mod load_stepping;
 pub mod mesh_sequence;
 pub mod newton;
-mod newton_step;
+pub mod newton_step;
 pub mod profile_continuation;
 pub mod residual;
 pub mod transfer;
