@@ -13,7 +13,7 @@ from gripscale.core import checks, provenance
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.half_space.solve import relative_tolerance, solve_rough_contact
-from gripscale.surface import Surface, SurfacePart
+from gripscale.surface import Measured, Surface, SurfacePart
 from gripscale.wave.profile import solve_profile
 from gripscale.wave.result import waves_to_dataset
 
@@ -22,6 +22,16 @@ if TYPE_CHECKING:
 
     from gripscale.model import Load, OnProgress
     from gripscale.rubber import Rubber
+
+
+def _measurement(surface: Surface, need: str) -> Measured:
+    """Return what was measured; raise `InputError`, which begins with the need, if nothing was."""
+    if surface.measured is None:
+        raise InputError(
+            f"{need}; got sine waves stated by hand, which have none "
+            "(gripscale.half_space.surface_of_sines makes one)"
+        )
+    return surface.measured
 
 
 class DirectContact(Checked, model.Model):
@@ -57,13 +67,9 @@ class DirectContact(Checked, model.Model):
         """
         import xarray as xr
 
-        if surface.measured is None:
-            raise InputError(
-                "the direct contact needs a measured profile; got sine waves stated by hand, which "
-                "have none (gripscale.half_space.surface_of_sines makes one)"
-            )
         contacts = []
-        for measured in surface.measured.surfaces:
+        measurement = _measurement(surface, "the direct contact needs a measured profile")
+        for measured in measurement.surfaces:
             smallest = self.smallest_wavelength
             if smallest is None:
                 smallest = max(surface.cutoff_wavelength, 2.0 * float(np.max(measured.step)))
@@ -123,13 +129,8 @@ class BlockOnProfile(Checked, model.Model):
         Raises `InputError` if the surface has no profile, or one with more waves than a block
         resolves.
         """
-        if surface.measured is None:
-            raise InputError(
-                "the block on a profile needs a profile; got sine waves stated by hand, which have "
-                "none (gripscale.half_space.surface_of_sines makes one)"
-            )
         results = []
-        for profile in surface.measured.cleaned:
+        for profile in _measurement(surface, "the block on a profile needs a profile").cleaned:
             result = solve_profile(
                 rubber,
                 profile,
