@@ -19,6 +19,7 @@ from gripscale.core import checks
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.rubber.extrapolation import UNKNOWN, Extrapolation, of_sum
+from gripscale.wave.problem import Status
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -214,10 +215,33 @@ class Model(Protocol):
     def predict(
         self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
     ) -> xr.Dataset:
-        """Return the answer: a Dataset with `TOTALS` and `prediction_status`, and what it rests on.
+        """Return the answer: a Dataset with `TOTALS` and its status, and what it rests on.
 
         A part that did not converge makes the totals NaN and is named in the status.
         """
+
+
+STATUS = "prediction_status"
+"""Name of the sentence that says how an answer ended: `converged`, or why there are no totals."""
+
+STATUS_WORD = f"{STATUS}_word"
+"""Name of the word of its `Status`; empty where the sentence is a refusal, which has none."""
+
+
+def word_of(status: str) -> str:
+    """Return a status that is the word of a `Status` itself; empty of any other sentence."""
+    return str(status) if status in set(Status) else ""
+
+
+def status_words(data: xr.Dataset, sentences: str = STATUS) -> xr.DataArray:
+    """Return the word beside each of the `sentences`, the name of a variable.
+
+    Empty in a file of an older version, which has none.
+    """
+    import xarray as xr
+
+    name = f"{sentences}_word"
+    return data[name] if name in data else xr.full_like(data[sentences], "", dtype=object)
 
 
 TOTALS = {
@@ -318,8 +342,8 @@ def answer_by_length(
 ) -> xr.Dataset:
     """Return `data` over `profile` with the answers of the profiles averaged by length [m].
 
-    `parts` are their results, with the attributes of `TOTALS` without `total_`, and
-    `extrapolation`. `why_not` says why a profile does not count: then there are no totals.
+    `parts` are their results, with the attributes of `TOTALS` without `total_`, `extrapolation`
+    and `status`. `why_not` says why a profile does not count: then there are no totals.
     """
     weight = np.asarray(lengths) / np.sum(lengths)
     bad = [
@@ -343,8 +367,10 @@ def answer_by_length(
     if not bad:
         added = [weight * [getattr(part, name) for part in parts] for name in _EXPONENTS_OF]
         exponents = of_mean(cut_off_exponents, *added)
-    status = "; ".join(bad) or "converged"
-    return answer(weighted, totals, status, model, load, beyond, exponents)
+    status = "; ".join(bad) or Status.CONVERGED
+    words = [str(part.status) for part, why in zip(parts, why_not, strict=True) if why]
+    word = next(iter(words), "")
+    return answer(weighted, totals, status, model, load, beyond, exponents, status_word=word)
 
 
 def answer(
@@ -355,12 +381,15 @@ def answer(
     load: Load,
     extrapolation: Extrapolation = UNKNOWN,
     cut_off_exponents: CutOffExponents = NOT_TOLD,
+    *,
+    status_word: str = "",
 ) -> xr.Dataset:
     """Return `data` with the numbers every model answers with, and the load they are for.
 
-    `extrapolation` is what of the friction rests on the rubber beyond its measured frequencies,
-    `cut_off_exponents` how it changes with the smallest wavelength; a model that does not know
-    leaves them out.
+    `status` is "converged", or a sentence that says why there are no totals; `status_word` is the
+    word of its `Status`, which `status` itself may be. `extrapolation` is what of the friction
+    rests on the rubber beyond its measured frequencies, `cut_off_exponents` how it changes with
+    the smallest wavelength; a model that does not know leaves them out.
     """
     import xarray as xr
 
@@ -378,7 +407,10 @@ def answer(
     variables[WHY_NO_EXPONENT] = number(
         cut_off_exponents.why_not, "1", "why an exponent of the cut-off is not known"
     )
-    variables["prediction_status"] = number(status, "1", "converged, or why not")
+    variables[STATUS] = number(str(status), "1", "converged, or why not")
+    variables[STATUS_WORD] = number(
+        status_word or word_of(status), "1", "word of the status, empty of a refusal"
+    )
     variables["nominal_pressure"] = number(load.pressure, "Pa", "nominal pressure")
     variables["nominal_speed"] = number(load.speed, "m/s", "sliding speed")
     variables["footprint"] = number(load.footprint, "m", "length of the nominal contact")

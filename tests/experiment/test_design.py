@@ -69,6 +69,7 @@ def test_points_are_solved_once_and_labelled(bench: Bench, seen: list[Progress])
     assert data.total_friction.dims == ("pressure", "draw")
     np.testing.assert_array_equal(data.total_friction, [[1.0, 2.0], [1.0, np.nan]])
     assert data.prediction_status.values.tolist()[1] == ["converged", "no room for waves"]
+    assert data.prediction_status_word.values.tolist()[1] == ["converged", ""]
     assert data.prediction_key.values[0, 0] == data.prediction_key.values[1, 0] == task(1.0).key
     assert data.pressure.attrs["units"] == "Pa"
     assert (data.seconds.values[0] > 0.0).all()
@@ -85,7 +86,8 @@ def test_what_is_picked_is_padded(bench: Bench) -> None:
     points = [Point((at,), str(at), task(float(at + 1))) for at in range(3)]
     pick = lambda found, _: found[["part", "prediction_status"]]  # noqa: E731
     data = solve_design(Design({"draw": 3}, points), bench, pick)
-    assert set(data) == {"part", "prediction_status", "prediction_key", "seconds"}
+    status = {"prediction_status", "prediction_status_word"}
+    assert set(data) == {"part", *status, "prediction_key", "seconds"}
     nan = np.nan
     np.testing.assert_array_equal(data.part, [[0, nan, nan], [0, 1, nan], [0, 1, 2]])
 

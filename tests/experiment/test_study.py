@@ -159,6 +159,7 @@ def test_failed_chain_is_a_status(
     assert result.prediction_status[0] == "converged"
     assert "wave 2 of 3" in str(result.prediction_status[1].item())
     assert "iteration limit" in str(result.prediction_status[1].item())
+    assert result.prediction_status_word.values.tolist() == ["converged", "iteration limit"]
     assert np.isnan(result.total_friction).values.tolist() == [False, True]
     assert np.isnan(result.running_friction[1]).values.tolist() == [False, True, True]
     assert np.isnan(result.wavelength[1]).values.tolist() == [False, False, True]

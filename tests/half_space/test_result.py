@@ -150,6 +150,7 @@ def test_a_profile_that_fails_makes_the_totals_nan():
     data = failing.predict(ZENER, short, load)
     assert np.isnan(float(data["total_friction"]))
     assert data["prediction_status"].item() == "profile 1 of 1: tolerance not met"
+    assert data["prediction_status_word"].item() == "tolerance not met"
 
 
 X = np.arange(64) * 1e-4

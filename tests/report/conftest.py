@@ -82,7 +82,10 @@ def fail_second_wave(data: xr.Dataset) -> xr.Dataset:
         cut[name].values[1] = np.nan
     for name in TOTALS:
         cut[name] = np.nan
-    return cut.assign(prediction_status="wave 2 of 3 did not converge: iteration limit")
+    return cut.assign(
+        prediction_status="wave 2 of 3 did not converge: iteration limit",
+        prediction_status_word="iteration limit",
+    )
 
 
 @pytest.fixture
@@ -101,12 +104,15 @@ def study_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     area[1, 1, 2] = np.nan
     status = np.full((2, 2), "converged", dtype=object)
     status[1, 1] = "wave 3 of 3 did not converge: iteration limit"
+    word = np.full((2, 2), "converged", dtype=object)
+    word[1, 1] = "iteration limit"
     running, friction = np.cumprod(area, axis=2), np.cumsum(0.1 * area, axis=2)
     data = xr.Dataset(
         {
             "total_contact_fraction": (axes, running[:, :, -1]),
             "total_friction": (axes, friction[:, :, -1]),
             "prediction_status": (axes, status),
+            "prediction_status_word": (axes, word),
             "wavelength": (waves, np.broadcast_to([1e-2, 2e-3, 4e-4], shape)),
             "contact_fraction": (waves, area),
             "running_contact_fraction": (waves, running),
@@ -145,7 +151,8 @@ def compared(run_folder: Path) -> list[xr.Dataset]:
         for speed in axis.values
     ]
     failed = made.samples.copy(deep=True)
-    failed["prediction_status"].values[1, 1] = "tolerance not met"
+    for name in ("prediction_status", "prediction_status_word"):
+        failed[name].values[1, 1] = "tolerance not met"
     both = xr.concat([made.samples, failed], "speed")
     over = replace(alone, axis=axis, setups=setups, samples=both)
     return [alone.to_dataset(), over.to_dataset()]

@@ -37,6 +37,7 @@ from gripscale.experiment.design import solve_design
 from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.half_space.model import DirectContact
+from gripscale.model import STATUS, STATUS_WORD
 from gripscale.rubber.extrapolation import require_measured
 from gripscale.wave.result import labelled
 
@@ -378,8 +379,11 @@ def calibration_dataset(calibration: Calibration) -> xr.Dataset:
     add("hysteresis", at, predicted.friction, "friction of the hysteresis")
     beyond = "share of it that rests on the rubber outside the measured frequencies"
     add("friction_outside_band", at, predicted.outside_band, beyond)
-    status = np.array(predicted.status, dtype=object)
-    add("prediction_status", at, status, "converged, or why")
+    status, words = (
+        np.array(texts, dtype=object) for texts in (predicted.status, predicted.status_word)
+    )
+    add(STATUS, at, status, "converged, or why")
+    add(STATUS_WORD, at, words, "word of the status")
     add("area_term", at, calibration.area_term, "friction of the area term")
     add("friction", at, calibration.friction, "hysteresis and area term")
     add("friction_band", at, calibration.band, "half of its interval by the fit")

@@ -332,5 +332,6 @@ def reference_totals(samples: xr.Dataset, results: CaseResults) -> xr.Dataset:
         results.load,
         extrapolation_of(beyond),
         cut_off_exponents_of(exponents),
+        status_word=str(reduce.status_word(samples).item()),
     ).assign_attrs(case=results.file.text, tolerance=JUDGED_TO)
     return with_area_term(totals, float(reduce.usable(samples, "adhesive_friction").mean("sample")))

@@ -134,6 +134,7 @@ def comparison_dataset(comparison: Comparison) -> xr.Dataset:
     count = reduce.converged(samples).sum("sample")
     add("converged_samples", count, "number of samples that converged", "rung")
     add("status", reduce.status(samples), "converged, or what failed", "rung")
+    add("status_word", reduce.status_word(samples), "word of the status", "rung")
     add("seconds", samples.seconds.sum("sample"), "time its samples took", "rung", unit="s")
     pressures = [setup.load.pressure for setup in setups]
     add_by_load("nominal_pressure", pressures, "nominal pressure", unit="Pa")

@@ -31,11 +31,19 @@ from gripscale.experiment.design import (
 from gripscale.experiment.solve import Bench, OnTask, bench_in
 from gripscale.experiment.task import Store, Task, load_stored
 from gripscale.io import netcdf
-from gripscale.model import ADHESIVE_FRICTION, OUTSIDE_BAND, TOTALS, Load, Model
+from gripscale.model import (
+    ADHESIVE_FRICTION,
+    OUTSIDE_BAND,
+    STATUS,
+    STATUS_WORD,
+    TOTALS,
+    Load,
+    Model,
+)
 from gripscale.rubber import Rubber
 from gripscale.surface import Surface
 
-KEPT = (*TOTALS, ADHESIVE_FRICTION, *OUTSIDE_BAND, "prediction_status", "prediction_key")
+KEPT = (*TOTALS, ADHESIVE_FRICTION, *OUTSIDE_BAND, STATUS, STATUS_WORD, "prediction_key")
 
 
 def effect_tasks(model: Model, rubber: Rubber, surface: Surface, load: Load) -> dict[str, Task]:

@@ -26,7 +26,15 @@ from gripscale.experiment.measured_friction import (
 )
 from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.task import Store, Task
-from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, Load, Model
+from gripscale.model import (
+    ADHESIVE_FRICTION,
+    FRICTION_OUTSIDE_BAND,
+    STATUS,
+    Load,
+    Model,
+    status_words,
+    word_of,
+)
 from gripscale.rubber import Rubber
 from gripscale.wave.result import labelled
 
@@ -53,6 +61,8 @@ class Predicted(Checked, eq=False):
         Share of the friction that rests on the rubber outside its measured frequencies [-].
     status : sequence of str, optional
         "converged", or why there is no answer.
+    status_word : sequence of str, optional
+        Words of these statuses, empty where there is none.
 
     Raises
     ------
@@ -66,6 +76,7 @@ class Predicted(Checked, eq=False):
     temperature: Vector = checked(checks.vector, missing=True, repr=False)
     outside_band: Vector = checked(checks.vector, missing=True, default=None, repr=False)
     status: Sequence[str] = checked(checks.instances, kind=str, default=None, repr=False)
+    status_word: Sequence[str] = checked(checks.instances, kind=str, default=None, repr=False)
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -74,6 +85,8 @@ class Predicted(Checked, eq=False):
             self._set(outside_band=np.full(size, np.nan))
         if self.status is None:
             self._set(status=[CONVERGED] * size)
+        if self.status_word is None:
+            self._set(status_word=[word_of(text) for text in self.status])
         names = (
             "pressure",
             "friction",
@@ -81,6 +94,7 @@ class Predicted(Checked, eq=False):
             "temperature",
             "outside_band",
             "status",
+            "status_word",
         )
         sizes = {name: len(getattr(self, name)) for name in names}
         if len(set(sizes.values())) > 1:
@@ -124,17 +138,18 @@ def averaged(parts: Sequence[Predicted]) -> Predicted:
         raise InputError("parts must be predicted at the same pressures; got others")
     area = np.array([part.contact_fraction for part in parts])
     kelvin = np.array([part.temperature for part in parts])
-    statuses = zip(*(part.status for part in parts), strict=True)
+    first = [
+        next((part for part in parts if part.status[point] != CONVERGED), parts[0])
+        for point in range(pressure.size)
+    ]
     return Predicted(
         np.mean([part.friction for part in parts], axis=0),
         area.mean(axis=0),
         pressure,
         (area * kelvin).sum(axis=0) / area.sum(axis=0),
         np.mean([part.outside_band for part in parts], axis=0),
-        [
-            next((status for status in point if status != CONVERGED), CONVERGED)
-            for point in statuses
-        ],
+        [part.status[point] for point, part in enumerate(first)],
+        [part.status_word[point] for point, part in enumerate(first)],
     )
 
 
@@ -227,7 +242,8 @@ def predicted_of(data: xr.Dataset) -> Predicted:
         pressure.values,
         kelvin.values,
         data.get(FRICTION_OUTSIDE_BAND, area * math.nan).values,
-        data["prediction_status"].values.tolist(),
+        data[STATUS].values.tolist(),
+        status_words(data).values.tolist(),
     )
 
 

@@ -50,7 +50,7 @@ from gripscale.experiment.solve import Bench, OnTask, bench_in
 from gripscale.experiment.task import Task, canonical_json, load_stored
 from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
-from gripscale.model import FRICTION_OUTSIDE_BAND, Model
+from gripscale.model import FRICTION_OUTSIDE_BAND, STATUS, STATUS_WORD, Model, status_words
 
 LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
 """The quantiles that are told."""
@@ -118,17 +118,18 @@ def sampled_numbers(answer: xr.Dataset, _: Task) -> xr.Dataset:
             error = float((answer["weight"] * answer[f"{name}_error"]).sum())
             total = abs(numbers[name])
             numbers[f"{name}_grid_error"] = error / total if total > 0.0 else math.nan
-    return xr.Dataset(numbers).assign(prediction_status=answer["prediction_status"].variable)
+    ending = {STATUS: answer[STATUS].variable, STATUS_WORD: status_words(answer).variable}
+    return xr.Dataset(numbers).assign(ending)
 
 
 def uncertainty_dataset(
     solved: xr.Dataset, drawn: Sequence[SampledInputs], chosen: Chosen
 ) -> xr.Dataset:
     """Return all samples with their quantiles and shares; the first of `solved` is the case."""
-    usable = solved.drop_vars(["prediction_key", "seconds", "prediction_status"])
+    usable = solved.drop_vars(["prediction_key", "seconds", STATUS, STATUS_WORD])
     usable = usable.where(solved.prediction_status == CONVERGED)
     case, samples = usable.isel(sample=0), usable.isel(sample=slice(1, None))
-    status = solved.prediction_status.isel(sample=slice(1, None))
+    status = solved[STATUS].isel(sample=slice(1, None))
     data: dict[str, xr.DataArray] = {}
 
     def add(name: str, values: xr.DataArray, long_name: str, unit: str = "1") -> None:
@@ -136,9 +137,12 @@ def uncertainty_dataset(
 
     for name, (_, text) in NUMBERS.items():
         add(name, samples[name], text)
+    words = solved[STATUS_WORD]
     add("status", status, "converged, or why the sample has no answer")
-    case_status = solved.prediction_status.isel(sample=0)
+    add("status_word", words.isel(sample=slice(1, None)), "word of the status")
+    case_status = solved[STATUS].isel(sample=0)
     add("status_case", case_status, "converged, or why not, of the case itself")
+    add("status_case_word", words.isel(sample=0), "word of the status of the case itself")
     add("seconds", solved.seconds.isel(sample=slice(1, None)), "time to solve the sample", "s")
     failed = (status != CONVERGED).sum("sample")
     add("failed", failed, "samples without an answer; they count in no quantile")

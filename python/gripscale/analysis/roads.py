@@ -38,8 +38,8 @@ from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.task import PREDICTIONS, Store, Task
 from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
+from gripscale.model import STATUS, STATUS_WORD, Load, Model
 from gripscale.model import TOTALS as OF_ALL
-from gripscale.model import Load, Model
 from gripscale.surface import Surface, profile_spectrum
 from gripscale.surface.synthetic import SYNTHETIC_SURFACES, with_profile
 from gripscale.theory.half_plane import HalfPlane
@@ -92,14 +92,17 @@ AS_MEASURED, REFERENCE = 0, 1
 
 def road_numbers(answer: xr.Dataset, task: Task) -> xr.Dataset:
     """Return what is kept of the answer on one road: totals and friction by wavelength."""
-    kept = surface_numbers(answer, task)[[*OF_ALL, "prediction_status"]]
+    kept = surface_numbers(answer, task)[[*OF_ALL, STATUS, STATUS_WORD]]
     return kept.assign(friction_curve(answer))
 
 
 def roads_dataset(surfaces: Mapping[str, Surface], solved: xr.Dataset) -> xr.Dataset:
     """Return what `gripscale.analysis.compare_surfaces` promises, of answers by sample."""
     roads = solved.isel(sample=AS_MEASURED)
-    words = OF_ALL | {"prediction_status": "converged, why not, or empty if it was not asked"}
+    words = OF_ALL | {
+        STATUS: "converged, why not, or empty if it was not asked",
+        STATUS_WORD: "word of the status",
+    }
     data = xr.Dataset(
         {
             name: roads[name].drop_attrs().assign_attrs(attributes(text))

@@ -27,9 +27,12 @@ from gripscale.model import (
     CUT_OFF_EXPONENTS,
     NOT_TOLD,
     OUTSIDE_BAND,
+    STATUS,
+    STATUS_WORD,
     WHY_NO_EXPONENT,
     cut_off_exponents_of,
     extrapolation_of,
+    status_words,
 )
 
 QUANTITIES = ("contact_fraction", "friction", "friction_from_dissipation")
@@ -69,7 +72,8 @@ def sample_numbers(
     numbers |= {name: getattr(beyond, part) for name, (part, _) in OUTSIDE_BAND.items()}
     numbers |= {name: getattr(exponents, part) for name, (part, _) in CUT_OFF_EXPONENTS.items()}
     numbers[WHY_NO_EXPONENT] = exponents.why_not
-    numbers["prediction_status"] = str(answer["prediction_status"].item())
+    numbers[STATUS] = str(answer[STATUS].item())
+    numbers[STATUS_WORD] = str(status_words(answer).item())
     return xr.Dataset(numbers | _curve(answer))
 
 
@@ -305,7 +309,7 @@ def cut_off_exponents(samples: xr.Dataset) -> xr.Dataset:
 
 def status(samples: xr.Dataset) -> xr.DataArray:
     """Return "converged", or how many samples did not and what the first of them says."""
-    texts = samples["prediction_status"].transpose(..., "sample")
+    texts = samples[STATUS].transpose(..., "sample")
     words = np.empty(texts.shape[:-1], dtype=object)
     for at in np.ndindex(words.shape):
         present = [text for text in texts.values[at] if text]
@@ -313,4 +317,16 @@ def status(samples: xr.Dataset) -> xr.DataArray:
         words[at] = next(iter(bad), CONVERGED)
         if bad and len(present) > 1:
             words[at] = f"{len(bad)} of {len(present)} samples failed: {bad[0]}"
+    return xr.DataArray(words, dims=texts.dims[:-1])
+
+
+def status_word(samples: xr.Dataset) -> xr.DataArray:
+    """Return the word of the status of the first sample that did not converge, or "converged"."""
+    texts = samples[STATUS].transpose(..., "sample")
+    of_samples = status_words(samples).transpose(..., "sample")
+    words = np.empty(texts.shape[:-1], dtype=object)
+    for at in np.ndindex(words.shape):
+        pairs = zip(texts.values[at], of_samples.values[at], strict=True)
+        bad = (str(word) for text, word in pairs if text not in ("", CONVERGED))
+        words[at] = next(bad, CONVERGED)
     return xr.DataArray(words, dims=texts.dims[:-1])

@@ -265,7 +265,8 @@ class Chain(Checked, model.Model):
         try:
             result = self.solve(rubber, surface.sines, load, on_scale=on_progress)
         except ChainError as failure:
-            return failure.partial.to_dataset().assign(prediction_status=str(failure))
+            ending = {model.STATUS: str(failure), model.STATUS_WORD: str(failure.status or "")}
+            return failure.partial.to_dataset().assign(ending)
         except ExtrapolationError as refusal:
             empty = xr.Dataset(attrs=provenance.attributes())
             totals = dict.fromkeys(model.TOTALS, math.nan)

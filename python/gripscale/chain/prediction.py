@@ -313,7 +313,14 @@ class Prediction:
             **provenance.attributes(),
         )
         answer = model.answer(
-            data, totals, self.why, "chain", self.load, self.extrapolation, self.cut_off_exponents
+            data,
+            totals,
+            self.why,
+            "chain",
+            self.load,
+            self.extrapolation,
+            self.cut_off_exponents,
+            status_word=str(self.status),
         )
         return model.with_area_term(answer, self.adhesive_friction)
 
@@ -385,6 +392,11 @@ class ChainError(ConvergenceError):
     def __init__(self, message: str, partial: Prediction) -> None:
         super().__init__(message)
         self.partial = partial
+
+    @property
+    def status(self) -> Status | None:
+        """The status of the wave; None if it converged to a contact that cannot be."""
+        return None if self.partial.converged else self.partial.status
 
 
 @dataclass(frozen=True)

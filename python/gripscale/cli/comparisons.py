@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -121,7 +122,10 @@ def compare(
             labels = dict(zip(data.rung.values.tolist(), data.label.values.tolist(), strict=True))
             save_figure(at_measured_figure(residuals, labels), target, "at_measured")
 
-    failed = [f"{where} did not converge: {status}" for where, status in failures(data)]
+    failed = [
+        replace(failure, sentence=f"{where} did not converge: {failure}")
+        for where, failure in failures(data)
+    ]
     terminal.conclude(
         console,
         target,

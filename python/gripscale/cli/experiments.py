@@ -187,7 +187,7 @@ def uncertainty(
         text="uncertainty.txt",
         closing="Result (uncertainty.nc), tables and figures are in",
         draw=lambda: draw(uncertainty_pictures(data), figures),
-        failure=failures(data),
+        failure=str(failures(data) or ""),
     )
 
 
@@ -258,5 +258,5 @@ def calibrate(
         closing="Tables, figures, result and [conditions.shear_stress] are in",
         files={"shear_stress.toml": shear_stress_table(fitted)},
         draw=lambda: draw_calibration(data, target),
-        failure=failures(data),
+        failure=str(failures(data) or ""),
     )

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from gripscale.case import CaseFile
     from gripscale.experiment.solve import Progress
     from gripscale.io.table import Table
+    from gripscale.report.notices import Failure
 
 
 BAD_INPUT, NOT_CONVERGED, STOPPED = 2, 3, 130
@@ -136,7 +137,7 @@ def conclude(
         raise typer.Exit(NOT_CONVERGED)
 
 
-def first_of(failed: Sequence[str], total: int, what: str) -> str:
+def first_of(failed: Sequence[Failure], total: int, what: str) -> str:
     """Return how many of the `total` failed, with what to do about the first; empty if none."""
     from gripscale.report.notices import explained
 

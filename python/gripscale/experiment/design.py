@@ -20,8 +20,11 @@ from gripscale.model import (
     ADHESIVE_FRICTION,
     CUT_OFF_EXPONENTS,
     OUTSIDE_BAND,
+    STATUS,
+    STATUS_WORD,
     TOTALS,
     WHY_NO_EXPONENT,
+    status_words,
 )
 
 Index = tuple[int, ...]
@@ -40,7 +43,7 @@ CHANGES = {
 NUMBERS = (*TOTALS, ADHESIVE_FRICTION, *OUTSIDE_BAND, *CUT_OFF_EXPONENTS)
 """Numbers of the whole surface that an answer may have."""
 
-SURFACE = (*NUMBERS, WHY_NO_EXPONENT, "prediction_status")
+SURFACE = (*NUMBERS, WHY_NO_EXPONENT, STATUS, STATUS_WORD)
 """All an answer says of the whole surface."""
 
 
@@ -77,25 +80,28 @@ class Design:
     def dataset(self, answers: Mapping[str, xr.Dataset]) -> xr.Dataset:
         """Return the answers, given by the keys of their tasks, over the dimensions.
 
-        With `prediction_status` (of a refused point the refusal, of a missing one nothing),
-        `prediction_key` and `seconds` of each point.
+        With `prediction_status` (of a refused point the refusal, of a missing one nothing), its
+        word, `prediction_key` and `seconds` of each point.
         """
         shape = tuple(self.sizes.values())
-        status, keys = (np.full(shape, "", dtype=object) for _ in range(2))
+        status, words, keys = (np.full(shape, "", dtype=object) for _ in range(3))
         seconds = np.full(shape, math.nan)
         parts: dict[Index, xr.Dataset] = {}
         for index, refusal in self.refused.items():
             status[index] = refusal
         for point in self.points:
             key = point.task.key
-            parts[point.index] = answers[key].drop_vars("prediction_status")
-            status[point.index] = str(answers[key]["prediction_status"].item())
+            answer = answers[key]
+            parts[point.index] = answer.drop_vars([STATUS, STATUS_WORD], errors="ignore")
+            status[point.index] = str(answer[STATUS].item())
+            words[point.index] = str(status_words(answer).item())
             keys[point.index] = key
-            seconds[point.index] = answers[key].attrs.get("seconds", math.nan)
+            seconds[point.index] = answer.attrs.get("seconds", math.nan)
         dims = tuple(self.sizes)
         kept_in = attributes("name of the file the prediction is kept in")
         data = stack(parts, self.sizes).assign(
             prediction_status=(dims, status, attributes("converged, or why not")),
+            prediction_status_word=(dims, words, attributes("word of the status")),
             prediction_key=(dims, keys, kept_in),
             seconds=(dims, seconds, attributes("time to solve the prediction", "s")),
         )

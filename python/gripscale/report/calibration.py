@@ -16,8 +16,10 @@ from gripscale.analysis.calibration_text import HELD_UNITS, interval, written
 from gripscale.charts.view import CONVERGED
 from gripscale.core.units import ZERO_CELSIUS
 from gripscale.io.table import Column, Table, digits
+from gripscale.model import STATUS, status_words
 from gripscale.report.elements import Card, Facts
 from gripscale.report.measured import residual_table
+from gripscale.report.notices import Failure
 
 
 def calibration_parts(data: xr.Dataset) -> Iterator[str | Table]:
@@ -124,12 +126,15 @@ def law_facts(data: xr.Dataset) -> Facts:
     return Facts("The fit", pairs)
 
 
-def failures(data: xr.Dataset) -> str:
-    """Return how many measured points have no prediction and why the first; nothing if none."""
-    failed = [str(text) for text in data.prediction_status.values if str(text) != CONVERGED]
+def failures(data: xr.Dataset) -> Failure | None:
+    """Return how many measured points have no prediction and why the first; None if none."""
+    statuses = zip(data[STATUS].values, status_words(data).values, strict=True)
+    failed = [(text, str(word)) for text, word in statuses if str(text) != CONVERGED]
     if not failed:
-        return ""
-    return (
+        return None
+    why, word = failed[0]
+    return Failure(
         f"{len(failed)} of {data.sizes['measurement']} measured points have no prediction; "
-        f"the first: {failed[0]}"
+        f"the first: {why}",
+        word,
     )

@@ -19,11 +19,12 @@ from gripscale.model import (
     CUT_OFF_EXPONENTS,
     FRICTION_OUTSIDE_BAND,
     extrapolation_of,
+    status_words,
     with_adhesive,
 )
 from gripscale.report import elements
 from gripscale.report.elements import Card
-from gripscale.report.notices import comparison_sentences, friction_sentence
+from gripscale.report.notices import Failure, comparison_sentences, friction_sentence
 from gripscale.rubber.extrapolation import WORTH_SAYING
 
 SYMBOLS = {"contact_fraction": "A_r/A_0", "friction": "μ"}
@@ -227,8 +228,8 @@ def judgement(chain: PredictionView, direct: xr.Dataset) -> Iterator[str]:
     yield f"The chain has {against}; `gripscale compare` shows which assumption costs what."
 
 
-def failures(comparison: xr.Dataset) -> Iterator[tuple[str, str]]:
-    """Yield where a model has a sample that did not converge, and its status."""
+def failures(comparison: xr.Dataset) -> Iterator[tuple[str, Failure]]:
+    """Yield where a model has a sample that did not converge, and what it says."""
     axis = varied(comparison)
     for at in range(comparison.sizes[axis]) if axis else [None]:
         data = comparison if at is None else comparison.isel({axis: at})
@@ -236,9 +237,10 @@ def failures(comparison: xr.Dataset) -> Iterator[tuple[str, str]]:
         if at is not None:
             value = axis_shown(comparison, axis).text(float(data[axis]), 4)
             where = f"{axis.replace('_', ' ')} {value}, "
-        for label, status in zip(data.label.values, data.status.values, strict=True):
-            if str(status) != CONVERGED:
-                yield f"{where}{label}", str(status)
+        words = status_words(data, "status").values
+        for label, text, word in zip(data.label.values, data.status.values, words, strict=True):
+            if str(text) != CONVERGED:
+                yield f"{where}{label}", Failure(str(text), str(word))
 
 
 def _with_uncertainty(comparison: xr.Dataset, name: str) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,7 +17,7 @@ from gripscale.io.table import NONE
 from gripscale.report.elements import Card, Notice, number, percent
 from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
 from gripscale.rubber.material import LEAST_POISSON_RATIO
-from gripscale.wave.problem import status_in
+from gripscale.wave.problem import Status
 from gripscale.wave.result import LARGE_MISMATCH
 
 if TYPE_CHECKING:
@@ -54,10 +55,31 @@ def _of_waves(flagged: np.ndarray, words: str) -> Iterator[str]:
         yield f"Wave{many} {', '.join(numbers)}: {words}."
 
 
-def explained(failure: object) -> str:
+@dataclass(frozen=True)
+class Failure:
+    """A prediction, or a part of one, without numbers to be used."""
+
+    sentence: str
+    word: str = ""
+    """Of its `Status`; empty if there is none, or the file is of an older version."""
+
+    @property
+    def status(self) -> Status | None:
+        """Its status, None if there is none."""
+        return Status(self.word) if self.word in FAILURES else None
+
+    def __str__(self) -> str:
+        return self.sentence
+
+
+FAILURES = set(Status) - {Status.CONVERGED}
+"""Statuses that say why there are no numbers."""
+
+
+def explained(failure: Failure | Exception) -> str:
     """Return a failure with what to do about it, and what says more about it."""
     text = str(failure)
-    status = getattr(failure, "status", None) or status_in(text)
+    status = getattr(failure, "status", None)
     see = getattr(failure, "see", "") or ("" if status is None else status.chapter)
     if not see:
         return text
@@ -141,15 +163,16 @@ def notices(run: Run) -> list[Notice]:
 
 def _failures(view: PredictionView) -> Iterator[str]:
     for i in np.flatnonzero(~view.converged):
-        why = view.why(int(i))
+        why, word = view.why(int(i)), str(view.data["status"].values[i])
         yield (
             f"{view.title}: wave {i + 1} did NOT converge ({why}). Its numbers are not to be "
-            f"used, the waves after it were not solved, and there are no totals. {_advice(why)}"
+            f"used, the waves after it were not solved, and there are no totals. {_advice(word)}"
         ).rstrip()
     if view.complete or not view.converged.all():
         return
     if view.status != CONVERGED:
-        yield f"{view.title}: {view.status}. There are no totals. {_advice(view.status)}".rstrip()
+        advice = _advice(view.status_word)
+        yield f"{view.title}: {view.status}. There are no totals. {advice}".rstrip()
     else:
         yield (
             f"{view.title}: the run ended after wave {view.waves} of {view.planned}. The totals "
@@ -157,9 +180,9 @@ def _failures(view: PredictionView) -> Iterator[str]:
         )
 
 
-def _advice(why: str) -> str:
-    """Return what to do about a failure as sentences of their own; empty where nothing is known."""
-    status = status_in(why)
+def _advice(word: str) -> str:
+    """Return what to do about a status as sentences of their own; empty where nothing is known."""
+    status = Failure("", word).status
     if status is None:
         return ""
     return f"{status.advice} See {chapter_words(status.chapter)}."

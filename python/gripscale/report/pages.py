@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import shlex
 from collections.abc import Iterable
+from dataclasses import replace
 
 import numpy as np
 import xarray as xr
@@ -327,8 +328,9 @@ def comparison_elements(compared: Compared) -> list[Element]:
         return []
     elements: list[Element] = [Text(LADDER)]
     for data in compared.parts:
-        for where, status in comparison.failures(data):
-            elements.append(Notice("error", f"{notices.explained(f'{where}: {status}')}."))
+        for where, failure in comparison.failures(data):
+            placed = replace(failure, sentence=f"{where}: {failure}")
+            elements.append(Notice("error", f"{notices.explained(placed)}."))
     for data in compared.parts:
         axis = varied(data)
         over = f" over {axis.replace('_', ' ')}" if axis else ""

@@ -14,7 +14,8 @@ from gripscale.core.units import MILLI
 from gripscale.experiment.axis import EFFECTS, MODELS
 from gripscale.experiment.design import CHANGES, WITH_AREA_TERM
 from gripscale.io.table import Column, Table, change, fixed, significant
-from gripscale.model import ADHESIVE_FRICTION
+from gripscale.model import ADHESIVE_FRICTION, STATUS, status_words
+from gripscale.report.notices import Failure
 
 QUANTITIES = {"total_contact_fraction": "A_r/A_0", "total_friction": "μ"}
 
@@ -123,13 +124,16 @@ def roads_tables(data: xr.Dataset) -> list[Table]:
     return [table for table in tables if len(table)]
 
 
-def failed_totals(data: xr.Dataset) -> list[str]:
+def failed_totals(data: xr.Dataset) -> list[Failure]:
     """Return what has no totals, and why."""
-    status = data.prediction_status
+    status, words = data[STATUS], status_words(data)
     where = [dim for dim in ("model", "surface", "rubber") if dim in status.dims]
-    stacked = status.transpose(*where)
+    stacked, words = (texts.transpose(*where) for texts in (status, words))
     return [
-        f"{', '.join(str(data[d].values[i]) for d, i in zip(where, at, strict=True))}: {text}"
+        Failure(
+            f"{', '.join(str(data[d].values[i]) for d, i in zip(where, at, strict=True))}: {text}",
+            str(words.values[at]),
+        )
         for at, text in np.ndenumerate(stacked.values)
         if str(text) not in ("", CONVERGED)
     ]

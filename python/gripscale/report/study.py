@@ -17,8 +17,8 @@ from gripscale.core.units import MILLI
 from gripscale.experiment.axis import COUNTS, axis_shown, dimensions, name_of, of_numbers
 from gripscale.experiment.speed_and_temperature import BEYOND_SHIFT, COLLAPSED, PER_DECADE
 from gripscale.io.table import NONE, Column, Table, digits, percent, significant
-from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND
-from gripscale.report.notices import study_sentence
+from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, STATUS, status_words
+from gripscale.report.notices import Failure, study_sentence
 
 MOST_ROWS = 200
 """Predictions in the terminal; a page has all of them."""
@@ -96,11 +96,17 @@ def study_parts(data: xr.Dataset) -> Iterator[str | Table]:
     yield from (f"Over a_T v, {words}: {text}." for words, text in collapse_sentences(data))
 
 
-def failed_predictions(data: xr.Dataset) -> tuple[list[str], int]:
-    """Return the status of each prediction without totals, and how many predictions there are."""
-    names = [name for name in ("prediction_status", "static_prediction_status") if name in data]
-    statuses = [str(text) for name in names for text in data[name].values.ravel()]
-    return [text for text in statuses if text != CONVERGED], len(statuses)
+def failed_predictions(data: xr.Dataset) -> tuple[list[Failure], int]:
+    """Return each prediction without totals, and how many predictions there are."""
+    endings = [
+        Failure(str(sentence), str(word))
+        for name in (STATUS, f"static_{STATUS}")
+        if name in data
+        for sentence, word in zip(
+            data[name].values.ravel(), status_words(data, name).values.ravel(), strict=True
+        )
+    ]
+    return [ending for ending in endings if ending.sentence != CONVERGED], len(endings)
 
 
 def shift_sentence(data: xr.Dataset) -> str:
@@ -181,7 +187,9 @@ def totals_of(data: xr.Dataset) -> list[str]:
     return [
         str(name)
         for name, variable in data.data_vars.items()
-        if variable.dims and set(variable.dims) <= axes and not str(name).endswith("_key")
+        if variable.dims
+        and set(variable.dims) <= axes
+        and not str(name).endswith(("_key", "_status_word"))
     ]
 
 
@@ -216,8 +224,8 @@ def axis_unit(data: xr.Dataset, axis: str) -> str:
     return axis_shown(data, axis).unit if of_numbers(data, axis) else ""
 
 
-def failures(data: xr.Dataset) -> Iterator[str]:
-    """Yield a sentence for each prediction that is not `converged`, or has a NaN total."""
+def failures(data: xr.Dataset) -> Iterator[Failure]:
+    """Yield each prediction that is not `converged`, or has a NaN total."""
     names = totals_of(data)
     states = [name for name in names if name.endswith("status")]
     totals = [name for name in names if name in ("total_contact_fraction", "contact_fraction")]
@@ -229,9 +237,10 @@ def failures(data: xr.Dataset) -> Iterator[str]:
         )
         for name in states:
             if (status := str(row[name].values[()])) != CONVERGED:
-                yield f"{where}: NOT converged: {status or NONE}"
+                word = str(status_words(row, name).item())
+                yield Failure(f"{where}: NOT converged: {status or NONE}", word)
         if not states and any(math.isnan(float(row[name])) for name in totals):
-            yield f"{where}: no total"
+            yield Failure(f"{where}: no total")
 
 
 def command(data: xr.Dataset) -> str:

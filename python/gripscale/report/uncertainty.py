@@ -16,7 +16,9 @@ from gripscale.charts.view import CONVERGED
 from gripscale.core.arrays import SURE
 from gripscale.experiment.axis import name_of
 from gripscale.io.table import Column, Table
+from gripscale.model import status_words
 from gripscale.report.elements import Card
+from gripscale.report.notices import Failure
 
 HEADS = {"friction": "μ", "contact_fraction": "A_r/A_0"}
 OF_ANOTHER = (
@@ -55,7 +57,7 @@ def uncertainty_parts(data: xr.Dataset) -> Iterator[str | Table]:
     yield from (f"Not sampled: {why}." for why in json.loads(data.attrs["left_out"]))
     if not axis_of(data):
         yield f"{summary(data)}."
-    yield from filter(None, [failures(data)])
+    yield from map(str, filter(None, [failures(data)]))
 
 
 def quantile_table(data: xr.Dataset) -> Table:
@@ -151,21 +153,30 @@ def grid_sentences(data: xr.Dataset) -> Iterator[str]:
             )
 
 
-def failures(data: xr.Dataset) -> str:
-    """Return how many samples have no answer, and why most of them; nothing if all have one."""
-    status = data.status.values.ravel()
-    bad = Counter(str(text) for text in status if text != CONVERGED)
-    of_case = [str(text) for text in data.status_case.values.ravel() if text != CONVERGED]
-    sentences = []
+def failures(data: xr.Dataset) -> Failure | None:
+    """Return how many samples have no answer, and why most of them; None if all have one."""
+    bad = Counter(_failed(data, "status"))
+    of_case = _failed(data, "status_case")
+    sentences, words = [], []
     if bad:
-        why, count = bad.most_common(1)[0]
+        (why, word), count = bad.most_common(1)[0]
+        words.append(word)
         sentences.append(
-            f"{bad.total()} of {status.size} samples have no answer and count in no quantile; "
+            f"{bad.total()} of {data.status.size} samples have no answer and count in no quantile; "
             f"{count} of them: {why}"
         )
     if of_case:
-        sentences.append(f"the case itself has no answer: {of_case[0]}")
-    return "; ".join(sentences)
+        why, word = of_case[0]
+        words.append(word)
+        sentences.append(f"the case itself has no answer: {why}")
+    return Failure("; ".join(sentences), next(filter(None, words), "")) if sentences else None
+
+
+def _failed(data: xr.Dataset, sentences: str) -> list[tuple[str, str]]:
+    """Return sentence and word of what did not converge."""
+    words = status_words(data, sentences).values.ravel()
+    pairs = zip(data[sentences].values.ravel(), words, strict=True)
+    return [(str(text), str(word)) for text, word in pairs if text != CONVERGED]
 
 
 def uncertainty_lines(

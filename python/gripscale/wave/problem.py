@@ -7,7 +7,6 @@ ended.
 from __future__ import annotations
 
 import math
-import re
 from enum import StrEnum
 
 import numpy as np
@@ -188,14 +187,3 @@ _CHAPTERS = {
     Status.CONDITIONS_NOT_SETTLED: "conditions.md#how-they-settle",
 }
 """Chapters of statuses that have one of their own."""
-
-
-def status_in(text: str) -> Status | None:
-    """Return the failure that a sentence states between its signs, or None.
-
-    Such as `iteration limit` in "wave 3 of 4 did not converge: iteration limit at 40 % of the
-    pressure".
-    """
-    parts = (part.strip() for part in re.split(r"[:;,.()]| at | for | after ", text))
-    words = {str(status): status for status in Status if status is not Status.CONVERGED}
-    return next((words[part] for part in parts if part in words), None)

@@ -27,7 +27,8 @@ def solved() -> Make:
             row = {"friction": math.nan, "contact_fraction": math.nan, "subject": ""} | row
             row = {"friction_from_dissipation": 1.02 * row["friction"]} | row
             errors = {"contact_fraction_error": math.nan, "friction_error": math.nan}
-            rows.append({"prediction_status": "converged"} | errors | row)
+            good = {"prediction_status": "converged", "prediction_status_word": "converged"}
+            rows.append(good | errors | row)
         columns = {name: ("sample", [row[name] for row in rows]) for name in rows[0]}
         return xr.Dataset(columns).set_coords("subject")
 
@@ -44,7 +45,7 @@ def together() -> Callable[..., xr.Dataset]:
         padded = []
         for samples in rungs.values():
             missing = {"sample": (0, most - samples.sizes["sample"])}
-            texts = {"prediction_status": "", "subject": ""}
+            texts = {"prediction_status": "", "prediction_status_word": "", "subject": ""}
             filled = samples.reset_coords().pad(missing, constant_values={**texts})
             padded.append(filled.set_coords("subject"))
         return xr.concat(padded, "rung", coords=["subject"]).assign_coords(rung=names)

@@ -16,6 +16,7 @@ from gripscale.analysis.samples import (
     relative_uncertainty,
     spread,
     status,
+    status_word,
     usable,
 )
 
@@ -23,7 +24,11 @@ Make = Callable[..., xr.Dataset]
 
 
 def failed(subject: str = "") -> dict[str, Any]:
-    return {"prediction_status": "tolerance not met", "subject": subject}
+    return {
+        "prediction_status": "tolerance not met",
+        "prediction_status_word": "tolerance not met",
+        "subject": subject,
+    }
 
 
 def test_failed_sample_is_in_no_mean_and_is_counted(solved: Make) -> None:
@@ -31,6 +36,7 @@ def test_failed_sample_is_in_no_mean_and_is_counted(solved: Make) -> None:
     assert usable(rung, "contact_fraction").mean() == pytest.approx(0.03)
     assert spread(usable(rung, "friction")) == pytest.approx(np.std([0.3, 0.5], ddof=1))
     assert status(rung) == "1 of 3 samples failed: tolerance not met"
+    assert status_word(rung) == "tolerance not met"
     assert int(converged(rung).sum()) == 2
     alone = solved(failed())
     assert math.isnan(usable(alone, "friction").mean())

@@ -140,6 +140,7 @@ def test_samples_of_a_model_are_averaged() -> None:
     np.testing.assert_allclose(both.temperature, [315.0, np.nan])  # by area, 1 to 3
     np.testing.assert_allclose(both.outside_band, [0.1, np.nan])
     assert list(both.status) == ["converged", "no contact"]
+    assert list(both.status_word) == ["converged", ""]
     # a law linear in the temperature gives the mean of both terms
     term = averaged([one]).area_term(TemperatureProbe(), np.ones(2))[0]
     mean = 0.5 * (term + other.area_term(TemperatureProbe(), np.ones(2))[0])
