@@ -6,8 +6,10 @@ import re
 from pathlib import Path
 
 import pytest
+import xarray as xr
 
 from gripscale.core.errors import ExtrapolationError, InputError
+from gripscale.model import status_words
 from gripscale.report.notices import Failure, chapter_words, explained
 from gripscale.wave import Status
 
@@ -51,6 +53,11 @@ def test_a_failure_says_what_to_do_and_where_to_read(status: Status) -> None:
 def test_a_failure_without_a_known_word_is_its_sentence(word: str) -> None:
     text = "wave 3 of 3 did not converge: iteration limit"
     assert explained(Failure(text, word)) == text
+
+
+def test_a_file_of_an_older_version_has_no_words() -> None:
+    data = xr.Dataset({"prediction_status": ("speed", ["converged", "time limit"])})
+    assert status_words(data).values.tolist() == ["", ""]
 
 
 def test_a_chapter_is_found_without_the_source() -> None:
