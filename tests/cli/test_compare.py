@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -14,7 +15,7 @@ import gripscale as gs
 from gripscale.analysis import compare_case, solve_reference
 from gripscale.analysis.comparison import FILE, reference_totals
 from gripscale.analysis.samples import curve_at
-from gripscale.case import prepare_case
+from gripscale.case import prepare_case, read_case
 from gripscale.charts.comparison import comparison_axis_figure, comparison_figure
 from gripscale.charts.view import PredictionView
 from gripscale.io import netcdf
@@ -254,6 +255,7 @@ def test_nothing_rubs_at_rest(tmp_path: Path) -> None:
     case = tmp_path / "case.toml"
     case.write_text(WAVES_BY_HAND.replace("speed = 0.3", "speed = 0.0"))
     data = compare_case(case, seeds=2).to_dataset()
+    assert data.attrs["display_units"] == json.dumps(read_case(case).units)
     assert (data.total_friction == 0.0).all()
     assert np.isnan(data.friction_uncertainty).all()
     assert (data.total_contact_fraction > 0.0).all()

@@ -2,9 +2,17 @@
 
 from __future__ import annotations
 
+import tomllib
+
 import pytest
 
-from gripscale.core.units import DISPLAY_UNITS, GIVEN, display_unit, given_units
+from gripscale.core.units import (
+    DISPLAY_UNITS,
+    GIVEN,
+    display_unit,
+    display_unit_of,
+    stated_units,
+)
 from gripscale.experiment.axis import axes_of
 from gripscale.experiment.study import coordinates
 
@@ -16,27 +24,28 @@ pressure = "300 kPa"
 speed = "36 km/h"
 footprint = 0.1
 """
+UNITS = stated_units(tomllib.loads(CASE))
 
 
 def test_the_units_of_a_case() -> None:
-    assert given_units(CASE) == {"pressure": "kPa", "speed": "km/h", "smallest_wavelength": "um"}
-    assert display_unit("pressure", CASE).text(3e5) == "300 kPa"
-    assert display_unit("speed", CASE).text(10.0) == "36 km/h"
-    assert display_unit("footprint", CASE).text(0.1) == "100 mm"
+    assert UNITS == {"pressure": "kPa", "speed": "km/h", "smallest_wavelength": "um"}
+    assert display_unit("pressure", UNITS).text(3e5) == "300 kPa"
+    assert display_unit("speed", UNITS).text(10.0) == "36 km/h"
+    assert display_unit("footprint", UNITS).text(0.1) == "100 mm"
 
 
 def test_a_result_carries_the_units_of_its_case() -> None:
     """One of an older version has but the text."""
     stated = {DISPLAY_UNITS: '{"speed": "km/h"}', "case": "[load]\nspeed = '1 mm/s'"}
-    assert display_unit("speed", stated).text(10.0) == "36 km/h"
-    assert display_unit("pressure", stated).text(3e5) == "0.3 MPa"
-    assert display_unit("speed", {"case": CASE}).text(10.0) == "36 km/h"
+    assert display_unit_of(stated, "speed").text(10.0) == "36 km/h"
+    assert display_unit_of(stated, "pressure").text(3e5) == "0.3 MPa"
+    assert display_unit_of({"case": CASE}, "speed").text(10.0) == "36 km/h"
 
 
 @pytest.mark.parametrize("case", ["", "no = toml = at all", "load = 3", "[load]\npressure = 3e5"])
 def test_without_a_unit_it_is_the_usual_one(case: str) -> None:
-    assert display_unit("pressure", case).text(3e5) == "0.3 MPa"
-    assert display_unit("speed", case).text(10.0) == "10 m/s"
+    assert display_unit_of({"case": case}, "pressure").text(3e5) == "0.3 MPa"
+    assert display_unit_of({"case": case}, "speed").text(10.0) == "10 m/s"
 
 
 @pytest.mark.parametrize(
@@ -51,16 +60,16 @@ def test_without_a_unit_it_is_the_usual_one(case: str) -> None:
 def test_an_axis_goes_before_the_case(values: object, unit: str, called: str) -> None:
     """Inside it is in Pa whatever is shown."""
     axes = axes_of({"pressure": values})
-    along = coordinates(axes, CASE)["pressure"]
+    along = coordinates(axes, UNITS)["pressure"]
     assert (along.values.tolist(), along.attrs["units"], along.attrs[GIVEN]) == (
         [1e5, 3e5],
         "Pa",
         unit,
     )
-    assert axes[0].called(1, CASE) == called
+    assert axes[0].called(1, UNITS) == called
 
 
 def test_other_axes_have_no_unit_to_choose() -> None:
     axes = axes_of({"temperature": "20 C, 40 C", "waves": [3, 4]})
-    assert all(GIVEN not in one.attrs for one in coordinates(axes, CASE).values())
-    assert [axis.called(1, CASE) for axis in axes] == ["40 C", "4"]
+    assert all(GIVEN not in one.attrs for one in coordinates(axes, UNITS).values())
+    assert [axis.called(1, UNITS) for axis in axes] == ["40 C", "4"]

@@ -126,7 +126,15 @@ def study_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
             "scale": scale,
             "decade": [0.1, 1.0, 10.0],
         },
-        attrs={"title": "Study of <contact>", "case": CASE, "version_gripscale": "0.1.0"},
+        attrs={
+            "title": "Study of <contact>",
+            "case": CASE,
+            "display_units": '{"pressure": "bar", "footprint": "mm"}',
+            "nominal_pressure": 3e5,
+            "footprint": 0.1,
+            "conditions": "null",
+            "version_gripscale": "0.1.0",
+        },
     )
     data["speed"].attrs |= {"units": "m/s", "long_name": "sliding speed"}
     return netcdf.save(data, tmp_path_factory.mktemp("study") / "study.nc")

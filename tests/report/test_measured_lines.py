@@ -27,6 +27,6 @@ def test_nothing_is_extrapolated(speed: float) -> None:
 
 def test_speeds_are_those_of_the_case() -> None:
     [line] = measured_lines(
-        MeasuredFriction([0.01, 1.0], [0.8, 1.2]), 10.0, display_unit("speed", unit="km/h")
+        MeasuredFriction([0.01, 1.0], [0.8, 1.2]), 10.0, display_unit("speed", {"speed": "km/h"})
     )
     assert line == "Measured: nothing at 36 km/h, only from 0.0360 to 3.60 km/h."

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +13,10 @@ from bokeh.models import ColumnDataSource
 from gripscale.charts.study import study_charts
 from gripscale.experiment import Study
 from gripscale.io import netcdf
+from gripscale.report import source as results
 from gripscale.report import write_report
+from gripscale.report.elements import Facts
+from gripscale.report.inputs import input_sections
 from gripscale.wave.problem import Status
 from tests.samples import EXAMPLES
 
@@ -74,6 +78,18 @@ def test_page_speaks_in_words_and_has_its_inputs(page: Page) -> None:
     assert titles[:2] == ["axes", "inputs"]
     for words in ("Nominal pressure 3 bar", "Sliding speed varied", "Footprint 100 mm"):
         assert words in page.text
+
+
+def test_inputs_of_a_study_are_read_from_its_attributes(study_file: Path) -> None:
+    """Whatever the text of its case says."""
+    source = results.read_result(study_file)
+    assert isinstance(source, results.Study)
+    attrs = {"display_units": '{"pressure": "kPa"}', "case": "no = toml = at all"}
+    changed = replace(source, data=source.data.assign_attrs(attrs))
+    load = input_sections(changed)[0].elements[0]
+    assert isinstance(load, Facts)
+    facts = dict(load.pairs)
+    assert (facts["Nominal pressure"], facts["Footprint"]) == ("300 kPa", "100 mm")
 
 
 @pytest.fixture(scope="module")

@@ -265,7 +265,7 @@ def at_measured(
         predicted[name] = measured_comparison.averaged(samples)
     law = None if setup.conditions is None else setup.conditions.shear_stress
     data = measured_comparison.residuals(measured, predicted, law)
-    return data.assign_attrs(case=comparison.file.text, measured_source=measured.source)
+    return data.assign_attrs(comparison.file.attributes, measured_source=measured.source)
 
 
 JUDGED_TO = 0.1
@@ -333,5 +333,5 @@ def reference_totals(samples: xr.Dataset, results: CaseResults) -> xr.Dataset:
         extrapolation_of(beyond),
         cut_off_exponents_of(exponents),
         status_word=str(reduce.status_word(samples).item()),
-    ).assign_attrs(case=results.file.text, tolerance=JUDGED_TO)
+    ).assign_attrs(results.file.attributes, tolerance=JUDGED_TO)
     return with_area_term(totals, float(reduce.usable(samples, "adhesive_friction").mean("sample")))

@@ -156,7 +156,7 @@ def comparison_dataset(comparison: Comparison) -> xr.Dataset:
         data |= measured_variables(measured)
     coords: dict[str, Any] = {}
     if axis is not None:
-        coords |= coordinates([axis], comparison.file.text)
+        coords |= coordinates([axis], comparison.file.units)
     text = "lower end of the octave"
     coords["wavelength"] = labelled("wavelength", wavelength, "m", text, SOURCE)
     conditions = setups[0].conditions
@@ -168,7 +168,7 @@ def comparison_dataset(comparison: Comparison) -> xr.Dataset:
         },
         {
             "title": "Contact and friction by model",
-            "case": comparison.file.text,
+            **comparison.file.attributes,
             "case_file": str(comparison.file.path),
             "conditions": json.dumps(conditions and conditions.to_dict()),
             "seeds": setups[0].seeds,

@@ -188,7 +188,7 @@ def case_effects(
         solved = results.dynamic.to_dataset().assign_attrs(prediction_key=key)
         Store(store).put(key, solved)
     data = effects(*setup, folder=store, workers=workers, client=client, on_task=on_task)
-    data = data.assign_attrs(case=results.file.text)
+    data = data.assign_attrs(results.file.attributes)
     netcdf.save(data, Path(folder) / FILE.format(model=model.name))
     return data
 

@@ -34,8 +34,7 @@ from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError, RubberWarning
 from gripscale.core.provenance import software
-from gripscale.core.units import GIVEN
-from gripscale.experiment.axis import LONG_NAMES, UNITS, Axis, axes_of
+from gripscale.experiment.axis import Axis, axes_of
 from gripscale.experiment.design import (
     CONVERGED,
     Design,
@@ -47,6 +46,7 @@ from gripscale.experiment.design import (
 )
 from gripscale.experiment.inputs import contents, digest
 from gripscale.experiment.solve import Bench, OnTask, bench_in
+from gripscale.experiment.study import coordinates
 from gripscale.experiment.task import Task, canonical_json, load_stored
 from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
@@ -422,14 +422,13 @@ def _solved(plan: Plan, results: CaseResults, chosen: Chosen, bench: Bench) -> x
     sizes = {"model": len(plan.models)}
     coords: dict[str, Any] = {"model": list(plan.models)}
     if axis is not None:
-        attrs = attributes(LONG_NAMES[axis.name], UNITS[axis.name]) | {GIVEN: axis.unit}
         sizes[axis.name] = len(loads)
-        coords[axis.name] = (axis.name, list(axis.values), attrs)
+        coords |= coordinates([axis], plan.file.units)
     design = Design(sizes | {"sample": len(drawn) + 1}, points, coords, refused)
     data = uncertainty_dataset(solve_design(design, bench, sampled_numbers), drawn, chosen)
     return data.assign_attrs(
-        {FILES: json.dumps(input_digests(plan.file))},
-        case=plan.file.text,
+        plan.file.attributes,
+        **{FILES: json.dumps(input_digests(plan.file))},
         seed=plan.seed,
         plan_key=plan.key,
         software=software(),

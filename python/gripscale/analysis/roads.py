@@ -287,8 +287,8 @@ def compare_surfaces(
     data = roads_dataset(roads, solved).assign_attrs(
         notes="\n".join(notes),
         surfaces=shlex.join(words),
-        case=file.text,
         case_file=str(file.path),
+        **file.attributes,
         **provenance.attributes(),
     )
     return Roads(roads, tuple(notes), netcdf.load(netcdf.save(data, Path(folder) / RESULT)))

@@ -17,7 +17,7 @@ from gripscale.case.schema import first_complaint, sentence
 from gripscale.case.tables import Case
 from gripscale.core.errors import FileError, InputError, about_keys
 from gripscale.core.provenance import software, versions
-from gripscale.core.units import stated_units
+from gripscale.core.units import DISPLAY_UNITS, stated_units
 from gripscale.io.text_table import read_bytes
 
 M = TypeVar("M", bound=BaseModel)
@@ -32,6 +32,11 @@ class CaseFile:
     text: str
     units: Mapping[str, str] = field(default_factory=dict, compare=False)
     """The units the case states, by key, in which results are shown."""
+
+    @property
+    def attributes(self) -> dict[str, str]:
+        """What every result of the case carries: its text, and the units it states."""
+        return {"case": self.text, DISPLAY_UNITS: json.dumps(self.units)}
 
     def resolve(self, name: str) -> Path:
         """Return the path of a file named in the case, relative to the case file."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -13,7 +12,7 @@ from gripscale.case.read import CaseFile, prediction_key
 from gripscale.chain import Chain, ChainError
 from gripscale.chain.prediction import Prediction
 from gripscale.conditions.conditions import Conditions
-from gripscale.core.units import DISPLAY_UNITS, DisplayUnit, display_unit
+from gripscale.core.units import DisplayUnit, display_unit
 from gripscale.model import Load
 from gripscale.rubber import Rubber, temperature_doubts
 from gripscale.surface import Surface
@@ -60,14 +59,16 @@ class CaseResults:
 
     def dataset(self, name: str) -> xr.Dataset:
         """Return the prediction `name` with what it is of: case, surface, rubber."""
-        attributes = {"case": self.file.text, "case_file": str(self.file.path)}
-        attributes[DISPLAY_UNITS] = json.dumps(self.file.units)
-        sources = {"surface_source": self.surface.source, "rubber_source": self.rubber.source}
-        return self.predictions[name].to_dataset().assign_attrs(attributes | sources)
+        sources = {
+            "case_file": str(self.file.path),
+            "surface_source": self.surface.source,
+            "rubber_source": self.rubber.source,
+        }
+        return self.predictions[name].to_dataset().assign_attrs(self.file.attributes | sources)
 
     def display_unit(self, name: str) -> DisplayUnit:
         """Return how `pressure`, `speed` or `footprint` is shown: as the case gives it."""
-        return display_unit(name, unit=self.file.units.get(name, ""))
+        return display_unit(name, self.file.units)
 
     @property
     def conditions(self) -> Conditions | None:

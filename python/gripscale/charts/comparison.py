@@ -22,7 +22,7 @@ from gripscale.charts.ladder import BEST, STAR, Look, MeasuredSeries, Row
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BEYOND, BLUE, FAINT, FLAG, GREY, INK, ORANGE, WIDE
 from gripscale.core.arrays import Array
-from gripscale.core.units import MILLI, DisplayUnit, display_unit
+from gripscale.core.units import MILLI, DisplayUnit, display_unit_of
 from gripscale.experiment.axis import axis_label, axis_shown
 from gripscale.half_space.model import DirectContact
 from gripscale.model import with_adhesive
@@ -295,7 +295,7 @@ def measured_sheet(
 
     Speeds are shown as the `DisplayUnit` says; `head` is the height of the legend [inch].
     """
-    how = display_unit("speed", data.attrs)
+    how = display_unit_of(data.attrs, "speed")
     panels = []
     series = zip(ladder.measured(data), ladder.measured_points(data, how), strict=True)
     for _, (values, points) in zip(range(MOST_PANELS), series, strict=False):

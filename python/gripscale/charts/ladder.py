@@ -15,7 +15,7 @@ from gripscale.charts import style
 from gripscale.charts.chart import Series
 from gripscale.charts.style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, SKY, YELLOW
 from gripscale.core.arrays import Array
-from gripscale.core.units import ZERO_CELSIUS, DisplayUnit, display_unit
+from gripscale.core.units import ZERO_CELSIUS, DisplayUnit, display_unit_of
 from gripscale.half_space.model import DirectContact
 
 ASIDE = ("windows", "map")
@@ -123,7 +123,7 @@ def measured(data: xr.Dataset) -> Iterator[MeasuredSeries]:
     unknown = np.full(kelvin.size, np.nan)
     pascal = data.measured_pressure.values if "measured_pressure" in data else unknown
     several = np.unique(pascal).size > 1
-    how = display_unit("pressure", data.attrs)
+    how = display_unit_of(data.attrs, "pressure")
     for temperature in np.unique(kelvin):
         for pressure in np.unique(pascal):
             rows = np.isclose(kelvin, temperature, equal_nan=True)

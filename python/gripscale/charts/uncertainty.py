@@ -16,7 +16,7 @@ from gripscale.charts.page_elements import Picture
 from gripscale.charts.study import varied_axis
 from gripscale.charts.style import BLUE, COLOURS, FAINT, GREY, INK, ORANGE
 from gripscale.core.arrays import SURE
-from gripscale.core.units import MEGA, DisplayUnit, display_unit
+from gripscale.core.units import MEGA, DisplayUnit, display_unit_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -231,7 +231,7 @@ def residual_figure(data: xr.Dataset) -> Figure:
     spread = bool(np.isfinite(data.difference_in_spread).any())
     values = data["difference_in_spread" if spread else "difference"].values
     scale = 1.0 if spread else float(data.attrs["scatter"])
-    how = display_unit("speed", data.attrs)
+    how = display_unit_of(data.attrs, "speed")
     marks: list[Mark] = [CrossLine(-scale, FAINT, to=scale), CrossLine(0.0)]
     for number, series in enumerate(measured(data)):
         marks.append(Series(

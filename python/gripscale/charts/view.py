@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gripscale.core.arrays import Array
-from gripscale.core.units import DisplayUnit, display_unit
+from gripscale.core.units import DisplayUnit, display_unit_of
 from gripscale.model import status_words
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ class PredictionView:
 
     def display_unit(self, name: str) -> DisplayUnit:
         """Return how its `pressure`, `speed` or `footprint` is shown: as its case gives it."""
-        return display_unit(name, self.data.attrs)
+        return display_unit_of(self.data.attrs, name)
 
     @property
     def status(self) -> str:

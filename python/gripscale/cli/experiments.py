@@ -247,7 +247,7 @@ def calibrate(
         on_task=terminal.progress_printer(console),
     )
     data = fitted.to_dataset().assign_attrs(
-        case=file.text, case_file=str(file.path), model=model, notes="\n".join(notes(fitted))
+        file.attributes, case_file=str(file.path), model=model, notes="\n".join(notes(fitted))
     )
     netcdf.save(data, target / "calibration.nc")
     terminal.conclude(

@@ -1,7 +1,8 @@
 """Units that files, case files and callers may name, and the units in which results are shown.
 
-Inside, and in result files, all values are in SI units. A result carries the text of its case, and
-an axis of a study the unit of its values (`GIVEN`); plain numbers are shown in the usual unit.
+Inside, and in result files, all values are in SI units. A result carries the units that its case
+states (`DISPLAY_UNITS`), and an axis of a study the unit of its values (`GIVEN`); plain numbers are
+shown in the usual unit.
 """
 
 from __future__ import annotations
@@ -218,26 +219,26 @@ class DisplayUnit:
         return f"{float(self.of(value)):.{digits}g} {self.unit}"
 
 
-def display_unit(name: str, case: str | Mapping[str, Any] = "", unit: str = "") -> DisplayUnit:
-    """Return the unit in which one of `KEYS` is shown.
-
-    `case` are the attributes of a result, or the text of its case, whose unit counts if `unit`, the
-    stated one, is empty.
-    """
+def display_unit(name: str, units: Mapping[str, str] | None = None) -> DisplayUnit:
+    """Return the unit in which one of `KEYS` is shown: of the stated `units`, or the usual one."""
     kind = KEYS[name][1]
-    if isinstance(case, str):
-        units = given_units(case)
-    elif DISPLAY_UNITS in case:
-        units = json.loads(case[DISPLAY_UNITS])
-    else:  # a result of an older version has but the text of its case
-        units = given_units(str(case.get("case", "")))
-    chosen = unit or units.get(name) or USUAL[kind]
+    chosen = (units or {}).get(name) or USUAL[kind]
     return DisplayUnit(chosen, UNITS[kind][chosen])
 
 
+def display_unit_of(attrs: Mapping[str, Any], name: str) -> DisplayUnit:
+    """Return the unit in which one of `KEYS` is shown of a result with these attributes."""
+    if DISPLAY_UNITS in attrs:
+        return display_unit(name, json.loads(attrs[DISPLAY_UNITS]))
+    return display_unit(name, _units_in(str(attrs.get("case", ""))))
+
+
 @lru_cache(maxsize=64)
-def given_units(case: str) -> Mapping[str, str]:
-    """Return the stated unit of each of `KEYS` in the text of a case."""
+def _units_in(case: str) -> Mapping[str, str]:
+    """Return the stated unit of each of `KEYS` in the text of a case.
+
+    For results of version 0.1, which have but this text.
+    """
     try:
         return stated_units(tomllib.loads(case))
     except tomllib.TOMLDecodeError:

@@ -92,16 +92,19 @@ class Axis:
         """Values along the axis of a Dataset: numbers, or labels."""
         return list(self.values) if self.numeric else list(self.labels)
 
-    def display_unit(self, case: str) -> DisplayUnit | None:
-        """Return how its values are shown, in a study of this text of a case; None of no length."""
+    def display_unit(self, units: Mapping[str, str]) -> DisplayUnit | None:
+        """Return how its values are shown in a study of a case that states `units`.
+
+        None of what is no pressure, speed or length.
+        """
         if not self.numeric or self.name not in KEYS:
             return None
-        return display_unit(self.name, case, self.unit)
+        return display_unit(self.name, {self.name: self.unit} if self.unit else units)
 
-    def called(self, i: int, case: str) -> str:
-        """Return what value `i` is called in a study of this text of a case."""
-        how = self.display_unit(case)
-        return self.labels[i] if how is None else how.text(self.values[i])
+    def called(self, i: int, units: Mapping[str, str]) -> str:
+        """Return what value `i` is called in a study of a case that states `units`."""
+        unit = self.display_unit(units)
+        return self.labels[i] if unit is None else unit.text(self.values[i])
 
 
 def axis_value(name: str, value: Any) -> Any:
@@ -198,7 +201,7 @@ def axis_shown(result: xr.Dataset | xr.DataArray, axis: str) -> DisplayUnit:
     if axis in FIXED:
         return FIXED[axis]
     unit = result[axis].attrs.get(GIVEN, "") if axis in result.coords else ""
-    return display_unit(axis, unit=str(unit))
+    return display_unit(axis, {axis: str(unit)})
 
 
 def axis_label(result: xr.Dataset, axis: str) -> str:

@@ -78,13 +78,13 @@ def with_decades(data: xr.Dataset) -> xr.Dataset:
     return data.assign_coords(decade=xr.Variable("decade", time, described))
 
 
-def coordinates(axes: Iterable[Axis], case: str) -> dict[str, xr.Variable]:
-    """Return the coordinates of the axes of a study of this text of a case."""
+def coordinates(axes: Iterable[Axis], units: Mapping[str, str]) -> dict[str, xr.Variable]:
+    """Return the coordinates of the axes of a study of a case that states `units`."""
     coords = {}
     for axis in axes:
         values = np.array(axis.coordinate, dtype=None if axis.numeric else object)
         attrs = attributes(LONG_NAMES[axis.name], UNITS[axis.name] if axis.numeric else "1")
-        display = axis.display_unit(case)
+        display = axis.display_unit(units)
         if display is not None:
             attrs[GIVEN] = display.unit
         coords[axis.name] = xr.Variable(axis.name, values, attrs)
@@ -289,7 +289,7 @@ class Study:
         if self.static_design.points:
             rest = _at_rest(self.static_design.dataset(answers).drop_vars("seconds"))
             result = xr.merge([result, rest], join="outer", compat="no_conflicts")
-        result = result.assign_coords(coordinates(self.axes, self.file.text))
+        result = result.assign_coords(coordinates(self.axes, self.file.units))
         result = result.assign(beyond_shift([p.task for p in self.points], self.axes))
         if {"speed", "temperature"} == {axis.name for axis in self.axes}:
             result = with_master_curve(result, self.rubbers[0])
@@ -299,7 +299,7 @@ class Study:
         """Yield the index of each point on the axes, and its label."""
         for index in product(*(range(len(axis.values)) for axis in axes)):
             words = [
-                f"{axis.name} {axis.called(i, self.file.text)}"
+                f"{axis.name} {axis.called(i, self.file.units)}"
                 for axis, i in zip(axes, index, strict=True)
             ]
             yield index, ", ".join(["static", *words] if static else words)
@@ -343,9 +343,15 @@ class Study:
 
     def _provenance(self) -> dict[str, Any]:
         """Return what the study is of; nothing in it depends on when or how often it was run."""
+        load, model = self.file.case.load.nominal, self.model
+        conditions = model.conditions if model.takes_conditions else self._case_conditions
         return {
             "title": "Study of real contact area and friction of rubber on a rough surface",
-            "case": self.file.text,
+            **self.file.attributes,
+            "nominal_pressure": load.pressure,
+            "nominal_speed": load.speed,
+            "footprint": load.footprint,
+            "conditions": json.dumps(None if conditions is None else conditions.to_dict()),
             "varied": json.dumps({axis.name: list(axis.labels) for axis in self.axes}),
             "surfaces": "; ".join(surface.source for surface in self.surfaces),
             "rubbers": "; ".join(f"{rubber.name}: {rubber.source}" for rubber in self.rubbers),
@@ -356,7 +362,7 @@ class Study:
             "software": software(),
             "study_key": self.key,
             "description": json.dumps(self.description()),
-            "model": self.model.name,
+            "model": model.name,
             **provenance.attributes(),
         }
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 import json
 import math
 import re
-import tomllib
 from collections.abc import Iterator
 from dataclasses import fields
 from pathlib import PurePath, PureWindowsPath
@@ -19,7 +18,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from gripscale.core.units import MEGA, MILLI, ZERO_CELSIUS
+from gripscale.core.units import MEGA, MILLI, ZERO_CELSIUS, display_unit_of
 from gripscale.io.table import NONE, Column, Flags, Table, digits, fixed, significant, whole
 from gripscale.report.elements import Element, Facts, Section, number, percent
 from gripscale.report.record import InputRecord
@@ -360,34 +359,33 @@ def rubber_facts(record: InputRecord) -> Facts:
     return Facts("Rubber", pairs)
 
 
-LOAD = (
-    ("pressure", "Nominal pressure", "Pa"),
-    ("speed", "Sliding speed", "m/s"),
-    ("footprint", "Footprint", "m"),
-)
-"""Keys of [load], what they are called, and the unit of a plain number."""
+LOAD = {
+    "pressure": ("nominal_pressure", "Nominal pressure"),
+    "speed": ("nominal_speed", "Sliding speed"),
+    "footprint": ("footprint", "Footprint"),
+}
+"""Keys of [load]: attribute of a study, and what they are called."""
+CONDITIONS = ("temperature", "softening", "heat", "shear_stress")
+"""Effects of the conditions of a study."""
 
 
 def input_sections(study: Study) -> list[Section]:
     """Return the chapters on the inputs of a study; those its file does not tell of are empty."""
     data, attrs = study.data, study.data.attrs
-    try:
-        case = tomllib.loads(str(attrs.get("case", "")))
-    except tomllib.TOMLDecodeError:
-        case = {}
 
-    def quantity(key: str, unit: str) -> str:
-        value = case.get("load", {}).get(key)
-        if key in study.axes or value is None:
+    def quantity(key: str, attribute: str) -> str:
+        if key in study.axes or attribute not in attrs:
             return VARIED if key in study.axes else NONE
-        return value if isinstance(value, str) else f"{number(value)} {unit}"
+        return display_unit_of(attrs, key).text(attrs[attribute])
 
-    conditions = ", ".join(name.replace("_", " ") for name in case.get("conditions", {}))
+    effects = json.loads(attrs.get("conditions", "null")) or {}
+    names = (name for name in CONDITIONS if effects.get(name) is not None)
+    conditions = ", ".join(name.replace("_", " ") for name in names)
     load = Facts(
         "Load and model",
         [
-            *((label, quantity(key, unit)) for key, label, unit in LOAD),
-            ("Conditions", conditions or "none"),
+            *((label, quantity(key, attribute)) for key, (attribute, label) in LOAD.items()),
+            ("Conditions", conditions or ("none" if "conditions" in attrs else NONE)),
             ("Model", str(attrs.get("model", NONE)).replace("_", " ")),
             ("Surface", without_folder(str(attrs.get("surfaces", NONE)))),
             ("Rubber", without_folder(str(attrs.get("rubbers", NONE)))),

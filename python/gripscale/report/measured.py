@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.charts.ladder import measured
-from gripscale.core.units import ZERO_CELSIUS, DisplayUnit, display_unit
+from gripscale.core.units import ZERO_CELSIUS, DisplayUnit, display_unit_of
 from gripscale.experiment.measured_friction import measured_variables
 from gripscale.io.table import Column, Table, fixed, significant
 
@@ -23,7 +23,7 @@ def residual_table(data: xr.Dataset) -> Table:
 
     `data` is what `gripscale.analysis.residuals` answers; its root mean squares stand below.
     """
-    speeds, pressures = (display_unit(name, data.attrs) for name in ("speed", "pressure"))
+    speeds, pressures = (display_unit_of(data.attrs, name) for name in ("speed", "pressure"))
     spread = bool(np.isfinite(data.measured_spread).any())
     points = [
         Column("speed", data.measured_speed.values, "v", speeds.unit, speeds.divisor),

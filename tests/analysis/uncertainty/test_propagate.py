@@ -9,6 +9,7 @@ from typer.testing import CliRunner
 from gripscale.analysis import Uncertainty, propagate, summary
 from gripscale.cli import app
 from gripscale.core.errors import InputError
+from gripscale.core.units import display_unit_of
 from gripscale.io import netcdf
 from gripscale.report import write_report
 from gripscale.report.uncertainty import failures
@@ -46,6 +47,8 @@ def test_quantiles_are_those_of_the_samples(run):
     np.testing.assert_allclose(data.friction_quantile.values[0], expected)
     assert data.cut_off.dims == ("sample",)
     assert data.cut_off.attrs["units"] == "m"
+    assert display_unit_of(data.attrs, "pressure").unit == "bar"
+    assert "display_units" in data.attrs
 
 
 def test_a_second_run_solves_nothing(folder, run):
