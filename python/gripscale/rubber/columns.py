@@ -31,7 +31,6 @@ import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TypedDict
 
 import numpy as np
 
@@ -151,20 +150,6 @@ def unit_name(name: str, value: object) -> str:
 
 ReadColumn = Callable[[TextTable, int, str], Array]
 """Reads the column of a quantity, such as `above_zero`."""
-
-
-class LayoutOptions(TypedDict, total=False):
-    """The fields of `FileLayout` as keyword arguments of a reader."""
-
-    columns: Columns | None
-    sheet: str | int | None
-    header: int | None
-    frequency_unit: str | None
-    modulus_unit: str | None
-    temperature_unit: str | None
-    strain_unit: str | None
-    modulus: str | None
-    titles_first: bool
 
 
 class FileLayout(Checked):

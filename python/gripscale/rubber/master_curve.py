@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import field, replace
 from pathlib import Path
-from typing import Unpack
+from typing import Any
 
 import numpy as np
 
@@ -17,7 +17,6 @@ from gripscale.io.text_table import TextTable, file_path
 from gripscale.rubber.columns import (
     THREE,
     FileLayout,
-    LayoutOptions,
     quantity,
     read_blocks,
     young_moduli,
@@ -112,7 +111,7 @@ def read_master_curve(
     reference_temperature: float | None = None,
     name: str | None = None,
     source: str = "",
-    **options: Unpack[LayoutOptions],
+    **options: Any,
 ) -> MasterCurve:
     """Read storage and loss modulus against frequency from a text, CSV or Excel file.
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import Unpack
+from typing import Any
 
 import numpy as np
 
@@ -20,7 +20,6 @@ from gripscale.io.text_table import TextTable, file_path
 from gripscale.rubber.columns import (
     MODULI,
     FileLayout,
-    LayoutOptions,
     read_blocks,
     young_moduli,
 )
@@ -93,7 +92,7 @@ def read_strain_sweep(
     frequency: float | None = None,
     name: str | None = None,
     source: str = "",
-    **options: Unpack[LayoutOptions],
+    **options: Any,
 ) -> StrainSweep:
     """Read one strain sweep from a text, CSV or Excel file.
 

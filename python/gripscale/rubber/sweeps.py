@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
-from typing import Any, Unpack
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -26,7 +26,6 @@ from gripscale.io.text_table import file_paths
 from gripscale.rubber.columns import (
     Block,
     FileLayout,
-    LayoutOptions,
     check_rows,
     read_blocks,
     young_moduli,
@@ -279,7 +278,7 @@ def read_sweeps(
     temperature_step: float | None = None,
     name: str | None = None,
     source: str = "",
-    **options: Unpack[LayoutOptions],
+    **options: Any,
 ) -> Sweeps:
     """Read frequency sweeps at several temperatures from text, CSV, Excel or RepTate files.
 
