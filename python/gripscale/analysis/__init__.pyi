@@ -9,9 +9,6 @@ from .comparison import compare_case as compare_case
 from .comparison import compare_over as compare_over
 from .comparison import solve_reference as solve_reference
 from .comparison_dataset import Comparison as Comparison
-from .compounds import Compounds as Compounds
-from .compounds import at_one_temperature as at_one_temperature
-from .compounds import compare_compounds as compare_compounds
 from .effects import case_effects as case_effects
 from .effects import effect_tasks as effect_tasks
 from .effects import effects as effects
@@ -30,10 +27,13 @@ from .propagation import of_same_inputs as of_same_inputs
 from .propagation import propagate as propagate
 from .propagation import stored_uncertainty as stored_uncertainty
 from .propagation import summary as summary
-from .roads import Roads as Roads
-from .roads import compare_surfaces as compare_surfaces
+from .rubber_comparison import Compounds as Compounds
+from .rubber_comparison import at_one_temperature as at_one_temperature
+from .rubber_comparison import compare_compounds as compare_compounds
 from .sampled_inputs import Range as Range
 from .sampling import Uncertainty as Uncertainty
-from .series import SeriesScatter as SeriesScatter
+from .series_scatter import SeriesScatter as SeriesScatter
+from .surface_comparison import Roads as Roads
+from .surface_comparison import compare_surfaces as compare_surfaces
 from .variance_shares import Shares as Shares
 from .variance_shares import shares as shares

@@ -132,10 +132,10 @@ def shear_stress_table(calibration: Calibration) -> str:
 
 def written(value: float, unit: str, digits: int | None = None) -> str:
     """Return a number of the law with its unit: six digits as far as they count, or `digits`."""
-    how = WRITTEN.get(unit, DisplayUnit(unit))
-    number = float(how.of(value))
+    display_unit = WRITTEN.get(unit, DisplayUnit(unit))
+    number = float(display_unit.of(value))
     text = f"{number:.6g}" if digits is None else f"{number:#.{digits}g}".rstrip(".")
-    return f"{text} {how.unit}".strip()
+    return f"{text} {display_unit.unit}".strip()
 
 
 def interval(estimate: Estimate) -> str:

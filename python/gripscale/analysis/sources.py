@@ -13,7 +13,7 @@ import numpy as np
 from gripscale.analysis import sampled_inputs as quantities
 from gripscale.analysis.profile_blocks import ProfileBlocks
 from gripscale.analysis.sampled_inputs import Inputs, Measurement, Range
-from gripscale.analysis.series import SeriesScatter, with_series
+from gripscale.analysis.series_scatter import SeriesScatter, with_series
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.rubber import Rubber

@@ -71,7 +71,7 @@ def _prepared_with(file: CaseFile, **tables: Any) -> CaseResults:
 
 
 def surface_elements(file: CaseFile) -> list[Element]:
-    """Return doubts, correlation with its waves, cleaning and profiles of the surface."""
+    """Return warnings, correlation with its waves, cleaning and profiles of the surface."""
     any_rubber = validate(RubberSource, {"name": NAMED_RUBBERS[0]}, "rubber")
     results = _prepared_with(file, rubber=any_rubber)
     inputs = record.inputs(results)

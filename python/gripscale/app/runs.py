@@ -176,10 +176,10 @@ class Run:
             self._end(signal.SIGKILL if os.name == "posix" else signal.SIGTERM)
             self._process.wait()
 
-    def _end(self, how: signal.Signals) -> None:
+    def _end(self, end_signal: signal.Signals) -> None:
         if os.name == "posix":
             with contextlib.suppress(ProcessLookupError):
-                os.killpg(self.pid, how)
+                os.killpg(self.pid, end_signal)
         else:
             self._process.terminate()
 

@@ -85,18 +85,18 @@ class CaseResults:
         """Return what the conditions ask for that was not measured."""
         if self.conditions is None or self.conditions.temperature is None:
             return []
-        doubts = temperature_doubts({self.rubber.rubber.name or "rubber": self.rubber_before})
-        return [f"{text[0].upper()}{text[1:]}." for text in doubts]
+        warnings = temperature_doubts({self.rubber.rubber.name or "rubber": self.rubber_before})
+        return [f"{text[0].upper()}{text[1:]}." for text in warnings]
 
     def load_notes(self) -> list[str]:
         """Return what is doubtful about the load on this surface."""
         footprint, largest = self.load.footprint, float(self.surface.sines.wavelength[0])
         if footprint >= largest:
             return []
-        how = self.display_unit("footprint")
+        length_unit = self.display_unit("footprint")
         return [
-            f"The footprint, {how.text(footprint, 3)}, is shorter than the largest wave, "
-            f"{how.text(largest, 3)}, "
+            f"The footprint, {length_unit.text(footprint, 3)}, is shorter than the largest wave, "
+            f"{length_unit.text(largest, 3)}, "
             "which it cannot hold once: is its unit right? If so, leave such waves out."
         ]
 
@@ -124,6 +124,6 @@ class CaseResults:
             yield STATIC, 0.0
 
 
-def title(speed: float, how: DisplayUnit) -> str:
-    """Return what tables and figures call a prediction at `speed` [m/s], shown as `how` says."""
-    return "Static" if speed == 0.0 else f"Dynamic, {how.text(speed)}"
+def title(speed: float, speed_unit: DisplayUnit) -> str:
+    """Return what tables and figures call a prediction at `speed` [m/s], shown in `speed_unit`."""
+    return "Static" if speed == 0.0 else f"Dynamic, {speed_unit.text(speed)}"

@@ -125,12 +125,12 @@ def _caption(view: PredictionView, i: int) -> str:
     def value(name: str, unit: float) -> str:
         return f"{view.column(name)[i] / unit:.3g}"
 
-    how = view.display_unit("pressure")
+    pressure_unit = view.display_unit("pressure")
     contact = f", contact {view.column('contact_fraction')[i]:.2f}"
     return (
         f"λ = {value('wavelength', MILLI)} mm\n"
         f"A = {value('amplitude', MILLI)} mm\n"
-        f"p = {value('pressure_received', how.divisor)} {how.unit}"
+        f"p = {value('pressure_received', pressure_unit.divisor)} {pressure_unit.unit}"
         + (contact if view.converged[i] else f"\n{textwrap.fill(view.why(i), 30)}")
     )
 

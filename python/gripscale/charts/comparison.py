@@ -277,12 +277,12 @@ def at_measured_figure(data: xr.Dataset, labels: dict[str, str]) -> Figure:
     """
     names = [str(name) for name in data.model.values]
 
-    def models(series: MeasuredSeries, how: DisplayUnit) -> Iterator[Mark]:
+    def models(series: MeasuredSeries, speed_unit: DisplayUnit) -> Iterator[Mark]:
         order = np.argsort(series.speed)
         for name, look in zip(names, ladder.looks(names), strict=True):
             values = data.friction.sel(model=name).values[series.rows][order]
             if np.isfinite(values).any():
-                yield Series(how.of(series.speed[order]), values, look.colour,
+                yield Series(speed_unit.of(series.speed[order]), values, look.colour,
                              labels.get(name, name), look.dash, 1.2, look.marker, 3.5)  # fmt: skip
 
     return draw.on_paper(measured_sheet(data, models, head=1.2))
@@ -295,15 +295,15 @@ def measured_sheet(
 
     Speeds are shown as the `DisplayUnit` says; `head` is the height of the legend [inch].
     """
-    how = display_unit_of(data.attrs, "speed")
+    speed_unit = display_unit_of(data.attrs, "speed")
     panels = []
-    series = zip(ladder.measured(data), ladder.measured_points(data, how), strict=True)
+    series = zip(ladder.measured(data), ladder.measured_points(data, speed_unit), strict=True)
     for _, (values, points) in zip(range(MOST_PANELS), series, strict=False):
         points = replace(points, marker="o", size=4.5, label="measured")
         panels.append(Panel(
-            Axis(f"sliding speed $v$ [{how.unit}]", log=True),
+            Axis(f"sliding speed $v$ [{speed_unit.unit}]", log=True),
             Axis(f"{QUANTITIES['friction']} [-]", low=0.0),
-            [*marks_of(values, how), points],
+            [*marks_of(values, speed_unit), points],
             title=values.label.removeprefix("measured").removeprefix(", "),
         ))  # fmt: skip
     columns = min(len(panels), MOST_COLUMNS)

@@ -123,7 +123,7 @@ def measured(data: xr.Dataset) -> Iterator[MeasuredSeries]:
     unknown = np.full(kelvin.size, np.nan)
     pascal = data.measured_pressure.values if "measured_pressure" in data else unknown
     several = np.unique(pascal).size > 1
-    how = display_unit_of(data.attrs, "pressure")
+    pressure_unit = display_unit_of(data.attrs, "pressure")
     for temperature in np.unique(kelvin):
         for pressure in np.unique(pascal):
             rows = np.isclose(kelvin, temperature, equal_nan=True)
@@ -134,19 +134,19 @@ def measured(data: xr.Dataset) -> Iterator[MeasuredSeries]:
             if not math.isnan(temperature):
                 words.append(f"{temperature - ZERO_CELSIUS:.0f} °C")
             if several and not math.isnan(pressure):
-                words.append(how.text(float(pressure), 3))
+                words.append(pressure_unit.text(float(pressure), 3))
             speed, friction, spread = (
                 data[f"measured_{name}"].values[rows] for name in ("speed", "friction", "spread")
             )
             yield MeasuredSeries(", ".join(words), speed, friction, spread, rows)
 
 
-def measured_points(data: xr.Dataset, how: DisplayUnit) -> Iterator[Series]:
-    """Yield the points of each measured series over speed, shown as `how`, with their spread."""
+def measured_points(data: xr.Dataset, speed_unit: DisplayUnit) -> Iterator[Series]:
+    """Yield the points of each measured series over speed, in `speed_unit`, with their spread."""
     for number, series in enumerate(measured(data)):
         spread = np.nan_to_num(series.spread)
         ends: dict[str, Any] = {"low": series.friction - spread, "high": series.friction + spread}
-        yield Series(how.of(series.speed), series.friction, INK, series.label, "",
+        yield Series(speed_unit.of(series.speed), series.friction, INK, series.label, "",
                      marker=MARKERS[number % len(MARKERS)], size=5.5, filled=False, order=5.0,
                      clip=False, **ends)  # fmt: skip
 

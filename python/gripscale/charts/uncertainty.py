@@ -211,9 +211,9 @@ def fitted_figure(data: xr.Dataset) -> Figure:
     of its lines.
     """
 
-    def fit(series: MeasuredSeries, how: DisplayUnit) -> list[Mark]:
+    def fit(series: MeasuredSeries, speed_unit: DisplayUnit) -> list[Mark]:
         rows = series.rows & np.isfinite(data.friction.values)
-        speed = how.of(data.measured_speed.values[rows])
+        speed = speed_unit.of(data.measured_speed.values[rows])
         total, band, hysteresis = (
             data[name].values[rows] for name in ("friction", "friction_band", "hysteresis")
         )
@@ -231,15 +231,15 @@ def residual_figure(data: xr.Dataset) -> Figure:
     spread = bool(np.isfinite(data.difference_in_spread).any())
     values = data["difference_in_spread" if spread else "difference"].values
     scale = 1.0 if spread else float(data.attrs["scatter"])
-    how = display_unit_of(data.attrs, "speed")
+    speed_unit = display_unit_of(data.attrs, "speed")
     marks: list[Mark] = [CrossLine(-scale, FAINT, to=scale), CrossLine(0.0)]
     for number, series in enumerate(measured(data)):
         marks.append(Series(
-            how.of(series.speed), values[series.rows], COLOURS[number % len(COLOURS)],
+            speed_unit.of(series.speed), values[series.rows], COLOURS[number % len(COLOURS)],
             series.label.removeprefix("measured, "), "", marker=MARKERS[number % len(MARKERS)],
         ))  # fmt: skip
     label = f"fitted less measured $\\mu$ [{'spread' if spread else '-'}]"
-    panel = Panel(Axis(f"sliding speed $v$ [{how.unit}]", log=True), Axis(label), marks)
+    panel = Panel(Axis(f"sliding speed $v$ [{speed_unit.unit}]", log=True), Axis(label), marks)
     return draw.on_paper(Sheet([panel], 1, height=2.8, legend="beside", gap=0.02))
 
 

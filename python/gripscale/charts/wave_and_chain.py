@@ -58,14 +58,14 @@ def contact_charts(predictions: Views, direct: xr.Dataset | None = None) -> list
     moving = [view for view in predictions if view.moving]
     if moving:
         panels.append(friction.with_marks(_failed(moving, "friction")))
-    abscissa, how = _wavelengths(predictions), predictions[0].display_unit("pressure")
+    abscissa, pressure_unit = _wavelengths(predictions), predictions[0].display_unit("pressure")
     panels.append(Panel(
         abscissa,
-        Axis(f"pressure, modulus [{how.unit}]", log=True),
+        Axis(f"pressure, modulus [{pressure_unit.unit}]", log=True),
         _pairs(
             predictions,
             {"mean pressure": "pressure_received", "|E*|": "modulus"},
-            lambda view, name: how.of(view.column(name)),
+            lambda view, name: pressure_unit.of(view.column(name)),
         ),
         name="load",
         caption="What each wave receives: mean pressure (filled) against the modulus of the rubber "
@@ -164,16 +164,18 @@ def _pairs(
 
 
 def _pressure_panel(view: PredictionView) -> Panel:
-    how, wavelength = view.display_unit("pressure"), view.column("wavelength") / MILLI
+    pressure_unit, wavelength = view.display_unit("pressure"), view.column("wavelength") / MILLI
     marks: list[Mark] = []
     for i, colour in enumerate(style.shades(view.waves)):
         phase, pressure = view.pressure_along(i)
         good = view.converged[i]
         label = f"{i + 1}: {wavelength[i]:.3g} mm{'' if good else ', not converged'}"
-        marks.append(Series(phase, how.of(pressure), colour if good else RED, label, width=1.2))
+        marks.append(
+            Series(phase, pressure_unit.of(pressure), colour if good else RED, label, width=1.2)
+        )
     return Panel(
         Axis("$x/\\lambda$, crest at 0 [-]"),
-        Axis(f"contact pressure [{how.unit}]"),
+        Axis(f"contact pressure [{pressure_unit.unit}]"),
         marks,
         name=f"pressure-{view.name}",
         caption=f"{view.title}: contact pressure along each wave. Click a wave to hide it.",
@@ -269,20 +271,20 @@ def _iterations_panel(views: Views) -> Panel:
 
 def measured_chart(friction: MeasuredFriction, predictions: Views) -> Chart:
     """Return measured friction with the totals of `predictions`, each at its speed."""
-    how = predictions[0].display_unit("speed") if predictions else display_unit("speed")
-    marks: list[Mark] = [*measured_points(xr.Dataset(measured_variables(friction)), how)]
+    speed_unit = predictions[0].display_unit("speed") if predictions else display_unit("speed")
+    marks: list[Mark] = [*measured_points(xr.Dataset(measured_variables(friction)), speed_unit)]
     for view, colour in zip(predictions, COLOURS, strict=False):
         both = with_adhesive(view.data)
         totals = [("hysteresis", float(view.data.total_friction), True)]
         totals += [] if both is None else [("with the area term", float(both), False)]
         marks += [
-            Series(how.of([view.speed]), [friction], colour, f"{view.name}, {words}", "",
+            Series(speed_unit.of([view.speed]), [friction], colour, f"{view.name}, {words}", "",
                    marker="*", size=11.0, filled=filled)
             for words, friction, filled in totals
             if np.isfinite(friction)
         ]  # fmt: skip
     panel = Panel(
-        Axis(f"speed [{how.unit}]", log=True),
+        Axis(f"speed [{speed_unit.unit}]", log=True),
         Axis("friction coefficient [-]", low=0.0),
         marks,
         name="measured-friction",

@@ -184,7 +184,7 @@ def compare_surfaces(
     workers: Workers = None,
 ) -> None:
     """Compare roads under the same rubber: friction, area, and which scale makes the difference."""
-    from gripscale.analysis.roads import compare_surfaces as compare
+    from gripscale.analysis.surface_comparison import compare_surfaces as compare
     from gripscale.case import read_case
     from gripscale.charts.side_by_side import road_pictures
     from gripscale.charts.write import draw
@@ -240,7 +240,7 @@ def compare_rubbers(
     workers: Workers = None,
 ) -> None:
     """Compare compounds on the same road: friction, area, and what makes the difference."""
-    from gripscale.analysis.compounds import compare_compounds
+    from gripscale.analysis.rubber_comparison import compare_compounds
     from gripscale.case import read_case
     from gripscale.charts.side_by_side import compound_pictures
     from gripscale.charts.write import draw

@@ -174,8 +174,8 @@ def progress_printer(console: Console) -> Callable[[Progress], None]:
             text += f"area {float(answer.total_contact_fraction):.4g}"
             if answer.nominal_speed > 0.0:
                 text += f", friction {float(answer.total_friction):.3f}"
-        how = "already solved" if progress.stored else f"{progress.seconds:.1f} s"
-        print_wrapped(console, f"{text}, {how}")
+        duration = "already solved" if progress.stored else f"{progress.seconds:.1f} s"
+        print_wrapped(console, f"{text}, {duration}")
 
     return print_line
 

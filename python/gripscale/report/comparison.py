@@ -98,7 +98,7 @@ def _share(value: float) -> str:
 
 def axis_table(comparison: xr.Dataset, axis: str, name: str) -> Table:
     """Return `contact_fraction` or `friction` of each model over the axis that was varied."""
-    how = axis_shown(comparison, axis)
+    display_unit = axis_shown(comparison, axis)
     data = comparison.transpose(axis, ...)
     failed = (data.converged_samples < data.samples).values
     beyond = data[FRICTION_OUTSIDE_BAND].values > WORTH_SAYING
@@ -107,9 +107,9 @@ def axis_table(comparison: xr.Dataset, axis: str, name: str) -> Table:
             axis,
             data[axis].values,
             axis.replace("_", " "),
-            how.unit,
-            how.divisor,
-            how.zero,
+            display_unit.unit,
+            display_unit.divisor,
+            display_unit.zero,
             "{:.3g}".format,
         )
     ]

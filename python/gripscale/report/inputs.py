@@ -240,8 +240,8 @@ def load_facts(run: Run) -> Facts:
     first = run.predictions[0]
 
     def text(name: str, value: float) -> str:
-        how = first.display_unit(name)
-        return f"{number(how.of(value))} {how.unit}"
+        display_unit = first.display_unit(name)
+        return f"{number(display_unit.of(value))} {display_unit.unit}"
 
     speeds = ", ".join(text("speed", view.speed) for view in run.predictions if view.moving)
     if any(not view.moving for view in run.predictions):

@@ -63,21 +63,24 @@ def residual_table(data: xr.Dataset) -> Table:
     return Table("residuals", columns, "Measured and predicted friction", notes, keys=len(points))
 
 
-def measured_lines(friction: MeasuredFriction, speed: float, how: DisplayUnit) -> Iterator[str]:
+def measured_lines(
+    friction: MeasuredFriction, speed: float, speed_unit: DisplayUnit
+) -> Iterator[str]:
     """Yield what was measured at `speed` [m/s], interpolated in its logarithm, by temperature.
 
-    Speeds are shown as `how` says.
+    Speeds are shown as `speed_unit` says.
     """
     for series in measured(xr.Dataset(measured_variables(friction))):
         at = series.at(speed)
         where = f"{series.label[0].upper()}{series.label[1:]}"
         if at is None:
-            low, high = (significant(float(how.of(series.speed[end]))) for end in (0, -1))
-            yield f"{where}: nothing at {how.text(speed)}, only from {low} to {high} {how.unit}."
+            low, high = (significant(float(speed_unit.of(series.speed[end]))) for end in (0, -1))
+            range_measured = f"from {low} to {high} {speed_unit.unit}"
+            yield f"{where}: nothing at {speed_unit.text(speed)}, only {range_measured}."
             continue
         value, spread = at
         about = f" ± {significant(spread, 2)}" if math.isfinite(spread) else ""
         yield (
-            f"{where}: mu = {significant(value)}{about} at {how.text(speed)}; "
+            f"{where}: mu = {significant(value)}{about} at {speed_unit.text(speed)}; "
             "`gripscale compare` puts every model beside every measured point."
         )

@@ -1,4 +1,4 @@
-"""What the reader must see first: waves that failed, doubts about inputs and numbers."""
+"""What the reader must see first: waves that failed, warnings about inputs and numbers."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ FLAGS = {
 
 
 def conditions_sentences(view: PredictionView) -> Iterator[str]:
-    """Yield a sentence for each doubt about the rubber of a prediction's waves."""
+    """Yield a warning for each flag of the rubber of a prediction's waves."""
     for name, words in FLAGS.items():
         if view.has(name):
             yield from _of_waves(np.nan_to_num(view.usable(name)) > 0.0, words)
@@ -158,7 +158,7 @@ def comparison_sentences(comparison: xr.Dataset) -> Iterator[tuple[str, str]]:
 def notices(run: Run) -> list[Notice]:
     """Return errors first, then warnings."""
     errors = [Notice("error", text) for view in run.predictions for text in _failures(view)]
-    return errors + [Notice("warning", text) for text in _doubts(run)]
+    return errors + [Notice("warning", text) for text in _warnings(run)]
 
 
 def _failures(view: PredictionView) -> Iterator[str]:
@@ -188,7 +188,7 @@ def _advice(word: str) -> str:
     return f"{status.advice} See {chapter_words(status.chapter)}."
 
 
-def _doubts(run: Run) -> Iterator[str]:
+def _warnings(run: Run) -> Iterator[str]:
     for view in run.predictions:
         beyond = prediction_sentence(view)
         if beyond:
@@ -198,7 +198,7 @@ def _doubts(run: Run) -> Iterator[str]:
             yield from _mismatch(view)
         yield from (f"{view.title}: {text}" for text in conditions_sentences(view))
         yield from _compressible(view, run.record.bulk_modulus)
-    yield from run.record.doubts()
+    yield from run.record.warnings()
     if len({str(view.data.attrs.get("case", "")) for view in run.predictions}) > 1:
         yield "The dynamic and the static result come from different case files."
     solved, here = run.attrs.get("version_gripscale"), versions()["gripscale"]

@@ -72,7 +72,7 @@ class InputRecord:
         counted = self.data["file_role"].values != "measured"
         return [str(digest) for digest in self.data["file_sha256"].values[counted]]
 
-    def doubts(self) -> Iterator[str]:
+    def warnings(self) -> Iterator[str]:
         """Yield sentences on what is doubtful about conditions, rubber and surface."""
         yield from self.text("conditions_notes").splitlines()
         for finding in self.findings:

@@ -162,8 +162,8 @@ STAR = "* the wave, or a harmonic of it, excites the rubber beyond the measured 
 def filled(view: PredictionView, column: Column, rows: int = 0) -> Column:
     """Return a column with the numbers of a prediction, NaN where it is at rest or ended before."""
     if column.name in GIVEN:
-        how = view.display_unit(GIVEN[column.name])
-        column = replace(column, unit=how.unit, size=how.divisor)
+        display_unit = view.display_unit(GIVEN[column.name])
+        column = replace(column, unit=display_unit.unit, size=display_unit.divisor)
     values = np.full(max(rows, view.waves), np.nan)
     if view.has(column.name) and (view.moving or column.name not in MOVING_ONLY):
         values[: view.waves] = view.column(column.name)

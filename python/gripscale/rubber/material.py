@@ -277,9 +277,9 @@ class Rubber(Checked, eq=False):
         else:
             fast = self.valid_band[1]
             modulus, where = abs(complex(self.complex_modulus(fast))), f"at {fast:.3g} rad/s"
-        doubt = too_compressible(self.bulk_modulus, modulus, where)
-        if doubt:
-            warn_once(doubt)
+        warning = too_compressible(self.bulk_modulus, modulus, where)
+        if warning:
+            warn_once(warning)
 
     def _check_together(self) -> None:
         checks.same_length(0, moduli=self.moduli, relaxation_times=self.relaxation_times)
@@ -562,16 +562,16 @@ def temperature_doubts(rubbers: Mapping[str, Rubber]) -> tuple[str, ...]:
         for name, rubber in rubbers.items()
         if rubber.reference_temperature is not None
     }
-    doubts = []
+    sentences = []
     if kelvins and max(kelvins.values()) - min(kelvins.values()) > _SAME:
         each = ", ".join(f"{name} {k - ZERO_CELSIUS:.1f} °C" for name, k in kelvins.items())
-        doubts.append(f"the rubbers hold for different temperatures: {each}")
+        sentences.append(f"the rubbers hold for different temperatures: {each}")
     if kelvins and len(kelvins) < len(rubbers):
         others = ", ".join(name for name in rubbers if name not in kelvins)
-        doubts.append(
+        sentences.append(
             f"the temperature of {others} is not known beside that of {', '.join(kelvins)}"
         )
     beyond = [name for name, rubber in rubbers.items() if rubber.shift_extrapolated]
     if beyond:
-        doubts.append(f"beyond the temperatures its shift rests on: {', '.join(beyond)}")
-    return tuple(doubts)
+        sentences.append(f"beyond the temperatures its shift rests on: {', '.join(beyond)}")
+    return tuple(sentences)

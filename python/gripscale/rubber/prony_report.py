@@ -196,9 +196,9 @@ def fit_warnings(rubber: Rubber, inconsistencies: Misfits, ends: Ends) -> Iterat
             f"faster it may be {_span(rubber, high * BEYOND)} MPa"
         )
     modulus = abs(complex(rubber.complex_modulus(high)))
-    doubt = too_compressible(rubber.bulk_modulus, modulus, f"at {high:.3g} rad/s")
-    if doubt:
-        yield doubt
+    warning = too_compressible(rubber.bulk_modulus, modulus, f"at {high:.3g} rad/s")
+    if warning:
+        yield warning
 
 
 def _span(rubber: Rubber, omega: float) -> str:

@@ -154,8 +154,8 @@ class Superposition:
         """Return the report as a few lines of text."""
         if len(self.temperatures) == 1:
             return "one sweep: there is nothing to superpose"
-        how = "found from the sweeps" if self.fitted else "as given"
-        lines = [f"{len(self.temperatures)} sweeps superposed, shift {how}"]
+        origin = "found from the sweeps" if self.fitted else "as given"
+        lines = [f"{len(self.temperatures)} sweeps superposed, shift {origin}"]
         if self.overlaps:
             width = [pair.decades for pair in self.overlaps]
             apart = np.array([(pair.storage, pair.loss) for pair in self.overlaps])

@@ -71,8 +71,8 @@ class Measured:
         notes = []
         for raw, cleaned in self.profiles:
             about = f"{raw.name}: " if raw.name else ""
-            doubts = profile_warnings(raw, cleaned, steep=self.map is None)
-            notes += [f"{about}{note}" for note in (*raw.notes, *doubts)]
+            warnings = profile_warnings(raw, cleaned, steep=self.map is None)
+            notes += [f"{about}{note}" for note in (*raw.notes, *warnings)]
         return tuple(notes)
 
     def bare(self) -> Measured:

@@ -57,13 +57,13 @@ def without_codes(heights: Array) -> tuple[Array, float | None]:
 
 
 def length_unit(
-    path: Path, part: str, named: object, name: str, argument: str | None, *, how: str = "give"
+    path: Path, part: str, named: object, name: str, argument: str | None, *, remedy: str = "give"
 ) -> str:
     """Return the unit of a `part` ("column 1") of a file, which names `named` as its unit.
 
-    `name` and `argument` are the caller's argument and the unit stated with it; `how` says what to
-    do about a missing unit. Raises `FileError` if neither names a unit of length, `InputError` if
-    the caller's unit is unknown or contradicts the file.
+    `name` and `argument` are the caller's argument and the unit stated with it; `remedy` says what
+    to do about a missing unit. Raises `FileError` if neither names a unit of length, `InputError`
+    if the caller's unit is unknown or contradicts the file.
     """
     unit = spelled(named, "length")
     if argument is not None:
@@ -77,14 +77,14 @@ def length_unit(
             f"{path}: {part} is in {checks.short_repr(named)}, which is no known unit of "
             f"length; give {name}"
         )
-    raise FileError(f"{path}: {part} names no unit of length; {how} {name}")
+    raise FileError(f"{path}: {part} names no unit of length; {remedy} {name}")
 
 
 def _column_unit(table: TextTable, column: int, name: str, unit: str | None) -> str:
     """Return the unit of a column: that of its title, or the one stated as argument `name`."""
     part, named = f"column {column + 1}", table.columns[column].unit
-    how = "write it in the title, such as 'x [mm]', or give"
-    return length_unit(table.path, part, named, name, unit, how=how)
+    remedy = "write it in the title, such as 'x [mm]', or give"
+    return length_unit(table.path, part, named, name, unit, remedy=remedy)
 
 
 DISTANCE_TITLE = re.compile(r"^\W*(x\b|x_|dist|pos|length|lateral)", re.IGNORECASE)

@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 
 import gripscale as gs
 from gripscale.analysis import Roads, compare_surfaces
-from gripscale.analysis.roads import friction_curve, octave_ends, running_friction
+from gripscale.analysis.surface_comparison import friction_curve, octave_ends, running_friction
 from gripscale.cli import app
 from gripscale.core.errors import InputError
 from gripscale.report.side_by_side import roads_sentences

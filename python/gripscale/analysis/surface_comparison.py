@@ -7,7 +7,7 @@ range of 90 % of n block bootstraps of its profiles (`gripscale.analysis.Profile
 
 with X_k of the drawn blocks and X_0 of the road as measured; of the chain by half-planes, which
 cost less, of the direct contact by itself. The roads are independent of each other, see
-`gripscale.analysis.compounds`.
+`gripscale.analysis.rubber_comparison.total_differences`.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gripscale.analysis import compounds
+from gripscale.analysis import rubber_comparison
 from gripscale.analysis.propagation import quantiles
 from gripscale.analysis.sampled_inputs import FailSafeModel, Inputs, Measurement
 from gripscale.analysis.sampling import draws
@@ -111,16 +111,17 @@ def roads_dataset(surfaces: Mapping[str, Surface], solved: xr.Dataset) -> xr.Dat
         attrs={"title": "Contact and friction of one rubber on several roads"},
     )
     if solved.sizes["sample"] > REFERENCE:
-        drawn, totals = solved.isel(sample=slice(REFERENCE + 1, None)), list(compounds.TOTALS)
+        drawn = solved.isel(sample=slice(REFERENCE + 1, None))
+        totals = list(rubber_comparison.TOTALS)
         ratios = drawn[totals] / solved[totals].isel(sample=REFERENCE)
-        levels = {name: quantiles(ratios[name]) for name in compounds.TOTALS}
+        levels = {name: quantiles(ratios[name]) for name in totals}
         ends = {
             name: (level.isel(quantile=0).clip(max=1.0), level.isel(quantile=-1).clip(min=1.0))
             for name, level in levels.items()
         }
         if any(low.notnull().any() for low, _ in ends.values()):
             data = data.assign(
-                compounds.ranges(data, ends, "that another stretch of the road might give")
+                rubber_comparison.ranges(data, ends, "that another stretch of the road might give")
             )
     running = _by_octave(roads)
     parts = running.diff("octave", label="upper")
@@ -128,10 +129,10 @@ def roads_dataset(surfaces: Mapping[str, Surface], solved: xr.Dataset) -> xr.Dat
     text = "difference to the first, friction of the octave"
     by_octave = {
         "friction_running": running,
-        "friction_difference": compounds.to_first(octaves, "surface", text),
+        "friction_difference": rubber_comparison.to_first(octaves, "surface", text),
     }
     return data.assign(
-        compounds.total_differences(data, "surface") | by_octave | _measured(surfaces)
+        rubber_comparison.total_differences(data, "surface") | by_octave | _measured(surfaces)
     )
 
 
@@ -242,7 +243,7 @@ def compare_surfaces(
     InputError, FileError
         If there are fewer than two or more than six roads, or one cannot be read.
     """
-    compounds.require_some("surfaces", surfaces, "roads")
+    rubber_comparison.require_some("surfaces", surfaces, "roads")
     if samples is not None:
         checks.whole("samples", samples, least=FEWEST_SAMPLES, most=MOST_SAMPLES)
     file = case if isinstance(case, CaseFile) else read_case(case)

@@ -7,7 +7,7 @@ over all series that fit it as well as the best one does (`Rubber.admissible_rub
 
 with X_k of series k and X_0 of the best one solved as half-planes, which cost less, and X of the
 best one by the model of the case. The DMAs are independent of each other, see
-`gripscale.analysis.compounds`.
+`total_differences`.
 """
 
 from __future__ import annotations

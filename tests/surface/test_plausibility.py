@@ -30,7 +30,7 @@ def changed(where, values):
     return Profile(ROUGH.x, z)
 
 
-def doubts_after_cleaning(profile, **options):
+def warnings_after_cleaning(profile, **options):
     return " | ".join(profile_warnings(profile, clean(profile, **options)[0]))
 
 
@@ -40,57 +40,57 @@ def test_rough_profiles_are_plausible(hurst, cut_off):
     for seed in range(5):
         rough = self_affine_profile(hurst, cut_off, 0.3 * cut_off, 0.2, 5e-5, seed)
         tilted = Profile(rough.x, rough.z + 0.15 * rough.x)
-        assert doubts_after_cleaning(rough) == ""
-        assert doubts_after_cleaning(tilted) == ""
+        assert warnings_after_cleaning(rough) == ""
+        assert warnings_after_cleaning(tilted) == ""
 
 
 @pytest.mark.parametrize("path", ROAD)
 def test_the_road_is_plausible_between_its_plates_and_not_with_them(path):
     road = read_profile(path)
-    assert doubts_after_cleaning(road, crop=ROAD_ONLY) == ""
-    assert "heights jump in" in doubts_after_cleaning(road)
+    assert warnings_after_cleaning(road, crop=ROAD_ONLY) == ""
+    assert "heights jump in" in warnings_after_cleaning(road)
     # Without spike removal the noise of the laser is left.
-    says = doubts_after_cleaning(road, crop=ROAD_ONLY, remove_spikes=False)
+    says = warnings_after_cleaning(road, crop=ROAD_ONLY, remove_spikes=False)
     assert "slopes left are 3 or steeper" in says or "the rms slope is" in says
 
 
 def test_grooves_are_no_jumps():
     grooved = np.where(ROUGH.x % 20e-3 < 3e-3, -4e-3, 0.0) + 0.1 * ROUGH.z
-    assert "jump" not in doubts_after_cleaning(Profile(ROUGH.x, grooved))
+    assert "jump" not in warnings_after_cleaning(Profile(ROUGH.x, grooved))
 
 
 @pytest.mark.parametrize(("height", "jumps"), [(20e-3, 2), (-9e-3, 2)])
 def test_a_plate_or_a_support_is_a_jump(height, jumps):
-    says = doubts_after_cleaning(changed(slice(1000, 1400), height + 0.1 * ROUGH.z[1000:1400]))
+    says = warnings_after_cleaning(changed(slice(1000, 1400), height + 0.1 * ROUGH.z[1000:1400]))
     assert f"heights jump in {jumps} places" in says
 
 
 def test_a_step_is_a_jump():
-    says = doubts_after_cleaning(changed(slice(2000, None), ROUGH.z[2000:] + 20e-3))
+    says = warnings_after_cleaning(changed(slice(2000, None), ROUGH.z[2000:] + 20e-3))
     assert "heights jump in 1 place," in says
 
 
 @pytest.mark.parametrize("sentinel", [-9999.0, -999.0, 9999.0, 1e30, -0.01])
 def test_a_value_for_missing_heights_is_found_and_taken_out_by_name(sentinel):
     stretch = changed(slice(300, 330), sentinel)
-    assert f"{sentinel * 1e3:g} mm, comes 28 times" in doubts_after_cleaning(stretch)
+    assert f"{sentinel * 1e3:g} mm, comes 28 times" in warnings_after_cleaning(stretch)
     believed = (-0.005, 0.005)
-    assert doubts_after_cleaning(stretch, valid_range=believed) == ""
+    assert warnings_after_cleaning(stretch, valid_range=believed) == ""
 
 
 def test_a_single_far_height_is_a_spike_and_no_sentinel():
-    assert doubts_after_cleaning(changed(300, -9999.0)) == ""
+    assert warnings_after_cleaning(changed(300, -9999.0)) == ""
 
 
 @pytest.mark.parametrize("filled", [0.3e-3, np.linspace(0.0, 0.3e-3, 800)])
 def test_filled_gaps_are_flat(filled):
-    assert "are flat or straight" in doubts_after_cleaning(changed(slice(1000, 1800), filled))
+    assert "are flat or straight" in warnings_after_cleaning(changed(slice(1000, 1800), filled))
 
 
 def test_slopes_that_are_left_are_counted():
     spiky = changed([500, 900], ROUGH.z[[500, 900]] + 1e-3)
-    assert doubts_after_cleaning(spiky) == ""
-    assert "4 of 4000 slopes left are 3 or steeper" in doubts_after_cleaning(
+    assert warnings_after_cleaning(spiky) == ""
+    assert "4 of 4000 slopes left are 3 or steeper" in warnings_after_cleaning(
         spiky, remove_spikes=False
     )
     assert profile_warnings(spiky, steep=False) == ()
@@ -107,12 +107,12 @@ def test_slopes_that_are_left_are_counted():
     ],
 )
 def test_a_unit_a_thousand_times_off_is_doubted(x_scale, z_scale, says):
-    assert says in doubts_after_cleaning(Profile(x_scale * ROUGH.x, z_scale * ROUGH.z))
+    assert says in warnings_after_cleaning(Profile(x_scale * ROUGH.x, z_scale * ROUGH.z))
 
 
 def test_a_unit_that_makes_spikes_of_all_is_doubted():
     steep = Profile(ROUGH.x, 20.0 * ROUGH.z)
-    assert "% of the heights are spikes" in doubts_after_cleaning(steep)
+    assert "% of the heights are spikes" in warnings_after_cleaning(steep)
 
 
 def test_equal_heights_and_few_of_them():
