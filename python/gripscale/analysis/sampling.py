@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.stats import qmc
 
 from gripscale.analysis.sampled_inputs import Inputs, Measurement
 from gripscale.analysis.sources import SOURCES, Source, SourceNotApplicable, SourceOptions
@@ -128,9 +127,11 @@ def draws(
     case: Inputs, sources: Sequence[Source], samples: int, seed: int
 ) -> Iterator[SampledInputs]:
     """Yield the samples of a case."""
+    from scipy.stats.qmc import LatinHypercube  # 0.5 s and 15 MB, which a run need not pay
+
     numbers = {source.name: zlib.crc32(source.name.encode()) for source in sources}
     columns = {
-        name: qmc.LatinHypercube(1, rng=np.random.default_rng([seed, number])).random(samples)[:, 0]
+        name: LatinHypercube(1, rng=np.random.default_rng([seed, number])).random(samples)[:, 0]
         for name, number in numbers.items()
     }
     for sample in range(samples):
