@@ -309,6 +309,14 @@ def cut_off_exponents_of(data: xr.Dataset) -> CutOffExponents:
     return CutOffExponents(**numbers, why_not=str(data[WHY_NO_EXPONENT].item()))
 
 
+SAMPLING_ERRORS = {
+    "total_contact_fraction_sampling_error": "relative standard error of the contact fraction",
+    "total_friction_sampling_error": "relative standard error of the friction coefficient",
+}
+"""Names of how well the measured surface stands for its road, where a model tells it."""
+FREEDOM = "total_freedom"
+"""Degrees of freedom of the sampling errors."""
+
 ADHESIVE_FRICTION = "total_adhesive_friction"
 """Name of the area term's friction, where one was asked for."""
 

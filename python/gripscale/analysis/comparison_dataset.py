@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.analysis import samples as reduce
-from gripscale.analysis.best_estimate import Factor, best_estimate
+from gripscale.analysis.best_estimate import Factor, best_estimate, isotropic_surface
 from gripscale.analysis.ladder import ComparisonSetup, Rung
 from gripscale.case.read import CaseFile
 from gripscale.core import provenance
@@ -88,7 +88,11 @@ def comparison_dataset(comparison: Comparison) -> xr.Dataset:
     for name in reduce.QUANTITIES:
         text = f"{TOTALS[f'total_{name}']}, mean of the samples"
         add(f"total_{name}", reduce.usable(samples, name).mean("sample"), text, "rung")
-    best = best_estimate(samples, comparison.factors, of_map=setups[0].of_map)
+    known = []
+    if setups[0].lines and not setups[0].of_map:
+        largest = float(setups[0].surface.sines.wavelength[0])
+        known = [isotropic_surface(setups[0].lines, largest)]
+    best = best_estimate(samples, [*known, *comparison.factors])
     for name, text in WORDS.items():
         values = reduce.usable(samples, name)
         about = "relative standard uncertainty of the"
@@ -108,6 +112,12 @@ def comparison_dataset(comparison: Comparison) -> xr.Dataset:
         add(f"running_{name}", curves, f"{text} down to the wavelength", "rung", "wavelength")
         add(f"best_{name}", best[f"best_{name}"], f"best estimate of the {text}")
         add(f"best_{name}_uncertainty", best[f"best_{name}_uncertainty"], f"{about} best estimate")
+        half_width = best[f"best_{name}_half_width"]
+        add(
+            f"best_{name}_half_width",
+            half_width,
+            f"relative half width of the 90 % interval, {text}",
+        )
         text = f"factor on the {text}, NaN if not included"
         add(f"best_{name}_factor", best[f"best_{name}_factor"], text, "factor")
         uncertainty = best[f"best_{name}_factor_uncertainty"]
@@ -186,4 +196,7 @@ def _factor(comparison: Comparison, at: int, name: str) -> tuple[xr.DataArray, x
     if before not in samples["rung"].values:
         unknown = reduce.usable(samples.isel(rung=at, drop=True), name).mean("sample") * np.nan
         return unknown, unknown
-    return reduce.ratio(samples.isel(rung=at, drop=True), samples.sel(rung=before, drop=True), name)
+    value, error = reduce.ratio(
+        samples.isel(rung=at, drop=True), samples.sel(rung=before, drop=True), name
+    )
+    return value, error.sigma

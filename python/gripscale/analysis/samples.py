@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from gripscale.analysis.intervals import LogError
 from gripscale.conditions.conditions import Conditions
 from gripscale.core.arrays import Array, Mask
 from gripscale.experiment.design import CONVERGED
@@ -25,8 +26,10 @@ from gripscale.experiment.task import Task
 from gripscale.model import (
     ADHESIVE_FRICTION,
     CUT_OFF_EXPONENTS,
+    FREEDOM,
     NOT_TOLD,
     OUTSIDE_BAND,
+    SAMPLING_ERRORS,
     STATUS,
     STATUS_WORD,
     WHY_NO_EXPONENT,
@@ -58,6 +61,8 @@ def sample_numbers(
     rest = float(answer["nominal_speed"]) == 0.0
     numbers: dict[str, Any] = {name: float(answer[f"total_{name}"]) for name in QUANTITIES}
     numbers |= {f"{name}_error": _error(answer, name) for name in SMOOTH}
+    for name in (*SAMPLING_ERRORS, FREEDOM):
+        numbers[name.removeprefix("total_")] = float(answer.get(name, math.nan))
     if rest:
         numbers |= {name: 0.0 * numbers[name] for name in QUANTITIES if "friction" in name}
         numbers["friction_error"] = math.nan
@@ -219,41 +224,59 @@ def estimated_error(samples: xr.Dataset, name: str) -> xr.DataArray:
     return error / abs(mean).where(mean != 0.0)
 
 
-def relative_uncertainty(samples: xr.Dataset, name: str) -> xr.DataArray:
-    """Return the relative uncertainty of a mean: scatter of the samples and estimated errors.
+def sampling_error(samples: xr.Dataset, name: str) -> LogError:
+    """Return how well the mean of a number stands for its road, with its degrees of freedom.
 
-    Of several subjects (profiles) the scatter is that of their means: samples of one of them say
-    nothing of the others. `samples` is of one rung, with the coordinate `subject` over `sample`.
+    From pieces of each surface, where the model knows them (`gripscale.half_space.sampling_error`);
+    else from the scatter of the samples, of several subjects (profiles) from that of their means,
+    because samples of one of them say nothing of the others. `samples` is of one rung, with the
+    coordinate `subject` over `sample`; NaN where neither is known.
     """
-    values = usable(samples, name)
-    scatter = log_error_of_mean(values)
+    values, there = usable(samples, name), converged(samples)
+    of_piece = f"{name.removesuffix('_from_dissipation')}_sampling_error"
+    if of_piece in samples and bool((samples[of_piece].notnull() | ~there).all() and there.any()):
+        total = values.sum("sample")
+        error = ((values * usable(samples, of_piece)) ** 2).sum("sample") ** 0.5
+        return LogError(error / total.where(total > 0.0), usable(samples, "freedom").sum("sample"))
     means = [
         values.isel(sample=(samples["subject"] == subject).values).mean("sample")
         for subject in np.unique(samples["subject"].values[_present(samples)])
     ]
+    error, count = log_error_of_mean(values), values.count("sample")
     if len(means) > 1:
         by_subject = xr.concat(means, "sample")
         several = by_subject.count("sample") > 1
-        scatter = log_error_of_mean(by_subject).where(several, scatter)
-    return in_quadrature(scatter, estimated_error(samples, name))
+        error = log_error_of_mean(by_subject).where(several, error)
+        count = by_subject.count("sample").where(several, count)
+    return LogError(error, count - 1.0)
 
 
-def ratio(over: xr.Dataset, under: xr.Dataset, name: str) -> tuple[xr.DataArray, xr.DataArray]:
-    """Return the ratio of the means of two rungs, and its relative uncertainty.
+def relative_uncertainty(samples: xr.Dataset, name: str) -> xr.DataArray:
+    """Return the relative standard uncertainty of a mean: `sampling_error` and estimated errors."""
+    return in_quadrature(sampling_error(samples, name).sigma, estimated_error(samples, name))
+
+
+def ratio(over: xr.Dataset, under: xr.Dataset, name: str) -> tuple[xr.DataArray, LogError]:
+    """Return the ratio of the means of two rungs, and its relative standard error.
 
     Where both have one sample each of the same subjects, only subjects that both have count, and
-    the uncertainty is from the scatter of their ratios; else from the scatter of both.
+    the error is from the scatter of their ratios; else from the scatter of both. Errors that the
+    models estimate are part of it.
     """
     if not paired(over, under):
         means = [usable(samples, name).mean("sample") for samples in (over, under)]
         uncertainties = (relative_uncertainty(samples, name) for samples in (over, under))
-        return means[0] / means[1].where(means[1] != 0.0), in_quadrature(*uncertainties)
+        first, second = (sampling_error(samples, name).freedom for samples in (over, under))
+        fewest = first.where(first < second, second)
+        value = means[0] / means[1].where(means[1] != 0.0)
+        return value, LogError(in_quadrature(*uncertainties), fewest)
     both = converged(over) & converged(under)
     upper, lower = over[name].where(both), under[name].where(both)
     mean = lower.mean("sample")
     scatter = log_error_of_mean(upper / lower).where(((lower > 0.0) | ~both).all("sample"))
     errors = (estimated_error(samples, name).where(both.any("sample")) for samples in (over, under))
-    return upper.mean("sample") / mean.where(mean != 0.0), in_quadrature(scatter, *errors)
+    sigma = in_quadrature(scatter, *errors)
+    return upper.mean("sample") / mean.where(mean != 0.0), LogError(sigma, both.sum("sample") - 1.0)
 
 
 def paired(first: xr.Dataset, second: xr.Dataset) -> bool:

@@ -235,8 +235,11 @@ def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
             low = np.maximum(values - spread, 1e-3 * values)
             marks.append(Band(x, low, values + spread, look.colour, curve.label, alpha=0.18))
     if np.isfinite(comparison[f"best_{name}_factor"]).any():
-        best, sigma = (comparison[f"best_{name}{end}"].values for end in ("", "_uncertainty"))
-        ends = {"low": best * np.exp(-sigma), "high": best * np.exp(sigma)}
+        best, width = (comparison[f"best_{name}{end}"].values for end in ("", "_half_width"))
+        ends = {
+            "low": best * np.exp(-np.arcsinh(width)),
+            "high": best * np.exp(np.arcsinh(width)),
+        }
         marks.append(Series(x, best, INK, BEST, "", marker="*", size=8.0, order=4.0, **ends))
     adhesive = with_adhesive(comparison) if name == "friction" else None
     for (_, look), values in zip(_rungs(comparison), () if adhesive is None else adhesive.values,

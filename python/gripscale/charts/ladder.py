@@ -222,8 +222,8 @@ def _best(comparison: xr.Dataset, name: str, value: float) -> Iterator[Row]:
         value *= factor
     if np.isfinite(factors).any():
         best = float(comparison[f"best_{name}"])
-        sigma = float(comparison[f"best_{name}_uncertainty"])
-        yield Row(BEST, best, sigma, marker="*", colour=ORANGE)
+        width = float(np.arcsinh(comparison[f"best_{name}_half_width"]))
+        yield Row(BEST, best, width, marker="*", colour=ORANGE)
 
 
 def _measured(comparison: xr.Dataset, name: str) -> Iterator[Row]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
@@ -12,6 +14,7 @@ from gripscale.conditions.conditions import Conditions
 from gripscale.core import checks, provenance
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
+from gripscale.half_space.sampling_error import PIECE, sampling_error
 from gripscale.half_space.solve import relative_tolerance, solve_rough_contact
 from gripscale.surface import Measured, Surface, SurfacePart
 from gripscale.wave.profile import solve_profile
@@ -20,6 +23,7 @@ from gripscale.wave.result import waves_to_dataset
 if TYPE_CHECKING:
     import xarray as xr
 
+    from gripscale.half_space.result import RoughContact
     from gripscale.model import Load, OnProgress
     from gripscale.rubber import Rubber
 
@@ -32,6 +36,35 @@ def _measurement(surface: Surface, need: str) -> Measured:
             "(gripscale.half_space.surface_of_sines makes one)"
         )
     return surface.measured
+
+
+def _with_sampling_errors(
+    answer: xr.Dataset, contacts: Sequence[RoughContact], lengths: Sequence[float], piece: float
+) -> xr.Dataset:
+    """Return an answer with the relative standard errors of its totals as estimates for the road.
+
+    Independent profiles, whose errors add up in squares by weight, from pieces of a length [m].
+    """
+    import xarray as xr
+
+    errors = [sampling_error(contact, piece) for contact in contacts]
+    freedom = sum(error.pieces - 1 for error in errors)
+    numbers = {model.FREEDOM: (float(freedom), "degrees of freedom of the sampling errors")}
+    for name, text in model.SAMPLING_ERRORS.items():
+        of = name.removeprefix("total_").removesuffix("_sampling_error")
+        numerator = "friction_from_dissipation" if of == "friction" else of
+        parts = np.multiply(lengths, [getattr(contact, numerator) for contact in contacts])
+        total = float(parts.sum())
+        error = math.hypot(*(parts * [getattr(error, of) for error in errors]))
+        numbers[name] = (error / total if total > 0.0 else math.nan, text)
+    return answer.assign(
+        {
+            name: xr.Variable(
+                (), value, {"units": "1", "long_name": text, "source": DirectContact.name}
+            )
+            for name, (value, text) in numbers.items()
+        }
+    )
 
 
 class DirectContact(Checked, model.Model):
@@ -101,6 +134,9 @@ class DirectContact(Checked, model.Model):
             load,
             [contact.cut_off_exponents for contact in contacts],
         )
+        if surface.waves is not None:
+            piece = PIECE * float(surface.waves.wavelength[0])
+            answer = _with_sampling_errors(answer, contacts, lengths, piece)
         adhesive = [contact.adhesive_friction for contact in contacts]
         return model.with_area_term(answer, float(np.average(adhesive, weights=lengths)))
 

@@ -193,7 +193,7 @@ def best_sentence(comparison: xr.Dataset) -> str:
             parts.append(f"{label} ({' and '.join(map(significant, factors))})")
         else:
             missing.append(str(label))
-    text = f"Best estimate: {numbers}, from {' × '.join(parts)}."
+    text = f"Best estimate (90 %): {numbers}, from {' × '.join(parts)}."
     if ADHESIVE_FRICTION in comparison:  # the area term goes with the contact area
         share = comparison.best_contact_fraction / judge.total_contact_fraction
         total = float(comparison.best_friction + judge[ADHESIVE_FRICTION] * share)
@@ -244,6 +244,6 @@ def failures(comparison: xr.Dataset) -> Iterator[tuple[str, Failure]]:
 
 
 def _with_uncertainty(comparison: xr.Dataset, name: str) -> str:
-    value, sigma = (float(comparison[f"best_{name}{end}"]) for end in ("", "_uncertainty"))
-    spread = f" ± {100.0 * sigma:.2g} %" if math.isfinite(sigma) else ""
+    value, width = (float(comparison[f"best_{name}{end}"]) for end in ("", "_half_width"))
+    spread = f" ± {100.0 * width:.2g} %" if math.isfinite(width) else ""
     return f"{significant(value)}{spread}"

@@ -1,0 +1,53 @@
+"""Intervals: relative errors of a product, and the half width that holds the truth 9 times in 10.
+
+A best estimate is a product of positive numbers, each with the standard error s_i of its logarithm
+and n_i degrees of freedom of that error. The errors are independent, so that
+
+    s^2 = sum(s_i^2),    n = s^4 / sum(s_i^4 / n_i)
+
+(Welch & Satterthwaite: B. L. Welch, Biometrika 34 (1947) 28), and the interval at level L is
+
+    y exp(-t s) ... y exp(t s),    t the (1 + L)/2 quantile of Student's t for n.
+
+Its half width over y is sinh(t s).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+
+LEVEL = 0.9
+"""Share of cases in which an interval holds the truth."""
+
+
+class LogError(NamedTuple):
+    """Standard error of the logarithm of a number, and its degrees of freedom."""
+
+    sigma: xr.DataArray
+    """[-]; NaN where it is not known."""
+    freedom: xr.DataArray
+    """[-]; infinite where the error itself is certain."""
+
+
+def combined(errors: Sequence[LogError]) -> LogError:
+    """Return the error of a product of independent numbers; NaN if one of them is not known."""
+    variance = sum((error.sigma**2 for error in errors), start=xr.DataArray(0.0))
+    uncertain = sum(
+        ((error.sigma**4 / error.freedom).fillna(0.0) for error in errors), start=xr.DataArray(0.0)
+    )
+    freedom = (variance**2 / uncertain.where(uncertain > 0.0)).fillna(np.inf)
+    return LogError(variance**0.5, freedom)
+
+
+def half_width(error: LogError, level: float = LEVEL) -> xr.DataArray:
+    """Return the half width of the interval of a number over the number; NaN if not known."""
+    from scipy.stats import t
+
+    freedom = error.freedom.where(error.freedom >= 1.0)
+    quantile = xr.apply_ufunc(lambda n: t.ppf(0.5 * (1.0 + level), n), freedom)
+    width = quantile * error.sigma
+    return width.copy(data=np.sinh(width.values))

@@ -1,0 +1,96 @@
+"""How well one measured surface represents its road: standard errors from pieces of one contact.
+
+The contact of a road under a nominal pressure is a ratio: contact length (or friction force) over
+load, both summed over pieces of the surface. A piece that happens to be high carries more load and
+has more contact, at about the same ratio. So the error of the ratio r = sum(y) / sum(p) comes from
+the residuals of the pieces,
+
+    var(r) / r^2 = n / (n - 1) sum((y_i - r p_i)^2) / sum(y)^2
+
+(W. G. Cochran, Sampling Techniques, 3rd ed. (1977), sec. 6.4), without another solution. The
+friction force of a piece is that of the losses: pressure times the part of the slope of the rubber
+that its losses make. The traction would do for the sum but not for a piece, because elastic forces
+of one piece on another cancel in the sum only.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+import scipy.fft
+
+from gripscale.core import checks
+from gripscale.core.arrays import Array
+from gripscale.half_space.response import HalfSpace
+from gripscale.half_space.result import RoughContact
+
+FEWEST_PIECES = 4
+"""Pieces below which their scatter says nothing."""
+PIECE = 2.0
+"""Length of a piece in largest waves: long enough to make neighbours nearly independent."""
+
+
+class SamplingError(NamedTuple):
+    """Relative standard errors of contact fraction and friction; NaN where not known."""
+
+    contact_fraction: float
+    friction: float
+    pieces: int
+    """Pieces they are estimated from."""
+
+
+def sampling_error(contact: RoughContact, piece: float) -> SamplingError:
+    """Return the relative standard errors of a contact as an estimate for its road.
+
+    NaN for fewer than four pieces; of friction also at rest, and where it is not positive.
+
+    Raises `InputError` if `piece` is not above zero.
+
+    Parameters
+    ----------
+    contact : RoughContact
+        Of a line or map.
+    piece : float
+        Length of a piece along each axis [m], such as two largest waves; the pieces are equal and
+        at least this long.
+    """
+    length = checks.positive("piece", piece, unit="m")
+    counts = [max(1, int(side / length * (1.0 + 1e-9))) for side in contact.grid.lengths]
+    pieces = math.prod(counts)
+    if pieces < FEWEST_PIECES:
+        return SamplingError(math.nan, math.nan, pieces)
+    load, touched = (
+        _by_piece(field, counts) for field in (contact.pressure, contact.active.astype(float))
+    )
+    friction = math.nan
+    if contact.speed > 0.0:
+        friction = _relative_error(_by_piece(_losses(contact), counts), load)
+    return SamplingError(_relative_error(touched, load), friction, pieces)
+
+
+def _by_piece(field: Array, counts: Sequence[int]) -> Array:
+    """Return the sum of a field over each piece."""
+    for axis, count in enumerate(counts):
+        ends = np.linspace(0, field.shape[axis], count, endpoint=False).astype(int)
+        field = np.add.reduceat(field, ends, axis=axis)
+    return field.reshape(-1)
+
+
+def _losses(contact: RoughContact) -> Array:
+    """Return pressure times the slope [Pa] that the losses of the rubber make."""
+    body = HalfSpace(contact.rubber, contact.speed, by_scale=contact.by_scale)
+    slope = -contact.grid.along * body.compliance(contact.grid).imag
+    waves = slope * scipy.fft.rfftn(contact.pressure)
+    return np.asarray(contact.pressure * scipy.fft.irfftn(waves, s=contact.grid.shape))
+
+
+def _relative_error(values: Array, load: Array) -> float:
+    """Return the relative standard error of sum(values) / sum(load)."""
+    total, count = float(values.sum()), values.size
+    if total <= 0.0:
+        return math.nan
+    residual = values - total / float(load.sum()) * load
+    return math.sqrt(count / (count - 1) * float(residual @ residual)) / total
