@@ -49,5 +49,5 @@ def half_width(error: LogError, level: float = LEVEL) -> xr.DataArray:
 
     freedom = error.freedom.where(error.freedom >= 1.0)
     quantile = xr.apply_ufunc(lambda n: t.ppf(0.5 * (1.0 + level), n), freedom)
-    width = quantile * error.sigma
+    width: xr.DataArray = quantile * error.sigma
     return width.copy(data=np.sinh(width.values))

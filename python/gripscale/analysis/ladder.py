@@ -1,8 +1,8 @@
 """The ladder: from the chain to the profile as measured, one assumption given up on each rung.
 
 A new rung is a function that draws its samples, an entry in `LADDER`, and if it follows another,
-one in `STEPS`. What two rungs on the same surfaces say of an assumption becomes a factor of the
-best estimate by an entry in `gripscale.analysis.best_estimate.FACTORS`.
+one in `STEPS`. What two rungs on the same surfaces say of an assumption may become a factor of the
+best estimate (`gripscale.analysis.best_estimate`).
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from gripscale.chain.chain import Chain
 from gripscale.conditions.conditions import Conditions
 from gripscale.core import checks
 from gripscale.core.errors import InputError
+from gripscale.half_space.finite_strain import spread_windows
 from gripscale.half_space.model import BlockOnProfile, DirectContact
 from gripscale.half_space.windows import random_phases, surface_of_sines
 from gripscale.model import Load, Model
@@ -56,6 +57,8 @@ class ComparisonSetup:
     """That theory with its fitted parameters; without them it says nothing."""
     pressure_classes: int = 1
     """In how many classes of equal load the chain hands its pressure down, as the case says."""
+    windows: int = 4
+    """Windows of the profiles that are solved at finite strain."""
     conditions: Conditions | None = None
     """What changes the rubber. Chain and direct contact know all of it, every other model only the
     temperature."""
@@ -122,7 +125,7 @@ def with_single_measurement(surface: Surface, measured: Profile | HeightMap) -> 
     return Surface(surface.sines, measured.name, measured=Measured.of(whole))
 
 
-WINDOW, MOST_WAVES, WINDOWS = 1.1, 190, 8
+WINDOW, MOST_WAVES, MOST_WINDOWS = 1.1, 190, 16
 """Windows of a profile in the block: length over the largest sine wave, waves that are kept at most
 (those of the roughness that the measurement has), and how many windows at most."""
 
@@ -149,21 +152,28 @@ def _on_windows(setup: ComparisonSetup, model: Model) -> Sequence[SampleSpec]:
             with_single_measurement(setup.surface, line),
             f"{line.name} from {line.x[0]:.4g} m",
         )
-        for line in _windows(setup.lines, length, float(sines.cutoff_wavelength))
+        for line in _windows(setup.lines, length, float(sines.cutoff_wavelength))[: setup.windows]
     ]
 
 
 @lru_cache(maxsize=4)
 def _windows(lines: tuple[Profile, ...], length: float, end: float) -> list[Profile]:
-    """Return windows of the profiles that are long enough for one, with waves down to `end`."""
-    # imports scipy.stats: 0.3 s, which no run pays
-    from gripscale.half_space.finite_strain import spread_windows
+    """Return windows of the profiles that are long enough for one, with waves down to `end`.
 
+    The first few of them are spread over the profiles as well as all are.
+    """
     enough = [line for line in lines if line.length > length]
     if not enough:
         return []
     smallest = max(length / MOST_WAVES, end, 2.0 * max(line.step for line in enough))
-    return spread_windows(enough, length, WINDOWS, smallest)
+    spread = spread_windows(enough, length, MOST_WINDOWS, smallest)
+    return [spread[at] for at in np.argsort(_halving(len(spread)), kind="stable")]
+
+
+def _halving(count: int) -> list[float]:
+    """Return the places of `count` numbers in the order 1/2, 1/4, 3/4, 1/8, ... of their places."""
+    bits = max(count - 1, 1).bit_length()
+    return [int(f"{number:0{bits}b}"[::-1], 2) for number in range(count)]
 
 
 def _on_maps(setup: ComparisonSetup, lines: int) -> Sequence[SampleSpec]:
@@ -205,15 +215,21 @@ POINTS_OF_A_CLASS = 256
 """Points along each of its waves: within 0.2 % of 1024 on the shipped road, 3 mm/s to 30 m/s."""
 
 
-def chosen(names: Iterable[str]) -> list[Rung]:
-    """Return the rungs of the given names and groups in the order of the ladder; all without any.
+ON_REQUEST = frozenset({"map"})
+"""Groups of rungs that nothing but a comparison of them needs: synthetic maps, a minute each."""
 
-    Raises `InputError` for an unknown one.
+
+def chosen(names: Iterable[str]) -> list[Rung]:
+    """Return the rungs of the given names and groups in the order of the ladder.
+
+    Without any all but those on request. Raises `InputError` for an unknown one.
     """
     wanted = set(names)
     groups = dict.fromkeys(rung.group for rung in LADDER)
     checks.allowed_names("rung", sorted(wanted), [*groups, *(rung.name for rung in LADDER)])
-    return [rung for rung in LADDER if not wanted or wanted & {rung.name, rung.group}]
+    if not wanted:
+        return [rung for rung in LADDER if rung.group not in ON_REQUEST]
+    return [rung for rung in LADDER if wanted & {rung.name, rung.group}]
 
 
 def each_measured(surface: Surface) -> list[tuple[str, Surface]]:
