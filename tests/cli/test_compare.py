@@ -6,18 +6,20 @@ import json
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 import xarray as xr
 
 import gripscale as gs
-from gripscale.analysis import compare_case, solve_reference
-from gripscale.analysis.comparison import FILE, reference_totals
+from gripscale.analysis import compare_case, compare_over, solve_reference
+from gripscale.analysis.comparison import FILE, VARIED, reference_totals
 from gripscale.analysis.samples import curve_at
 from gripscale.case import prepare_case, read_case
 from gripscale.charts.comparison import comparison_axis_figure, comparison_figure
 from gripscale.charts.view import PredictionView
+from gripscale.core.errors import FileError
 from gripscale.io import netcdf
 from gripscale.io.table import as_text
 from gripscale.report.comparison import comparison_table, judgement, remarks
@@ -197,8 +199,8 @@ def test_over_speed_is_each_speed_alone_and_is_not_solved_twice(
 @pytest.mark.parametrize(
     ("option", "value", "sentence"),
     [
-        ("--vary", "rubber=case", "a comparison varies one of speed, pressure"),
-        ("--vary", "pressure_classes=1,2", "a comparison varies one of speed, pressure"),
+        ("--vary", "rubber=case", "vary must be one of speed, pressure"),
+        ("--vary", "pressure_classes=1,2", "vary must be one of speed, pressure"),
         ("--vary", "speed=0.3", "speed must have at least two values; got 0.3"),
         ("--rungs", "persion", "unknown rung persion; did you mean persson?"),
         ("--seeds", "0", "seeds must be a whole number from 1 to 1000; got 0"),
@@ -260,6 +262,28 @@ def test_nothing_rubs_at_rest(tmp_path: Path) -> None:
     assert np.isnan(data.friction_uncertainty).all()
     assert (data.total_contact_fraction > 0.0).all()
     assert len(comparison_figure(data).axes) == 2
+
+
+@pytest.mark.parametrize("vary", [None, {"speed": [0.1, 0.3]}])
+def test_what_was_measured_is_refused_before_anything_is_solved(
+    inputs: Path, tmp_path: Path, vary: dict[str, list[float]] | None
+) -> None:
+    for path in inputs.iterdir():
+        if path.is_file():
+            (tmp_path / path.name).write_bytes(path.read_bytes())
+    case = tmp_path / "case.toml"
+    case.write_text(case.read_text() + '\n[measured]\nfriction = "mu.csv"\n')
+    (tmp_path / "mu.csv").write_text("speed [m/s],friction\n0.1,none\n")
+    options: dict[str, Any] = {"rungs": ["chain_half_plane"], "on_task": pytest.fail}
+    with pytest.raises(FileError, match=r"mu\.csv"):
+        compare_case(case, **options) if vary is None else compare_over(case, vary, **options)
+
+
+def test_the_axes_named_are_those_of_a_comparison(shell: Shell, inputs: Path) -> None:
+    refusal = shell("compare", inputs / "case.toml", "--vary", "effects=all,none")
+    assert refusal.exit_code == 2
+    names = refusal.output.partition("must be one of ")[2].partition(";")[0]
+    assert names == ", ".join(VARIED)
 
 
 def test_rung_that_failed_is_open_and_says_why(inputs: Path) -> None:

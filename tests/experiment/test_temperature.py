@@ -196,8 +196,8 @@ def test_effects_are_left_out_by_name(case: Path, tmp_path: Path) -> None:
         ({"temperature": ["20 C"]}, Persson(), "such as chain and direct; got the model persson"),
         ({"temperature": "20 C, -150 C"}, "chain", "temperature must lie within"),
         ({"temperature": "20 C"}, "toy", "model must be one of chain, direct; got 'toy'"),
-        ({"effects": "all, no luck"}, "chain", "effects must be one of all, no temperature"),
-        ({"effects": "no heat"}, "chain", "left out of those the conditions have, none; got"),
+        ({"effects": "all, no luck"}, "chain", "effects must be one of all, none; got"),
+        ({"effects": "no heat"}, "chain", "effects must be one of all, none; got"),
     ],
 )
 def test_what_cannot_be_varied_is_one_sentence(

@@ -157,6 +157,8 @@ def _compared(
     file: CaseFile, tasks: Mapping[str, Task], choice: Choice, axis: Axis | None, bench: Bench
 ) -> Comparison:
     """Return the comparison of the rubber, surface and load of each of `tasks`, by its label."""
+    # what was measured is refused before anything is solved
+    measured = choice.measured or measured_comparison.friction_of_case(file)
     theory = file.case.compare
     klueppel_heinrich = None
     if theory.layer_ratio is not None and theory.penetration_depth is not None:
@@ -202,7 +204,6 @@ def _compared(
     samples = solve_design(
         design, bench, partial(reduce.sample_numbers, conditions=setups[0].conditions)
     )
-    measured = choice.measured or measured_comparison.friction_of_case(file)
     return Comparison(file, setups, list(draws), samples, axis, measured, choice.factors)
 
 

@@ -31,6 +31,9 @@ from numpy.typing import NDArray
 
 from gripscale.core.arrays import Array
 
+SIGNIFICANCE = 1.645
+"""Standard errors by which a share must exceed zero, or another share: 95 %, one side."""
+
 SAMPLES_PER_TERM = 3
 """Samples there must be for each term of the fit."""
 SWING = (0.05, 0.95)

@@ -12,9 +12,8 @@ from typing import Any
 import panel as pn
 
 from gripscale.app.case import MAX_UPLOAD, CaseState
-from gripscale.app.elements import column, error_notice, html
+from gripscale.app.elements import column, error_notice, html, refusals_in
 from gripscale.case.examples import EXAMPLES
-from gripscale.core.errors import GripscaleError
 from gripscale.report.elements import Notice
 
 OnUpload = Callable[[Mapping[str, bytes]], None]
@@ -38,10 +37,8 @@ def file_upload(label: str, on_upload: OnUpload, *, several: bool = False) -> pn
             for name, content in area.value.items()
         }
         if uploads:
-            try:
+            with refusals_in(message):
                 on_upload(uploads)
-            except GripscaleError as refusal:
-                message.objects = [error_notice(str(refusal))]
 
     area.param.watch(receive, "value")
     title = pn.pane.Markdown(label, margin=(4, 8, 0, 8), sizing_mode="stretch_width")
@@ -82,10 +79,8 @@ def case_panel(state: CaseState) -> pn.Column:
     load = pn.widgets.Button(label="Load the example", margin=(4, 8))
 
     def load_example(_: Any) -> None:
-        try:
+        with refusals_in(message, state.visit.short):
             state.load_example(example.value)
-        except GripscaleError as refusal:
-            message.objects = [error_notice(state.visit.short(refusal))]
 
     load.on_click(load_example)
     save = pn.widgets.FileDownload(

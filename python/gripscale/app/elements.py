@@ -6,8 +6,9 @@ All texts are escaped by the template.
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
@@ -17,6 +18,7 @@ import panel as pn
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from gripscale.charts.page_elements import Chart
+from gripscale.core.errors import GripscaleError
 from gripscale.report.elements import Card, Code, Element, Notice, Text
 
 T = TypeVar("T")
@@ -75,6 +77,20 @@ def chart_pane(chart: Chart) -> pn.Column:
 def error_notice(sentence: str) -> pn.pane.HTML:
     """Return the pane of an error."""
     return html(Notice("error", sentence))
+
+
+@contextmanager
+def refusals_in(
+    pane: pn.Column, words: Callable[[object], str] = str, above: Sequence[Any] = ()
+) -> Iterator[None]:
+    """Show what gripscale refuses in `pane`, below what stays `above` it.
+
+    `words` makes a sentence of the error, such as `Visit.short`.
+    """
+    try:
+        yield
+    except GripscaleError as refusal:
+        pane.objects = [*above, error_notice(words(refusal))]
 
 
 def code(caption: str, text: str) -> pn.pane.HTML:

@@ -11,11 +11,10 @@ from typing import Any, Literal, get_args, get_origin
 import panel as pn
 
 from gripscale.app.case import CaseState, field_text, field_value
-from gripscale.app.elements import PageElements, column, error_notice, in_worker, panes
+from gripscale.app.elements import PageElements, column, in_worker, panes, refusals_in
 from gripscale.case import CaseFile
 from gripscale.case.keys import NEEDED, NOTHING, TABLES, Key, Section, sections
 from gripscale.case.schema import table_of
-from gripscale.core.errors import GripscaleError
 
 BY_DEFAULT = "by default"
 LOOK: dict[str, Any] = {
@@ -183,9 +182,8 @@ async def fill(body: pn.Column, make: Callable[[], PageElements], state: CaseSta
     """Fill `body` with what `make` returns or its error; the page stays responsive meanwhile."""
     body.loading = True
     try:
-        body.objects = panes(await in_worker(make))
-    except GripscaleError as refusal:
-        body.objects = [error_notice(state.visit.short(refusal))]
+        with refusals_in(body, state.visit.short):
+            body.objects = panes(await in_worker(make))
     finally:
         body.loading = False
 

@@ -23,10 +23,10 @@ from gripscale.app.elements import (
     PageElements,
     code,
     column,
-    error_notice,
     html,
     in_worker,
     raw,
+    refusals_in,
     wait_for_worker,
 )
 from gripscale.app.forms import fill
@@ -59,10 +59,8 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
     last_state: list[tuple[str, int, str]] = []
 
     def on_start(_: Any) -> None:
-        try:
+        with refusals_in(status, state.visit.short):
             runs.start()
-        except GripscaleError as refusal:
-            status.objects = [error_notice(state.visit.short(refusal))]
 
     def update() -> None:
         run = runs.all[-1] if runs.all else None
@@ -207,13 +205,10 @@ def report_pane(state: CaseState, run: Run) -> pn.Column:
     pane = column(button)
 
     async def show(_: Any) -> None:
-        try:
+        with refusals_in(pane, state.visit.short, above=[button]):
             page = (await in_worker(lambda: new_report(run))).decode("utf-8")
-        except GripscaleError as refusal:
-            pane.objects = [button, error_notice(state.visit.short(refusal))]
-            return
-        options = f'title="Report of {run.name}" sandbox="allow-scripts"'
-        pane.objects = [raw(f'<iframe {options} srcdoc="{escape(page)}"></iframe>')]
+            options = f'title="Report of {run.name}" sandbox="allow-scripts"'
+            pane.objects = [raw(f'<iframe {options} srcdoc="{escape(page)}"></iframe>')]
 
     button.on_click(show)
     return pane

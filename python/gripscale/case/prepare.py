@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from inspect import signature
 from pathlib import Path
@@ -18,7 +17,7 @@ from gripscale.case.schema import Table
 from gripscale.case.tables import SurfaceTable
 from gripscale.chain.chain import Chain, wave_solver
 from gripscale.conditions.conditions import Conditions
-from gripscale.core.errors import GripscaleError, InputError, about_keys
+from gripscale.core.errors import GripscaleError, InputError, about_file, about_keys
 from gripscale.rubber import (
     MasterCurve,
     PronyFit,
@@ -42,15 +41,6 @@ from gripscale.rubber.softening import SofteningLaw, softening_of_sweeps
 from gripscale.rubber.sweeps import holds_sweeps
 
 Resolve = Callable[[str], Path]
-
-
-@contextmanager
-def _in_file(path: Path | str) -> Iterator[None]:
-    """Name the file in an `InputError` about what was read from it."""
-    try:
-        yield
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from error
 
 
 def _options(table: Table, function: Callable[..., Any]) -> dict[str, Any]:
@@ -82,7 +72,7 @@ def prepare_surface(surface: SurfaceTable, resolve: Resolve = Path) -> surfaces.
     fit = _options(surface, surfaces.fit_sines)
     if not (surface.cut_off is None or isinstance(surface.cut_off, float)):
         where = str(paths[0]) if len(paths) == 1 else f"{len(paths)} profiles"
-        with _in_file(where):
+        with about_file(where, InputError):
             fit["cut_off"] = surfaces.find_cut_off(measured.slopes, surface.cut_off).wavelength
     return surfaces.Surface(
         surfaces.fit_sines(correlation, **fit),
@@ -100,7 +90,7 @@ def _profiles(surface: SurfaceTable, paths: list[Path]) -> surfaces.Measured:
     profiles, reports = [], []
     for path in paths:
         raw = surfaces.read_profile(path, **_options(surface, surfaces.read_profile))
-        with _in_file(path):
+        with about_file(path, InputError):
             cleaned, report = surfaces.clean(raw, **_options(surface, surfaces.clean))
         profiles.append((raw, cleaned))
         reports.append(report)
@@ -112,7 +102,7 @@ def _map(surface: SurfaceTable, path: Path) -> surfaces.Measured:
     raw = surfaces.read_map(path, **_options(surface, surfaces.read_map))
     raw = raw if surface.direction == "x" else raw.turned()
     options = _options(surface, surfaces.clean_map)
-    with _in_file(path):
+    with about_file(path, InputError):
         cleaned, report = surfaces.clean_map(
             raw, **options | {"crop": (options["crop"], surface.crop_across)}
         )
@@ -185,7 +175,7 @@ def prepare_rubber(
         reference = source.reference_temperature
         master = read_master_curve(path, reference_temperature=reference, **reading)
         sweeps, report = None, None
-    with _in_file(path):
+    with about_file(path, InputError):
         rubber, fit = fit_prony_report(master, **options)
     rubber = replace(rubber, strain_energy=source.strain_energy)
     if sweeps is None:

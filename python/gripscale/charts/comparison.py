@@ -21,6 +21,7 @@ from gripscale.charts.chart import Axis, Band, Bars, CrossLine, Mark, Note, Pane
 from gripscale.charts.ladder import BEST, STAR, Look, MeasuredSeries, Row
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BEYOND, BLUE, FAINT, FLAG, GREY, INK, ORANGE, WIDE
+from gripscale.charts.view import AXIS_TITLES
 from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI, DisplayUnit, display_unit_of
 from gripscale.experiment.axis import axis_label, axis_shown
@@ -30,10 +31,6 @@ from gripscale.model import with_adhesive
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-QUANTITIES = {
-    "contact_fraction": "contact area $A_r/A_0$",
-    "friction": "friction coefficient $\\mu$",
-}
 LEAST_RANGE = 3.0
 """Largest over smallest number of an axis, at least: less has no numbers of a log axis in it."""
 HALF = 0.27
@@ -54,7 +51,7 @@ def comparison_figure(comparison: xr.Dataset) -> Figure:
     rung with failed samples is open; one with a star rests partly on the rubber beyond its measured
     band.
     """
-    panels = [_ladder_panel(comparison, name) for name in QUANTITIES]
+    panels = [_ladder_panel(comparison, name) for name in AXIS_TITLES]
     labels = list((panels[0].y.ticks or {}).values())
     star = any(label.endswith(STAR) for label in labels)
     return draw.on_paper(
@@ -72,7 +69,7 @@ def comparison_figure(comparison: xr.Dataset) -> Figure:
 def ladder_charts(comparison: xr.Dataset) -> list[Chart]:
     """Return the steps from rung to rung, and the rungs down to each wavelength."""
     panels = []
-    for name in QUANTITIES:
+    for name in AXIS_TITLES:
         panel, rows = _ladder_panel(comparison, name), list(ladder.rows_of(comparison, name))
         texts = (
             row.label if math.isfinite(row.value) else f"{row.label} ({row.note})" for row in rows
@@ -81,7 +78,7 @@ def ladder_charts(comparison: xr.Dataset) -> list[Chart]:
         panels.append(replace(panel, y=replace(panel.y, ticks=ticks)))
     on_surface = ladder.on_the_surface(comparison)
     if np.isfinite(on_surface.running_friction.values).any():
-        panels += [_wavelength_panel(on_surface, name) for name in QUANTITIES]
+        panels += [_wavelength_panel(on_surface, name) for name in AXIS_TITLES]
     return draw.on_page(panels)
 
 
@@ -110,7 +107,7 @@ def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
                        for end in ("", STAR)}  # fmt: skip
     words, capital = _words(name)
     return Panel(
-        Axis(f"{QUANTITIES[name]} [-]", log=True, low=low / room, high=high * room**2),
+        Axis(f"{AXIS_TITLES[name]} [-]", log=True, low=low / room, high=high * room**2),
         Axis("", low=len(rows) - 0.4, high=-0.6, grid=False, bold=frozenset(strong),
              ticks={float(at): row.label for at, row in enumerate(rows)}),
         marks,
@@ -126,7 +123,7 @@ def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
 
 def _words(name: str) -> tuple[str, str]:
     """Return what a quantity is called within a sentence, and at its beginning."""
-    words = chart.spelled_out(QUANTITIES[name])
+    words = chart.spelled_out(AXIS_TITLES[name])
     return words, words[0].upper() + words[1:]
 
 
@@ -162,7 +159,7 @@ def comparison_wavelength_figure(comparison: xr.Dataset) -> Figure:
     contact do that. Their area is that of the contact without the shorter waves.
     """
     on_surface = ladder.on_the_surface(comparison)
-    panels = [_wavelength_panel(on_surface, name) for name in QUANTITIES]
+    panels = [_wavelength_panel(on_surface, name) for name in AXIS_TITLES]
     return draw.on_paper(Sheet(panels, height=3.5))
 
 
@@ -179,7 +176,7 @@ def _wavelength_panel(comparison: xr.Dataset, name: str) -> Panel:
     area, (words, capital) = name == "contact_fraction", _words(name)
     return Panel(
         chart.wavelength_axis(length),
-        Axis(f"{QUANTITIES[name]} of longer waves [-]", log=area, low=None if area else 0.0),
+        Axis(f"{AXIS_TITLES[name]} of longer waves [-]", log=area, low=None if area else 0.0),
         marks,
         name=f"by-wavelength-{name}",
         caption=f"{capital} down to each wavelength, of every model: where area is lost "
@@ -211,12 +208,12 @@ def comparison_axis_figure(comparison: xr.Dataset) -> Figure:
     best estimate, where it has a factor, is drawn with its standard uncertainty; measured friction
     with its own.
     """
-    return draw.on_paper(Sheet([_axis_panel(comparison, name) for name in QUANTITIES], height=3.7))
+    return draw.on_paper(Sheet([_axis_panel(comparison, name) for name in AXIS_TITLES], height=3.7))
 
 
 def axis_charts(comparison: xr.Dataset) -> list[Chart]:
     """Return area and friction of every rung over the axis of a comparison."""
-    return draw.on_page([_axis_panel(comparison, name) for name in QUANTITIES])
+    return draw.on_page([_axis_panel(comparison, name) for name in AXIS_TITLES])
 
 
 def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
@@ -256,7 +253,7 @@ def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
     text = axis.replace("_", " ")
     return Panel(
         Axis(axis_label(comparison, axis), log=low > 0.0 and high > 8.0 * low, low=low, high=high),
-        Axis(f"{QUANTITIES[name]} [-]", log=area, low=None if area else least),
+        Axis(f"{AXIS_TITLES[name]} [-]", log=area, low=None if area else least),
         marks,
         name=f"over-{axis}-{name}",
         caption=f"{capital} of every model over {text}; bands are the standard deviation "
@@ -305,7 +302,7 @@ def measured_sheet(
         points = replace(points, marker="o", size=4.5, label="measured")
         panels.append(Panel(
             Axis(f"sliding speed $v$ [{speed_unit.unit}]", log=True),
-            Axis(f"{QUANTITIES['friction']} [-]", low=0.0),
+            Axis(f"{AXIS_TITLES['friction']} [-]", low=0.0),
             [*marks_of(values, speed_unit), points],
             title=values.label.removeprefix("measured").removeprefix(", "),
         ))  # fmt: skip

@@ -18,6 +18,7 @@ from gripscale.charts import chart, draw, style
 from gripscale.charts.chart import Axis, Band, CrossLine, Mark, Panel, Series, Sheet
 from gripscale.charts.page_elements import Chart, telling, words_of
 from gripscale.charts.style import BEYOND, BLUE, GREY, INK, NARROW, Flags
+from gripscale.charts.view import AXIS_TITLES
 from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI
 from gripscale.experiment.axis import (
@@ -37,10 +38,8 @@ if TYPE_CHECKING:
 MOST_CURVES = 12
 """Curves of a chart of the page, evenly spaced among more; and names in a legend on paper."""
 PER_WAVE = ("running_contact_fraction", "running_friction", "contact_fraction", "friction")
-TOTALS = {
-    "total_contact_fraction": "real contact area $A_r/A_0$ [-]",
-    "total_friction": "friction coefficient $\\mu$ [-]",
-}
+TOTALS = {f"total_{name}": f"{title} [-]" for name, title in AXIS_TITLES.items()}
+"""Titles of axes."""
 AT_REST = "static_total_contact_fraction"
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
+from gripscale.analysis.variance_shares import SIGNIFICANCE
 from gripscale.charts import draw
 from gripscale.charts.chart import Axis, Band, Bars, CrossLine, Mark, Panel, Series, Sheet
 from gripscale.charts.comparison import measured_sheet
@@ -15,16 +16,14 @@ from gripscale.charts.ladder import MARKERS, MeasuredSeries, measured
 from gripscale.charts.page_elements import Picture
 from gripscale.charts.study import varied_axis
 from gripscale.charts.style import BLUE, COLOURS, FAINT, GREY, INK, ORANGE
-from gripscale.core.arrays import SURE
+from gripscale.charts.view import AXIS_TITLES
 from gripscale.core.units import MEGA, DisplayUnit, display_unit_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-TOTALS = {
-    "friction": "friction coefficient $\\mu$ [-]",
-    "contact_fraction": "real contact area $A_r/A_0$ [-]",
-}
+TOTALS = {name: f"{title} [-]" for name, title in reversed(AXIS_TITLES.items())}
+"""Titles of axes."""
 MOST_BINS = 24
 MEDIAN, END = 1.6, 0.9
 """Widths of the lines at median and ends."""
@@ -121,7 +120,7 @@ def tornado_figure(data: xr.Dataset) -> Figure:
     bars: list[Mark] = []
     dots: list[Mark] = []
     for row, k in enumerate(ranked):
-        seen = shares[k] > SURE * errors[k]
+        seen = shares[k] > SIGNIFICANCE * errors[k]
         for end, colour in zip(data.friction_end.values[k], (BLUE, ORANGE), strict=True):
             low, high = sorted((middle, end))
             shade = colour if seen else GREY

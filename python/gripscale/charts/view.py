@@ -22,6 +22,16 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
+HEADINGS = {"contact_fraction": "real contact area", "friction": "friction coefficient"}
+"""What tables and figures call the numbers every model answers with."""
+SYMBOLS = {"contact_fraction": "A_r/A_0", "friction": "μ"}
+"""Their symbols in text."""
+AXIS_TITLES = {
+    name: f"{HEADINGS[name]} ${symbol}$"
+    for name, symbol in (("contact_fraction", "A_r/A_0"), ("friction", "\\mu"))
+}
+"""Headings and symbols at an axis, without the unit."""
+
 CONVERGED = "converged"
 JUDGE = "direct contact of the profiles"
 """What a figure of a chain calls the model that judges it."""

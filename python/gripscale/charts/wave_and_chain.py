@@ -18,7 +18,7 @@ from gripscale.charts.chart import Axis, Bars, CrossLine, Mark, Note, Panel, Ser
 from gripscale.charts.ladder import measured_points
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, COLOURS, GREEN, GREY, INK, NARROW, ORANGE, RED, SKY
-from gripscale.charts.view import JUDGE, PredictionView
+from gripscale.charts.view import AXIS_TITLES, HEADINGS, JUDGE, PredictionView
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.core.units import MILLI, ZERO_CELSIUS, display_unit
@@ -43,7 +43,7 @@ def contact_figure(predictions: Mapping[str, xr.Dataset]) -> Figure:
     Lines are dashed beyond the measured band of the rubber.
     """
     views = [PredictionView(data, name) for name, data in predictions.items()]
-    return draw.on_paper(Sheet([_area_panel(views), _friction_panel(views)]))
+    return draw.on_paper(Sheet([_total_panel(views, name) for name in AXIS_TITLES]))
 
 
 def contact_charts(predictions: Views, direct: xr.Dataset | None = None) -> list[Chart]:
@@ -53,7 +53,7 @@ def contact_charts(predictions: Views, direct: xr.Dataset | None = None) -> list
     converge are red crosses.
     """
     judged = [*predictions, *([] if direct is None else [PredictionView(direct, JUDGE)])]
-    area, friction = _area_panel(judged), _friction_panel(judged)
+    area, friction = (_total_panel(judged, name) for name in AXIS_TITLES)
     panels = [area.with_marks(_failed(predictions, "contact_fraction"))]
     moving = [view for view in predictions if view.moving]
     if moving:
@@ -87,30 +87,25 @@ def contact_charts(predictions: Views, direct: xr.Dataset | None = None) -> list
     return draw.on_page(panels)
 
 
-def _area_panel(views: Views) -> Panel:
+def _total_panel(views: Views, name: str) -> Panel:
+    """Return the panel of the contact fraction or the friction, of and down to each wave."""
+    if name == "contact_fraction":
+        words, sum_of, title = "relative contact area", "A_r/A_0", "contact-area"
+        axis = Axis(f"{words} [-]", log=True, high=1.15)
+    else:
+        words, sum_of, title = HEADINGS[name], "sum", name
+        least = [float(np.nanmin(view.usable(name), initial=0.0)) for view in views if view.waves]
+        axis = Axis(f"{words} [-]", low=min(0.0, *least, 0.0))
     return Panel(
         _wavelengths(views),
-        Axis("relative contact area [-]", log=True, high=1.15),
+        axis,
         [mark for view, colour in zip(views, COLOURS, strict=False)
-         for mark in _running_and_each(view, "contact_fraction", colour)],
-        name="contact-area",
-        caption="Relative contact area: A_r/A_0 down to each wave (filled), and of each wave "
+         if view.moving or name != "friction"
+         for mark in _running_and_each(view, name, colour)],
+        name=title,
+        caption=f"{words.capitalize()}: {sum_of} down to each wave (filled), and of each wave "
         "(open); dashed beyond the measured band.",
-        alt="Relative contact area against wavelength, which falls to the right.",
-    )  # fmt: skip
-
-
-def _friction_panel(views: Views) -> Panel:
-    least = [float(np.nanmin(view.usable("friction"), initial=0.0)) for view in views if view.waves]
-    return Panel(
-        _wavelengths(views),
-        Axis("friction coefficient [-]", low=min(0.0, *least, 0.0)),
-        [mark for view, colour in zip(views, COLOURS, strict=False) if view.moving
-         for mark in _running_and_each(view, "friction", colour)],
-        name="friction",
-        caption="Friction coefficient: sum down to each wave (filled), and of each wave (open); "
-        "dashed beyond the measured band.",
-        alt="Friction coefficient against wavelength, which falls to the right.",
+        alt=f"{words.capitalize()} against wavelength, which falls to the right.",
     )  # fmt: skip
 
 
@@ -415,7 +410,7 @@ INSIDE = 0.45
 SHARE = 0.6
 """Share of the height of a row that the bars of all models take."""
 PANELS = {
-    "total_contact_fraction": "real contact area $A_r/A_0$ [-]",
+    "total_contact_fraction": f"{AXIS_TITLES['contact_fraction']} [-]",
     "total_friction": "friction, hysteresis $\\mu$ [-]",
     WITH_AREA_TERM: "friction with area term [-]",
 }

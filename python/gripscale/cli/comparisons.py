@@ -57,7 +57,7 @@ def compare(
     cluster: Cluster = None,
 ) -> None:
     """Show what each assumption of the chain costs; resumes where it was stopped."""
-    from gripscale.analysis.comparison import at_measured, compare_case, compare_over
+    from gripscale.analysis.comparison import VARIED, at_measured, compare_case, compare_over
     from gripscale.analysis.effects import case_effects
     from gripscale.analysis.propagation import input_digests, stored_uncertainty
     from gripscale.case import prepare_case, read_case
@@ -75,7 +75,7 @@ def compare(
     from gripscale.report.side_by_side import effects_table
     from gripscale.report.uncertainty import uncertainty_lines
 
-    axes = None if vary is None else dict([parse_vary(vary)])
+    axes = None if vary is None else dict([parse_vary(vary, VARIED)])
     file = read_case(case)
     opening = f"Comparison of models for {file.path}"
     console, target = terminal.open_folder(file, output, "comparison", opening)

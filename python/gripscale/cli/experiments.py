@@ -137,7 +137,7 @@ def uncertainty(
 
     Options go before what the case states in its table [uncertainty].
     """
-    from gripscale.analysis.propagation import BOTH, propagate
+    from gripscale.analysis.propagation import BOTH, VARIED, propagate
     from gripscale.analysis.sampled_inputs import length
     from gripscale.analysis.sampling import Uncertainty
     from gripscale.case import folder, read_case
@@ -148,7 +148,7 @@ def uncertainty(
     from gripscale.report.uncertainty import failures, uncertainty_parts
 
     models = None if model is None else BOTH[checks.one_of("model", model, BOTH)]
-    axes = None if vary is None else dict([parse_vary(vary)])
+    axes = None if vary is None else dict([parse_vary(vary, VARIED)])
     blocks = None if block_length is None else length(block_length)
     values: dict[str, str] = {}
     for text in ranges or ():

@@ -20,6 +20,3 @@ if TYPE_CHECKING:
         def __set__(self, instance: object, value: ArrayLike | None) -> None: ...
 else:
     Vector = Array
-
-SURE = 1.645
-"""Standard errors by which a share exceeds zero, or another, to be told from it: 95 %, one side."""

@@ -47,9 +47,17 @@ def about_keys(table: str) -> Iterator[None]:
 
 
 @contextmanager
-def values_of_file(path: Path | str) -> Iterator[None]:
-    """Raise an `InputError` about values read from a file as a `FileError` with its path."""
+def about_file(
+    path: Path | str, kind: type[FileError] | type[InputError] = FileError
+) -> Iterator[None]:
+    """Name the file in an `InputError` about values read from it.
+
+    It is raised as a `FileError`: the values are to be mended in the file. As an `InputError` where
+    they meet values of the caller, such as where a profile is cropped, which may be wrong as well.
+    """
     try:
         yield
     except InputError as error:
-        raise FileError(f"{path}: {error}") from error
+        located = kind(f"{path}: {error}")
+        located.see = error.see
+        raise located from error

@@ -22,7 +22,6 @@ from gripscale.core.units import (
     parse_quantity,
     unit_of,
 )
-from gripscale.experiment.inputs import SELECTIONS
 from gripscale.model import MOST_CLASSES
 from gripscale.surface.cut_off import CutOffRule, RmsSlope, cut_off_rule
 from gripscale.surface.sine_fit import MOST_WAVES
@@ -119,8 +118,8 @@ def axis_value(name: str, value: Any) -> Any:
     if name == "factors":
         return _pair(name, value)
     if name == "effects":
-        text = value.replace("_", " ") if isinstance(value, str) else value
-        return checks.one_of(name, text, SELECTIONS)
+        # which of them there are, only the conditions of a model tell
+        return checks.instance(name, value, str).replace("_", " ")
     share = checks.positive(name, plain_number(value))
     if share > 1.0:
         raise InputError(f"{name} must be at most 1; got {share:g}")
@@ -272,12 +271,15 @@ def axes_of(vary: Mapping[str, Any]) -> tuple[Axis, ...]:
     return tuple(_axis(name, values) for name, values in vary.items())
 
 
-def parse_vary(text: str) -> tuple[str, str]:
-    """Return name and values of `name=values`; raise `InputError` if it is not that."""
+def parse_vary(text: str, names: Iterable[str] = UNITS) -> tuple[str, str]:
+    """Return name and values of `name=values`, with one of `names`.
+
+    Raises `InputError` if it is not that.
+    """
     name, separator, values = text.partition("=")
     if not separator or not values.strip():
         raise InputError(f'vary must be such as "speed=0.003:30:log9"; got {text!r}')
-    return checks.one_of("vary", name.strip(), UNITS), values
+    return checks.one_of("vary", name.strip(), [*names]), values
 
 
 def _axis(name: str, value: Any) -> Axis:

@@ -14,7 +14,7 @@ from gripscale.case.tables import SurfaceTable
 from gripscale.chain.chain import Chain
 from gripscale.conditions import Conditions
 from gripscale.core import checks
-from gripscale.core.errors import FileError, InputError
+from gripscale.core.errors import FileError
 from gripscale.experiment.task import canonical_json
 from gripscale.half_space.model import DirectContact
 from gripscale.io.text_table import is_excel, read_bytes
@@ -145,9 +145,6 @@ EFFECTS = ("temperature", "softening", "heat")
 """What conditions do to the rubber; the area term does nothing to it."""
 
 ALL, NONE = "all", "none"
-WITHOUT = {f"no {effect}": effect for effect in EFFECTS}
-"""Words for everything but one effect."""
-SELECTIONS = (ALL, *WITHOUT, NONE)
 
 
 def conditions_of(model: Model) -> Conditions:
@@ -170,20 +167,13 @@ def effects_asked(model: Model) -> list[str]:
 
 
 def with_effects(model: Model, selection: str) -> Model:
-    """Return `model` with one of `SELECTIONS` of its effects; its area term stays.
+    """Return `model` with all of its effects, without one or with none; its area term stays.
 
-    Raises `InputError` if the effect to be left out is not one that the model has.
+    Raises `InputError` if `selection` is neither "all", "no" one that the model has, nor "none".
     """
-    left_out = effects_asked(model) if selection == NONE else []
-    if selection in WITHOUT:
-        left_out = [WITHOUT[selection]]
-        asked = effects_asked(model)
-        if left_out[0] not in asked:
-            raise InputError(
-                f"effects must be left out of those the conditions have, "
-                f"{', '.join(asked) or 'none'}; got {selection!r}"
-            )
-    nothing: dict[str, Any] = dict.fromkeys(left_out)
+    asked = effects_asked(model)
+    without = {ALL: [], **{f"no {effect}": [effect] for effect in asked}, NONE: asked}
+    nothing: dict[str, Any] = dict.fromkeys(without[checks.one_of("effects", selection, without)])
     return model.with_conditions(replace(conditions_of(model), **nothing))
 
 

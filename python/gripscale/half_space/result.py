@@ -37,7 +37,14 @@ from gripscale.core.arrays import Array, Mask
 from gripscale.half_space.grid import Grid
 from gripscale.half_space.grid_sequence import GridRecord, lost_by_harmonic
 from gripscale.half_space.response import HalfSpace
-from gripscale.model import NOT_CONVERGED, OCTAVE, CutOffExponents, between
+from gripscale.model import (
+    CUT_OFF_EXPONENTS,
+    NOT_CONVERGED,
+    OCTAVE,
+    OUTSIDE_BAND,
+    CutOffExponents,
+    between,
+)
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import NONE, Extrapolation, of_spectrum
 from gripscale.wave.problem import Status
@@ -108,19 +115,6 @@ NUMBERS = {
     "smallest_wavelength": ("m", "smallest wavelength of the surface as solved"),
     "full_contact": ("1", "1 where the contact is full"),
 }
-
-OUTSIDE_BAND = {
-    "friction_outside_band": ("share", "share of the friction lost outside the measured band"),
-    "decades_below_band": ("below", "decades by which excitation goes below it"),
-    "decades_above_band": ("above", "decades by which excitation goes above it"),
-}
-"""Extrapolation of the rubber beyond its measured frequencies."""
-
-CUT_OFF_EXPONENTS = {
-    "contact_fraction_cut_off_exponent": ("contact_fraction", "contact fraction"),
-    "friction_cut_off_exponent": ("friction", "friction coefficient"),
-}
-"""Change with the cut-off length, over the last octave."""
 
 
 @dataclass(frozen=True)
@@ -322,11 +316,12 @@ class RoughContact:
 
         for name, (unit, text) in NUMBERS.items():
             add(name, (), float(getattr(self, name)), unit, text)
-        for name, (part, text) in OUTSIDE_BAND.items():
-            add(name, (), getattr(self.extrapolation, part), "1", text)
-        for name, (part, text) in CUT_OFF_EXPONENTS.items():
-            words = f"d ln({text})/d ln(cut-off)"
-            add(name, (), getattr(self.cut_off_exponents, part), "1", words)
+        for table, holder in (
+            (OUTSIDE_BAND, self.extrapolation),
+            (CUT_OFF_EXPONENTS, self.cut_off_exponents),
+        ):
+            for total, (part, text) in table.items():
+                add(total.removeprefix("total_"), (), getattr(holder, part), "1", text)
         octaves = self.friction_by_wavelength
         data["octave_friction"] = octaves["friction"].variable
         data["octave_running_friction"] = octaves["running_friction"].variable

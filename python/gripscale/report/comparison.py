@@ -11,7 +11,7 @@ import xarray as xr
 
 from gripscale.analysis.ladder import DIRECT
 from gripscale.charts.ladder import flawed, varied
-from gripscale.charts.view import CONVERGED, PredictionView
+from gripscale.charts.view import CONVERGED, HEADINGS, SYMBOLS, PredictionView
 from gripscale.experiment.axis import axis_shown
 from gripscale.io.table import Column, Table, digits, fixed, percent, significant
 from gripscale.model import (
@@ -27,8 +27,6 @@ from gripscale.report.elements import Card
 from gripscale.report.notices import Failure, comparison_sentences, friction_sentence
 from gripscale.rubber.extrapolation import WORTH_SAYING
 
-SYMBOLS = {"contact_fraction": "A_r/A_0", "friction": "μ"}
-GROUPS = {"contact_fraction": "real contact area", "friction": "friction coefficient"}
 TINY = 0.05
 """Per cent below which a spread or an error is as good as none."""
 NOTE = (
@@ -50,7 +48,7 @@ def comparison_table(comparison: xr.Dataset) -> Table:
     marks = [" *" if share > WORTH_SAYING else "" for share in beyond]
     columns = [Column("model", comparison.label.values, marks=marks)]
     for name, symbol in SYMBOLS.items():
-        value, group = comparison[f"total_{name}"].values, GROUPS[name]
+        value, group = comparison[f"total_{name}"].values, HEADINGS[name]
         columns.append(Column(f"total_{name}", value, symbol, group=group))
         if name == "friction":
             lost = comparison.total_friction_from_dissipation.values
@@ -122,7 +120,7 @@ def axis_table(comparison: xr.Dataset, axis: str, name: str) -> Table:
     if np.isfinite(data[f"best_{name}_factor"]).any():
         texts = [_with_uncertainty(data.isel({axis: i}), name) for i in range(data.sizes[axis])]
         columns.append(Column("best", texts, "best estimate", words=False))
-    caption = f"{GROUPS[name].capitalize()} {SYMBOLS[name]} over {axis.replace('_', ' ')}"
+    caption = f"{HEADINGS[name].capitalize()} {SYMBOLS[name]} over {axis.replace('_', ' ')}"
     return Table(f"over-{axis}-{name}", columns, caption)
 
 
@@ -169,7 +167,7 @@ def ladder_cards(ladder: xr.Dataset | None) -> Iterator[Card]:
     rung = ladder.isel(rung=names.index(DIRECT) if DIRECT in names else 0)
     bad = int(rung.converged_samples) < int(rung.samples)
     for name, symbol in SYMBOLS.items():
-        words = f"{GROUPS[name].capitalize()} {symbol}"
+        words = f"{HEADINGS[name].capitalize()} {symbol}"
         detail = f"{rung.label.item()}; ± {elements.percent(rung[f'{name}_uncertainty'])}"
         yield Card(words, elements.number(rung[f"total_{name}"]), detail, bad)
 

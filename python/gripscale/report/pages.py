@@ -20,6 +20,7 @@ from gripscale.charts.side_by_side import compound_pictures, road_pictures
 from gripscale.charts.study import study_charts
 from gripscale.charts.surface import correlation_charts, profile_charts
 from gripscale.charts.uncertainty import calibration_pictures, uncertainty_pictures
+from gripscale.charts.view import SYMBOLS
 from gripscale.charts.wave_and_chain import contact_charts, verification_charts
 from gripscale.core.provenance import versions
 from gripscale.io.table import Table
@@ -344,7 +345,7 @@ def comparison_elements(compared: Compared) -> list[Element]:
             elements.append(Text(comparison.best_sentence(ladder)))
         elements += ladder_charts(ladder)
     for data in compared.over:
-        elements += [comparison.axis_table(data, varied(data), name) for name in comparison.SYMBOLS]
+        elements += [comparison.axis_table(data, varied(data), name) for name in SYMBOLS]
         elements += axis_charts(data)
     return elements
 

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.charts.style import power_of_ten
-from gripscale.charts.view import CONVERGED
+from gripscale.charts.view import CONVERGED, SYMBOLS
 from gripscale.core.units import MILLI
 from gripscale.experiment.axis import EFFECTS, MODELS
 from gripscale.experiment.design import CHANGES, WITH_AREA_TERM
@@ -17,7 +17,7 @@ from gripscale.io.table import Column, Table, change, fixed, significant
 from gripscale.model import ADHESIVE_FRICTION, STATUS, status_words
 from gripscale.report.notices import Failure
 
-QUANTITIES = {"total_contact_fraction": "A_r/A_0", "total_friction": "μ"}
+QUANTITIES = {f"total_{name}": symbol for name, symbol in SYMBOLS.items()}
 
 
 def effects_table(*results: xr.Dataset) -> Table:

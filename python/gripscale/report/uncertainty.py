@@ -11,16 +11,17 @@ import numpy as np
 import xarray as xr
 
 from gripscale.analysis.propagation import LEVELS, QUANTITIES, of_same_inputs, summary
+from gripscale.analysis.variance_shares import SIGNIFICANCE
 from gripscale.charts.uncertainty import axis_of
-from gripscale.charts.view import CONVERGED
-from gripscale.core.arrays import SURE
+from gripscale.charts.view import CONVERGED, SYMBOLS
 from gripscale.experiment.axis import name_of
 from gripscale.io.table import Column, Table
 from gripscale.model import status_words
 from gripscale.report.elements import Card
 from gripscale.report.notices import Failure
 
-HEADS = {"friction": "μ", "contact_fraction": "A_r/A_0"}
+HEADS = {name: SYMBOLS[name] for name in QUANTITIES}
+"""Symbols of the quantities, in their order."""
 OF_ANOTHER = (
     "The uncertainty in this folder is of another case and is left out; run `gripscale "
     "uncertainty` again."
@@ -120,12 +121,12 @@ def order_sentences(part: xr.Dataset) -> list[str]:
     """Return which shares in friction are not significant, and which do not differ."""
     shares, labels = part.friction_share.values, part.label.values
     apart, ranked = part.friction_share_difference_error.values, _ranked(part)
-    seen = [k for k in ranked if shares[k] > SURE * part.friction_share_error.values[k]]
+    seen = [k for k in ranked if shares[k] > SIGNIFICANCE * part.friction_share_error.values[k]]
     unseen = [str(labels[k]) for k in ranked if k not in seen]
     close = [
         f"{labels[a]} and {labels[b]}"
         for a, b in pairwise(seen)
-        if shares[a] - shares[b] < SURE * apart[a, b]
+        if shares[a] - shares[b] < SIGNIFICANCE * apart[a, b]
     ]
     count = int(np.isfinite(part.friction).sum())
     sentences = []

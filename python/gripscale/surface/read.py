@@ -19,7 +19,7 @@ import numpy as np
 
 from gripscale.core import checks
 from gripscale.core.arrays import Array
-from gripscale.core.errors import FileError, InputError, values_of_file
+from gripscale.core.errors import FileError, InputError, about_file
 from gripscale.core.units import in_si
 from gripscale.io.text_table import EXCEL, file_path, read_bytes, read_sheets
 from gripscale.surface.profile import HeightMap, Profile, line_label
@@ -50,7 +50,7 @@ class HeightField:
         name, source = path.stem, str(path)
         if self.y is not None:
             name, source = (line_label(text, line, direction) for text in (name, source))
-        with values_of_file(source):
+        with about_file(source):
             return Profile(np.asarray(along), heights, name, source, self.reliable)
 
 
@@ -311,5 +311,5 @@ def read_map(
     field = read_instrument_file(file, x_unit=x_unit, z_unit=z_unit, channel=channel, step=steps)
     if field.y is None:
         raise FileError(f"{file}: expected a map; got a line, which gripscale.read_profile reads")
-    with values_of_file(file):
+    with about_file(file):
         return HeightMap(field.x, field.y, field.heights, file.stem, str(file), field.reliable)

@@ -25,7 +25,7 @@ import numpy as np
 
 from gripscale.core import checks
 from gripscale.core.arrays import Array
-from gripscale.core.errors import FileError, InputError, values_of_file
+from gripscale.core.errors import FileError, InputError, about_file
 from gripscale.core.units import in_si, spelled
 from gripscale.io.text_table import TextTable, read_table
 from gripscale.surface.profile import FEWEST_POINTS, TURNED_ROUND, HeightMap, Profile
@@ -155,7 +155,7 @@ def read_text_profile(
         notes.append(f"heights of {code:g} {z_unit} stand for missing ones")
     x = in_si(grid.points(x), x_unit, "length")
     z = in_si(grid.spread(z), z_unit, "length")
-    with values_of_file(path):
+    with about_file(path):
         return Profile(x, z, name=path.stem, source=str(path), notes=tuple(notes))
 
 
@@ -195,7 +195,7 @@ def read_text_map(
         ]
         z = in_si(without_codes(np.array(heights))[0], z_unit, "length")
         x, y = (d * np.arange(n) for n, d in zip(z.shape, step, strict=True))
-    with values_of_file(path):
+    with about_file(path):
         return HeightMap(x, y, z, name=path.stem, source=str(path))
 
 
