@@ -23,7 +23,6 @@ from gripscale.analysis.intervals import LogError, combined, half_width
 from gripscale.analysis.ladder import DIRECT
 from gripscale.analysis.samples import estimated_error, ratio, sampling_error, usable
 from gripscale.half_space import line_to_map
-from gripscale.surface import Profile
 
 
 class LogNormalValue(NamedTuple):
@@ -35,9 +34,6 @@ class LogNormalValue(NamedTuple):
 
 UNKNOWN_VALUE = LogNormalValue(math.nan)
 """Of a factor nobody has computed."""
-
-ISOTROPIC_SURFACE = "isotropic_surface"
-"""Name of the factor from lines to a surface."""
 
 
 @dataclass(frozen=True)
@@ -77,27 +73,31 @@ FINITE_STRAIN = FactorOf(
 )
 
 
-def isotropic_surface(profiles: Sequence[Profile], largest_wavelength: float) -> Factor:
-    """Return the factor from measured lines to the isotropic surface they lie on.
+class IsotropicSurface(NamedTuple):
+    """The factor from measured lines to the isotropic surface they lie on."""
 
-    Raises `InputError` as `gripscale.half_space.line_to_map.upper_height` does.
-    """
-    reach = line_to_map.upper_height(profiles, largest_wavelength)
-    area, friction = (
-        LogNormalValue(law.at(reach), law.scatter)
-        for law in (line_to_map.CONTACT_FRACTION, line_to_map.FRICTION)
-    )
-    label = "isotropic surface over its lines"
-    return Factor(ISOTROPIC_SURFACE, label, area, friction, line_to_map.FREEDOM)
+    upper_height: float
+    """Of the lines, see `gripscale.half_space.line_to_map`."""
+    name: str = "isotropic_surface"
+    label: str = "isotropic surface over its lines"
 
+
+AnyFactor = FactorOf | IsotropicSurface | Factor
 
 ESTIMATED = {"contact_fraction": "contact_fraction", "friction": "friction_from_dissipation"}
 """What is estimated, and of which number of the samples its factors are ratios: of the two
 frictions the one that a coarse grid changes least."""
 
 
-def best_estimate(samples: xr.Dataset, supplied: Sequence[Factor] = ()) -> xr.Dataset:
+def best_estimate(
+    samples: xr.Dataset,
+    supplied: Sequence[Factor] = (),
+    *,
+    upper_height: float | None = None,
+) -> xr.Dataset:
     """Return the best estimate of the solved rungs.
+
+    `upper_height` is that of measured lines (`gripscale.half_space.line_to_map`); None for a map.
 
     `best_contact_fraction` and `best_friction` with their relative standard `_uncertainty` and the
     relative `_half_width` of their 90 % interval, NaN without a direct contact that converged; no
@@ -145,8 +145,23 @@ def _certain(sigma: xr.DataArray) -> LogError:
     return LogError(sigma, xr.full_like(sigma, math.inf))
 
 
+def _of_surface(
+    factor: IsotropicSurface, samples: xr.Dataset
+) -> dict[str, tuple[xr.DataArray, LogError]]:
+    """Return the step from lines to their surface at the contact area of the lines."""
+    lines = usable(samples.sel(rung=DIRECT, drop=True), "contact_fraction").mean("sample")
+    freedom = xr.full_like(lines, line_to_map.FREEDOM)
+    laws = line_to_map.contact_fraction_ratio, line_to_map.friction_ratio
+    numbers = {}
+    for name, law in zip(ESTIMATED, laws, strict=True):
+        surface = law(factor.upper_height, lines.values)
+        sigma = lines.copy(data=surface.uncertainty)
+        numbers[name] = lines.copy(data=surface.ratio), LogError(sigma, freedom)
+    return numbers
+
+
 def _numbers(
-    factor: FactorOf | Factor, samples: xr.Dataset, unknown: xr.DataArray
+    factor: AnyFactor, samples: xr.Dataset, unknown: xr.DataArray
 ) -> tuple[str, dict[str, tuple[xr.DataArray, LogError]]]:
     """Return the label of a factor, and the factor on each quantity with its error.
 
@@ -155,6 +170,8 @@ def _numbers(
     samples leave out.
     """
     numbers: dict[str, tuple[xr.DataArray, LogError]] = {}
+    if isinstance(factor, IsotropicSurface):
+        numbers = _of_surface(factor, samples)
     if isinstance(factor, FactorOf):
         if {factor.over, factor.under} <= set(samples["rung"].values.tolist()):
             over, under = (

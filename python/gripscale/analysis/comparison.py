@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -12,9 +13,17 @@ import xarray as xr
 
 from gripscale.analysis import measured_comparison
 from gripscale.analysis import samples as reduce
-from gripscale.analysis.best_estimate import Factor
+from gripscale.analysis.best_estimate import ESTIMATED, FINITE_STRAIN, Factor
 from gripscale.analysis.comparison_dataset import Comparison
-from gripscale.analysis.ladder import DIRECT, ComparisonSetup, chosen, each_measured
+from gripscale.analysis.intervals import half_width
+from gripscale.analysis.ladder import (
+    DIRECT,
+    WINDOWS,
+    ComparisonSetup,
+    Rung,
+    chosen,
+    each_measured,
+)
 from gripscale.case.read import CaseFile
 from gripscale.case.results import CaseResults
 from gripscale.case.run import prepare_case
@@ -45,6 +54,12 @@ VARIED = (
 """Inputs a comparison can be made over: numbers of the load and of the surface."""
 
 MOST_SEEDS = 1000
+FEWEST_WINDOWS, MORE_WINDOWS = 3, 2
+"""Windows whose scatter is believed, and how many are added at a time."""
+
+
+OnStage = Callable[[Comparison], None]
+"""Called with the comparison as it stands, while more samples are solved."""
 
 
 class Choice(NamedTuple):
@@ -55,6 +70,8 @@ class Choice(NamedTuple):
     rungs: Sequence[str] = ()
     measured: MeasuredFriction | None = None
     factors: Sequence[Factor] = ()
+    accuracy: float = 0.1
+    on_stage: OnStage | None = None
 
 
 def compare_case(
@@ -65,10 +82,12 @@ def compare_case(
     rungs: Sequence[str] = (),
     measured: MeasuredFriction | None = None,
     factors: Sequence[Factor] = (),
+    accuracy: float = 0.1,
     folder: str | Path | None = None,
     workers: int | None = None,
     client: Any = None,
     on_task: OnTask | None = None,
+    on_stage: OnStage | None = None,
 ) -> Comparison:
     """Put the models side by side over the inputs of a case.
 
@@ -86,10 +105,15 @@ def compare_case(
         Friction measured elsewhere; what `[measured] friction` of the case names by default.
     factors : sequence of Factor
         Factors of the best estimate known from elsewhere.
+    accuracy : float
+        Half width of the 90 % interval wanted, relative: windows are solved at finite strain until
+        their factor is known to a third of it, or of what the rest of the estimate leaves open.
     folder : path, optional
         Keeps each answer as soon as it is there, in `predictions`; what it has is not solved again.
     workers, client, on_task
         As for `gripscale.experiment.solve_all`.
+    on_stage : callable, optional
+        Called with the `Comparison` as it stands, while more samples are solved.
 
     Returns
     -------
@@ -104,7 +128,7 @@ def compare_case(
         extrapolation and a wave excites the rubber beyond the measured band.
     """
     results = case if isinstance(case, CaseResults) else prepare_case(case)
-    choice = Choice(seeds, tolerance, rungs, measured, factors)
+    choice = Choice(seeds, tolerance, rungs, measured, factors, accuracy, on_stage)
     task = Task(results.rubber.rubber, results.surface, results.load, results.chain)
     with bench_in(folder, workers, client, on_task) as bench:
         return _compared(results.file, {"": task}, choice, None, bench)
@@ -119,10 +143,12 @@ def compare_over(
     rungs: Sequence[str] = (),
     measured: MeasuredFriction | None = None,
     factors: Sequence[Factor] = (),
+    accuracy: float = 0.1,
     folder: str | Path | None = None,
     workers: int | None = None,
     client: Any = None,
     on_task: OnTask | None = None,
+    on_stage: OnStage | None = None,
 ) -> Comparison:
     """Put the models side by side over one varied input of a case, such as the speed.
 
@@ -130,7 +156,9 @@ def compare_over(
     ----------
     vary : mapping
         One input of numbers with its values, as for `gripscale.experiment.Study`.
-    case, seeds, tolerance, rungs, measured, factors, folder, workers, client, on_task
+    case, seeds, tolerance, rungs, measured, factors, accuracy, folder
+        As for `compare_case`.
+    workers, client, on_task, on_stage
         As for `compare_case`.
 
     Raises
@@ -147,7 +175,7 @@ def compare_over(
         raise InputError(f"a comparison varies {axis.name} by numbers; got {axis.labels[0]}")
     if len(axis.values) < 2:
         raise InputError(f"{axis.name} must have at least two values; got {axis.labels[0]}")
-    choice = Choice(seeds, tolerance, rungs, measured, factors)
+    choice = Choice(seeds, tolerance, rungs, measured, factors, accuracy, on_stage)
     tasks = {point.label: point.task for point in study.points}
     with bench_in(folder, workers, client, on_task) as bench:
         return _compared(study.file, tasks, choice, axis, bench)
@@ -175,21 +203,49 @@ def _compared(
             checks.positive("tolerance", choice.tolerance),
             klueppel_heinrich,
             chain.pressure_classes,
-            chain.conditions,
+            conditions=chain.conditions,
         )
         setups.append(setup)
     if file.case.rubber.extrapolate == "refuse":
         for setup in setups:
             wavelength, speed = setup.surface.sines.wavelength, setup.load.speed
             require_measured(setup.rubber_before, wavelength, speed)
-    draws = {rung: [rung.draws(setup) for setup in setups] for rung in chosen(choice.rungs)}
+    wanted = chosen(choice.rungs)
+    quick = [rung for rung in wanted if rung.group != WINDOWS]
+    make = partial(Comparison, file, axis=axis, measured=measured, factors=choice.factors)
+    rungs: Sequence[Rung] = quick or wanted
+    while True:
+        design, rungs = _design(setups, list(tasks), rungs, axis)
+        if not rungs:
+            raise InputError(
+                f"no rung of {', '.join(choice.rungs)} has anything to say of this case"
+            )
+        numbers = partial(reduce.sample_numbers, conditions=setups[0].conditions)
+        comparison = make(setups=setups, rungs=rungs, samples=solve_design(design, bench, numbers))
+        if choice.on_stage is not None:
+            choice.on_stage(comparison)
+        if quick and len(quick) < len(wanted):
+            quick, rungs = [], wanted
+        elif _windows_left(comparison, choice.accuracy):
+            setups = [replace(setup, windows=setup.windows + MORE_WINDOWS) for setup in setups]
+        else:
+            return comparison
+        bench = replace(bench, on_task=_of_new_tasks(bench.on_task))
+
+
+def _design(
+    setups: Sequence[ComparisonSetup],
+    labels: Sequence[str],
+    rungs: Sequence[Rung],
+    axis: Axis | None,
+) -> tuple[Design, list[Rung]]:
+    """Return the samples of rungs over setups as a design, and the rungs that have any."""
+    draws = {rung: [rung.draws(setup) for setup in setups] for rung in rungs}
     draws = {rung: specs for rung, specs in draws.items() if any(specs)}
-    if not draws:
-        raise InputError(f"no rung of {', '.join(choice.rungs)} has anything to say of this case")
-    most = max(len(specs) for by_load in draws.values() for specs in by_load)
+    most = max((len(specs) for by_load in draws.values() for specs in by_load), default=0)
     subjects = np.full((len(draws), most), "", dtype=object)
     points = []
-    for load, (label, setup) in enumerate(zip(tasks, setups, strict=True)):
+    for load, (label, setup) in enumerate(zip(labels, setups, strict=True)):
         for at, (rung, by_load) in enumerate(draws.items()):
             for number, spec in enumerate(by_load[load]):
                 subjects[at, number] = spec.subject
@@ -200,11 +256,38 @@ def _compared(
                 points.append(Point(index, name, task))
     sizes = {"rung": len(draws), "sample": most}
     coords = {"rung": [rung.name for rung in draws], "subject": (("rung", "sample"), subjects)}
-    design = Design(({} if axis is None else {axis.name: len(setups)}) | sizes, points, coords)
-    samples = solve_design(
-        design, bench, partial(reduce.sample_numbers, conditions=setups[0].conditions)
-    )
-    return Comparison(file, setups, list(draws), samples, axis, measured, choice.factors)
+    outer = {} if axis is None else {axis.name: len(setups)}
+    return Design(outer | sizes, points, coords), list(draws)
+
+
+def _windows_left(comparison: Comparison, accuracy: float) -> bool:
+    """Return whether more windows would narrow the estimate, and there are more.
+
+    Enough are three that converged, with a factor known to a third of the accuracy wanted, or to a
+    third of what the rest of the estimate leaves open.
+    """
+    samples, names = comparison.samples, comparison.samples["rung"].values.tolist()
+    if not {FINITE_STRAIN.over, FINITE_STRAIN.under} <= set(names):
+        return False
+    over, under = (samples.sel(rung=rung) for rung in (FINITE_STRAIN.over, FINITE_STRAIN.under))
+    if int((under.subject != "").sum()) < comparison.setups[0].windows:
+        return False
+    best = comparison.data
+    for name, measure in ESTIMATED.items():
+        _, error = reduce.ratio(over, under, measure)
+        whole = np.fmax(accuracy, best[f"best_{name}_half_width"].fillna(0.0))
+        if bool((error.freedom < FEWEST_WINDOWS - 1).any()) or bool(
+            (half_width(error) > whole / 3.0).any()
+        ):
+            return True
+    return False
+
+
+def _of_new_tasks(on_task: OnTask | None) -> OnTask | None:
+    """Return `on_task` without the tasks that were solved before."""
+    if on_task is None:
+        return None
+    return lambda progress: None if progress.stored else on_task(progress)
 
 
 PREDICTING = ("chain", "chain_half_plane", "chain_upper", "direct", "persson", "klueppel_heinrich")

@@ -12,13 +12,14 @@ import numpy as np
 import xarray as xr
 
 from gripscale.analysis import samples as reduce
-from gripscale.analysis.best_estimate import Factor, best_estimate, isotropic_surface
+from gripscale.analysis.best_estimate import Factor, best_estimate
 from gripscale.analysis.ladder import ComparisonSetup, Rung
 from gripscale.case.read import CaseFile
 from gripscale.core import provenance
 from gripscale.experiment.axis import Axis
 from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.experiment.study import coordinates
+from gripscale.half_space.line_to_map import upper_height
 from gripscale.model import (
     ADHESIVE_FRICTION,
     CUT_OFF_EXPONENTS,
@@ -88,11 +89,10 @@ def comparison_dataset(comparison: Comparison) -> xr.Dataset:
     for name in reduce.QUANTITIES:
         text = f"{TOTALS[f'total_{name}']}, mean of the samples"
         add(f"total_{name}", reduce.usable(samples, name).mean("sample"), text, "rung")
-    known = []
+    reach = None
     if setups[0].lines and not setups[0].of_map:
-        largest = float(setups[0].surface.sines.wavelength[0])
-        known = [isotropic_surface(setups[0].lines, largest)]
-    best = best_estimate(samples, [*known, *comparison.factors])
+        reach = upper_height(setups[0].lines, float(setups[0].surface.sines.wavelength[0]))
+    best = best_estimate(samples, comparison.factors, upper_height=reach)
     for name, text in WORDS.items():
         values = reduce.usable(samples, name)
         about = "relative standard uncertainty of the"

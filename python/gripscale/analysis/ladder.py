@@ -170,8 +170,8 @@ def _windows(lines: tuple[Profile, ...], length: float, end: float) -> list[Prof
     return [spread[at] for at in np.argsort(_halving(len(spread)), kind="stable")]
 
 
-def _halving(count: int) -> list[float]:
-    """Return the places of `count` numbers in the order 1/2, 1/4, 3/4, 1/8, ... of their places."""
+def _halving(count: int) -> list[int]:
+    """Return the rank of each of `count` places: the first, the middle, the quarters, ..."""
     bits = max(count - 1, 1).bit_length()
     return [int(f"{number:0{bits}b}"[::-1], 2) for number in range(count)]
 
@@ -200,6 +200,9 @@ def _on_maps(setup: ComparisonSetup, lines: int) -> Sequence[SampleSpec]:
 
 
 Measurement = TypeVar("Measurement", Profile, HeightMap)
+
+WINDOWS = "windows"
+"""The group of rungs that take a minute and more."""
 
 DIRECT = DirectContact.name
 """The rung the chain is judged by, and the best estimate starts from."""
@@ -361,8 +364,8 @@ LADDER: tuple[Rung, ...] = (
     _rung(DIRECT, "profile as measured, at once", "measured", _direct),
     _rung("persson", "Persson, isotropic surface", "theory", _persson),
     _rung("klueppel_heinrich", "Klüppel & Heinrich", "theory", _klueppel_heinrich),
-    _rung("windows_half_plane", "windows of it, small strain", "windows", _windows_half_plane),
-    _rung("windows_finite_strain", "windows of it, finite strain", "windows", _windows_block),
+    _rung("windows_half_plane", "windows of it, small strain", WINDOWS, _windows_half_plane),
+    _rung("windows_finite_strain", "windows of it, finite strain", WINDOWS, _windows_block),
     _rung("map_lines", "lines of a synthetic map", "map", partial(_on_maps, lines=LINES)),
     _rung("map", "the synthetic map", "map", partial(_on_maps, lines=0)),
 )

@@ -5,26 +5,35 @@ isotropic surface rubber escapes sideways, and high places beside the line carry
 On maps of eight families (`python -m studies.line_to_map`) the contact of the map over that of its
 lines follows how far the heights of a line reach up:
 
-    ln(A_map / A_line) = a_0 + a_1 t,    ln(mu_map / mu_line) = b_0 + b_1 t,
-    t = (height that 1 % of a line exceeds - mean height) / rms height.
+    ln f = a_0 + a_1 t,    ln g = b_0 + b_1 t,
+    t = (height that 1 % of a line exceeds - mean height) / rms height,
 
-Rubber, speed, pressure and cut-off change the ratios by less than their scatter from map to map.
+f for small areas A of contact, g for friction. Towards full contact the areas meet and the friction
+of the map is 1.11 times that of its lines, whatever the heights:
+
+    A_map = erf(f^(1 - A/2) erfinv(A)),    ln(mu_map / mu) = (1 - A^4) ln g + A^4 ln 1.11.
+
+Rubber, speed and cut-off change the ratios by less than their scatter from map to map.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.surface import Profile
 from gripscale.surface.profile import profile_list
 
 PIECE = 16.0
 """Length of the lines the law was measured on, in largest waves; longer waves count as a slope."""
+_TINY = 1e-12
 EXCEEDED = 0.01
 """Share of a line that is higher than its upper height."""
 
@@ -44,10 +53,35 @@ class RatioLaw(NamedTuple):
 
 CONTACT_FRACTION = RatioLaw(-0.075, -0.185, 0.09)
 FRICTION = RatioLaw(-0.295, 0.171, 0.10)
+FULL_CONTACT_FRICTION = 1.11
 FREEDOM = 6
 """Degrees of freedom of the scatter: eight families less the two numbers of the law."""
-MEASURED_BETWEEN = (1.0, 4.0)
-"""Upper heights of the families."""
+
+
+class SurfaceOverLines(NamedTuple):
+    """Ratio of a number of an isotropic surface to that of its lines, and its standard error."""
+
+    ratio: Array
+    uncertainty: Array
+    """Of the logarithm [-]."""
+
+
+def contact_fraction_ratio(upper_height: float, contact_fraction: ArrayLike) -> SurfaceOverLines:
+    """Return the area ratio at an upper height t and contact fractions of the lines [-]."""
+    from scipy.special import erf, erfinv
+
+    area = np.clip(np.asarray(contact_fraction, dtype=float), _TINY, 1.0 - _TINY)
+    small = CONTACT_FRACTION.at(upper_height) ** (1.0 - 0.5 * area)
+    ratio = erf(small * erfinv(area)) / area
+    return SurfaceOverLines(ratio, CONTACT_FRACTION.scatter * np.sqrt(1.0 - area**2))
+
+
+def friction_ratio(upper_height: float, contact_fraction: ArrayLike) -> SurfaceOverLines:
+    """Return the friction ratio at an upper height t and contact fractions of the lines [-]."""
+    full = np.asarray(contact_fraction, dtype=float) ** 4
+    law = math.log(FRICTION.at(upper_height))
+    ratio = np.exp((1.0 - full) * law + full * math.log(FULL_CONTACT_FRICTION))
+    return SurfaceOverLines(ratio, np.full_like(ratio, FRICTION.scatter))
 
 
 def upper_height(profile: Profile | Sequence[Profile], largest_wavelength: float) -> float:
