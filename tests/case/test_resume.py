@@ -22,7 +22,7 @@ CASE = case_text(THREE_WAVES, solver="columns = 16\nrows = 4", static=True)
 
 
 @pytest.fixture(scope="module")
-def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def whole_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The case, with the results of its run in the folder `out` beside."""
     path = tmp_path_factory.mktemp("whole") / "case.toml"
     path.write_text(CASE)
@@ -31,9 +31,9 @@ def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture
-def finished(whole: Path, tmp_path: Path) -> Path:
+def case_copy(whole_run: Path, tmp_path: Path) -> Path:
     """A copy of both elsewhere, to be changed."""
-    shutil.copytree(whole.parent, tmp_path, dirs_exist_ok=True)
+    shutil.copytree(whole_run.parent, tmp_path, dirs_exist_ok=True)
     return tmp_path / "case.toml"
 
 
@@ -75,34 +75,34 @@ def same(first: Path, second: Path) -> None:
 
 @pytest.mark.parametrize("last", [1, 2, 3, 5])
 def test_a_stopped_run_solves_only_what_is_missing(
-    whole: Path, tmp_path: Path, solved: Count, last: int
+    whole_run: Path, tmp_path: Path, solved: Count, last: int
 ) -> None:
     solved(last)
     with pytest.raises(KeyboardInterrupt):
-        run_case(whole, output=tmp_path / "stopped")
+        run_case(whole_run, output=tmp_path / "stopped")
     seen, events = solved(None), list[Event]()
-    results = run_case(whole, output=tmp_path / "stopped", on_event=events.append)
+    results = run_case(whole_run, output=tmp_path / "stopped", on_event=events.append)
     assert len(seen) == 6 - last
     assert [event.stored for event in events if isinstance(event, WaveSolved)] == [
         number < last for number in range(6)
     ]
     assert results.converged
-    same(whole.with_name("out"), tmp_path / "stopped")
+    same(whole_run.with_name("out"), tmp_path / "stopped")
 
 
 def test_a_finished_run_solves_nothing_again_unless_told_to(
-    finished: Path, tmp_path: Path, solved: Count
+    case_copy: Path, tmp_path: Path, solved: Count
 ) -> None:
     first = netcdf.load(tmp_path / "out" / "dynamic.nc")
     seen, events = solved(None), list[Event]()
-    results = run_case(finished, output=tmp_path / "out", on_event=events.append)
+    results = run_case(case_copy, output=tmp_path / "out", on_event=events.append)
     assert not seen
     replaced = [event for event in events if isinstance(event, ResultsReplaced)]
     assert replaced[0].message.startswith("Replaces 1 file of an earlier run")  # the case itself
     assert results.dynamic is not None
-    first = first.assign_attrs(case_file=str(finished))
+    first = first.assign_attrs(case_file=str(case_copy))
     xr.testing.assert_identical(first, netcdf.load(tmp_path / "out" / "dynamic.nc"))
-    run_case(finished, output=tmp_path / "out", fresh=True)
+    run_case(case_copy, output=tmp_path / "out", fresh=True)
     assert len(seen) == 6
 
 
@@ -110,12 +110,12 @@ def test_a_finished_run_solves_nothing_again_unless_told_to(
     ("old", "new"), [('"3 bar"', '"2 bar"'), ("rows = 4", "rows = 5"), ("[load]", "[load] # other")]
 )
 def test_another_case_takes_nothing_up(
-    finished: Path, tmp_path: Path, solved: Count, old: str, new: str
+    case_copy: Path, tmp_path: Path, solved: Count, old: str, new: str
 ) -> None:
     assert old in CASE
-    finished.write_text(CASE.replace(old, new))
+    case_copy.write_text(CASE.replace(old, new))
     seen = solved(None)
-    run_case(finished, output=tmp_path / "out")
+    run_case(case_copy, output=tmp_path / "out")
     assert len(seen) == 6
 
 
@@ -133,11 +133,11 @@ def test_a_changed_file_of_the_same_name_takes_nothing_up(
 
 
 def test_other_software_takes_nothing_up(
-    finished: Path, tmp_path: Path, solved: Count, monkeypatch: pytest.MonkeyPatch
+    case_copy: Path, tmp_path: Path, solved: Count, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("gripscale.case.read.software", lambda: "another")
     seen = solved(None)
-    run_case(finished, output=tmp_path / "out")
+    run_case(case_copy, output=tmp_path / "out")
     assert len(seen) == 6
 
 

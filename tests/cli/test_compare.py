@@ -39,9 +39,9 @@ MEASURED = "speed [mm/s],friction,spread\n100,0.31,0.02\n1000,0.42,0.02\n"
 
 
 @pytest.fixture(scope="module")
-def compared(inputs: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[str, Path]:
+def comparison(inputs: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[str, Path]:
     """What the command prints of six models with two samples each, and where it writes."""
-    folder = tmp_path_factory.mktemp("compared")
+    folder = tmp_path_factory.mktemp("comparison")
     (folder / "mu.csv").write_text(MEASURED)
     target = folder / "out"
     words = (
@@ -54,8 +54,8 @@ def compared(inputs: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[st
     return result.stdout, target
 
 
-def test_command_puts_the_models_side_by_side(compared: tuple[str, Path]) -> None:
-    printed, target = compared
+def test_command_puts_the_models_side_by_side(comparison: tuple[str, Path]) -> None:
+    printed, target = comparison
     names = ("comparison", "by_wavelength", "at_measured")
     figures = {f"{name}.{kind}" for name in names for kind in FORMATS}
     written = {path.name for path in target.iterdir()}
@@ -87,9 +87,9 @@ def test_command_puts_the_models_side_by_side(compared: tuple[str, Path]) -> Non
 
 
 def test_factors_lead_from_the_chain_to_the_profile_as_measured(
-    compared: tuple[str, Path],
+    comparison: tuple[str, Path],
 ) -> None:
-    data = netcdf.load(compared[1] / "comparison.nc")
+    data = netcdf.load(comparison[1] / "comparison.nc")
     aside = (data.group == "theory") | (data.rung == "chain_upper")
     path = data.isel(rung=~aside.values)
     for name in ("contact_fraction", "friction"):

@@ -78,15 +78,15 @@ def test_the_summary_quotes_the_interval(run):
 
 
 @pytest.fixture(scope="module")
-def half(folder, tmp_path_factory):
+def half_failing(folder, tmp_path_factory):
     """Ten samples, and where they are; half of the cut-offs lie far beyond the largest wave."""
     target = tmp_path_factory.mktemp("half")
     choice = Uncertainty(without=["waves"], ranges={"cut_off": "1 mm,1000 m"})
     return propagate(folder / "case.toml", choice, samples=10, folder=target), target
 
 
-def test_failures_are_counted_and_said(half):
-    data, _ = half
+def test_failures_are_counted_and_said(half_failing):
+    data, _ = half_failing
     assert int(data.failed.sum()) == 5
     assert np.isfinite(data.friction.values).sum() == 5
     assert summary(data).endswith("in 90 % of 5 of 10 samples, 5 failed")
@@ -180,8 +180,8 @@ def test_the_command_draws_a_band_over_speed(folder, over_speed):
     assert (target / "figures" / "over_speed.png").is_file()
 
 
-def test_the_command_ends_with_3_where_samples_failed(folder, half):
-    _, target = half
+def test_the_command_ends_with_3_where_samples_failed(folder, half_failing):
+    _, target = half_failing
     options = ["--samples", 10, "--without", "waves", "--range", "cut_off=1 mm,1000 m"]
     code, output = called(folder / "case.toml", *options, "--output", target)
     assert code == 3
