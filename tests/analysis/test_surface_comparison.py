@@ -19,8 +19,10 @@ from gripscale.surface import Profile, self_affine_profile
 from tests.samples import HALF_PLANE, case_text, write_road
 
 CASE = case_text(
-    'files = ["road.txt"]\nscales = 4\nsmallest_wavelength = "1 mm"', solver=HALF_PLANE
+    'files = ["road.txt"]\nscales = 4\nsmallest_wavelength = "1 mm"\ns_amplitude = 2.1',
+    solver=HALF_PLANE,
 )
+"""With a factor stated, as each sample fits its waves anew."""
 
 
 def running(answer: xr.Dataset, ends: np.ndarray) -> np.ndarray:
@@ -146,9 +148,10 @@ def test_octaves_of_profiles_count_by_their_length() -> None:
     np.testing.assert_allclose(found, [0.0, 0.25, 0.375, 0.525])
 
 
-def test_waves_by_hand_have_no_direct_contact_and_no_range(folder: Path, tmp_path: Path) -> None:
+@pytest.mark.usefixtures("made")
+def test_waves_by_hand_have_no_direct_contact_and_no_range(folder: Path) -> None:
     stated = {"road": "case", "waves": gs.SineStack([5e-3, 1e-3], [2e-4, 4e-5])}
-    made = compare_surfaces(folder / "case.toml", stated, tmp_path, samples=10)
+    made = compare_surfaces(folder / "case.toml", stated, folder / "out", samples=10)
     assert made.notes == (
         "waves, chain: no range; no profile was measured",
         "waves was not measured: no direct contact",
@@ -158,15 +161,18 @@ def test_waves_by_hand_have_no_direct_contact_and_no_range(folder: Path, tmp_pat
     assert np.isnan(waves.total_friction.sel(model="direct"))
 
 
-def test_the_command_writes_table_figures_and_page(folder: Path, tmp_path: Path) -> None:
+@pytest.mark.usefixtures("made")
+def test_the_command_writes_table_figures_and_page(folder: Path) -> None:
+    """Where the samples of `made` are."""
+    target = folder / "out"
     given = [str(folder / "case.toml"), str(folder / "rough.txt")]
-    options = ["--samples", "10", "--output", str(tmp_path)]
+    options = ["--samples", "10", "--output", str(target)]
     outcome = CliRunner().invoke(app, ["compare-surfaces", *given, *options])
     assert outcome.exit_code == 0, outcome.output
-    assert "direct: rough has" in (tmp_path / "surfaces.txt").read_text()
-    figures = {path.stem for path in tmp_path.glob("*.p*")}
+    assert "direct: rough has" in (target / "surfaces.txt").read_text()
+    figures = {path.stem for path in target.glob("*.p*")}
     assert figures == {"roads_statistics", "roads_friction"}
-    page = (tmp_path / "report.html").read_text()
+    page = (target / "report.html").read_text()
     assert "Roads side by side" in page
     assert "direct: rough has" in page
     assert f"gripscale compare-surfaces {given[0]} {given[1]} --case case.toml" in page

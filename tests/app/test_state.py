@@ -85,14 +85,16 @@ def test_every_key_of_a_case_has_a_field_or_a_place_to_drop_its_file(state: Case
         assert wanted - dropped <= set(shown), names
 
 
-@pytest.mark.parametrize("kind", ["kraus", "table"])
-def test_a_kind_that_is_chosen_brings_its_keys(state: CaseState, kind: str) -> None:
+def test_a_kind_that_is_chosen_brings_its_keys(state: CaseState) -> None:
     form = table_form(state, "conditions", ())
-    fields(form)["softening"].value = kind
-    assert state.get(("conditions", "softening")) == {"kind": kind}
-    keys = next(s for s in sections() if s.name == "conditions.softening" and s.kind == kind).keys
-    assert {key.name.replace("_", " ") for key in keys} - {"kind"} <= set(fields(form))
-    assert "[conditions] softening" in state.validation_message
+    laws = [section for section in sections() if section.name == "conditions.softening"]
+    assert {law.kind for law in laws} == {"kraus", "table"}
+    for law in laws:
+        fields(form)["softening"].value = law.kind
+        assert state.get(("conditions", "softening")) == {"kind": law.kind}
+        keys = {key.name.replace("_", " ") for key in law.keys} - {"kind"}
+        assert keys <= set(fields(form)), law.kind
+        assert "[conditions] softening" in state.validation_message
     fields(form)["softening"].value = "none"
     assert state.get(("conditions", "softening")) is None
     assert state.validation_message.startswith("surface file")
@@ -129,13 +131,14 @@ def test_a_value_that_cannot_be_shown_stays_in_the_text(state: CaseState) -> Non
     assert "direction = 'z'" in state.validation_message
 
 
-@pytest.mark.parametrize("name", EXAMPLES)
-def test_an_example_fills_every_form_and_no_form_changes_it(state: CaseState, name: str) -> None:
+def test_each_example_fills_every_form_and_no_form_changes_it(state: CaseState) -> None:
+    """One after the other in the same forms: to build them takes most of the time."""
     tabs = [tab(state) for tab in (road_tab, rubber_tab, load_tab)]
-    state.load_example(name)
-    assert state.validation_message == ""
-    assert state.visit.case.read_text(encoding="utf-8") == state.text
-    assert fields(tabs[2])["pressure"].value == state.get(("load", "pressure"))
+    for name in EXAMPLES:
+        state.load_example(name)
+        assert state.validation_message == "", name
+        assert state.visit.case.read_text(encoding="utf-8") == state.text, name
+        assert fields(tabs[2])["pressure"].value == state.get(("load", "pressure")), name
 
 
 def test_a_case_is_opened_with_the_files_it_names(

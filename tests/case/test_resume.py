@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 
@@ -13,17 +14,27 @@ from gripscale.case.events import Event, ResultsReplaced, WaveSolved
 from gripscale.io import netcdf
 from gripscale.theory import HalfPlane
 from gripscale.wave import FiniteStrainBlock, WaveProblem, WaveResult
+from tests.samples import HALF_PLANE, THREE_WAVES, case_text
 
 Count = Callable[[int | None], list[int]]
-WAVES = '[[surface.sines]]\nwavelength = "1 mm"\namplitude = "0.08 mm"\n'
+CASE = case_text(THREE_WAVES, solver="columns = 16\nrows = 4", static=True)
+"""Sliding and at rest: six waves to solve."""
+
+
+@pytest.fixture(scope="module")
+def whole_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The case, with the results of its run in the folder `out` beside."""
+    path = tmp_path_factory.mktemp("whole") / "case.toml"
+    path.write_text(CASE)
+    run_case(path, output=path.with_name("out"))
+    return path
 
 
 @pytest.fixture
-def three(case: Path) -> Path:
-    """The case with a third wave, sliding and at rest: six waves to solve."""
-    text = case.read_text().replace("\n[rubber]", f"{WAVES}\n[rubber]")
-    case.write_text(text)
-    return case
+def case_copy(whole_run: Path, tmp_path: Path) -> Path:
+    """A copy of both elsewhere, to be changed."""
+    shutil.copytree(whole_run.parent, tmp_path, dirs_exist_ok=True)
+    return tmp_path / "case.toml"
 
 
 @pytest.fixture
@@ -64,48 +75,47 @@ def same(first: Path, second: Path) -> None:
 
 @pytest.mark.parametrize("last", [1, 2, 3, 5])
 def test_a_stopped_run_solves_only_what_is_missing(
-    three: Path, tmp_path: Path, solved: Count, last: int
+    whole_run: Path, tmp_path: Path, solved: Count, last: int
 ) -> None:
-    run_case(three, output=tmp_path / "whole")
     solved(last)
     with pytest.raises(KeyboardInterrupt):
-        run_case(three, output=tmp_path / "stopped")
+        run_case(whole_run, output=tmp_path / "stopped")
     seen, events = solved(None), list[Event]()
-    results = run_case(three, output=tmp_path / "stopped", on_event=events.append)
+    results = run_case(whole_run, output=tmp_path / "stopped", on_event=events.append)
     assert len(seen) == 6 - last
     assert [event.stored for event in events if isinstance(event, WaveSolved)] == [
         number < last for number in range(6)
     ]
     assert results.converged
-    same(tmp_path / "whole", tmp_path / "stopped")
+    same(whole_run.with_name("out"), tmp_path / "stopped")
 
 
 def test_a_finished_run_solves_nothing_again_unless_told_to(
-    three: Path, tmp_path: Path, solved: Count
+    case_copy: Path, tmp_path: Path, solved: Count
 ) -> None:
-    run_case(three, output=tmp_path / "out")
     first = netcdf.load(tmp_path / "out" / "dynamic.nc")
     seen, events = solved(None), list[Event]()
-    results = run_case(three, output=tmp_path / "out", on_event=events.append)
+    results = run_case(case_copy, output=tmp_path / "out", on_event=events.append)
     assert not seen
     replaced = [event for event in events if isinstance(event, ResultsReplaced)]
     assert replaced[0].message.startswith("Replaces 1 file of an earlier run")  # the case itself
     assert results.dynamic is not None
+    first = first.assign_attrs(case_file=str(case_copy))
     xr.testing.assert_identical(first, netcdf.load(tmp_path / "out" / "dynamic.nc"))
-    run_case(three, output=tmp_path / "out", fresh=True)
+    run_case(case_copy, output=tmp_path / "out", fresh=True)
     assert len(seen) == 6
 
 
 @pytest.mark.parametrize(
-    ("old", "new"), [('"3 bar"', '"2 bar"'), ("rows = 8", "rows = 9"), ("[load]", "[load] # other")]
+    ("old", "new"), [('"3 bar"', '"2 bar"'), ("rows = 4", "rows = 5"), ("[load]", "[load] # other")]
 )
 def test_another_case_takes_nothing_up(
-    three: Path, tmp_path: Path, solved: Count, old: str, new: str
+    case_copy: Path, tmp_path: Path, solved: Count, old: str, new: str
 ) -> None:
-    run_case(three, output=tmp_path / "out")
-    three.write_text(three.read_text().replace(old, new))
+    assert old in CASE
+    case_copy.write_text(CASE.replace(old, new))
     seen = solved(None)
-    run_case(three, output=tmp_path / "out")
+    run_case(case_copy, output=tmp_path / "out")
     assert len(seen) == 6
 
 
@@ -123,12 +133,11 @@ def test_a_changed_file_of_the_same_name_takes_nothing_up(
 
 
 def test_other_software_takes_nothing_up(
-    three: Path, tmp_path: Path, solved: Count, monkeypatch: pytest.MonkeyPatch
+    case_copy: Path, tmp_path: Path, solved: Count, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    run_case(three, output=tmp_path / "out")
     monkeypatch.setattr("gripscale.case.read.software", lambda: "another")
     seen = solved(None)
-    run_case(three, output=tmp_path / "out")
+    run_case(case_copy, output=tmp_path / "out")
     assert len(seen) == 6
 
 
@@ -145,12 +154,10 @@ deformation = "tension"
 
 @pytest.mark.parametrize("more", ["[chain]\npressure_classes = 2\n", SOFTENING])
 def test_where_waves_depend_on_more_only_finished_predictions_are_taken_up(
-    three: Path, tmp_path: Path, solved: Count, more: str
+    tmp_path: Path, solved: Count, more: str
 ) -> None:
-    coarse = three.read_text().replace(
-        "columns = 32\nrows = 8", 'model = "half_plane"\npoints = 64'
-    )
-    three.write_text(coarse.replace("static = true", "static = false") + more)
+    three = tmp_path / "case.toml"
+    three.write_text(case_text(THREE_WAVES, solver=HALF_PLANE) + more)
     count = solved(None)
     assert run_case(three, output=tmp_path / "whole").converged
     whole = len(count)

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
+from typer.testing import CliRunner
 
 import gripscale as gs
 from gripscale.analysis import compare_case, compare_over, solve_reference
@@ -19,6 +20,7 @@ from gripscale.analysis.samples import curve_at
 from gripscale.case import prepare_case, read_case
 from gripscale.charts.comparison import comparison_axis_figure, comparison_figure
 from gripscale.charts.view import PredictionView
+from gripscale.cli import app
 from gripscale.core.errors import FileError
 from gripscale.io import netcdf
 from gripscale.io.table import as_text
@@ -39,14 +41,24 @@ WAVES_BY_HAND = (
 MEASURED = "speed [mm/s],friction,spread\n100,0.31,0.02\n1000,0.42,0.02\n"
 
 
-def test_command_puts_the_models_side_by_side(shell: Shell, inputs: Path, tmp_path: Path) -> None:
-    (tmp_path / "mu.csv").write_text(MEASURED)
-    target = tmp_path / "out"
-    result = shell(
+@pytest.fixture(scope="module")
+def comparison(inputs: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[str, Path]:
+    """What the command prints of six models with two samples each, and where it writes."""
+    folder = tmp_path_factory.mktemp("comparison")
+    (folder / "mu.csv").write_text(MEASURED)
+    target = folder / "out"
+    words = (
         "compare", inputs / "case.toml", "--seeds", 2, "--output", target,
-        "--measured", tmp_path / "mu.csv", "--rungs", "waves,measured,theory",
+        "--measured", folder / "mu.csv", "--rungs", "waves,measured,theory",
     )  # fmt: skip
+    environment = {"COLUMNS": "100", "NO_COLOR": "1", "TERM": "dumb"}
+    result = CliRunner().invoke(app, [str(word) for word in words], env=environment)
     assert result.exit_code == 0, result.output
+    return result.stdout, target
+
+
+def test_command_puts_the_models_side_by_side(comparison: tuple[str, Path]) -> None:
+    printed, target = comparison
     names = ("comparison", "by_wavelength", "at_measured")
     figures = {f"{name}.{kind}" for name in names for kind in FORMATS}
     written = {path.name for path in target.iterdir()}
@@ -71,15 +83,16 @@ def test_command_puts_the_models_side_by_side(shell: Shell, inputs: Path, tmp_pa
     ]
     assert data.measured_speed.values.tolist() == [0.1, 1.0]
     for label in data.label.values:
-        assert str(label) in result.stdout
+        assert str(label) in printed
     assert "Not included, neither factor nor uncertainty: finite strain" in " ".join(
-        result.stdout.split()
+        printed.split()
     )
 
 
-def test_factors_lead_from_the_chain_to_the_profile_as_measured(inputs: Path) -> None:
-    groups = ["waves", "measured", "theory"]
-    data = compare_case(inputs / "case.toml", seeds=1, rungs=groups).to_dataset()
+def test_factors_lead_from_the_chain_to_the_profile_as_measured(
+    comparison: tuple[str, Path],
+) -> None:
+    data = netcdf.load(comparison[1] / "comparison.nc")
     aside = (data.group == "theory") | (data.rung == "chain_upper")
     path = data.isel(rung=~aside.values)
     for name in ("contact_fraction", "friction"):

@@ -25,9 +25,10 @@ points = 128
 
 @pytest.fixture(scope="module")
 def case(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The example with two waves, the last 5 mm long, on small strain."""
+    """The example with two waves, the last 5 mm long, on small strain and a quarter of the road."""
     text = EXAMPLE.read_text(encoding="utf-8")
     for old, new in (
+        ('"1780 mm"', '"520 mm"'),
         ("scales = 8", "scales = 2"),
         ('"0.1 mm"', '"5 mm"'),
         ('"../data', f'"{EXAMPLE.parents[1] / "data"}'),

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import importlib.util
 import re
+import runpy
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -19,8 +21,26 @@ COARSE = "64"
 TESTED_ELSEWHERE = {"finite_strain_rubber"}
 
 
-def start(name: str, folder: Path, *arguments: str) -> str:
-    """Run an example in `folder`; return what it prints."""
+@pytest.fixture
+def start(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> Callable[..., str]:
+    """Run an example in `tmp_path`, its warnings as errors; return what it prints."""
+
+    def run(name: str, *arguments: str) -> str:
+        path = str(EXAMPLES / f"{name}.py")
+        monkeypatch.chdir(tmp_path)
+        monkeypatch.setattr(sys, "argv", [path, *arguments])
+        runpy.run_path(path, run_name="__main__")
+        printed, complaints = capfd.readouterr()
+        assert not complaints
+        return printed
+
+    return run
+
+
+def start_alone(name: str, folder: Path, *arguments: str) -> str:
+    """Run an example in `folder` in a process of its own; return what it prints."""
     command = [sys.executable, "-W", "error", str(EXAMPLES / f"{name}.py"), *arguments]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
@@ -29,12 +49,12 @@ def start(name: str, folder: Path, *arguments: str) -> str:
 
 
 @pytest.fixture
-def run(tmp_path):
+def run(start, tmp_path):
     """Run an example in a folder of its own; return what it prints and the figures it saves."""
 
     def run(name: str, *arguments: str) -> str:
         figures = tmp_path / "figures"
-        printed = start(name, tmp_path, str(figures), *arguments)
+        printed = start(name, str(figures), *arguments)
         assert [path.name for path in tmp_path.iterdir()] == ["figures"]
         saved = list(figures.glob(f"{name}*.png"))
         assert saved
@@ -125,7 +145,7 @@ def test_measured_surface(run):
 
 
 def test_toy_model(tmp_path):
-    printed = start("toy_model", tmp_path, "out")
+    printed = start_alone("toy_model", tmp_path, "out")
     rows = [line.split() for line in printed.splitlines() if "converged" in line]
     assert [row[:4] for row in rows] == [
         [speed, "m/s", pressure, "bar"] for speed in ("0.01", "10") for pressure in ("1", "3")
@@ -138,8 +158,8 @@ def test_toy_model(tmp_path):
     assert len(list((tmp_path / "out" / "toy_model" / "predictions").glob("*.nc"))) == 4
 
 
-def test_toy_condition(tmp_path):
-    printed = start("toy_condition", tmp_path, "out")
+def test_toy_condition(start):
+    printed = start("toy_condition", "out")
     pairs = re.findall(r"mm: friction ([\d.]+), ([\d.]+)", printed)
     plain, warm = np.array(pairs, dtype=float).T
     # Warmed by the waves above only; below its loss peak a warmer rubber has less friction.
@@ -156,7 +176,7 @@ def test_toy_condition(tmp_path):
 def area_term(tmp_path_factory):
     """What the example prints, and its folder."""
     folder = tmp_path_factory.mktemp("area_term")
-    return start("area_term", folder, "out"), folder / "out" / "area_term"
+    return start_alone("area_term", folder, "out"), folder / "out" / "area_term"
 
 
 def test_area_term(area_term):
@@ -192,8 +212,8 @@ def test_the_synthetic_friction_is_what_its_source_says(area_term):
         assert number in stated
 
 
-def test_run_case(tmp_path):
-    printed = start("run_case", tmp_path, str(EXAMPLES / "three_waves" / "case.toml"), "out")
+def test_run_case(start, tmp_path):
+    printed = start("run_case", str(EXAMPLES / "three_waves" / "case.toml"), "out")
     area, friction = numbers(r"A_r/A_0 = ([\d.]+), mu = ([\d.]+)", printed)
     data = netcdf.load(tmp_path / "out" / "dynamic.nc")
     assert area == pytest.approx(float(data.total_contact_fraction), abs=1e-4)

@@ -44,8 +44,8 @@ static = false
 model = "half_plane"
 points = 256
 """
-SPEEDS = "0.1:10:log9"
-"""Four in a decade."""
+SPEEDS = "0.1:10:log5"
+"""Two in a decade."""
 
 
 def shifted_by(decades: float) -> float:
@@ -85,7 +85,7 @@ def test_temperatures_are_one_curve_over_reduced_speed(case: Path, model: Any) -
     assert float(np.ptp(result.total_friction.values)) > 0.05
     for name in ("friction_collapse", "contact_fraction_collapse"):
         assert float(result[name]) < 1e-5
-        assert int(result[name].attrs["points"]) > 20
+        assert int(result[name].attrs["points"]) > 6
     told = dict(collapse_sentences(result))
     assert {*told} == {"friction", "A_r/A_0"}
     assert all(text.startswith("one curve") for text in told.values())

@@ -31,8 +31,11 @@ def covered(
 
 
 def test_estimates_cover_the_errors():
-    """Ten cases; an estimate that covers nine in ten may miss one or two of ten."""
-    area, friction = np.array([covered(seed, 1024, 32, 2**12) for seed in range(10)]).T
+    """Ten cases; an estimate that covers nine in ten may miss one or two of ten.
+
+    Not from 0 on: the truth of number 9 takes as long as that of twenty others.
+    """
+    area, friction = np.array([covered(seed, 1024, 32, 2**12) for seed in range(10, 20)]).T
     assert area.sum() >= 8
     assert friction.sum() >= 8
 

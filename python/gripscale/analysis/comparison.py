@@ -54,8 +54,8 @@ VARIED = (
 """Inputs a comparison can be made over: numbers of the load and of the surface."""
 
 MOST_SEEDS = 1000
-FEWEST_WINDOWS, MORE_WINDOWS = 3, 2
-"""Windows whose scatter is believed, and how many are added at a time."""
+FEWEST_WINDOWS = 3
+"""Windows whose scatter is believed."""
 
 
 OnStage = Callable[[Comparison], None]
@@ -227,7 +227,7 @@ def _compared(
         if quick and len(quick) < len(wanted):
             quick, rungs = [], wanted
         elif _windows_left(comparison, choice.accuracy):
-            setups = [replace(setup, windows=setup.windows + MORE_WINDOWS) for setup in setups]
+            setups = [replace(setup, windows=setup.windows + 1) for setup in setups]
         else:
             return comparison
         bench = replace(bench, on_task=_of_new_tasks(bench.on_task))

@@ -57,7 +57,7 @@ class ComparisonSetup:
     """That theory with its fitted parameters; without them it says nothing."""
     pressure_classes: int = 1
     """In how many classes of equal load the chain hands its pressure down, as the case says."""
-    windows: int = 4
+    windows: int = 3
     """Windows of the profiles that are solved at finite strain."""
     conditions: Conditions | None = None
     """What changes the rubber. Chain and direct contact know all of it, every other model only the
@@ -125,7 +125,7 @@ def with_single_measurement(surface: Surface, measured: Profile | HeightMap) -> 
     return Surface(surface.sines, measured.name, measured=Measured.of(whole))
 
 
-WINDOW, MOST_WAVES, MOST_WINDOWS = 1.1, 190, 16
+WINDOW, MOST_WAVES, MOST_WINDOWS = 1.1, 100, 16
 """Windows of a profile in the block: length over the largest sine wave, waves that are kept at most
 (those of the roughness that the measurement has), and how many windows at most."""
 
@@ -135,7 +135,8 @@ kept, how many, and how many lines of each are solved each way."""
 
 
 def _windows_half_plane(setup: ComparisonSetup) -> Sequence[SampleSpec]:
-    return _on_windows(setup, DirectContact(tolerance=setup.tolerance, periodic=True))
+    # its error must not hide what a few per cent of finite strain change; it takes a second
+    return _on_windows(setup, DirectContact(tolerance=0.2 * setup.tolerance, periodic=True))
 
 
 def _windows_block(setup: ComparisonSetup) -> Sequence[SampleSpec]:

@@ -14,11 +14,12 @@ from gripscale.surface import self_affine_profile
 from tests.samples import HALF_PLANE, case_text, write_master_curve, write_road
 
 CASE = case_text(
-    'files = ["road.txt"]\nscales = 4\nsmallest_wavelength = "1 mm"',
+    'files = ["road.txt"]\nscales = 4\nsmallest_wavelength = "1 mm"\ns_amplitude = 2.1',
     'file = "dma.txt"\nterms = 8',
     HALF_PLANE,
     static=False,
 )
+"""With a factor stated, as each sample fits its waves anew."""
 
 
 @pytest.fixture(scope="session")
@@ -40,8 +41,10 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="session")
 def known(folder: Path) -> Measurement:
-    """What the case is known from."""
-    return Measurement.of(prepare_case(folder / "case.toml"))
+    """What the case is known from, with a choice of waves."""
+    path = folder / "any_waves.toml"
+    path.write_text(CASE.replace("s_amplitude = 2.1", ""))
+    return Measurement.of(prepare_case(path))
 
 
 @pytest.fixture

@@ -28,21 +28,21 @@ def counted(told):
 
 @pytest.fixture(scope="module")
 def run(folder, tmp_path_factory):
-    """Twenty-four samples of the chain, and where they are."""
+    """Twelve samples of the chain, and where they are."""
     target = tmp_path_factory.mktemp("run")
     told: dict[bool, int] = {}
     data = propagate(
-        folder / "case.toml", QUICK, samples=24, folder=target, on_task=counted(told), workers=2
+        folder / "case.toml", QUICK, samples=12, folder=target, on_task=counted(told), workers=2
     )
     return data, target, told
 
 
 def test_quantiles_are_those_of_the_samples(run):
     data, _, told = run
-    assert told == {False: 25}
+    assert told == {False: 13}
     assert int(data.failed.sum()) == 0
     friction = data.friction.values[0]
-    assert np.unique(friction).size == 24
+    assert np.unique(friction).size == 12
     expected = np.quantile(friction, data["quantile"].values, method="median_unbiased")
     np.testing.assert_allclose(data.friction_quantile.values[0], expected)
     assert data.cut_off.dims == ("sample",)
@@ -54,7 +54,7 @@ def test_quantiles_are_those_of_the_samples(run):
 def test_a_second_run_solves_nothing(folder, run):
     data, target, _ = run
     told: dict[bool, int] = {}
-    again = propagate(folder / "case.toml", QUICK, samples=24, folder=target, on_task=counted(told))
+    again = propagate(folder / "case.toml", QUICK, samples=12, folder=target, on_task=counted(told))
     assert told == {}
     np.testing.assert_array_equal(again.friction, data.friction)
 
@@ -67,9 +67,9 @@ def test_what_is_missing_is_solved_and_nothing_else(folder, run, tmp_path):
     sorted((tmp_path / "predictions").iterdir())[3].unlink()
     told: dict[bool, int] = {}
     again = propagate(
-        folder / "case.toml", QUICK, samples=24, folder=tmp_path, on_task=counted(told)
+        folder / "case.toml", QUICK, samples=12, folder=tmp_path, on_task=counted(told)
     )
-    assert told == {True: 24, False: 1}
+    assert told == {True: 12, False: 1}
     np.testing.assert_array_equal(again.friction, data.friction)
 
 
@@ -77,13 +77,19 @@ def test_the_summary_quotes_the_interval(run):
     data, *_ = run
     low, middle, high = (f"{v:#.2g}" for v in data.friction_quantile.values[0][[0, 2, 4]])
     assert f"mu = {middle} ({low} to {high})" in summary(data)
-    assert summary(data).endswith("in 90 % of 24 samples")
+    assert summary(data).endswith("in 90 % of 12 samples")
 
 
-def test_failures_are_counted_and_said(folder):
-    """Half of the cut-offs lie far beyond the largest wave: no waves fit them."""
+@pytest.fixture(scope="module")
+def half_failing(folder, tmp_path_factory):
+    """Ten samples, and where they are; half of the cut-offs lie far beyond the largest wave."""
+    target = tmp_path_factory.mktemp("half")
     choice = Uncertainty(without=["waves"], ranges={"cut_off": "1 mm,1000 m"})
-    data = propagate(folder / "case.toml", choice, samples=10)
+    return propagate(folder / "case.toml", choice, samples=10, folder=target), target
+
+
+def test_failures_are_counted_and_said(half_failing):
+    data, _ = half_failing
     assert int(data.failed.sum()) == 5
     assert np.isfinite(data.friction.values).sum() == 5
     assert summary(data).endswith("in 90 % of 5 of 10 samples, 5 failed")
@@ -107,11 +113,18 @@ def test_a_refusal_while_solving_is_a_failure_too(folder, tmp_path):
     assert set(data.status_word.values.ravel()) == {"converged", ""}  # a refusal has no word
 
 
-def test_the_same_samples_at_each_speed(folder):
-    data = propagate(folder / "case.toml", QUICK, samples=10, vary={"speed": [0.1, 0.3]})
+@pytest.fixture(scope="module")
+def over_speed(folder, tmp_path_factory):
+    """The samples of `run` at two speeds, and where they are."""
+    target = tmp_path_factory.mktemp("over_speed")
+    speeds = {"speed": [0.1, 0.3]}
+    return propagate(folder / "case.toml", QUICK, samples=12, vary=speeds, folder=target), target
+
+
+def test_the_same_samples_at_each_speed(run, over_speed):
+    data, _ = over_speed
     assert data.friction.dims == ("model", "speed", "sample")
-    one = propagate(folder / "case.toml", QUICK, samples=10)
-    np.testing.assert_allclose(data.friction.sel(speed=0.3).values, one.friction.values)
+    np.testing.assert_allclose(data.friction.sel(speed=0.3).values, run[0].friction.values)
     assert np.corrcoef(data.friction.values[0])[0, 1] > 0.8
 
 
@@ -143,33 +156,40 @@ def called(*arguments):
     return outcome.exit_code, outcome.output
 
 
+ENOUGH = 21
+"""Samples for the shares of the three sources that are two terms each."""
+
+
 def test_the_command_writes_result_table_and_figures(folder, tmp_path):
     case = folder / "case.toml"
-    options = ["--samples", 45, "--without", "waves", "--output", tmp_path, "--workers", 2]
+    without = [word for name in ("waves", "profile", "modulus") for word in ("--without", name)]
+    options = ["--samples", ENOUGH, *without, "--output", tmp_path, "--workers", 2]
     code, output = called(case, *options)
     assert code == 0, output
     assert "What matters most (chain)" in output
     assert {path.name for path in (tmp_path / "figures").iterdir()} == {
         f"{name}.{kind}" for name in ("distributions", "tornado_chain") for kind in ("png", "pdf")
     }
-    assert netcdf.load(tmp_path / "uncertainty.nc").sizes["sample"] == 45
+    assert netcdf.load(tmp_path / "uncertainty.nc").sizes["sample"] == ENOUGH
     text = (tmp_path / "uncertainty.txt").read_text()
-    assert "in 90 % of 45 samples" in text
+    assert f"in 90 % of {ENOUGH} samples" in text
     page = write_report(tmp_path).read_text()
-    assert "in 90 % of 45 samples" in page
+    assert f"in 90 % of {ENOUGH} samples" in page
     assert page.count("<img ") == 2
 
 
-def test_the_command_draws_a_band_over_speed(folder, tmp_path):
-    options = ["--samples", 10, "--without", "waves", "--vary", "speed=0.1,0.3"]
-    code, output = called(folder / "case.toml", *options, "--output", tmp_path)
+def test_the_command_draws_a_band_over_speed(folder, over_speed):
+    _, target = over_speed
+    options = ["--samples", 12, "--without", "waves", "--vary", "speed=0.1,0.3"]
+    code, output = called(folder / "case.toml", *options, "--output", target)
     assert code == 0, output
-    assert (tmp_path / "figures" / "over_speed.png").is_file()
+    assert (target / "figures" / "over_speed.png").is_file()
 
 
-def test_the_command_ends_with_3_where_samples_failed(folder, tmp_path):
+def test_the_command_ends_with_3_where_samples_failed(folder, half_failing):
+    _, target = half_failing
     options = ["--samples", 10, "--without", "waves", "--range", "cut_off=1 mm,1000 m"]
-    code, output = called(folder / "case.toml", *options, "--output", tmp_path)
+    code, output = called(folder / "case.toml", *options, "--output", target)
     assert code == 3
     assert "5 of 10 samples have no answer" in output
 
