@@ -107,11 +107,10 @@ def best_estimate(
     name of ours replaces it.
     """
     has_direct = DIRECT in samples["rung"].values
-    factors: dict[str, FactorOf | Factor] = (
-        {FINITE_STRAIN.name: FINITE_STRAIN} if has_direct else {}
-    )
-    if has_direct:
-        factors |= {factor.name: factor for factor in supplied}
+    ours: list[AnyFactor] = [FINITE_STRAIN]
+    if upper_height is not None:
+        ours.append(IsotropicSurface(upper_height))
+    factors = {factor.name: factor for factor in (*ours, *supplied)} if has_direct else {}
     status = samples["prediction_status"].isel(rung=0, sample=0, drop=True)
     unknown = xr.full_like(status, math.nan, dtype=float)
     solved = [_numbers(factor, samples, unknown) for factor in factors.values()]

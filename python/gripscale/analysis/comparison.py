@@ -274,7 +274,7 @@ def _windows_left(comparison: Comparison, accuracy: float) -> bool:
         return False
     best = comparison.data
     for name, measure in ESTIMATED.items():
-        _, error = reduce.ratio(over, under, measure)
+        error = reduce.pair_scatter(over, under, measure)
         whole = np.fmax(accuracy, best[f"best_{name}_half_width"].fillna(0.0))
         if bool((error.freedom < FEWEST_WINDOWS - 1).any()) or bool(
             (half_width(error) > whole / 3.0).any()

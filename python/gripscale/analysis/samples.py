@@ -260,8 +260,8 @@ def ratio(over: xr.Dataset, under: xr.Dataset, name: str) -> tuple[xr.DataArray,
     """Return the ratio of the means of two rungs, and its relative standard error.
 
     Where both have one sample each of the same subjects, only subjects that both have count, and
-    the error is from the scatter of their ratios; else from the scatter of both. Errors that the
-    models estimate are part of it.
+    the error is from the scatter of their ratios; else from the scatter of both. The truth is taken
+    to lie evenly within the errors that the models estimate.
     """
     if not paired(over, under):
         means = [usable(samples, name).mean("sample") for samples in (over, under)]
@@ -272,11 +272,24 @@ def ratio(over: xr.Dataset, under: xr.Dataset, name: str) -> tuple[xr.DataArray,
         return value, LogError(in_quadrature(*uncertainties), fewest)
     both = converged(over) & converged(under)
     upper, lower = over[name].where(both), under[name].where(both)
-    mean = lower.mean("sample")
+    mean, scatter = lower.mean("sample"), pair_scatter(over, under, name)
+    errors = (
+        estimated_error(samples, name).where(both.any("sample")) / math.sqrt(3.0)
+        for samples in (over, under)
+    )
+    sigma = in_quadrature(scatter.sigma, *errors)
+    return upper.mean("sample") / mean.where(mean != 0.0), LogError(sigma, scatter.freedom)
+
+
+def pair_scatter(over: xr.Dataset, under: xr.Dataset, name: str) -> LogError:
+    """Return what the scatter of the ratios of the same subjects says of the ratio of the means.
+
+    Only subjects that converged in both count; NaN for fewer than two, or values not above zero.
+    """
+    both = converged(over) & converged(under)
+    upper, lower = over[name].where(both), under[name].where(both)
     scatter = log_error_of_mean(upper / lower).where(((lower > 0.0) | ~both).all("sample"))
-    errors = (estimated_error(samples, name).where(both.any("sample")) for samples in (over, under))
-    sigma = in_quadrature(scatter, *errors)
-    return upper.mean("sample") / mean.where(mean != 0.0), LogError(sigma, both.sum("sample") - 1.0)
+    return LogError(scatter, both.sum("sample") - 1.0)
 
 
 def paired(first: xr.Dataset, second: xr.Dataset) -> bool:
