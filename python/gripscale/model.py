@@ -315,7 +315,13 @@ SAMPLING_ERRORS = {
 }
 """Names of how well the measured surface stands for its road, where a model tells it."""
 FREEDOM = "total_freedom"
-"""Degrees of freedom of the sampling errors."""
+STEEP_SHARE, MISSING_SHARE = "total_steep_share", "total_missing_share"
+BASIS = SAMPLING_ERRORS | {
+    FREEDOM: "degrees of freedom of the sampling errors",
+    STEEP_SHARE: "share of the friction from contact on slopes above 1",
+    MISSING_SHARE: "share of the contact on heights that were missing and interpolated",
+}
+"""Names of what an answer from a measured surface rests on, where a model tells it."""
 
 ADHESIVE_FRICTION = "total_adhesive_friction"
 """Name of the area term's friction, where one was asked for."""

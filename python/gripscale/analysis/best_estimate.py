@@ -82,6 +82,9 @@ class IsotropicSurface(NamedTuple):
     label: str = "isotropic surface over its lines"
 
 
+SHARES = ("steep_share", "missing_share")
+"""What else it rests on: of the friction on steep flanks, of the contact on filled gaps."""
+
 AnyFactor = FactorOf | IsotropicSurface | Factor
 
 ESTIMATED = {"contact_fraction": "contact_fraction", "friction": "friction_from_dissipation"}
@@ -101,7 +104,8 @@ def best_estimate(
 
     `best_contact_fraction` and `best_friction` with their relative standard `_uncertainty` and the
     relative `_half_width` of their 90 % interval, NaN without a direct contact that converged; no
-    interval where the profiles are too short to tell how well they represent the road. Over
+    interval where the profiles are too short to tell how well they represent the road
+    (`_sampling_error`, the relative standard error). `best_steep_share`, `best_missing_share`. Over
     `factor` the `_factor` on each with its `_factor_uncertainty`, NaN where it is not included, and
     `factor_label`. No factors without the rung of the direct contact. A `supplied` factor with the
     name of ours replaces it.
@@ -116,6 +120,10 @@ def best_estimate(
     solved = [_numbers(factor, samples, unknown) for factor in factors.values()]
     labels = [label for label, _ in solved]
     data = xr.Dataset({"factor_label": ("factor", np.array(labels, dtype=object))})
+    for share in SHARES:
+        there = has_direct and share in samples
+        rung = samples.sel(rung=DIRECT, drop=True) if there else None
+        data[f"best_{share}"] = unknown if rung is None else usable(rung, share).mean("sample")
     for name in ESTIMATED:
         mean, errors = unknown, [LogError(unknown, unknown)]
         if has_direct:
@@ -124,6 +132,7 @@ def best_estimate(
             # even within the estimated error, and the same for all profiles
             grid = estimated_error(direct, name).fillna(0.0) / math.sqrt(3.0)
             errors = [sampling_error(direct, name), _certain(grid)]
+        data[f"best_{name}_sampling_error"] = errors[0].sigma
         value = uncertainty = unknown.expand_dims(factor=0)
         if solved:
             value = xr.concat([numbers[name][0] for _, numbers in solved], "factor")

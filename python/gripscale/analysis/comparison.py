@@ -13,7 +13,12 @@ import xarray as xr
 
 from gripscale.analysis import measured_comparison
 from gripscale.analysis import samples as reduce
-from gripscale.analysis.best_estimate import ESTIMATED, FINITE_STRAIN, Factor
+from gripscale.analysis.best_estimate import (
+    ESTIMATED,
+    FINITE_STRAIN,
+    Factor,
+    best_estimate,
+)
 from gripscale.analysis.comparison_dataset import Comparison
 from gripscale.analysis.intervals import half_width
 from gripscale.analysis.ladder import (
@@ -36,6 +41,7 @@ from gripscale.experiment.measured_friction import MeasuredFriction
 from gripscale.experiment.solve import Bench, OnTask, bench_in
 from gripscale.experiment.study import Study
 from gripscale.experiment.task import Store, Task
+from gripscale.half_space.line_to_map import upper_height
 from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
 from gripscale.model import answer, cut_off_exponents_of, extrapolation_of, with_area_term
@@ -352,7 +358,7 @@ def at_measured(
     return data.assign_attrs(comparison.file.attributes, measured_source=measured.source)
 
 
-JUDGED_TO = 0.1
+JUDGED_TO = 0.05
 """Estimated relative error of the contact that every run judges its chain by."""
 FILE = "direct.nc"
 """What it is kept in, beside the result."""
@@ -370,7 +376,7 @@ def solve_reference(results: CaseResults) -> xr.Dataset | None:
     -------
     xarray.Dataset or None
         Over `sample`, one for each profile, solved to an estimated relative error of `JUDGED_TO`,
-        10 %, see `gripscale.analysis.samples`; None if no profile was measured.
+        5 %, see `gripscale.analysis.samples`; None if no profile was measured.
 
     Raises
     ------
@@ -386,30 +392,47 @@ def solve_reference(results: CaseResults) -> xr.Dataset | None:
         Point((at,), name, Task(rubber, surface, load, model))
         for at, (name, surface) in enumerate(profiles)
     ]
+    subjects = {"subject": ("sample", [name for name, _ in profiles])}
+    design = Design({"sample": len(points)}, points, subjects)
     with bench_in(None) as bench:
-        return solve_design(Design({"sample": len(points)}, points), bench, reduce.sample_numbers)
+        return solve_design(design, bench, reduce.sample_numbers)
+
+
+def reference(results: CaseResults) -> xr.Dataset | None:
+    """Return the reference contact of a case with the best estimate, and keep it in `results`.
+
+    None if no profile was measured. Raises as `solve_reference`.
+    """
+    if results.direct is None:
+        samples = solve_reference(results)
+        results.direct = None if samples is None else reference_totals(samples, results)
+    return results.direct
 
 
 def save_reference(results: CaseResults, folder: str | Path) -> xr.Dataset | None:
-    """Solve the reference contact of a case; keep its totals in `results` and in `folder`.
+    """Return the `reference` of a case, kept in a folder, too.
 
     Raises `FileError` if it cannot be written.
     """
-    samples = solve_reference(results)
-    if samples is None:
-        return None
-    data = reference_totals(samples, results)
-    netcdf.save(data, Path(folder) / FILE)
-    results.direct = data
+    data = reference(results)
+    if data is not None:
+        netcdf.save(data, Path(folder) / FILE)
     return data
 
 
 def reference_totals(samples: xr.Dataset, results: CaseResults) -> xr.Dataset:
-    """Return the means of `samples` over the profiles as a model answers with its totals."""
+    """Return the means of `samples` over the profiles as a model answers, and the best estimate."""
     means = {name: float(reduce.usable(samples, name).mean("sample")) for name in reduce.QUANTITIES}
     beyond, exponents = reduce.outside_band(samples), reduce.cut_off_exponents(samples)
+    surface, reach = results.surface, None
+    measured = surface.measured
+    if measured is not None and measured.map is None:
+        reach = upper_height(list(measured.cleaned), float(surface.sines.wavelength[0]))
+    rung = samples.expand_dims(rung=[DIRECT])
+    best = best_estimate(rung, upper_height=reach)
+    best["cutoff_wavelength"] = xr.Variable((), surface.cutoff_wavelength, {"units": "m"})
     totals = answer(
-        xr.Dataset(),
+        best,
         {f"total_{name}": value for name, value in means.items()},
         str(reduce.status(samples).item()),
         DIRECT,

@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.analysis import samples as reduce
-from gripscale.analysis.best_estimate import Factor, best_estimate
+from gripscale.analysis.best_estimate import SHARES, Factor, best_estimate
 from gripscale.analysis.ladder import ComparisonSetup, Rung
 from gripscale.case.read import CaseFile
 from gripscale.core import provenance
@@ -22,6 +22,7 @@ from gripscale.experiment.study import coordinates
 from gripscale.half_space.line_to_map import upper_height
 from gripscale.model import (
     ADHESIVE_FRICTION,
+    BASIS,
     CUT_OFF_EXPONENTS,
     OUTSIDE_BAND,
     TOTALS,
@@ -93,6 +94,10 @@ def comparison_dataset(comparison: Comparison) -> xr.Dataset:
     if setups[0].lines and not setups[0].of_map:
         reach = upper_height(setups[0].lines, float(setups[0].surface.sines.wavelength[0]))
     best = best_estimate(samples, comparison.factors, upper_height=reach)
+    for name, text in zip(SHARES, list(BASIS.values())[-2:], strict=True):
+        add(f"best_{name}", best[f"best_{name}"], text)
+    cut_offs = [setup.surface.cutoff_wavelength for setup in setups]
+    add_by_load("cutoff_wavelength", cut_offs, "shortest wavelength of the roughness", unit="m")
     for name, text in WORDS.items():
         values = reduce.usable(samples, name)
         about = "relative standard uncertainty of the"

@@ -25,11 +25,10 @@ from gripscale.experiment.design import CONVERGED
 from gripscale.experiment.task import Task
 from gripscale.model import (
     ADHESIVE_FRICTION,
+    BASIS,
     CUT_OFF_EXPONENTS,
-    FREEDOM,
     NOT_TOLD,
     OUTSIDE_BAND,
-    SAMPLING_ERRORS,
     STATUS,
     STATUS_WORD,
     WHY_NO_EXPONENT,
@@ -61,7 +60,7 @@ def sample_numbers(
     rest = float(answer["nominal_speed"]) == 0.0
     numbers: dict[str, Any] = {name: float(answer[f"total_{name}"]) for name in QUANTITIES}
     numbers |= {f"{name}_error": _error(answer, name) for name in SMOOTH}
-    for name in (*SAMPLING_ERRORS, FREEDOM):
+    for name in BASIS:
         numbers[name.removeprefix("total_")] = float(answer.get(name, math.nan))
     if rest:
         numbers |= {name: 0.0 * numbers[name] for name in QUANTITIES if "friction" in name}

@@ -25,6 +25,7 @@ from gripscale.core.errors import InputError
 if TYPE_CHECKING:
     import xarray as xr
 
+    from gripscale.analysis import Comparison
     from gripscale.model import Model
 
 
@@ -53,6 +54,13 @@ def compare(
     tolerance: Annotated[
         float, typer.Option(help="Estimated relative error of each direct contact.")
     ] = 0.05,
+    accuracy: Annotated[
+        float,
+        typer.Option(
+            help="Half width of the 90 % interval that is wanted: more windows are solved until "
+            "finite strain adds no more than a third of it."
+        ),
+    ] = 0.1,
     workers: Workers = None,
     cluster: Cluster = None,
 ) -> None:
@@ -70,6 +78,7 @@ def compare(
     from gripscale.experiment.task import PREDICTIONS
     from gripscale.half_space.model import DirectContact
     from gripscale.io import netcdf
+    from gripscale.report.answer import answer_lines, has_answer
     from gripscale.report.comparison import comparison_parts, failures
     from gripscale.report.measured import residual_table
     from gripscale.report.side_by_side import effects_table
@@ -81,9 +90,20 @@ def compare(
     console, target = terminal.open_folder(file, output, "comparison", opening)
     on_task = terminal.progress_printer(console)
     solving: dict[str, Any] = {"workers": workers, "client": cluster, "on_task": on_task}
+
+    def print_stage(ladder: Comparison) -> None:
+        """Print the answer as far as it goes, once, while windows are solved."""
+        if axes is None and has_answer(ladder.data) and not stages:
+            stages.append(ladder)
+            console.print()
+            terminal.print_parts(console, ["So far:", *answer_lines(ladder.data), ""])
+
+    stages: list[Comparison] = []
     options: dict[str, Any] = solving | {
         "seeds": seeds,
         "tolerance": tolerance,
+        "accuracy": accuracy,
+        "on_stage": print_stage,
         "rungs": [] if rungs is None else [name.strip() for name in rungs.split(",")],
         "measured": None if measured is None else read_measured_friction(measured),
         "folder": target,
@@ -133,7 +153,10 @@ def compare(
         text=f"{name}.txt",
         closing=f"Tables, figures and result ({name}.nc) are in",
         draw=draw_figures,
-        failure=terminal.first_of(failed, data.status.size, "models with all their samples"),
+        # a failed sample is named in its row; the estimate stands without it
+        failure=""
+        if bool(data.best_contact_fraction.notnull().all())
+        else terminal.first_of(failed, data.status.size, "models with all their samples"),
     )
 
 

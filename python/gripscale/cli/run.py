@@ -83,7 +83,7 @@ def _json_events(progress: ProgressFormat) -> Iterator[OnEvent]:
 def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh: bool) -> None:
     """Prepare, solve, print and write a case, with an event for each step."""
     from gripscale.analysis.comparison import FILE as DIRECT
-    from gripscale.analysis.comparison import save_reference
+    from gripscale.analysis.comparison import reference, save_reference
     from gripscale.analysis.effects import FILE as EFFECTS
     from gripscale.analysis.effects import case_effects
     from gripscale.analysis.measured_comparison import friction_of_case
@@ -92,6 +92,8 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
     from gripscale.case.events import DirectContactSolved, EffectsSolved, FileWritten, WaveSolved
     from gripscale.charts.background import background_figures
     from gripscale.charts.write import draw_effects, draw_heat
+    from gripscale.core.provenance import version_of
+    from gripscale.report.answer import answer_lines
     from gripscale.report.measured import measured_lines
     from gripscale.report.notices import explained
     from gripscale.report.uncertainty import uncertainty_lines
@@ -101,8 +103,13 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
     folder.require_writable(target)
     friction = friction_of_case(file)
     results = prepare_case(file)
-    opening = _opening(results)
-    for line in opening:
+    header = f"gripscale {version_of('gripscale')}, case {file.path}"
+    terminal.print_wrapped(console, header)
+    direct = reference(results)
+    if direct is not None:
+        emit(DirectContactSolved.of(direct))
+    opening = [header, "", *answer_lines(direct), "", *_inputs(results)]
+    for line in opening[1:]:
         terminal.print_wrapped(console, line)
     print_event = _event_printer(console, results.display_unit("speed"))
     with background_figures(results, target / "figures") as draw_solved:
@@ -115,9 +122,7 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
 
         with console.status("solving") if console.is_terminal else nullcontext():
             run_case(results, output=target, on_event=on_event, fresh=fresh)
-            direct = save_reference(results, target)
-            if direct is not None:
-                emit(DirectContactSolved.of(direct))
+            if save_reference(results, target) is not None:
                 emit(FileWritten(str(target / DIRECT)))
             effects = case_effects(results, results.chain, target, target / "effects")
             if effects is not None:
@@ -160,16 +165,13 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
         raise failures[-1]
 
 
-def _opening(results: CaseResults) -> list[str]:
+def _inputs(results: CaseResults) -> list[str]:
     """Return what the run starts from, line by line."""
-    from gripscale.core.provenance import version_of
     from gripscale.io.table import as_text
     from gripscale.report.inputs import conditions_lines, rubber_parts, surface_lines
 
     rubber = as_text(*rubber_parts(results.rubber), width=10**6).splitlines()
     lines = [
-        f"gripscale {version_of('gripscale')}, case {results.file.path}",
-        "",
         "Surface",
         *(f"  {line}" for line in surface_lines(results.surface)),
         "",

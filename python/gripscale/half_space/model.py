@@ -12,6 +12,7 @@ import numpy as np
 from gripscale import model
 from gripscale.conditions.conditions import Conditions
 from gripscale.core import checks, provenance
+from gripscale.core.arrays import Array
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.half_space.sampling_error import PIECE, sampling_error
@@ -38,33 +39,44 @@ def _measurement(surface: Surface, need: str) -> Measured:
     return surface.measured
 
 
-def _with_sampling_errors(
+def _with_basis(
     answer: xr.Dataset, contacts: Sequence[RoughContact], lengths: Sequence[float], piece: float
 ) -> xr.Dataset:
-    """Return an answer with the relative standard errors of its totals as estimates for the road.
+    """Return an answer with what it rests on (`gripscale.model.BASIS`).
 
-    Independent profiles, whose errors add up in squares by weight, from pieces of a length [m].
+    The profiles are independent: their sampling errors, from pieces of a length [m], add up in
+    squares.
     """
     import xarray as xr
 
     errors = [sampling_error(contact, piece) for contact in contacts]
-    freedom = sum(error.pieces - 1 for error in errors)
-    numbers = {model.FREEDOM: (float(freedom), "degrees of freedom of the sampling errors")}
-    for name, text in model.SAMPLING_ERRORS.items():
-        of = name.removeprefix("total_").removesuffix("_sampling_error")
-        numerator = "friction_from_dissipation" if of == "friction" else of
-        parts = np.multiply(lengths, [getattr(contact, numerator) for contact in contacts])
-        total = float(parts.sum())
-        error = math.hypot(*(parts * [getattr(error, of) for error in errors]))
-        numbers[name] = (error / total if total > 0.0 else math.nan, text)
-    return answer.assign(
-        {
-            name: xr.Variable(
-                (), value, {"units": "1", "long_name": text, "source": DirectContact.name}
-            )
-            for name, (value, text) in numbers.items()
-        }
+    area, friction = (
+        np.multiply(lengths, [getattr(contact, name) for contact in contacts])
+        for name in ("contact_fraction", "friction_from_dissipation")
     )
+    numbers = (
+        _relative(area, [error.contact_fraction for error in errors]),
+        _relative(friction, [error.friction for error in errors]),
+        float(sum(error.pieces - 1 for error in errors)),
+        _weighted(friction, [contact.steep_share for contact in contacts]),
+        _weighted(area, [contact.missing_share for contact in contacts]),
+    )
+    variables = {
+        name: xr.Variable((), number, {"units": "1", "long_name": text, "source": "direct"})
+        for (name, text), number in zip(model.BASIS.items(), numbers, strict=True)
+    }
+    return answer.assign(variables)
+
+
+def _relative(parts: Array, errors: Sequence[float]) -> float:
+    """Return the relative standard error of a sum of independent parts."""
+    total = float(parts.sum())
+    return math.hypot(*(parts * np.asarray(errors))) / total if total > 0.0 else math.nan
+
+
+def _weighted(weight: Array, shares: Sequence[float]) -> float:
+    total = float(weight.sum())
+    return float(weight @ np.asarray(shares)) / total if total > 0.0 else math.nan
 
 
 class DirectContact(Checked, model.Model):
@@ -136,7 +148,7 @@ class DirectContact(Checked, model.Model):
         )
         if surface.waves is not None:
             piece = PIECE * float(surface.waves.wavelength[0])
-            answer = _with_sampling_errors(answer, contacts, lengths, piece)
+            answer = _with_basis(answer, contacts, lengths, piece)
         adhesive = [contact.adhesive_friction for contact in contacts]
         return model.with_area_term(answer, float(np.average(adhesive, weights=lengths)))
 

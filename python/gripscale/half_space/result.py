@@ -99,6 +99,9 @@ def last_octave(grids: Sequence[GridRecord], *, moving: bool) -> CutOffExponents
 STEEP = 0.5
 """Rms slope in the contact beyond which small strain is not a good approximation."""
 
+VERY_STEEP = 1.0
+"""Slope of flanks where neither small strain nor a laser is to be trusted."""
+
 SOURCE = "gripscale direct contact"
 SHARES = (0.05, 0.25, 0.5, 0.75, 0.95, 0.99)
 """Shares of the contact whose pressures a Dataset holds."""
@@ -243,6 +246,15 @@ class RoughContact:
     def missing_share(self) -> float:
         """Share of the contact that lies on heights which were missing and interpolated [-]."""
         return float(1.0 - self.measured[self.active].mean())
+
+    @property
+    def steep_share(self) -> float:
+        """Share of the friction from contact on slopes above 1 [-]; NaN without friction."""
+        slope = self.grid.slope(self.height)
+        force = self.pressure * slope
+        total = float(force.sum())
+        steep = float(force[np.abs(slope) > VERY_STEEP].sum())
+        return steep / total if self.speed > 0.0 and total > 0.0 else math.nan
 
     @property
     def patches(self) -> Array:

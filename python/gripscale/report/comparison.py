@@ -23,6 +23,7 @@ from gripscale.model import (
     with_adhesive,
 )
 from gripscale.report import elements
+from gripscale.report.answer import answer_lines, has_answer
 from gripscale.report.elements import Card
 from gripscale.report.notices import Failure, comparison_sentences, friction_sentence
 from gripscale.rubber.extrapolation import WORTH_SAYING
@@ -132,6 +133,9 @@ def comparison_parts(comparison: xr.Dataset) -> Iterator[str | Table]:
         yield from beyond_band(comparison)
         yield from temperature_only(comparison)
         return
+    if has_answer(comparison):
+        yield from answer_lines(comparison)
+        yield ""
     yield comparison_table(comparison)
     yield from remarks(comparison)
 

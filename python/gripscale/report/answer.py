@@ -1,0 +1,123 @@
+"""The answer of a case: friction and contact area with their interval, and what they rest on."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+import xarray as xr
+
+from gripscale.analysis.intervals import LEVEL
+from gripscale.charts.view import HEADINGS, SYMBOLS
+from gripscale.core.units import display_unit_of
+from gripscale.io.table import significant
+from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, STATUS
+from gripscale.report.elements import Card, percent
+from gripscale.rubber.extrapolation import WORTH_SAYING
+
+WORTH_NAMING = 0.005
+"""Share of friction or contact below which it is as good as none."""
+
+
+def has_answer(data: xr.Dataset) -> bool:
+    """Return whether a result of one load holds a best estimate of the contact area."""
+    area = data.get("best_contact_fraction")
+    return area is not None and not area.ndim and math.isfinite(float(area))
+
+
+def answer_lines(data: xr.Dataset | None) -> Iterator[str]:
+    """Yield the answer of a result of one load, then what it rests on; or why there is none."""
+    if data is None:
+        yield (
+            "Answer: none with an interval. No surface was measured, and the chain of sine waves "
+            "alone has nothing to be judged by."
+        )
+        return
+    if not has_answer(data):
+        why = str(data[STATUS].item()) if STATUS in data else "no direct contact was solved"
+        yield f"Answer: none. The direct contact of the measured surface has no result: {why}."
+        return
+    moving = float(data.nominal_speed) > 0.0
+    names = ("friction", "contact_fraction") if moving else ("contact_fraction",)
+    numbers = ", ".join(f"{SYMBOLS[name]} = {number_and_interval(data, name)}" for name in names)
+    yield f"Answer: {numbers}{_level(data)}"
+    yield f"  for {_load(data)}, roughness down to {_millimetres(data)}"
+    yield f"  from {' × '.join(_factors(data, names))}"
+    rests = list(_rests_on(data, names[0]))
+    if rests:
+        yield f"  {'; '.join(rests)}"
+
+
+def answer_cards(data: xr.Dataset) -> Iterator[Card]:
+    """Yield friction and contact area with their intervals."""
+    if not has_answer(data):
+        return
+    names = ("friction", "contact_fraction") if float(data.nominal_speed) > 0.0 else SYMBOLS
+    for name in (name for name in names if math.isfinite(float(data[f"best_{name}"]))):
+        title = f"{HEADINGS[name].capitalize()} {SYMBOLS[name]}"
+        interval = _interval(data, name)
+        detail = f"best estimate; {interval} ({100.0 * LEVEL:.0f} %)" if interval else "best estimate"
+        yield Card(title, significant(float(data[f"best_{name}"])), detail)
+
+
+def number_and_interval(data: xr.Dataset, name: str) -> str:
+    """Return a best estimate and its interval, such as `0.19 (0.15 to 0.23)`."""
+    interval = _interval(data, name)
+    return f"{significant(float(data[f'best_{name}']))}{f' ({interval})' if interval else ''}"
+
+
+def _interval(data: xr.Dataset, name: str) -> str:
+    value, width = (float(data[f"best_{name}{end}"]) for end in ("", "_half_width"))
+    if not math.isfinite(width):
+        return ""
+    low, high = (value * math.exp(sign * math.asinh(width)) for sign in (-1.0, 1.0))
+    return f"{significant(low)} to {significant(high)}"
+
+
+def _level(data: xr.Dataset) -> str:
+    if math.isfinite(float(data.best_contact_fraction_half_width)):
+        return f" ({100.0 * LEVEL:.0f} % intervals)"
+    return "; no interval: the profiles are too short to tell how well they represent the road"
+
+
+def _load(data: xr.Dataset) -> str:
+    units = {name: display_unit_of(data.attrs, name) for name in ("pressure", "speed")}
+    values = [unit.text(float(data[f"nominal_{name}"])) for name, unit in units.items()]
+    return " and ".join(values)
+
+
+def _millimetres(data: xr.Dataset) -> str:
+    return f"{1e3 * float(data.cutoff_wavelength):.3g} mm"
+
+
+def _factors(data: xr.Dataset, names: tuple[str, ...]) -> Iterator[str]:
+    """Yield the direct contact and each factor on it, friction first."""
+    yield "the direct contact of the measured surface"
+    for at, label in enumerate(data.factor_label.values):
+        values = [float(data[f"best_{name}_factor"][at]) for name in names]
+        if not all(map(math.isfinite, values)):
+            continue
+        sigma = float(data[f"best_{names[0]}_factor_uncertainty"][at])
+        assumed = np.allclose(values, 1.0)
+        numbers = f"± {percent(sigma)}" if assumed else ", ".join(map(significant, values))
+        yield f"{label} ({numbers})"
+
+
+def _rests_on(data: xr.Dataset, name: str) -> Iterator[str]:
+    """Yield the shares of the answer that rest on what was not measured well."""
+    sampling = float(data[f"best_{name}_sampling_error"])
+    if math.isfinite(sampling):
+        yield f"sampling of the road ± {percent(sampling)} of it (standard error)"
+    beyond = data.get(FRICTION_OUTSIDE_BAND)
+    if beyond is not None and not beyond.ndim and float(beyond) > WORTH_SAYING:
+        yield f"{percent(float(beyond))} of the friction beyond the measured frequencies"
+    for share, words in (
+        ("steep_share", "of the friction on slopes above 1"),
+        ("missing_share", "of the contact on filled gaps"),
+    ):
+        value = float(data[f"best_{share}"])
+        if value > WORTH_NAMING:
+            yield f"{percent(value)} {words}"
+    if ADHESIVE_FRICTION in data and not data[ADHESIVE_FRICTION].ndim:
+        yield f"an area term of {significant(float(data[ADHESIVE_FRICTION]))} comes on top"
