@@ -38,26 +38,41 @@ def answer_lines(data: xr.Dataset | None) -> Iterator[str]:
         why = str(data[STATUS].item()) if STATUS in data else "no direct contact was solved"
         yield f"Answer: none. The direct contact of the measured surface has no result: {why}."
         return
-    moving = float(data.nominal_speed) > 0.0
-    names = ("friction", "contact_fraction") if moving else ("contact_fraction",)
-    numbers = ", ".join(f"{SYMBOLS[name]} = {number_and_interval(data, name)}" for name in names)
+    numbers = ", ".join(
+        f"{SYMBOLS[name]} = {number_and_interval(data, name)}" for name in _of(data)
+    )
     yield f"Answer: {numbers}{_level(data)}"
-    yield f"  for {_load(data)}, roughness down to {_millimetres(data)}"
-    yield f"  from {' × '.join(_factors(data, names))}"
+    yield from (f"  {line}" for line in basis_lines(data))
+
+
+def basis_lines(data: xr.Dataset) -> Iterator[str]:
+    """Yield what a best estimate is for, what it is made of, and what it rests on."""
+    if not has_answer(data):
+        return
+    names = _of(data)
+    yield f"for {_load(data)}, roughness down to {_millimetres(data)}"
+    yield f"from {' × '.join(_factors(data, names))}"
     rests = list(_rests_on(data, names[0]))
     if rests:
-        yield f"  {'; '.join(rests)}"
+        yield "; ".join(rests)
+
+
+def _of(data: xr.Dataset) -> tuple[str, ...]:
+    """Return what is estimated: no friction at rest."""
+    moving = float(data.nominal_speed) > 0.0
+    return ("friction", "contact_fraction") if moving else ("contact_fraction",)
 
 
 def answer_cards(data: xr.Dataset) -> Iterator[Card]:
     """Yield friction and contact area with their intervals."""
     if not has_answer(data):
         return
-    names = ("friction", "contact_fraction") if float(data.nominal_speed) > 0.0 else SYMBOLS
-    for name in (name for name in names if math.isfinite(float(data[f"best_{name}"]))):
+    for name in _of(data):
         title = f"{HEADINGS[name].capitalize()} {SYMBOLS[name]}"
         interval = _interval(data, name)
-        detail = f"best estimate; {interval} ({100.0 * LEVEL:.0f} %)" if interval else "best estimate"
+        detail = (
+            f"best estimate; {interval} ({100.0 * LEVEL:.0f} %)" if interval else "best estimate"
+        )
         yield Card(title, significant(float(data[f"best_{name}"])), detail)
 
 

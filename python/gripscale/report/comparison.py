@@ -23,7 +23,7 @@ from gripscale.model import (
     with_adhesive,
 )
 from gripscale.report import elements
-from gripscale.report.answer import answer_lines, has_answer
+from gripscale.report.answer import answer_cards, answer_lines, has_answer
 from gripscale.report.elements import Card
 from gripscale.report.notices import Failure, comparison_sentences, friction_sentence
 from gripscale.rubber.extrapolation import WORTH_SAYING
@@ -164,11 +164,13 @@ def temperature_only(comparison: xr.Dataset) -> Iterator[str]:
 
 
 def ladder_cards(ladder: xr.Dataset | None) -> Iterator[Card]:
-    """Yield area and friction of the direct contact, or else of the first model."""
+    """Yield the best estimate, or else area and friction of the first model."""
     if ladder is None:
         return
-    names = ladder.rung.values.tolist()
-    rung = ladder.isel(rung=names.index(DIRECT) if DIRECT in names else 0)
+    if has_answer(ladder):
+        yield from answer_cards(ladder)
+        return
+    rung = ladder.isel(rung=0)
     bad = int(rung.converged_samples) < int(rung.samples)
     for name, symbol in SYMBOLS.items():
         words = f"{HEADINGS[name].capitalize()} {symbol}"

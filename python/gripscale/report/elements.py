@@ -86,6 +86,10 @@ class Card:
     bad: bool = False
 
 
+MOST_OPEN = 3
+"""Notices that a page opens with; further warnings are folded."""
+
+
 @dataclass(frozen=True)
 class Page:
     """A whole report."""
@@ -95,6 +99,20 @@ class Page:
     notices: Sequence[Notice]
     cards: Sequence[Card]
     sections: Sequence[Section] = field(default_factory=tuple)
+    basis: Sequence[str] = ()
+    """What the numbers of the cards are for, and what they rest on."""
+
+    @property
+    def notices_open(self) -> list[Notice]:
+        """Errors, and the first few warnings."""
+        errors = [notice for notice in self.notices if notice.level == "error"]
+        warnings = [notice for notice in self.notices if notice.level != "error"]
+        return errors + warnings[: max(0, MOST_OPEN - len(errors))]
+
+    @property
+    def notices_folded(self) -> list[Notice]:
+        """The others."""
+        return [notice for notice in self.notices if notice not in self.notices_open]
 
     @property
     def charts(self) -> list[Chart]:

@@ -14,6 +14,7 @@ from gripscale import model
 from gripscale.charts.view import CONVERGED, PredictionView
 from gripscale.core.provenance import versions
 from gripscale.io.table import NONE
+from gripscale.report.answer import answer_cards
 from gripscale.report.elements import Card, Notice, number, percent
 from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
 from gripscale.rubber.material import LEAST_POISSON_RATIO
@@ -234,15 +235,24 @@ def _mismatch(view: PredictionView) -> Iterator[str]:
 
 
 def cards(run: Run) -> list[Card]:
-    """Return the totals of each prediction, and of the direct contact beside them."""
-    made = [card for view in run.predictions for card in _cards(view)]
-    if run.direct is None:
-        return made
-    view = PredictionView(run.direct)
-    area, friction = number(view.total("contact_fraction")), number(view.total("friction"))
-    if view.moving:
-        return [*made, Card("Direct contact, μ", friction, f"of the profiles; A_r/A_0 {area}")]
-    return [*made, Card("Direct contact, A_r/A_0", area, "of the profiles")]
+    """Return the answer of the measured surface, then the totals of each prediction."""
+    made = [] if run.direct is None else list(answer_cards(run.direct))
+    if not made:
+        return [card for view in run.predictions for card in _cards(view)]
+    return [*made, *(card for view in run.predictions for card in _chain_cards(view))]
+
+
+def _chain_cards(view: PredictionView) -> Iterator[Card]:
+    """Yield the totals of waves one by one, beside the answer of the measured surface."""
+    if not view.complete:
+        yield from _cards(view)
+        return
+    area = number(view.total("contact_fraction"))
+    if not view.moving:
+        yield Card("Chain of waves, A_r/A_0", area, view.title)
+        return
+    friction = number(view.total("friction"))
+    yield Card("Chain of waves, μ", friction, f"{view.title}; A_r/A_0 {area}")
 
 
 def _cards(view: PredictionView) -> Iterator[Card]:

@@ -25,6 +25,7 @@ from gripscale.charts.wave_and_chain import contact_charts, verification_charts
 from gripscale.core.provenance import versions
 from gripscale.io.table import Table
 from gripscale.report import (
+    answer,
     calibration,
     comparison,
     inputs,
@@ -105,10 +106,12 @@ def _page(
     heads: Iterable[Notice],
     numbers: Iterable[Card],
     sections: Iterable[Section],
+    answered: xr.Dataset | None = None,
 ) -> Page:
-    """Return a page of the sections that hold something."""
+    """Return a page of the sections that hold something; `answered` holds a best estimate."""
     chapters = [section for section in sections if section.elements]
-    return Page(title, subtitle, list(heads), list(numbers), chapters)
+    lines = () if answered is None else tuple(answer.basis_lines(answered))
+    return Page(title, subtitle, list(heads), list(numbers), chapters, lines)
 
 
 def _elements(parts: Iterable[str | Table]) -> list[Element]:
@@ -147,6 +150,7 @@ def run_page(run: Run) -> Page:
             method_section(),
             rerun_section(run.attrs, shlex.join(["gripscale", "run", case or "case.toml"])),
         ],
+        run.direct,
     )
 
 
@@ -320,6 +324,7 @@ def comparison_page(compared: Compared) -> Page:
             Section("comparison", "Models side by side", elements),
             rerun_section(first.attrs, shlex.join(["gripscale", "compare", case])),
         ],
+        compared.ladder,
     )
 
 
@@ -331,7 +336,8 @@ def comparison_elements(compared: Compared) -> list[Element]:
     for data in compared.parts:
         for where, failure in comparison.failures(data):
             placed = replace(failure, sentence=f"{where}: {failure}")
-            elements.append(Notice("error", f"{notices.explained(placed)}."))
+            level = "warning" if bool(data.best_friction.notnull().all()) else "error"
+            elements.append(Notice(level, f"{notices.explained(placed)}."))
     for data in compared.parts:
         axis = varied(data)
         over = f" over {axis.replace('_', ' ')}" if axis else ""
