@@ -1,0 +1,94 @@
+"""Standard errors from pieces of one contact against the scatter from road to road."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import gripscale as gs
+from gripscale.core.errors import InputError
+from gripscale.half_space.sampling_error import FEWEST_PIECES, sampling_error
+
+RUBBER = gs.Rubber(3e6, [2e7], [1e-3], bulk_modulus=2e9)
+WAVE, WAVES, POINTS = 8e-3, 32, 2048
+
+
+def road(seed: int) -> gs.Profile:
+    """Return a periodic Gaussian line of 32 largest waves, self-affine down to 0.5 mm."""
+    length = WAVES * WAVE
+    k = np.fft.rfftfreq(POINTS, length / POINTS)
+    inside = (k >= 0.999 / WAVE) & (k <= 1.0 / 5e-4)
+    size = np.where(inside, np.maximum(k, 1.0) ** -1.3, 0.0)
+    noise = np.fft.rfft(np.random.default_rng(seed).standard_normal(POINTS))
+    z = np.fft.irfft(noise * size, POINTS)
+    return gs.Profile(length / POINTS * np.arange(POINTS), 3e-4 * z / z.std())
+
+
+def contact(seed: int, speed: float = 0.3) -> gs.half_space.RoughContact:
+    solved = gs.solve_rough_contact(
+        RUBBER,
+        road(seed),
+        pressure=2e5,
+        speed=speed,
+        smallest_wavelength=5e-4,
+        periodic=True,
+        tolerance=0.05,
+    )
+    assert solved.converged
+    return solved
+
+
+def test_it_is_the_scatter_from_road_to_road() -> None:
+    roads = [contact(seed) for seed in range(40)]
+    stated = [sampling_error(solved, 2.0 * WAVE) for solved in roads]
+    for name, measure in (
+        ("contact_fraction", "contact_fraction"),
+        ("friction", "friction_from_dissipation"),
+    ):
+        values = np.array([getattr(solved, measure) for solved in roads])
+        scatter = values.std(ddof=1) / values.mean()
+        error = math.sqrt(np.mean([getattr(one, name) ** 2 for one in stated]))
+        # The scatter of forty is known to 11 %. By sixty roads of 32 and of 128 waves the stated
+        # error of the area is 0.77 and 0.85 of the scatter, that of friction 1.10 and 1.15.
+        assert error == pytest.approx(scatter, rel=0.45)
+
+
+def test_the_pieces_share_the_friction_that_is_lost() -> None:
+    """A road of equal pieces has no error, however the pieces are placed."""
+    line = road(0)
+    x = line.step * np.arange(4 * POINTS)
+    repeated = gs.Profile(x, np.tile(line.z, 4))
+    solved = gs.solve_rough_contact(
+        RUBBER, repeated, pressure=2e5, speed=0.3, smallest_wavelength=5e-4, periodic=True,
+        tolerance=None,
+    )  # fmt: skip
+    error = sampling_error(solved, WAVES * WAVE)
+    assert error.pieces == 4
+    assert error.contact_fraction < 1e-3
+    assert error.friction < 1e-3
+
+
+def test_few_pieces_tell_nothing() -> None:
+    solved = contact(0)
+    few = sampling_error(solved, WAVES * WAVE / (FEWEST_PIECES - 1))
+    assert few.pieces == FEWEST_PIECES - 1
+    assert math.isnan(few.contact_fraction)
+    assert math.isnan(few.friction)
+    assert math.isnan(sampling_error(contact(0, speed=0.0), WAVE).friction)
+    with pytest.raises(InputError, match="piece must be greater than zero"):
+        sampling_error(solved, 0.0)
+
+
+def test_a_map_is_cut_both_ways() -> None:
+    x = 5e-4 * np.arange(64)
+    z = np.random.default_rng(3).standard_normal((64, 64))
+    surface = gs.HeightMap(x, x, 1e-5 * z)
+    solved = gs.solve_rough_contact(
+        RUBBER, surface, pressure=2e5, speed=0.3, smallest_wavelength=2e-3, periodic=True,
+        tolerance=None,
+    )  # fmt: skip
+    error = sampling_error(solved, 8e-3)
+    assert error.pieces == 16
+    assert 0.0 < error.contact_fraction < 0.5
