@@ -10,7 +10,16 @@ import pytest
 
 from gripscale.surface import HeightMap
 from studies import line_to_map
-from studies.line_to_map import CUT_OFFS, FittedLaw, SolvedMap, draw, family_table, load, summary
+from studies.line_to_map import (
+    CUT_OFF,
+    SHORTER,
+    FittedLaw,
+    SolvedMap,
+    draw,
+    family_table,
+    load,
+    summary,
+)
 from studies.surface_families import FAMILIES, STEP, Draw, family_map
 
 SMALL = (256, 128)
@@ -87,10 +96,19 @@ def test_a_stopped_study_goes_on_where_it_was(
 ) -> None:
     solved: list[tuple[str, int]] = []
 
-    def solve_map(_: object, surface: HeightMap, family: str, seed: int) -> list[SolvedMap]:
+    def solve_map(
+        rubber: object,
+        surface: HeightMap,
+        family: str,
+        seed: int,
+        pressure: float,
+        speed: float,
+        cut_offs: tuple[float, ...],
+    ) -> list[SolvedMap]:
+        assert (pressure, speed) == load(seed, family)
         solved.append((family, seed))
         heights = [1.0 + len(solved) / 8.0, 2.0]
-        return [replace(lawful(family, seed, heights), cut_off=cut_off) for cut_off in CUT_OFFS]
+        return [replace(lawful(family, seed, heights), cut_off=cut_off) for cut_off in cut_offs]
 
     monkeypatch.setattr(line_to_map, "solve_map", solve_map)
     monkeypatch.setattr(line_to_map, "family_map", lambda *_: None)
@@ -100,7 +118,7 @@ def test_a_stopped_study_goes_on_where_it_was(
     maps = line_to_map.solved_maps(path, 2)
     assert len(solved) == len(set(solved)) == 2 * len(FAMILIES)
     assert maps[: len(first)] == first
-    assert len(maps) == 2 * 2 * len(FAMILIES)
+    assert [m.cut_off for m in maps if m.family == "pits"] == [CUT_OFF, SHORTER, CUT_OFF]
     laws = [FittedLaw.of(maps, quantity) for quantity in line_to_map.QUANTITIES]
     assert any("cut-off" in line for line in summary(laws[0]))
     draw(laws, tmp_path / "law.png")
