@@ -1,0 +1,125 @@
+"""The parts of the study of the law from lines to maps, on small maps and numbers by hand."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from gripscale.surface import HeightMap
+from studies import line_to_map
+from studies.line_to_map import (
+    CUT_OFF,
+    SHORTER,
+    FittedLaw,
+    SolvedMap,
+    draw,
+    family_table,
+    load,
+    summary,
+)
+from studies.surface_families import FAMILIES, STEP, Draw, family_map
+
+SMALL = (256, 128)
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_a_map_is_the_same_for_a_seed_and_periodic(family: str) -> None:
+    surface, again = family_map(family, 3, SMALL), family_map(family, 3, SMALL)
+    np.testing.assert_array_equal(surface.z, again.z)
+    assert not np.allclose(surface.z, family_map(family, 4, SMALL).z)
+    steps = np.abs(np.diff(surface.z, axis=0))
+    across_the_end = np.abs(surface.z[0] - surface.z[-1])
+    assert across_the_end.max() <= 1.5 * steps.max()
+    assert 0.1 < (np.diff(surface.z, axis=0) / STEP).std() < 2.0
+
+
+def test_a_gaussian_surface_has_the_waves_and_the_slope_it_should() -> None:
+    draw = Draw(np.random.default_rng(1), SMALL)
+    heights = draw.gaussian(0.8, 6.4e-3, 0.4e-3)
+    power = np.abs(np.fft.rfft2(heights)) ** 2
+    wavelength = 2.0 * np.pi / np.maximum(draw.wavenumber, 1.0)
+    outside = (wavelength > 6.5e-3) | (wavelength < 0.39e-3)
+    assert power[outside].sum() < 1e-12 * power.sum()
+    assert heights.std() == pytest.approx(1.0)
+    sloped = draw.sloped(heights, 0.7)
+    slope = np.roll(sloped, -1, 0) - np.roll(sloped, 1, 0)
+    assert slope.std() / (2.0 * STEP) == pytest.approx(0.7)
+
+
+def lawful(family: str, seed: int, heights: list[float]) -> SolvedMap:
+    """Return a map whose area is that of its lines times exp(-0.1 - 0.2 t), t the lines' mean."""
+    area = 0.1 * np.exp(-0.1 - 0.2 * np.mean(heights))
+    friction = 0.2 * np.exp(-0.3 + 0.15 * np.mean(heights))
+    areas, frictions = [0.1] * len(heights), [0.2] * len(heights)
+    return SolvedMap(
+        family, seed, 4e-4, *load(seed, family), area, friction, heights, areas, frictions
+    )
+
+
+def test_a_law_without_scatter_comes_back() -> None:
+    maps = [
+        lawful(family, seed, [1.0 + 0.2 * seed + 0.3 * number] * 3)
+        for number, family in enumerate(FAMILIES)
+        for seed in range(2)
+    ]
+    fitted = FittedLaw.of(maps, "area")
+    assert fitted.law.constant == pytest.approx(-0.1)
+    assert fitted.law.slope == pytest.approx(-0.2)
+    assert fitted.law.scatter == pytest.approx(0.0, abs=1e-12)
+    assert FittedLaw.of(maps, "friction").law.slope == pytest.approx(0.15)
+    assert len(list(family_table(fitted))) == 2 + len(FAMILIES)
+
+
+def test_a_family_off_the_law_is_seen_where_it_is_held_out() -> None:
+    maps = [
+        lawful(family, seed, [1.0 + 0.5 * seed] * 2) for family in FAMILIES for seed in range(4)
+    ]
+    off = [replace(m, area=m.area * np.exp(0.3)) if m.family == "pits" else m for m in maps]
+    fitted = FittedLaw.of(off, "area")
+    held_out = {m.family: missed for m, missed in zip(off, fitted.held_out, strict=True)}
+    np.testing.assert_allclose(held_out["pits"], 0.3, atol=1e-9)
+    np.testing.assert_allclose(held_out["cells"], -0.3 / 7, atol=1e-9)
+
+
+def test_errors_of_pairs_are_of_the_lines_and_the_law() -> None:
+    uneven = replace(lawful("pits", 0, [2.0, 2.0, 2.0]), line_areas=[0.1, 0.2, 0.3])
+    np.testing.assert_allclose(uneven.pair_errors("area"), np.log([0.75, 1.0, 1.25]), atol=1e-12)
+    np.testing.assert_allclose(uneven.pair_heights, 2.0)
+    assert uneven.ratio("area") == pytest.approx(np.log(uneven.area / 0.2))
+
+
+def test_a_stopped_study_goes_on_where_it_was(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    solved: list[tuple[str, int]] = []
+
+    def solve_map(
+        rubber: object,
+        surface: HeightMap,
+        family: str,
+        seed: int,
+        pressure: float,
+        speed: float,
+        cut_offs: tuple[float, ...],
+    ) -> list[SolvedMap]:
+        assert (pressure, speed) == load(seed, family)
+        solved.append((family, seed))
+        heights = [1.0 + len(solved) / 8.0, 2.0]
+        return [replace(lawful(family, seed, heights), cut_off=cut_off) for cut_off in cut_offs]
+
+    monkeypatch.setattr(line_to_map, "solve_map", solve_map)
+    monkeypatch.setattr(line_to_map, "family_map", lambda *_: None)
+    path = tmp_path / "maps.jsonl"
+    first = line_to_map.solved_maps(path, 1)
+    assert solved == [(family, 0) for family in FAMILIES]
+    maps = line_to_map.solved_maps(path, 2)
+    assert len(solved) == len(set(solved)) == 2 * len(FAMILIES)
+    assert maps[: len(first)] == first
+    assert [m.cut_off for m in maps if m.family == "pits"] == [CUT_OFF, SHORTER, CUT_OFF]
+    laws = [FittedLaw.of(maps, quantity) for quantity in line_to_map.QUANTITIES]
+    assert any("cut-off" in line for line in summary(laws[0]))
+    draw(laws, tmp_path / "law.png")
+    assert (tmp_path / "law.png").stat().st_size > 10_000
