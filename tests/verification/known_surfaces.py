@@ -26,20 +26,18 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import scipy.fft
+import xarray as xr
 from numpy.typing import NDArray
-from scipy.special import stdtrit
 
 import gripscale as gs
-from gripscale.half_space import RoughContact
-from gripscale.half_space.line_to_map import (
-    CONTACT_FRACTION,
-    FREEDOM,
-    FRICTION,
-    RatioLaw,
-    upper_height,
-)
-from gripscale.half_space.response import HalfSpace
-from gripscale.surface import HeightMap, Profile
+from gripscale.analysis import Factor, LogNormalValue
+from gripscale.analysis.best_estimate import ESTIMATED, best_estimate
+from gripscale.analysis.samples import sample_numbers
+from gripscale.experiment.task import Task
+from gripscale.half_space import DirectContact, RoughContact
+from gripscale.half_space.line_to_map import upper_height
+from gripscale.model import Load
+from gripscale.surface import HeightMap, Measured, Profile, SineStack, Surface
 from tests.samples import MEASURED_DMA, ROOT
 
 Array = NDArray[np.float64]
@@ -61,8 +59,6 @@ LOAD: dict[str, Any] = {
 """Keyword arguments of every solution [Pa, m/s, m]."""
 TOLERANCE = 0.05
 """Relative error of the grid of a line."""
-PIECE = 2.0 * LARGEST
-"""Length of the pieces of a line that count as independent [m]."""
 QUANTITIES = ("area", "friction")
 TRUTHS = ROOT / "results" / "known_surfaces" / "truths.json"
 
@@ -216,56 +212,29 @@ class Estimate(NamedTuple):
     """Of the interval with 90 % confidence, in ln(value)."""
 
 
+SMALL_STRAIN = Factor("finite_strain", "none", LogNormalValue(1.0, 0.0), LogNormalValue(1.0, 0.0))
+"""Truths and lines are solved at small strain both."""
+
+
 def estimate(profiles: Sequence[Profile]) -> dict[str, Estimate]:
-    """Return area and friction of the surface that lines lie on."""
-    contacts = [contact(profile, TOLERANCE) for profile in profiles]
-    height = upper_height(profiles, LARGEST)
-    lines = (
-        np.mean([c.contact_fraction for c in contacts]),
-        np.mean([c.friction_from_dissipation for c in contacts]),
-    )
-    load, area, loss = (np.concatenate(parts) for parts in zip(*map(pieces, contacts), strict=True))
-    out = {}
-    for name, law, line, parts in zip(
-        QUANTITIES, (CONTACT_FRACTION, FRICTION), lines, (area, loss), strict=True
-    ):
-        half_width = np.hypot(law_half_width(law), sampling_half_width(parts, load))
-        out[name] = Estimate(float(line * law.at(height)), float(half_width))
-    return out
-
-
-def law_half_width(law: RatioLaw) -> float:
-    """Return the half-width of 90 % of a law's ratio, in its logarithm."""
-    return float(stdtrit(FREEDOM, 0.95) * law.scatter)
-
-
-def sampling_half_width(parts: Array, load: Array) -> float:
-    """Return the half-width of 90 % of the mean over pieces of a surface, relative to it.
-
-    A contact is held to the mean load, so that only what a piece has beyond its share of the load
-    is error: the ratio estimator of W. G. Cochran, Sampling Techniques (1977), ch. 6.
-    """
-    beyond = parts - parts.mean() / load.mean() * load
-    error = beyond.std(ddof=1) / np.sqrt(beyond.size) / abs(parts.mean())
-    return float(stdtrit(beyond.size - 1, 0.95) * error)
-
-
-def pieces(solved: RoughContact) -> tuple[Array, Array, Array]:
-    """Return load, area and friction of the pieces of a line, each over that of a mean piece [-].
-
-    Friction is pressure times the slope of the rubber that its losses make.
-    """
-    grid = solved.grid
-    compliance = HalfSpace(solved.rubber, solved.speed).compliance(grid)
-    waves = scipy.fft.rfftn(solved.pressure) * (-grid.along * compliance.imag)
-    slope = scipy.fft.irfftn(waves, s=grid.shape)
-    number = round(grid.lengths[0] / PIECE)
-
-    def means(values: Array) -> Array:
-        return np.array([part.mean() for part in np.array_split(values, number)])
-
-    load = solved.pressure / solved.nominal_pressure
-    return means(load), means(solved.active.astype(np.float64)), means(load * slope)
+    """Return area and friction of the surface that lines lie on, as `gripscale compare` does."""
+    waves = SineStack([LARGEST], [1e-3])
+    load = Load(LOAD["pressure"], LOAD["speed"], 0.1)
+    model = DirectContact(tolerance=TOLERANCE, periodic=True)
+    samples = []
+    for number, profile in enumerate(profiles):
+        measured = Surface(waves, "", measured=Measured.of([profile]), end=SMALLEST)
+        answer = model.predict(tread(), measured, load)
+        numbers = sample_numbers(answer, Task(tread(), measured, load, model))
+        samples.append(numbers.drop_dims("curve").assign_coords(subject=str(number)))
+    lines = xr.concat(samples, "sample").expand_dims(rung=[DirectContact.name])
+    best = best_estimate(lines, [SMALL_STRAIN], upper_height=upper_height(profiles, LARGEST))
+    return {
+        quantity: Estimate(
+            float(best[f"best_{name}"]), float(np.arcsinh(best[f"best_{name}_half_width"]))
+        )
+        for quantity, name in zip(QUANTITIES, ESTIMATED, strict=True)
+    }
 
 
 @dataclass(frozen=True)
