@@ -40,14 +40,14 @@ def test_page_has_table_estimate_and_figures(
     assert float(rows[1][5]) == pytest.approx(friction, rel=0.005)
     assert all(cell for row in rows for cell in row)
     assert "finite strain (1.02 and 0.980)" in page.text
-    assert "Not included, neither factor nor uncertainty: isotropic map" in page.text
+    assert "isotropic surface over its lines (" in page.text
     assert "gripscale compare case.toml" in page.text
 
 
 def test_failed_sample_is_loud(compared_folder: Path) -> None:
     page = Page(write_report(compared_folder))
-    alerts = [a for _, a in page.tags if a.get("role") == "alert"]
-    assert len(alerts) == 1
+    warnings = [a for _, a in page.tags if a.get("class") == "notice warning"]
+    assert warnings, "the estimate stands without it"
     assert "speed 3 m/s, profile as measured, at once: 1 of 2 samples failed" in page.text
 
 

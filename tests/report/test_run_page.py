@@ -165,13 +165,19 @@ def test_run_that_was_stopped_has_no_totals(changed_run: Callable[..., Path]) ->
     assert [card.label for card in cards(run) if card.bad] == ["No totals"]
 
 
-def test_the_judge_stands_among_the_totals(changed_run: Callable[..., Path]) -> None:
+def test_the_answer_stands_before_the_totals(changed_run: Callable[..., Path]) -> None:
     run = read_result(changed_run(lambda data: data))
     assert isinstance(run, Run)
-    whole = run.predictions[0].data.drop_dims("scale").assign(total_friction=0.25)
-    assert "Direct contact, μ" not in [card.label for card in cards(run)]
-    judge = cards(replace(run, direct=whole))[-1]
-    assert (judge.label, judge.value) == ("Direct contact, μ", "0.250")
+    assert "best estimate" not in [card.detail for card in cards(run)]
+    numbers = {"best_friction": 0.25, "best_contact_fraction": 0.04}
+    widths = {f"{name}_half_width": 0.2 for name in numbers}
+    whole = run.predictions[0].data.drop_dims("scale").assign(numbers | widths)
+    first, second, chain, *_ = cards(replace(run, direct=whole))
+    assert (first.label, first.value) == ("Friction coefficient μ", "0.250")
+    # 0.25 exp(-+asinh(0.2))
+    assert first.detail == "best estimate; 0.205 to 0.305 (90 %)"
+    assert (second.label, second.value) == ("Real contact area A_r/A_0", "0.0400")
+    assert chain.label == "Chain of waves, μ"
     assert [chart.name for chart in contact_charts(run.by_wave, whole)][:2] == [
         "contact-area",
         "friction",

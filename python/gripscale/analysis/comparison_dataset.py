@@ -117,12 +117,11 @@ def comparison_dataset(comparison: Comparison) -> xr.Dataset:
         add(f"running_{name}", curves, f"{text} down to the wavelength", "rung", "wavelength")
         add(f"best_{name}", best[f"best_{name}"], f"best estimate of the {text}")
         add(f"best_{name}_uncertainty", best[f"best_{name}_uncertainty"], f"{about} best estimate")
-        half_width = best[f"best_{name}_half_width"]
-        add(
-            f"best_{name}_half_width",
-            half_width,
-            f"relative half width of the 90 % interval, {text}",
-        )
+        for part, long_name in (
+            ("sampling_error", f"{about} {text}, from the sampling of the road"),
+            ("half_width", f"relative half width of the 90 % interval of the {text}"),
+        ):
+            add(f"best_{name}_{part}", best[f"best_{name}_{part}"], long_name)
         text = f"factor on the {text}, NaN if not included"
         add(f"best_{name}_factor", best[f"best_{name}_factor"], text, "factor")
         uncertainty = best[f"best_{name}_factor_uncertainty"]

@@ -106,8 +106,6 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
     header = f"gripscale {version_of('gripscale')}, case {file.path}"
     terminal.print_wrapped(console, header)
     direct = reference(results)
-    if direct is not None:
-        emit(DirectContactSolved.of(direct))
     opening = [header, "", *answer_lines(direct), "", *_inputs(results)]
     for line in opening[1:]:
         terminal.print_wrapped(console, line)
@@ -122,7 +120,9 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
 
         with console.status("solving") if console.is_terminal else nullcontext():
             run_case(results, output=target, on_event=on_event, fresh=fresh)
-            if save_reference(results, target) is not None:
+            if direct is not None:
+                save_reference(results, target)
+                emit(DirectContactSolved.of(direct))
                 emit(FileWritten(str(target / DIRECT)))
             effects = case_effects(results, results.chain, target, target / "effects")
             if effects is not None:
