@@ -93,7 +93,7 @@ def _interval(data: xr.Dataset, name: str) -> str:
 def _level(data: xr.Dataset) -> str:
     if math.isfinite(float(data.best_contact_fraction_half_width)):
         return f" ({100.0 * LEVEL:.0f} % intervals)"
-    return "; no interval: the profiles are too short to tell how well they represent the road"
+    return "; no interval: the surface is too short to tell how well it represents the road"
 
 
 def _load(data: xr.Dataset) -> str:
