@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -87,6 +88,10 @@ def test_command_puts_the_models_side_by_side(comparison: tuple[str, Path]) -> N
     words = " ".join(printed.split())
     assert "finite strain, assumed" in words
     assert words.index("Answer: μ = ") < words.index("Best estimate (90 %): A_r/A_0 = ")
+    last = printed.splitlines()[-3]
+    assert re.fullmatch(
+        r"Best estimate \(90 %\): A_r/A_0 = [\d.]+( ± [\d.]+ %)?, mu = [\d.]+( ± [\d.]+ %)?", last
+    )
 
 
 def test_factors_lead_from_the_chain_to_the_profile_as_measured(

@@ -10,7 +10,7 @@ pytestmark = pytest.mark.verification
 def test_nine_of_ten_intervals_hold_the_truth():
     """Forty maps of five families, on none of which the law was fitted.
 
-    40 intervals of the area hold the truth and 38 of the friction; no miss is beyond 1.1
+    40 intervals of the area hold the truth and 38 of the friction; no miss is beyond 1.2
     half-widths. Were they of exactly 90 %, fewer than 33 would hold it in 4 of 100 such tests.
     Without the law the area is half too large. A minute of one core with the truths kept, four
     without.

@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -73,13 +73,15 @@ FINITE_STRAIN = FactorOf(
 )
 
 
-class IsotropicSurface(NamedTuple):
+@dataclass(frozen=True)
+class IsotropicSurface:
     """The factor from measured lines to the isotropic surface they lie on."""
+
+    name: ClassVar[str] = "isotropic_surface"
+    label: ClassVar[str] = "isotropic surface over its lines"
 
     upper_height: float
     """Of the lines, see `gripscale.half_space.line_to_map`."""
-    name: str = "isotropic_surface"
-    label: str = "isotropic surface over its lines"
 
 
 SHARES = ("steep_share", "missing_share")

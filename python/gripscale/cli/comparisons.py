@@ -79,7 +79,7 @@ def compare(
     from gripscale.half_space.model import DirectContact
     from gripscale.io import netcdf
     from gripscale.report.answer import answer_lines, has_answer
-    from gripscale.report.comparison import comparison_parts, failures
+    from gripscale.report.comparison import best_line, comparison_parts, failures
     from gripscale.report.measured import residual_table
     from gripscale.report.side_by_side import effects_table
     from gripscale.report.uncertainty import uncertainty_lines
@@ -133,6 +133,8 @@ def compare(
         parts.append(residual_table(residuals))
     sampled = stored_uncertainty(file.resolve(file.case.output.folder))
     parts += uncertainty_lines(sampled, file.text, input_digests(file))
+    if axes is None and has_answer(data):
+        parts += ["", best_line(data)]
 
     def draw_figures() -> None:
         draw_comparison(data, target)

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 import xarray as xr
 
+from gripscale.analysis.best_estimate import IsotropicSurface
 from gripscale.analysis.intervals import LEVEL
 from gripscale.charts.view import HEADINGS, SYMBOLS
 from gripscale.core.units import display_unit_of
@@ -134,5 +135,7 @@ def _rests_on(data: xr.Dataset, name: str) -> Iterator[str]:
         value = float(data[f"best_{share}"])
         if value > WORTH_NAMING:
             yield f"{percent(value)} {words}"
+    if IsotropicSurface.label in data.factor_label.values:
+        yield "a road without direction is assumed: ridges 3:1 change the area by up to 1.7"
     if ADHESIVE_FRICTION in data and not data[ADHESIVE_FRICTION].ndim:
         yield f"an area term of {significant(float(data[ADHESIVE_FRICTION]))} comes on top"

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 import numpy as np
 import xarray as xr
 
+from gripscale.analysis.intervals import LEVEL
 from gripscale.analysis.ladder import DIRECT
 from gripscale.charts.ladder import flawed, varied
 from gripscale.charts.view import CONVERGED, HEADINGS, SYMBOLS, PredictionView
@@ -119,7 +120,7 @@ def axis_table(comparison: xr.Dataset, axis: str, name: str) -> Table:
         heading = str(rung).replace("_", " ")
         columns.append(Column(str(rung), values, heading, marks=marks, bad=failed[:, at]))
     if np.isfinite(data[f"best_{name}_factor"]).any():
-        texts = [_with_uncertainty(data.isel({axis: i}), name) for i in range(data.sizes[axis])]
+        texts = [_with_half_width(data.isel({axis: i}), name) for i in range(data.sizes[axis])]
         columns.append(Column("best", texts, "best estimate", words=False))
     caption = f"{HEADINGS[name].capitalize()} {SYMBOLS[name]} over {axis.replace('_', ' ')}"
     return Table(f"over-{axis}-{name}", columns, caption)
@@ -184,11 +185,17 @@ def beyond_band(comparison: xr.Dataset) -> Iterator[str]:
         yield f"* {label}: {text}"
 
 
-def best_sentence(comparison: xr.Dataset) -> str:
-    """Return the best estimate in words: what it is, what is in it and what is not."""
-    numbers = ", ".join(
-        f"{symbol} = {_with_uncertainty(comparison, name)}" for name, symbol in SYMBOLS.items()
+def best_line(comparison: xr.Dataset) -> str:
+    """Return the best estimate in one line, the same in every version: scripts read it."""
+    numbers = (
+        f"{symbol} = {_with_half_width(comparison, name)}"
+        for symbol, name in (("A_r/A_0", "contact_fraction"), ("mu", "friction"))
     )
+    return f"Best estimate ({100.0 * LEVEL:.0f} %): {', '.join(numbers)}"
+
+
+def best_sentence(comparison: xr.Dataset) -> str:
+    """Return what is in the best estimate and what is not."""
     judge = comparison.sel(rung=DIRECT)
     parts, missing = [str(judge.label.item())], []
     for at, label in enumerate(comparison.factor_label.values):
@@ -197,7 +204,7 @@ def best_sentence(comparison: xr.Dataset) -> str:
             parts.append(f"{label} ({' and '.join(map(significant, factors))})")
         else:
             missing.append(str(label))
-    text = f"Best estimate (90 %): {numbers}, from {' × '.join(parts)}."
+    text = f"The best estimate is {' × '.join(parts)}."
     if ADHESIVE_FRICTION in comparison:  # the area term goes with the contact area
         share = comparison.best_contact_fraction / judge.total_contact_fraction
         total = float(comparison.best_friction + judge[ADHESIVE_FRICTION] * share)
@@ -247,7 +254,7 @@ def failures(comparison: xr.Dataset) -> Iterator[tuple[str, Failure]]:
                 yield f"{where}{label}", Failure(str(text), str(word))
 
 
-def _with_uncertainty(comparison: xr.Dataset, name: str) -> str:
+def _with_half_width(comparison: xr.Dataset, name: str) -> str:
     value, width = (float(comparison[f"best_{name}{end}"]) for end in ("", "_half_width"))
     spread = f" ± {100.0 * width:.2g} %" if math.isfinite(width) else ""
     return f"{significant(value)}{spread}"

@@ -1,0 +1,53 @@
+"""The numbers of the shipped road that README and documentation quote.
+
+    python -m studies.shipped_numbers
+
+solves the comparison of the shipped case (a minute of one core) and writes them to
+docs/shipped_numbers.json; tests hold the texts to that file and the file to the commands.
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+from gripscale.analysis import compare_case
+from gripscale.analysis.comparison import reference
+from gripscale.case import prepare_case
+from gripscale.report.answer import number_and_interval
+from gripscale.report.comparison import best_line
+
+ROOT = Path(__file__).resolve().parents[1]
+CASE = ROOT / "examples" / "road_and_tread" / "case.toml"
+NUMBERS = ROOT / "docs" / "shipped_numbers.json"
+
+
+def of_run() -> dict[str, Any]:
+    """Return what `gripscale run` answers."""
+    data = reference(prepare_case(CASE))
+    assert data is not None
+    return {
+        "run: friction": number_and_interval(data, "friction"),
+        "run: contact area": number_and_interval(data, "contact_fraction"),
+    }
+
+
+def of_comparison() -> dict[str, Any]:
+    """Return what `gripscale compare` estimates, and what the chain has of it."""
+    data: xr.Dataset = compare_case(CASE).to_dataset()
+    return {"compare": best_line(data)}
+
+
+def main() -> None:
+    """Write the file."""
+    NUMBERS.write_text(
+        json.dumps(of_run() | of_comparison(), indent=2, ensure_ascii=False) + "\n",
+        encoding="utf-8",
+    )
+
+
+if __name__ == "__main__":
+    main()
