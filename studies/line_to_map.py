@@ -32,7 +32,13 @@ from numpy.typing import NDArray
 from scipy.special import stdtrit
 
 import gripscale as gs
-from gripscale.half_space.line_to_map import FREEDOM, RatioLaw, upper_height
+from gripscale.half_space.line_to_map import (
+    FREEDOM,
+    RatioLaw,
+    contact_fraction_ratio,
+    friction_ratio,
+    upper_height,
+)
 from gripscale.surface import HeightMap
 from gripscale.wave import Status
 from studies.shipped import tread
@@ -45,6 +51,7 @@ CUT_OFF, SHORTER = 0.8e-3, 0.4e-3
 PRESSURE, SPEED = 3e5, 0.3
 """Of even seeds [Pa, m/s]; odd ones draw both from the ranges that follow."""
 PRESSURES, SPEEDS = (1e5, 1e6), (1e-3, 20.0)
+HIGH_PRESSURES = (3e6, 1e7, 3e7)
 LINES = 16
 TOLERANCE = 0.05
 """Estimated relative error of the grid of a map or a line."""
@@ -385,6 +392,30 @@ def other_loads() -> Iterator[str]:
         yield f"{pressure:g} Pa, {speed:g} m/s: {', '.join(cells)} ({number} maps)"
 
 
+def near_full_contact() -> Iterator[str]:
+    """Yield what the forms towards full contact miss, on the first map of each family."""
+    rubber, forms = tread(), (contact_fraction_ratio, friction_ratio)
+    yield "\nln(map/lines) less that of the forms towards full contact, mean and scatter"
+    for pressure in HIGH_PRESSURES:
+        areas, missed = [], []
+        for family in FAMILIES:
+            for solved in solve_map(rubber, family_map(family, 0), family, 0, pressure, SPEED):
+                area = float(np.mean(solved.line_areas))
+                areas.append(area)
+                missed.append(
+                    [
+                        solved.ratio(quantity) - np.log(form(solved.upper_height, area).ratio)
+                        for quantity, form in zip(QUANTITIES, forms, strict=True)
+                    ]
+                )
+        cells = [
+            f"{name} {np.mean(column):+.3f} ± {np.std(column, ddof=1):.3f}"
+            for name, column in zip(QUANTITIES, np.transpose(missed), strict=True)
+        ]
+        ends = f"{min(areas):.2f} to {max(areas):.2f}"
+        yield f"{pressure:g} Pa, lines touch {ends}: {', '.join(cells)} ({len(areas)} maps)"
+
+
 def main() -> None:
     """Solve what is not solved yet, print the tables, draw the figure."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -400,7 +431,7 @@ def main() -> None:
         print(*summary(fitted), sep="\n", flush=True)
     draw(laws, options.figure)
     if options.loads:
-        for line in other_loads():
+        for line in (*other_loads(), *near_full_contact()):
             print(line, flush=True)
 
 
