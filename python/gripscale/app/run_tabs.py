@@ -39,6 +39,7 @@ from gripscale.core.errors import GripscaleError
 from gripscale.io.table import Column, Table
 from gripscale.model import with_adhesive
 from gripscale.report import source, write_report
+from gripscale.report.answer import basis_lines
 from gripscale.report.elements import Element, Notice, Text
 from gripscale.report.measured import measured_lines
 from gripscale.report.notices import cards, exponent_sentence, notices
@@ -141,6 +142,8 @@ def results_elements(folder: Path) -> Iterator[Element | Cards]:
     if not isinstance(run, source.Run):
         return
     yield Cards(cards(run))
+    if run.direct is not None:
+        yield from map(Text, basis_lines(run.direct))
     yield from notices(run)
     yield from judgement_elements(run)
     for prediction in run.predictions:

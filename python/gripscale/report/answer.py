@@ -42,7 +42,14 @@ def answer_lines(data: xr.Dataset | None) -> Iterator[str]:
     numbers = ", ".join(
         f"{SYMBOLS[name]} = {number_and_interval(data, name)}" for name in _of(data)
     )
-    yield f"Answer: {numbers}{_level(data)}"
+    text = f"{', '.join(numbers)}{_level(data)}"
+    if _too_wide(data):
+        yield (
+            f"Answer: none to rely on. {text}: more than a factor of two either way, because the "
+            "measured surface is too short to stand for its road"
+        )
+    else:
+        yield f"Answer: {text}"
     yield from (f"  {line}" for line in basis_lines(data))
 
 
@@ -89,6 +96,12 @@ def _interval(data: xr.Dataset, name: str) -> str:
         return ""
     low, high = (value * math.exp(sign * math.asinh(width)) for sign in (-1.0, 1.0))
     return f"{significant(low)} to {significant(high)}"
+
+
+def _too_wide(data: xr.Dataset) -> bool:
+    """Return whether an interval is so wide that its middle says nothing."""
+    widths = [float(data[f"best_{name}_half_width"]) for name in _of(data)]
+    return any(math.asinh(width) > math.log(2.0) for width in widths if math.isfinite(width))
 
 
 def _level(data: xr.Dataset) -> str:
