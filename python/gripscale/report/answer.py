@@ -42,7 +42,7 @@ def answer_lines(data: xr.Dataset | None) -> Iterator[str]:
     numbers = ", ".join(
         f"{SYMBOLS[name]} = {number_and_interval(data, name)}" for name in _of(data)
     )
-    text = f"{', '.join(numbers)}{_level(data)}"
+    text = f"{numbers}{_level(data)}"
     if _too_wide(data):
         yield (
             f"Answer: none to rely on. {text}: more than a factor of two either way, because the "
