@@ -272,6 +272,12 @@ class RoughContact:
             )
         if self.missing_share > 0.05:
             out.append(f"{self.missing_share:.0%} of the contact lies on interpolated heights.")
+        if self.status == Status.FRICTIONS_DISAGREE:
+            out.append(
+                f"Friction is {self.friction:.3g} from traction and "
+                f"{self.friction_from_dissipation:.3g} from dissipation: the grid is too coarse "
+                "for the first. Set a tolerance, which refines the grid."
+            )
         return out
 
     def pressure_quantiles(self, shares: ArrayLike) -> Array:
