@@ -37,7 +37,8 @@ def measure(folder: str | Path) -> list[str]:
     What was predicted is kept in `folder`.
     """
     speed, celsius = (
-        grid.ravel() for grid in np.meshgrid(np.geomspace(1e-4, 1.0, 8), [5.0, 20.0, 40.0])
+        grid.ravel()
+        for grid in np.meshgrid(np.geomspace(1e-4, 1.0, 8), [5.0, 20.0, 40.0], indexing="ij")
     )
     points = MeasuredFriction(speed, np.zeros(speed.size), temperature=celsius + 273.15)
     case = prepare_case(CASE)

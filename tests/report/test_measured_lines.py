@@ -9,9 +9,9 @@ from gripscale.report.measured import measured_lines
 
 def test_measured_friction_at_a_speed_is_interpolated_in_its_logarithm() -> None:
     found = MeasuredFriction(
-        [0.01, 1.0, 0.01, 1.0],
-        [0.8, 1.2, 0.6, 1.0],
-        spread=[0.04, 0.08, 0.02, 0.02],
+        [1.0, 0.01, 1.0, 0.01],
+        [1.2, 0.8, 1.0, 0.6],
+        spread=[0.08, 0.04, 0.02, 0.02],
         temperature=[293.15, 293.15, 313.15, 313.15],
     )
     cold, warm = measured_lines(found, 0.1, display_unit("speed"))

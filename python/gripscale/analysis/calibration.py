@@ -233,7 +233,8 @@ def calibrate(
     measured : MeasuredFriction
         What was measured.
     predicted : Predicted
-        The hysteresis and the real contact area at its points, see `predictions_at`.
+        The hysteresis and the real contact area at its points, in their order, see
+        `predictions_at`.
     law : str
         "constant", "gaussian" or "le_gal_klueppel", see `gripscale.conditions`.
     fixed : mapping of str to float, optional

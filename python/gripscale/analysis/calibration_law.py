@@ -63,15 +63,11 @@ def points_of(measured: MeasuredFriction, predicted: Predicted) -> Points:
     Raises
     ------
     InputError
-        If no point has an answer, a prediction has another number of points, spreads or
-        temperatures are known of some points only, a spread is zero, or the hysteresis alone
-        exceeds what was measured at more than half of the points.
+        If no point has an answer, a prediction has another number of points or other pressures,
+        spreads or temperatures are known of some points only, a spread is zero, or the hysteresis
+        alone exceeds what was measured at more than half of the points.
     """
-    if predicted.friction.size != measured.speed.size:
-        raise InputError(
-            f"the {measured.speed.size} points measured need as many predictions; "
-            f"got {predicted.friction.size}"
-        )
+    predicted.require_points_of(measured)
     answered = predicted.has_answer
     if not answered.any():
         raise InputError(

@@ -101,6 +101,23 @@ class Predicted(Checked, eq=False):
             counts = ", ".join(f"{count} of {name}" for name, count in sizes.items())
             raise InputError(f"a prediction needs as many values of each; got {counts}")
 
+    def require_points_of(self, measured: MeasuredFriction, name: str = "predicted") -> None:
+        """Raise `InputError` unless it has the number and the pressures of the points measured."""
+        if self.friction.size != measured.speed.size:
+            raise InputError(
+                f"{name} must be predicted at the {measured.speed.size} points measured; "
+                f"got {self.friction.size}"
+            )
+        # a measurement without pressures is predicted at that of the load
+        apart = ~np.isclose(self.pressure, measured.pressure, rtol=1e-6, atol=0.0)
+        apart &= np.isfinite(measured.pressure)
+        if apart.any():
+            at = int(np.argmax(apart))
+            raise InputError(
+                f"{name} must be predicted at the points measured, in their order; at index {at} "
+                f"{measured.pressure[at]:g} Pa was measured and {self.pressure[at]:g} Pa predicted"
+            )
+
     @property
     def has_answer(self) -> Mask:
         """Where the model has an answer."""
@@ -262,7 +279,7 @@ def residuals(
     measured : MeasuredFriction
         What was measured.
     predicted : mapping of str to Predicted
-        What each model says at its points, by the model's name.
+        What each model says at its points, in their order, by the model's name.
     shear_stress : InterfacialShearStress, optional
         Law of an area term that the total friction has beside the hysteresis.
 
@@ -277,8 +294,8 @@ def residuals(
     Raises
     ------
     InputError
-        If a prediction has another number of points, there is none, or the law needs a temperature
-        that is not known.
+        If a prediction has another number of points or other pressures than the measurement, there
+        is none, or the law needs a temperature that is not known.
     """
     import xarray as xr
 
@@ -293,11 +310,7 @@ def residuals(
         )
     for name, prediction in predicted.items():
         checks.instance("each of predicted", prediction, Predicted)
-        if prediction.friction.size != measured.speed.size:
-            raise InputError(
-                f"{name} must be predicted at the {measured.speed.size} points measured; "
-                f"got {prediction.friction.size}"
-            )
+        prediction.require_points_of(measured, name)
     grid = ("model", "measurement")
     predictions = predicted.values()
     hysteresis = np.array([prediction.friction for prediction in predictions])

@@ -10,7 +10,8 @@ loss. So the temperature rise on wave i is
 
 each from `gripscale.conditions.flash_temperature`: for l < i averaged over the contact, weighted by
 its pressure; for l = i averaged over the loss of wave i. The road takes up no heat, so that this is
-an upper bound. The strain of a wave, for the softening, is half the rms slope in its contact.
+an upper bound of what the heat of the hysteresis does; that of an area term is left out. The strain
+of a wave, for the softening, is half the rms slope in its contact.
 """
 
 from __future__ import annotations

@@ -278,11 +278,10 @@ def at_measured_figure(data: xr.Dataset, labels: dict[str, str]) -> Figure:
     names = [str(name) for name in data.model.values]
 
     def models(series: MeasuredSeries, speed_unit: DisplayUnit) -> Iterator[Mark]:
-        order = np.argsort(series.speed)
         for name, look in zip(names, ladder.looks(names), strict=True):
-            values = data.friction.sel(model=name).values[series.rows][order]
+            values = data.friction.sel(model=name).values[series.rows]
             if np.isfinite(values).any():
-                yield Series(speed_unit.of(series.speed[order]), values, look.colour,
+                yield Series(speed_unit.of(series.speed), values, look.colour,
                              labels.get(name, name), look.dash, 1.2, look.marker, 3.5)  # fmt: skip
 
     return draw.on_paper(measured_sheet(data, models, head=1.2))

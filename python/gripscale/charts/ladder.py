@@ -100,8 +100,8 @@ class MeasuredSeries(NamedTuple):
     speed: Array
     friction: Array
     spread: Array
-    rows: NDArray[np.bool_]
-    """Which points of the measurement these are."""
+    rows: NDArray[np.intp]
+    """Their places among the points of the measurement, which are in any order."""
 
     def at(self, speed: float) -> tuple[float, float] | None:
         """Return friction and spread at `speed`, interpolated in its logarithm; None outside."""
@@ -123,13 +123,15 @@ def measured(data: xr.Dataset) -> Iterator[MeasuredSeries]:
     unknown = np.full(kelvin.size, np.nan)
     pascal = data.measured_pressure.values if "measured_pressure" in data else unknown
     several = np.unique(pascal).size > 1
+    by_speed = np.argsort(data.measured_speed.values, kind="stable")
     pressure_unit = display_unit_of(data.attrs, "pressure")
     for temperature in np.unique(kelvin):
         for pressure in np.unique(pascal):
-            rows = np.isclose(kelvin, temperature, equal_nan=True)
-            rows &= np.isclose(pascal, pressure, rtol=0.0, atol=0.0, equal_nan=True)
-            if not rows.any():
+            here = np.isclose(kelvin, temperature, equal_nan=True)
+            here &= np.isclose(pascal, pressure, rtol=0.0, atol=0.0, equal_nan=True)
+            if not here.any():
                 continue
+            rows = by_speed[here[by_speed]]
             words = ["measured"]
             if not math.isnan(temperature):
                 words.append(f"{temperature - ZERO_CELSIUS:.0f} °C")

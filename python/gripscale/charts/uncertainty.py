@@ -211,7 +211,7 @@ def fitted_figure(data: xr.Dataset) -> Figure:
     """
 
     def fit(series: MeasuredSeries, speed_unit: DisplayUnit) -> list[Mark]:
-        rows = series.rows & np.isfinite(data.friction.values)
+        rows = series.rows[np.isfinite(data.friction.values[series.rows])]
         speed = speed_unit.of(data.measured_speed.values[rows])
         total, band, hysteresis = (
             data[name].values[rows] for name in ("friction", "friction_band", "hysteresis")

@@ -71,7 +71,9 @@ def _column(name: str, array: ArrayLike) -> Array:
 
 
 class MeasuredFriction(Checked, eq=False):
-    """Measured friction coefficients over sliding speed.
+    """Measured friction coefficients over sliding speed, in the order they were given in.
+
+    What is computed for the points, such as `gripscale.analysis.Predicted`, has the same order.
 
     Parameters
     ----------
@@ -112,12 +114,11 @@ class MeasuredFriction(Checked, eq=False):
         if len(set(sizes.values())) > 1 or not sizes["speed"]:
             counts = ", ".join(f"{count} of {name}" for name, count in sizes.items())
             raise InputError(f"columns must have equal lengths, at least 1; got {counts}")
-        order = np.argsort(self.speed, kind="stable")
-        self._set(**{name: values[order] for name, values in columns.items()})
+        self._set(**columns)
 
 
 def read_measured_friction(path: str | Path, *, sheet: str | int | None = None) -> MeasuredFriction:
-    """Read measured friction from a text, CSV or Excel file.
+    """Read measured friction from a text, CSV or Excel file, in the order of its rows.
 
     Parameters
     ----------

@@ -11,7 +11,7 @@ The harmonics of an octave lose mu_b p_0 v per nominal area, and the pattern of
 `gripscale.conditions.flash_temperature` distributes this heat along the surface. Summed over
 octaves it is exactly the friction work. It is lost at a mean depth of 3/2 over the wavenumber,
 averaged over the octave by the loss, and moves over the rubber while the footprint passes. The road
-takes up none.
+takes up none. The heat of an area term, lost in the interface, is left out.
 """
 
 from __future__ import annotations

@@ -31,6 +31,7 @@ from scipy import ndimage, sparse
 from scipy.sparse import csgraph
 
 import gripscale
+from gripscale.conditions.area_term import heat_left_out
 from gripscale.conditions.conditions import Conditions, RubberByScale, StateByScale
 from gripscale.core import provenance
 from gripscale.core.arrays import Array, Mask
@@ -272,6 +273,14 @@ class RoughContact:
             )
         if self.missing_share > 0.05:
             out.append(f"{self.missing_share:.0%} of the contact lies on interpolated heights.")
+        if self.surface_warming is not None:
+            out += heat_left_out(self.adhesive_friction, self.friction)
+        if self.status == Status.FRICTIONS_DISAGREE:
+            out.append(
+                f"Friction is {self.friction:.3g} from traction and "
+                f"{self.friction_from_dissipation:.3g} from dissipation: the grid is too coarse "
+                "for the first. Set a tolerance, which refines the grid."
+            )
         return out
 
     def pressure_quantiles(self, shares: ArrayLike) -> Array:

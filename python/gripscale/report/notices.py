@@ -12,6 +12,7 @@ import xarray as xr
 
 from gripscale import model
 from gripscale.charts.view import CONVERGED, PredictionView
+from gripscale.conditions.area_term import heat_left_out
 from gripscale.core.provenance import versions
 from gripscale.io.table import NONE
 from gripscale.report.answer import answer_cards
@@ -36,7 +37,7 @@ FLAGS = {
 
 
 def conditions_sentences(view: PredictionView) -> Iterator[str]:
-    """Yield a warning for each flag of the rubber of a prediction's waves."""
+    """Yield a warning for each flag of the rubber of the waves, and for heat left out."""
     for name, words in FLAGS.items():
         if view.has(name):
             yield from _of_waves(np.nan_to_num(view.usable(name)) > 0.0, words)
@@ -45,6 +46,8 @@ def conditions_sentences(view: PredictionView) -> Iterator[str]:
         worst = f"{misfit.max(initial=0.0):.0%}"
         words = f"the series misses the softened moduli by up to {worst}"
         yield from _of_waves(misfit > LARGE_MISFIT, words)
+    if view.has("contact_temperature") and model.ADHESIVE_FRICTION in view.data:
+        yield from heat_left_out(float(view.data[model.ADHESIVE_FRICTION]), view.total("friction"))
 
 
 def _of_waves(flagged: np.ndarray, words: str) -> Iterator[str]:

@@ -164,6 +164,10 @@ class Status(StrEnum):
 
 
 _TEXTS = {word: (sentence, advice) for word, sentence, advice in _kernel.statuses()} | {
+    Status.FRICTIONS_DISAGREE: (
+        "Solved, but friction from traction and from dissipation differ too much on the last mesh.",
+        "Take more columns; for a direct contact set a tolerance, which refines its grid.",
+    ),
     Status.ACTIVE_SET_NOT_SETTLED: (
         "The points in contact of the half-plane did not stop changing.",
         "Take another number of points.",

@@ -23,7 +23,7 @@ from gripscale.experiment import MeasuredFriction
 from gripscale.io import netcdf
 from tests.samples import DOCS
 
-from .synthetic import REFERENCE, TRUE, measurement
+from .synthetic import REFERENCE, TRUE, hysteresis, measurement
 
 PLATEAUS = LeGalKlueppelStress(2e6, 3.0, 0.01, 0.8)
 FLANK = np.geomspace(1e-6, 1e-4, 6)
@@ -50,6 +50,29 @@ def test_the_law_does_not_depend_on_where_it_is_referred_to() -> None:
     )
     assert here.friction == pytest.approx(there.friction, abs=1e-5)
     assert here.estimates[3].low == pytest.approx(there.estimates[3].low, rel=2e-3)
+
+
+def test_points_are_paired_in_the_order_of_the_caller() -> None:
+    """The law is found from points with any order of speeds, and each keeps its place."""
+    for order in (np.arange(27)[::-1], np.random.default_rng(0).permutation(27)):
+        inside, _ = measurement(seed=None)
+        mixed = MeasuredFriction(
+            inside.speed[order], inside.friction[order], inside.spread[order],
+            inside.temperature[order],
+        )  # fmt: skip
+        there = hysteresis(inside.speed[order], inside.temperature[order])
+        fit = calibrate(mixed, there, fixed=REFERENCE)
+        assert vars(fit.law) == pytest.approx(vars(TRUE), rel=1e-5)
+        assert fit.friction == pytest.approx(inside.friction[order], abs=1e-7)
+        assert fit.measured.speed.tolist() == inside.speed[order].tolist()
+
+
+def test_predictions_at_other_pressures_are_refused() -> None:
+    """Points in another order than those measured show where pressures differ."""
+    measured = MeasuredFriction([1.0, 0.1, 10.0], [0.4] * 3, pressure=[1e5, 3e5, 2e5])
+    predicted = Predicted([0.2] * 3, [0.03] * 3, [3e5, 1e5, 2e5], [293.15] * 3)
+    with pytest.raises(InputError, match=r"index 0 100000 Pa was measured and 300000 Pa predicted"):
+        calibrate(measured, predicted, law="constant")
 
 
 def test_points_weigh_by_their_spread() -> None:

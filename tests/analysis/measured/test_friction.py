@@ -22,10 +22,10 @@ def test_columns_are_found_by_name_and_brought_to_si(tmp_path: Path) -> None:
         tmp_path, "temperature [°C];Speed [mm/s];std;µ\n20,5;1000;0,02;0,4\n5;10;nan;0,3\n"
     )
     found = read_measured_friction(path)
-    assert found.speed.tolist() == [0.01, 1.0]
-    assert found.friction.tolist() == [0.3, 0.4]
-    assert found.temperature == pytest.approx([278.15, 293.65])
-    np.testing.assert_array_equal(found.spread, [np.nan, 0.02])
+    assert found.speed.tolist() == [1.0, 0.01]
+    assert found.friction.tolist() == [0.4, 0.3]
+    assert found.temperature == pytest.approx([293.65, 278.15])
+    np.testing.assert_array_equal(found.spread, [0.02, np.nan])
     assert found.source == str(path)
 
 
