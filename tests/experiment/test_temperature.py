@@ -82,8 +82,7 @@ def test_temperatures_are_one_curve_over_reduced_speed(case: Path, model: Any) -
     assert result.reduced_speed.dims == ("speed", "temperature")
     np.testing.assert_allclose(result.reduced_speed[:, 1], result.speed * 10**2.5, rtol=1e-9)
     np.testing.assert_allclose(result.vertical_shift_factor, 1.0)
-    # the two stiffest points of the direct contact have 10 and 15 grid points in contact: no answer
-    assert float(result.total_friction.max() - result.total_friction.min()) > 0.05
+    assert float(np.ptp(result.total_friction.values)) > 0.05
     for name in ("friction_collapse", "contact_fraction_collapse"):
         assert float(result[name]) < 1e-5
         assert int(result[name].attrs["points"]) > 6

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from gripscale.half_space.model import DirectContact
+from gripscale.model import Load
+from gripscale.surface import Measured, Surface
 from gripscale.wave.problem import Status
 
 from .rough_cases import isotropic_map, random_case, solve
@@ -21,6 +24,17 @@ def test_friction_of_the_wrong_sign_is_not_converged(seed: int) -> None:
     assert found.status == Status.FRICTIONS_DISAGREE
     (note,) = [note for note in found.notes if "from dissipation" in note]
     assert f"Friction is {found.friction:.3g} from traction" in note
+
+
+def test_an_answer_keeps_the_numbers_and_the_status_of_the_contact() -> None:
+    case = random_case(175, points_of_map=32)
+    alone = case.solve(tolerance=None)
+    model = DirectContact(case.smallest_wavelength, tolerance=None, periodic=True)
+    surface = Surface(None, "", measured=Measured.of([case.surface]))
+    answer = model.predict(case.rubber, surface, Load(case.pressure, case.speed, footprint=0.1))
+    assert float(answer.total_friction) == alone.friction
+    assert answer.status.values.tolist() == ["frictions disagree"]
+    assert "from dissipation" in answer.attrs["notes"]
 
 
 def test_frictions_that_roughly_agree_converged() -> None:

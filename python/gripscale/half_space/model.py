@@ -18,6 +18,7 @@ from gripscale.core.errors import InputError
 from gripscale.half_space.sampling_error import PIECE, sampling_error
 from gripscale.half_space.solve import relative_tolerance, solve_rough_contact
 from gripscale.surface import Measured, Surface, SurfacePart
+from gripscale.wave.problem import Status
 from gripscale.wave.profile import solve_profile
 from gripscale.wave.result import waves_to_dataset
 
@@ -27,6 +28,14 @@ if TYPE_CHECKING:
     from gripscale.half_space.result import RoughContact
     from gripscale.model import Load, OnProgress
     from gripscale.rubber import Rubber
+
+
+USABLE = (Status.CONVERGED, Status.FRICTIONS_DISAGREE)
+"""Statuses of contacts that count in an answer.
+
+Without a tolerance every contact has a grid equally coarse: without those whose frictions disagree
+the others would be a selection. `status` over `profile` and the notes say which they are.
+"""
 
 
 def _measurement(surface: Surface, need: str) -> Measured:
@@ -140,12 +149,14 @@ class DirectContact(Checked, model.Model):
         answer = model.answer_by_length(
             xr.concat(parts, dim="profile", join="outer", combine_attrs="override"),
             contacts,
-            ["" if contact.converged else str(contact.status) for contact in contacts],
+            ["" if contact.status in USABLE else str(contact.status) for contact in contacts],
             lengths,
             self.name,
             load,
             [contact.cut_off_exponents for contact in contacts],
         )
+        notes = dict.fromkeys(note for contact in contacts for note in contact.notes)
+        answer = answer.assign_attrs(notes=" ".join(notes))
         if surface.waves is not None:
             piece = PIECE * float(surface.waves.wavelength[0])
             answer = _with_basis(answer, contacts, lengths, piece)
