@@ -38,7 +38,7 @@ EFFECTS = {
     ),
 }
 """Shift, softening and area term are made up: no data of this tread are known."""
-BOUNDS = ("SETTLED", "AGREED", "ROUGH")
+BOUNDS = ("RESULT_TOLERANCE", "STATE_TOLERANCE", "COARSE_TOLERANCE")
 REPEATS = 3
 TIGHT = 1e-6
 """Bounds of the passes that stand for the fixed point itself."""
