@@ -23,6 +23,7 @@ from gripscale.analysis.intervals import LogError, combined, half_width
 from gripscale.analysis.ladder import DIRECT
 from gripscale.analysis.samples import estimated_error, ratio, sampling_error, usable
 from gripscale.half_space import line_to_map
+from gripscale.surface import Surface
 
 
 class LogNormalValue(NamedTuple):
@@ -84,6 +85,14 @@ class IsotropicSurface:
     """Of the lines, see `gripscale.half_space.line_to_map`."""
 
 
+def upper_height_of(surface: Surface) -> float | None:
+    """Return the upper height of the measured lines of a surface; None without lines, of a map."""
+    measured = surface.measured
+    if measured is None or measured.map is not None:
+        return None
+    return line_to_map.upper_height(list(measured.cleaned), float(surface.sines.wavelength[0]))
+
+
 SHARES = ("steep_share", "missing_share")
 """What else it rests on: of the friction on steep flanks, of the contact on filled gaps."""
 
@@ -122,14 +131,14 @@ def best_estimate(
     solved = [_numbers(factor, samples, unknown) for factor in factors.values()]
     labels = [label for label, _ in solved]
     data = xr.Dataset({"factor_label": ("factor", np.array(labels, dtype=object))})
+    direct = samples.sel(rung=DIRECT, drop=True) if has_direct else None
     for share in SHARES:
-        there = has_direct and share in samples
-        rung = samples.sel(rung=DIRECT, drop=True) if there else None
-        data[f"best_{share}"] = unknown if rung is None else usable(rung, share).mean("sample")
+        data[f"best_{share}"] = unknown
+        if direct is not None and share in direct:
+            data[f"best_{share}"] = usable(direct, share).mean("sample")
     for name in ESTIMATED:
         mean, errors = unknown, [LogError(unknown, unknown)]
-        if has_direct:
-            direct = samples.sel(rung=DIRECT, drop=True)
+        if direct is not None:
             mean = usable(direct, name).mean("sample")
             # even within the estimated error, and the same for all profiles
             grid = estimated_error(direct, name).fillna(0.0) / math.sqrt(3.0)

@@ -18,6 +18,7 @@ from gripscale.analysis.best_estimate import (
     FINITE_STRAIN,
     Factor,
     best_estimate,
+    upper_height_of,
 )
 from gripscale.analysis.comparison_dataset import Comparison
 from gripscale.analysis.intervals import half_width
@@ -41,7 +42,6 @@ from gripscale.experiment.measured_friction import MeasuredFriction
 from gripscale.experiment.solve import Bench, OnTask, bench_in
 from gripscale.experiment.study import Study
 from gripscale.experiment.task import Store, Task
-from gripscale.half_space.line_to_map import upper_height
 from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
 from gripscale.model import answer, cut_off_exponents_of, extrapolation_of, with_area_term
@@ -424,13 +424,9 @@ def reference_totals(samples: xr.Dataset, results: CaseResults) -> xr.Dataset:
     """Return the means of `samples` over the profiles as a model answers, and the best estimate."""
     means = {name: float(reduce.usable(samples, name).mean("sample")) for name in reduce.QUANTITIES}
     beyond, exponents = reduce.outside_band(samples), reduce.cut_off_exponents(samples)
-    surface, reach = results.surface, None
-    measured = surface.measured
-    if measured is not None and measured.map is None:
-        reach = upper_height(list(measured.cleaned), float(surface.sines.wavelength[0]))
     rung = samples.expand_dims(rung=[DIRECT])
-    best = best_estimate(rung, upper_height=reach)
-    best["cutoff_wavelength"] = xr.Variable((), surface.cutoff_wavelength, {"units": "m"})
+    best = best_estimate(rung, upper_height=upper_height_of(results.surface))
+    best["cutoff_wavelength"] = xr.Variable((), results.surface.cutoff_wavelength, {"units": "m"})
     totals = answer(
         best,
         {f"total_{name}": value for name, value in means.items()},

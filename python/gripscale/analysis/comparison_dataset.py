@@ -12,14 +12,13 @@ import numpy as np
 import xarray as xr
 
 from gripscale.analysis import samples as reduce
-from gripscale.analysis.best_estimate import SHARES, Factor, best_estimate
+from gripscale.analysis.best_estimate import SHARES, Factor, best_estimate, upper_height_of
 from gripscale.analysis.ladder import ComparisonSetup, Rung
 from gripscale.case.read import CaseFile
 from gripscale.core import provenance
 from gripscale.experiment.axis import Axis
 from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.experiment.study import coordinates
-from gripscale.half_space.line_to_map import upper_height
 from gripscale.model import (
     ADHESIVE_FRICTION,
     BASIS,
@@ -90,9 +89,7 @@ def comparison_dataset(comparison: Comparison) -> xr.Dataset:
     for name in reduce.QUANTITIES:
         text = f"{TOTALS[f'total_{name}']}, mean of the samples"
         add(f"total_{name}", reduce.usable(samples, name).mean("sample"), text, "rung")
-    reach = None
-    if setups[0].lines and not setups[0].of_map:
-        reach = upper_height(setups[0].lines, float(setups[0].surface.sines.wavelength[0]))
+    reach = upper_height_of(setups[0].surface)
     best = best_estimate(samples, comparison.factors, upper_height=reach)
     for name, text in zip(SHARES, list(BASIS.values())[-2:], strict=True):
         add(f"best_{name}", best[f"best_{name}"], text)

@@ -58,7 +58,12 @@ def basis_lines(data: xr.Dataset) -> Iterator[str]:
     if not has_answer(data):
         return
     names = _of(data)
-    yield f"for {_load(data)}, roughness down to {_millimetres(data)}"
+    load = [
+        display_unit_of(data.attrs, name).text(float(data[f"nominal_{name}"]))
+        for name in ("pressure", "speed")
+    ]
+    cut_off = f"{1e3 * float(data.cutoff_wavelength):.3g} mm"
+    yield f"for {' and '.join(load)}, roughness down to {cut_off}"
     yield f"from {' × '.join(_factors(data, names))}"
     rests = list(_rests_on(data, names[0]))
     if rests:
@@ -108,16 +113,6 @@ def _level(data: xr.Dataset) -> str:
     if math.isfinite(float(data.best_contact_fraction_half_width)):
         return f" ({100.0 * LEVEL:.0f} % intervals)"
     return "; no interval: the surface is too short to tell how well it represents the road"
-
-
-def _load(data: xr.Dataset) -> str:
-    units = {name: display_unit_of(data.attrs, name) for name in ("pressure", "speed")}
-    values = [unit.text(float(data[f"nominal_{name}"])) for name, unit in units.items()]
-    return " and ".join(values)
-
-
-def _millimetres(data: xr.Dataset) -> str:
-    return f"{1e3 * float(data.cutoff_wavelength):.3g} mm"
 
 
 def _factors(data: xr.Dataset, names: tuple[str, ...]) -> Iterator[str]:
