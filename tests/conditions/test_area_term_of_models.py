@@ -9,7 +9,7 @@ import pytest
 import gripscale as gs
 from gripscale.charts.view import PredictionView
 from gripscale.conditions import Conditions, ConstantStress, GaussianStress, ThermalProperties
-from gripscale.report.notices import conditions_sentences
+from gripscale.report.notices import conditions_notices
 from gripscale.rubber.softening import Kraus
 from tests.samples import SHIFTED_RUBBER as RUBBER
 from tests.samples import SHIFTED_SINES as SINES
@@ -71,7 +71,7 @@ def test_the_heat_that_the_area_term_lacks_is_stated():
     line = gs.solve_rough_contact(
         RUBBER, LINE, pressure=3e5, speed=1.0, periodic=True, footprint=0.05, conditions=EVERYTHING
     )
-    notes = list(conditions_sentences(PredictionView(chain.to_dataset())))
+    notes = [n.text for n in conditions_notices(PredictionView(chain.to_dataset()))]
     for found, sentences in ((chain, notes), (line, line.notes)):
         ratio = found.adhesive_friction / found.friction
         assert ratio > 0.01
@@ -85,8 +85,8 @@ def test_the_heat_that_the_area_term_lacks_is_stated():
 def test_without_heat_or_area_term_none_is_lacking(without):
     some = replace(EVERYTHING, **{without: None})
     chain = gs.predict(RUBBER, SINES, solver="half_plane", conditions=some, **LOAD)
-    notes = conditions_sentences(PredictionView(chain.to_dataset()))
-    assert not any("area term" in text for text in notes)
+    notes = conditions_notices(PredictionView(chain.to_dataset()))
+    assert not any("area term" in notice.text for notice in notes)
 
 
 def test_conditions_and_what_they_did_survive_a_file(tmp_path):

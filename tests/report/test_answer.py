@@ -1,4 +1,4 @@
-"""The first lines of a result: the answer, its interval, what it rests on, or why there is none."""
+"""The first lines of a result: the answer or why there is none, what it rests on, warnings."""
 
 from __future__ import annotations
 
@@ -6,10 +6,21 @@ import json
 import math
 
 import numpy as np
+import pytest
 import xarray as xr
 
 from gripscale.analysis.best_estimate import IsotropicSurface
-from gripscale.report.answer import answer_cards, answer_lines, basis_lines
+from gripscale.report.answer import (
+    answer_cards,
+    answer_lines,
+    answer_notices,
+    basis_lines,
+    no_answer,
+    no_answer_notices,
+)
+from gripscale.report.elements import Doubt, Notice, Page, ranked
+from gripscale.report.notices import case_notices, warning_lines
+from gripscale.report.record import InputRecord
 
 
 def answered(**changed: float) -> xr.Dataset:
@@ -25,8 +36,12 @@ def answered(**changed: float) -> xr.Dataset:
         "best_contact_fraction_half_width": math.sinh(math.log(1.2)),
         "best_contact_fraction_sampling_error": 0.02,
         "best_steep_share": 0.5,
-        "best_missing_share": 0.001,
+        "best_missing_share": 0.06,
+        "total_friction": 0.2,
+        "total_friction_from_dissipation": 0.2,
         "total_friction_outside_band": 0.25,
+        "total_decades_below_band": 0.0,
+        "total_decades_above_band": 2.3,
     } | changed
     columns = {
         "factor_label": ["finite strain, assumed", IsotropicSurface.label],
@@ -50,27 +65,144 @@ def test_the_number_comes_first_then_what_it_rests_on() -> None:
     assert "for 3 bar and 0.3 m/s, roughness down to 0.1 mm" in text
     assert "finite strain, assumed (± 5.0 %)" in text
     assert "isotropic surface over its lines (0.950, 0.680)" in text
-    assert "25 % of the friction beyond the measured frequencies" in text
-    assert "50 % of the friction on slopes above 1" in text
-    assert "filled gaps" not in text, "a thousandth is not worth a word"
     assert "a road without direction is assumed" in text
     assert [line.strip() for line in below] == list(basis_lines(answered()))
 
 
 def test_at_rest_there_is_an_area_only() -> None:
     first, *_ = answer_lines(answered(nominal_speed=0.0, best_friction=0.0))
-    assert first.startswith("Answer: A_r/A_0 = 0.0300 (")
+    assert first.startswith("Answer: no friction at rest; A_r/A_0 = 0.0300 (")
     assert [card.value for card in answer_cards(answered(nominal_speed=0.0))] == ["0.0300"]
 
 
 def test_no_answer_says_why() -> None:
-    assert "No surface was measured" in next(answer_lines(None))
+    assert "No direct contact of a measured surface" in next(answer_lines(None))
     failed = answered(best_contact_fraction=math.nan).assign(prediction_status="tolerance not met")
     assert list(answer_lines(failed)) == [
         "Answer: none. The direct contact of the measured surface has no result: tolerance not met."
     ]
     assert not list(answer_cards(failed))
-    wide = next(answer_lines(answered(best_friction_half_width=3.0)))
-    assert wide.startswith("Answer: none to rely on. μ = 0.200 (")
-    short = answered(best_friction_half_width=math.nan, best_contact_fraction_half_width=math.nan)
-    assert "no interval: the surface is too short" in next(answer_lines(short))
+    assert not no_answer(answered())
+
+
+@pytest.mark.parametrize(
+    ("changed", "why"),
+    [
+        ({"best_friction_half_width": 3.0}, "The interval is more than a factor of two either way"),
+        (
+            dict.fromkeys(
+                ("best_friction_half_width", "best_contact_fraction_half_width"), math.nan
+            ),
+            "The measured surface is too short to tell how well it represents its road.",
+        ),
+        ({"best_missing_share": 0.51}, "51 % of the contact lies on filled gaps"),
+        (
+            {"total_friction_outside_band": 0.89},
+            "89 % of the friction lies up to 2.3 decades above the measured band.",
+        ),
+    ],
+)
+def test_a_guess_is_called_one_before_its_numbers(changed: dict[str, float], why: str) -> None:
+    data = answered(**changed)
+    first = next(answer_lines(data))
+    assert first.startswith(f"Answer: none to rely on. {why}")
+    assert first.index(" It would be μ = 0.200") > len(why)
+    assert all(card.bad for card in answer_cards(data))
+    (notice,) = no_answer_notices(data)
+    assert (notice.level, why in notice.text) == ("error", True)
+    assert not any(why in other.text for other in answer_notices(data)), "it is said once"
+
+
+def test_warnings_stand_by_what_they_change() -> None:
+    """Half the cut-off: 0.2 becomes 2^0.5 times as much, the area 2^-0.25 times."""
+    data = answered(
+        total_friction_cut_off_exponent=-0.5, total_contact_fraction_cut_off_exponent=0.25
+    ).assign(cut_off_exponent_missing="")
+    warnings = ranked(answer_notices(data))
+    assert [round(warning.effect, 3) for warning in warnings] == [0.5, 0.414, 0.25, 0.06]
+    steep, octave, band, gaps = (warning.text for warning in warnings)
+    assert steep.startswith("50 % of the friction comes from slopes above 1")
+    assert octave == (
+        "With roughness down to 0.05 mm, half the cut-off, the friction changes by +41 % and the "
+        "contact area by -16 %."
+    )
+    assert band.startswith("25 % of the friction lies up to 2.3 decades above the measured band.")
+    assert gaps == "6.0 % of the contact lies on filled gaps of the measurement."
+
+
+def test_two_frictions_that_disagree_are_warned_of() -> None:
+    numbers = {"total_friction": 0.24, "total_friction_from_dissipation": 0.2}
+    worst = ranked(answer_notices(answered(**numbers, best_steep_share=0.0)))[1]
+    assert worst.friction == pytest.approx(0.2)
+    assert "differ by 20 %" in worst.text
+
+
+def test_those_without_a_number_stand_below_in_an_order() -> None:
+    """An error, what may be another answer, numbers, then what was solved, rubber, surface."""
+    several = [
+        Notice("warning", "from where", doubt=Doubt.SOURCE),
+        Notice("warning", "surface", doubt=Doubt.SURFACE),
+        Notice("warning", "2 %", area=-0.02),
+        Notice("warning", "solution", doubt=Doubt.SOLUTION),
+        Notice("warning", "a third", friction=0.3, area=math.nan),
+        Notice("warning", "another unit", math.inf),
+        Notice("error", "no numbers"),
+        Notice("warning", "rubber", doubt=Doubt.RUBBER),
+    ]
+    order = ["no numbers", "another unit", "a third", "2 %"]
+    order += ["solution", "rubber", "surface", "from where"]
+    notices = ranked(several)
+    assert [notice.text for notice in notices] == order
+    page = Page("", "", notices, [])
+    assert [notice.text for notice in page.notices_open] == order[:3]
+    assert [notice.text for notice in page.notices_folded] == order[3:]
+    assert list(warning_lines(notices[:4], "report.txt")) == [
+        "Warnings, by what they change:",
+        *(f"  {text}" for text in order[:3]),
+        "  ... and 1 more in report.txt",
+    ]
+    assert list(warning_lines(notices))[1:] == [f"  {text}" for text in order]
+    assert not list(warning_lines([], "report.txt"))
+
+
+def test_inputs_know_what_they_change() -> None:
+    """Loss factors 0.16 and 0.14 for 0.2 between the waves, -25 % in the mean; a third is beyond.
+
+    Without the roughness below 0.2 mm friction is 2^-0.5 times as much, at an exponent of -0.5.
+    """
+    master = {
+        "master_frequency": [1.0, 2.0, 9.0],
+        "master_storage": [1e7] * 3,
+        "master_loss": [2e6] * 3,
+        "master_series_storage": [1e7] * 3,
+        "master_series_loss": [1.6e6, 1.4e6, 4e6],
+    }
+    attrs = {
+        "excited_low_rad_per_s": 6.0,
+        "excited_high_rad_per_s": 13.0,
+        "sines_residual_decades": 0.2,
+        "cut_off_beyond_measurement": 1,
+        "cut_off_m": 1e-4,
+        "cut_off_carried_m": 2e-4,
+        "load_notes": "The footprint is short.",
+        "surface_notes": "road: heights jump",
+    }
+    record = InputRecord(
+        xr.Dataset(
+            {name: ("row", np.array(values)) for name, values in master.items()}, attrs=attrs
+        )
+    )
+    data = answered(
+        total_friction_cut_off_exponent=-0.5, total_contact_fraction_cut_off_exponent=math.nan
+    ).assign(cut_off_exponent_missing="")
+    footprint, steep, _, roughness, *_ = notices = case_notices(data, record)
+    assert footprint.text == "The footprint is short."
+    assert "slopes above 1" in steep.text
+    assert roughness.text == (
+        "Roughness from 0.200 mm, where the measurement ends, to 0.100 mm is extrapolated: without "
+        "it the friction changes by -29 %."
+    )
+    effects = {round(notice.effect, 3): notice.text for notice in notices}
+    assert "25 % below the measured" in effects[0.25]
+    assert "26 % of their height" in effects[round(10**0.1 - 1, 3)]
+    assert notices[-1].text == "Surface: road: heights jump."

@@ -198,7 +198,7 @@ def test_large_mismatch_and_foreign_frequencies_are_warned_of(
     run = read_result(changed_run(edit, "dynamic"))
     assert isinstance(run, Run)
     text = " ".join(notice.text for notice in notices(run))
-    assert "the two frictions of waves 2 are up to 20 % apart" in text
+    assert "Wave 2: the two frictions are up to 20 % apart; take a finer mesh." in text
     assert (
         "Dynamic, 0.3 m/s: 1 of 3 waves, 32 % of the friction, lie up to 0.8 decades above the "
         "measured band." in text
@@ -221,7 +221,7 @@ def test_doubts_about_the_rubber_are_warned_of(changed_run: Callable[..., Path])
     texts = [notice.text for notice in notices(run)]
     assert "Rubber: no plateau at the fast end." in texts
     text = next(text for text in texts if "Poisson" in text)
-    assert "Poisson's ratio of waves 3 is down to 0.227, less than 0.3" in text
+    assert "Wave 3: Poisson's ratio is down to 0.227, less than 0.3" in text
 
 
 @pytest.mark.parametrize("plateau", [0, 1])

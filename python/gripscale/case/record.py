@@ -110,9 +110,12 @@ def inputs(results: CaseResults) -> xr.Dataset:
     excitation = excited(results.file.case.load.speed, surface.sines)
     rubber = results.rubber
     of_rubber = rubber_variables(rubber.rubber, rubber.master, rubber.fit, excitation)
-    notes = "\n".join([*results.conditions_notes(), *results.load_notes()]) or None
+    notes = {
+        "conditions_notes": "\n".join(results.conditions_notes()) or None,
+        "load_notes": "\n".join(results.load_notes()) or None,
+    }
     parts = [({}, _waves(surface)), (_files(results.file), {}), of_rubber]
-    parts.append(({}, {"conditions_notes": notes}))
+    parts.append(({}, notes | _excited_band(excitation)))
     if surface.measured is not None and surface.correlation is not None:
         parts.append((_profiles(surface.measured), {}))
         parts.append(_cut_off(surface, surface.measured))
@@ -120,6 +123,16 @@ def inputs(results: CaseResults) -> xr.Dataset:
     data = {name: value for part, _ in parts for name, value in part.items()}
     attrs = {name: value for _, part in parts for name, value in part.items() if value is not None}
     return xr.Dataset(data, attrs=attrs)
+
+
+def _excited_band(excitation: Array) -> Variables:
+    """Return the lowest and the highest frequency that the waves excite; nothing at rest."""
+    if not excitation.size:
+        return {}
+    return {
+        "excited_low_rad_per_s": float(excitation.min()),
+        "excited_high_rad_per_s": float(excitation.max()),
+    }
 
 
 def _files(file: CaseFile) -> Variables:
@@ -139,6 +152,8 @@ def _files(file: CaseFile) -> Variables:
 def _waves(surface: Surface) -> Variables:
     sines = surface.sines
     low, high = sines.lag_range or (None, None)
+    # what the measurement does not carry stands in `cut_off_beyond_measurement`
+    notes = [note for note in surface.notes if note not in surface.extrapolated]
     return {
         "sines_s_wavelength": sines.s_wavelength,
         "sines_s_amplitude": sines.s_amplitude,
@@ -147,7 +162,7 @@ def _waves(surface: Surface) -> Variables:
         "sines_lag_max_m": high,
         "sines_cut_off_m": sines.cut_off,
         "correlation_top_height_fraction": surface.counted.get("top_height_fraction"),
-        "surface_notes": "\n".join(surface.notes) or None,
+        "surface_notes": "\n".join(notes) or None,
     }
 
 

@@ -131,7 +131,7 @@ def run_case(
     """
     results = case if isinstance(case, CaseResults) else prepare_case(case)
     emit = on_event or (lambda event: None)
-    _require_feasible(results)
+    require_feasible(results)
     if output is not None:
         results.folder = Path(output)
         folder.require_writable(results.folder)
@@ -162,10 +162,10 @@ def _require_shift(results: CaseResults) -> None:
         raise InputError(f"{results.file.path}: [conditions] {error}") from error
 
 
-def _require_feasible(results: CaseResults) -> None:
+def require_feasible(results: CaseResults) -> None:
     """Raise `InputError` if the rubber cannot carry a load or would be excited beyond its band.
 
-    Before anything is solved or written; the latter only if the case refuses it.
+    The latter only if the case refuses it.
     """
     rubber = results.rubber_before
     for _, speed in results.planned():

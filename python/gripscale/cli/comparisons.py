@@ -78,9 +78,11 @@ def compare(
     from gripscale.experiment.task import PREDICTIONS
     from gripscale.half_space.model import DirectContact
     from gripscale.io import netcdf
-    from gripscale.report.answer import answer_lines, has_answer
+    from gripscale.report.answer import answer_lines, answer_notices, has_answer
     from gripscale.report.comparison import best_line, comparison_parts, failures
+    from gripscale.report.elements import ranked
     from gripscale.report.measured import residual_table
+    from gripscale.report.notices import warning_lines
     from gripscale.report.side_by_side import effects_table
     from gripscale.report.uncertainty import uncertainty_lines
 
@@ -126,6 +128,13 @@ def compare(
         name = f"over_{varied(data)}"
     netcdf.save(data, target / f"{name}.nc")
     parts = list(comparison_parts(data))
+    above: list[str] = []
+    if axes is None:
+        warnings = ranked(answer_notices(data))
+        lead = list(answer_lines(data))
+        console.print()
+        terminal.print_parts(console, [*lead, *warning_lines(warnings, f"{name}.txt")])
+        above = [*lead, *warning_lines(warnings)]
     if worth:
         parts.append(effects_table(*worth))
     if residuals is not None:
@@ -152,6 +161,7 @@ def compare(
         console,
         target,
         parts,
+        opening=above,
         text=f"{name}.txt",
         closing=f"Tables, figures and result ({name}.nc) are in",
         draw=draw_figures,

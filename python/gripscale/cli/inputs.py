@@ -147,6 +147,7 @@ def fit_surface(
     sines = prepared.sines
     parts: list[str | Table] = [
         *surface_lines(prepared),
+        *(f"note: {note}" for note in prepared.notes),
         waves_table(sines.wavelength, sines.amplitude),
         *_ambiguity(prepared),
     ]
@@ -238,7 +239,8 @@ def fit_rubber(
         ) from error
     rubber = prepared.rubber
     tables = [band_table(rubber), prony_table(rubber.relaxation_times, rubber.moduli)]
-    print_parts(console, [*rubber_parts(prepared), *(table for table in tables if table)])
+    findings = () if prepared.fit is None else prepared.fit.findings
+    print_parts(console, [*rubber_parts(prepared), *findings, *filter(None, tables)])
     if output is not None:
         console.print()
         _write(console, prepared, output)

@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from gripscale.io.table import Table
 
 
-REPORT_WIDTH = 110
-"""Characters of a line of report.txt."""
+REPORT, REPORT_WIDTH = "report.txt", 110
+"""The text a run leaves, and the characters of its lines."""
 
 
 class ProgressFormat(StrEnum):
@@ -88,14 +88,16 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
     from gripscale.analysis.effects import case_effects
     from gripscale.analysis.measured_comparison import friction_of_case
     from gripscale.analysis.propagation import input_digests, stored_uncertainty
-    from gripscale.case import folder, prepare_case, read_case, run_case
+    from gripscale.case import folder, prepare_case, read_case, record, run_case
     from gripscale.case.events import DirectContactSolved, EffectsSolved, FileWritten, WaveSolved
+    from gripscale.case.run import require_feasible
     from gripscale.charts.background import background_figures
     from gripscale.charts.write import draw_effects, draw_heat
     from gripscale.core.provenance import version_of
     from gripscale.report.answer import answer_lines
     from gripscale.report.measured import measured_lines
-    from gripscale.report.notices import explained
+    from gripscale.report.notices import case_notices, explained, warning_lines
+    from gripscale.report.record import InputRecord
     from gripscale.report.uncertainty import uncertainty_lines
 
     file = read_case(case)
@@ -103,12 +105,15 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
     folder.require_writable(target)
     friction = friction_of_case(file)
     results = prepare_case(file)
+    require_feasible(results)
     header = f"gripscale {version_of('gripscale')}, case {file.path}"
     terminal.print_wrapped(console, header)
     direct = reference(results)
-    opening = [header, "", *answer_lines(direct), "", *_inputs(results)]
-    for line in opening[1:]:
+    warnings = case_notices(direct, InputRecord(record.inputs(results)))
+    answer, inputs = ["", *answer_lines(direct)], ["", *_inputs(results)]
+    for line in (*answer, *warning_lines(warnings, REPORT), *inputs):
         terminal.print_wrapped(console, line)
+    opening = [header, *answer, *warning_lines(warnings), *inputs]
     print_event = _event_printer(console, results.display_unit("speed"))
     with background_figures(results, target / "figures") as draw_solved:
 
@@ -144,13 +149,13 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
             console,
             target,
             parts,
-            text="report.txt",
+            text=REPORT,
             closing="Results, report and figures are in",
             opening=opening,
             width=REPORT_WIDTH,
             draw=draw_conditions,
         )
-        emit(FileWritten(str(target / "report.txt")))
+        emit(FileWritten(str(target / REPORT)))
     # a page of an earlier result stays beside this one
     page, first = target / "report.html", next(iter(results.predictions), None)
     written = page.read_text(encoding="utf-8", errors="replace") if page.is_file() else None
@@ -180,9 +185,8 @@ def _inputs(results: CaseResults) -> list[str]:
     ]
     if results.conditions is not None:
         conditions = conditions_lines(results.conditions, results.rubber.rubber)
-        notes = (f"note: {text}" for text in results.conditions_notes())
-        lines += ["", "Conditions", *(f"  {line}" for line in (*conditions, *notes))]
-    return [*lines, *(text for note in results.load_notes() for text in ("", f"note: {note}"))]
+        lines += ["", "Conditions", *(f"  {line}" for line in conditions)]
+    return lines
 
 
 def _event_printer(console: Console, speed_unit: DisplayUnit) -> OnEvent:

@@ -333,8 +333,14 @@ def table_in(
     full = slice(
         0 if any(row[0] for row in rows) else 1, count - (0 if any(row[-1] for row in rows) else 1)
     )
-    columns = _columns(above, count, kinds, named)[full]
-    rows = [row[full] for row in rows]
+    columns = _columns(above, count, kinds, named)
+    for at in {0, count - 1} - set(range(count)[full]):
+        if named(columns[at].name):
+            raise FileError(
+                f"{path}: expected numbers in column {at + 1}, {short_repr(columns[at].name)}; "
+                f"got none in {len(rows)} rows"
+            )
+    columns, rows = columns[full], [row[full] for row in rows]
     if not any(columns) and len(columns) < count:  # titles without those empty cells
         columns = _columns(above, len(columns), kinds, named)
     return TextTable(path, columns, rows, numbers, decimal)

@@ -1,4 +1,7 @@
-"""The answer of a case: friction and contact area with their interval, and what they rest on."""
+"""The answer of a case: friction and contact area with their interval, and what they rest on.
+
+A case that allows no good answer says so first. What may change a good one follows as warnings.
+"""
 
 from __future__ import annotations
 
@@ -8,17 +11,23 @@ from collections.abc import Iterator
 import numpy as np
 import xarray as xr
 
+from gripscale import model
 from gripscale.analysis.best_estimate import IsotropicSurface
 from gripscale.analysis.intervals import LEVEL
+from gripscale.analysis.ladder import DIRECT
 from gripscale.charts.view import HEADINGS, SYMBOLS
-from gripscale.core.units import display_unit_of
+from gripscale.core.units import display_unit_of, in_mm
 from gripscale.io.table import significant
-from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, STATUS
-from gripscale.report.elements import Card, percent
-from gripscale.rubber.extrapolation import WORTH_SAYING
+from gripscale.report.elements import Card, Doubt, Notice, percent
+from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
+from gripscale.wave.result import LARGE_MISMATCH
 
+MOST_ON_GUESSES = 0.5
+"""Share of friction or contact from what was not measured that makes an answer a guess."""
 WORTH_NAMING = 0.005
-"""Share of friction or contact below which it is as good as none."""
+"""Share of the contact on filled gaps that is as good as none."""
+SMALL_CHANGE = 0.05
+"""Relative change by half the cut-off that is as good as none."""
 
 
 def has_answer(data: xr.Dataset) -> bool:
@@ -27,30 +36,41 @@ def has_answer(data: xr.Dataset) -> bool:
     return area is not None and not area.ndim and math.isfinite(float(area))
 
 
+def direct_of(data: xr.Dataset) -> xr.Dataset:
+    """Return the direct contact of a comparison with its best estimate; that of a run as it is."""
+    return data.sel(rung=DIRECT) if DIRECT in data.get("rung", ()) else data
+
+
 def answer_lines(data: xr.Dataset | None) -> Iterator[str]:
     """Yield the answer of a result of one load, then what it rests on; or why there is none."""
-    if data is None:
-        yield (
-            "Answer: none with an interval. No surface was measured, and the chain of sine waves "
-            "alone has nothing to be judged by."
-        )
-        return
-    if not has_answer(data):
-        why = str(data[STATUS].item()) if STATUS in data else "no direct contact was solved"
-        yield f"Answer: none. The direct contact of the measured surface has no result: {why}."
+    statement = no_answer(data)
+    if data is None or not has_answer(data):
+        yield f"Answer: {statement}"
         return
     numbers = ", ".join(
         f"{SYMBOLS[name]} = {number_and_interval(data, name)}" for name in _of(data)
     )
-    text = f"{numbers}{_level(data)}"
-    if _too_wide(data):
-        yield (
-            f"Answer: none to rely on. {text}: more than a factor of two either way, because the "
-            "measured surface is too short to stand for its road"
-        )
-    else:
-        yield f"Answer: {text}"
+    rest = "" if _moving(data) else "no friction at rest; "
+    yield f"Answer: {f'{statement} It would be ' if statement else ''}{rest}{numbers}{_level(data)}"
     yield from (f"  {line}" for line in basis_lines(data))
+
+
+def no_answer(data: xr.Dataset | None) -> str:
+    """Return why a result has no answer, or none to rely on; empty if it has one."""
+    if data is None:
+        return (
+            "none with an interval. No direct contact of a measured surface was solved, by which "
+            "a chain of sine waves is judged."
+        )
+    if not has_answer(data):
+        direct = direct_of(data)
+        status = next((name for name in (model.STATUS, "status") if name in direct), "")
+        solved = bool(status) and not direct[status].ndim
+        why = str(direct[status].item()) if solved else "none was solved"
+        return f"none. The direct contact of the measured surface has no result: {why}."
+    guesses = [share.text for share in _guesses(data) if share.effect > MOST_ON_GUESSES]
+    reasons = [*guesses, *_sampled_too_little(data)]
+    return f"none to rely on. {' '.join(reasons)}" if reasons else ""
 
 
 def basis_lines(data: xr.Dataset) -> Iterator[str]:
@@ -62,31 +82,132 @@ def basis_lines(data: xr.Dataset) -> Iterator[str]:
         display_unit_of(data.attrs, name).text(float(data[f"nominal_{name}"]))
         for name in ("pressure", "speed")
     ]
-    cut_off = f"{1e3 * float(data.cutoff_wavelength):.3g} mm"
-    yield f"for {' and '.join(load)}, roughness down to {cut_off}"
+    yield f"for {' and '.join(load)}, roughness down to {in_mm(float(data.cutoff_wavelength), 3)}"
     yield f"from {' × '.join(_factors(data, names))}"
     rests = list(_rests_on(data, names[0]))
     if rests:
         yield "; ".join(rests)
 
 
+def no_answer_notices(data: xr.Dataset | None) -> Iterator[Notice]:
+    """Yield that a result has no answer, or none to rely on; nothing if it has one."""
+    statement = no_answer(data)
+    if statement:
+        level = "warning" if data is None else "error"
+        yield Notice(level, f"Answer: {statement}", math.inf, math.inf)
+
+
+def answer_notices(data: xr.Dataset | None) -> Iterator[Notice]:
+    """Yield what may change an answer, other than what `no_answer` says of it."""
+    if data is None or not has_answer(data):
+        return
+    yield from (share for share in _guesses(data) if share.effect <= MOST_ON_GUESSES)
+    direct = direct_of(data)
+    steep = float(data.get("best_steep_share", math.nan))
+    if steep > WORTH_SAYING:
+        yield Notice(
+            "warning",
+            f"{percent(steep)} of the friction comes from slopes above 1, where neither small "
+            "strain nor a measured profile is reliable.",
+            friction=steep,
+            doubt=Doubt.SOLUTION,
+        )
+    octave = changes(data, 1.0 / model.OCTAVE)
+    if max(map(abs, octave.values()), default=0.0) > SMALL_CHANGE:
+        half = in_mm(float(data.cutoff_wavelength) / model.OCTAVE, 3)
+        yield Notice(
+            "warning",
+            f"With roughness down to {half}, half the cut-off, {in_words(octave)}.",
+            friction=octave.get("friction", math.nan),
+            area=octave.get("contact_fraction", math.nan),
+            doubt=Doubt.SURFACE,
+        )
+    traction, lost = (
+        float(direct[f"total_{name}"]) for name in ("friction", "friction_from_dissipation")
+    )
+    apart = abs(traction / lost - 1.0) if _moving(data) and lost > 0.0 else 0.0
+    if apart > LARGE_MISMATCH:
+        yield Notice(
+            "warning",
+            f"The friction of the direct contact from its traction and from its losses differ by "
+            f"{percent(apart)}; the answer takes that from the losses.",
+            friction=apart,
+            doubt=Doubt.SOLUTION,
+        )
+
+
+def changes(data: xr.Dataset, ratio: float) -> dict[str, float]:
+    """Return the relative change of each number of an answer with `ratio` times its cut-off.
+
+    Numbers whose exponent is not known are left out.
+    """
+    exponents = model.cut_off_exponents_of(direct_of(data))
+    powers = {name: getattr(exponents, name) for name in _of(data)}
+    return {name: ratio**power - 1.0 for name, power in powers.items() if math.isfinite(power)}
+
+
+def in_words(changed: dict[str, float]) -> str:
+    """Return relative changes in words, such as `the friction changes by +38 %`."""
+    words = {"friction": "friction", "contact_fraction": "contact area"}
+    parts = [f"the {words[n]} by {'+-'[v < 0.0]}{percent(abs(v))}" for n, v in changed.items()]
+    return " and ".join(parts).replace(" by ", " changes by ", 1)
+
+
+def friction_sentence(beyond: Extrapolation) -> str:
+    """Return how much of a friction and how far; empty where it is not worth saying."""
+    if not beyond.share > WORTH_SAYING:
+        return ""
+    return f"{percent(beyond.share)} of the friction lies {beyond.furthest}."
+
+
+def _guesses(data: xr.Dataset) -> Iterator[Notice]:
+    """Yield the shares of an answer on frequencies and heights that were not measured."""
+    beyond = model.extrapolation_of(direct_of(data))
+    if friction_sentence(beyond):
+        yield Notice(
+            "warning",
+            f"{friction_sentence(beyond)} There the Prony series is an extrapolation.",
+            friction=beyond.share,
+            doubt=Doubt.RUBBER,
+        )
+    missing = float(data.get("best_missing_share", math.nan))
+    if missing > WORTH_NAMING:
+        text = f"{percent(missing)} of the contact lies on filled gaps of the measurement."
+        yield Notice("warning", text, area=missing, doubt=Doubt.SURFACE)
+
+
+def _sampled_too_little(data: xr.Dataset) -> Iterator[str]:
+    """Yield that the surface is too short for an interval, or for one that says something."""
+    widths = [float(data[f"best_{name}_half_width"]) for name in _of(data)]
+    if not math.isfinite(float(data.best_contact_fraction_half_width)):
+        yield "The measured surface is too short to tell how well it represents its road."
+    elif any(math.asinh(width) > math.log(2.0) for width in widths if math.isfinite(width)):
+        yield (
+            "The interval is more than a factor of two either way: the measured surface is too "
+            "short to represent its road."
+        )
+
+
+def _moving(data: xr.Dataset) -> bool:
+    return float(data.nominal_speed) > 0.0
+
+
 def _of(data: xr.Dataset) -> tuple[str, ...]:
     """Return what is estimated: no friction at rest."""
-    moving = float(data.nominal_speed) > 0.0
-    return ("friction", "contact_fraction") if moving else ("contact_fraction",)
+    return ("friction", "contact_fraction") if _moving(data) else ("contact_fraction",)
 
 
 def answer_cards(data: xr.Dataset) -> Iterator[Card]:
     """Yield friction and contact area with their intervals."""
     if not has_answer(data):
         return
+    source = "not to be relied on" if no_answer(data) else "best estimate"
     for name in _of(data):
         title = f"{HEADINGS[name].capitalize()} {SYMBOLS[name]}"
         interval = _interval(data, name)
-        detail = (
-            f"best estimate; {interval} ({100.0 * LEVEL:.0f} %)" if interval else "best estimate"
-        )
-        yield Card(title, significant(float(data[f"best_{name}"])), detail)
+        detail = f"{source}; {interval} ({100.0 * LEVEL:.0f} %)" if interval else source
+        value = significant(float(data[f"best_{name}"]))
+        yield Card(title, value, detail, bad=bool(no_answer(data)))
 
 
 def number_and_interval(data: xr.Dataset, name: str) -> str:
@@ -103,16 +224,10 @@ def _interval(data: xr.Dataset, name: str) -> str:
     return f"{significant(low)} to {significant(high)}"
 
 
-def _too_wide(data: xr.Dataset) -> bool:
-    """Return whether an interval is so wide that its middle says nothing."""
-    widths = [float(data[f"best_{name}_half_width"]) for name in _of(data)]
-    return any(math.asinh(width) > math.log(2.0) for width in widths if math.isfinite(width))
-
-
 def _level(data: xr.Dataset) -> str:
     if math.isfinite(float(data.best_contact_fraction_half_width)):
         return f" ({100.0 * LEVEL:.0f} % intervals)"
-    return "; no interval: the surface is too short to tell how well it represents the road"
+    return " without an interval"
 
 
 def _factors(data: xr.Dataset, names: tuple[str, ...]) -> Iterator[str]:
@@ -129,21 +244,22 @@ def _factors(data: xr.Dataset, names: tuple[str, ...]) -> Iterator[str]:
 
 
 def _rests_on(data: xr.Dataset, name: str) -> Iterator[str]:
-    """Yield the shares of the answer that rest on what was not measured well."""
+    """Yield the error of the sampling, what is assumed or left out, and the area term."""
     sampling = float(data[f"best_{name}_sampling_error"])
     if math.isfinite(sampling):
-        yield f"sampling of the road ± {percent(sampling)} of it (standard error)"
-    beyond = data.get(FRICTION_OUTSIDE_BAND)
-    if beyond is not None and not beyond.ndim and float(beyond) > WORTH_SAYING:
-        yield f"{percent(float(beyond))} of the friction beyond the measured frequencies"
-    for share, words in (
-        ("steep_share", "of the friction on slopes above 1"),
-        ("missing_share", "of the contact on filled gaps"),
-    ):
-        value = float(data[f"best_{share}"])
-        if value > WORTH_NAMING:
-            yield f"{percent(value)} {words}"
-    if IsotropicSurface.label in data.factor_label.values:
+        yield f"sampling of the road ± {percent(sampling)} (standard error)"
+    labels = data.factor_label.values
+    if IsotropicSurface.label in labels:
         yield "a road without direction is assumed: ridges 3:1 change the area by up to 1.7"
-    if ADHESIVE_FRICTION in data and not data[ADHESIVE_FRICTION].ndim:
-        yield f"an area term of {significant(float(data[ADHESIVE_FRICTION]))} comes on top"
+    missing = [
+        str(n) for n, v in zip(labels, data[f"best_{name}_factor"], strict=True) if v.isnull()
+    ]
+    if missing:
+        yield f"not included: {', '.join(missing)}"
+    direct = direct_of(data)
+    term = float(direct.get(model.ADHESIVE_FRICTION, math.nan))
+    if math.isfinite(term):
+        # it is proportional to the contact area
+        term *= float(data.best_contact_fraction / direct.total_contact_fraction)
+        both = significant(float(data.best_friction) + term)
+        yield f"an area term of {significant(term)} comes on top: μ = {both} with it"

@@ -16,25 +16,23 @@ from gripscale.charts.view import CONVERGED, HEADINGS, SYMBOLS, PredictionView
 from gripscale.experiment.axis import axis_shown
 from gripscale.io.table import Column, Table, digits, fixed, percent, significant
 from gripscale.model import (
-    ADHESIVE_FRICTION,
     CUT_OFF_EXPONENTS,
     FRICTION_OUTSIDE_BAND,
-    extrapolation_of,
     status_words,
     with_adhesive,
 )
 from gripscale.report import elements
-from gripscale.report.answer import answer_cards, answer_lines, has_answer
+from gripscale.report.answer import answer_cards, has_answer, no_answer
 from gripscale.report.elements import Card
-from gripscale.report.notices import Failure, comparison_sentences, friction_sentence
+from gripscale.report.notices import Failure, comparison_notices
 from gripscale.rubber.extrapolation import WORTH_SAYING
 
 TINY = 0.05
 """Per cent below which a spread or an error is as good as none."""
 NOTE = (
     "×: factor from the model before, of the theories from the direct contact. Exponents: "
-    "d ln/d ln of the smallest wavelength that counts, over its last octave. Beyond band: share of "
-    "the friction at frequencies beyond those of the master curve, and how far they go."
+    "d ln/d ln of the smallest wavelength that counts, over its last octave. Beyond band (*): "
+    "share of the friction at frequencies beyond those of the master curve, and how far they go."
 )
 
 
@@ -131,25 +129,19 @@ def comparison_parts(comparison: xr.Dataset) -> Iterator[str | Table]:
     axis = varied(comparison)
     if axis:
         yield from (axis_table(comparison, axis, name) for name in SYMBOLS)
-        yield from beyond_band(comparison)
+        yield from (f"* {notice.text}" for notice in comparison_notices(comparison))
         yield from temperature_only(comparison)
         return
-    if has_answer(comparison):
-        yield from answer_lines(comparison)
-        yield ""
     yield comparison_table(comparison)
     yield from remarks(comparison)
 
 
 def remarks(comparison: xr.Dataset) -> Iterator[str]:
-    """Yield what a table of one load cannot say: failures, extrapolation, the best estimate."""
+    """Yield what a table of one load cannot say: failures, and effects that models leave out."""
     for at, bad in enumerate(flawed(comparison)):
         if bad:
             yield f"{comparison.label.values[at]}: {comparison.status.values[at]}."
-    yield from beyond_band(comparison)
     yield from temperature_only(comparison)
-    if "best_friction" in comparison and np.isfinite(comparison.best_friction):
-        yield best_sentence(comparison)
 
 
 def temperature_only(comparison: xr.Dataset) -> Iterator[str]:
@@ -179,39 +171,14 @@ def ladder_cards(ladder: xr.Dataset | None) -> Iterator[Card]:
         yield Card(words, elements.number(rung[f"total_{name}"]), detail, bad)
 
 
-def beyond_band(comparison: xr.Dataset) -> Iterator[str]:
-    """Yield a sentence for each model with friction beyond the measured frequencies."""
-    for label, text in comparison_sentences(comparison):
-        yield f"* {label}: {text}"
-
-
 def best_line(comparison: xr.Dataset) -> str:
     """Return the best estimate in one line, the same in every version: scripts read it."""
     numbers = (
         f"{symbol} = {_with_half_width(comparison, name)}"
         for symbol, name in (("A_r/A_0", "contact_fraction"), ("mu", "friction"))
     )
-    return f"Best estimate ({100.0 * LEVEL:.0f} %): {', '.join(numbers)}"
-
-
-def best_sentence(comparison: xr.Dataset) -> str:
-    """Return what is in the best estimate and what is not."""
-    judge = comparison.sel(rung=DIRECT)
-    parts, missing = [str(judge.label.item())], []
-    for at, label in enumerate(comparison.factor_label.values):
-        factors = [float(comparison[f"best_{name}_factor"][at]) for name in SYMBOLS]
-        if all(map(math.isfinite, factors)):
-            parts.append(f"{label} ({' and '.join(map(significant, factors))})")
-        else:
-            missing.append(str(label))
-    text = f"The best estimate is {' × '.join(parts)}."
-    if ADHESIVE_FRICTION in comparison:  # the area term goes with the contact area
-        share = comparison.best_contact_fraction / judge.total_contact_fraction
-        total = float(comparison.best_friction + judge[ADHESIVE_FRICTION] * share)
-        text += f" With the area term, of its contact area, μ = {significant(total)}."
-    if missing:
-        text += f" Not included, neither factor nor uncertainty: {'; '.join(missing)}."
-    return text
+    doubt = "; not to be relied on" if no_answer(comparison) else ""
+    return f"Best estimate ({100.0 * LEVEL:.0f} %): {', '.join(numbers)}{doubt}"
 
 
 def judgement(chain: PredictionView, direct: xr.Dataset) -> Iterator[str]:
@@ -228,9 +195,6 @@ def judgement(chain: PredictionView, direct: xr.Dataset) -> Iterator[str]:
         if both is not None:
             words += f", with the area term {significant(float(both))}"
     yield f"Direct contact of the measured profiles, all waves at once at small strain: {words}."
-    beyond = friction_sentence(extrapolation_of(direct))
-    if beyond:
-        yield f"In the direct contact, {beyond}"
     if not chain.complete:
         return
     against = f"{chain.total('contact_fraction') / area:.2g} times its contact area"

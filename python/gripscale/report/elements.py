@@ -5,8 +5,10 @@ All texts are plain: escaping is the template's task. A `gripscale.io.table.Tabl
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import math
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
+from enum import IntEnum
 from typing import ClassVar
 
 from gripscale.charts.page_elements import Chart, Image
@@ -22,13 +24,45 @@ class Text:
     kind: ClassVar[str] = "text"
 
 
+class Doubt(IntEnum):
+    """What a warning puts in doubt; warnings without a number stand in this order.
+
+    A part that was not solved well has no good number at all. Of the inputs the rubber makes the
+    friction, the surface how the load is shared. Where the result comes from changes no number.
+    """
+
+    SOLUTION = 0
+    RUBBER = 1
+    SURFACE = 2
+    SOURCE = 3
+
+
 @dataclass(frozen=True)
 class Notice:
     """Something the reader must not miss; `level` is "error" or "warning"."""
 
     level: str
     text: str
+    friction: float = math.nan
+    """By how much it may change the friction, relative; NaN if that is not known.
+
+    Infinite where the answer may be that of another case.
+    """
+    area: float = math.nan
+    """By how much it may change the contact area."""
+    doubt: Doubt = Doubt.SOLUTION
     kind: ClassVar[str] = "notice"
+
+    @property
+    def effect(self) -> float:
+        """The larger of its relative changes; 0 if neither is known."""
+        changes = (abs(change) for change in (self.friction, self.area) if not math.isnan(change))
+        return max(changes, default=0.0)
+
+
+def ranked(notices: Iterable[Notice]) -> list[Notice]:
+    """Return errors first, then warnings by what they change, then those without a number."""
+    return sorted(notices, key=lambda n: (n.level != "error", -n.effect, n.doubt))
 
 
 @dataclass(frozen=True)
@@ -87,7 +121,7 @@ class Card:
 
 
 MOST_OPEN = 3
-"""Notices that a page opens with; further warnings are folded."""
+"""Warnings that a page or a terminal opens with; further ones are folded."""
 
 
 @dataclass(frozen=True)
@@ -97,6 +131,7 @@ class Page:
     title: str
     subtitle: str
     notices: Sequence[Notice]
+    """Ranked."""
     cards: Sequence[Card]
     sections: Sequence[Section] = field(default_factory=tuple)
     basis: Sequence[str] = ()
@@ -105,14 +140,12 @@ class Page:
     @property
     def notices_open(self) -> list[Notice]:
         """Errors, and the first few warnings."""
-        errors = [notice for notice in self.notices if notice.level == "error"]
-        warnings = [notice for notice in self.notices if notice.level != "error"]
-        return errors + warnings[: max(0, MOST_OPEN - len(errors))]
+        return [n for i, n in enumerate(self.notices) if n.level == "error" or i < MOST_OPEN]
 
     @property
     def notices_folded(self) -> list[Notice]:
         """The others."""
-        return [notice for notice in self.notices if notice not in self.notices_open]
+        return list(self.notices[len(self.notices_open) :])
 
     @property
     def charts(self) -> list[Chart]:

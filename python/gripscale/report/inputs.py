@@ -137,7 +137,7 @@ def cleaning_tables(record: InputRecord) -> Iterator[Table]:
 
 
 def surface_lines(surface: Surface) -> Iterator[str]:
-    """Yield what was read and removed, the fits, the sine waves and notes."""
+    """Yield what was read and removed, the fits, the sine waves and the cut-off."""
     measured = surface.measured
     if measured is not None:
         for (raw, cleaned), report in zip(measured.profiles, measured.cleaning, strict=True):
@@ -159,7 +159,6 @@ def surface_lines(surface: Surface) -> Iterator[str]:
     yield sines_line(surface.sines)
     if surface.cut_off is not None:
         yield f"cut-off: {surface.cut_off}"
-    yield from (f"note: {note}" for note in surface.notes)
 
 
 def sines_line(sines: SineStack) -> str:
@@ -182,7 +181,7 @@ def rubber_parts(prepared: PreparedRubber) -> Iterator[str | Table]:
     bulk = significant(rubber.bulk_modulus / MEGA)
     yield f"{rubber.name or 'rubber'}: E' from {slow} to {fast}, bulk modulus {bulk} MPa"
     if prepared.fit is not None:
-        yield from prepared.fit.summary().splitlines()
+        yield from prepared.fit.summary(findings=False).splitlines()
     if prepared.source:
         yield f"source: {prepared.source}"
     yield from shift_parts(prepared)

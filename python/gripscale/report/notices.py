@@ -1,10 +1,10 @@
-"""What the reader must see first: waves that failed, warnings about inputs and numbers."""
+"""What the reader must see first: waves that failed, then warnings, ranked by what they change."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,9 +14,19 @@ from gripscale import model
 from gripscale.charts.view import CONVERGED, PredictionView
 from gripscale.conditions.area_term import heat_left_out
 from gripscale.core.provenance import versions
-from gripscale.io.table import NONE
-from gripscale.report.answer import answer_cards
-from gripscale.report.elements import Card, Notice, number, percent
+from gripscale.core.units import MILLI
+from gripscale.io.table import NONE, significant
+from gripscale.report.answer import (
+    answer_cards,
+    answer_notices,
+    changes,
+    friction_sentence,
+    has_answer,
+    in_words,
+    no_answer_notices,
+)
+from gripscale.report.elements import MOST_OPEN, Card, Doubt, Notice, number, percent, ranked
+from gripscale.report.record import InputRecord
 from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
 from gripscale.rubber.material import LEAST_POISSON_RATIO
 from gripscale.wave.problem import Status
@@ -26,7 +36,9 @@ if TYPE_CHECKING:
     from gripscale.report.source import Run
 
 LARGE_MISFIT = 0.05
-"""Of the softened series: friction errs by about as much."""
+"""Of a series from the moduli it stands for: friction errs by about as much."""
+LARGE_RESIDUAL = 0.1
+"""Of the heights of the sine waves."""
 
 FLAGS = {
     "strain_extrapolated": "the strain lies beyond what the softening was measured for; the last "
@@ -36,27 +48,47 @@ FLAGS = {
 """What a wave may be flagged for, and in words."""
 
 
-def conditions_sentences(view: PredictionView) -> Iterator[str]:
+def conditions_notices(view: PredictionView) -> Iterator[Notice]:
     """Yield a warning for each flag of the rubber of the waves, and for heat left out."""
     for name, words in FLAGS.items():
         if view.has(name):
-            yield from _of_waves(np.nan_to_num(view.usable(name)) > 0.0, words)
+            yield from _of_waves(view, np.nan_to_num(view.usable(name)) > 0.0, words)
     if view.has("series_misfit"):
         misfit = np.nan_to_num(np.abs(view.usable("series_misfit")))
-        worst = f"{misfit.max(initial=0.0):.0%}"
-        words = f"the series misses the softened moduli by up to {worst}"
-        yield from _of_waves(misfit > LARGE_MISFIT, words)
+        words = f"the series misses the softened moduli by up to {misfit.max(initial=0.0):.0%}"
+        yield from _of_waves(view, misfit > LARGE_MISFIT, words, misfit)
     if view.has("contact_temperature") and model.ADHESIVE_FRICTION in view.data:
-        yield from heat_left_out(float(view.data[model.ADHESIVE_FRICTION]), view.total("friction"))
+        area_term = float(view.data[model.ADHESIVE_FRICTION])
+        for text in heat_left_out(area_term, view.total("friction")):
+            yield Notice("warning", text, doubt=Doubt.RUBBER)
 
 
-def _of_waves(flagged: np.ndarray, words: str) -> Iterator[str]:
+def _of_waves(
+    view: PredictionView,
+    flagged: np.ndarray,
+    words: str,
+    error: np.ndarray | float = 1.0,
+    doubt: Doubt = Doubt.RUBBER,
+) -> Iterator[Notice]:
+    """Yield a warning of the flagged waves; `error` is the relative one of their friction."""
+    waves = _named_waves(flagged)
+    if waves:
+        yield Notice("warning", f"{waves}: {words}.", _in_total(view, flagged * error), doubt=doubt)
+
+
+def _named_waves(flagged: np.ndarray) -> str:
     numbers = [str(at + 1) for at in np.flatnonzero(flagged)]
     if len(numbers) > 1 and len(numbers) == flagged.size:
-        yield f"All {len(numbers)} waves: {words}."
-    elif numbers:
-        many = "s" if len(numbers) > 1 else ""
-        yield f"Wave{many} {', '.join(numbers)}: {words}."
+        return f"All {len(numbers)} waves"
+    return f"Wave{'s' if len(numbers) > 1 else ''} {', '.join(numbers)}" if numbers else ""
+
+
+def _in_total(view: PredictionView, error: np.ndarray) -> float:
+    """Return what relative errors of the frictions of the waves make of their sum."""
+    if not (view.moving and view.complete):
+        return math.nan
+    friction = view.column("friction")
+    return float(error @ friction / friction.sum())
 
 
 @dataclass(frozen=True)
@@ -124,13 +156,6 @@ def prediction_sentence(view: PredictionView) -> str:
     return f"{waves}{part} {verb} {beyond.furthest}."
 
 
-def friction_sentence(beyond: Extrapolation) -> str:
-    """Return how much of a friction and how far; empty where it is not worth saying."""
-    if not beyond.share > WORTH_SAYING:
-        return ""
-    return f"{_share(beyond.share)} of the friction lies {beyond.furthest}."
-
-
 def study_sentence(data: xr.Dataset) -> str:
     """Return how many predictions of a study, how much of their friction and how far."""
     if model.FRICTION_OUTSIDE_BAND not in data:
@@ -149,20 +174,40 @@ def study_sentence(data: xr.Dataset) -> str:
     return f"{count}, lie {Extrapolation(most, *ends).furthest}."
 
 
-def comparison_sentences(comparison: xr.Dataset) -> Iterator[tuple[str, str]]:
-    """Yield the label of each rung with friction beyond the band, and its sentence."""
+def comparison_notices(comparison: xr.Dataset) -> Iterator[Notice]:
+    """Yield a warning for each rung with friction beyond the band, of a comparison over an axis."""
     for at, label in enumerate(comparison.label.values):
         rung = comparison.isel(rung=at)
-        alone = not rung[model.FRICTION_OUTSIDE_BAND].ndim
-        text = friction_sentence(model.extrapolation_of(rung)) if alone else study_sentence(rung)
+        text = study_sentence(rung)
         if text:
-            yield str(label), text
+            share = float(rung[model.FRICTION_OUTSIDE_BAND].max())
+            yield Notice("warning", f"{label}: {text}", share, doubt=Doubt.RUBBER)
 
 
 def notices(run: Run) -> list[Notice]:
-    """Return errors first, then warnings."""
-    errors = [Notice("error", text) for view in run.predictions for text in _failures(view)]
-    return errors + [Notice("warning", text) for text in _warnings(run)]
+    """Return errors first, then warnings by what they change."""
+    of_case = [*no_answer_notices(run.direct), *case_notices(run.direct, run.record)]
+    return ranked([*failures(run), *of_case, *_of_predictions(run)])
+
+
+def failures(run: Run) -> Iterator[Notice]:
+    """Yield what has no numbers in a run: waves and predictions."""
+    yield from (Notice("error", text) for view in run.predictions for text in _failures(view))
+
+
+def case_notices(direct: xr.Dataset | None, record: InputRecord) -> list[Notice]:
+    """Return what is known before any wave is solved, ranked: of the answer and of the inputs."""
+    parts = answer_notices(direct), _extrapolated_roughness(direct, record), _misfits(record)
+    return ranked([notice for part in (*parts, record.warnings()) for notice in part])
+
+
+def warning_lines(warnings: Sequence[Notice], rest: str = "") -> Iterator[str]:
+    """Yield ranked warnings as lines; with `rest`, a file that has them all, the first only."""
+    if warnings:
+        yield "Warnings, by what they change:"
+    yield from (f"  {notice.text}" for notice in (warnings[:MOST_OPEN] if rest else warnings))
+    if rest and len(warnings) > MOST_OPEN:
+        yield f"  ... and {len(warnings) - MOST_OPEN} more in {rest}"
 
 
 def _failures(view: PredictionView) -> Iterator[str]:
@@ -192,49 +237,117 @@ def _advice(word: str) -> str:
     return f"{status.advice} See {chapter_words(status.chapter)}."
 
 
-def _warnings(run: Run) -> Iterator[str]:
+def _of_predictions(run: Run) -> Iterator[Notice]:
+    """Yield warnings about the waves, and about where the results come from."""
+    answered = run.direct is not None and has_answer(run.direct)
+    if run.direct is not None and answered:
+        yield from _beside_the_answer(run.predictions[0], run.direct)
     for view in run.predictions:
         beyond = prediction_sentence(view)
-        if beyond:
-            yield f"{view.title}: {beyond} There the Prony series is an extrapolation."
+        if beyond and not answered:
+            text = f"{view.title}: {beyond} There the Prony series is an extrapolation."
+            yield Notice(
+                "warning", text, model.extrapolation_of(view.data).share, doubt=Doubt.RUBBER
+            )
     for view in run.by_wave:
-        if view.moving:
-            yield from _mismatch(view)
-        yield from (f"{view.title}: {text}" for text in conditions_sentences(view))
-        yield from _compressible(view, run.record.bulk_modulus)
-    yield from run.record.warnings()
+        for notice in (
+            *_mismatch(view),
+            *conditions_notices(view),
+            *_compressible(view, run.record.bulk_modulus),
+        ):
+            yield replace(notice, text=f"{view.title}: {notice.text}")
     if len({str(view.data.attrs.get("case", "")) for view in run.predictions}) > 1:
-        yield "The dynamic and the static result come from different case files."
+        text = "The dynamic and the static result come from different case files."
+        yield Notice("warning", text, math.inf, math.inf)
     solved, here = run.attrs.get("version_gripscale"), versions()["gripscale"]
     if solved is not None and solved != here:
-        yield f"Solved with gripscale {solved}, reported with {here}."
+        text = f"Solved with gripscale {solved}, reported with {here}."
+        yield Notice("warning", text, doubt=Doubt.SOURCE)
 
 
-def _compressible(view: PredictionView, bulk: float) -> Iterator[str]:
+def _beside_the_answer(chain: PredictionView, direct: xr.Dataset) -> Iterator[Notice]:
+    """Yield how the totals of the chain differ from the best estimate of the same load."""
+    if not chain.complete:
+        return
+    names = ("friction", "contact_fraction") if chain.moving else ("contact_fraction",)
+    ratios = {name: chain.total(name) / float(direct[f"best_{name}"]) for name in names}
+    area = f"{ratios['contact_fraction']:.2g} times the contact area"
+    text = f"{ratios['friction']:.2g} times the friction and {area}" if chain.moving else area
+    yield Notice(
+        "warning",
+        f"The chain of waves has {text} of the best estimate.",
+        ratios.get("friction", math.nan) - 1.0,
+        ratios["contact_fraction"] - 1.0,
+        Doubt.SOLUTION,
+    )
+
+
+def _extrapolated_roughness(direct: xr.Dataset | None, record: InputRecord) -> Iterator[Notice]:
+    """Yield what the roughness adds that is shorter than the measurement resolves."""
+    if not record.number("cut_off_beyond_measurement") > 0.0:
+        return
+    limit, end = record.number("cut_off_carried_m"), record.number("cut_off_m")
+    lengths = (f"{number(length, MILLI)} mm" for length in (limit, end))
+    text = "Roughness from {}, where the measurement ends, to {} is extrapolated".format(*lengths)
+    changed = {}
+    if direct is not None and has_answer(direct):
+        changed = changes(direct, limit / end)
+    yield Notice(
+        "warning",
+        f"{text}: without it {in_words(changed)}." if changed else f"{text}.",
+        changed.get("friction", math.nan),
+        changed.get("contact_fraction", math.nan),
+        Doubt.SURFACE,
+    )
+
+
+def _misfits(record: InputRecord) -> Iterator[Notice]:
+    """Yield by how much the rubber misses its loss factor, and the sine waves their heights."""
+    loss = record.loss_factor_error
+    if abs(loss) > LARGE_MISFIT:
+        yield Notice(
+            "warning",
+            f"At the frequencies of the waves the loss factor of the Prony series is "
+            f"{percent(abs(loss))} {'above' if loss > 0.0 else 'below'} the measured: the friction "
+            "errs by about as much.",
+            loss,
+            doubt=Doubt.RUBBER,
+        )
+    residual = record.number("sines_residual_decades")
+    height = 10.0 ** (0.5 * residual) - 1.0  # C_z goes with the square of the height
+    if height > LARGE_RESIDUAL:
+        yield Notice(
+            "warning",
+            f"The sine waves miss the measured correlation by {significant(residual, 2)} decades: "
+            f"{percent(height)} of their height, by which the friction of the chain errs.",
+            height,
+            doubt=Doubt.SURFACE,
+        )
+
+
+def _compressible(view: PredictionView, bulk: float) -> Iterator[Notice]:
     """Warn where the bulk modulus is too small for the modulus of a wave."""
     if not view.has("modulus"):
         return
     shear = view.column("modulus") / 3.0
     ratio = (3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear))
-    low = np.flatnonzero(np.nan_to_num(ratio, nan=0.5) < LEAST_POISSON_RATIO)
-    if low.size:
-        waves = ", ".join(str(i + 1) for i in low)
-        yield (
-            f"{view.title}: Poisson's ratio of waves {waves} is down to {number(ratio[low].min())},"
-            f" less than {LEAST_POISSON_RATIO:g}: the bulk modulus is too small for their moduli."
+    low = np.nan_to_num(ratio, nan=0.5) < LEAST_POISSON_RATIO
+    if low.any():
+        words = (
+            f"Poisson's ratio is down to {number(ratio[low].min())}, less than "
+            f"{LEAST_POISSON_RATIO:g}: the bulk modulus is too small for their moduli"
         )
+        yield Notice("warning", f"{_named_waves(low)}: {words}.", doubt=Doubt.RUBBER)
 
 
-def _mismatch(view: PredictionView) -> Iterator[str]:
-    mismatch = view.usable("friction_mismatch")
-    large = np.flatnonzero(np.nan_to_num(mismatch) > LARGE_MISMATCH)
-    if large.size:
-        waves = ", ".join(str(i + 1) for i in large)
-        yield (
-            f"{view.title}: the two frictions of waves {waves} are up to "
-            f"{percent(np.nanmax(mismatch))} apart, more than {percent(LARGE_MISMATCH)}; take a "
-            "finer mesh."
-        )
+def _mismatch(view: PredictionView) -> Iterator[Notice]:
+    if not view.moving:
+        return
+    mismatch = np.nan_to_num(view.usable("friction_mismatch"))
+    worst = percent(mismatch.max(initial=0.0))
+    words = f"the two frictions are up to {worst} apart; take a finer mesh"
+    large = mismatch > LARGE_MISMATCH
+    yield from _of_waves(view, large, words, mismatch, Doubt.SOLUTION)
 
 
 def cards(run: Run) -> list[Card]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import shlex
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -24,6 +24,7 @@ from gripscale.charts.view import SYMBOLS
 from gripscale.charts.wave_and_chain import contact_charts, verification_charts
 from gripscale.core.provenance import versions
 from gripscale.io.table import Table
+from gripscale.model import FRICTION_OUTSIDE_BAND
 from gripscale.report import (
     answer,
     calibration,
@@ -34,7 +35,18 @@ from gripscale.report import (
     study,
     uncertainty,
 )
-from gripscale.report.elements import Card, Code, Element, Facts, Notice, Page, Section, Text
+from gripscale.report.elements import (
+    Card,
+    Code,
+    Doubt,
+    Element,
+    Facts,
+    Notice,
+    Page,
+    Section,
+    Text,
+    ranked,
+)
 from gripscale.report.equations import equations
 from gripscale.report.source import Compared, Run, Source, Study, case_name
 from gripscale.report.waves import wave_tables
@@ -80,6 +92,7 @@ CALIBRATION = (
     "A law of the shear stress in the real contact area, fitted so that the predicted hysteresis "
     "and this area term together give the measured friction. The hysteresis is not fitted."
 )
+OF_ANOTHER = Notice("warning", uncertainty.OF_ANOTHER, doubt=Doubt.SOURCE)
 NAMED_FAILURES = 12
 """Failed predictions named one by one at the head of the page."""
 
@@ -111,7 +124,7 @@ def _page(
     """Return a page of the sections that hold something; `answered` holds a best estimate."""
     chapters = [section for section in sections if section.elements]
     lines = () if answered is None else tuple(answer.basis_lines(answered))
-    return Page(title, subtitle, list(heads), list(numbers), chapters, lines)
+    return Page(title, subtitle, ranked(heads), list(numbers), chapters, lines)
 
 
 def _elements(parts: Iterable[str | Table]) -> list[Element]:
@@ -132,7 +145,7 @@ def run_page(run: Run) -> Page:
     return _page(
         f"Contact and friction: {case or 'result'}",
         "; ".join(view.title for view in run.predictions),
-        [*notices.notices(run), *([Notice("warning", uncertainty.OF_ANOTHER)] if stale else [])],
+        [*notices.notices(run), *([OF_ANOTHER] if stale else [])],
         [*notices.cards(run), *uncertainty.uncertainty_cards(run.own_uncertainty)],
         [
             Section("inputs", "Inputs and their origin", origin),
@@ -211,13 +224,16 @@ def _comparison(run: Run) -> list[Element]:
     """Return the comparison of just this case; another's is named and left out."""
     same = run.compared.of(run.attrs.get("case"))
     stale = len(same.parts) < len(run.compared.parts)
-    return [*([Notice("warning", STALE)] if stale else []), *comparison_elements(same)]
+    answered = same.ladder is not None and answer.has_answer(same.ladder)
+    lines = answer.answer_lines(same.ladder) if answered else ()
+    heads: list[Element] = [Notice("warning", STALE)] if stale else []
+    return [*heads, *(Text(line.strip()) for line in lines), *comparison_elements(same)]
 
 
 def _verification(run: Run, tables: dict[str, Table]) -> list[Element]:
     if not run.by_wave:
         return []
-    errors: list[Element] = [notice for notice in notices.notices(run) if notice.level == "error"]
+    errors: list[Element] = list(notices.failures(run))
     names = ("errors", "solution", "mesh")
     return [
         *(errors or [Notice("good", "Every wave converged.")]),
@@ -289,10 +305,12 @@ def _study_notices(data: xr.Dataset) -> list[Notice]:
         rest = len(failed) - NAMED_FAILURES
         heads.append(Notice("error", f"{rest} more did not converge; see the table of totals."))
     beyond = notices.study_sentence(data)
-    warnings = [f"{beyond} There the Prony series is an extrapolation."] if beyond else []
-    warnings += filter(None, [study.shift_sentence(data)])
-    warnings += str(data.attrs.get("notes", "")).splitlines()
-    return [*heads, *(Notice("warning", text) for text in warnings)]
+    if beyond:
+        share = float(data[FRICTION_OUTSIDE_BAND].max())
+        text = f"{beyond} There the Prony series is an extrapolation."
+        heads.append(Notice("warning", text, share, doubt=Doubt.RUBBER))
+    notes = [study.shift_sentence(data), *str(data.attrs.get("notes", "")).splitlines()]
+    return [*heads, *(Notice("warning", text, doubt=Doubt.SURFACE) for text in notes if text)]
 
 
 def _study_cards(source: Study) -> list[Card]:
@@ -316,8 +334,9 @@ def comparison_page(compared: Compared) -> Page:
         f"Models side by side: {case}",
         str(first.attrs.get("title", "")),
         [
+            *_of_ladder(compared.ladder),
             *(element for element in elements if isinstance(element, Notice)),
-            *([Notice("warning", uncertainty.OF_ANOTHER)] if stale else []),
+            *([OF_ANOTHER] if stale else []),
         ],
         [*comparison.ladder_cards(compared.ladder), *uncertainty.uncertainty_cards(sampled)],
         [
@@ -326,6 +345,13 @@ def comparison_page(compared: Compared) -> Page:
         ],
         compared.ladder,
     )
+
+
+def _of_ladder(ladder: xr.Dataset | None) -> Iterator[Notice]:
+    """Yield what is to be known of the answer of a comparison of one load."""
+    if ladder is not None:
+        yield from answer.no_answer_notices(ladder)
+        yield from answer.answer_notices(ladder)
 
 
 def comparison_elements(compared: Compared) -> list[Element]:
@@ -337,18 +363,16 @@ def comparison_elements(compared: Compared) -> list[Element]:
         for where, failure in comparison.failures(data):
             placed = replace(failure, sentence=f"{where}: {failure}")
             level = "warning" if bool(data.best_friction.notnull().all()) else "error"
-            elements.append(Notice(level, f"{notices.explained(placed)}."))
-    for data in compared.parts:
-        axis = varied(data)
-        over = f" over {axis.replace('_', ' ')}" if axis else ""
-        for label, text in notices.comparison_sentences(data):
-            elements.append(Notice("warning", f"{label}{over}: {text}"))
+            text = f"{notices.explained(placed)}."
+            elements.append(Notice(level, text, doubt=Doubt.SOLUTION))
+    for data in compared.over:
+        over = f"Over {varied(data).replace('_', ' ')}"
+        for notice in notices.comparison_notices(data):
+            elements.append(replace(notice, text=f"{over}, {notice.text}"))
     ladder = compared.ladder
     if ladder is not None:
         elements.append(comparison.comparison_table(ladder))
         elements += map(Text, comparison.temperature_only(ladder))
-        if np.isfinite(ladder.best_friction):
-            elements.append(Text(comparison.best_sentence(ladder)))
         elements += ladder_charts(ladder)
     for data in compared.over:
         elements += [comparison.axis_table(data, varied(data), name) for name in SYMBOLS]

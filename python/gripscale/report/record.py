@@ -11,7 +11,7 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from gripscale.io.table import significant
-from gripscale.report.elements import number
+from gripscale.report.elements import Doubt, Notice, number
 
 
 @dataclass(frozen=True)
@@ -72,17 +72,37 @@ class InputRecord:
         counted = self.data["file_role"].values != "measured"
         return [str(digest) for digest in self.data["file_sha256"].values[counted]]
 
-    def warnings(self) -> Iterator[str]:
-        """Yield sentences on what is doubtful about conditions, rubber and surface."""
-        yield from self.text("conditions_notes").splitlines()
-        for finding in self.findings:
-            yield f"Rubber: {finding}."
-        for note in self.text("surface_notes").splitlines():
-            yield f"Surface: {note.removesuffix('.')}."
+    @property
+    def loss_factor_error(self) -> float:
+        """Mean relative error of the loss factor of the Prony series where the waves excite it.
+
+        NaN at rest, without a master curve, and where none of its rows lies between the waves.
+        """
+        if "master_series_loss" not in self.data:
+            return math.nan
+        names = ("master_loss", "master_storage", "master_series_loss", "master_series_storage")
+        loss, storage, series_loss, series_storage = (self.data[name].values for name in names)
+        omega = 2.0 * math.pi * self.data["master_frequency"].values
+        low, high = self.number("excited_low_rad_per_s"), self.number("excited_high_rad_per_s")
+        inside = (omega >= low) & (omega <= high)
+        error = (series_loss / series_storage)[inside] / (loss / storage)[inside] - 1.0
+        return float(error.mean()) if inside.any() else math.nan
+
+    def warnings(self) -> Iterator[Notice]:
+        """Yield what is doubtful about load, conditions, rubber and surface."""
+        for note in self.text("load_notes").splitlines():
+            yield Notice("warning", note, math.inf, math.inf)  # perhaps in a wrong unit
+        sentences = [(Doubt.RUBBER, text) for text in self.text("conditions_notes").splitlines()]
+        sentences += [(Doubt.RUBBER, f"Rubber: {finding}.") for finding in self.findings]
+        notes = self.text("surface_notes").splitlines()
+        sentences += [(Doubt.SURFACE, f"Surface: {note.removesuffix('.')}.") for note in notes]
         if self.has("no_self_affine"):
-            yield f"The surface was not described as self-affine: {self.text('no_self_affine')}"
+            why = f"The surface was not described as self-affine: {self.text('no_self_affine')}"
+            sentences.append((Doubt.SURFACE, why))
         if self.is_empty:
-            yield (
+            text = (
                 "The result holds no record of its inputs (it was not written by `gripscale run`, "
                 "or by an older version): profiles, fits and master curve are missing here."
             )
+            sentences.append((Doubt.SOURCE, text))
+        yield from (Notice("warning", text, doubt=doubt) for doubt, text in sentences)

@@ -29,7 +29,7 @@ from gripscale.io.table import (
 )
 from gripscale.model import with_adhesive
 from gripscale.report.inputs import numbers
-from gripscale.report.notices import conditions_sentences, exponent_sentence, prediction_sentence
+from gripscale.report.notices import conditions_notices, exponent_sentence, prediction_sentence
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -205,7 +205,7 @@ def prediction_table(data: xr.Dataset, title: str) -> Table:
         notes.append(f"{STAR} {beyond}")
         marks = ["*" if flag else "" for flag in view.column("outside_band")]
         columns = [replace(c, marks=marks) if c.name == "loss_factor" else c for c in columns]
-    notes += conditions_sentences(view)
+    notes += [notice.text for notice in conditions_notices(view)]
     return Table("waves", columns, title, notes, keys=2, bad=~view.converged)
 
 

@@ -528,14 +528,14 @@ def require_load_bearing(rubber: Rubber, pressure: float, load_time: float) -> N
     modulus = float(rubber.relaxation_modulus(load_time))
     if pressure <= MOST_PRESSURE * modulus:
         return
-    name, flows = f"the relaxation modulus after {load_time:.3g} s", ""
+    name, what, instead = f"the relaxation modulus after {load_time:.3g} s", "the rubber", ""
     if math.isinf(load_time):
-        name = "equilibrium_modulus"
-        flows = "; leave out the static contact of a melt, in a case by static = false"
+        name, what = "equilibrium_modulus", "at rest the rubber is a melt, which"
+        instead = "; leave out the static contact, in a case by a speed and static = false"
     raise InputError(
-        f"{name} [Pa] must be at least 1/{MOST_PRESSURE:g} of the pressure, "
-        f"{pressure / MOST_PRESSURE:.3g}, for a contact that is not squeezed flat{flows}; "
-        f"got {modulus:.3g}"
+        f"no contact to be solved: {what} the pressure squeezes flat. {name} [Pa] must be at least "
+        f"1/{MOST_PRESSURE:g} of the pressure, {pressure / MOST_PRESSURE:.3g}; "
+        f"got {modulus:.3g}{instead}"
     )
 
 

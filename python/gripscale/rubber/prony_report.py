@@ -253,8 +253,8 @@ class PronyFit:
         """Whether one linear solid has both E' and E'' within about their scatter, everywhere."""
         return not self.inconsistencies
 
-    def summary(self) -> str:
-        """Return the report as a few lines of text."""
+    def summary(self, *, findings: bool = True) -> str:
+        """Return the report as a few lines of text, with or without what is doubtful."""
         low, high = self.measured_band
         lines = [
             f"{self.terms} Maxwell elements for {low:.3g} to {high:.3g} rad/s",
@@ -265,7 +265,7 @@ class PronyFit:
         if self.outlier_frequency.size:
             left_out = ", ".join(f"{frequency:.3g}" for frequency in self.outlier_frequency)
             lines.append(f"left out as outliers [Hz]: {left_out}")
-        return "\n".join([*lines, *self.findings])
+        return "\n".join([*lines, *(self.findings if findings else ())])
 
 
 def report(

@@ -205,6 +205,26 @@ def _rms(values: Array) -> float:
     return float(np.sqrt(np.mean(values**2))) if values.size else 0.0
 
 
+def extrapolation_notes(sines: SineStack, correlation: HeightDifference) -> Iterator[str]:
+    """Yield which waves and which roughness the measurement does not carry."""
+    last, end, limit = float(sines.wavelength[-1]), sines.cut_off, correlation.resolution_limit
+    if limit is not None and _beyond(last, limit):
+        yield (
+            f"the smallest wave, {in_mm(last, 3)}, is shorter than the measurement carries, "
+            f"{in_mm(limit, 3)}: it extrapolates the waves above it"
+        )
+    if end is not None and limit is not None and _beyond(end, limit):
+        yield (
+            f"the cut-off, {in_mm(end, 3)}, lies beyond what the measurement carries, "
+            f"{in_mm(limit, 3)}: the roughness between them is extrapolated"
+        )
+
+
+def _beyond(length: float, limit: float | None) -> bool:
+    """Return whether a wave is shorter than what the measurement resolves [m]."""
+    return limit is not None and length < limit * (1.0 - 1e-6)
+
+
 def stack_notes(
     sines: SineStack, correlation: HeightDifference, fit: Mapping[str, Any]
 ) -> Iterator[str]:
@@ -214,12 +234,7 @@ def stack_notes(
     """
     last, limit = float(sines.wavelength[-1]), correlation.resolution_limit
     stated_end = fit.get("smallest_wavelength") is not None or fit.get("cut_off") is not None
-    if limit is not None and last < limit * (1.0 - 1e-6):
-        yield (
-            f"the smallest wave, {in_mm(last, 3)}, is shorter than the measurement carries, "
-            f"{in_mm(limit, 3)}: it extrapolates the waves above it"
-        )
-    elif not stated_end:
+    if not stated_end and not _beyond(last, limit):
         at_limit = limit is not None and last <= limit * (1.0 + 1e-6)
         reason = "the shortest the measurement carries" if at_limit else "where the fit puts it"
         yield (f"no smallest wavelength is stated: the smallest wave is {in_mm(last, 3)}, {reason}")

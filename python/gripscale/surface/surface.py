@@ -19,7 +19,7 @@ from gripscale.surface.cut_off import (
     slope_by_wavelength,
 )
 from gripscale.surface.height_difference import HeightDifference, height_difference
-from gripscale.surface.plausibility import profile_warnings, stack_notes
+from gripscale.surface.plausibility import extrapolation_notes, profile_warnings, stack_notes
 from gripscale.surface.profile import HeightMap, Profile
 from gripscale.surface.self_affine import SelfAffineFit
 from gripscale.surface.sine_fit import fit_sines
@@ -152,14 +152,15 @@ class Surface:
         of_measurement = () if self.measured is None else self.measured.notes
         if self.correlation is None:
             return of_measurement
-        notes = [*of_measurement, *stack_notes(self.sines, self.correlation, self.fit)]
-        end, carried = self.sines.cut_off, self.correlation.resolution_limit
-        if end is not None and carried is not None and end < carried * (1.0 - 1e-6):
-            notes.append(
-                f"the cut-off, {end * 1e3:.3g} mm, lies beyond what the measurement carries, "
-                f"{carried * 1e3:.3g} mm: the roughness between them is extrapolated"
-            )
-        return tuple(notes)
+        of_waves = stack_notes(self.sines, self.correlation, self.fit)
+        return (*of_measurement, *of_waves, *self.extrapolated)
+
+    @property
+    def extrapolated(self) -> tuple[str, ...]:
+        """Those of the notes on waves and roughness that the measurement does not carry."""
+        if self.correlation is None:
+            return ()
+        return tuple(extrapolation_notes(self.sines, self.correlation))
 
     def varied(
         self,

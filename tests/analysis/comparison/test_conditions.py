@@ -10,8 +10,9 @@ import pytest
 import gripscale as gs
 from gripscale.analysis import Comparison, compare_case, compare_over
 from gripscale.case import prepare_case
-from gripscale.io.table import as_text
-from gripscale.report.comparison import best_sentence, comparison_table, remarks
+from gripscale.io.table import as_text, significant
+from gripscale.report.answer import basis_lines
+from gripscale.report.comparison import comparison_table, remarks
 from gripscale.surface import self_affine_profile
 from tests.samples import SOFTENING
 
@@ -97,7 +98,9 @@ def test_table_and_best_estimate_have_the_area_term(made: Comparison) -> None:
     direct = made.data.sel(rung="direct")
     total = float(direct.total_friction + direct.total_adhesive_friction)
     assert f"{total:.2f}" in text
-    assert f"With the area term, of its contact area, μ = {total:.2f}" in best_sentence(data)
+    # 2 MPa on the contact area of the estimate, not on that of the direct contact
+    both = float(data.best_friction) + 2e6 * float(data.best_contact_fraction) / 3e5
+    assert f"comes on top: μ = {significant(both)} with it" in " ".join(basis_lines(data))
 
 
 def test_a_comparison_over_the_temperature_asks_every_model_at_it(made: Comparison) -> None:

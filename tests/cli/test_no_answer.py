@@ -1,0 +1,125 @@
+"""Cases that allow no good answer: `run`, `compare` and the page say so before any number."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from gripscale.report import write_report
+from gripscale.surface import self_affine_profile
+from tests.report.reading import Page
+from tests.samples import (
+    HALF_PLANE,
+    MAXWELL,
+    Shell,
+    case_text,
+    write_master_curve,
+    write_maxwell,
+    write_road,
+)
+
+SURFACE = 'files = ["road.txt"]\nscales = 4\nsmallest_wavelength = "0.8 mm"\nacross_gaps = true'
+CASE = case_text(
+    SURFACE,
+    'file = "dma.txt"\nterms = 6',
+    HALF_PLANE + '\n\n[output]\nfolder = "results"',
+)
+
+
+@pytest.fixture
+def case(tmp_path: Path) -> Path:
+    """A rough road of 0.6 m and a rubber measured over all its frequencies."""
+    write_maxwell(tmp_path / "dma.txt")
+    road = self_affine_profile(0.8, 1e-2, 8e-4, length=0.6, step=2e-4, seed=1)
+    write_road(tmp_path / "road.txt", road)
+    (tmp_path / "case.toml").write_text(CASE)
+    return tmp_path / "case.toml"
+
+
+def replaced(case: Path, old: str, new: str) -> None:
+    text = case.read_text()
+    assert old in text
+    case.write_text(text.replace(old, new))
+
+
+def as_it_is(case: Path) -> None:
+    """Leave the case as it is."""
+
+
+def short(case: Path) -> None:
+    """Leave 20 mm of the road."""
+    replaced(case, "scales", 'crop = ["200 mm", "220 mm"]\nscales')
+
+
+def mostly_gaps(case: Path) -> None:
+    """Leave one stretch of 4 mm in three."""
+    path = case.with_name("road.txt")
+    title, *rows = path.read_text().splitlines()
+    kept = [row if at // 20 % 3 == 0 else f"{row.split()[0]}\tNaN" for at, row in enumerate(rows)]
+    path.write_text("\n".join([title, *kept]))
+
+
+def narrow(case: Path) -> None:
+    """Measure the rubber up to 10 Hz: the waves excite it at 5 to 400 Hz."""
+    frequency = np.geomspace(1e-3, 10.0, 30)
+    modulus = MAXWELL.complex_modulus(2.0 * np.pi * frequency)
+    write_master_curve(case.with_name("dma.txt"), frequency, modulus)
+
+
+def at_rest(case: Path) -> None:
+    """Take the speed away."""
+    replaced(case, '"0.3 m/s"', '"0 m/s"')
+
+
+@pytest.mark.parametrize(
+    ("make", "statement"),
+    [
+        (as_it_is, "Answer: μ = "),
+        (short, "Answer: none to rely on. The measured surface is too short"),
+        (mostly_gaps, "Answer: none to rely on. 6"),
+        (narrow, "Answer: none to rely on. 9"),
+        (at_rest, "Answer: no friction at rest; A_r/A_0 = "),
+    ],
+)
+def test_the_first_line_says_that_there_is_no_answer(
+    shell: Shell, case: Path, make: Callable[[Path], None], statement: str
+) -> None:
+    make(case)
+    for words in (("run", case), ("compare", case, "--rungs", "chain_half_plane,direct")):
+        result = shell(*words, columns=400)
+        assert result.exit_code == 0, result.output
+        lines = [line for line in result.stdout.splitlines() if line and line[0] not in "[gCS"]
+        assert lines[0].startswith(statement)
+    unreliable = "none to rely on" in statement
+    assert ("; not to be relied on" in lines[-3]) == unreliable
+    for folder in (case.parent / "results", case.parent / "results" / "comparison"):
+        page = Page(write_report(folder))
+        alerts = [a for _, a in page.tags if a.get("role") == "alert"]
+        assert (len(alerts), statement in page.text) == (unreliable, unreliable)
+        assert ("not to be relied on" in page.text) == unreliable
+
+
+def test_what_cannot_be_solved_is_an_error_before_all_else(shell: Shell, case: Path) -> None:
+    frequency = np.geomspace(1e-3, 1e3, 49)
+    relaxed = 1j * frequency / (1.0 + 1j * frequency)
+    write_master_curve(case.with_name("dma.txt"), frequency, 1e6 * relaxed + 1e3j * frequency)
+    replaced(case, 'footprint = "100 mm"', 'footprint = "100 mm"\nstatic = true')
+    result = shell("run", case)
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert "at rest the rubber is a melt, which the pressure squeezes flat" in result.stderr
+    assert "must be at least 1/10 of the pressure, 3e+04; got" in result.stderr
+
+
+@pytest.mark.parametrize("gap", ["NaN", ""])
+def test_a_profile_of_gaps_only_is_named(shell: Shell, case: Path, gap: str) -> None:
+    path = case.with_name("road.txt")
+    title, *rows = path.read_text().splitlines()
+    path.write_text("\n".join([title, *(f"{row.split()[0]}\t{gap}" for row in rows)]))
+    for command in ("run", "compare"):
+        result = shell(command, case)
+        assert result.exit_code == 2
+        assert "road.txt: expected " in result.stderr
+        assert ("all missing" if gap else "numbers in column 2, 'z'; got none") in result.stderr
