@@ -79,8 +79,8 @@ def at_rest(case: Path) -> None:
     [
         (as_it_is, "Answer: μ = "),
         (short, "Answer: none to rely on. The measured surface is too short"),
-        (mostly_gaps, "Answer: none to rely on. 6"),
-        (narrow, "Answer: none to rely on. 9"),
+        (mostly_gaps, "Answer: none to rely on. 75 % of the contact lies on filled gaps"),
+        (narrow, "Answer: none to rely on. 83 % of the friction lies up to 1.7 decades above"),
         (at_rest, "Answer: no friction at rest; A_r/A_0 = "),
     ],
 )
@@ -94,12 +94,14 @@ def test_the_first_line_says_that_there_is_no_answer(
         lines = [line for line in result.stdout.splitlines() if line and line[0] not in "[gCS"]
         assert lines[0].startswith(statement)
     unreliable = "none to rely on" in statement
-    assert ("; not to be relied on" in lines[-3]) == unreliable
+    (best,) = (line for line in lines if line.startswith("Best estimate"))
+    assert best.endswith("; not to be relied on") == unreliable
     for folder in (case.parent / "results", case.parent / "results" / "comparison"):
         page = Page(write_report(folder))
         alerts = [a for _, a in page.tags if a.get("role") == "alert"]
-        assert (len(alerts), statement in page.text) == (unreliable, unreliable)
-        assert ("not to be relied on" in page.text) == unreliable
+        assert len(alerts) == unreliable
+        assert ("not to be relied on" in page.text) == unreliable, "in the cards"
+        assert (statement in page.text) or not unreliable
 
 
 def test_what_cannot_be_solved_is_an_error_before_all_else(shell: Shell, case: Path) -> None:

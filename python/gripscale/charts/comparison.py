@@ -51,7 +51,7 @@ def comparison_figure(comparison: xr.Dataset) -> Figure:
     rung with failed samples is open; one with a star rests partly on the rubber beyond its measured
     band.
     """
-    panels = [_ladder_panel(comparison, name) for name in AXIS_TITLES]
+    panels = [_ladder_panel(comparison, name) for name in _quantities(comparison)]
     labels = list((panels[0].y.ticks or {}).values())
     star = any(label.endswith(STAR) for label in labels)
     return draw.on_paper(
@@ -69,7 +69,7 @@ def comparison_figure(comparison: xr.Dataset) -> Figure:
 def ladder_charts(comparison: xr.Dataset) -> list[Chart]:
     """Return the steps from rung to rung, and the rungs down to each wavelength."""
     panels = []
-    for name in AXIS_TITLES:
+    for name in _quantities(comparison):
         panel, rows = _ladder_panel(comparison, name), list(ladder.rows_of(comparison, name))
         texts = (
             row.label if math.isfinite(row.value) else f"{row.label} ({row.note})" for row in rows
@@ -78,8 +78,14 @@ def ladder_charts(comparison: xr.Dataset) -> list[Chart]:
         panels.append(replace(panel, y=replace(panel.y, ticks=ticks)))
     on_surface = ladder.on_the_surface(comparison)
     if np.isfinite(on_surface.running_friction.values).any():
-        panels += [_wavelength_panel(on_surface, name) for name in AXIS_TITLES]
+        panels += [_wavelength_panel(on_surface, name) for name in _quantities(comparison)]
     return draw.on_page(panels)
+
+
+def _quantities(comparison: xr.Dataset) -> list[str]:
+    """Return what is drawn of a comparison of one load: no friction at rest."""
+    moving = float(comparison.nominal_speed) > 0.0
+    return [name for name in AXIS_TITLES if moving or name != "friction"]
 
 
 def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
@@ -159,7 +165,7 @@ def comparison_wavelength_figure(comparison: xr.Dataset) -> Figure:
     contact do that. Their area is that of the contact without the shorter waves.
     """
     on_surface = ladder.on_the_surface(comparison)
-    panels = [_wavelength_panel(on_surface, name) for name in AXIS_TITLES]
+    panels = [_wavelength_panel(on_surface, name) for name in _quantities(comparison)]
     return draw.on_paper(Sheet(panels, height=3.5))
 
 
