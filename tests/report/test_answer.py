@@ -154,7 +154,8 @@ def test_those_without_a_number_stand_below_in_an_order() -> None:
     notices = ranked(several)
     assert [notice.text for notice in notices] == order
     page = Page("", "", notices, [])
-    assert [notice.text for notice in page.notices_open] == order[:3]
+    assert [notice.text for notice in page.errors] == order[:1]
+    assert [notice.text for notice in page.notices_open] == order[1:3]
     assert [notice.text for notice in page.notices_folded] == order[3:]
     assert list(warning_lines(notices[:4], "report.txt")) == [
         "Warnings, by what they change:",

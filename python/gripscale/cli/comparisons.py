@@ -67,6 +67,7 @@ def compare(
     """Show what each assumption of the chain costs; resumes where it was stopped."""
     from gripscale.analysis.comparison import VARIED, at_measured, compare_case, compare_over
     from gripscale.analysis.effects import case_effects
+    from gripscale.analysis.ladder import WINDOWS, chosen
     from gripscale.analysis.propagation import input_digests, stored_uncertainty
     from gripscale.case import prepare_case, read_case
     from gripscale.charts.comparison import at_measured_figure
@@ -95,18 +96,20 @@ def compare(
 
     def print_stage(ladder: Comparison) -> None:
         """Print the answer as far as it goes, once, while windows are solved."""
-        if axes is None and has_answer(ladder.data) and not stages:
+        if axes is None and staged and has_answer(ladder.data) and not stages:
             stages.append(ladder)
             console.print()
             terminal.print_parts(console, ["So far:", *answer_lines(ladder.data), ""])
 
+    names = [] if rungs is None else [name.strip() for name in rungs.split(",")]
+    staged = any(rung.group == WINDOWS for rung in chosen(names))
     stages: list[Comparison] = []
     options: dict[str, Any] = solving | {
         "seeds": seeds,
         "tolerance": tolerance,
         "accuracy": accuracy,
         "on_stage": print_stage,
-        "rungs": [] if rungs is None else [name.strip() for name in rungs.split(",")],
+        "rungs": names,
         "measured": None if measured is None else read_measured_friction(measured),
         "folder": target,
     }

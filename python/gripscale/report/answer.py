@@ -50,8 +50,9 @@ def answer_lines(data: xr.Dataset | None) -> Iterator[str]:
     numbers = ", ".join(
         f"{SYMBOLS[name]} = {number_and_interval(data, name)}" for name in _of(data)
     )
+    lead = f"{statement} It would be " if statement else ""
     rest = "" if _moving(data) else "no friction at rest; "
-    yield f"Answer: {f'{statement} It would be ' if statement else ''}{rest}{numbers}{_level(data)}"
+    yield f"Answer: {lead}{rest}{numbers}{_level(data)}"
     yield from (f"  {line}" for line in basis_lines(data))
 
 
@@ -78,11 +79,12 @@ def basis_lines(data: xr.Dataset) -> Iterator[str]:
     if not has_answer(data):
         return
     names = _of(data)
-    load = [
+    pressure, speed = (
         display_unit_of(data.attrs, name).text(float(data[f"nominal_{name}"]))
         for name in ("pressure", "speed")
-    ]
-    yield f"for {' and '.join(load)}, roughness down to {in_mm(float(data.cutoff_wavelength), 3)}"
+    )
+    motion = f"and {speed}" if _moving(data) else "at rest, where there is no friction"
+    yield f"for {pressure} {motion}, roughness down to {in_mm(float(data.cutoff_wavelength), 3)}"
     yield f"from {' × '.join(_factors(data, names))}"
     rests = list(_rests_on(data, names[0]))
     if rests:

@@ -121,7 +121,7 @@ class Card:
 
 
 MOST_OPEN = 3
-"""Warnings that a page or a terminal opens with; further ones are folded."""
+"""Notices that a page or a terminal opens with; further warnings are folded."""
 
 
 @dataclass(frozen=True)
@@ -138,14 +138,19 @@ class Page:
     """What the numbers of the cards are for, and what they rest on."""
 
     @property
-    def notices_open(self) -> list[Notice]:
-        """Errors, and the first few warnings."""
-        return [n for i, n in enumerate(self.notices) if n.level == "error" or i < MOST_OPEN]
+    def errors(self) -> list[Notice]:
+        """Those that stand above the numbers."""
+        return [notice for notice in self.notices if notice.level == "error"]
 
     @property
-    def notices_folded(self) -> list[Notice]:
-        """The others."""
-        return list(self.notices[len(self.notices_open) :])
+    def notices_open(self) -> Sequence[Notice]:
+        """The first few warnings, below the numbers."""
+        return self.notices[len(self.errors) : MOST_OPEN]
+
+    @property
+    def notices_folded(self) -> Sequence[Notice]:
+        """The other warnings."""
+        return self.notices[max(MOST_OPEN, len(self.errors)) :]
 
     @property
     def charts(self) -> list[Chart]:

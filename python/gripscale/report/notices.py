@@ -23,6 +23,7 @@ from gripscale.report.answer import (
     friction_sentence,
     has_answer,
     in_words,
+    no_answer,
     no_answer_notices,
 )
 from gripscale.report.elements import MOST_OPEN, Card, Doubt, Notice, number, percent, ranked
@@ -240,7 +241,7 @@ def _advice(word: str) -> str:
 def _of_predictions(run: Run) -> Iterator[Notice]:
     """Yield warnings about the waves, and about where the results come from."""
     answered = run.direct is not None and has_answer(run.direct)
-    if run.direct is not None and answered:
+    if run.direct is not None and not no_answer(run.direct):
         yield from _beside_the_answer(run.predictions[0], run.direct)
     for view in run.predictions:
         beyond = prediction_sentence(view)
