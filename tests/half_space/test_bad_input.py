@@ -51,6 +51,7 @@ NAN, INF = math.nan, math.inf
         ({"most_iterations": []}, r"most_iterations must be a finite number; got \[\]"),
         ({"periodic": "yes"}, r"periodic must be True or False; got 'yes'"),
         ({"on_grid": 3}, r"on_grid must be a function or None; got 3"),
+        ({"on_iteration": 3}, r"on_iteration must be a function or None; got 3"),
         ({"rubber": "tread"}, r"rubber must be a Rubber; got str"),
         ({"rubber": gs.Rubber(1e16, bulk_modulus=1e20)}, r"modulus of the rubber must be from"),
     ],

@@ -22,6 +22,24 @@ def test_every_grid_is_told_as_it_is_solved():
     assert [grid.points for grid in told] == [32, 64, 64, 128]
 
 
+def test_every_iteration_is_told_within_its_grid():
+    told, counts = [], []
+
+    def grid_ends(record):
+        told.append(list(counts))
+        counts.clear()
+
+    found = solve(
+        isotropic_map(128),
+        tolerance=None,
+        on_grid=grid_ends,
+        on_iteration=lambda number, wrong: counts.append((number, wrong)),
+    )
+    for record, iterations in zip(found.grids, told, strict=True):
+        assert [number for number, _ in iterations] == list(range(1, record.iterations + 1))
+        assert iterations[0][1] > iterations[-1][1] == 0  # settled: no point changes sides
+
+
 @pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="needs POSIX timers")
 def test_a_keyboard_interrupt_is_heeded_at_once_and_leaves_nothing_behind():
     assert threading.current_thread() is threading.main_thread()

@@ -51,6 +51,8 @@ from gripscale.half_space.response import AnyArray, Response
 from gripscale.theory.half_plane import GridContact
 
 Index = NDArray[np.intp]
+OnIteration = Callable[[int, int], None]
+"""Called with the number of an iteration and of the points that are to change sides."""
 
 REACH = 1
 """Steps along each axis to the neighbours that the extension uses."""
@@ -277,12 +279,18 @@ def _rotated(turn: complex, first: float, second: float) -> tuple[float, float]:
 
 
 def solve_grid(
-    response: Response, height: Array, start: Array, most_iterations: int, goal: float = TOLERANCE
+    response: Response,
+    height: Array,
+    start: Array,
+    most_iterations: int,
+    goal: float = TOLERANCE,
+    on_iteration: OnIteration | None = None,
 ) -> GridContact:
     """Return the contact with `height` [m] under the load of `start`.
 
     `start` is a pressure [Pa] with the required mean, positive where contact is expected; `goal`
     the missing pressure over the pressure at which the linear system counts as solved.
+    `on_iteration` is called with the number of each iteration and of the points to change sides.
     """
     flat, shape = height.reshape(-1), height.shape
     pressure, active = start.reshape(-1), start.reshape(-1) > 0.0
@@ -317,6 +325,8 @@ def solve_grid(
         excess[where] = -closed.pressure
         wrong = excess > tolerance * np.sqrt(np.mean(closed.pressure**2))
         count = int(wrong.sum())
+        if on_iteration is not None:
+            on_iteration(iteration, count)
         waited = 0 if count < fewest else waited + 1
         solved = count == 0 and tolerance <= goal
         if solved or iteration == most_iterations or waited > GIVING_UP:

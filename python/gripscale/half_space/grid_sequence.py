@@ -51,7 +51,7 @@ import numpy as np
 import scipy.fft
 
 from gripscale.core.arrays import Array, ComplexArray, Mask
-from gripscale.half_space.active_set import TOLERANCE, solve_grid
+from gripscale.half_space.active_set import TOLERANCE, OnIteration, solve_grid
 from gripscale.half_space.grid import Grid, PeriodicHeights, doubled
 from gripscale.half_space.response import HalfSpace, Response
 from gripscale.theory.half_plane import GridContact
@@ -228,6 +228,7 @@ class GridSequence:
     """Contacts with another rubber, to start from."""
     solved: dict[LevelKey, LevelContact] = field(default_factory=dict)
     last: LevelContact | None = None
+    on_iteration: OnIteration | None = None
 
     def solve(self, level: Level, tolerance: float = TOLERANCE) -> LevelContact:
         """Return the contact on `level`, from its contact in `start` or the level before.
@@ -248,7 +249,7 @@ class GridSequence:
             start = self._loaded(
                 following if self.last is None else self._expected(response, height)
             )
-            contact = solve_grid(response, height, start, self.most_iterations, tolerance)
+            contact = self._contact(response, height, start, tolerance)
             if not contact.settled and np.iscomplex(response.compliance).any():
                 contact = self._through_losses(response, height, start)
         lost = float(lost_by_harmonic(response.compliance, level.grid, contact.pressure).sum())
@@ -269,12 +270,18 @@ class GridSequence:
         self.solved[level.key] = self.last
         return self.last
 
+    def _contact(
+        self, response: Response, height: Array, start: Array, tolerance: float = TOLERANCE
+    ) -> GridContact:
+        limit = self.most_iterations
+        return solve_grid(response, height, start, limit, tolerance, self.on_iteration)
+
     def _through_losses(self, response: Response, height: Array, start: Array) -> GridContact:
         """Return the contact, reached by raising the loss angle of the rubber step by step."""
         for loss in LOSSES:
             body = replace(self.body, loss=loss)
             part = response if loss == 1.0 else Response.of(body, response.grid, self.workers)
-            contact = solve_grid(part, height, start, self.most_iterations)
+            contact = self._contact(part, height, start)
             start = self._loaded(np.where(contact.active, contact.pressure, 0.0))
         return contact
 

@@ -19,7 +19,7 @@ from gripscale.conditions.conditions import Conditions, RubberByScale
 from gripscale.core import checks
 from gripscale.core.errors import InputError
 from gripscale.core.parallel import worker_count
-from gripscale.half_space.active_set import START_TOLERANCE, TOLERANCE
+from gripscale.half_space.active_set import START_TOLERANCE, TOLERANCE, OnIteration
 from gripscale.half_space.conditions import GridSequenceResult, solve_coupled_contact
 from gripscale.half_space.grid import periodic_heights
 from gripscale.half_space.grid_sequence import (
@@ -71,6 +71,7 @@ def solve_rough_contact(
     most_points: int = 2**22,
     most_iterations: int = 60,
     on_grid: Callable[[GridRecord], None] | None = None,
+    on_iteration: OnIteration | None = None,
     conditions: Conditions | None = None,
     footprint: float | None = None,
     extrapolate: str = "warn",
@@ -112,6 +113,9 @@ def solve_rough_contact(
     on_grid : callable, optional
         Called with the `GridRecord` of each grid as it is solved. A `KeyboardInterrupt` is raised
         at the next return from compiled code; only these records remain of a stopped solution.
+    on_iteration : callable, optional
+        Called within a grid after each iteration, with its number and that of the points to change
+        sides; both begin anew with each grid. Very lossy maps take minutes on a grid.
     conditions : Conditions, optional
         Temperature, softening, heat and area term. Softening and heat are iterated with the
         contact.
@@ -154,14 +158,21 @@ def solve_rough_contact(
         )
     threads = worker_count(workers) if len(heights.grid.shape) > 1 else 1
     iterations = checks.whole("most_iterations", most_iterations, least=1, most=10**6)
-    if on_grid is not None and not callable(on_grid):
-        raise InputError(f"on_grid must be a function or None; got {checks.short_repr(on_grid)}")
+    for name, hook in (("on_grid", on_grid), ("on_iteration", on_iteration)):
+        if hook is not None and not callable(hook):
+            raise InputError(f"{name} must be a function or None; got {checks.short_repr(hook)}")
 
     def solve(
         by_scale: RubberByScale | None, start: KnownLevels, reach: float
     ) -> GridSequenceResult:
         sequence = GridSequence(
-            replace(body, by_scale=by_scale), heights, load, threads, iterations, start
+            replace(body, by_scale=by_scale),
+            heights,
+            load,
+            threads,
+            iterations,
+            start,
+            on_iteration=on_iteration,
         )
         return _solve_sequence(sequence, most, reach, on_grid)
 
