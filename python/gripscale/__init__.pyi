@@ -14,6 +14,7 @@ from .core.errors import GripscaleError as GripscaleError
 from .core.errors import InputError as InputError
 from .core.errors import RubberWarning as RubberWarning
 from .half_space.result import RoughContact as RoughContact
+from .half_space.sensitivity import sensitivity as sensitivity
 from .half_space.solve import solve_rough_contact as solve_rough_contact
 from .rubber import MasterCurve as MasterCurve
 from .rubber import Rubber as Rubber

@@ -214,11 +214,8 @@ class RubberByScale:
     rubber: Rubber
     factors: ScaleFactors
 
-    def plane_strain_modulus(self, omega: ArrayLike, wavenumber: ArrayLike) -> ComplexArray:
-        """Return E/(1 - nu^2) [Pa] at `omega` [rad/s] and |q| [rad/m], broadcast together.
-
-        With G* = E*/3 of the scale and the bulk modulus of the rubber, as for the rubber itself.
-        """
+    def complex_modulus(self, omega: ArrayLike, wavenumber: ArrayLike) -> ComplexArray:
+        """Return E* [Pa] at `omega` [rad/s] and |q| [rad/m], broadcast together."""
         frequency, number = np.broadcast_arrays(
             np.asarray(omega, dtype=float), np.asarray(wavenumber, dtype=float)
         )
@@ -229,9 +226,7 @@ class RubberByScale:
             self._modulus(frequency[at : at + ROWS_AT_ONCE], number[at : at + ROWS_AT_ONCE])
             for at in range(0, frequency.size, ROWS_AT_ONCE)
         ]
-        shear = np.concatenate(parts).reshape(shape) / 3.0
-        bulk = 3.0 * self.rubber.bulk_modulus
-        return np.asarray(4.0 * shear * (bulk + shear) / (bulk + 4.0 * shear))
+        return np.concatenate(parts).reshape(shape)
 
     def shift(self, wavenumber: Array) -> Array:
         """Return a_T [-] at |q| [rad/m]; the mean, |q| = 0, has that of the longest scale."""

@@ -11,6 +11,7 @@ from .maps import solve_map_and_lines as solve_map_and_lines
 from .model import BlockOnProfile as BlockOnProfile
 from .model import DirectContact as DirectContact
 from .result import RoughContact as RoughContact
+from .sensitivity import sensitivity as sensitivity
 from .solve import solve_rough_contact as solve_rough_contact
 from .windows import WindowContacts as WindowContacts
 from .windows import one_period as one_period

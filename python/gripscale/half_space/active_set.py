@@ -200,7 +200,8 @@ def close_gap(
 
     `start` is a pressure there with the required load [Pa], whose sum is kept, `displacement` what
     it gives over the whole grid [m], `tolerance` the missing pressure at the end over the pressure
-    [-]. With `check` the missing pressure is computed at the end and not taken from GMRES.
+    [-], or over what is missing first if the start is zero. With `check` the missing pressure is
+    computed at the end and not taken from GMRES.
     """
     points = PointsInContact(response, where)
     pressure = start.copy()
@@ -208,6 +209,7 @@ def close_gap(
     for run in range(RUNS + 1):
         residual = points.missing(height - displacement[where])
         norm = float(np.linalg.norm(residual))
+        size = size or norm
         if norm <= tolerance * size or run == RUNS or not np.isfinite(norm):
             break
         target, before = max(REDUCTION, 0.5 * tolerance * size / norm), points.products

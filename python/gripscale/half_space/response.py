@@ -14,7 +14,7 @@ is the rigid approach). A wavenumber along x that is its own opposite on the gri
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -27,6 +27,7 @@ from gripscale.core.arrays import Array, ComplexArray
 from gripscale.core.errors import InputError
 from gripscale.half_space.grid import Grid, LineConvolution, PeriodicHeights, SingleComplex
 from gripscale.rubber import Rubber
+from gripscale.rubber.material import plane_strain_modulus
 
 AnyArray = NDArray[np.floating]
 AnyComplexArray = NDArray[np.complexfloating]
@@ -44,13 +45,16 @@ class HalfSpace:
     by_scale: RubberByScale | None = None
     """The rubber at each scale under conditions."""
 
-    def modulus(self, grid: Grid) -> ComplexArray:
-        """Return M [Pa] at the wavenumbers of `grid`, broadcastable to its spectrum."""
+    def young_modulus(self, grid: Grid) -> ComplexArray:
+        """Return E* [Pa] at the wavenumbers of `grid`, broadcastable to its spectrum."""
         omega = self.speed * grid.along
         if self.by_scale is None:
-            value = self.rubber.plane_strain_modulus(omega)
-        else:
-            value = self.by_scale.plane_strain_modulus(omega, grid.wavenumber)
+            return self.rubber.complex_modulus(omega)
+        return self.by_scale.complex_modulus(omega, grid.wavenumber)
+
+    def modulus(self, grid: Grid) -> ComplexArray:
+        """Return M [Pa] at the wavenumbers of `grid`, broadcastable to its spectrum."""
+        value = plane_strain_modulus(self.young_modulus(grid), self.rubber.bulk_modulus)
         if self.loss != 1.0:
             value = np.abs(value) * np.exp(1j * self.loss * np.angle(value))
         return np.where(grid.own_opposite, np.abs(value), value)
@@ -80,15 +84,29 @@ class Response:
 
     @classmethod
     def of(cls, body: HalfSpace, grid: Grid, workers: int) -> Response:
-        """Return the response of `body` on `grid`.
+        """Return the response of `body` on `grid`."""
+        return cls.with_compliance(body.compliance(grid), grid, workers)
+
+    @classmethod
+    def with_compliance(cls, compliance: ComplexArray, grid: Grid, workers: int) -> Response:
+        """Return the response with K(q) [m/Pa] over the spectrum of `grid`, zero for the mean.
 
         The mean has no stiffness and gets that of the softest wave.
         """
-        compliance = body.compliance(grid)
         softest = compliance.copy()
         softest.flat[0] = np.abs(compliance).max()
         stiffness = (1.0 / softest).astype(np.complex64)
         return cls(grid, workers, compliance, compliance.astype(np.complex64), stiffness)
+
+    @property
+    def transposed(self) -> Response:
+        """The transposed products: those of the rubber that slides the other way."""
+        return replace(
+            self,
+            compliance=self.compliance.conj(),
+            compliance_single=self.compliance_single.conj(),
+            stiffness=self.stiffness.conj(),
+        )
 
     @cached_property
     def influence(self) -> Array:

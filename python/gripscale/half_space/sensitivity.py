@@ -1,0 +1,438 @@
+"""What decides the friction of a direct contact: its derivatives, from one adjoint solution.
+
+With the points in contact A, the response K of the half-space (`gripscale.half_space.response`),
+heights h, pressures p of mean p_0 and the rigid approach u_0, the contact and its friction from the
+energy lost are
+
+    (K p)_A + u_0 = h_A,    mean p = p_0,    mu = p . D p / (N p_0),    D(q) = -q_x Im K(q),
+
+on N points. The multipliers of these equations, lam at the points in contact and nu, follow from
+the same linear system with the transposed response, which is that of the rubber sliding the other
+way:
+
+    (K^T lam)_A + nu = 2 (D p)_A / (N p_0),    sum lam = 0,    lam = 0 outside A.
+
+Then, for a fixed A,
+
+    d mu / d h(x)    = lam(x)
+    d mu / d ln p_0  = nu N p_0 - mu
+    d mu             = Re sum_q c(q) dM/M,    c(q) = w(q)/N conj(lam + i q_x p/(N p_0)) p K,
+
+w being the weight of a wave in the half spectrum and lam, p their transforms. The set A may be
+taken as fixed, because the pressure vanishes at its borders: what a shifted border adds is of
+second order. On a grid a border shifts point by point, and an asperity that comes into contact on a
+line bends mu(p_0): see `tests/verification/test_sensitivity.py`. The friction from the traction,
+p . h'/(N p_0), has the same derivative only where points are many: on a measured road with four
+points in the smallest wave its d ln mu/d ln E' is -1.53 where fine grids have -1.07.
+
+The modulus M = E*/(1 - nu^2) of a wave depends on E*(q_x v) = E' + i E'', and so
+
+    dM/M = g (E' dln E' + i E'' dln E'') / E*,   g = dln M/dln E* = 1 + G/(B + G) - 4G/(B + 4G),
+
+with G = E*/3 and B three times the bulk modulus. Summed over the waves of a band of frequencies,
+these are the effects of E' and E'' in the band. Speed and temperature change E* of every wave.
+
+The contact fraction has no such derivative, because the borders decide it: with the square of the
+pressure near the border in place of the step, the adjoint is off by 10 to 50 % of differences on
+lines of 1,280 to 20,480 points. Its derivatives are differences of contacts that start from the
+solved one.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+import scipy.fft
+import xarray as xr
+
+from gripscale.conditions.conditions import state_by_scale
+from gripscale.core import checks, provenance
+from gripscale.core.arrays import Array, ComplexArray
+from gripscale.core.errors import InputError
+from gripscale.half_space.active_set import START_TOLERANCE, close_gap, solve_grid
+from gripscale.half_space.grid import Grid
+from gripscale.half_space.grid_sequence import grid_contact_fraction
+from gripscale.half_space.response import HalfSpace, Response
+from gripscale.half_space.result import RoughContact
+from gripscale.wave.result import labelled
+
+ADJOINT_TOLERANCE = 1e-8
+"""Residual of the adjoint system over its right side, both as pressures. Five digits of the
+derivatives would do; the two frictions' identities hold to this."""
+SPEED_STEP = 1e-3
+"""Change of ln v in the differences of the moduli, which are smooth."""
+TEMPERATURE_STEP = 0.01
+"""[K], likewise."""
+AREA_STEP = 0.2
+"""Change of the logarithm of an input in differences of the contact fraction. A tenth of it moves
+too few points of a grid in and out of contact."""
+MOST_ITERATIONS = 60
+SOURCE = "gripscale adjoint of the direct contact"
+
+
+@dataclass(frozen=True)
+class FrictionAdjoint:
+    """Multipliers of a solved contact, and the derivatives of its friction from dissipation."""
+
+    contact: RoughContact = field(repr=False)
+    multiplier: Array = field(repr=False)
+    """N p_0 lam, shape of the grid [Pa / m]."""
+    rigid: float
+    """N p_0 nu [-]."""
+    products: int
+    """Products with the transposed response."""
+    residual: float
+    """Of the linear system, relative [-]."""
+
+    @classmethod
+    def of(cls, contact: RoughContact, *, workers: int = 1) -> FrictionAdjoint:
+        """Return the multipliers of a contact that slides, solved with `workers` threads."""
+        grid = contact.grid
+        response = Response.of(half_space_of(contact), grid, workers)
+        where = np.flatnonzero(contact.active)
+        lost = -2.0 * grid.along * response.compliance.imag * scipy.fft.rfftn(contact.pressure)
+        right = scipy.fft.irfftn(lost, s=grid.shape).reshape(-1)[where]
+        closed = close_gap(
+            response.transposed,
+            where,
+            right,
+            np.zeros(where.size),
+            np.zeros(grid.points),
+            ADJOINT_TOLERANCE,
+            check=True,
+        )
+        multiplier = np.zeros(grid.points)
+        multiplier[where] = closed.pressure
+        rigid = float(np.mean(right - closed.displacement[where]))
+        return cls(contact, multiplier.reshape(grid.shape), rigid, closed.products, closed.missing)
+
+    @property
+    def by_height(self) -> Array:
+        """Derivative of mu by the height of each point of the grid [1/m]."""
+        return self.multiplier / (self.contact.grid.points * self.contact.nominal_pressure)
+
+    @property
+    def by_log_pressure(self) -> float:
+        """Derivative of mu by ln p_0 [-]."""
+        return self.rigid - self.contact.friction_from_dissipation
+
+    @cached_property
+    def weight(self) -> ComplexArray:
+        """c(q) [-], over the half spectrum of the grid."""
+        contact, grid = self.contact, self.contact.grid
+        compliance = half_space_of(contact).compliance(grid)
+        pressure = scipy.fft.rfftn(contact.pressure)
+        other = scipy.fft.rfftn(self.multiplier) + 1j * grid.along * pressure
+        scale = grid.weight / (grid.points**2 * contact.nominal_pressure)
+        return np.asarray(scale * compliance * other.conj() * pressure)
+
+    def by_modulus(self, change: ComplexArray) -> Array:
+        """Return what `change` in ln M of each wave [-] changes in mu, over the half spectrum.
+
+        A wave that is its own opposite has the modulus |M|, which changes by the real part.
+        """
+        real = np.where(self.contact.grid.own_opposite, change.real, change)
+        return np.asarray((self.weight * real).real)
+
+
+def half_space_of(
+    contact: RoughContact, *, speed: float | None = None, warmer: float = 0.0
+) -> HalfSpace:
+    """Return the rubber of a contact at another speed [m/s], or `warmer` [K].
+
+    Under conditions each scale keeps its strain and its own temperature rise.
+    """
+    rubber, scales = contact.rubber, contact.by_scale
+    if warmer and rubber.reference_temperature is not None:
+        kelvin = rubber.reference_temperature + warmer
+        if contact.scales is None or contact.conditions is None:
+            rubber = rubber.at(kelvin)
+        else:
+            scales = state_by_scale(
+                replace(contact.conditions, temperature=kelvin),
+                rubber,
+                wavenumber=contact.scales.wavenumber,
+                warming=contact.scales.warming,
+                strain=contact.scales.strain,
+            ).rubber
+    return HalfSpace(rubber, contact.speed if speed is None else speed, by_scale=scales)
+
+
+def modulus_changes(contact: RoughContact) -> tuple[ComplexArray, ComplexArray]:
+    """Return dln M / dln E' and dln M / dln E'' of each wave [-], over the half spectrum."""
+    grid, body = contact.grid, half_space_of(contact)
+    modulus = np.broadcast_to(body.young_modulus(grid), grid.spectrum_shape)
+    bulk = 3.0 * contact.rubber.bulk_modulus
+    shear = modulus / 3.0
+    together = 1.0 + shear / (bulk + shear) - 4.0 * shear / (bulk + 4.0 * shear)
+    return together * modulus.real / modulus, together * 1j * modulus.imag / modulus
+
+
+def _log_change(low: HalfSpace, high: HalfSpace, grid: Grid, step: float) -> ComplexArray:
+    """Return the derivative of ln M from rubbers a `step` below and above, over the spectrum."""
+    change = np.log(high.modulus(grid) / low.modulus(grid)) / (2.0 * step)
+    return np.asarray(np.broadcast_to(change, grid.spectrum_shape))
+
+
+def scalar_changes(contact: RoughContact) -> dict[str, ComplexArray]:
+    """Return the derivatives of ln M of each wave by the inputs that are one number each.
+
+    Over the half spectrum, by the end of their name in a Dataset: speed, bulk modulus and, with a
+    shift, temperature [1/K].
+    """
+    grid, rubber = contact.grid, contact.rubber
+    slow, fast = (
+        half_space_of(contact, speed=contact.speed * math.exp(by))
+        for by in (-SPEED_STEP, SPEED_STEP)
+    )
+    shear, bulk = half_space_of(contact).young_modulus(grid) / 3.0, 3.0 * rubber.bulk_modulus
+    stiffening = bulk / (bulk + shear) - bulk / (bulk + 4.0 * shear)
+    changes = {
+        "ln_speed": _log_change(slow, fast, grid, SPEED_STEP),
+        "ln_bulk_modulus": np.broadcast_to(stiffening, grid.spectrum_shape),
+    }
+    if rubber.shift is not None and rubber.reference_temperature is not None:
+        cold, warm = (
+            half_space_of(contact, warmer=by) for by in (-TEMPERATURE_STEP, TEMPERATURE_STEP)
+        )
+        changes["temperature"] = _log_change(cold, warm, grid, TEMPERATURE_STEP)
+    return changes
+
+
+@dataclass(frozen=True)
+class Bands:
+    """Bands of the frequencies that the waves of a contact excite, equal in their logarithm."""
+
+    edge: Array
+    """[rad/s], rising, shape (bands + 1,)."""
+    of_wave: Array
+    """Band of each wave, over the half spectrum; the first also holds waves at rest."""
+
+    @classmethod
+    def of(cls, contact: RoughContact, per_decade: int) -> Bands:
+        """Return the bands of a contact at the rubber's temperature before the contact.
+
+        A scale that heat has warmed excites the rubber at a_T of the scale times its frequency.
+        """
+        grid = contact.grid
+        omega = np.broadcast_to(np.abs(grid.along) * contact.speed, grid.spectrum_shape)
+        if contact.by_scale is not None:
+            omega = omega * contact.by_scale.shift(grid.wavenumber)
+        moving = omega > 0.0
+        place = np.floor(per_decade * np.log10(np.where(moving, omega, np.inf)) + 1e-9)
+        first, last = place.min(), place[moving].max()
+        of_wave = np.where(moving, place - first, 0.0).astype(int)
+        return cls(10.0 ** (np.arange(first, last + 2.0) / per_decade), of_wave)
+
+    @property
+    def centre(self) -> Array:
+        """Geometric centre of each band [rad/s]."""
+        return np.sqrt(self.edge[:-1] * self.edge[1:])
+
+    def sums(self, values: Array) -> Array:
+        """Return the sum of values of the half spectrum over each band."""
+        weights = np.broadcast_to(values, self.of_wave.shape).reshape(-1)
+        return np.bincount(self.of_wave.reshape(-1), weights, self.edge.size - 1).astype(float)
+
+
+@dataclass(frozen=True)
+class ContactFractionDifferences:
+    """Derivatives of the contact fraction, from contacts on the same grid with other inputs."""
+
+    contact: RoughContact
+    workers: int = 1
+
+    def by_modulus(self, change: ComplexArray) -> float:
+        """Return d ln(A_r/A_0) along a derivative of ln M of each wave, over the half spectrum."""
+        grid = self.contact.grid
+        largest = float(np.abs(change).max())
+        if largest == 0.0:
+            return 0.0
+        real = np.where(grid.own_opposite, change.real, change)
+        compliance = half_space_of(self.contact).compliance(grid)
+        step = AREA_STEP / largest
+        low, high = (
+            self._log_fraction(compliance * np.exp(-by * real), self.contact.nominal_pressure)
+            for by in (-step, step)
+        )
+        return (high - low) / (2.0 * step)
+
+    def by_log_pressure(self) -> float:
+        """Return d ln(A_r/A_0) / d ln p_0 [-]."""
+        compliance, pressure = (
+            half_space_of(self.contact).compliance(self.contact.grid),
+            self.contact.nominal_pressure,
+        )
+        low, high = (
+            self._log_fraction(compliance, pressure * math.exp(by))
+            for by in (-AREA_STEP, AREA_STEP)
+        )
+        return (high - low) / (2.0 * AREA_STEP)
+
+    def _log_fraction(self, compliance: ComplexArray, pressure: float) -> float:
+        response = Response.with_compliance(compliance, self.contact.grid, self.workers)
+        start = self.contact.pressure * (pressure / self.contact.pressure.mean())
+        solved = solve_grid(response, self.contact.height, start, MOST_ITERATIONS, START_TOLERANCE)
+        return math.log(grid_contact_fraction(solved.active, solved.gap))
+
+
+def sensitivity(
+    contact: RoughContact, *, bands_per_decade: int = 2, contact_fraction: bool = False
+) -> xr.Dataset:
+    """Return the derivatives of the friction of a direct contact by all of its inputs.
+
+    One linear system is solved, whatever the number of inputs. The friction is that from the
+    contact traction. Under conditions the rubber of each scale keeps its strain and its temperature
+    rise: the effect of an input on them is left out (`settled` in the attributes).
+
+    Parameters
+    ----------
+    contact : RoughContact
+        Of `solve_rough_contact`, sliding, with friction above zero.
+    bands_per_decade : int
+        Bands of frequency in a decade.
+    contact_fraction : bool
+        Also the derivatives of the contact fraction, under the same names. They are differences of
+        four further contacts a band, each a few per cent of the cost of the first.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over `frequency` [rad/s], the centre of a band, at the rubber's temperature before the
+        contact: `d_ln_friction_d_ln_storage` and `d_ln_friction_d_ln_loss` [-], E' and E'' in the
+        band; the bands add up. The lowest band holds the relaxed modulus. Scalars:
+        `d_ln_friction_d_ln_speed`, `..._ln_pressure`, `..._ln_bulk_modulus`, `..._ln_cut_off`
+        (the last from the contact with twice the cut-off), and `d_ln_friction_d_temperature`
+        [1/K], NaN without a shift. Over `x` [m], and `y` of a map: `d_friction_d_height` [1/m], of
+        the height of one point of the grid.
+
+    Raises
+    ------
+    InputError
+        If the contact is at rest, has no friction, or is something else.
+    """
+    checks.instance("contact", contact, RoughContact)
+    if contact.speed == 0.0 or not contact.friction_from_dissipation > 0.0:
+        raise InputError(
+            "contact must slide with friction above zero for the derivatives of its logarithm; got "
+            f"speed {contact.speed:g} m/s and friction {contact.friction_from_dissipation:.3g}"
+        )
+    per_decade = checks.whole("bands_per_decade", bands_per_decade, least=1, most=100)
+    adjoint = FrictionAdjoint.of(contact)
+    bands = Bands.of(contact, per_decade)
+    axes = ("x", "y")[: contact.height.ndim]
+    data = {
+        name: labelled((), value, "1", text, SOURCE)
+        for name, value, text in (
+            (
+                "friction",
+                contact.friction_from_dissipation,
+                "friction coefficient from the energy lost",
+            ),
+            ("contact_fraction", contact.contact_fraction, "real over nominal contact area"),
+            ("residual_adjoint", adjoint.residual, "residual of the adjoint system"),
+            ("products", float(adjoint.products), "products with the transposed response"),
+        )
+    }
+    data |= _variables("friction", _friction_derivatives(adjoint, bands))
+    if contact_fraction:
+        data |= _variables("contact_fraction", _area_derivatives(contact, bands))
+    data["d_friction_d_height"] = labelled(
+        axes, adjoint.by_height, "1/m", "d friction / d height of a point", SOURCE
+    )
+    coordinates = {
+        axis: labelled(axis, getattr(contact, axis), "m", axis, "input") for axis in axes
+    }
+    coordinates["frequency"] = labelled(
+        "frequency", bands.centre, "rad/s", "centre of the band", SOURCE
+    )
+    return xr.Dataset(
+        data,
+        coordinates,
+        {
+            "title": "Derivatives of the friction of a direct contact",
+            "status": str(contact.status),
+            "bands_per_decade": per_decade,
+            "settled": int(contact.by_scale is not None),
+            "rubber": f"{contact.rubber.name}; {contact.rubber.source}".strip("; "),
+            "nominal_pressure": contact.nominal_pressure,
+            "speed": contact.speed,
+            **provenance.attributes(),
+        },
+    )
+
+
+Derivatives = dict[str, Array | float]
+"""By the end of their name in a Dataset."""
+
+TEXTS = {
+    "ln_storage": ("1", "E' in the band"),
+    "ln_loss": ("1", "E'' in the band"),
+    "ln_speed": ("1", "speed"),
+    "ln_pressure": ("1", "nominal pressure"),
+    "ln_bulk_modulus": ("1", "bulk modulus"),
+    "ln_cut_off": ("1", "smallest wavelength"),
+    "temperature": ("1/K", "temperature"),
+}
+
+
+def _friction_derivatives(adjoint: FrictionAdjoint, bands: Bands) -> Derivatives:
+    contact = adjoint.contact
+    friction = contact.friction_from_dissipation
+    storage, loss = modulus_changes(contact)
+    scalars = scalar_changes(contact)
+    by = {name: float(adjoint.by_modulus(change).sum()) for name, change in scalars.items()}
+    by["ln_pressure"] = adjoint.by_log_pressure
+    moduli = {
+        "ln_storage": bands.sums(adjoint.by_modulus(storage)) / friction,
+        "ln_loss": bands.sums(adjoint.by_modulus(loss)) / friction,
+    }
+    cut_off = contact.cut_off_exponents.friction
+    return (
+        {"temperature": math.nan}
+        | moduli
+        | {name: value / friction for name, value in by.items()}
+        | {"ln_cut_off": cut_off}
+    )
+
+
+def _area_derivatives(contact: RoughContact, bands: Bands) -> Derivatives:
+    differences = ContactFractionDifferences(contact)
+    moduli = {
+        name: np.array(
+            [
+                differences.by_modulus(np.where(bands.of_wave == band, change, 0.0))
+                for band in range(bands.centre.size)
+            ]
+        )
+        for name, change in zip(("ln_storage", "ln_loss"), modulus_changes(contact), strict=True)
+    }
+    scalars = {
+        name: differences.by_modulus(change) for name, change in scalar_changes(contact).items()
+    }
+    return (
+        {"temperature": math.nan}
+        | moduli
+        | scalars
+        | {
+            "ln_pressure": differences.by_log_pressure(),
+            "ln_cut_off": contact.cut_off_exponents.contact_fraction,
+        }
+    )
+
+
+def _variables(quantity: str, derivatives: Derivatives) -> dict[str, xr.Variable]:
+    symbol = quantity.replace("_", " ")
+    return {
+        f"d_ln_{quantity}_d_{name}": labelled(
+            "frequency" if isinstance(value, np.ndarray) else (),
+            value,
+            TEXTS[name][0],
+            f"d ln {symbol} by {TEXTS[name][1]}",
+            SOURCE,
+        )
+        for name, value in derivatives.items()
+    }
