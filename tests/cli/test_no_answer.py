@@ -78,7 +78,7 @@ def at_rest(case: Path) -> None:
     ("make", "statement"),
     [
         (as_it_is, "Answer: μ = "),
-        (short, "Answer: none to rely on. The measured surface is too short"),
+        (short, "Answer: none to rely on. The measured surface is too small"),
         (mostly_gaps, "Answer: none to rely on. 75 % of the contact lies on filled gaps"),
         (narrow, "Answer: none to rely on. 83 % of the friction lies up to 1.7 decades above"),
         (at_rest, "Answer: no friction at rest; A_r/A_0 = "),

@@ -93,7 +93,7 @@ def test_no_answer_says_why() -> None:
             dict.fromkeys(
                 ("best_friction_half_width", "best_contact_fraction_half_width"), math.nan
             ),
-            "The measured surface is too short to tell how well it represents its road.",
+            "The measured surface is too small to tell how well it represents its road:",
         ),
         ({"best_missing_share": 0.51}, "51 % of the contact lies on filled gaps"),
         (

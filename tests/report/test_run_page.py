@@ -169,8 +169,8 @@ def test_the_answer_stands_before_the_totals(changed_run: Callable[..., Path]) -
     run = read_result(changed_run(lambda data: data))
     assert isinstance(run, Run)
     assert "best estimate" not in [card.detail for card in cards(run)]
-    numbers = {"best_friction": 0.25, "best_contact_fraction": 0.04}
-    widths = {f"{name}_half_width": 0.2 for name in numbers}
+    numbers = {"best_friction": 0.25, "best_contact_fraction": 0.04, "cutoff_wavelength": 1e-3}
+    widths = {f"{name}_half_width": 0.2 for name in ("best_friction", "best_contact_fraction")}
     whole = run.predictions[0].data.drop_dims("scale").assign(numbers | widths)
     first, second, chain, *_ = cards(replace(run, direct=whole))
     assert (first.label, first.value) == ("Friction coefficient μ", "0.250")
@@ -178,6 +178,11 @@ def test_the_answer_stands_before_the_totals(changed_run: Callable[..., Path]) -
     assert first.detail == "best estimate; 0.205 to 0.305 (90 %)"
     assert (second.label, second.value) == ("Real contact area A_r/A_0", "0.0400")
     assert chain.label == "Chain of waves, μ"
+    totals = (float(whole[f"total_{name}"]) for name in ("friction", "contact_fraction"))
+    friction, area = (total / best for total, best in zip(totals, (0.25, 0.04), strict=True))
+    text = f"{friction:.2g} times the friction and {area:.2g} times the contact area of the best"
+    (warning,) = (n for n in notices(replace(run, direct=whole)) if text in n.text)
+    assert warning.effect == pytest.approx(max(abs(friction - 1.0), abs(area - 1.0)))
     assert [chart.name for chart in contact_charts(run.by_wave, whole)][:2] == [
         "contact-area",
         "friction",
@@ -204,6 +209,9 @@ def test_large_mismatch_and_foreign_frequencies_are_warned_of(
         "measured band." in text
     )
     assert [card.label for card in cards(run) if card.bad] == ["Largest mismatch of μ"]
+    friction = run.predictions[0].column("friction")
+    (apart,) = (notice for notice in notices(run) if "Wave 2" in notice.text)
+    assert apart.effect == pytest.approx(0.2 * friction[1] / friction.sum())
 
 
 def test_doubts_about_the_rubber_are_warned_of(changed_run: Callable[..., Path]) -> None:

@@ -179,14 +179,17 @@ def _guesses(data: xr.Dataset) -> Iterator[Notice]:
 
 
 def _sampled_too_little(data: xr.Dataset) -> Iterator[str]:
-    """Yield that the surface is too short for an interval, or for one that says something."""
+    """Yield that the surface is too small for an interval, or for one that says something."""
     widths = [float(data[f"best_{name}_half_width"]) for name in _of(data)]
     if not math.isfinite(float(data.best_contact_fraction_half_width)):
-        yield "The measured surface is too short to tell how well it represents its road."
+        yield (
+            "The measured surface is too small to tell how well it represents its road: it holds "
+            "fewer than four pieces of two largest waves."
+        )
     elif any(math.asinh(width) > math.log(2.0) for width in widths if math.isfinite(width)):
         yield (
             "The interval is more than a factor of two either way: the measured surface is too "
-            "short to represent its road."
+            "small to represent its road."
         )
 
 
