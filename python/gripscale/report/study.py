@@ -58,7 +58,7 @@ def study_table(data: xr.Dataset) -> Table:
             ends = np.stack([each(f"{column}_{end}") for end in ("low", "high")], axis=1)
             columns.append(Column(f"{column}_interval", ends, "90 %"))
     friction = believed(data, "friction")
-    if friction.startswith("total"):
+    if friction.startswith("total") and "total_friction_from_dissipation" in data:
         lost = each("total_friction_from_dissipation")
         columns.append(Column("friction_from_dissipation", lost, "μ", "losses"))
     if ADHESIVE_FRICTION in data:
@@ -70,7 +70,7 @@ def study_table(data: xr.Dataset) -> Table:
         ]
     largest = [
         float(row.wavelength[int(np.nanargmax(row.friction.values))])
-        if "wavelength" in row and float(row.total_friction) > 1e-9
+        if {"wavelength", "friction"} <= set(row) and float(row.total_friction) > 1e-9
         else math.nan
         for row in rows
     ]
