@@ -259,7 +259,8 @@ def with_best_estimate(data: xr.Dataset) -> xr.Dataset:
         sizes = {str(dim): size for dim, size in total.sizes.items()}
         stacked = stack({at: part.drop_vars("factor_label") for at, part in parts.items()}, sizes)
         data = data.assign({f"{prefix}{name}": stacked[name] for name in stacked})
-        data["factor_label"] = parts[(0,) * total.ndim]["factor_label"]
+        label = parts[(0,) * total.ndim]["factor_label"]
+        data["factor_label"] = label.assign_attrs(attributes("factors of the best estimate"))
     return data
 
 

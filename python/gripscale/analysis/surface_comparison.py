@@ -166,9 +166,8 @@ def _best(surfaces: Mapping[str, Surface], roads: xr.Dataset) -> dict[str, xr.Da
     direct = roads.sel(model=DirectContact.name, drop=True)
     if bool((direct[STATUS] == "").any()):
         return rubber_comparison.ratios_to_first(roads.sel(model=Chain.name, drop=True), "surface")
-    heights = [upper_height_of(surface) for surface in surfaces.values()]
-    known = [np.nan if height is None else height for height in heights]
-    best = with_best_estimate(direct.assign({UPPER_HEIGHT: ("surface", known)}))
+    heights = [upper_height_of(surface) or np.nan for surface in surfaces.values()]
+    best = with_best_estimate(direct.assign({UPPER_HEIGHT: ("surface", heights)}))
     names = [name for name in best if str(name).startswith(("best_", "factor_"))]
     widths = {}
     for name in rubber_comparison.QUANTITIES:

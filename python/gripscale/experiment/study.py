@@ -326,14 +326,13 @@ class Study:
 
     def _measured_numbers(self) -> dict[str, Any]:
         """Return what a best estimate needs of the measured surfaces, and their common cut-off."""
-        heights = [upper_height_of(surface) for surface in self.surfaces]
-        known = np.array([math.nan if height is None else height for height in heights])
+        heights = [upper_height_of(surface) or math.nan for surface in self.surfaces]
         varied = any(axis.name == "surface" for axis in self.axes)
         text = "height that 1 % of the measured lines exceed, over the rms height; NaN of a map"
         numbers: dict[str, Any] = {
-            UPPER_HEIGHT: ("surface", known, attributes(text))
+            UPPER_HEIGHT: ("surface", heights, attributes(text))
             if varied
-            else ((), known[0], attributes(text))
+            else ((), heights[0], attributes(text))
         }
         cut_offs = {point.task.surface.cutoff_wavelength for point in self.points}
         if len(cut_offs) == 1:

@@ -90,6 +90,14 @@ MOST_OPEN = 3
 """Notices that a page opens with; further warnings are folded."""
 
 
+def open_and_folded(notices: Sequence[Notice]) -> tuple[list[Notice], list[Notice]]:
+    """Return what a page opens with, errors and the first few warnings, and the rest."""
+    errors = [notice for notice in notices if notice.level == "error"]
+    warnings = [notice for notice in notices if notice.level != "error"]
+    room = max(0, MOST_OPEN - len(errors))
+    return errors + warnings[:room], warnings[room:]
+
+
 @dataclass(frozen=True)
 class Page:
     """A whole report."""
@@ -105,14 +113,12 @@ class Page:
     @property
     def notices_open(self) -> list[Notice]:
         """Errors, and the first few warnings."""
-        errors = [notice for notice in self.notices if notice.level == "error"]
-        warnings = [notice for notice in self.notices if notice.level != "error"]
-        return errors + warnings[: max(0, MOST_OPEN - len(errors))]
+        return open_and_folded(self.notices)[0]
 
     @property
     def notices_folded(self) -> list[Notice]:
         """The others."""
-        return [notice for notice in self.notices if notice not in self.notices_open]
+        return open_and_folded(self.notices)[1]
 
     @property
     def charts(self) -> list[Chart]:

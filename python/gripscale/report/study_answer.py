@@ -19,7 +19,7 @@ from gripscale.model import STATUS, STEEP_SHARE
 from gripscale.report.answer import WORTH_NAMING
 from gripscale.report.elements import Card, percent
 
-SAME = 0.01
+SAME = 0.03
 """Relative change that is none."""
 MODELS = {
     "chain": "chain of sine waves",
@@ -27,8 +27,8 @@ MODELS = {
 }
 """Models in words; others by their names."""
 ASK_DIRECT = (
-    "the surface was measured: `--model direct`, the default, gives the number to rely on; the "
-    "chain had three times its friction on every road tried"
+    "the surface was measured: `--model direct`, the default, gives the number to rely on, with an "
+    "interval"
 )
 ONLY_WAVES = (
     "what is varied belongs to the chain alone: `gripscale run` judges its friction by the direct "
@@ -110,7 +110,7 @@ def _along(data: xr.Dataset, name: str, values: Array) -> str:
     ends = values[[first, last]]
     start, end = (_at(data, name, (i,)) for i in (first, last))
     if values[high] <= values[low] * (1.0 + SAME):
-        return f"stays at {_number(data, name, (first,))}"
+        return f"hardly changes, from {_at(data, name, (low,))} to {_at(data, name, (high,))}"
     for extreme, word, beyond in (
         (high, "highest", values[high] > ends.max() * (1.0 + SAME)),
         (low, "lowest", values[low] < ends.min() * (1.0 - SAME)),
@@ -205,6 +205,6 @@ def _reach(data: xr.Dataset, axis: str) -> str:
     if not of_numbers(data, axis):
         count = data.sizes[axis]
         return f"{count} {axis.replace('_', ' ')}{'s' if count > 1 and axis != 'effects' else ''}"
-    shown, values = axis_shown(data, axis), data[axis].values
-    ends = dict.fromkeys(shown.text(float(value), 3) for value in (values.min(), values.max()))
+    unit, values = axis_shown(data, axis), data[axis].values
+    ends = dict.fromkeys(unit.text(float(value), 3) for value in (values.min(), values.max()))
     return " to ".join(ends)
