@@ -164,6 +164,11 @@ def _judge(data: xr.Dataset) -> str:
     roads = "surface" in data.dims
     if "best_friction" not in data:
         return "chain of sine waves: not all of the surfaces were measured"
+    if roads and not np.isfinite(data["friction_ratio_low"].values[1:]).any():
+        return (
+            "direct contact of the measured surfaces × its factors; no interval: a surface is too "
+            "short to tell how well it represents its road"
+        )
     if roads:
         return (
             "direct contact of the measured surfaces × its factors; each road is as uncertain as "
@@ -186,18 +191,18 @@ def believed_table(data: xr.Dataset, dim: str, heading: str) -> Table | None:
         return None
     columns = [Column(dim, [str(name) for name in data[dim].values], heading)]
     for name in reversed(SYMBOLS):
-        ends = np.stack([data[f"best_{name}_{end}"].values for end in ("low", "high")], axis=1)
-        columns += [
-            Column(f"best_{name}", data[f"best_{name}"].values, SYMBOLS[name]),
-            Column(f"best_{name}_interval", ends, "90 %"),
-        ]
+        columns.append(Column(f"best_{name}", data[f"best_{name}"].values, SYMBOLS[name]))
+        columns += _interval_column(f"best_{name}", _ends(data, f"best_{name}"))
     ratio, span = data["friction_ratio"].values.copy(), _ends(data, "friction_ratio")
     ratio[0], span[0] = np.nan, np.nan
-    columns += [
-        Column("friction_ratio", ratio, "μ over that of the first"),
-        Column("friction_ratio_interval", span, "90 %"),
-    ]
+    columns.append(Column("friction_ratio", ratio, "μ over that of the first"))
+    columns += _interval_column("friction_ratio", span)
     return Table(f"{dim}s-believed", columns, "Best estimates, from the direct contact")
+
+
+def _interval_column(name: str, ends: np.ndarray) -> list[Column]:
+    """Return the column of intervals; none where there is no interval."""
+    return [Column(f"{name}_interval", ends, "90 %")] if np.isfinite(ends).any() else []
 
 
 def _ends(data: xr.Dataset, name: str) -> np.ndarray:

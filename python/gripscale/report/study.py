@@ -54,7 +54,7 @@ def study_table(data: xr.Dataset) -> Table:
     for name in reversed(SYMBOLS):
         column = believed(data, name)
         columns.append(Column(column, each(column), SYMBOLS[name]))
-        if f"{column}_low" in data:
+        if f"{column}_low" in data and data[f"{column}_low"].notnull().any():
             ends = np.stack([each(f"{column}_{end}") for end in ("low", "high")], axis=1)
             columns.append(Column(f"{column}_interval", ends, "90 %"))
     friction = believed(data, "friction")

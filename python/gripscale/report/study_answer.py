@@ -15,7 +15,7 @@ from gripscale.core.units import display_unit_of
 from gripscale.experiment.axis import axis_shown, dimensions, name_of, of_numbers
 from gripscale.experiment.study import OF_THE_CHAIN
 from gripscale.io.table import significant
-from gripscale.model import STATUS, STEEP_SHARE
+from gripscale.model import ADHESIVE_FRICTION, STATUS, STEEP_SHARE
 from gripscale.report.answer import WORTH_NAMING
 from gripscale.report.elements import Card, percent
 
@@ -174,7 +174,8 @@ def _factors(data: xr.Dataset) -> Iterator[str]:
 def _rests_on(data: xr.Dataset) -> Iterator[str]:
     """Yield the largest shares of the answers that rest on what was not measured well."""
     sampling = float(data["best_friction_sampling_error"].max())
-    if math.isfinite(sampling):
+    has_intervals = math.isfinite(sampling)
+    if has_intervals:
         yield f"sampling of the road up to ± {percent(sampling)} of it (standard error)"
     else:
         yield "no interval: the surface is too short to tell how well it represents its road"
@@ -183,9 +184,14 @@ def _rests_on(data: xr.Dataset) -> Iterator[str]:
         yield f"up to {percent(steep)} of the friction on slopes above 1"
     if IsotropicSurface.label in data.factor_label.values:
         yield "a road without direction is assumed"
-    if not {"surface", "rubber"} & set(dimensions(data)):
+    if has_intervals and not {"surface", "rubber"} & set(dimensions(data)):
         yield "most of an interval is common to all points: how they differ is known better"
-    yield "intervals leave out errors of the master curve"
+    if ADHESIVE_FRICTION in data:
+        term = data[ADHESIVE_FRICTION]
+        low, high = float(term.min()), float(term.max())
+        yield f"an area term of {significant(low)} to {significant(high)} comes on top"
+    if has_intervals:
+        yield "intervals leave out errors of the master curve"
 
 
 def _card_detail(data: xr.Dataset, name: str) -> str:
