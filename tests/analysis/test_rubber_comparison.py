@@ -129,7 +129,7 @@ def test_the_answer_is_the_ratio_with_what_both_measurements_leave_open(made: Co
     ratio = data.sel(rubber="lossy")
     assert np.log(ratio.friction_ratio_high / ratio.friction_ratio) == pytest.approx(both)
     first, basis = ratio_lines(data, "rubber")
-    assert first.startswith("Answer: lossy grips most. Over one: twin friction × 1.00 (")
+    assert first.startswith("Answer: lossy has the most friction. Over one: twin friction × 1.00 (")
     assert basis == "  by the chain of sine waves: not all of the surfaces were measured"
 
 

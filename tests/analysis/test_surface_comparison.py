@@ -134,7 +134,9 @@ def test_the_answer_is_the_ratio_of_best_estimates_as_uncertain_as_both(made: Ro
     np.testing.assert_allclose(both[1:], np.hypot(own, own[0])[1:], rtol=1e-12)
     assert float(data.friction_ratio.sel(surface="twin")) == 1.0
     first, basis = ratio_lines(data, "surface")
-    assert first.startswith("Answer: rough grips most. Over road: twin friction × 1.00 (")
+    assert first.startswith(
+        "Answer: rough has the most friction. Over road: twin friction × 1.00 ("
+    )
     assert "direct contact of the measured surfaces" in basis
     pair = data.sel(surface=["road", "rough"])
     assert next(ratio_lines(pair, "surface")).startswith("Answer: rough grips more than road: fric")

@@ -13,6 +13,7 @@ from gripscale.analysis.comparison import reference
 from gripscale.case import prepare_case
 from gripscale.charts.study import totals_figure
 from gripscale.experiment import Study
+from gripscale.io.table import significant
 from gripscale.report import write_report
 from gripscale.report.study import study_table
 from gripscale.report.study_answer import course, study_cards, study_lines
@@ -69,7 +70,7 @@ def test_rubber_at_rest_has_its_own_best_estimate(solved: xr.Dataset) -> None:
 
 def test_lines_say_numbers_load_and_factors(solved: xr.Dataset) -> None:
     answer, held, factors, rests = study_lines(solved)
-    first, last = (f"{float(value):.3g}" for value in solved.best_friction)
+    first, last = (significant(float(value)) for value in solved.best_friction)
     assert answer.startswith(f"Answer: friction coefficient μ rises from {first} (")
     assert f" at 0.3 m/s to {last} (" in answer
     assert answer.endswith(" at 3 m/s (90 % intervals).")
@@ -95,7 +96,7 @@ def test_table_and_figure_have_the_interval(solved: xr.Dataset) -> None:
 
 def test_page_begins_with_the_best_estimate(solved: xr.Dataset, folder: Path) -> None:
     page = Page(write_report(folder / "study" / "study.nc", folder / "page.html"))
-    low, high = (f"{float(value):.3g}" for value in solved.best_friction)
+    low, high = (significant(float(value)) for value in solved.best_friction)
     head = page.text.partition("What was varied")[0]  # up to the table of contents
     assert f"{low} to {high}" in head
     assert "best estimate; ±" in head
@@ -148,6 +149,6 @@ def test_names_are_said_by_lowest_and_highest() -> None:
 
 def test_cards_are_the_range(solved: xr.Dataset) -> None:
     friction, area = study_cards(solved)
-    assert friction.value == " to ".join(f"{float(x):.3g}" for x in solved.best_friction)
+    assert friction.value == " to ".join(significant(float(x)) for x in solved.best_friction)
     assert friction.detail.endswith("(90 %); 0.3 m/s to 3 m/s")
     assert area.label == "Real contact area A_r/A_0"

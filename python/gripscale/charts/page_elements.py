@@ -56,6 +56,12 @@ AT_REST = "static_"
 """Before the name of what a study says of rubber at rest."""
 
 WORDS = {
+    "best_friction_low": "its 90 %, from",
+    "best_friction_high": "to",
+    "best_contact_fraction_low": "its 90 %, from",
+    "best_contact_fraction_high": "to",
+    "friction_ratio": "μ over that of the first",
+    "contact_fraction_ratio": "A_r/A_0 over that of the first",
     "best_friction": "friction μ, best estimate",
     "best_contact_fraction": "real contact area A_r/A_0, best estimate",
     "total_contact_fraction": "real contact area A_r/A_0",

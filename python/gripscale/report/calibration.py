@@ -25,9 +25,9 @@ from gripscale.report.notices import Failure
 def calibration_lines(data: xr.Dataset) -> Iterator[str]:
     """Yield the fitted area term with its intervals, and what it does to friction."""
     values = [
-        f"{e.name.replace('_', ' ')} {written(e.value, e.unit, 3)} ({interval(e)})"
+        f"{e.name} = {written(e.value, e.unit, 3)} ({interval(e)})"
         if e.determined
-        else f"{e.name.replace('_', ' ')} not determined by the data"
+        else f"{e.name} not determined by the data"
         for e in estimates(data)
     ]
     level = round(100 * data.attrs["level"])

@@ -128,8 +128,8 @@ def ratio_lines(data: xr.Dataset, dim: str) -> Iterator[str]:
     if len(names) == 2:
         head = f"{_grip_words(data, names[1], names[0])}: {texts[0].removeprefix(names[1]).strip()}"
     else:
-        top = names[int(np.nanargmax(friction))]
-        head = f"{top} grips most. Over {names[0]}: {'; '.join(texts)}"
+        top = f"{names[int(np.nanargmax(friction))]} has the most friction"
+        head = f"{top}. Over {names[0]}: {'; '.join(texts)}"
     yield f"Answer: {head}{level}."
     yield f"  by the {_judge(data)}"
 
@@ -138,6 +138,8 @@ def _grip_words(data: xr.Dataset, name: str, first: str) -> str:
     """Return whether the second of two grips more than the first, as far as that is known."""
     low, high = ratio_ends(data, "friction", 1)
     ratio = float(data["friction_ratio"].values[1])
+    if math.isnan(low):
+        return f"{name} over {first}"
     if low <= 1.0 <= high:
         return f"{name} and {first} do not differ in grip by more than is uncertain"
     return f"{name} grips {'more' if ratio > 1.0 else 'less'} than {first}"

@@ -75,8 +75,8 @@ def study_cards(data: xr.Dataset) -> Iterator[Card]:
             continue
         low, high = float(np.nanmin(values)), float(np.nanmax(values))
         title = f"{HEADINGS[name].capitalize()} {SYMBOLS[name]}"
-        value = significant(low) if high <= low * (1.0 + SAME) else f"{low:.3g} to {high:.3g}"
-        yield Card(title, value, _card_detail(data, name))
+        ends = dict.fromkeys(map(significant, (low, high)))
+        yield Card(title, " to ".join(ends), _card_detail(data, name))
 
 
 def course(data: xr.Dataset, name: str) -> str:
