@@ -323,6 +323,33 @@ BASIS = SAMPLING_ERRORS | {
 }
 """Names of what an answer from a measured surface rests on, where a model tells it."""
 
+ESTIMATED_ERRORS = {
+    "total_contact_fraction_error": "error of the contact fraction as the model estimates it",
+    "total_friction_error": "error of the friction coefficient as the model estimates it",
+}
+"""Names of `error_of_total`, where it is kept."""
+
+
+def error_of_total(data: xr.Dataset, name: str) -> float:
+    """Return the error of a total as its model estimates it: of profiles by weight, of waves added.
+
+    `name` is `contact_fraction` or `friction`; NaN where the model has no estimate. Waves: their
+    relative errors add up in the product of areas, their errors in the sum of frictions; all in the
+    same direction, because the same mesh makes them.
+    """
+    errors = data.get(f"{name}_error")
+    if errors is None:
+        return math.nan
+    values = np.abs(errors.values)
+    if errors.dims == ("profile",):
+        return float(data["weight"].values @ values)
+    if errors.dims == ("scale",):
+        relative = name == "contact_fraction"
+        parts = values / data[name].values if relative else values
+        return float(parts.sum() * (data[f"total_{name}"] if relative else 1.0))
+    return float(values)
+
+
 ADHESIVE_FRICTION = "total_adhesive_friction"
 """Name of the area term's friction, where one was asked for."""
 

@@ -12,9 +12,9 @@ from gripscale.analysis import Compounds, at_one_temperature, compare_compounds
 from gripscale.core.errors import InputError
 from gripscale.io import netcdf
 from gripscale.report import write_report
-from gripscale.report.side_by_side import compounds_sentences
+from gripscale.report.side_by_side import compounds_sentences, ratio_lines
 from gripscale.rubber import WLF, MasterCurve, fit_prony
-from tests.samples import HALF_PLANE, case_text
+from tests.samples import HALF_PLANE, case_text, write_road
 
 COLD, ROOM, WARM = 273.15, 293.15, 313.15
 
@@ -115,6 +115,43 @@ def test_ranges_hold_every_admissible_series(made: Compounds) -> None:
     assert lossy.total_friction_low == pytest.approx(min(*found, float(lossy.total_friction)))
     assert lossy.total_friction_high == pytest.approx(max(*found, float(lossy.total_friction)))
     assert lossy.total_friction_low < lossy.total_friction < lossy.total_friction_high
+
+
+def test_the_answer_is_the_ratio_with_what_both_measurements_leave_open(made: Compounds) -> None:
+    """Waves by hand: of the chain, and nothing but the moduli."""
+    data = made.data
+    total = data.total_friction
+    np.testing.assert_allclose(data.friction_ratio, total / total.values[0], rtol=1e-12)
+    down = np.log(total / data.total_friction_low)
+    up = np.log(data.total_friction_high / total)
+    # two even ranges, added as if normal
+    both = 1.645 / np.sqrt(3.0) * np.hypot(up.values[2], down.values[0])
+    ratio = data.sel(rubber="lossy")
+    assert np.log(ratio.friction_ratio_high / ratio.friction_ratio) == pytest.approx(both)
+    first, basis = ratio_lines(data, "rubber")
+    assert first.startswith("Answer: lossy has the most friction. Over one: twin friction × 1.00 (")
+    assert basis == "  by the chain of sine waves: not all of the surfaces were measured"
+
+
+def test_on_a_measured_road_the_direct_contact_answers(tmp_path: Path) -> None:
+    road = gs.surface.self_affine_profile(0.8, 3e-3, 4e-4, length=0.4, step=2e-4, seed=1)
+    write_road(tmp_path / "road.txt", gs.Profile(road.x, road.z))
+    text = 'files = ["road.txt"]\nscales = 3\nsmallest_wavelength = "2 mm"'
+    (tmp_path / "case.toml").write_text(case_text(text, solver=HALF_PLANE))
+    compounds = {"one": measured(1.0, 0.02), "lossy": measured(3.0, 0.02)}
+    data = compare_compounds(tmp_path / "case.toml", compounds, tmp_path / "out").data
+    np.testing.assert_allclose(
+        data.friction_ratio, data.best_friction / data.best_friction.values[0], rtol=1e-12
+    )
+    # what both know of the road makes a ratio better known than two numbers
+    own = np.log(data.best_friction_high / data.best_friction).values
+    both = float(np.log(data.friction_ratio_high / data.friction_ratio)[1])
+    assert 0.0 < both < np.hypot(*own)
+    first, basis = ratio_lines(data, "rubber")
+    assert first.startswith("Answer: lossy grips more than one: friction × ")
+    assert "direct contact of the measured surface, the same for all" in basis
+    page = write_report(tmp_path / "out").read_text()
+    assert page.index("μ of lossy") < page.index("Best estimates, from the direct contact")
 
 
 def test_two_to_six_compounds(tmp_path: Path) -> None:

@@ -11,10 +11,15 @@ from typer.testing import CliRunner
 
 import gripscale as gs
 from gripscale.analysis import Roads, compare_surfaces
-from gripscale.analysis.surface_comparison import friction_curve, octave_ends, running_friction
+from gripscale.analysis.surface_comparison import (
+    friction_curve,
+    octave_ends,
+    roads_dataset,
+    running_friction,
+)
 from gripscale.cli import app
 from gripscale.core.errors import InputError
-from gripscale.report.side_by_side import roads_sentences
+from gripscale.report.side_by_side import ratio_lines, roads_sentences
 from gripscale.surface import Profile, self_affine_profile
 from tests.samples import HALF_PLANE, case_text, write_road
 
@@ -86,14 +91,57 @@ def test_octaves_add_up_to_the_totals(made: Roads) -> None:
     )
 
 
-def test_the_direct_contact_is_solved_once_for_itself_and_for_its_samples(
+def test_samples_are_compared_with_a_road_solved_as_they_are(
     made: Roads, solves: list[str]
 ) -> None:
-    """The chain twice: its samples are half-planes, and so is what they are compared with."""
+    """Half-planes in the chain; in the direct contact one full grid, coarser than for the road."""
     assert np.isfinite(made.data.total_friction_low).all()
-    for model, beside_the_samples in (("chain", 2), ("direct", 1)):
+    for model in ("chain", "direct"):
         told = [label for label in solves if label.startswith(f"{model}, rough, ")]
-        assert len(told) == beside_the_samples + 10
+        assert len(told) == 2 + 10
+
+
+def test_the_range_of_friction_is_that_of_friction_from_dissipation() -> None:
+    """Friction from traction of samples on a coarse grid may be anything."""
+    names = ("total_friction", "total_friction_from_dissipation", "total_contact_fraction")
+    dims, shape = ("model", "surface", "sample"), (2, 2, 12)
+    numbers = np.ones(shape)
+    numbers[..., 2:] = np.linspace(0.9, 1.1, 10)
+    solved = xr.Dataset(
+        {name: (dims, numbers, {"long_name": name}) for name in names},
+        {"model": ["chain", "direct"], "surface": ["road", "other"]},
+    )
+    solved["total_friction"].values = numbers**7
+    for name in ("curve_wavelength", "curve_friction"):
+        solved[name] = (*dims, "curve"), np.broadcast_to([2e-3, 1e-3], (*shape, 2))
+    for name in ("prediction_status", "prediction_status_word"):
+        solved[name] = dims, np.full(shape, "converged", dtype=object)
+    solved["prediction_status"][1] = ""
+    data = roads_dataset({}, solved)
+    for end in ("low", "high"):
+        area = data[f"total_contact_fraction_{end}"]
+        np.testing.assert_allclose(data[f"total_friction_{end}"], area)
+    assert (data.total_friction_low < 1.0).all()
+
+
+def test_the_answer_is_the_ratio_of_best_estimates_as_uncertain_as_both(made: Roads) -> None:
+    data = made.data
+    np.testing.assert_allclose(
+        data.friction_ratio, data.best_friction / data.best_friction.values[0], rtol=1e-12
+    )
+    own = np.log(data.best_friction_high / data.best_friction)
+    both = np.log(data.friction_ratio_high / data.friction_ratio)
+    np.testing.assert_allclose(both[1:], np.hypot(own, own[0])[1:], rtol=1e-12)
+    assert float(data.friction_ratio.sel(surface="twin")) == 1.0
+    first, basis = ratio_lines(data, "surface")
+    assert first.startswith(
+        "Answer: rough has the most friction. Over road: twin friction × 1.00 ("
+    )
+    assert "direct contact of the measured surfaces" in basis
+    pair = data.sel(surface=["road", "rough"])
+    assert next(ratio_lines(pair, "surface")).startswith("Answer: rough grips more than road: fric")
+    twins = data.sel(surface=["road", "twin"])
+    assert "twin and road do not differ in grip by more than" in next(ratio_lines(twins, "surface"))
 
 
 def test_ranges_are_of_the_drawn_blocks(folder: Path, made: Roads) -> None:
@@ -156,6 +204,9 @@ def test_waves_by_hand_have_no_direct_contact_and_no_range(folder: Path) -> None
         "waves, chain: no range; no profile was measured",
         "waves was not measured: no direct contact",
     )
+    first, basis = ratio_lines(made.data, "surface")
+    assert first.endswith(", without an interval.")
+    assert basis == "  by the chain of sine waves: not all of the surfaces were measured"
     waves = made.data.sel(surface="waves")
     assert np.isfinite(waves.total_friction.sel(model="chain"))
     assert np.isnan(waves.total_friction.sel(model="direct"))
@@ -169,11 +220,14 @@ def test_the_command_writes_table_figures_and_page(folder: Path) -> None:
     options = ["--samples", "10", "--output", str(target)]
     outcome = CliRunner().invoke(app, ["compare-surfaces", *given, *options])
     assert outcome.exit_code == 0, outcome.output
-    assert "direct: rough has" in (target / "surfaces.txt").read_text()
+    text = (target / "surfaces.txt").read_text()
+    assert text.startswith(f"Answer: rough grips more than {folder.name}: friction × ")
+    assert "direct: rough has" in text
     figures = {path.stem for path in target.glob("*.p*")}
     assert figures == {"roads_statistics", "roads_friction"}
     page = (target / "report.html").read_text()
     assert "Roads side by side" in page
+    assert page.index("μ of rough") < page.index("Best estimates, from the direct contact")
     assert "direct: rough has" in page
     assert f"gripscale compare-surfaces {given[0]} {given[1]} --case case.toml" in page
 

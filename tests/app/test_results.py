@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import shutil
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from gripscale.analysis.comparison import save_reference
-from gripscale.app.run_tabs import results_elements
+from gripscale.app.elements import Folded, html, notice_elements
+from gripscale.app.run_tabs import ComparedRun, results_elements, runs_table
 from gripscale.case import read_case, run_case
 from gripscale.charts.page_elements import Chart
-from gripscale.report.elements import Text
+from gripscale.report import source
+from gripscale.report.elements import Notice, Text
 
 from .conftest import CASE
 
@@ -54,6 +57,38 @@ def test_measured_friction_is_drawn_with_what_is_predicted(ran: Path) -> None:
         "dynamic, hysteresis",
         "direct contact, hysteresis",
     ]
+
+
+def test_three_warnings_are_open_and_the_others_folded() -> None:
+    error = Notice("error", "no result")
+    warnings = [Notice("warning", str(number)) for number in range(5)]
+    *opened, folded = notice_elements([*warnings, error])
+    assert opened == [error, *warnings[:2]]
+    assert folded == Folded(warnings[2:])
+    assert list(notice_elements(warnings[:3])) == warnings[:3]
+    markup = html(folded).object
+    assert "<summary>3 more warnings</summary>" in markup
+
+
+def test_runs_are_compared_by_their_best_estimates(ran: Path) -> None:
+    result = source.read_result(ran)
+    assert isinstance(result, source.Run)
+    run = SimpleNamespace(text=(ran / "case.toml").read_text())
+    dynamic, *rest = result.predictions
+    assert result.direct is not None
+    direct = result.direct.assign(best_friction_half_width=0.2)  # of a longer road
+    compared = [ComparedRun(run, dynamic, direct)]
+    compared += [ComparedRun(run, view, None) for view in rest]
+    columns = {column.name: column.values for column in runs_table(compared).columns}
+    assert columns["best_friction"][0] == float(result.direct.best_friction)
+    low, high = columns["best_friction_interval"][0]
+    assert (high - low) / (2.0 * columns["best_friction"][0]) == pytest.approx(0.2)
+    assert "best_contact_fraction_interval" not in columns
+    assert columns["friction"][0] == dynamic.total("friction")
+    names = list(columns)
+    assert names.index("best_friction") < names.index("friction")
+    alone = runs_table([ComparedRun(run, dynamic, None)])
+    assert "best_friction" not in {column.name for column in alone.columns}
 
 
 def test_the_chain_is_judged_by_what_is_stored(ran: Path) -> None:

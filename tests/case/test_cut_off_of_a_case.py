@@ -125,7 +125,7 @@ def test_fit_surface_takes_the_same_words(case: Path) -> None:
 
 
 def test_a_study_varies_lengths_and_rules_side_by_side(case: Path, tmp_path: Path) -> None:
-    study = Study(case, vary={"cut_off": "1 mm,instrument,rms_slope 0.4"})
+    study = Study(case, vary={"cut_off": "1 mm,instrument,rms_slope 0.4"}, model="chain")
     found = study.run(tmp_path / "study", workers=1)
     names = ["0.001 m", "instrument", "rms slope 0.4 of the surface"]
     assert found.cut_off.values.tolist() == names

@@ -17,6 +17,7 @@ from gripscale.cli import app
 from gripscale.conditions import GaussianStress, shear_stress_from_dict
 from gripscale.core.errors import ExtrapolationError, InputError
 from gripscale.io import netcdf
+from gripscale.report.calibration import calibration_lines
 from tests.samples import EXAMPLES, Shell
 
 FOLDER = EXAMPLES / "measured_friction"
@@ -58,6 +59,17 @@ def test_command_leaves_everything_behind(calibrated: tuple[str, Path]) -> None:
     line = next(line for line in panels[1].lines if line.get_label() == "hysteresis alone")
     chosen = abs(data.measured_temperature - 293.15) < 0.5
     assert line.get_ydata() == pytest.approx(data.hysteresis.values[chosen.values])
+
+
+def test_the_answer_is_the_area_term_and_what_it_does(calibrated: tuple[str, Path]) -> None:
+    data = netcdf.load(calibrated[1] / "calibration.nc")
+    answer, adds, misses = calibration_lines(data)
+    low, high = (float(data.area_term.min()), float(data.area_term.max()))
+    assert answer.startswith("Answer: area term with stress_0 = 0.346 MPa (0.341 MPa to 0.350 MPa)")
+    assert adds.startswith(f"  It adds {low:.4f} to {high:.3f} to a hysteresis friction of ")
+    assert " 0.015 (rms), without it by " in misses
+    text = (calibrated[1] / "calibration.txt").read_text()
+    assert text.startswith(answer[:60])
 
 
 def test_its_report_shows_tables_figures_and_case(

@@ -139,7 +139,7 @@ def test_too_few_speeds_are_said_to_be_so(case: Path) -> None:
 
 
 def test_temperature_is_that_of_the_conditions(case: Path, tmp_path: Path) -> None:
-    study = Study(case, {"temperature": ["40 C"]})
+    study = Study(case, {"temperature": ["40 C"]}, model="chain")
     result = study.run(tmp_path / "out")
     task = study.points[0].task
     model = Chain(HalfPlane(points=256), conditions=Conditions(temperature=313.15))

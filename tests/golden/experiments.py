@@ -141,15 +141,15 @@ COMMANDS: dict[str, tuple[str, ...]] = {
         "--rungs", "chain_half_plane,direct,theory",
     ),
     "study": (
-        "study", "plain.toml", "--output", "study", "--static",
+        "study", "plain.toml", "--output", "study", "--static", "--model", "chain",
         "--vary", "speed=0.1,1", "--vary", "temperature=20 C,40 C",
     ),
     "study_direct": (
-        "study", "plain.toml", "--output", "study_direct", "--model", "direct",
-        "--vary", "pressure=2 bar,4 bar",
+        "study", "plain.toml", "--output", "study_direct", "--vary", "pressure=2 bar,4 bar",
     ),
     "study_effects": (
         "study", "warm.toml", "--output", "study_effects", "--vary", "effects=all,no_heat,none",
+        "--model", "chain",
     ),
     "uncertainty": (
         "uncertainty", "plain.toml", "--output", "uncertainty", "--samples", "16",
@@ -219,6 +219,7 @@ COMMANDS: dict[str, tuple[str, ...]] = {
     "report_compare_conditions": ("report", "compare_conditions"),
     "report_compare_over_speed": ("report", "compare_over_speed"),
     "report_study": ("report", "study"),
+    "report_study_direct": ("report", "study_direct"),
     "report_uncertainty": ("report", "uncertainty"),
     "report_calibrate": ("report", "calibrate"),
     "report_compare_rubbers": ("report", "compare_rubbers"),

@@ -57,7 +57,8 @@ def all_numbers(folder: Path) -> Numbers:
     half_plane = gs.predict(rubber, sines, speed=0.3, solver=gs.theory.solve_half_plane, **load)
     out |= _chain("half_plane", half_plane)
     out |= _transient(rubber, sines)
-    study = Study(CASE, vary={"speed": "0.003:30:log5"}, static=False).run(folder)
+    vary = {"speed": "0.003:30:log5"}
+    study = Study(CASE, vary, static=False, model="chain").run(folder)
     for name, variable in study.variables.items():
         if np.issubdtype(variable.dtype, np.number):
             out[f"study/{name}"] = variable.values

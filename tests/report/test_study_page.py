@@ -42,6 +42,12 @@ def test_totals_have_every_prediction_and_no_empty_cell(page: Page) -> None:
     assert rows[3][2] == "–"
 
 
+def test_page_begins_with_the_answer_of_its_model(page: Page) -> None:
+    head = page.text.partition("What was varied")[0]
+    assert "Answer by the model, without an interval: friction coefficient μ from 0." in head
+    assert "4 predictions, 1 without a result" in head
+
+
 def test_failed_prediction_is_loud(page: Page) -> None:
     alerts = [a for _, a in page.tags if a.get("role") == "alert"]
     assert len(alerts) == 1
@@ -49,8 +55,9 @@ def test_failed_prediction_is_loud(page: Page) -> None:
     assert '"reading results: statuses and what to do about them"' in page.text
     assert Status.ITERATION_LIMIT.advice in page.text
     marked = [tag for tag, a in page.tags if "bad" in (a.get("class") or "").split()]
-    assert marked.count("th") == 1
-    assert marked.count("td") == len(page.body("totals")[0]) - 1
+    tables = [page.body(name)[0] for name in ("study", "totals")]  # a head in each row
+    assert marked.count("th") == len(tables)
+    assert marked.count("td") == sum(len(row) - 1 for row in tables)
 
 
 def test_command_that_makes_the_study_is_given(page: Page) -> None:
@@ -75,7 +82,7 @@ def test_page_speaks_in_words_and_has_its_inputs(page: Page) -> None:
     assert not re.findall(r"\b[a-z]+_[a-z]\w+", shown.replace("A_r", "").replace("λ_min", ""))
     assert "{" not in shown
     titles = [a["id"] for tag, a in page.tags if tag == "section"]
-    assert titles[:2] == ["axes", "inputs"]
+    assert titles[:4] == ["predictions", "curves", "axes", "inputs"]
     for words in ("Nominal pressure 3 bar", "Sliding speed varied", "Footprint 100 mm"):
         assert words in page.text
 

@@ -58,6 +58,10 @@ def folder(tmp_path_factory):
     for arguments in (
         ["run"],
         ["study", "--vary", "speed=0.3,0.6", "--workers", "1"],
+        [
+            *("study", "--vary", "speed=0.3,0.6", "--workers", "1"),
+            *("--model", "chain", "--output", str(folder / "results" / "chain")),
+        ],
         ["compare", "--rungs", "chain_half_plane,direct", "--measured", str(folder / "mu.csv")],
         ["compare", "--rungs", "chain_half_plane", "--vary", "speed=0.3,0.6"],
     ):
@@ -75,7 +79,8 @@ def test_the_variables_of_a_run_are_listed_with_their_units(folder):
 
 
 def test_the_variables_of_a_study_are_listed_with_their_units(folder):
-    study = written(netcdf.load(folder / "study" / "study.nc"))
+    both = (netcdf.load(folder / name / "study.nc") for name in ("study", "chain"))
+    study = {name: unit for data in both for name, unit in written(data).items()}
     known = units("Totals") | units("Waves")
     own = {name: unit for name, unit in study.items() if name not in {"speed", *known}}
     assert units("The file of a study") == own
@@ -95,7 +100,9 @@ def test_the_figures_of_a_comparison_are_listed(folder):
 def test_the_figures_are_listed(folder):
     listed = set(first_cells("The figures of a run"))
     of_run = {path.stem for path in (folder / "figures").iterdir()}
-    of_study = {path.stem for path in (folder / "study" / "figures").iterdir()}
+    of_study = {
+        path.stem for name in ("study", "chain") for path in (folder / name / "figures").iterdir()
+    }
     assert listed == of_run | of_study | {"blocks_static"}
 
 

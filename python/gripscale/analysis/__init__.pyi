@@ -1,5 +1,6 @@
 from .best_estimate import Factor as Factor
 from .best_estimate import LogNormalValue as LogNormalValue
+from .best_estimate import with_best_estimate as with_best_estimate
 from .calibration import Calibration as Calibration
 from .calibration import Estimate as Estimate
 from .calibration import calibrate as calibrate

@@ -19,11 +19,20 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 import xarray as xr
 
-from gripscale.analysis.intervals import LogError, combined, half_width
+from gripscale.analysis.intervals import LogError, combined, half_width, interval_ends
 from gripscale.analysis.ladder import DIRECT
-from gripscale.analysis.samples import estimated_error, ratio, sampling_error, usable
+from gripscale.analysis.samples import (
+    QUANTITIES,
+    SMOOTH,
+    estimated_error,
+    ratio,
+    sampling_error,
+    usable,
+)
+from gripscale.experiment.design import Index, attributes, stack
+from gripscale.experiment.study import UPPER_HEIGHT
 from gripscale.half_space import line_to_map
-from gripscale.surface import Surface
+from gripscale.model import BASIS, STATUS
 
 
 class LogNormalValue(NamedTuple):
@@ -83,14 +92,6 @@ class IsotropicSurface:
 
     upper_height: float
     """Of the lines, see `gripscale.half_space.line_to_map`."""
-
-
-def upper_height_of(surface: Surface) -> float | None:
-    """Return the upper height of the measured lines of a surface; None without lines, of a map."""
-    measured = surface.measured
-    if measured is None or measured.map is not None:
-        return None
-    return line_to_map.upper_height(list(measured.cleaned), float(surface.sines.wavelength[0]))
 
 
 SHARES = ("steep_share", "missing_share")
@@ -213,3 +214,76 @@ def _numbers(
         name: (value.where(there), LogError(error.sigma.where(there), error.freedom))
         for name, (value, error) in numbers.items()
     }
+
+
+WORDS = {"contact_fraction": "real contact area A_r/A_0", "friction": "friction μ"}
+OF_A_POINT = {
+    "": "best estimate of the {}",
+    "_low": "low end of the 90 % interval of the {}",
+    "_high": "high end of the 90 % interval of the {}",
+    "_half_width": "relative half width of the 90 % interval of the {}",
+    "_sampling_error": "relative standard error of the {} from the sampling of the road",
+    "_factor": "factor on the {} of the direct contact, NaN if not included",
+    "_factor_uncertainty": "relative standard uncertainty of a factor on the {}",
+}
+"""What is kept of the best estimate of a prediction: end of its name, and meaning."""
+
+
+def with_best_estimate(data: xr.Dataset) -> xr.Dataset:
+    """Return predictions of the direct contact with the best estimate of each.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        A study (`gripscale.experiment.Study`); one of another model is returned as it is.
+
+    Returns
+    -------
+    xarray.Dataset
+        With `best_contact_fraction` and `best_friction` over the axes of the study, the ends `_low`
+        and `_high` of their 90 % intervals and the further numbers of `OF_A_POINT`, and of rubber
+        at rest `static_best_contact_fraction` and so on. NaN where the direct contact has no
+        result, or the surface is too short for an interval.
+    """
+    if UPPER_HEIGHT not in data:
+        return data
+    data = data.drop_dims("factor", errors="ignore")
+    for prefix in ("", "static_"):
+        total = data.get(f"{prefix}total_contact_fraction")
+        if total is None:
+            continue
+        parts: dict[Index, xr.Dataset] = {}
+        for index in np.ndindex(total.shape):
+            row = data.isel(dict(zip(total.dims, index, strict=True)))
+            parts[index] = _of_prediction(row, prefix)
+        sizes = {str(dim): size for dim, size in total.sizes.items()}
+        stacked = stack({at: part.drop_vars("factor_label") for at, part in parts.items()}, sizes)
+        data = data.assign({f"{prefix}{name}": stacked[name] for name in stacked})
+        label = parts[(0,) * total.ndim]["factor_label"]
+        data["factor_label"] = label.assign_attrs(attributes("factors of the best estimate"))
+    return data
+
+
+def _of_prediction(row: xr.Dataset, prefix: str) -> xr.Dataset:
+    """Return the best estimate of one prediction of a study, a sample of all its profiles."""
+    names = [*QUANTITIES, *(f"{name}_error" for name in SMOOTH)]
+    names += [name.removeprefix("total_") for name in BASIS]
+    numbers = {name: float(row.get(f"{prefix}total_{name}", math.nan)) for name in names}
+    if prefix or float(row.get("speed", row.attrs["nominal_speed"])) == 0.0:
+        numbers |= dict.fromkeys(["friction", "friction_from_dissipation"], 0.0)
+    sample = xr.Dataset({name: (("rung", "sample"), [[value]]) for name, value in numbers.items()})
+    sample[STATUS] = ("rung", "sample"), np.array([[row[f"{prefix}{STATUS}"].item()]], dtype=object)
+    sample = sample.assign_coords(
+        rung=[DIRECT], subject=(("rung", "sample"), np.array([["surface"]], dtype=object))
+    )
+    height = float(row[UPPER_HEIGHT])
+    best = best_estimate(sample, upper_height=None if math.isnan(height) else height)
+    kept = best[["factor_label"]]
+    for name in ("contact_fraction",) if prefix else ESTIMATED:
+        value = best[f"best_{name}"]
+        ends = interval_ends(value, best[f"best_{name}_half_width"])
+        best = best.assign(dict(zip((f"best_{name}_low", f"best_{name}_high"), ends, strict=True)))
+        for end, text in OF_A_POINT.items():
+            part = best[f"best_{name}{end}"].reset_coords(drop=True)
+            kept[f"best_{name}{end}"] = part.assign_attrs(attributes(text.format(WORDS[name])))
+    return kept

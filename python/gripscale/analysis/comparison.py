@@ -18,7 +18,6 @@ from gripscale.analysis.best_estimate import (
     FINITE_STRAIN,
     Factor,
     best_estimate,
-    upper_height_of,
 )
 from gripscale.analysis.comparison_dataset import Comparison
 from gripscale.analysis.intervals import half_width
@@ -42,7 +41,8 @@ from gripscale.experiment.measured_friction import MeasuredFriction
 from gripscale.experiment.solve import Bench, OnTask, bench_in
 from gripscale.experiment.study import Study
 from gripscale.experiment.task import Store, Task
-from gripscale.half_space.model import DirectContact
+from gripscale.half_space.line_to_map import upper_height_of
+from gripscale.half_space.model import JUDGED_TO, DirectContact
 from gripscale.io import netcdf
 from gripscale.model import answer, cut_off_exponents_of, extrapolation_of, with_area_term
 from gripscale.rubber.extrapolation import require_measured
@@ -172,7 +172,7 @@ def compare_over(
     InputError, FileError
         As for `compare_case`, and if other than one input of numbers is varied.
     """
-    study = Study(case, vary, static=False)
+    study = Study(case, vary, static=False, model=Chain.name)
     axis = study.axes[0]
     if len(study.axes) > 1 or axis.name not in VARIED:
         names = ", ".join(other.name for other in study.axes)
@@ -358,8 +358,6 @@ def at_measured(
     return data.assign_attrs(comparison.file.attributes, measured_source=measured.source)
 
 
-JUDGED_TO = 0.05
-"""Estimated relative error of the contact that every run judges its chain by."""
 FILE = "direct.nc"
 """What it is kept in, beside the result."""
 

@@ -12,13 +12,14 @@ import numpy as np
 import xarray as xr
 
 from gripscale.analysis import samples as reduce
-from gripscale.analysis.best_estimate import SHARES, Factor, best_estimate, upper_height_of
+from gripscale.analysis.best_estimate import SHARES, Factor, best_estimate
 from gripscale.analysis.ladder import ComparisonSetup, Rung
 from gripscale.case.read import CaseFile
 from gripscale.core import provenance
 from gripscale.experiment.axis import Axis
 from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.experiment.study import coordinates
+from gripscale.half_space.line_to_map import upper_height_of
 from gripscale.model import (
     ADHESIVE_FRICTION,
     BASIS,

@@ -51,3 +51,11 @@ def half_width(error: LogError, level: float = LEVEL) -> xr.DataArray:
     quantile = xr.apply_ufunc(lambda n: stdtrit(n, 0.5 * (1.0 + level)), freedom)
     width: xr.DataArray = quantile * error.sigma
     return width.copy(data=np.sinh(width.values))
+
+
+def interval_ends(
+    value: xr.DataArray, half_width: xr.DataArray
+) -> tuple[xr.DataArray, xr.DataArray]:
+    """Return both ends of an interval of relative half width; NaN if it is not known."""
+    log = half_width.copy(data=np.arcsinh(half_width.values))
+    return value * np.exp(-log), value * np.exp(log)

@@ -8,20 +8,29 @@ over all series that fit it as well as the best one does (`Rubber.admissible_rub
 with X_k of series k and X_0 of the best one solved as half-planes, which cost less, and X of the
 best one by the model of the case. The DMAs are independent of each other, see
 `total_differences`.
+
+What is to be believed are the best estimates of the direct contact where the road was measured, and
+their ratios to the first (`ratios_to_first`). The road is the same for all, and the step from its
+lines to a surface cancels but for its change with the load, which here is that with the contact
+area. Ratios of single profiles scatter about as much as the numbers themselves, so that the
+sampling of the road does not cancel. The truth is taken to lie evenly between the ends of a range.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import xarray as xr
 
+from gripscale.analysis.best_estimate import with_best_estimate
+from gripscale.case.prepare import case_chain
 from gripscale.case.read import CaseFile, read_case
 from gripscale.chain.chain import Chain
-from gripscale.core import checks
 from gripscale.core.errors import InputError
 from gripscale.core.units import ZERO_CELSIUS
 from gripscale.experiment.design import Design, Point, attributes, solve_design
@@ -29,6 +38,8 @@ from gripscale.experiment.inputs import rubber_of
 from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.study import Study
 from gripscale.experiment.task import PREDICTIONS, Store, Task
+from gripscale.half_space.line_to_map import LOAD_SENSITIVITY
+from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
 from gripscale.rubber import Rubber, temperature_doubts
 from gripscale.theory.half_plane import HalfPlane
@@ -102,6 +113,11 @@ def _celsius(kelvin: float) -> str:
 
 FEWEST, MOST = 2, 6
 TOTALS = ("total_friction", "total_contact_fraction")
+ENDS = ("low", "high")
+NORMAL = 1.645
+"""Half width of a 90 % interval over a standard error."""
+EVEN = NORMAL / math.sqrt(3.0)
+"""Half width of a 90 % interval over that of a range which holds the truth evenly."""
 
 
 def require_some(name: str, mapping: Mapping[str, Any], what: str) -> None:
@@ -137,6 +153,48 @@ def total_differences(data: xr.Dataset, dim: str) -> dict[str, xr.DataArray]:
 def to_first(values: xr.DataArray, dim: str, long_name: str) -> xr.DataArray:
     """Return the difference of `values` [-] to the first along `dim`."""
     return (values - values.isel({dim: 0}, drop=True)).assign_attrs(attributes(long_name))
+
+
+QUANTITIES = ("friction", "contact_fraction")
+
+
+def ratios_to_first(
+    data: xr.Dataset,
+    dim: str,
+    widths: Mapping[str, tuple[xr.DataArray, xr.DataArray]] | None = None,
+) -> dict[str, xr.DataArray]:
+    """Return `friction_ratio` and so on: the best there is over that of the first along `dim`.
+
+    With the ends `_low` and `_high` of its 90 % interval, from the `widths`, down and up, of those
+    of the logarithms, which are independent of each other.
+    """
+    out = {}
+    for name in QUANTITIES:
+        best = f"best_{name}" if f"best_{name}" in data else f"total_{name}"
+        value = data[best].where(data[best] > 0.0)
+        ratio = value / value.isel({dim: 0}, drop=True)
+        text = f"over that of the first, {data[best].attrs['long_name']}"
+        out[f"{name}_ratio"] = ratio.assign_attrs(attributes(text))
+        if widths is None:
+            continue
+        first = xr.zeros_like(data[dim], dtype=bool)
+        first[0] = True
+        down, up = widths[name]
+        # a ratio is low where the number is low and that of the first is high
+        for end, sign, width, other in (("low", -1.0, down, up), ("high", 1.0, up, down)):
+            size = (width**2 + other.isel({dim: 0}, drop=True) ** 2) ** 0.5
+            values = ratio * size.copy(data=np.exp(sign * size.values))
+            out[f"{name}_ratio_{end}"] = (
+                values.where(~first, 1.0)
+                .reset_coords(drop=True)
+                .assign_attrs(attributes(f"{end} end of the 90 % interval, {text}"))
+            )
+    return out
+
+
+def log(values: xr.DataArray) -> xr.DataArray:
+    """Return the natural logarithm."""
+    return values.copy(data=np.log(values.values))
 
 
 def ranges(
@@ -202,9 +260,12 @@ def compare_compounds(
     Returns
     -------
     Compounds
-        Over `rubber`: the totals, `total_friction_low` and so on, `..._difference` to the first
-        with its `_low` and `_high`; by wave `friction_running`, from the largest wave down, and
-        `friction_difference`; by decade of relaxation time `friction_by_decade_difference`.
+        Over `rubber`: the totals of the chain, `total_friction_low` and so on, `..._difference` to
+        the first with its `_low` and `_high`; the best estimates `best_friction` and so on
+        (`gripscale.analysis.with_best_estimate`) where the road was measured, and `friction_ratio`
+        to the first and so on, with its `_low` and `_high`; by wave `friction_running`, from the
+        largest wave down, and `friction_difference`; by decade of relaxation time
+        `friction_by_decade_difference`.
 
     Raises
     ------
@@ -218,19 +279,61 @@ def compare_compounds(
     if temperature is None:
         temperature = file.case.conditions.temperature
     together, notes = at_one_temperature(compounds, temperature)
-    study = Study(file, {"rubber": together}, static=False)
-    data = study.run(folder, workers=workers, on_task=on_task)
+    vary = {"rubber": together}
+    believed = Study(file, vary, static=False)
+    best = None
+    if isinstance(believed.model, DirectContact):
+        best = believed.run(folder, workers=workers, on_task=_of_model(believed, on_task))
+    # its file stays beside the result
+    study = Study(file, vary, static=False, model=Chain.name)
+    data = study.run(folder, workers=workers, on_task=_of_model(study, on_task))
     if uncertainty:
         bench = Bench(Store(Path(folder) / PREDICTIONS), workers)
         data = data.assign(_ranges(study, data, bench))
+    data = data.assign(_believed(data if best is None else with_best_estimate(best), data))
     data = data.assign(_differences(data)).assign_attrs(notes="\n".join(notes))
     return Compounds(together, notes, netcdf.load(netcdf.save(data, Path(folder) / RESULT)))
+
+
+def _of_model(study: Study, on_task: OnTask | None) -> OnTask | None:
+    """Return `on_task`, told of the model that predicts."""
+    if on_task is None:
+        return None
+    name = study.model.name
+    return lambda progress: on_task(replace(progress, label=f"{name}, {progress.label}"))
+
+
+def _believed(best: xr.Dataset, data: xr.Dataset) -> dict[str, xr.DataArray]:
+    """Return the best estimates of the compounds, and the ratios to the first that are believed."""
+    names = [str(name) for name in best if str(name).startswith(("best_", "factor_"))]
+    widths = None
+    if f"{TOTALS[0]}_low" in data:
+        widths = {name: _widths(best, data, name) for name in QUANTITIES}
+    return {name: best[name] for name in names} | ratios_to_first(best, "rubber", widths)
+
+
+def _widths(best: xr.Dataset, data: xr.Dataset, name: str) -> tuple[xr.DataArray, xr.DataArray]:
+    """Return the half widths, down and up, of the 90 % interval of a logarithm.
+
+    From what the DMA leaves open, without which they are NaN; of the direct contact also from its
+    grid, the sampling of the road and the change of the step to a surface with the contact area.
+    """
+    total = data[f"total_{name}"]
+    down, up = (log(data[f"total_{name}_{end}"] / total) ** 2 for end in ENDS)
+    if f"best_{name}" not in best:
+        return EVEN * down**0.5, EVEN * up**0.5
+    grid = (best[f"total_{name}_error"] / best[f"total_{name}"]).fillna(0.0)
+    area = best["total_contact_fraction"]
+    step = LOAD_SENSITIVITY * log(area / area.isel(rubber=0, drop=True))
+    even = EVEN**2 * (grid**2 + step**2)
+    rest = even + (NORMAL * best[f"best_{name}_sampling_error"]) ** 2
+    return (EVEN**2 * down + rest) ** 0.5, (EVEN**2 * up + rest) ** 0.5
 
 
 def _ranges(study: Study, data: xr.Dataset, bench: Bench) -> dict[str, xr.DataArray]:
     """Return the lowest and highest totals of each compound over its admissible series."""
     load = study.file.case.load.nominal
-    model = replace(checks.instance("model", study.model, Chain), solver=HalfPlane(points=POINTS))
+    model = replace(case_chain(study.file), solver=HalfPlane(points=POINTS))
     points = [
         Point((at, i), f"{name}, series {i}", Task(rubber, study.surfaces[0], load, model))
         for at, (name, best) in enumerate(zip(data.rubber.values, study.rubbers, strict=True))

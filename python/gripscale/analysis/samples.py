@@ -33,6 +33,7 @@ from gripscale.model import (
     STATUS_WORD,
     WHY_NO_EXPONENT,
     cut_off_exponents_of,
+    error_of_total,
     extrapolation_of,
     status_words,
 )
@@ -59,7 +60,7 @@ def sample_numbers(
     """
     rest = float(answer["nominal_speed"]) == 0.0
     numbers: dict[str, Any] = {name: float(answer[f"total_{name}"]) for name in QUANTITIES}
-    numbers |= {f"{name}_error": _error(answer, name) for name in SMOOTH}
+    numbers |= {f"{name}_error": error_of_total(answer, name) for name in SMOOTH}
     for name in BASIS:
         numbers[name.removeprefix("total_")] = float(answer.get(name, math.nan))
     if rest:
@@ -79,25 +80,6 @@ def sample_numbers(
     numbers[STATUS] = str(answer[STATUS].item())
     numbers[STATUS_WORD] = str(status_words(answer).item())
     return xr.Dataset(numbers | _curve(answer))
-
-
-def _error(answer: xr.Dataset, name: str) -> float:
-    """Return the estimated error of a total: of profiles by weight, of waves added up.
-
-    Waves: their relative errors add up in the product of areas, their errors in the sum of
-    frictions; all in the same direction, because the same mesh makes them.
-    """
-    errors = answer.get(f"{name}_error")
-    if errors is None:
-        return math.nan
-    values = np.abs(errors.values)
-    if errors.dims == ("profile",):
-        return float(answer["weight"].values @ values)
-    if errors.dims == ("scale",):
-        relative = name == "contact_fraction"
-        parts = values / answer[name].values if relative else values
-        return float(parts.sum() * (answer[f"total_{name}"] if relative else 1.0))
-    return float(values)
 
 
 def _curve(answer: xr.Dataset) -> dict[str, Any]:

@@ -6,8 +6,12 @@ range of 90 % of n block bootstraps of its profiles (`gripscale.analysis.Profile
     low = X min(1, q_5(X_k/X_0)),    high = X max(1, q_95(X_k/X_0))
 
 with X_k of the drawn blocks and X_0 of the road as measured; of the chain by half-planes, which
-cost less, of the direct contact by itself. The roads are independent of each other, see
+cost less, of the direct contact by itself on one full grid. Friction of X is that from dissipation,
+which a coarse grid changes less. The roads are independent of each other, see
 `gripscale.analysis.rubber_comparison.total_differences`.
+
+What is to be believed are the best estimates of the direct contact, and their ratios to the first
+(`gripscale.analysis.rubber_comparison.ratios_to_first`).
 """
 
 from __future__ import annotations
@@ -23,6 +27,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.analysis import rubber_comparison
+from gripscale.analysis.best_estimate import with_best_estimate
 from gripscale.analysis.propagation import quantiles
 from gripscale.analysis.sampled_inputs import FailSafeModel, Inputs, Measurement
 from gripscale.analysis.sampling import draws
@@ -32,11 +37,20 @@ from gripscale.chain.chain import Chain
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
-from gripscale.experiment.design import Design, Point, attributes, solve_design, surface_numbers
+from gripscale.experiment.design import (
+    Design,
+    Point,
+    attributes,
+    basis_numbers,
+    solve_design,
+    surface_numbers,
+)
 from gripscale.experiment.inputs import case_rubber, model_of, surface_of
 from gripscale.experiment.solve import Bench, OnTask
+from gripscale.experiment.study import UPPER_HEIGHT
 from gripscale.experiment.task import PREDICTIONS, Store, Task
-from gripscale.half_space.model import DirectContact
+from gripscale.half_space.line_to_map import upper_height_of
+from gripscale.half_space.model import JUDGED_TO, DirectContact
 from gripscale.io import netcdf
 from gripscale.model import STATUS, STATUS_WORD, Load, Model
 from gripscale.model import TOTALS as OF_ALL
@@ -86,6 +100,12 @@ MODELS = ("chain", "direct")
 PER_DECADE = 12
 """Lags and wavenumbers at which roads are drawn together."""
 
+DRAWN = {
+    "total_friction": "total_friction_from_dissipation",
+    "total_contact_fraction": "total_contact_fraction",
+}
+"""Totals with a range, and which number of the drawn samples says how far it reaches."""
+
 AS_MEASURED, REFERENCE = 0, 1
 """Samples before the drawn ones: the road, and what its drawn samples are compared with."""
 
@@ -93,7 +113,7 @@ AS_MEASURED, REFERENCE = 0, 1
 def road_numbers(answer: xr.Dataset, task: Task) -> xr.Dataset:
     """Return what is kept of the answer on one road: totals and friction by wavelength."""
     kept = surface_numbers(answer, task)[[*OF_ALL, STATUS, STATUS_WORD]]
-    return kept.assign(friction_curve(answer))
+    return kept.assign(basis_numbers(answer)).assign(friction_curve(answer))
 
 
 def roads_dataset(surfaces: Mapping[str, Surface], solved: xr.Dataset) -> xr.Dataset:
@@ -112,9 +132,11 @@ def roads_dataset(surfaces: Mapping[str, Surface], solved: xr.Dataset) -> xr.Dat
     )
     if solved.sizes["sample"] > REFERENCE:
         drawn = solved.isel(sample=slice(REFERENCE + 1, None))
-        totals = list(rubber_comparison.TOTALS)
-        ratios = drawn[totals] / solved[totals].isel(sample=REFERENCE)
-        levels = {name: quantiles(ratios[name]) for name in totals}
+        ratios = {
+            name: drawn[measure] / solved[measure].isel(sample=REFERENCE)
+            for name, measure in DRAWN.items()
+        }
+        levels = {name: quantiles(values) for name, values in ratios.items()}
         ends = {
             name: (level.isel(quantile=0).clip(max=1.0), level.isel(quantile=-1).clip(min=1.0))
             for name, level in levels.items()
@@ -133,7 +155,27 @@ def roads_dataset(surfaces: Mapping[str, Surface], solved: xr.Dataset) -> xr.Dat
     }
     return data.assign(
         rubber_comparison.total_differences(data, "surface") | by_octave | _measured(surfaces)
-    )
+    ).assign(_best(surfaces, roads))
+
+
+def _best(surfaces: Mapping[str, Surface], roads: xr.Dataset) -> dict[str, xr.DataArray]:
+    """Return the best estimates of the roads, and the ratios to the first that are believed.
+
+    Of roads without a direct contact the ratios of the chain, which have no interval.
+    """
+    direct = roads.sel(model=DirectContact.name, drop=True)
+    if bool((direct[STATUS] == "").any()):
+        return rubber_comparison.ratios_to_first(roads.sel(model=Chain.name, drop=True), "surface")
+    heights = [upper_height_of(surface) or np.nan for surface in surfaces.values()]
+    best = with_best_estimate(direct.assign({UPPER_HEIGHT: ("surface", heights)}))
+    names = [name for name in best if str(name).startswith(("best_", "factor_"))]
+    widths = {}
+    for name in rubber_comparison.QUANTITIES:
+        half_width = best[f"best_{name}_half_width"]
+        width = half_width.copy(data=np.arcsinh(half_width.values))
+        widths[name] = width, width
+    ratios = rubber_comparison.ratios_to_first(best, "surface", widths)
+    return {str(name): best[name] for name in names} | ratios
 
 
 def _by_octave(roads: xr.Dataset) -> xr.DataArray:
@@ -234,7 +276,9 @@ def compare_surfaces(
     -------
     Roads
         Over `model` and `surface`: the totals, `total_friction_low` and so on, `..._difference` to
-        the first with its `_low` and `_high`; over `octave` of wavelength `friction_running`, from
+        the first with its `_low` and `_high`; over `surface` the best estimates `best_friction` and
+        so on (`gripscale.analysis.with_best_estimate`) and `friction_ratio` to the first and so on,
+        with its `_low` and `_high`; over `octave` of wavelength `friction_running`, from
         the longest wave down, and `friction_difference`; `correlation` over `lag` and `spectrum`
         over `wavenumber`.
 
@@ -258,9 +302,7 @@ def compare_surfaces(
     points: list[Point] = []
     notes: list[str] = []
     for (i, name), (j, (road, surface)) in product(enumerate(MODELS), enumerate(roads.items())):
-        model = model_of(name, file)
-        if isinstance(model, DirectContact):
-            model = replace(model, tolerance=None)  # on one full grid
+        model = model_of(name, file, JUDGED_TO)
         if "measurement" in model.needs and surface.measured is None:
             notes.append(f"{road} was not measured: no direct contact")
             continue
@@ -283,7 +325,7 @@ def compare_surfaces(
     sizes["sample"] = 1 if samples is None else REFERENCE + 1 + samples
     design = Design(sizes, points, {"model": list(MODELS), "surface": list(roads)})
     bench = Bench(Store(Path(folder) / PREDICTIONS), workers, None, on_task)
-    solved = solve_design(design, bench, road_numbers)
+    solved = solve_design(design, bench, road_numbers).assign_attrs(nominal_speed=load.speed)
     words = [value if isinstance(value, str) else name for name, value in surfaces.items()]
     data = roads_dataset(roads, solved).assign_attrs(
         notes="\n".join(notes),
@@ -304,8 +346,9 @@ def _drawn(measurement: Measurement, model: Model, load: Load, samples: int) -> 
     case = Inputs.of(measurement)
     if isinstance(model, Chain):
         model = replace(model, solver=HalfPlane(points=POINTS))
-    else:  # no waves are fitted: the roughness ends where it does as measured, to the last bit
-        case = replace(case, fit={})
+    if isinstance(model, DirectContact):
+        # no waves are fitted: the roughness ends where it does as measured, to the last bit
+        model, case = replace(model, tolerance=None), replace(case, fit={})
     drawn = [case, *(sample.inputs for sample in draws(case, [source], samples, SEED))]
     return {
         number: inputs.tasks(model, [load])[0]

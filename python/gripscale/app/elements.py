@@ -19,7 +19,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from gripscale.charts.page_elements import Chart
 from gripscale.core.errors import GripscaleError
-from gripscale.report.elements import Card, Code, Element, Notice, Text
+from gripscale.report.elements import Card, Code, Element, Notice, Text, open_and_folded
 
 T = TypeVar("T")
 
@@ -32,7 +32,24 @@ class Cards:
     kind: ClassVar[str] = "cards"
 
 
-PageElements = Sequence[Element | Cards]
+@dataclass(frozen=True)
+class Folded:
+    """Warnings that open at a click."""
+
+    notices: Sequence[Notice]
+    kind: ClassVar[str] = "folded"
+
+
+AppElement = Element | Cards | Folded
+PageElements = Sequence[AppElement]
+
+
+def notice_elements(notices: Sequence[Notice]) -> Iterator[AppElement]:
+    """Yield errors and the first few warnings, then the others folded."""
+    opened, folded = open_and_folded(notices)
+    yield from opened
+    if folded:
+        yield Folded(folded)
 
 
 @cache
@@ -51,12 +68,12 @@ def column(*parts: Any, **options: Any) -> pn.Column:
     return pn.Column(*parts, sizing_mode="stretch_width", **options)
 
 
-def panes(elements: Iterable[Element | Cards]) -> list[pn.viewable.Viewable]:
+def panes(elements: Iterable[AppElement]) -> list[pn.viewable.Viewable]:
     """Return the panes that show `elements`, in order."""
     return [chart_pane(e) if isinstance(e, Chart) else html(e) for e in elements]
 
 
-def html(element: Element | Cards) -> pn.pane.HTML:
+def html(element: AppElement) -> pn.pane.HTML:
     """Return the pane of a text, a notice, a table, facts, code or cards."""
     return raw(_environment().get_template("elements.html").render(e=element))
 

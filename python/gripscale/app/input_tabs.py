@@ -14,7 +14,7 @@ import panel as pn
 
 from gripscale.app.case import CaseState
 from gripscale.app.case_panel import file_upload, validation_pane
-from gripscale.app.elements import column
+from gripscale.app.elements import AppElement, column, notice_elements
 from gripscale.app.forms import PreviewPanel, table_form
 from gripscale.case import (
     CaseFile,
@@ -30,7 +30,7 @@ from gripscale.case import (
 from gripscale.case.rubber_tables import NAMED_RUBBERS
 from gripscale.charts.rubber import rubber_charts
 from gripscale.charts.surface import correlation_charts, profile_charts
-from gripscale.report.elements import Element, Notice, Text
+from gripscale.report.elements import Notice, Text
 from gripscale.report.inputs import (
     cleaning_tables,
     rubber_facts,
@@ -70,12 +70,12 @@ def _prepared_with(file: CaseFile, **tables: Any) -> CaseResults:
     return prepare_case(replace(file, case=file.case.model_copy(update=plain | tables)))
 
 
-def surface_elements(file: CaseFile) -> list[Element]:
+def surface_elements(file: CaseFile) -> list[AppElement]:
     """Return warnings, correlation with its waves, cleaning and profiles of the surface."""
     any_rubber = validate(RubberSource, {"name": NAMED_RUBBERS[0]}, "rubber")
     results = _prepared_with(file, rubber=any_rubber)
     inputs = record.inputs(results)
-    notes = [Notice("warning", note) for note in results.surface.notes]
+    notes = [*notice_elements([Notice("warning", note) for note in results.surface.notes])]
     if results.surface.measured is None:
         return [*notes, Text("The case states the sine waves; no surface is measured.")]
     return [
@@ -88,13 +88,13 @@ def surface_elements(file: CaseFile) -> list[Element]:
     ]
 
 
-def rubber_elements(file: CaseFile) -> list[Element]:
+def rubber_elements(file: CaseFile) -> list[AppElement]:
     """Return findings, moduli with the fit, the ends of the data, and shifts of the sweeps."""
     any_wave = {"sines": [{"wavelength": "10 mm", "amplitude": "1 mm"}]}
     results = _prepared_with(file, surface=validate(SurfaceTable, any_wave, "surface"))
     inputs = record.inputs(results)
     findings = InputRecord(inputs).findings
-    elements: list[Element] = [Notice("warning", f"{text}.") for text in findings]
+    elements = [*notice_elements([Notice("warning", f"{text}.") for text in findings])]
     for part in shift_parts(results.rubber):
         elements.append(Text(part) if isinstance(part, str) else part)
     return [*elements, *rubber_charts(inputs, None), rubber_facts(InputRecord(inputs))]

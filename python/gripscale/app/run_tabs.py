@@ -8,23 +8,29 @@ from __future__ import annotations
 import io
 import math
 import zipfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from html import escape
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
+import numpy as np
 import panel as pn
+import xarray as xr
 
+from gripscale.analysis.intervals import interval_ends
 from gripscale.analysis.measured_comparison import friction_of_case
 from gripscale.app.case import CaseState, field_text, tables_of
 from gripscale.app.elements import (
+    AppElement,
     Cards,
     PageElements,
     code,
     column,
     html,
     in_worker,
+    notice_elements,
+    panes,
     raw,
     refusals_in,
     wait_for_worker,
@@ -33,13 +39,13 @@ from gripscale.app.forms import fill
 from gripscale.app.runs import Run, Runs
 from gripscale.case import read_case
 from gripscale.case.folder import CASE
-from gripscale.charts.view import PredictionView
+from gripscale.charts.view import SYMBOLS, PredictionView
 from gripscale.charts.wave_and_chain import contact_charts, measured_chart
 from gripscale.core.errors import GripscaleError
 from gripscale.io.table import Column, Table
 from gripscale.model import with_adhesive
 from gripscale.report import source, write_report
-from gripscale.report.answer import basis_lines
+from gripscale.report.answer import basis_lines, has_answer
 from gripscale.report.elements import Element, Notice, Text
 from gripscale.report.measured import measured_lines
 from gripscale.report.notices import cards, exponent_sentence, notices
@@ -76,7 +82,9 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
         last_state[:] = [now]
         share = run.progress().share
         bar.param.update(visible=run.running, value=-1 if share is None else round(100 * share))
-        status.objects = [html(run_status(run, state)), *([code("Output", log)] if log else [])]
+        answer = panes(answer_elements(run)) if run.state == "finished" else []
+        output = [code("Output", log)] if log else []
+        status.objects = [html(run_status(run, state)), *answer, *output]
         if ended:
             runs.changes += 1
 
@@ -103,6 +111,15 @@ def run_status(run: Run, state: CaseState) -> Element:
     if run.state == "failed":
         return Notice("error", f"{run.name}: {state.visit.short(run.failure())}")
     return Notice("good", f"{run.name} has finished; the next tab shows its results.")
+
+
+def answer_elements(run: Run) -> PageElements:
+    """Return the cards of a finished run: its answer, where the surface was measured."""
+    try:
+        result = wait_for_worker(lambda: source.read_result(run.folder))
+    except GripscaleError:
+        return []  # the next tab says why
+    return [Cards(cards(result))] if isinstance(result, source.Run) else []
 
 
 def results_tab(state: CaseState, runs: Runs) -> pn.Column:
@@ -136,7 +153,7 @@ def results_tab(state: CaseState, runs: Runs) -> pn.Column:
     return column(choice, body, footer)
 
 
-def results_elements(folder: Path) -> Iterator[Element | Cards]:
+def results_elements(folder: Path) -> Iterator[AppElement]:
     """Yield the results in the folder of a run, in the order of the page."""
     run = source.read_result(folder)
     if not isinstance(run, source.Run):
@@ -144,7 +161,7 @@ def results_elements(folder: Path) -> Iterator[Element | Cards]:
     yield Cards(cards(run))
     if run.direct is not None:
         yield from map(Text, basis_lines(run.direct))
-    yield from notices(run)
+    yield from notice_elements(notices(run))
     yield from judgement_elements(run)
     for prediction in run.predictions:
         sentence = exponent_sentence(prediction.data)
@@ -233,9 +250,17 @@ def compare_tab(state: CaseState, runs: Runs) -> pn.Column:
     return body
 
 
+class ComparedRun(NamedTuple):
+    """A prediction of a run, and the answer at its speed where the surface was measured."""
+
+    run: Run
+    view: PredictionView
+    direct: xr.Dataset | None
+
+
 def compared_elements(runs: Runs) -> PageElements:
     """Return table and figures of all runs that have results."""
-    compared: list[tuple[Run, PredictionView]] = []
+    compared: list[ComparedRun] = []
     for run in runs.all:
         try:
             result = None if run.running else source.read_result(run.folder)
@@ -244,18 +269,21 @@ def compared_elements(runs: Runs) -> PageElements:
         if isinstance(result, source.Run):
             for view in result.by_wave:
                 name = run.name + ("" if view.moving else ", at rest")
-                compared.append((run, replace(view, name=name)))
+                direct = result.direct
+                if direct is None or not has_answer(direct) or direct.nominal_speed != view.speed:
+                    direct = None
+                compared.append(ComparedRun(run, replace(view, name=name), direct))
     if not compared:
         return [Text("No run of this visit has results.")]
-    charts = contact_charts([view for _, view in compared])
+    charts = contact_charts([view for _, view, _ in compared])
     return [runs_table(compared), *(chart for chart in charts if chart.name in COMPARED_CHARTS)]
 
 
-def runs_table(compared: list[tuple[Run, PredictionView]]) -> Table:
-    """Return the totals of each prediction, and the keys in which the cases differ."""
+def runs_table(compared: Sequence[ComparedRun]) -> Table:
+    """Return the answer and the chain of each prediction, and the keys in which cases differ."""
     first = compared[0][0].text
     totals, states = [], []
-    for _, view in compared:
+    for _, view, _ in compared:
         with_area_term = with_adhesive(view.data)
         numbers = [
             view.total("contact_fraction"),
@@ -264,19 +292,48 @@ def runs_table(compared: list[tuple[Run, PredictionView]]) -> Table:
         ]
         totals.append(numbers if view.complete else [math.nan] * len(numbers))
         states.append("complete" if view.complete else f"{view.waves} of {view.planned} waves")
-    speeds = [view.display_unit("speed").text(view.speed, 3) for _, view in compared]
-    changes = [", ".join(changed_keys(first, run.text)) for run, _ in compared]
+    speeds = [view.display_unit("speed").text(view.speed, 3) for _, view, _ in compared]
+    changes = [", ".join(changed_keys(first, run.text)) for run, _, _ in compared]
     area, friction, with_term = zip(*totals, strict=True)
     columns = [
-        Column("run", [view.name for _, view in compared]),
+        Column("run", [view.name for _, view, _ in compared]),
         Column("speed", speeds, words=False),
-        Column("contact_fraction", area, "A_r/A_0"),
-        Column("friction", friction, "μ"),
-        Column("with_area_term", with_term, "μ with the area term"),
+        *_best_columns([direct for _, _, direct in compared]),
+        Column("friction", friction, "μ", group=CHAIN),
+        Column("contact_fraction", area, "A_r/A_0", group=CHAIN),
+    ]
+    if np.isfinite(with_term).any():
+        columns.append(Column("with_area_term", with_term, "μ with the area term", group=CHAIN))
+    columns += [
         Column("status", states),
         Column("changes", changes, "keys that differ from the first", words=True),
     ]
     return Table("runs", columns, "The runs of this visit")
+
+
+CHAIN = "chain of waves"
+"""Over the numbers of the chain, beside the best estimates."""
+
+
+def _best_columns(answers: Sequence[xr.Dataset | None]) -> Iterator[Column]:
+    """Yield best estimates and their intervals; nothing where no surface was measured."""
+    for name in reversed(SYMBOLS) if any(answer is not None for answer in answers) else ():
+        numbers = [
+            (math.nan,) * 3
+            if answer is None
+            else (float(answer[f"best_{name}"]), *map(float, _interval(answer, name)))
+            for answer in answers
+        ]
+        value, low, high = zip(*numbers, strict=True)
+        yield Column(f"best_{name}", value, SYMBOLS[name], group="best estimate")
+        ends = np.stack([low, high], axis=1)
+        if np.isfinite(ends).any():
+            yield Column(f"best_{name}_interval", ends, "90 %", group="best estimate")
+
+
+def _interval(answer: xr.Dataset, name: str) -> tuple[xr.DataArray, xr.DataArray]:
+    """Return the ends of the interval of a best estimate."""
+    return interval_ends(answer[f"best_{name}"], answer[f"best_{name}_half_width"])
 
 
 def changed_keys(first: str, other: str) -> Iterator[str]:

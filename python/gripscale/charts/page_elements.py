@@ -56,6 +56,14 @@ AT_REST = "static_"
 """Before the name of what a study says of rubber at rest."""
 
 WORDS = {
+    "best_friction_low": "its 90 %, from",
+    "best_friction_high": "to",
+    "best_contact_fraction_low": "its 90 %, from",
+    "best_contact_fraction_high": "to",
+    "friction_ratio": "μ over that of the first",
+    "contact_fraction_ratio": "A_r/A_0 over that of the first",
+    "best_friction": "friction μ, best estimate",
+    "best_contact_fraction": "real contact area A_r/A_0, best estimate",
     "total_contact_fraction": "real contact area A_r/A_0",
     "total_friction": "friction μ",
     "total_friction_from_dissipation": "μ from the energy lost",
@@ -87,6 +95,15 @@ def words_of(data: xr.Dataset, name: str) -> str:
     if name in LABELS or name not in data.variables:
         return plain
     return str(data[name].attrs.get("long_name", plain))
+
+
+EVIDENCE = ("_error", "_half_width", "_uncertainty", "_low", "_high", "_freedom", "_share")
+"""Ends of the names of numbers that say how well another one is known."""
+
+
+def is_evidence(name: str) -> bool:
+    """Return whether a number of a study says how well another one is known, not what it is."""
+    return name.endswith(EVIDENCE)
 
 
 def telling(variable: xr.DataArray) -> bool:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
@@ -16,9 +17,9 @@ import xarray as xr
 
 from gripscale.charts import chart, draw, style
 from gripscale.charts.chart import Axis, Band, CrossLine, Mark, Panel, Series, Sheet
-from gripscale.charts.page_elements import Chart, telling, words_of
+from gripscale.charts.page_elements import Chart, is_evidence, telling, words_of
 from gripscale.charts.style import BEYOND, BLUE, GREY, INK, NARROW, Flags
-from gripscale.charts.view import AXIS_TITLES
+from gripscale.charts.view import AXIS_TITLES, believed
 from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI
 from gripscale.experiment.axis import (
@@ -30,17 +31,27 @@ from gripscale.experiment.axis import (
     numeric,
     of_numbers,
 )
-from gripscale.experiment.speed_and_temperature import BEYOND_SHIFT, COLLAPSED, REDUCED_SPEED
+from gripscale.experiment.speed_and_temperature import BEYOND_SHIFT, REDUCED_SPEED
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 MOST_CURVES = 12
 """Curves of a chart of the page, evenly spaced among more; and names in a legend on paper."""
+MOST_BANDS = 3
+"""Curves beyond which intervals would cover each other, and are not drawn."""
 PER_WAVE = ("running_contact_fraction", "running_friction", "contact_fraction", "friction")
-TOTALS = {f"total_{name}": f"{title} [-]" for name, title in AXIS_TITLES.items()}
+TITLES = {
+    f"{kind}_{name}": f"{title} [-]"
+    for kind in ("total", "best")
+    for name, title in AXIS_TITLES.items()
+}
 """Titles of axes."""
-AT_REST = "static_total_contact_fraction"
+REPLACED = {f"total_{name}": f"best_{name}" for name in AXIS_TITLES}
+"""Totals of a model that are not drawn where there is a best estimate."""
+FRICTIONS = ("best_friction", "total_friction")
+"""Drawn from zero."""
+INTERVAL = "90 % interval"
 
 
 def varied_axis(data: xr.Dataset, name: str) -> tuple[Axis, Array]:
@@ -54,6 +65,7 @@ def varied_axis(data: xr.Dataset, name: str) -> tuple[Axis, Array]:
 def study_charts(data: xr.Dataset) -> list[Chart]:
     """Return a chart for each total over each numeric axis, and for each number per wave."""
     axes = [axis for axis in dimensions(data) if of_numbers(data, axis) and data.sizes[axis] > 1]
+    best = [name for name in map(partial(believed, data), AXIS_TITLES) if name in data]
     totals = [
         str(name)
         for name, variable in data.data_vars.items()
@@ -61,7 +73,11 @@ def study_charts(data: xr.Dataset) -> list[Chart]:
         and set(variable.dims) <= set(dimensions(data))
         and variable.dtype.kind in "fi"
         and telling(variable)
+        and name not in best
+        and not is_evidence(str(name))
+        and REPLACED.get(str(name)) not in best
     ]
+    totals = [name for name in best if telling(data[name])] + totals
     panels = [
         _total_panel(data, name, axis)
         for axis in axes
@@ -71,7 +87,7 @@ def study_charts(data: xr.Dataset) -> list[Chart]:
     if "friction_by_decade" in data and data.sizes["decade"] > 1:
         panels.append(_relaxation_panel(data))
     if REDUCED_SPEED in data.coords:
-        panels += [_reduced_panel(data, name) for name in COLLAPSED]
+        panels += [_reduced_panel(data, believed(data, name)) for name in reversed(AXIS_TITLES)]
     for name in PER_WAVE if "wavelength" in data else ():
         if name in data and "scale" in data[name].dims and np.isfinite(data[name].values).any():
             panels.append(_wave_panel(data, name, thinned=True))
@@ -105,7 +121,7 @@ def _beyond(data: xr.Dataset, variable: xr.DataArray) -> xr.DataArray:
 
 def _label(data: xr.Dataset, name: str) -> str:
     unit = str(data[name].attrs.get("units", "1")) if name in data.coords else "1"
-    return TOTALS.get(name, f"{words_of(data, name)} [{'-' if unit == '1' else unit}]")
+    return TITLES.get(name, f"{words_of(data, name)} [{'-' if unit == '1' else unit}]")
 
 
 def _sentence(data: xr.Dataset, name: str) -> str:
@@ -128,17 +144,24 @@ def _total_panel(data: xr.Dataset, name: str, axis: str) -> Panel:
         abscissa = Axis(f"{WORDS[axis]} [-]", ticks=dict(enumerate(names)), margin=0.3)
     others = [str(dim) for dim in variable.dims if dim != axis]
     marks: list[Mark] = []
-    for at, colour, label in _curves(data, others, thinned=numbers and len(others) > 1):
+    curves = list(_curves(data, others, thinned=numbers and len(others) > 1))
+    for at, colour, label in curves:
         only = colour if others else BLUE
         y, beyond = (part.isel(at).transpose(axis).values for part in (variable, flags))
+        ends = _interval(data, name, at, axis)
+        bars: dict[str, Any] = {}
+        if ends is not None and numbers and len(curves) <= MOST_BANDS:
+            marks.append(Band(x, *ends, only, "" if others else INTERVAL, 0.15))
+        elif ends is not None and not numbers:
+            bars = dict(zip(("low", "high"), ends, strict=True))
         marks.append(Series(x, y, only, label or "sliding", "solid" if numbers else "", marker="o",
                             size=3.0 if numbers else 4.5, beyond=beyond if numbers else False,
-                            clip=not numbers))  # fmt: skip
+                            clip=not numbers, **bars))  # fmt: skip
     area = name.endswith("contact_fraction")
     words, over = words_of(data, name), words_of(data, axis)
     return Panel(
         abscissa,
-        Axis(_label(data, name), log=area, low=0.0 if name == "total_friction" else None),
+        Axis(_label(data, name), log=area, low=0.0 if name in FRICTIONS else None),
         marks,
         name=f"{name}-over-{axis}",
         caption=f"{_sentence(data, name)}, over {over}.",
@@ -146,18 +169,30 @@ def _total_panel(data: xr.Dataset, name: str, axis: str) -> Panel:
     )
 
 
+def _interval(
+    data: xr.Dataset, name: str, at: dict[str, int], axis: str
+) -> tuple[Array, Array] | None:
+    """Return the ends of the intervals of a curve; None without any."""
+    if f"{name}_low" not in data:
+        return None
+    ends = (data[f"{name}_{end}"].isel(at).transpose(axis).values for end in ("low", "high"))
+    low, high = ends
+    return (low, high) if np.isfinite(low).any() else None
+
+
 def totals_figure(result: xr.Dataset) -> Figure:
     """Draw A_r/A_0 and friction over the first numeric axis, a line for each value of the other.
 
+    They are the best estimates with their 90 % intervals where there are any, else the totals.
     Without a numeric axis they are drawn as points over the names of the first one. Contact at
     rest is dotted where it was solved. Predictions that did not converge leave gaps. What rests on
     the rubber beyond its measured band is dashed, of names has a star.
     """
     names = dimensions(result)
     axis = (numeric(result) or names)[0]
-    area, friction = (_total_panel(result, name, axis) for name in TOTALS)
+    area, friction = (_total_panel(result, believed(result, name), axis) for name in AXIS_TITLES)
     keys = []
-    if AT_REST in result:
+    if _at_rest(result) in result:
         area = area.with_marks(_rest(result, axis, [name for name in names if name != axis]))
         if len(names) > 1:
             numbers = of_numbers(result, axis)
@@ -165,15 +200,20 @@ def totals_figure(result: xr.Dataset) -> Figure:
             keys.append(Series([], [], INK, "at rest", dash, 1.1, marker, filled=False))
     if any(name.endswith(" *") for name in (area.x.ticks or {}).values()):
         keys.append(Series([], [], GREY, BEYOND, dash="", marker="$*$"))
-    several = len(area.marks) > 1 or bool(keys)
+    several = len(area.marks) > 1 or len(friction.marks) > 1 or bool(keys)
     several |= any(np.any(mark.beyond) for mark in area.marks if isinstance(mark, Series))
     legend = "above" if several else ""
     return draw.on_paper(Sheet([area, friction], legend=legend, legend_columns=4, keys=keys))
 
 
+def _at_rest(result: xr.Dataset) -> str:
+    """Return the name of the contact of rubber at rest."""
+    return f"static_{believed(result, 'contact_fraction')}"
+
+
 def _rest(result: xr.Dataset, axis: str, others: list[str]) -> Iterator[Mark]:
     """Yield contact at rest, which has no speed: a dotted level, or over the same axis."""
-    rest = result[AT_REST]
+    rest = result[_at_rest(result)]
     numbers = of_numbers(result, axis)
     x = varied_axis(result, axis)[1] if numbers else np.arange(result.sizes[axis], dtype=float)
     for at, colour, _ in _curves(result, others, thinned=False):
@@ -415,9 +455,9 @@ def map_figure(result: xr.Dataset) -> Figure:
         Panel(
             replace(abscissa, grid=False),
             replace(ordinate, grid=False),
-            [chart.ValueMap(speeds, celsius, result[name].values, TOTALS[name], levels=9), *points],
+            [chart.ValueMap(speeds, celsius, result[name].values, TITLES[name], levels=9), *points],
         )
-        for name in reversed(TOTALS)
+        for name in (believed(result, quantity) for quantity in reversed(AXIS_TITLES))
     ]
     return draw.on_paper(Sheet(panels, height=3.3, layout={"sharey": True}))
 
@@ -431,7 +471,9 @@ def friction_master_figure(result: xr.Dataset) -> Figure:
     celsius = axis_shown(result, "temperature").of(result.temperature)
     label = axis_label(result, "temperature")
     bar = chart.ColourBar(float(celsius.min()), float(celsius.max()), "Plasma", label)
-    panels = [_reduced_panel(result, name) for name in reversed(TOTALS)]
+    panels = [
+        _reduced_panel(result, believed(result, quantity)) for quantity in reversed(AXIS_TITLES)
+    ]
     return draw.on_paper(Sheet(panels, height=3.3, colour_bar=bar))
 
 
@@ -450,7 +492,7 @@ def _reduced_panel(data: xr.Dataset, name: str) -> Panel:
         marks.append(Series(speeds.of(x), y.values, scale[round(255 * float(share))],
                             name_of(data, "temperature", i), width=1.0, marker="o", size=2.6,
                             beyond=beyond.values, listed=False))  # fmt: skip
-    words, area = words_of(data, name), name == "total_contact_fraction"
+    words, area = words_of(data, name), name.endswith("contact_fraction")
     return Panel(
         Axis(f"reduced speed $a_T v$ [{speeds.unit}]", log=True, numbers=7),
         Axis(_label(data, name), log=area, low=None if area else 0.0),

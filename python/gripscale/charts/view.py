@@ -33,6 +33,14 @@ AXIS_TITLES = {
 """Headings and symbols at an axis, without the unit."""
 
 CONVERGED = "converged"
+
+
+def believed(data: xr.Dataset, name: str) -> str:
+    """Return the name of the best there is of `contact_fraction` or `friction` in a study."""
+    best = f"best_{name}"
+    return best if best in data and bool(data[best].notnull().any()) else f"total_{name}"
+
+
 JUDGE = "direct contact of the profiles"
 """What a figure of a chain calls the model that judges it."""
 

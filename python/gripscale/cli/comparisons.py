@@ -226,7 +226,12 @@ def compare_surfaces(
     from gripscale.case import read_case
     from gripscale.charts.side_by_side import road_pictures
     from gripscale.charts.write import draw
-    from gripscale.report.side_by_side import failed_totals, roads_sentences, roads_tables
+    from gripscale.report.side_by_side import (
+        failed_totals,
+        ratio_lines,
+        roads_sentences,
+        roads_tables,
+    )
 
     file = read_case(case_of(surfaces, case, "the rubber and the load"))
     console, target = terminal.open_folder(file, output, "surfaces")
@@ -243,6 +248,7 @@ def compare_surfaces(
         console,
         target,
         [*roads_tables(data), *roads_sentences(data), *(f"note: {note}" for note in roads.notes)],
+        lead=list(ratio_lines(data, "surface")),
         text="surfaces.txt",
         closing="Result (surfaces.nc), tables and figures are in",
         draw=lambda: draw(road_pictures(data), target),
@@ -283,7 +289,13 @@ def compare_rubbers(
     from gripscale.charts.side_by_side import compound_pictures
     from gripscale.charts.write import draw
     from gripscale.core.units import parse_quantity
-    from gripscale.report.side_by_side import compounds_sentences, compounds_table, failed_totals
+    from gripscale.report.side_by_side import (
+        believed_table,
+        compounds_sentences,
+        compounds_table,
+        failed_totals,
+        ratio_lines,
+    )
 
     chosen = case_of(rubbers, case, "the road and the load")
     try:
@@ -307,10 +319,12 @@ def compare_rubbers(
         console,
         target,
         [
+            *filter(None, [believed_table(data, "rubber", "compound")]),
             compounds_table(data),
             *compounds_sentences(data),
             *(f"note: {note}" for note in compounds.notes),
         ],
+        lead=list(ratio_lines(data, "rubber")),
         text="compounds.txt",
         closing="Result (compounds.nc), table and figures are in",
         draw=lambda: draw(compound_pictures(data, compounds.rubbers), target),

@@ -27,8 +27,15 @@ def study(
     ],
     output: OwnFolder = None,
     model: Annotated[
-        str, typer.Option(help="What predicts: chain, or direct (the whole surface at once).")
-    ] = "chain",
+        str | None,
+        option(
+            "What predicts: direct (the whole measured surface at once), the default where the "
+            "surface was measured, or chain (of sine waves), the default elsewhere."
+        ),
+    ] = None,
+    tolerance: Annotated[
+        float, typer.Option(help="Estimated relative error of each direct contact.")
+    ] = 0.05,
     workers: Workers = None,
     cluster: Cluster = None,
     static: Annotated[
@@ -37,16 +44,19 @@ def study(
     ] = None,
 ) -> None:
     """Vary one or two inputs of a case: table, figures, one result file; resumes where stopped."""
+    from gripscale.analysis.best_estimate import with_best_estimate
     from gripscale.case import folder
     from gripscale.experiment.axis import parse_vary
-    from gripscale.experiment.study import Study
+    from gripscale.experiment.study import RESULT, Study
+    from gripscale.io import netcdf
     from gripscale.report.study import failed_predictions, study_parts
+    from gripscale.report.study_answer import study_lines
 
     pairs = [parse_vary(text) for text in vary]
     axes = dict(pairs)
     if len(axes) < len(pairs):
         raise InputError(f"vary must name different inputs; got {', '.join(n for n, _ in pairs)}")
-    planned = Study(case, axes, static=static, model=model)
+    planned = Study(case, axes, static=static, model=model, tolerance=tolerance)
     console, target = terminal.open_folder(planned.file, output, "study")
     stored = planned.stored(target)
     opening = planned.description()
@@ -60,6 +70,8 @@ def study(
     result = planned.run(
         target, workers=workers, client=cluster, on_task=terminal.progress_printer(console)
     )
+    result = with_best_estimate(result)
+    netcdf.save(result, target / RESULT)
     drawn = stored is not None and any(figures.iterdir())
 
     def draw_figures() -> None:
@@ -72,6 +84,7 @@ def study(
         console,
         target,
         list(study_parts(result)),
+        lead=list(study_lines(result)),
         text="study.txt",
         closing="Result (study.nc), table and figures are in",
         opening=opening,
@@ -227,7 +240,7 @@ def calibrate(
     from gripscale.charts.write import draw_calibration
     from gripscale.experiment.measured_friction import read_measured_friction
     from gripscale.io import netcdf
-    from gripscale.report.calibration import calibration_parts, failures
+    from gripscale.report.calibration import calibration_lines, calibration_parts, failures
 
     values = parse_fixed(fixed or [])
     file = read_case(case)
@@ -254,6 +267,7 @@ def calibrate(
         console,
         target,
         list(calibration_parts(data)),
+        lead=list(calibration_lines(data)),
         text="calibration.txt",
         closing="Tables, figures, result and [conditions.shear_stress] are in",
         files={"shear_stress.toml": shear_stress_table(fitted)},

@@ -99,6 +99,7 @@ def conclude(
     text: str,
     closing: str,
     opening: Sequence[str | Table] = (),
+    lead: Sequence[str] = (),
     width: int = PLAIN_WIDTH,
     files: Mapping[str, str] | None = None,
     draw: Callable[[], object] | None = None,
@@ -107,17 +108,17 @@ def conclude(
 ) -> None:
     """End a command: print and write what it found, draw its figures, set the exit code.
 
-    `parts` are printed, and written below `opening`, which the screen shows already, to the file
-    `text` with lines of `width`; `files` are further texts by name. `closing` says what is in the
-    folder. `page` is the result whose page is written, where the libraries for it are installed;
-    `failure` is what has no result, and sets the exit code.
+    `lead`, the answer, and `parts` are printed. The file `text`, with lines of `width`, has `lead`,
+    then `opening`, which the screen shows already, then `parts`; `files` are further texts by name.
+    `closing` says what is in the folder. `page` is the result whose page is written, where the
+    libraries for it are installed; `failure` is what has no result, and sets the exit code.
     """
     from gripscale.case import folder
     from gripscale.io.table import as_text
 
     console.print()
-    print_parts(console, parts)
-    above = [*opening, ""] if opening else []
+    print_parts(console, [*lead, *parts])
+    above = [line for lines in (lead, opening) if lines for line in (*lines, "")]
     texts = {text: as_text(*above, *parts, width=width), **(files or {})}
     for name, content in texts.items():
         folder.write_text(target / name, content)

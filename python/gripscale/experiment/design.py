@@ -18,12 +18,15 @@ from gripscale.experiment.solve import Bench, Pick
 from gripscale.experiment.task import Task
 from gripscale.model import (
     ADHESIVE_FRICTION,
+    BASIS,
     CUT_OFF_EXPONENTS,
+    ESTIMATED_ERRORS,
     OUTSIDE_BAND,
     STATUS,
     STATUS_WORD,
     TOTALS,
     WHY_NO_EXPONENT,
+    error_of_total,
     status_words,
 )
 
@@ -116,6 +119,21 @@ def attributes(long_name: str, unit: str = "1") -> dict[str, str]:
 def surface_numbers(answer: xr.Dataset, _: Task) -> xr.Dataset:
     """Return what an answer says of the whole surface."""
     return answer[[name for name in SURFACE if name in answer]]
+
+
+def basis_numbers(answer: xr.Dataset) -> xr.Dataset:
+    """Return what an answer from a measured surface rests on, with its estimated errors.
+
+    Nothing where the model does not tell.
+    """
+    if not set(BASIS) <= set(answer):
+        return xr.Dataset()
+    errors = {
+        name: ((), error_of_total(answer, name.removeprefix("total_").removesuffix("_error")),
+               attributes(text))
+        for name, text in ESTIMATED_ERRORS.items()
+    }  # fmt: skip
+    return answer[[*BASIS]].assign(errors)
 
 
 def solve_design(design: Design, bench: Bench, pick: Pick = surface_numbers) -> xr.Dataset:

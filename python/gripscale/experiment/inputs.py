@@ -188,14 +188,34 @@ def rubber_before(rubber: Rubber, model: Model) -> Rubber:
 NAMED_MODELS = (Chain.name, DirectContact.name)
 
 
-def model_of(model: Model | str, file: CaseFile) -> Model:
+def model_of(
+    model: Model | str, file: CaseFile, tolerance: float | None = DirectContact().tolerance
+) -> Model:
     """Return a model, or the one of this name with the conditions of the case.
 
-    Raises `InputError` if the name is another.
+    `tolerance` is the estimated relative error of a direct contact chosen by name; None for its
+    first full grid. Raises `InputError` if the name is another, or the tolerance out of range.
     """
     if not isinstance(model, str):
         return model
     chain = case_chain(file)
     if checks.one_of("model", model, NAMED_MODELS) == Chain.name:
         return chain
-    return DirectContact(conditions=chain.conditions)
+    return DirectContact(tolerance=tolerance, conditions=chain.conditions)
+
+
+def is_measured(value: Any, file: CaseFile) -> bool:
+    """Return whether a surface, as `surface_of` takes it, was measured; no file is read.
+
+    Raises `FileError` if a case cannot be read.
+    """
+    if isinstance(value, Surface):
+        return value.measured is not None
+    if isinstance(value, SineStack) or value in SYNTHETIC_SURFACES:
+        return False
+    if value != "case":
+        path = _found("surface", value, file, ("case", *SYNTHETIC_SURFACES))
+        if path.suffix != ".toml":
+            return True
+        file = read_case(path)
+    return file.case.surface.sines is None

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
@@ -31,7 +32,7 @@ from gripscale.core.provenance import software
 from gripscale.core.units import GIVEN
 from gripscale.experiment import inputs
 from gripscale.experiment.axis import LONG_NAMES, UNITS, Axis, axes_of
-from gripscale.experiment.design import SURFACE, Design, Index, Point, attributes
+from gripscale.experiment.design import SURFACE, Design, Index, Point, attributes, basis_numbers
 from gripscale.experiment.solve import Bench, OnTask, Progress
 from gripscale.experiment.speed_and_temperature import (
     beyond_shift,
@@ -39,8 +40,10 @@ from gripscale.experiment.speed_and_temperature import (
     with_master_curve,
 )
 from gripscale.experiment.task import PREDICTIONS, Store, Task, canonical_json, load_stored
+from gripscale.half_space.line_to_map import upper_height_of
+from gripscale.half_space.model import JUDGED_TO, DirectContact
 from gripscale.io import netcdf
-from gripscale.model import Model
+from gripscale.model import BASIS, Model
 from gripscale.rubber import Rubber
 from gripscale.surface import Surface
 
@@ -49,7 +52,10 @@ RENAMED = {"temperature": "wave_temperature"}
 
 
 def study_numbers(answer: xr.Dataset, task: Task) -> xr.Dataset:
-    """Return what a study keeps of an answer: numbers by wave and of the whole surface."""
+    """Return what a study keeps of an answer: numbers by wave and of the whole surface.
+
+    Of an answer from a measured surface also what it rests on, with its estimated errors.
+    """
     names = [
         name
         for name, variable in answer.data_vars.items()
@@ -57,6 +63,7 @@ def study_numbers(answer: xr.Dataset, task: Task) -> xr.Dataset:
         or (variable.dims == ("scale",) and np.issubdtype(variable.dtype, np.number))
     ]
     kept = answer[names].rename({old: new for old, new in RENAMED.items() if old in names})
+    kept = kept.assign(basis_numbers(answer))
     parts = friction_by_decade(answer, task.rubber)
     if not parts:
         return kept
@@ -96,8 +103,14 @@ def coordinates(axes: Iterable[Axis], units: Mapping[str, str]) -> dict[str, xr.
     return coords
 
 
+OF_THE_CHAIN = ("factors", "waves", "pressure_classes")
+"""Inputs that no other model of a case depends on."""
+
 OF_A_SURFACE = ("factors", "waves", "smallest_wavelength", "cut_off", "top_height_fraction")
 """Inputs that vary the waves of a surface."""
+
+UPPER_HEIGHT = "upper_height"
+"""Name of how far the measured lines reach up, which a best estimate needs."""
 
 RESULT = "study.nc"
 """The Dataset, in the folder of the study."""
@@ -121,8 +134,12 @@ class Study:
     static
         Whether the relaxed rubber at rest is solved, too; as the case says by default.
     model
-        What predicts: "chain" with the solver of the case, "direct", both under its conditions, or
-        a model. One that takes no conditions gets the rubber at the temperature of the case.
+        What predicts: "direct", "chain" with the solver of the case, both under its conditions, or
+        a model. One that takes no conditions gets the rubber at the temperature of the case. By
+        default the direct contact where every surface was measured and no input of the chain alone
+        is varied, else the chain.
+    tolerance
+        Estimated relative error of a direct contact that is chosen by name or by default.
 
     Raises
     ------
@@ -136,12 +153,15 @@ class Study:
         vary: Mapping[str, Any],
         *,
         static: bool | None = None,
-        model: Model | str = "chain",
+        model: Model | str | None = None,
+        tolerance: float = JUDGED_TO,
     ) -> None:
         self.file = case if isinstance(case, CaseFile) else read_case(case)
         self.axes: tuple[Axis, ...] = axes_of(vary)
         self.static = self.file.case.load.static if static is None else static
-        self.model = inputs.model_of(model, self.file)
+        if model is None:
+            model = self._best_name()
+        self.model = inputs.model_of(model, self.file, tolerance)
         for value in self._values("temperature"):
             inputs.at_temperature(self.model, value)
         for value in self._values("effects"):
@@ -151,6 +171,13 @@ class Study:
                 f"pressure_classes belongs to the chain; got the model {self.model.name}"
             )
         self._varied: dict[Any, Surface] = {}
+
+    def _best_name(self) -> str:
+        """Return the name of the best model that the inputs allow."""
+        surfaces = self._values("surface") or ("case",)
+        measured = all(inputs.is_measured(surface, self.file) for surface in surfaces)
+        of_waves = any(axis.name in OF_THE_CHAIN for axis in self.axes)
+        return DirectContact.name if measured and not of_waves else Chain.name
 
     @cached_property
     def surfaces(self) -> list[Surface]:
@@ -289,11 +316,29 @@ class Study:
         if self.static_design.points:
             rest = _at_rest(self.static_design.dataset(answers).drop_vars("seconds"))
             result = xr.merge([result, rest], join="outer", compat="no_conflicts")
+        if set(BASIS) <= set(result):
+            result = result.assign(self._measured_numbers())
         result = result.assign_coords(coordinates(self.axes, self.file.units))
         result = result.assign(beyond_shift([p.task for p in self.points], self.axes))
         if {"speed", "temperature"} == {axis.name for axis in self.axes}:
             result = with_master_curve(result, self.rubbers[0])
         return result.assign_attrs(self._provenance())
+
+    def _measured_numbers(self) -> dict[str, Any]:
+        """Return what a best estimate needs of the measured surfaces, and their common cut-off."""
+        heights = [upper_height_of(surface) or math.nan for surface in self.surfaces]
+        varied = any(axis.name == "surface" for axis in self.axes)
+        text = "height that 1 % of the measured lines exceed, over the rms height; NaN of a map"
+        numbers: dict[str, Any] = {
+            UPPER_HEIGHT: ("surface", heights, attributes(text))
+            if varied
+            else ((), heights[0], attributes(text))
+        }
+        cut_offs = {point.task.surface.cutoff_wavelength for point in self.points}
+        if len(cut_offs) == 1:
+            text = "shortest wavelength of the roughness"
+            numbers["cutoff_wavelength"] = ((), cut_offs.pop(), attributes(text, "m"))
+        return numbers
 
     def _labels(self, axes: tuple[Axis, ...], *, static: bool) -> Iterator[tuple[Index, str]]:
         """Yield the index of each point on the axes, and its label."""
@@ -354,6 +399,7 @@ class Study:
             "conditions": json.dumps(None if conditions is None else conditions.to_dict()),
             "varied": json.dumps({axis.name: list(axis.labels) for axis in self.axes}),
             "surfaces": "; ".join(surface.source for surface in self.surfaces),
+            "surface_measured": int(all(s.measured is not None for s in self.surfaces)),
             "rubbers": "; ".join(f"{rubber.name}: {rubber.source}" for rubber in self.rubbers),
             "rubber_parameters": json.dumps(canonical_json(self.rubbers)),
             "notes": "\n".join(
@@ -370,6 +416,6 @@ class Study:
 def _at_rest(data: xr.Dataset) -> xr.Dataset:
     """Return what `data` says of rubber at rest, where there is no friction, as `static_...`."""
     moving = ["friction", "angular_frequency", "loss_factor", "loss_modulus_ratio", "load_time"]
-    moving += ["speed", "_band", "_missing"]
+    moving += ["speed", "_band", "_missing", "_steep"]
     names = [str(name) for name in data.data_vars if not any(word in str(name) for word in moving)]
     return data[names].rename({name: f"static_{name}" for name in names})

@@ -29,7 +29,7 @@ from numpy.typing import ArrayLike
 from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
-from gripscale.surface import Profile
+from gripscale.surface import Profile, Surface
 from gripscale.surface.profile import profile_list
 
 PIECE = 16.0
@@ -59,6 +59,11 @@ families misses (0.124, 0.113)."""
 FULL_CONTACT_FRICTION = 1.11
 FREEDOM = 6
 """Degrees of freedom of the scatter: eight families less the two numbers of the law."""
+
+
+LOAD_SENSITIVITY = 0.09
+"""Change of the logarithm of both ratios for an e-fold of the load: a third of the pressure changes
+them by 10 and 9 %."""
 
 
 class SurfaceOverLines(NamedTuple):
@@ -113,3 +118,11 @@ def upper_height(profile: Profile | Sequence[Profile], largest_wavelength: float
     if not ratios:
         raise InputError("profile must have two different heights at least; got none")
     return float(np.mean(ratios))
+
+
+def upper_height_of(surface: Surface) -> float | None:
+    """Return the upper height of the measured lines of a surface; None without lines, of a map."""
+    measured = surface.measured
+    if measured is None or measured.map is not None:
+        return None
+    return upper_height(list(measured.cleaned), float(surface.sines.wavelength[0]))

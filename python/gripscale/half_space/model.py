@@ -30,6 +30,9 @@ if TYPE_CHECKING:
     from gripscale.rubber import Rubber
 
 
+JUDGED_TO = 0.05
+"""Estimated relative error of the contact that every run judges its chain by."""
+
 USABLE = (Status.CONVERGED, Status.FRICTIONS_DISAGREE)
 """Statuses of contacts that count in an answer.
 

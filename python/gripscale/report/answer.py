@@ -13,7 +13,7 @@ import xarray as xr
 
 from gripscale import model
 from gripscale.analysis.best_estimate import IsotropicSurface
-from gripscale.analysis.intervals import LEVEL
+from gripscale.analysis.intervals import LEVEL, interval_ends
 from gripscale.analysis.ladder import DIRECT
 from gripscale.charts.view import HEADINGS, SYMBOLS
 from gripscale.core.units import display_unit_of, in_mm
@@ -222,11 +222,9 @@ def number_and_interval(data: xr.Dataset, name: str) -> str:
 
 
 def _interval(data: xr.Dataset, name: str) -> str:
-    value, width = (float(data[f"best_{name}{end}"]) for end in ("", "_half_width"))
-    if not math.isfinite(width):
-        return ""
-    low, high = (value * math.exp(sign * math.asinh(width)) for sign in (-1.0, 1.0))
-    return f"{significant(low)} to {significant(high)}"
+    ends = interval_ends(data[f"best_{name}"], data[f"best_{name}_half_width"])
+    low, high = map(float, ends)
+    return f"{significant(low)} to {significant(high)}" if math.isfinite(low) else ""
 
 
 def _level(data: xr.Dataset) -> str:

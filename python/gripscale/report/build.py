@@ -18,6 +18,7 @@ from markupsafe import Markup
 from gripscale.core.errors import FileError
 from gripscale.io.netcdf import write_whole
 from gripscale.report.elements import Page
+from gripscale.report.head import with_answer
 from gripscale.report.pages import page_of
 from gripscale.report.source import read_result
 
@@ -31,7 +32,7 @@ def build(result: Path, output: Path | None) -> Path:
         output = (result if result.is_dir() else result.parent) / REPORT
     if not output.parent.is_dir():
         raise FileError(f"{output} cannot be written: there is no folder {output.parent}")
-    text = render(page_of(source))
+    text = render(with_answer(page_of(source), source))
 
     def write(path: Path) -> None:
         path.write_text(text, encoding="utf-8")

@@ -15,11 +15,44 @@ from gripscale.analysis.calibration import Estimate
 from gripscale.analysis.calibration_text import HELD_UNITS, interval, written
 from gripscale.charts.view import CONVERGED
 from gripscale.core.units import ZERO_CELSIUS
-from gripscale.io.table import Column, Table, digits
+from gripscale.io.table import Column, Table, digits, percent, significant
 from gripscale.model import STATUS, status_words
 from gripscale.report.elements import Card, Facts
 from gripscale.report.measured import residual_table
 from gripscale.report.notices import Failure
+
+
+def calibration_lines(data: xr.Dataset) -> Iterator[str]:
+    """Yield the fitted area term with its intervals, and what it does to friction."""
+    values = [
+        f"{e.name} = {written(e.value, e.unit, 3)} ({interval(e)})"
+        if e.determined
+        else f"{e.name} not determined by the data"
+        for e in estimates(data)
+    ]
+    level = round(100 * data.attrs["level"])
+    yield f"Answer: area term with {', '.join(values)} ({level} % intervals)."
+    if not bool(data["area_term"].notnull().any()):
+        return
+    term, hysteresis = (_range(data[name]) for name in ("area_term", "hysteresis"))
+    share = float((data["area_term"] / data["friction"]).mean())
+    yield (
+        f"  It adds {term} to a hysteresis friction of {hysteresis}: {percent(share)} of the "
+        "friction in the mean of the points."
+    )
+    missed, without = (
+        float(np.sqrt((part**2).mean()))
+        for part in (data["difference"], data["difference"] - data["area_term"])
+    )
+    yield (
+        f"  Friction with it misses the measured friction by {significant(missed, 2)} (rms), "
+        f"without it by {significant(without, 2)}."
+    )
+
+
+def _range(values: xr.DataArray) -> str:
+    low, high = (significant(float(end)) for end in (values.min(), values.max()))
+    return low if low == high else f"{low} to {high}"
 
 
 def calibration_parts(data: xr.Dataset) -> Iterator[str | Table]:

@@ -124,6 +124,14 @@ MOST_OPEN = 3
 """Notices that a page or a terminal opens with; further warnings are folded."""
 
 
+def open_and_folded(notices: Sequence[Notice]) -> tuple[list[Notice], list[Notice]]:
+    """Return what a page opens with, errors and the first few warnings, and the rest."""
+    errors = [notice for notice in notices if notice.level == "error"]
+    warnings = [notice for notice in notices if notice.level != "error"]
+    room = max(0, MOST_OPEN - len(errors))
+    return errors + warnings[:room], warnings[room:]
+
+
 @dataclass(frozen=True)
 class Page:
     """A whole report."""
@@ -143,14 +151,14 @@ class Page:
         return [notice for notice in self.notices if notice.level == "error"]
 
     @property
-    def notices_open(self) -> Sequence[Notice]:
+    def notices_open(self) -> list[Notice]:
         """The first few warnings, below the numbers."""
-        return self.notices[len(self.errors) : MOST_OPEN]
+        return [each for each in open_and_folded(self.notices)[0] if each.level != "error"]
 
     @property
-    def notices_folded(self) -> Sequence[Notice]:
+    def notices_folded(self) -> list[Notice]:
         """The other warnings."""
-        return self.notices[max(MOST_OPEN, len(self.errors)) :]
+        return open_and_folded(self.notices)[1]
 
     @property
     def charts(self) -> list[Chart]:

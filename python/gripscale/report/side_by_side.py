@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 import xarray as xr
@@ -17,6 +18,7 @@ from gripscale.io.table import Column, Table, change, fixed, significant
 from gripscale.model import ADHESIVE_FRICTION, STATUS, status_words
 from gripscale.report.notices import Failure
 
+RATIOS = {"friction": "friction", "contact_fraction": "contact area"}
 QUANTITIES = {f"total_{name}": symbol for name, symbol in SYMBOLS.items()}
 
 
@@ -69,22 +71,14 @@ def totals_table(data: xr.Dataset, dim: str, heading: str, model: str = "") -> T
     asked = [i for i, text in enumerate(status) if text]
     data, status = data.isel({dim: asked}), [status[i] for i in asked]
 
-    def ends(name: str) -> np.ndarray:
-        missing = np.full(len(asked), np.nan)
-        low, high = (
-            data[f"{name}_{end}"].values if f"{name}_{end}" in data else missing
-            for end in ("low", "high")
-        )
-        return np.stack([low, high], axis=1)
-
     columns = [Column(dim, [str(name) for name in data[dim].values], heading)]
     for name, symbol in QUANTITIES.items():
         columns += [
             Column(name, data[name].values, symbol),
-            Column(f"{name}_range", ends(name), "range"),
+            Column(f"{name}_range", _ends(data, name), "range"),
         ]
     name = "total_friction_difference"
-    difference, span = data[name].values.copy(), ends(name)
+    difference, span = data[name].values.copy(), _ends(data, name)
     if 0 in asked:  # the first differs from nothing
         difference[0], span[0] = np.nan, np.nan
     columns += [
@@ -117,11 +111,121 @@ def difference_words(data: xr.Dataset, name: str, first: str, measured: str) -> 
     return f"{text}, {'' if beyond else 'not '}beyond what {measured} leave open"
 
 
+def ratio_lines(data: xr.Dataset, dim: str) -> Iterator[str]:
+    """Yield which of the roads or compounds grips more, by what ratio, and what that rests on."""
+    names = [str(name) for name in data[dim].values]
+    friction = data["friction_ratio"].values
+    if not np.isfinite(friction[1:]).any():
+        yield "Answer: none; no two of them have a friction to be compared."
+        return
+    ends = [ratio_ends(data, "friction", i) for i in range(1, len(names))]
+    level = " (90 % intervals)" if np.isfinite(ends).any() else ", without an interval"
+    others = [i for i in range(1, len(names)) if math.isfinite(friction[i])]
+    texts = [
+        f"{names[i]} {', '.join(_ratio_text(data, name, i) for name in reversed(SYMBOLS))}"
+        for i in others
+    ]
+    if len(names) == 2:
+        head = f"{_grip_words(data, names[1], names[0])}: {texts[0].removeprefix(names[1]).strip()}"
+    else:
+        top = f"{names[int(np.nanargmax(friction))]} has the most friction"
+        head = f"{top}. Over {names[0]}: {'; '.join(texts)}"
+    yield f"Answer: {head}{level}."
+    yield f"  by the {_judge(data)}"
+
+
+def _grip_words(data: xr.Dataset, name: str, first: str) -> str:
+    """Return whether the second of two grips more than the first, as far as that is known."""
+    low, high = ratio_ends(data, "friction", 1)
+    ratio = float(data["friction_ratio"].values[1])
+    if math.isnan(low):
+        return f"{name} over {first}"
+    if low <= 1.0 <= high:
+        return f"{name} and {first} do not differ in grip by more than is uncertain"
+    return f"{name} grips {'more' if ratio > 1.0 else 'less'} than {first}"
+
+
+def ratio_ends(data: xr.Dataset, name: str, at: int) -> tuple[float, float]:
+    """Return the interval of a ratio to the first; NaN where there is none."""
+    low, high = (
+        float(data[f"{name}_ratio_{end}"].values[at]) if f"{name}_ratio_{end}" in data else math.nan
+        for end in ("low", "high")
+    )
+    return low, high
+
+
+def _ratio_text(data: xr.Dataset, name: str, at: int) -> str:
+    """Return a ratio with its interval, such as `friction × 1.32 (1.21 to 1.44)`."""
+    text = f"{RATIOS[name]} × {significant(float(data[f'{name}_ratio'].values[at]))}"
+    low, high = ratio_ends(data, name, at)
+    return text if math.isnan(low) else f"{text} ({significant(low)} to {significant(high)})"
+
+
+def _judge(data: xr.Dataset) -> str:
+    """Return which model the ratios are from, and what their intervals hold."""
+    roads = "surface" in data.dims
+    if "best_friction" not in data:
+        return "chain of sine waves: not all of the surfaces were measured"
+    if roads and not np.isfinite(data["friction_ratio_low"].values[1:]).any():
+        return (
+            "direct contact of the measured surfaces × its factors; no interval: a surface is too "
+            "short to tell how well it represents its road"
+        )
+    if roads:
+        return (
+            "direct contact of the measured surfaces × its factors; each road is as uncertain as "
+            "alone, and independent of the other"
+        )
+    of = "direct contact of the measured surface, the same for all"
+    if "friction_ratio_low" not in data:
+        return f"{of}; no interval: what the measured moduli leave open was not predicted"
+    if not np.isfinite(data["friction_ratio_low"].values[1:]).any():
+        return (
+            f"{of}; no interval: the surface is too short, or how well a modulus is known is not "
+            "stated"
+        )
+    return f"{of}; the interval is from measured moduli, sampling of the road and grids"
+
+
+def believed_table(data: xr.Dataset, dim: str, heading: str) -> Table | None:
+    """Return the best estimates along `dim` and their ratios to the first; None without any."""
+    if "best_friction" not in data:
+        return None
+    columns = [Column(dim, [str(name) for name in data[dim].values], heading)]
+    for name in reversed(SYMBOLS):
+        columns.append(Column(f"best_{name}", data[f"best_{name}"].values, SYMBOLS[name]))
+        columns += _interval_column(f"best_{name}", _ends(data, f"best_{name}"))
+    ratio, span = data["friction_ratio"].values.copy(), _ends(data, "friction_ratio")
+    ratio[0], span[0] = np.nan, np.nan
+    columns.append(Column("friction_ratio", ratio, "μ over that of the first"))
+    columns += _interval_column("friction_ratio", span)
+    return Table(f"{dim}s-believed", columns, "Best estimates, from the direct contact")
+
+
+def _interval_column(name: str, ends: np.ndarray) -> list[Column]:
+    """Return the column of intervals; none where there is no interval."""
+    return [Column(f"{name}_interval", ends, "90 %")] if np.isfinite(ends).any() else []
+
+
+def _ends(data: xr.Dataset, name: str) -> np.ndarray:
+    """Return both ends of a range along the only dimension, NaN where there are none."""
+    missing = np.full(data[name].size, np.nan)
+    ends = [
+        data[f"{name}_{end}"].values if f"{name}_{end}" in data else missing
+        for end in ("low", "high")
+    ]
+    return np.stack(ends, axis=1).copy()
+
+
 def roads_tables(data: xr.Dataset) -> list[Table]:
-    """Return for each model the totals of the roads and the differences to the first."""
+    """Return best estimates, then for each model the totals and the differences to the first."""
     models = data.model.values.tolist()
     tables = [totals_table(data.sel(model=name), "surface", "road", name) for name in models]
-    return [table for table in tables if len(table)]
+    return [
+        table
+        for table in (believed_table(data, "surface", "road"), *tables)
+        if table is not None and len(table)
+    ]
 
 
 def failed_totals(data: xr.Dataset) -> list[Failure]:
@@ -161,18 +265,20 @@ def roads_sentences(data: xr.Dataset) -> Iterator[str]:
 
 def compounds_table(data: xr.Dataset) -> Table:
     """Return totals of each compound with their ranges, and differences to the first."""
-    return totals_table(data, "rubber", "compound")
+    table = totals_table(data, "rubber", "compound")
+    return replace(table, caption="Totals, chain") if "best_friction" in data else table
 
 
 def compounds_sentences(data: xr.Dataset) -> Iterator[str]:
     """Yield, for each compound, whether it differs from the first and what makes the difference."""
     first, *others = data.rubber.values.tolist()
+    model = "chain: " if "best_friction" in data else ""
     for i, name in enumerate(others, start=1):
         part = data.isel(rubber=i)
         text = difference_words(part, name, first, "the measured moduli")
         if text:
             reasons = " and ".join(_reasons(part)) or "the model does not tell by which waves"
-            yield f"{text}; {reasons}."
+            yield f"{model}{text}; {reasons}."
 
 
 def _reasons(data: xr.Dataset) -> Sequence[str]:

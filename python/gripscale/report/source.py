@@ -8,6 +8,7 @@ from typing import Any
 
 import xarray as xr
 
+from gripscale.analysis.best_estimate import with_best_estimate
 from gripscale.analysis.comparison import FILE as DIRECT
 from gripscale.analysis.effects import stored_effects
 from gripscale.analysis.propagation import of_same_inputs, stored_uncertainty
@@ -157,7 +158,9 @@ def read_result(path: Path) -> Source:
             kind = "compounds"
         elif tree["total_friction"].ndim:
             kind = "study"
-    return Study(kind, path.stem, tree.to_dataset()) if kind else _run({path.stem: tree})
+    if not kind:
+        return _run({path.stem: tree})
+    return Study(kind, path.stem, with_best_estimate(tree.to_dataset()))
 
 
 def _read_folder(folder: Path) -> Source:

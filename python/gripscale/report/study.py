@@ -11,10 +11,11 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gripscale.charts.page_elements import telling, words_of
-from gripscale.charts.view import CONVERGED
+from gripscale.charts.page_elements import is_evidence, telling, words_of
+from gripscale.charts.view import CONVERGED, SYMBOLS, believed
 from gripscale.core.units import MILLI
 from gripscale.experiment.axis import COUNTS, axis_shown, dimensions, name_of, of_numbers
+from gripscale.experiment.inputs import NAMED_MODELS
 from gripscale.experiment.speed_and_temperature import BEYOND_SHIFT, COLLAPSED, PER_DECADE
 from gripscale.io.table import NONE, Column, Table, digits, percent, significant
 from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, STATUS, status_words
@@ -50,38 +51,43 @@ def study_table(data: xr.Dataset) -> Table:
         marks = [" *" if bool(row[BEYOND_SHIFT]) else "" for row in rows]
         columns[-1] = columns[-1].of(columns[-1].values, marks=marks)
     keys = len(columns)
-    columns += [
-        Column("total_contact_fraction", each("total_contact_fraction"), "A_r/A_0"),
-        Column("total_friction", each("total_friction"), "μ"),
-        Column("friction_from_dissipation", each("total_friction_from_dissipation"), "μ", "losses"),
-    ]
+    for name in reversed(SYMBOLS):
+        column = believed(data, name)
+        columns.append(Column(column, each(column), SYMBOLS[name]))
+        if f"{column}_low" in data and data[f"{column}_low"].notnull().any():
+            ends = np.stack([each(f"{column}_{end}") for end in ("low", "high")], axis=1)
+            columns.append(Column(f"{column}_interval", ends, "90 %"))
+    friction = believed(data, "friction")
+    if friction.startswith("total") and "total_friction_from_dissipation" in data:
+        lost = each("total_friction_from_dissipation")
+        columns.append(Column("friction_from_dissipation", lost, "μ", "losses"))
     if ADHESIVE_FRICTION in data:
         term = np.array(each(ADHESIVE_FRICTION))
-        total = term + np.array(each("total_friction"))
+        total = term + np.array(each(friction))
         columns += [
             Column("area_term", term, "μ", "area term"),
             Column("friction_with_area_term", total, "μ", "with it"),
         ]
     largest = [
         float(row.wavelength[int(np.nanargmax(row.friction.values))])
-        if "wavelength" in row and float(row.total_friction) > 1e-9
+        if {"wavelength", "friction"} <= set(row) and float(row.total_friction) > 1e-9
         else math.nan
         for row in rows
     ]
-    columns.append(
-        Column("largest_wave", largest, "largest μ of", "mm", MILLI, format="{:.3g}".format)
-    )
+    if np.isfinite(largest).any():
+        columns.append(
+            Column("largest_wave", largest, "largest μ of", "mm", MILLI, format="{:.3g}".format)
+        )
     if study_sentence(data):
         shares = each(FRICTION_OUTSIDE_BAND)
         columns.append(Column("outside_band", shares, "μ", "beyond band", format=percent))
-    if "static_total_contact_fraction" in data:
-        columns.append(
-            Column("static", each("static_total_contact_fraction"), "A_r/A_0", "at rest")
-        )
+    rest = f"static_{believed(data, 'contact_fraction')}"
+    if rest in data:
+        columns.append(Column("static", each(rest), "A_r/A_0", "at rest"))
     status = [str(row.prediction_status.item()) for row in rows]
     columns.append(Column("status", status))
-    rest = len(chosen) - len(rows)
-    notes = [f"{rest} more predictions are in the result file."] if rest else []
+    more = len(chosen) - len(rows)
+    notes = [f"{more} more predictions are in the result file."] if more else []
     bad = [text != CONVERGED for text in status]
     return Table("study", columns, "Predictions of the study", notes, keys=keys, bad=bad)
 
@@ -182,15 +188,17 @@ def place_text(data: xr.Dataset, axis: str, i: int) -> str:
 
 
 def totals_of(data: xr.Dataset) -> list[str]:
-    """Return the names of what there is one number or text of per prediction."""
+    """Return the names of what there is one number or text of per prediction, best ones first."""
     axes = set(dimensions(data))
-    return [
+    names = [
         str(name)
         for name, variable in data.data_vars.items()
         if variable.dims
         and set(variable.dims) <= axes
         and not str(name).endswith(("_key", "_status_word"))
+        and not (is_evidence(str(name)) and not str(name).endswith(("_low", "_high")))
     ]
+    return sorted(names, key=lambda name: not name.startswith("best_"))
 
 
 def totals_table(data: xr.Dataset) -> Table | None:
@@ -253,7 +261,8 @@ def command(data: xr.Dataset) -> str:
             for value in _values(data, name)
         )
         words += ["--vary", f"{name}={_spacing(data, name) or ','.join(texts)}"]
-    return shlex.join([*words, *["--model", "direct"] * (data.attrs.get("model") == "direct")])
+    model = str(data.attrs.get("model", ""))
+    return shlex.join([*words, *["--model", model] * (model in NAMED_MODELS)])
 
 
 def _values(data: xr.Dataset, name: str) -> Sequence[Any]:

@@ -1,0 +1,154 @@
+"""The answer of a study: how its numbers run, with intervals where the surface was measured."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from gripscale.analysis import with_best_estimate
+from gripscale.analysis.comparison import reference
+from gripscale.case import prepare_case
+from gripscale.charts.study import totals_figure
+from gripscale.experiment import Study
+from gripscale.io.table import significant
+from gripscale.report import write_report
+from gripscale.report.study import study_table
+from gripscale.report.study_answer import course, study_cards, study_lines
+from gripscale.surface import Profile, self_affine_profile
+from tests.samples import HALF_PLANE, case_text, write_road
+
+from .reading import Page
+
+ROAD = case_text(
+    'files = ["road.txt"]\nscales = 3\nsmallest_wavelength = "2 mm"', solver=HALF_PLANE
+)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("road")
+    road = self_affine_profile(0.8, 3e-3, 4e-4, length=0.4, step=2e-4, seed=1)
+    write_road(folder / "road.txt", Profile(road.x, road.z))
+    (folder / "case.toml").write_text(ROAD)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def solved(folder: Path) -> xr.Dataset:
+    """Two speeds, one of them that of the case, and the rubber at rest."""
+    study = Study(folder / "case.toml", {"speed": [0.3, 3.0]}, static=True)
+    assert study.model.name == "direct"
+    return with_best_estimate(study.run(folder / "study"))
+
+
+def test_a_point_of_a_study_is_the_answer_of_a_run(folder: Path, solved: xr.Dataset) -> None:
+    """Number, factors and interval: the same model on the same surface."""
+    run = reference(prepare_case(folder / "case.toml"))
+    assert run is not None
+    point = solved.isel(speed=0)
+    for name in ("friction", "contact_fraction"):
+        for end in ("", "_half_width", "_factor", "_sampling_error"):
+            np.testing.assert_allclose(
+                point[f"best_{name}{end}"], run[f"best_{name}{end}"], rtol=1e-12
+            )
+        low, high = (float(point[f"best_{name}_{end}"]) for end in ("low", "high"))
+        value = float(point[f"best_{name}"])
+        assert low * high == pytest.approx(value**2)
+        half_width = float(run[f"best_{name}_half_width"])
+        assert (high - low) / (2.0 * value) == pytest.approx(half_width)
+
+
+def test_rubber_at_rest_has_its_own_best_estimate(solved: xr.Dataset) -> None:
+    ratio = float(solved.static_best_contact_fraction / solved.static_total_contact_fraction)
+    assert 0.4 < ratio < 1.0  # the step from lines to their surface
+    assert solved.static_best_contact_fraction > solved.best_contact_fraction.max()
+    assert "static_best_friction" not in solved
+
+
+def test_lines_say_numbers_load_and_factors(solved: xr.Dataset) -> None:
+    answer, held, factors, rests = study_lines(solved)
+    first, last = (significant(float(value)) for value in solved.best_friction)
+    assert answer.startswith(f"Answer: friction coefficient μ rises from {first} (")
+    assert f" at 0.3 m/s to {last} (" in answer
+    assert answer.endswith(" at 3 m/s (90 % intervals).")
+    assert held == "  for 3 bar, roughness down to 2 mm, 2 predictions, none without a result"
+    assert factors.startswith("  from direct contact of the measured surface × finite strain")
+    assert rests.endswith("intervals leave out errors of the master curve")
+
+
+def test_table_and_figure_have_the_interval(solved: xr.Dataset) -> None:
+    names = [column.name for column in study_table(solved).columns]
+    assert names[1:5] == [
+        "best_friction",
+        "best_friction_interval",
+        "best_contact_fraction",
+        "best_contact_fraction_interval",
+    ]
+    figure = totals_figure(solved)
+    bands = [place for axes in figure.axes for place in axes.collections]
+    assert len(bands) == 2
+    top = max(path.vertices[:, 1].max() for path in bands[1].get_paths())
+    assert top == pytest.approx(float(solved.best_friction_high.max()))
+
+
+def test_page_begins_with_the_best_estimate(solved: xr.Dataset, folder: Path) -> None:
+    page = Page(write_report(folder / "study" / "study.nc", folder / "page.html"))
+    low, high = (significant(float(value)) for value in solved.best_friction)
+    head = page.text.partition("What was varied")[0]  # up to the table of contents
+    assert f"{low} to {high}" in head
+    assert "best estimate; ±" in head
+    assert "Answer: friction coefficient μ rises from" in head
+    figures = [a["id"] for _, a in page.tags if (a.get("id") or "").startswith("figure-")]
+    assert figures[0] == "figure-best_contact_fraction-over-speed"
+    assert "figure-total_friction-over-speed" not in figures
+
+
+def test_the_chain_says_that_the_surface_could_answer(folder: Path) -> None:
+    study = Study(folder / "case.toml", {"speed": [0.3, 3.0]}, model="chain")
+    data = study.run(folder / "chain")
+    assert with_best_estimate(data) is data
+    answer, _, advice = study_lines(data)
+    assert answer.startswith("Answer by the chain of sine waves, without an interval: friction")
+    assert "`--model direct`" in advice
+    waves = Study(folder / "case.toml", {"waves": [2, 3]})
+    assert waves.model.name == "chain"
+    *_, advice = study_lines(waves.run(folder / "waves"))
+    assert "belongs to the chain alone" in advice
+
+
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ([0.1, 0.2, 0.3], "rises from 0.100 at 0.1 m/s to 0.300 at 10 m/s"),
+        ([0.3, 0.2, 0.1], "falls from 0.300 at 0.1 m/s to 0.100 at 10 m/s"),
+        ([0.1, 0.3, 0.2], "from 0.100 at 0.1 m/s by its highest, 0.300 at 1 m/s, to 0.200 at 10"),
+        ([0.2, 0.1, 0.3], "from 0.200 at 0.1 m/s by its lowest, 0.100 at 1 m/s, to 0.300 at 10"),
+        ([np.nan, 0.2, 0.2001], "hardly changes, from 0.200 at 1 m/s to 0.200 at 10 m/s"),
+        ([np.nan, 0.2, 0.1], "falls from 0.200 at 1 m/s to 0.100 at 10 m/s"),
+        ([np.nan, np.nan, np.nan], ""),
+    ],
+)
+def test_course_of_a_number(values: list[float], words: str) -> None:
+    speed = xr.Variable("speed", [0.1, 1.0, 10.0], {"units": "m/s"})
+    data = xr.Dataset({"total_friction": ("speed", values)}, {"speed": speed})
+    assert course(data, "friction").startswith(f"friction coefficient μ {words}" if words else "")
+    assert bool(course(data, "friction")) == bool(words)
+
+
+def test_names_are_said_by_lowest_and_highest() -> None:
+    data = xr.Dataset(
+        {"total_friction": (("rubber", "speed"), [[0.1, 0.2], [0.4, 0.3]])},
+        {"rubber": np.array(["a", "b"], dtype=object), "speed": [0.1, 1.0]},
+    )
+    words = "friction coefficient μ from 0.100 at a, 0.1 m/s to 0.400 at b, 0.1 m/s"
+    assert course(data, "friction") == words
+
+
+def test_cards_are_the_range(solved: xr.Dataset) -> None:
+    friction, area = study_cards(solved)
+    assert friction.value == " to ".join(significant(float(x)) for x in solved.best_friction)
+    assert friction.detail.endswith("(90 %); 0.3 m/s to 3 m/s")
+    assert area.label == "Real contact area A_r/A_0"
