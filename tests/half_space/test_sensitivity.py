@@ -97,8 +97,8 @@ def test_speed_and_temperature_as_contacts_of_the_other_rubber(contact):
     ):
         change = np.log(other.modulus(contact.grid) / half_space_of(contact).modulus(contact.grid))
         expected = np.log(again(contact, change=change) / again(contact)) / step
-        found = float(data[f"d_ln_friction_d_{name}"])
-        assert found == pytest.approx(expected, abs=0.01, rel=0.02)  # forward difference
+        derivative = float(data[f"d_ln_friction_d_{name}"])
+        assert derivative == pytest.approx(expected, abs=0.01, rel=0.02)  # forward difference
 
 
 def test_pressure_as_differences_and_as_all_moduli_together(contact):
@@ -107,12 +107,12 @@ def test_pressure_as_differences_and_as_all_moduli_together(contact):
         again(contact, pressure=contact.nominal_pressure * np.exp(sign * STEP))
         for sign in (1.0, -1.0)
     )
-    found = float(data.d_ln_friction_d_ln_pressure)
-    assert found == pytest.approx(np.log(high / low) / (2.0 * STEP), abs=0.01)
+    derivative = float(data.d_ln_friction_d_ln_pressure)
+    assert derivative == pytest.approx(np.log(high / low) / (2.0 * STEP), abs=0.01)
     # without a modulus of its own the contact only knows p_0 / M
     moduli = data.d_ln_friction_d_ln_storage.sum() + data.d_ln_friction_d_ln_loss.sum()
     together = float(moduli + data.d_ln_friction_d_ln_bulk_modulus)
-    assert together == pytest.approx(-found, abs=1e-6)
+    assert together == pytest.approx(-derivative, abs=1e-6)
 
 
 def test_heights_as_differences(contact):
@@ -148,8 +148,8 @@ def test_full_contact_of_a_sine_in_closed_form():
     assert contact.friction_from_dissipation == pytest.approx(expected, rel=1e-9)
     storage, loss = (change[1] for change in modulus_changes(contact))
     for name, change in (("storage", storage), ("loss", loss)):
-        found = float(data[f"d_ln_friction_d_ln_{name}"].sum())
-        assert found == pytest.approx((modulus * change).imag / modulus.imag, abs=1e-6)
+        derivative = float(data[f"d_ln_friction_d_ln_{name}"].sum())
+        assert derivative == pytest.approx((modulus * change).imag / modulus.imag, abs=1e-6)
 
 
 def test_contact_fraction_of_a_sine_in_closed_form():

@@ -16,6 +16,7 @@ from gripscale.cli.export import export
 from gripscale.cli.inputs import fit_rubber, fit_surface, init, keys
 from gripscale.cli.run import PASS_ON, report, reproduce, run
 from gripscale.cli.run import app as app_command
+from gripscale.cli.sensitivity import sensitivity
 from gripscale.core.provenance import version_of
 
 EPILOGUE = (
@@ -38,6 +39,7 @@ app.command("calibrate")(calibrate)
 app.command("report")(report)
 app.command("study")(study)
 app.command("uncertainty")(uncertainty)
+app.command("sensitivity")(sensitivity)
 app.command("reproduce", context_settings=PASS_ON)(reproduce)
 app.command("fit-surface")(fit_surface)
 app.command("fit-rubber")(fit_rubber)

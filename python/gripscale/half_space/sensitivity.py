@@ -212,13 +212,13 @@ class Bands:
     """Band of each wave, over the half spectrum; the first also holds waves at rest."""
 
     @classmethod
-    def of(cls, contact: RoughContact, per_decade: int) -> Bands:
-        """Return the bands of a contact at the rubber's temperature before the contact.
+    def of(cls, contact: RoughContact, per_decade: int, shift: float = 1.0) -> Bands:
+        """Return the bands of a contact, `shift` times the frequencies before the contact.
 
         A scale that heat has warmed excites the rubber at a_T of the scale times its frequency.
         """
         grid = contact.grid
-        omega = np.broadcast_to(np.abs(grid.along) * contact.speed, grid.spectrum_shape)
+        omega = np.broadcast_to(np.abs(grid.along) * contact.speed * shift, grid.spectrum_shape)
         if contact.by_scale is not None:
             omega = omega * contact.by_scale.shift(grid.wavenumber)
         moving = omega > 0.0
@@ -280,7 +280,11 @@ class ContactFractionDifferences:
 
 
 def sensitivity(
-    contact: RoughContact, *, bands_per_decade: int = 2, contact_fraction: bool = False
+    contact: RoughContact,
+    *,
+    bands_per_decade: int = 2,
+    contact_fraction: bool = False,
+    reference_temperature: float | None = None,
 ) -> xr.Dataset:
     """Return the derivatives of the friction of a direct contact by all of its inputs.
 
@@ -297,22 +301,26 @@ def sensitivity(
     contact_fraction : bool
         Also the derivatives of the contact fraction, under the same names. They are differences of
         four further contacts a band, each a few per cent of the cost of the first.
+    reference_temperature : float, optional
+        Temperature that the frequencies are shifted to [K], such as that of a master curve; the
+        rubber's before the contact by default.
 
     Returns
     -------
     xarray.Dataset
-        Over `frequency` [rad/s], the centre of a band, at the rubber's temperature before the
-        contact: `d_ln_friction_d_ln_storage` and `d_ln_friction_d_ln_loss` [-], E' and E'' in the
-        band; the bands add up. The lowest band holds the relaxed modulus. Scalars:
-        `d_ln_friction_d_ln_speed`, `..._ln_pressure`, `..._ln_bulk_modulus`, `..._ln_cut_off`
-        (the last from the contact with twice the cut-off), and `d_ln_friction_d_temperature`
+        Over `frequency` [rad/s], the centre of a band: `d_ln_friction_d_ln_storage` and
+        `d_ln_friction_d_ln_loss` [-], of E' and E'' in the band; the bands add up, and the lowest
+        holds the relaxed modulus. Scalars: `d_ln_friction_d_ln_speed`, `..._ln_pressure`,
+        `..._ln_bulk_modulus`, `..._ln_cut_off` (the last from the contact with twice the cut-off),
+        and `d_ln_friction_d_temperature`
         [1/K], NaN without a shift. Over `x` [m], and `y` of a map: `d_friction_d_height` [1/m], of
         the height of one point of the grid.
 
     Raises
     ------
     InputError
-        If the contact is at rest, has no friction, or is something else.
+        If the contact is at rest, has no friction, or is something else; if the rubber has no
+        shift to the reference temperature.
     """
     checks.instance("contact", contact, RoughContact)
     if contact.speed == 0.0 or not contact.friction_from_dissipation > 0.0:
@@ -322,7 +330,11 @@ def sensitivity(
         )
     per_decade = checks.whole("bands_per_decade", bands_per_decade, least=1, most=100)
     adjoint = FrictionAdjoint.of(contact)
-    bands = Bands.of(contact, per_decade)
+    shift = 1.0
+    if reference_temperature is not None:
+        reference = contact.rubber.at(reference_temperature)
+        shift = float(contact.rubber.relaxation_times[0] / reference.relaxation_times[0])
+    bands = Bands.of(contact, per_decade, shift)
     axes = ("x", "y")[: contact.height.ndim]
     data = {
         name: labelled((), value, "1", text, SOURCE)

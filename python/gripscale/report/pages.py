@@ -16,6 +16,7 @@ from gripscale.charts.comparison import axis_charts, ladder_charts
 from gripscale.charts.ladder import varied
 from gripscale.charts.page_elements import words_of
 from gripscale.charts.rubber import rubber_charts
+from gripscale.charts.sensitivity import sensitivity_charts
 from gripscale.charts.side_by_side import compound_pictures, road_pictures
 from gripscale.charts.study import study_charts
 from gripscale.charts.surface import correlation_charts, profile_charts
@@ -31,6 +32,7 @@ from gripscale.report import (
     comparison,
     inputs,
     notices,
+    sensitivity,
     side_by_side,
     study,
     uncertainty,
@@ -93,6 +95,11 @@ CALIBRATION = (
     "and this area term together give the measured friction. The hysteresis is not fitted."
 )
 OF_ANOTHER = Notice("warning", uncertainty.OF_ANOTHER, doubt=Doubt.SOURCE)
+SENSITIVITY = (
+    "Per cent of friction for a per cent of a modulus, by frequency. The direct contact of the "
+    "measured surface is solved once; one adjoint solution gives all derivatives. Factors on the "
+    "friction, such as that from lines to a surface, drop out of them."
+)
 NAMED_FAILURES = 12
 """Failed predictions named one by one at the head of the page."""
 
@@ -107,6 +114,7 @@ def page_of(source: Source) -> Page:
         "study": study_page,
         "compounds": compounds_page,
         "roads": roads_page,
+        "sensitivity": sensitivity_page,
         "uncertainty": uncertainty_page,
         "calibration": calibration_page,
     }
@@ -472,5 +480,26 @@ def calibration_page(source: Study) -> Page:
             Section("points", "Point by point", [fit, residuals, tables[0]]),
             Section("profiles", "How well the data determine the law", [profiles]),
             rerun_section(data.attrs, shlex.join(["gripscale", "calibrate", case or "case.toml"])),
+        ],
+    )
+
+
+def sensitivity_page(source: Study) -> Page:
+    """Return the report of what decides the friction."""
+    data = source.data
+    lead, *parts = sensitivity.sensitivity_parts(data)
+    return _page(
+        f"What decides the friction of {case_name(data.attrs) or 'a case'}",
+        str(lead),
+        [Notice("error", notices.explained(each)) for each in sensitivity.failures(data)],
+        sensitivity.cards(data),
+        [
+            Section("effects", "What the friction depends on", _elements(parts)),
+            Section(
+                "curves", "Over the master curve", [Text(SENSITIVITY), *sensitivity_charts(data)]
+            ),
+            rerun_section(
+                data.attrs, f"gripscale sensitivity {case_name(data.attrs) or 'case.toml'}"
+            ),
         ],
     )

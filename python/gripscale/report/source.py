@@ -11,6 +11,7 @@ import xarray as xr
 from gripscale.analysis.best_estimate import with_best_estimate
 from gripscale.analysis.comparison import FILE as DIRECT
 from gripscale.analysis.effects import stored_effects
+from gripscale.analysis.friction_sensitivity import LOSS as SENSITIVITY
 from gripscale.analysis.propagation import of_same_inputs, stored_uncertainty
 from gripscale.charts.ladder import varied
 from gripscale.charts.view import PredictionView
@@ -24,7 +25,10 @@ COMPARISON = "comparison"
 """Folder of a comparison in that of the run, and the name of its file."""
 OVER = "over_*.nc"
 """Files of comparisons over a varied input."""
-KINDS = "run, comparison, study, calibration or uncertainty, or of surfaces or rubbers side by side"
+KINDS = (
+    "run, comparison, study, sensitivity, calibration or uncertainty, or of surfaces or rubbers "
+    "side by side"
+)
 
 
 @dataclass(frozen=True)
@@ -112,7 +116,7 @@ class Study:
     """The Dataset of many predictions.
 
     `kind` is study, compounds (a study over rubbers, with the differences to the first), roads,
-    uncertainty or calibration.
+    sensitivity, uncertainty or calibration.
     """
 
     kind: str
@@ -148,6 +152,8 @@ def read_result(path: Path) -> Source:
         kind = "calibration"
     elif "friction_quantile" in names:
         kind = "uncertainty"
+    elif SENSITIVITY in names:
+        kind = "sensitivity"
     else:
         _require_totals(tree, path)
         if "rung" in tree.dims:

@@ -1,0 +1,113 @@
+"""Charts of what decides the friction: the master curve, and below it what each part is worth."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+import xarray as xr
+
+from gripscale.analysis.friction_sensitivity import LOSS, STORAGE
+from gripscale.charts import draw, style
+from gripscale.charts.chart import Axis, CrossLine, Mark, Note, Panel, Series, Sheet
+from gripscale.charts.page_elements import Chart
+from gripscale.charts.style import BLUE, GREY, NARROW, ORANGE
+from gripscale.core.units import MEGA
+from gripscale.experiment.axis import dimensions, name_of
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+MOST_CURVES = 8
+"""Points of the axes that are drawn, evenly spaced among more."""
+EFFECTS = {
+    LOSS: ("$E''$", "more loss, more friction"),
+    STORAGE: ("$E'$", "stiffer, less contact and less friction"),
+}
+
+
+def points(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
+    """Yield the name of each point of the axes, such as "0.3 m/s", and what holds there."""
+    axes = dimensions(data)
+    for index in np.ndindex(*(data.sizes[axis] for axis in axes)):
+        at = dict(zip(axes, index, strict=True))
+        yield ", ".join(name_of(data, axis, i) for axis, i in at.items()), data.isel(at)
+
+
+def sensitivity_charts(data: xr.Dataset) -> list[Chart]:
+    """Return the panels as charts of the page."""
+    return draw.on_page(_panels(data))
+
+
+def sensitivity_figure(data: xr.Dataset) -> Figure:
+    """Draw master curve and derivatives of the friction over the same frequencies."""
+    layout = {"sharex": True, "height_ratios": [1.0, 0.9, 0.9]}
+    return draw.on_paper(Sheet(_panels(data), 1, NARROW, 6.4, gap=0.03, layout=layout))
+
+
+def _panels(data: xr.Dataset) -> list[Panel]:
+    """Return the master curve, and an effect by decade of frequency below it for E'' and E'."""
+    omega = data.modulus_frequency.values
+    shown = list(points(data))
+    if len(shown) > MOST_CURVES:
+        chosen = np.linspace(0, len(shown) - 1, MOST_CURVES).round().astype(int)
+        shown = [shown[i] for i in chosen]
+    colours = style.colours(len(shown), ordered=len(shown) > 1)
+    axis = Axis("angular frequency $\\omega$ [rad/s]", True, float(omega[0]), float(omega[-1]))
+    rules = [CrossLine(at, GREY, "", "dotted", 0.9, upright=True) for _, at in _rules(data)]
+    moduli: list[Mark] = [
+        Series(omega, data.storage_modulus.values / MEGA, BLUE, "$E'$"),
+        Series(omega, data.loss_modulus.values / MEGA, ORANGE, "$E''$"),
+    ]
+    lowest = float(data.loss_modulus.min()) / MEGA / 2.0
+    moduli += [
+        Note(at, (1.4 + 0.9 * i) * lowest, f" tan δ, {name}", GREY, italic=True)
+        for i, (name, at) in enumerate(_rules(data))
+    ]
+    panels = [
+        Panel(
+            axis,
+            Axis("modulus [MPa]", log=True, low=lowest),
+            [*moduli, *rules],
+            name="sensitivity-master-curve",
+            caption="The master curve of the rubber.",
+            alt="Storage and loss modulus against angular frequency.",
+        )
+    ]
+    for name, (symbol, meaning) in EFFECTS.items():
+        curves: list[Mark] = [
+            Series(
+                data.frequency.values,
+                # bands that are not excited at this point have no derivative
+                each[name].where(each[name] != 0.0).values * int(data.attrs["bands_per_decade"]),
+                colour,
+                text if len(shown) > 1 else "",
+                marker="o",
+                size=2.5,
+            )
+            for (text, each), colour in zip(shown, colours, strict=True)
+            if np.isfinite(each[name].values).any()
+        ]
+        panels.append(
+            Panel(
+                axis,
+                Axis(f"d ln $\\mu$ / d ln {symbol} a decade"),
+                [*curves, *rules, CrossLine(0.0)],
+                name=f"sensitivity-{'loss' if name == LOSS else 'storage'}",
+                caption=f"Per cent of friction for a per cent of {symbol.strip('$')} in a decade: "
+                f"{meaning}.",
+                alt=f"Derivative of friction by {symbol.strip('$')} against angular frequency.",
+            )
+        )
+    return panels
+
+
+def _rules(data: xr.Dataset) -> Iterator[tuple[str, float]]:
+    """Yield the rules of thumb on the drawn axis, and the frequency they look at [rad/s]."""
+    if "rule" not in data.dims:
+        return
+    low, high = data.modulus_frequency.values[[0, -1]]
+    for name, at in zip(data.rule.values, data.rule_frequency.values, strict=True):
+        if low <= at <= high:
+            yield str(name), float(at)

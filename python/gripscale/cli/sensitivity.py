@@ -1,0 +1,87 @@
+"""`gripscale sensitivity CASE.toml`: what decides the friction, by derivatives."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from gripscale.cli import terminal
+from gripscale.cli.terminal import CasePath, OwnFolder, Workers, command, option
+from gripscale.core.errors import InputError
+
+
+@command
+def sensitivity(
+    case: CasePath,
+    vary: Annotated[
+        list[str] | None,
+        option(
+            "Derivatives at several values of an input, once or twice: speed=0.003:30:log5, "
+            "temperature='0 C,20 C,60 C', pressure, smallest_wavelength, rubber, surface.",
+            metavar="NAME=VALUES",
+        ),
+    ] = None,
+    bands: Annotated[
+        int, typer.Option(help="Bands of frequency in a decade of the figure.", metavar="NUMBER")
+    ] = 4,
+    contact_fraction: Annotated[
+        bool,
+        typer.Option(
+            "--contact-fraction",
+            help="Also the derivatives of the contact area, by differences: four further contacts "
+            "a band.",
+        ),
+    ] = False,
+    with_feedback: Annotated[
+        bool,
+        typer.Option(
+            "--with-feedback",
+            help="Under softening or heat, also let strain and temperature of the rubber follow a "
+            "change of speed, pressure or temperature: six further solutions a point.",
+        ),
+    ] = False,
+    output: OwnFolder = None,
+    workers: Workers = None,
+) -> None:
+    """Tell which part of the master curve, and which input, decides the friction of a case."""
+    from gripscale.analysis.friction_sensitivity import FILE, STORAGE, VARIED, case_sensitivity
+    from gripscale.case import folder, read_case
+    from gripscale.charts.paper import save_figure
+    from gripscale.charts.sensitivity import sensitivity_figure
+    from gripscale.experiment.axis import parse_vary
+    from gripscale.report.sensitivity import failures, sensitivity_parts
+
+    pairs = [parse_vary(text, VARIED) for text in vary or ()]
+    axes = dict(pairs) or None
+    if axes is not None and len(axes) < len(pairs):
+        raise InputError(f"vary must name different inputs; got {', '.join(n for n, _ in pairs)}")
+    file = read_case(case)
+    opening = f"What decides the friction of {file.path}"
+    console, target = terminal.open_folder(file, output, "sensitivity", opening)
+    data = case_sensitivity(
+        file,
+        folder=target,
+        vary=axes,
+        bands_per_decade=bands,
+        contact_fraction=contact_fraction,
+        with_feedback=with_feedback,
+        workers=workers,
+        on_task=terminal.progress_printer(console),
+    )
+
+    def draw() -> None:
+        if STORAGE in data:
+            folder.make(target / "figures")
+            save_figure(sensitivity_figure(data), target / "figures", "sensitivity")
+
+    failed = failures(data)
+    terminal.conclude(
+        console,
+        target,
+        list(sensitivity_parts(data)),
+        text="sensitivity.txt",
+        closing=f"Result ({FILE}), tables and figure are in",
+        draw=draw,
+        failure=terminal.first_of(failed, data.prediction_status.size, "points"),
+    )

@@ -1,0 +1,170 @@
+"""What decides the friction in sentences and tables: how much of what gives how much more."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import xarray as xr
+
+from gripscale.analysis.friction_sensitivity import FEEDBACK, LOSS, RULE_FREQUENCY, STORAGE
+from gripscale.charts.sensitivity import points
+from gripscale.charts.view import CONVERGED
+from gripscale.core.units import display_unit_of
+from gripscale.io.table import Column, Table, fixed, on_page, percent, significant
+from gripscale.model import STATUS
+from gripscale.report.elements import Card
+from gripscale.report.notices import Failure
+
+SCALARS = {
+    "ln_pressure": ("pressure", "1"),
+    "ln_speed": ("speed", "1"),
+    "ln_cut_off": ("cut-off", "1"),
+    "ln_bulk_modulus": ("bulk modulus", "1"),
+    "temperature": ("temperature", "1/K"),
+}
+"""Ends of the names of derivatives by one number, with their headings and units."""
+MOST_POINTS = 6
+"""Points that the table by decade has columns for."""
+signed = fixed(2, "+")
+
+
+def sensitivity_parts(data: xr.Dataset) -> Iterator[str | Table]:
+    """Yield the answer, the sums, what each decade is worth, and the rules of thumb."""
+    if STORAGE not in data:
+        yield "Answer: none. No contact was solved: " + "; ".join(
+            sorted({each.sentence for each in failures(data)})
+        )
+        return
+    yield from answer_lines(data)
+    yield sums_table(data)
+    yield decades_table(data)
+    yield from rule_lines(data)
+
+
+def answer_lines(data: xr.Dataset) -> Iterator[str]:
+    """Yield what more loss and less stiffness give, and where on the master curve that is."""
+    loss, storage = (data[name].sum("frequency") for name in (LOSS, STORAGE))
+    load = [
+        display_unit_of(data.attrs, name).text(float(data[f"nominal_{name}"].values.flat[0]))
+        for name in ("pressure", "speed")
+        if f"nominal_{name}" in data and np.ptp(data[f"nominal_{name}"].values) == 0.0
+    ]
+    where = f", at {' and '.join(load)}" if load else ""
+    yield (
+        f"Answer: 1 % more E'' at all frequencies gives {_range(loss)} % more friction, "
+        f"1 % less E' {_range(-storage)} %{where}"
+    )
+    for text, each in points(data):
+        if np.isfinite(each[LOSS].values).all():
+            low, high = _middle_half(each)
+            where = f" at {text}" if data[LOSS].size > data.sizes["frequency"] else ""
+            yield f"  half of the effect of E''{where} is between {low:.2g} and {high:.2g} rad/s"
+
+
+def cards(data: xr.Dataset) -> Iterator[Card]:
+    """Yield what E'' and E' at all frequencies are worth."""
+    for name, symbol in ((LOSS, "E''"), (STORAGE, "E'")):
+        if name in data:
+            value = _range(data[name].sum("frequency"))
+            yield Card(
+                f"1 % more {symbol}", on_page(f"{value} %"), "of friction, at all frequencies"
+            )
+
+
+def _range(values: xr.DataArray) -> str:
+    low, high = (significant(float(end), 2) for end in (values.min(), values.max()))
+    return low if low == high else f"{low} to {high}"
+
+
+def _middle_half(point: xr.Dataset) -> tuple[float, float]:
+    """Return the frequencies between which the middle half of the effect of E'' lies [rad/s]."""
+    effect = np.maximum(point[LOSS].values, 0.0)
+    within = (np.cumsum(effect) - 0.5 * effect) / effect.sum()
+    log = np.interp([0.25, 0.75], within, np.log(point.frequency.values))
+    return float(np.exp(log[0])), float(np.exp(log[1]))
+
+
+def sums_table(data: xr.Dataset) -> Table:
+    """Return the derivatives by each input at each point, the moduli summed over frequency."""
+    shown = list(points(data))
+    columns = [
+        Column("point", [text for text, _ in shown], ""),
+        Column("loss", [float(each[LOSS].sum()) for _, each in shown], "E''", format=signed),
+        Column("storage", [float(each[STORAGE].sum()) for _, each in shown], "E'", format=signed),
+    ]
+    for end in ("", FEEDBACK):
+        for name, (heading, unit) in SCALARS.items():
+            variable = f"d_ln_friction_d_{name}{end}"
+            if variable not in data or not np.isfinite(data[variable].values).any():
+                continue
+            values = [float(each[variable]) for _, each in shown]
+            size = 0.01 if unit == "1/K" else 1.0
+            columns.append(
+                Column(
+                    f"{name}{end}",
+                    values,
+                    f"{heading}, anew" if end else heading,
+                    "%/K" if unit == "1/K" else "",
+                    size,
+                    format=signed,
+                )
+            )
+    notes = ["Per cent of friction for a per cent of the input; of temperature, for a kelvin."]
+    if any(str(name).endswith(FEEDBACK) for name in data):
+        notes.append(
+            "Anew: strain and temperature of the rubber follow the change; else they stay."
+        )
+    elif data.attrs["iterated"]:
+        notes.append(
+            "Strain and temperature of the rubber are kept; --with-feedback also lets them follow."
+        )
+    return Table("sums", columns, "What the friction depends on", notes, keys=1)
+
+
+def decades_table(data: xr.Dataset) -> Table:
+    """Return what E'' and E' of each decade of frequency are worth, at the first few points."""
+    decade = np.floor(np.log10(data.frequency.values) + 1e-9).astype(int)
+    rows = np.arange(decade.min(), decade.max() + 1)
+    shown = list(points(data))
+    chosen = np.unique(np.linspace(0, len(shown) - 1, min(MOST_POINTS, len(shown))).astype(int))
+    columns = [Column("decade", [f"1e{row} to 1e{row + 1}" for row in rows], "rad/s")]
+    for i in chosen:
+        text, each = shown[i]
+        for name, symbol in ((LOSS, "E''"), (STORAGE, "E'")):
+            values = [float(each[name].values[decade == row].sum()) for row in rows]
+            columns.append(
+                Column(f"{name}_{i}", values, symbol, text if len(shown) > 1 else "", format=signed)
+            )
+    notes = []
+    if chosen.size < len(shown):
+        notes.append(f"{chosen.size} of {len(shown)} points; the others are in the result file.")
+    return Table("decades", columns, "What each decade of the master curve is worth", notes, keys=1)
+
+
+def rule_lines(data: xr.Dataset) -> Iterator[str]:
+    """Yield what the rules of thumb look at, and how much of the effect is there."""
+    if "rule" not in data.dims:
+        yield (
+            "The rubber has no temperature shift: where tan δ at 0 °C and 60 °C lies on this axis "
+            "is not known."
+        )
+        return
+    for i, name in enumerate(data.rule.values):
+        share, at = data.rule_share.isel(rule=i), float(data.rule_frequency[i])
+        low, high = (percent(float(end)) for end in (share.min(), share.max()))
+        shares = low if low == high else f"{low} to {high}"
+        yield (
+            f"The rule of thumb for {name} looks at {at:.2g} rad/s ({RULE_FREQUENCY:g} Hz, "
+            f"shifted); within half a decade of it is {shares} of the effect of E''."
+        )
+
+
+def failures(data: xr.Dataset) -> list[Failure]:
+    """Return each point without a solution."""
+    words = data[f"{STATUS}_word"].values.ravel()
+    endings = [
+        Failure(str(sentence), str(word))
+        for sentence, word in zip(data[STATUS].values.ravel(), words, strict=True)
+    ]
+    return [ending for ending in endings if ending.sentence != CONVERGED]
