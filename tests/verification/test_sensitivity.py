@@ -86,7 +86,7 @@ def log_friction(contact, change, pressure=1.0) -> float:
 
 
 def errors(contact) -> dict[str, float]:
-    """Largest error of E', E'' by decade, speed, 10 K, and pressure, over the largest derivative."""
+    """Largest errors of E', E'' by decade, speed, 10 K and pressure, over the largest derivative."""
     adjoint, bands = FrictionAdjoint.of(contact), Bands.of(contact, 1)
     friction = contact.friction_from_dissipation
 
@@ -122,10 +122,8 @@ def test_derivatives_as_central_differences(dimensions, count):
             continue
         each = errors(contact)
         text = ", ".join(f"{name} {value:.4f}" for name, value in each.items())
-        print(
-            f"{seed}: A {contact.contact_fraction:.3f}, mu {contact.friction_from_dissipation:.4f}, "
-            f"{int(contact.active.sum())} points: {text}"
-        )
+        area, friction = contact.contact_fraction, contact.friction_from_dissipation
+        print(f"{seed}: A {area:.3f}, mu {friction:.4f}, {contact.active.sum()} points: {text}")
         table.append(list(each.values()))
     rows = np.array(table)
     print("median", np.median(rows, axis=0), "nine of ten", np.quantile(rows, 0.9, axis=0))
