@@ -86,7 +86,7 @@ def log_friction(contact, change, pressure=1.0) -> float:
 
 
 def errors(contact) -> dict[str, float]:
-    """Largest errors of E', E'' by decade, speed, 10 K and pressure, over the largest derivative."""
+    """Errors of E', E'' by decade, speed, 10 K and pressure, over the largest derivative."""
     adjoint, bands = FrictionAdjoint.of(contact), Bands.of(contact, 1)
     friction = contact.friction_from_dissipation
 
