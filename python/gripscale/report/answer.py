@@ -10,6 +10,8 @@ import xarray as xr
 
 from gripscale.analysis.best_estimate import IsotropicSurface
 from gripscale.analysis.intervals import LEVEL
+from gripscale.analysis.sampled_answer import FRICTION_BELOW_MEASUREMENT
+from gripscale.chain.chain import Chain
 from gripscale.charts.view import HEADINGS, SYMBOLS
 from gripscale.core.units import display_unit_of
 from gripscale.io.table import significant
@@ -44,10 +46,8 @@ def answer_lines(data: xr.Dataset | None) -> Iterator[str]:
     )
     text = f"{numbers}{_level(data)}"
     if _too_wide(data):
-        yield (
-            f"Answer: none to rely on. {text}: more than a factor of two either way, because the "
-            "measured surface is too short to stand for its road"
-        )
+        wide = f"more than a factor of two either way{_why_wide(data)}"
+        yield f"Answer: none to rely on. {text}: {wide}"
     else:
         yield f"Answer: {text}"
     yield from (f"  {line}" for line in basis_lines(data))
@@ -82,25 +82,27 @@ def answer_cards(data: xr.Dataset) -> Iterator[Card]:
         return
     for name in _of(data):
         title = f"{HEADINGS[name].capitalize()} {SYMBOLS[name]}"
-        interval = _interval(data, name)
-        detail = (
-            f"best estimate; {interval} ({100.0 * LEVEL:.0f} %)" if interval else "best estimate"
-        )
+        ends = interval(data, name)
+        detail = f"best estimate; {ends} ({100.0 * LEVEL:.0f} %)" if ends else "best estimate"
         yield Card(title, significant(float(data[f"best_{name}"])), detail)
 
 
 def number_and_interval(data: xr.Dataset, name: str) -> str:
     """Return a best estimate and its interval, such as `0.19 (0.15 to 0.23)`."""
-    interval = _interval(data, name)
-    return f"{significant(float(data[f'best_{name}']))}{f' ({interval})' if interval else ''}"
+    ends = interval(data, name)
+    return f"{significant(float(data[f'best_{name}']))}{f' ({ends})' if ends else ''}"
 
 
-def _interval(data: xr.Dataset, name: str) -> str:
+def interval(data: xr.Dataset, name: str) -> str:
+    """Return the interval of a best estimate, such as `0.15 to 0.23`; empty if there is none."""
+    low, high = interval_ends(data, name)
+    return f"{significant(low)} to {significant(high)}" if math.isfinite(high) else ""
+
+
+def interval_ends(data: xr.Dataset, name: str) -> tuple[float, float]:
+    """Return the ends of the interval of a best estimate, NaN if there is none."""
     value, width = (float(data[f"best_{name}{end}"]) for end in ("", "_half_width"))
-    if not math.isfinite(width):
-        return ""
-    low, high = (value * math.exp(sign * math.asinh(width)) for sign in (-1.0, 1.0))
-    return f"{significant(low)} to {significant(high)}"
+    return value * math.exp(-math.asinh(width)), value * math.exp(math.asinh(width))
 
 
 def _too_wide(data: xr.Dataset) -> bool:
@@ -109,15 +111,32 @@ def _too_wide(data: xr.Dataset) -> bool:
     return any(math.asinh(width) > math.log(2.0) for width in widths if math.isfinite(width))
 
 
+def _why_wide(data: xr.Dataset) -> str:
+    """Return why an interval is too wide; not where its parts say it."""
+    if "part_label" in data:
+        return ""
+    return ", because the measured surface is too short to stand for its road"
+
+
 def _level(data: xr.Dataset) -> str:
     if math.isfinite(float(data.best_contact_fraction_half_width)):
         return f" ({100.0 * LEVEL:.0f} % intervals)"
+    if not is_measured(data):
+        return "; no interval: fewer than two samples have an answer"
     return "; no interval: the surface is too short to tell how well it represents the road"
+
+
+def is_measured(data: xr.Dataset) -> bool:
+    """Return whether an answer is of a measured surface: otherwise it is the chain's."""
+    total = data.get("total_friction")
+    return total is None or total.attrs.get("source") != Chain.name
 
 
 def _factors(data: xr.Dataset, names: tuple[str, ...]) -> Iterator[str]:
     """Yield the direct contact and each factor on it, friction first."""
-    yield "the direct contact of the measured surface"
+    yield (
+        "the direct contact of the measured surface" if is_measured(data) else "the chain of waves"
+    )
     for at, label in enumerate(data.factor_label.values):
         values = [float(data[f"best_{name}_factor"][at]) for name in names]
         if not all(map(math.isfinite, values)):
@@ -136,6 +155,13 @@ def _rests_on(data: xr.Dataset, name: str) -> Iterator[str]:
     beyond = data.get(FRICTION_OUTSIDE_BAND)
     if beyond is not None and not beyond.ndim and float(beyond) > WORTH_SAYING:
         yield f"{percent(float(beyond))} of the friction beyond the measured frequencies"
+    below = data.get(FRICTION_BELOW_MEASUREMENT)
+    if below is not None and not below.ndim and float(below) > WORTH_NAMING:
+        limit = f"{1e3 * float(data.resolution_limit):.3g} mm"
+        yield (
+            f"{percent(float(below))} of the friction in waves shorter than {limit}, which were "
+            "not measured"
+        )
     for share, words in (
         ("steep_share", "of the friction on slopes above 1"),
         ("missing_share", "of the contact on filled gaps"),
