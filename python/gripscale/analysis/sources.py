@@ -140,7 +140,11 @@ SPIKE_LEVELS = 8
 
 
 def _cleaning(measurement: Measurement, options: SourceOptions) -> Draw:
-    """Draw the limit of spikes, whether it holds across gaps, and how gaps are filled."""
+    """Draw the limit of spikes, and how the gaps they leave are filled.
+
+    Whether the limit holds across gaps is not drawn: that wears away true flanks, a third of the
+    points of a coarse road at low limits, and is a choice of the case.
+    """
     usual, measured = measurement.cleaning, measurement.surface.measured
     if measured is None or not usual:
         raise SourceNotApplicable("no profile was measured")
@@ -155,16 +159,15 @@ def _cleaning(measurement: Measurement, options: SourceOptions) -> Draw:
     levels = values.levels(SPIKE_LEVELS)
 
     @cache
-    def cleaned(slope: float, across: bool) -> CleanedProfiles:
-        changed = {"remove_spikes": True, "spike_slope": slope, "across_gaps": across}
+    def cleaned(slope: float) -> CleanedProfiles:
+        changed = {"remove_spikes": True, "spike_slope": slope}
         lines = tuple(clean(raw, **{**usual, **changed})[0] for raw, _ in measured.profiles)
         return CleanedProfiles(lines, measurement.surface.counted)
 
     def draw(quantile: float, random: np.random.Generator, inputs: Inputs) -> Drawn:
-        slope = levels.at(quantile)
-        across, smooth = (bool(choice) for choice in random.integers(2, size=2))
-        changed = replace(inputs, cleaned=cleaned(slope, across), smooth_gaps=smooth)
-        return changed, [math.log(slope / usual["spike_slope"]), float(across), float(smooth)]
+        slope, smooth = levels.at(quantile), bool(random.integers(2))
+        changed = replace(inputs, cleaned=cleaned(slope), smooth_gaps=smooth)
+        return changed, [math.log(slope / usual["spike_slope"]), float(smooth)]
 
     return draw
 
@@ -339,7 +342,6 @@ _SERIES = {
 }
 _CLEANING = {
     "spike_slope": Coordinate("1", "ln of the limit of spikes over that of the case", True),
-    "across_gaps": Coordinate("1", "1 where the limit holds across gaps", True),
     "smooth_gaps": Coordinate("1", "1 where cubics fill the gaps, 0 for straight lines", True),
 }
 GRID_PLACE = "grid_place"
