@@ -1,11 +1,13 @@
 """Missing heights filled: Laplace's equation on a grid in closed forms, its maximum principle."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gripscale.surface.resampling import filled
+from gripscale.surface.resampling import filled, filled_smoothly
 
 X, Y = np.arange(24) * 1e-4, np.arange(30) * 2.5e-4
 
@@ -19,6 +21,27 @@ def test_a_line_is_interpolated_linearly_and_held_at_its_ends():
     np.testing.assert_allclose(filled(z), [2, 2, 4, 6, 8, 8])
     # round the end there are two steps from 8 to 2, the first point being the second of them
     np.testing.assert_allclose(filled(z, periodic=True), [4, 2, 4, 6, 8, 6])
+
+
+def test_cubics_have_no_kink_and_stay_between_the_ends_of_a_gap():
+    """A parabola is met better than by a straight line, though one secant spans the gap itself."""
+    x = np.linspace(0.0, 1.0, 101)
+    z = x**2
+    z[40:50] = np.nan
+    smooth, straight = filled_smoothly(z), filled(z)
+    np.testing.assert_array_equal(smooth[~np.isnan(z)], z[~np.isnan(z)])
+    errors = [np.abs(line - x**2).max() for line in (smooth, straight)]
+    assert errors[0] < 0.5 * errors[1]
+    rough = np.random.default_rng(2).standard_normal(200)
+    rough[holes(200, 0.6, 3)] = np.nan
+    filled_in = filled_smoothly(rough)
+    valid = np.flatnonzero(~np.isnan(rough))
+    for first, last in pairwise(valid):
+        ends = sorted((rough[first], rough[last]))
+        between = filled_in[first : last + 1]
+        assert ends[0] - 1e-12 <= between.min() <= between.max() <= ends[1] + 1e-12
+    assert filled_in[0] == rough[valid[0]]
+    assert filled_in[-1] == rough[valid[-1]]
 
 
 def test_harmonic_heights_come_back_whatever_the_steps():

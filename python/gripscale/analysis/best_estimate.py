@@ -12,7 +12,7 @@ cut-off, from the sampling of the road and the errors of grids and factors.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 
@@ -94,6 +94,15 @@ class IsotropicSurface:
     """Of the lines, see `gripscale.half_space.line_to_map`."""
 
 
+class SampledErrors(NamedTuple):
+    """Errors of a best estimate that samples of its inputs show."""
+
+    errors: Mapping[str, Sequence[LogError]]
+    """Of each estimated quantity."""
+    of_road: bool
+    """Whether they hold the sampling of the road, which then counts here and nowhere else."""
+
+
 SHARES = ("steep_share", "missing_share")
 """What else it rests on: of the friction on steep flanks, of the contact on filled gaps."""
 
@@ -109,15 +118,18 @@ def best_estimate(
     supplied: Sequence[Factor] = (),
     *,
     upper_height: float | None = None,
+    sampled: SampledErrors | None = None,
 ) -> xr.Dataset:
     """Return the best estimate of the solved rungs.
 
     `upper_height` is that of measured lines (`gripscale.half_space.line_to_map`); None for a map.
+    `sampled` adds what is not known of the inputs to the interval.
 
     `best_contact_fraction` and `best_friction` with their relative standard `_uncertainty` and the
     relative `_half_width` of their 90 % interval, NaN without a direct contact that converged; no
     interval where the profiles are too short to tell how well they represent the road
-    (`_sampling_error`, the relative standard error). `best_steep_share`, `best_missing_share`. Over
+    (`_sampling_error`, the relative standard error; `_grid_error` is that of the grid).
+    `best_steep_share`, `best_missing_share`. Over
     `factor` the `_factor` on each with its `_factor_uncertainty`, NaN where it is not included, and
     `factor_label`. No factors without the rung of the direct contact. A `supplied` factor with the
     name of ours replaces it.
@@ -138,13 +150,16 @@ def best_estimate(
         if direct is not None and share in direct:
             data[f"best_{share}"] = usable(direct, share).mean("sample")
     for name in ESTIMATED:
-        mean, errors = unknown, [LogError(unknown, unknown)]
+        mean, road, grid = unknown, LogError(unknown, unknown), unknown
         if direct is not None:
-            mean = usable(direct, name).mean("sample")
+            mean, road = usable(direct, name).mean("sample"), sampling_error(direct, name)
             # even within the estimated error, and the same for all profiles
             grid = estimated_error(direct, name).fillna(0.0) / math.sqrt(3.0)
-            errors = [sampling_error(direct, name), _certain(grid)]
-        data[f"best_{name}_sampling_error"] = errors[0].sigma
+        errors = [road, _certain(grid)]
+        if sampled is not None:
+            errors = [*([] if sampled.of_road else [road]), _certain(grid), *sampled.errors[name]]
+        data[f"best_{name}_sampling_error"] = road.sigma
+        data[f"best_{name}_grid_error"] = grid
         value = uncertainty = unknown.expand_dims(factor=0)
         if solved:
             value = xr.concat([numbers[name][0] for _, numbers in solved], "factor")

@@ -17,6 +17,7 @@ from gripscale.analysis.best_estimate import (
     ESTIMATED,
     FINITE_STRAIN,
     Factor,
+    SampledErrors,
     best_estimate,
 )
 from gripscale.analysis.comparison_dataset import Comparison
@@ -44,7 +45,13 @@ from gripscale.experiment.task import Store, Task
 from gripscale.half_space.line_to_map import upper_height_of
 from gripscale.half_space.model import JUDGED_TO, DirectContact
 from gripscale.io import netcdf
-from gripscale.model import answer, cut_off_exponents_of, extrapolation_of, with_area_term
+from gripscale.model import (
+    Load,
+    answer,
+    cut_off_exponents_of,
+    extrapolation_of,
+    with_area_term,
+)
 from gripscale.rubber.extrapolation import require_measured
 from gripscale.theory.models import KlueppelHeinrich
 
@@ -381,19 +388,28 @@ def solve_reference(results: CaseResults) -> xr.Dataset | None:
     InputError
         If the direct contact cannot use the rubber or a profile.
     """
+    design = reference_design(results, results.load)
+    if design is None:
+        return None
+    with bench_in(None) as bench:
+        return solve_design(design, bench, reduce.sample_numbers)
+
+
+def reference_design(results: CaseResults, load: Load, label: str = "") -> Design | None:
+    """Return the tasks of the direct contact of each profile of a case under a load.
+
+    Their names begin with the `label`; None if no profile was measured.
+    """
     profiles = each_measured(results.surface)
     if not profiles:
         return None
     model = DirectContact(tolerance=JUDGED_TO, conditions=results.conditions)
-    rubber, load = results.rubber.rubber, results.load
     points = [
-        Point((at,), name, Task(rubber, surface, load, model))
+        Point((at,), f"{label}{name}", Task(results.rubber.rubber, surface, load, model))
         for at, (name, surface) in enumerate(profiles)
     ]
     subjects = {"subject": ("sample", [name for name, _ in profiles])}
-    design = Design({"sample": len(points)}, points, subjects)
-    with bench_in(None) as bench:
-        return solve_design(design, bench, reduce.sample_numbers)
+    return Design({"sample": len(points)}, points, subjects)
 
 
 def reference(results: CaseResults) -> xr.Dataset | None:
@@ -403,7 +419,8 @@ def reference(results: CaseResults) -> xr.Dataset | None:
     """
     if results.direct is None:
         samples = solve_reference(results)
-        results.direct = None if samples is None else reference_totals(samples, results)
+        if samples is not None:
+            results.direct = reference_totals(samples, results, results.load)
     return results.direct
 
 
@@ -418,19 +435,25 @@ def save_reference(results: CaseResults, folder: str | Path) -> xr.Dataset | Non
     return data
 
 
-def reference_totals(samples: xr.Dataset, results: CaseResults) -> xr.Dataset:
-    """Return the means of `samples` over the profiles as a model answers, and the best estimate."""
+def reference_totals(
+    samples: xr.Dataset, results: CaseResults, load: Load, sampled: SampledErrors | None = None
+) -> xr.Dataset:
+    """Return the means of `samples` over the profiles as a model answers, and the best estimate.
+
+    `samples` are the answers of `reference_design` under the load; `sampled` adds what is not known
+    of the inputs to the interval of the best estimate.
+    """
     means = {name: float(reduce.usable(samples, name).mean("sample")) for name in reduce.QUANTITIES}
     beyond, exponents = reduce.outside_band(samples), reduce.cut_off_exponents(samples)
     rung = samples.expand_dims(rung=[DIRECT])
-    best = best_estimate(rung, upper_height=upper_height_of(results.surface))
+    best = best_estimate(rung, upper_height=upper_height_of(results.surface), sampled=sampled)
     best["cutoff_wavelength"] = xr.Variable((), results.surface.cutoff_wavelength, {"units": "m"})
     totals = answer(
         best,
         {f"total_{name}": value for name, value in means.items()},
         str(reduce.status(samples).item()),
         DIRECT,
-        results.load,
+        load,
         extrapolation_of(beyond),
         cut_off_exponents_of(exponents),
         status_word=str(reduce.status_word(samples).item()),

@@ -117,6 +117,7 @@ def comparison_dataset(comparison: Comparison) -> xr.Dataset:
         add(f"best_{name}_uncertainty", best[f"best_{name}_uncertainty"], f"{about} best estimate")
         for part, long_name in (
             ("sampling_error", f"{about} {text}, from the sampling of the road"),
+            ("grid_error", f"{about} {text}, from the grid of the direct contact"),
             ("half_width", f"relative half width of the 90 % interval of the {text}"),
         ):
             add(f"best_{name}_{part}", best[f"best_{name}_{part}"], long_name)

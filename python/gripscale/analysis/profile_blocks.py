@@ -89,7 +89,8 @@ class ProfileBlocks:
         return min(max(int(self._length / self._wanted), 1), MOST_BLOCKS)
 
     def __len__(self) -> int:
-        return len(self._sums.pairs)
+        cuts = len(self._places)
+        return min(cuts, self._number) if len(self.profiles) > self._number else cuts
 
     def draw(self, random: np.random.Generator) -> Indices:
         """Return which blocks are drawn, one fewer than there are."""

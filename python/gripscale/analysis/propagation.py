@@ -23,13 +23,18 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from gripscale.analysis.comparison import reference_design
+from gripscale.analysis.sampled_answer import GRID, chain_answer, measured_answer
 from gripscale.analysis.sampled_inputs import Inputs, Measurement
+from gripscale.analysis.samples import sample_numbers
 from gripscale.analysis.sampling import Chosen, SampledInputs, Uncertainty, draws
+from gripscale.analysis.sources import GRID_PLACE, SOURCES, Source
 from gripscale.analysis.variance_shares import shares
 from gripscale.case.read import CaseFile, read_case
 from gripscale.case.results import CaseResults
 from gripscale.case.run import prepare_case
 from gripscale.case.tables import FEWEST_SAMPLES, MOST_SAMPLES, MOST_SEED
+from gripscale.chain.chain import Chain
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError, RubberWarning
@@ -41,16 +46,23 @@ from gripscale.experiment.design import (
     Index,
     Point,
     attributes,
-    solve_design,
     stack,
 )
 from gripscale.experiment.inputs import contents, digest
 from gripscale.experiment.solve import Bench, OnTask, bench_in
 from gripscale.experiment.study import coordinates
-from gripscale.experiment.task import Task, canonical_json, load_stored
+from gripscale.experiment.task import canonical_json, load_stored
 from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
-from gripscale.model import FRICTION_OUTSIDE_BAND, STATUS, STATUS_WORD, Model, status_words
+from gripscale.model import (
+    FRICTION_OUTSIDE_BAND,
+    OUTSIDE_BAND,
+    STATUS,
+    STATUS_WORD,
+    TOTALS,
+    Load,
+    Model,
+)
 
 LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
 """The quantiles that are told."""
@@ -100,34 +112,27 @@ def _of_model(data: xr.Dataset) -> str:
     return f"{text}, {failed} failed" if failed else text
 
 
-NUMBERS = {name: (f"total_{name}", text) for name, (_, text) in QUANTITIES.items()} | {
-    "outside_band": (
-        FRICTION_OUTSIDE_BAND,
-        "share of the friction that rests on the rubber outside the measured frequencies",
-    ),
+NUMBERS = {name: text for name, (_, text) in QUANTITIES.items()} | {
+    "friction_from_dissipation": TOTALS["total_friction_from_dissipation"],
+    "outside_band": OUTSIDE_BAND[FRICTION_OUTSIDE_BAND][1],
 }
-"""What is kept of each answer: its name there and its meaning."""
-
-
-def sampled_numbers(answer: xr.Dataset, _: Task) -> xr.Dataset:
-    """Return what is kept of an answer; the error of its grid where a direct contact has one."""
-    numbers = {name: float(answer[key]) for name, (key, _) in NUMBERS.items()}
-    for name in QUANTITIES:
-        numbers[f"{name}_grid_error"] = math.nan
-        if {"weight", f"{name}_error"} <= set(answer.data_vars):
-            error = float((answer["weight"] * answer[f"{name}_error"]).sum())
-            total = abs(numbers[name])
-            numbers[f"{name}_grid_error"] = error / total if total > 0.0 else math.nan
-    ending = {STATUS: answer[STATUS].variable, STATUS_WORD: status_words(answer).variable}
-    return xr.Dataset(numbers).assign(ending)
+"""What is kept of each sample, and its meaning."""
 
 
 def uncertainty_dataset(
-    solved: xr.Dataset, drawn: Sequence[SampledInputs], chosen: Chosen
+    solved: xr.Dataset,
+    drawn: Sequence[SampledInputs],
+    chosen: Chosen,
+    logarithms: Mapping[str, Array],
 ) -> xr.Dataset:
-    """Return all samples with their quantiles and shares; the first of `solved` is the case."""
-    usable = solved.drop_vars(["prediction_key", "seconds", STATUS, STATUS_WORD])
-    usable = usable.where(solved.prediction_status == CONVERGED)
+    """Return all samples with their quantiles and shares; the first of `solved` is the case.
+
+    `solved` holds the `gripscale.analysis.samples.sample_numbers`, and `logarithms` what each
+    source drew. A sample of the direct contact has the error of its grid in it that was drawn.
+    """
+    usable = solved.rename({FRICTION_OUTSIDE_BAND: "outside_band"})[
+        [*NUMBERS, *(f"{name}_error" for name in QUANTITIES)]
+    ].where(solved.prediction_status == CONVERGED)
     case, samples = usable.isel(sample=0), usable.isel(sample=slice(1, None))
     status = solved[STATUS].isel(sample=slice(1, None))
     data: dict[str, xr.DataArray] = {}
@@ -135,8 +140,6 @@ def uncertainty_dataset(
     def add(name: str, values: xr.DataArray, long_name: str, unit: str = "1") -> None:
         data[name] = values.drop_attrs().assign_attrs(units=unit, long_name=long_name)
 
-    for name, (_, text) in NUMBERS.items():
-        add(name, samples[name], text)
     words = solved[STATUS_WORD]
     add("status", status, "converged, or why the sample has no answer")
     add("status_word", words.isel(sample=slice(1, None)), "word of the status")
@@ -146,25 +149,24 @@ def uncertainty_dataset(
     add("seconds", solved.seconds.isel(sample=slice(1, None)), "time to solve the sample", "s")
     failed = (status != CONVERGED).sum("sample")
     add("failed", failed, "samples without an answer; they count in no quantile")
-    sources = chosen.sources
-    coords: dict[str, Any] = {}
-    logarithms = {}
-    for source in sources:
-        columns = []
-        for name, number in source.coordinates.items():
-            column = np.array([inputs.coordinates[name] for inputs in drawn], dtype=float)
-            attrs = attributes(number.long_name, number.unit) | {"source": source.name}
-            coords[name] = ("sample", column, attrs)
-            columns.append(column if number.logarithm else np.log(column))
-        logarithms[source.name] = np.stack(columns, axis=-1)
-    for name, (_, text) in QUANTITIES.items():
+    for name, text in NUMBERS.items():
+        add(name, samples[name], text)
         add(f"{name}_case", case[name], f"{text} of the case itself")
+    is_direct = solved["model"] == DirectContact.name
+    in_error = np.zeros(len(drawn))
+    if any(source.name == GRID for source in chosen.sources):
+        in_error = np.array([inputs.coordinates[GRID_PLACE] for inputs in drawn])
+    for name, (_, text) in QUANTITIES.items():
+        error = (samples[f"{name}_error"] / abs(samples[name])).where(is_direct)
         about = f"estimated relative error of the grid of a direct contact, {text}"
-        add(f"{name}_grid_error", samples[f"{name}_grid_error"], about)
-        add(f"{name}_quantile", quantiles(samples[name]), text)
-        parts = _shares(samples[name], logarithms, name)
+        add(f"{name}_grid_error", error, about)
+        values = samples[name] * np.exp(error.fillna(0.0) * xr.DataArray(in_error, dims="sample"))
+        add(name, values.transpose(*samples[name].dims), text)
+        add(f"{name}_quantile", quantiles(data[name]), text)
+        parts = _shares(data[name], logarithms, name)
         for part, (_, meaning) in SHARES.items():
             add(f"{name}_{part}", parts[f"{name}_{part}"], meaning.format(text))
+    sources = chosen.sources
     return xr.Dataset(
         data,
         {
@@ -172,7 +174,7 @@ def uncertainty_dataset(
             "source": ("source", [s.name for s in sources], {"long_name": "source"}),
             "label": ("source", [s.label for s in sources], {"long_name": "source in words"}),
             "end": ("end", ["low", "high"]),
-            **coords,
+            **_coordinates(sources, drawn),
         },
         {
             "title": "Uncertainty of real contact area and friction of rubber on a rough surface",
@@ -180,6 +182,31 @@ def uncertainty_dataset(
             **provenance.attributes(),
         },
     )
+
+
+def _coordinates(sources: Sequence[Source], drawn: Sequence[SampledInputs]) -> dict[str, Any]:
+    """Return what each source drew, over `sample`."""
+    return {
+        name: (
+            "sample",
+            np.array([inputs.coordinates[name] for inputs in drawn], dtype=float),
+            attributes(number.long_name, number.unit) | {"source": source.name},
+        )
+        for source in sources
+        for name, number in source.coordinates.items()
+    }
+
+
+def drawn_logarithms(sources: Sequence[Source], drawn: Sequence[SampledInputs]) -> dict[str, Array]:
+    """Return logarithms of what each source drew, by its name, shape (samples, coordinates)."""
+    logarithms = {}
+    for source in sources:
+        columns = []
+        for name, number in source.coordinates.items():
+            column = np.array([inputs.coordinates[name] for inputs in drawn], dtype=float)
+            columns.append(column if number.logarithm else np.log(column))
+        logarithms[source.name] = np.stack(columns, axis=-1)
+    return logarithms
 
 
 SHARES = {
@@ -319,7 +346,8 @@ def propagate(
     seed : int, optional
         Seed of the random numbers.
     models : sequence of str, optional
-        "chain" (as the case asks for it), "direct", or both.
+        "chain" (as the case asks for it), "direct", or both; by default "direct" where profiles
+        were measured.
     vary : mapping, optional
         Speeds or pressures, as for `gripscale.experiment.Study`; the same samples at each.
     tolerance : float, optional
@@ -334,11 +362,13 @@ def propagate(
     Returns
     -------
     xarray.Dataset
+        The answer of the case (`best_friction`, `best_contact_fraction`, ..., as of `gripscale
+        run`) with its interval and what that is made of, see `gripscale.analysis.sampled_answer`.
         Over `model`, what is varied, and `sample`: `friction`, `contact_fraction` and `status`,
         with what was drawn as coordinates of `sample`; `_case` of the case itself; `_quantile`
-        over `quantile`; `_grid_error` of each sample of the direct contact, which is in no
-        quantile; `failed` samples, which count in no quantile; `_share` of each `source` in
-        the variance (see `gripscale.analysis.variance_shares`).
+        over `quantile`; `_grid_error` of each sample of the direct contact; `failed` samples,
+        which count in no quantile; `_share` of each `source` in the variance (see
+        `gripscale.analysis.variance_shares`).
 
     Raises
     ------
@@ -349,12 +379,13 @@ def propagate(
     table = file.case.uncertainty
     accuracy = table.tolerance if tolerance is None else checks.positive("tolerance", tolerance)
     number = table.samples if samples is None else samples
+    choice = Uncertainty.of_case(table) if uncertainty is None else uncertainty
     plan = Plan(
         file,
-        Uncertainty.of_case(table) if uncertainty is None else uncertainty,
+        choice,
         checks.whole("samples", number, least=FEWEST_SAMPLES, most=MOST_SAMPLES),
         checks.whole("seed", table.seed if seed is None else seed, least=0, most=MOST_SEED),
-        _models(BOTH[table.model] if models is None else models),
+        _models(stated_models(file, choice) if models is None else models),
         _axis(vary),
         accuracy,
     )
@@ -368,6 +399,21 @@ def propagate(
         warnings.simplefilter("ignore", RubberWarning)  # drawn rubbers are not made by hand
         data = _solved(plan, results, chosen, bench)
     return data if path is None else netcdf.load(netcdf.save(data, path))
+
+
+def stated_models(file: CaseFile, uncertainty: Uncertainty) -> tuple[str, ...]:
+    """Return the models a case states; by default the one its answer is of, as far as it is quick.
+
+    The direct contact of a map takes minutes and has no blocks to draw. A range of a source that
+    only the chain has asks for both.
+    """
+    model = file.case.uncertainty.model
+    if model is None and file.case.surface.files is None:
+        model = "chain"
+    elif model is None:
+        of_chain = [name for name in uncertainty.ranges if SOURCES[name].models == (Chain.name,)]
+        model = "both" if of_chain else "direct"
+    return BOTH[model]
 
 
 def _models(names: Sequence[str]) -> tuple[str, ...]:
@@ -391,22 +437,73 @@ def _axis(vary: Mapping[str, Any] | None) -> Axis | None:
 
 
 def _solved(plan: Plan, results: CaseResults, chosen: Chosen, bench: Bench) -> xr.Dataset:
-    case = Inputs.of(Measurement.of(results))
+    """Return all samples, and the answer of the case at each load."""
+    case, axis = Inputs.of(Measurement.of(results)), plan.axis
     drawn = list(draws(case, chosen.sources, plan.samples, plan.seed))
-    axis, loads = plan.axis, [results.load]
+    loads, labels = [results.load], [""]
     if axis is not None:
         loads = [replace(results.load, **{axis.name: value}) for value in axis.values]
+        labels = [f"{axis.name} {label}, " for label in axis.labels]
+    design = _design(plan, results, [SampledInputs(case, {}), *drawn], loads)
+    references = [
+        reference_design(results, load, label) for load, label in zip(loads, labels, strict=True)
+    ]
+    tasks = design.tasks
+    for reference in references:
+        tasks |= {} if reference is None else reference.tasks
+    answers = bench.solve(tasks, sample_numbers)
+    logarithms = drawn_logarithms(chosen.sources, drawn)
+    data = uncertainty_dataset(design.dataset(answers), drawn, chosen, logarithms)
+    answered = []
+    for at, (load, reference) in enumerate(zip(loads, references, strict=True)):
+        part = data if axis is None else data.isel({axis.name: at}, drop=True)
+        if reference is None:
+            chain = part.sel(model=Chain.name)
+            answered.append(chain_answer(chain, results, load, chosen.sources, logarithms))
+            continue
+        direct = None
+        if DirectContact.name in plan.models:
+            direct = _as_solved(part.sel(model=DirectContact.name))
+        samples = reference.dataset(answers)
+        answered.append(measured_answer(samples, results, load, direct, chosen.sources, logarithms))
+    answer = answered[0] if axis is None else xr.concat(answered, axis.name)
+    return data.assign(answer.drop_attrs(deep=False).data_vars).assign_attrs(
+        plan.file.attributes,
+        case_file=str(plan.file.path),
+        **{FILES: json.dumps(input_digests(plan.file))},
+        seed=plan.seed,
+        plan_key=plan.key,
+        software=software(),
+    )
+
+
+def _as_solved(direct: xr.Dataset) -> xr.Dataset:
+    """Return samples of the direct contact without the error of the grid that was drawn."""
+    if GRID_PLACE not in direct:
+        return direct
+    drawn = {
+        name: np.exp(direct[GRID_PLACE] * direct[f"{name}_grid_error"].fillna(0.0))
+        for name in QUANTITIES
+    }
+    return direct.assign({name: direct[name] / factor for name, factor in drawn.items()})
+
+
+def _design(
+    plan: Plan, results: CaseResults, samples: Sequence[SampledInputs], loads: Sequence[Load]
+) -> Design:
+    """Return the tasks of the samples, of which the first is the case, by each model and load."""
+    axis = plan.axis
     points: list[Point] = []
     refused: dict[Index, str] = {}
     for at, name in enumerate(plan.models):
         model: Model = results.chain
-        if name == "direct":
+        if name == DirectContact.name:
             if results.surface.measured is None:
                 raise InputError(
                     "the direct contact needs a measured profile; got waves stated by hand"
                 )
             model = DirectContact(tolerance=plan.tolerance, conditions=results.conditions)
-        for sample, inputs in enumerate([SampledInputs(case, {}), *drawn]):
+        for sample, inputs in enumerate(samples):
             by_load = [(at, sample) if axis is None else (at, i, sample) for i in range(len(loads))]
             try:
                 if inputs.inputs is None:
@@ -424,12 +521,4 @@ def _solved(plan: Plan, results: CaseResults, chosen: Chosen, bench: Bench) -> x
     if axis is not None:
         sizes[axis.name] = len(loads)
         coords |= coordinates([axis], plan.file.units)
-    design = Design(sizes | {"sample": len(drawn) + 1}, points, coords, refused)
-    data = uncertainty_dataset(solve_design(design, bench, sampled_numbers), drawn, chosen)
-    return data.assign_attrs(
-        plan.file.attributes,
-        **{FILES: json.dumps(input_digests(plan.file))},
-        seed=plan.seed,
-        plan_key=plan.key,
-        software=software(),
-    )
+    return Design(sizes | {"sample": len(samples)}, points, coords, refused)

@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import partial
+from functools import cached_property, partial
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from gripscale import model
+from gripscale.case.prepare import cleaning_options
 from gripscale.case.results import CaseResults
 from gripscale.chain.chain import Chain
 from gripscale.conditions import Conditions
@@ -31,7 +32,9 @@ from gripscale.surface import (
     Surface,
     SurfacePart,
     fit_sines,
+    height_difference,
 )
+from gripscale.surface.resampling import filled_smoothly
 from gripscale.surface.sine_fit import MOST_WAVES
 from gripscale.wave.kernel import RefinableSolver, WaveSolver
 from gripscale.wave.problem import WaveProblem
@@ -97,14 +100,16 @@ class Measurement:
     speed: float = 0.0
     """Sliding speed of the case [m/s]."""
     load_time: LoadTime = "passage"
+    cleaning: Mapping[str, Any] = field(default_factory=dict)
+    """Arguments of `gripscale.clean` the profiles were cleaned with; none where it is not known."""
 
     @classmethod
     def of(cls, case: CaseResults) -> Measurement:
         """Return what a prepared case is known from."""
         rubber, load = case.rubber, case.load
-        return cls(
-            case.surface, rubber.rubber, rubber.master, rubber.fit, load.speed, load.load_time
-        )
+        cleaning = cleaning_options(case.file.case.surface)
+        parts = rubber.rubber, rubber.master, rubber.fit
+        return cls(case.surface, *parts, load.speed, load.load_time, cleaning)
 
     @property
     def profiles(self) -> list[Profile]:
@@ -123,17 +128,35 @@ class Measurement:
 
 
 @dataclass(frozen=True, eq=False)
+class CleanedProfiles:
+    """The profiles of a case, cleaned in another way."""
+
+    profiles: Sequence[Profile]
+    counted: Mapping[str, Any]
+    """Arguments of `height_difference`."""
+
+    @cached_property
+    def correlation(self) -> HeightDifference:
+        """C_z of the profiles."""
+        return height_difference(list(self.profiles), **self.counted)
+
+
+@dataclass(frozen=True, eq=False)
 class Inputs:
     """The inputs of one sample, before any model is asked: as prepared, or as drawn."""
 
     surface: Surface
     rubber: Rubber
-    correlation: HeightDifference | None = None
-    """What the waves are fitted to; None for waves stated by hand."""
     fit: Mapping[str, Any] = field(default_factory=dict)
     """Arguments of `fit_sines`."""
+    cleaned: CleanedProfiles | None = None
+    """The profiles, where they are not cleaned as in the case."""
+    recorrelated: Callable[[], HeightDifference] | None = None
+    """Gives C_z of drawn blocks."""
     redrawn: Callable[[], tuple[Profile, ...]] | None = None
-    """Gives what the direct contact is solved on, where it is not what was measured."""
+    """Gives profiles of drawn blocks."""
+    smooth_gaps: bool = False
+    """Whether gaps of the profiles are filled by cubics without a kink, not by straight lines."""
     load_time_factor: float = 1.0
     """How much longer each wave is loaded than the model says [-]."""
 
@@ -141,7 +164,28 @@ class Inputs:
     def of(cls, measurement: Measurement) -> Inputs:
         """Return the inputs of the case itself."""
         surface = measurement.surface
-        return cls(surface, measurement.rubber, surface.correlation, surface.fit)
+        return cls(surface, measurement.rubber, surface.fit)
+
+    @property
+    def correlation(self) -> HeightDifference | None:
+        """What the waves are fitted to; None for waves stated by hand."""
+        if self.recorrelated is not None:
+            return self.recorrelated()
+        return self.surface.correlation if self.cleaned is None else self.cleaned.correlation
+
+    @property
+    def measured(self) -> Measured | None:
+        """What the direct contact is solved on."""
+        lines: Sequence[Profile]
+        if self.redrawn is not None:
+            lines = self.redrawn()
+        elif self.cleaned is not None:
+            lines = self.cleaned.profiles
+        else:
+            return self.surface.measured
+        if self.smooth_gaps:
+            lines = [replace(line, z=filled_smoothly(line.z)) for line in lines]
+        return Measured.of(lines)
 
     @property
     def end(self) -> float:
@@ -167,14 +211,14 @@ class Inputs:
         """
         surface = self.surface
         if "waves" not in model.needs:
-            measured = surface.measured if self.redrawn is None else Measured.of(self.redrawn())
-            return Surface(None, surface.source, measured=measured, end=self.end), model
+            return Surface(None, surface.source, measured=self.measured, end=self.end), model
         if isinstance(model, Chain) and self.load_time_factor != 1.0:
             model = replace(model, solver=loaded_longer(model.solver, self.load_time_factor))
-        prepared = self.correlation is surface.correlation and dict(self.fit) == dict(surface.fit)
-        if self.correlation is None or prepared:
+        correlation = self.correlation
+        prepared = correlation is surface.correlation and dict(self.fit) == dict(surface.fit)
+        if correlation is None or prepared:
             return surface, model
-        return replace(surface, waves=fit_sines(self.correlation, **self.fit)), model
+        return replace(surface, waves=fit_sines(correlation, **self.fit)), model
 
     def tasks(self, model: Model, loads: Sequence[Load]) -> list[Task]:
         """Return what has to be solved under each load; a refusal of the model is an answer.
@@ -250,6 +294,12 @@ class Range(Checked):
             return self.values[min(int(quantile * len(self.values)), len(self.values) - 1)]
         low, high = np.log(self.values)
         return float(np.exp(low + quantile * (high - low)))
+
+    def levels(self, count: int) -> Range:
+        """Return `count` equally likely values in place of all between two ends."""
+        if not self.between:
+            return self
+        return Range(tuple(self.at((k + 0.5) / count) for k in range(count)), between=False)
 
 
 def factor(text: Any) -> float:

@@ -30,13 +30,14 @@ class Uncertainty:
     Parameters
     ----------
     without : sequence of str
-        Sources to be left out: profile, modulus, bulk_modulus, equilibrium_modulus, load_time,
-        cut_off, waves.
+        Sources to be left out: cleaning, profile, grid, modulus, bulk_modulus,
+        equilibrium_modulus, load_time, cut_off, waves.
     ranges : mapping
         Values of a source by its name, in place of its default: two ends as `"1 GPa:3 GPa"` or a
         pair of numbers [SI], or several equally likely values as `"1 GPa,2 GPa"` or three numbers
-        and more. Of bulk_modulus, equilibrium_modulus (moduli), cut_off (lengths), load_time
-        (factors on that of the case) and waves (numbers of them).
+        and more. Of cleaning (limits of the change of height per step), bulk_modulus,
+        equilibrium_modulus (moduli), cut_off (lengths), load_time (factors on that of the case)
+        and waves (numbers of them).
     block_length : float, optional
         Length of the blocks of profiles [m]; by default four of the largest waves.
 
@@ -57,6 +58,8 @@ class Uncertainty:
                 raise InputError(f"{name} must be left out or given; got both")
             if name in ("profile", "modulus"):
                 raise InputError(f"{name} is drawn from what was measured; got values given for it")
+            if name == "grid":
+                raise InputError("grid is drawn from its estimate; got values given for it")
         if self.block_length is not None:
             checks.positive("block_length", self.block_length, unit="m")
 

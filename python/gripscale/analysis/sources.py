@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from functools import partial
+from dataclasses import dataclass, field, replace
+from functools import cache, partial
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from gripscale.analysis import sampled_inputs as quantities
 from gripscale.analysis.profile_blocks import ProfileBlocks
-from gripscale.analysis.sampled_inputs import Inputs, Measurement, Range
+from gripscale.analysis.sampled_inputs import CleanedProfiles, Inputs, Measurement, Range
 from gripscale.analysis.series_scatter import SeriesScatter, with_series
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.rubber import Rubber
-from gripscale.surface import SineStack, sine_ambiguity
+from gripscale.surface import SineStack, clean, sine_ambiguity
 from gripscale.surface.sine_fit import FACTOR_RANGE
 
 
@@ -73,6 +73,11 @@ class Source:
     draw: Draw | None = None
     """None before the source is that of a case."""
 
+    @property
+    def freedom(self) -> float | None:
+        """Degrees of freedom of what it draws from; None where nothing limits them."""
+        return self.draw.freedom if isinstance(self.draw, BlockDraw) else None
+
     def of(self, measurement: Measurement, options: SourceOptions) -> Source:
         """Return the source of a case.
 
@@ -82,8 +87,35 @@ class Source:
         return replace(self, draw=self.prepare(measurement, options))
 
 
+@dataclass(frozen=True, eq=False)
+class BlockDraw:
+    """Draws another stretch of the same road, see `ProfileBlocks`; blocks have no order."""
+
+    blocks: ProfileBlocks
+    _recut: dict[CleanedProfiles, ProfileBlocks] = field(default_factory=dict)
+
+    @property
+    def freedom(self) -> float:
+        """Degrees of freedom of the scatter of the draws: they are of so many blocks."""
+        return len(self.blocks) - 1.0
+
+    def __call__(self, _: float, random: np.random.Generator, inputs: Inputs) -> Drawn:
+        """Draw blocks of the profiles as they are cleaned in the sample."""
+        drawn, blocks = self.blocks.draw(random), self.blocks
+        if inputs.cleaned is not None:
+            if inputs.cleaned not in self._recut:
+                self._recut[inputs.cleaned] = replace(blocks, profiles=inputs.cleaned.profiles)
+            blocks = self._recut[inputs.cleaned]
+        changed = replace(
+            inputs,
+            recorrelated=partial(blocks.correlation, drawn),
+            redrawn=partial(blocks.lines, drawn),
+        )
+        return changed, self.blocks.log_ratios(drawn).tolist()
+
+
 def _profile(measurement: Measurement, options: SourceOptions) -> Draw:
-    """Draw another stretch of the same road, see `ProfileBlocks`; blocks have no order."""
+    """Draw another stretch of the same road."""
     if not measurement.fitted or not measurement.profiles:
         raise SourceNotApplicable("no profile was measured")
     if "direct" in options.models and measurement.is_map:
@@ -96,12 +128,57 @@ def _profile(measurement: Measurement, options: SourceOptions) -> Draw:
     blocks = ProfileBlocks(measurement.profiles, largest, options.block_length, surface.counted)
     if "direct" in options.models:
         blocks.require_lines()
+    return BlockDraw(blocks)
 
-    def draw(_: float, random: np.random.Generator, inputs: Inputs) -> Drawn:
-        drawn = blocks.draw(random)
-        correlation, redrawn = blocks.correlation(drawn), partial(blocks.lines, drawn)
-        changed = replace(inputs, correlation=correlation, redrawn=redrawn)
-        return changed, blocks.log_ratios(drawn).tolist()
+
+USUAL_SPIKE = 3.0
+SPIKE_RANGE = (1.5, 10.0)
+"""Change of height per step at which neighbours are a spike: ISO 13473-1 says 3; half of it marks
+many true flanks, three times of it leaves most spikes of a laser standing."""
+SPIKE_LEVELS = 8
+"""Limits a range is drawn at: the profiles are cleaned once for each."""
+
+
+def _cleaning(measurement: Measurement, options: SourceOptions) -> Draw:
+    """Draw the limit of spikes, and how the gaps they leave are filled.
+
+    Whether the limit holds across gaps is not drawn: that wears away true flanks, a third of the
+    points of a coarse road at low limits, and is a choice of the case.
+    """
+    usual, measured = measurement.cleaning, measurement.surface.measured
+    if measured is None or not usual:
+        raise SourceNotApplicable("no profile was measured")
+    if measurement.is_map:
+        raise SourceNotApplicable("a map is cleaned as the case states")
+    scale = usual["spike_slope"] / USUAL_SPIKE
+    values = Range((scale * SPIKE_RANGE[0], scale * SPIKE_RANGE[1]))
+    if options.values is not None:
+        values = Range.read("cleaning", options.values, quantities.factor)
+    elif not usual["remove_spikes"]:
+        raise SourceNotApplicable("the case leaves spikes in")
+    levels = values.levels(SPIKE_LEVELS)
+
+    @cache
+    def cleaned(slope: float) -> CleanedProfiles:
+        changed = {"remove_spikes": True, "spike_slope": slope}
+        lines = tuple(clean(raw, **{**usual, **changed})[0] for raw, _ in measured.profiles)
+        return CleanedProfiles(lines, measurement.surface.counted)
+
+    def draw(quantile: float, random: np.random.Generator, inputs: Inputs) -> Drawn:
+        slope, smooth = levels.at(quantile), bool(random.integers(2))
+        changed = replace(inputs, cleaned=cleaned(slope), smooth_gaps=smooth)
+        return changed, [math.log(slope / usual["spike_slope"]), float(smooth)]
+
+    return draw
+
+
+def _grid(measurement: Measurement, options: SourceOptions) -> Draw:
+    """Draw where within the estimated error of its grid the answer of a sample lies."""
+    if measurement.surface.measured is None:
+        raise SourceNotApplicable("no profile was measured")
+
+    def draw(quantile: float, _: np.random.Generator, inputs: Inputs) -> Drawn:
+        return inputs, [2.0 * quantile - 1.0]
 
     return draw
 
@@ -263,6 +340,14 @@ _SERIES = {
     for wave in ("largest", "smallest")
     for name, text in (("modulus", "|E*|"), ("loss", "E''/E'"))
 }
+_CLEANING = {
+    "spike_slope": Coordinate("1", "ln of the limit of spikes over that of the case", True),
+    "smooth_gaps": Coordinate("1", "1 where cubics fill the gaps, 0 for straight lines", True),
+}
+GRID_PLACE = "grid_place"
+_GRID = {
+    GRID_PLACE: Coordinate("1", "error of the grid over its estimate, from -1 to 1", True),
+}
 _BULK = {"bulk_modulus": Coordinate("Pa", "bulk modulus")}
 _EQUILIBRIUM = {"equilibrium_modulus": Coordinate("Pa", "equilibrium modulus")}
 _FACTOR = {"load_time_factor": Coordinate("1", "load time over that of the case")}
@@ -275,18 +360,21 @@ _STACK = {
 SOURCES = {
     source.name: source
     for source in (
+        Source("cleaning", "cleaning of the profiles", BOTH, _CLEANING, _cleaning),
         Source("profile", "stretch of road measured", BOTH, _BLOCKS, _profile),
+        Source("grid", "grid of the direct contact", ("direct",), _GRID, _grid),
         Source("modulus", "scatter and ends of the moduli", BOTH, _SERIES, _modulus),
         Source("bulk_modulus", "bulk modulus", BOTH, _BULK, _bulk_modulus),
         Source(
             "equilibrium_modulus", "equilibrium modulus", BOTH, _EQUILIBRIUM, _equilibrium_modulus
         ),
         Source("load_time", "load time of a wave", ("chain",), _FACTOR, _load_time),
-        Source("cut_off", "cut-off", BOTH, _END, _cut_off),
+        Source("cut_off", "cut-off of the roughness", BOTH, _END, _cut_off),
         Source("waves", "choice of sine waves", ("chain",), _STACK, _waves),
     )
 }
-"""In the order in which they are drawn: the waves are fitted last. A new one is added here."""
+"""In the order in which they are drawn: cleaned profiles are cut into blocks, the waves are fitted
+last. A new one is added here."""
 
 LABELS = {name: source.label for name, source in SOURCES.items()}
 """Names of the sources in words."""

@@ -91,10 +91,15 @@ def _profiles(surface: SurfaceTable, paths: list[Path]) -> surfaces.Measured:
     for path in paths:
         raw = surfaces.read_profile(path, **_options(surface, surfaces.read_profile))
         with about_file(path, InputError):
-            cleaned, report = surfaces.clean(raw, **_options(surface, surfaces.clean))
+            cleaned, report = surfaces.clean(raw, **cleaning_options(surface))
         profiles.append((raw, cleaned))
         reports.append(report)
     return surfaces.Measured(profiles, reports, None, "")
+
+
+def cleaning_options(surface: SurfaceTable) -> dict[str, Any]:
+    """Return the arguments of `gripscale.clean` that a case states for its profiles."""
+    return _options(surface, surfaces.clean)
 
 
 def _map(surface: SurfaceTable, path: Path) -> surfaces.Measured:

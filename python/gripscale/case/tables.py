@@ -239,7 +239,15 @@ class ChainOptions(Table):
 FEWEST_SAMPLES, MOST_SAMPLES, MOST_SEED = 10, 100_000, 2**32 - 1
 
 SourceName = Literal[
-    "profile", "modulus", "bulk_modulus", "equilibrium_modulus", "load_time", "cut_off", "waves"
+    "cleaning",
+    "profile",
+    "grid",
+    "modulus",
+    "bulk_modulus",
+    "equilibrium_modulus",
+    "load_time",
+    "cut_off",
+    "waves",
 ]
 """What may be taken to be uncertain."""
 
@@ -278,6 +286,8 @@ Factors = Annotated[list[float], _values(FACTOR)]
 class RangesTable(Table):
     """What is known of a source, in place of its default: two ends, or equally likely values."""
 
+    cleaning: Factors | None = None
+    """Change of height per step that is a spike; by default half to 3.3 times that of the case."""
     bulk_modulus: Moduli | None = None
     """Bulk modulus of the rubber; by default 1.5 times less to 1.5 times more."""
     equilibrium_modulus: Moduli | None = None
@@ -297,8 +307,8 @@ class UncertaintyTable(Table):
     """Samples of all that is not known at once."""
     seed: int = Field(default=0, ge=0, le=MOST_SEED)
     """Seed of the random numbers."""
-    model: Literal["chain", "direct", "both"] = "chain"
-    """What predicts each sample."""
+    model: Literal["chain", "direct", "both"] | None = None
+    """What predicts each sample; direct where profiles were measured by default, else the chain."""
     without: list[SourceName] = Field(default=[])
     """Sources that are taken to be known."""
     ranges: RangesTable | None = None

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
+from gripscale.analysis.sampled_answer import NOT_ALONE, TOGETHER
 from gripscale.analysis.variance_shares import SIGNIFICANCE
 from gripscale.charts import draw
 from gripscale.charts.chart import Axis, Band, Bars, CrossLine, Mark, Panel, Series, Sheet
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 
 TOTALS = {name: f"{title} [-]" for name, title in reversed(AXIS_TITLES.items())}
 """Titles of axes."""
+SYMBOL_TEXTS = {"friction": "$\\mu$", "contact_fraction": "$A_r/A_0$"}
 MOST_BINS = 24
 MEDIAN, END = 1.6, 0.9
 """Widths of the lines at median and ends."""
@@ -37,15 +39,23 @@ def axis_of(data: xr.Dataset) -> str:
 
 
 def uncertainty_pictures(data: xr.Dataset) -> Iterator[Picture]:
-    """Yield bands where a load is varied, else distributions and what matters most."""
+    """Yield the parts of the interval, distributions and what matters most; of loads bands."""
     if axis := axis_of(data):
         yield Picture(
             f"over_{axis}",
             band_figure(data, axis),
-            f"Medians over the {axis}, with bands of 50 and 90 % of the samples.",
+            f"The answer over the {axis} with its 90 % interval, and of each model the median with "
+            "bands of 50 and 90 % of the samples.",
             f"Friction and contact area over the {axis} with their bands.",
         )
         return
+    if data.sizes.get("part") and np.isfinite(data.best_contact_fraction_uncertainty):
+        yield Picture(
+            "answer",
+            parts_figure(data),
+            "What the interval of the answer is made of: standard errors, which add up in squares.",
+            "Bars for each part of the interval, the most important on top.",
+        )
     yield Picture(
         "distributions",
         distribution_figure(data),
@@ -62,6 +72,31 @@ def uncertainty_pictures(data: xr.Dataset) -> Iterator[Picture]:
                 "of the variance.",
                 "Bars for each source, the most important on top.",
             )
+
+
+def parts_figure(data: xr.Dataset) -> Figure:
+    """Draw the standard errors that the interval of an answer is made of, the largest on top."""
+    names = [name for name in TOTALS if np.isfinite(data[f"best_{name}_uncertainty"])]
+    ranked = np.argsort(data[f"best_{names[0]}_part_error"].values, kind="stable")
+    labels = data.part_label.values[ranked]
+    drawn = {*data.label.values.tolist(), NOT_ALONE, TOGETHER}
+    rows = Axis(ticks={float(row): str(label) for row, label in enumerate(labels)})
+    panels = []
+    for name in names:
+        sigma = 100.0 * data[f"best_{name}_part_error"].values[ranked]
+        bars: list[Mark] = [
+            Bars(0.0, error, row - 0.3, row + 0.3, BLUE if label in drawn else ORANGE)
+            for row, (label, error) in enumerate(zip(labels, sigma, strict=True))
+        ]
+        panels.append(
+            Panel(Axis(f"standard error of {SYMBOL_TEXTS[name]} [%]", low=0.0), rows, bars)
+        )
+    keys = [
+        Bars(0, 0, 0, 0, BLUE, "drawn of the inputs"),
+        Bars(0, 0, 0, 0, ORANGE, "of the model"),
+    ]
+    height = 1.2 + 0.3 * len(ranked)
+    return draw.on_paper(Sheet(panels, height=height, keys=keys, gap=0.03, layout={"sharey": True}))
 
 
 def distribution_figure(data: xr.Dataset) -> Figure:
@@ -145,7 +180,7 @@ def tornado_figure(data: xr.Dataset) -> Figure:
 
 
 def band_figure(data: xr.Dataset, axis: str) -> Figure:
-    """Draw medians over what is varied, with bands of 50 and 90 % of the samples."""
+    """Draw the answer over what is varied, and medians with bands of 50 and 90 % of samples."""
     abscissa, x = varied_axis(data, axis)
     panels = []
     for name, label in TOTALS.items():
@@ -160,6 +195,12 @@ def band_figure(data: xr.Dataset, axis: str) -> Figure:
                 Series(x, samples[f"{name}_case"].values, colour, dash="", marker="o", size=3.5,
                        filled=False, clip=False),
             ]  # fmt: skip
+        best, sigma = (data[f"best_{name}{end}"].values for end in ("", "_half_width"))
+        low, high = (best * np.exp(sign * np.arcsinh(sigma)) for sign in (-1.0, 1.0))
+        marks += [
+            Band(x, low, high, INK, alpha=0.12),
+            Series(x, best, INK, "answer, 90 %"),
+        ]
         panels.append(Panel(abscissa, Axis(label, low=0.0), marks))
     case = Series([], [], INK, "the case itself", dash="", marker="o", size=3.5, filled=False)
     return draw.on_paper(Sheet(panels, keys=[case]))

@@ -100,13 +100,17 @@ def uncertainty(
         int | None, option("Samples, of all inputs at once; 200 by default.")
     ] = None,
     model: Annotated[
-        str | None, option("chain (the default), direct (contact of the whole profile) or both.")
+        str | None,
+        option(
+            "direct (contact of the whole profile, the default where one was measured), chain or "
+            "both."
+        ),
     ] = None,
     without: Annotated[
         list[str] | None,
         option(
-            "A source to be left out: profile, modulus, bulk_modulus, equilibrium_modulus, "
-            "load_time, cut_off, waves. May be given several times.",
+            "A source to be left out: cleaning, profile, grid, modulus, bulk_modulus, "
+            "equilibrium_modulus, load_time, cut_off, waves. May be given several times.",
             metavar="NAME",
         ),
     ] = None,
@@ -114,8 +118,9 @@ def uncertainty(
         list[str] | None,
         option(
             "What is known of a source, in place of its default: two ends as "
-            "bulk_modulus='1.5 GPa:3 GPa', cut_off='50 um:200 um', load_time=0.5:2 (factors), or "
-            "equally likely values as waves=6,8. May be given several times.",
+            "bulk_modulus='1.5 GPa:3 GPa', cut_off='50 um:200 um', cleaning=1.5:10 (height per "
+            "step that is a spike), load_time=0.5:2 (factors), or equally likely values as "
+            "waves=6,8. May be given several times.",
             "--range",
             metavar="NAME=VALUES",
         ),
@@ -146,21 +151,24 @@ def uncertainty(
     workers: Workers = None,
     cluster: Cluster = None,
 ) -> None:
-    """Sample what is not known of a case: quantiles, what matters most; resumes where stopped.
+    """Answer with what is not known of the inputs, and what matters most; resumes where stopped.
 
     Options go before what the case states in its table [uncertainty].
     """
-    from gripscale.analysis.propagation import BOTH, VARIED, propagate
+    from gripscale.analysis.propagation import BOTH, RESULT, VARIED, propagate, stated_models
     from gripscale.analysis.sampled_inputs import length
     from gripscale.analysis.sampling import Uncertainty
     from gripscale.case import folder, read_case
     from gripscale.charts.uncertainty import uncertainty_pictures
     from gripscale.charts.write import draw
     from gripscale.core import checks
+    from gripscale.core.parallel import worker_count
     from gripscale.experiment.axis import parse_vary
+    from gripscale.experiment.solve import PROCESSES
+    from gripscale.half_space.model import DirectContact
     from gripscale.report.uncertainty import failures, uncertainty_parts
 
-    models = None if model is None else BOTH[checks.one_of("model", model, BOTH)]
+    models = () if model is None else BOTH[checks.one_of("model", model, BOTH)]
     axes = None if vary is None else dict([parse_vary(vary, VARIED)])
     blocks = None if block_length is None else length(block_length)
     values: dict[str, str] = {}
@@ -175,6 +183,9 @@ def uncertainty(
     choice = Uncertainty.of_case(
         file.case.uncertainty, without=without or None, ranges=values, block_length=blocks
     )
+    models = models or stated_models(file, choice)
+    if cluster is None and DirectContact.name in models and worker_count(workers) > 1:
+        cluster = PROCESSES
     console, target = terminal.open_folder(
         file, output, "uncertainty", f"Uncertainty of {file.path}"
     )
@@ -200,6 +211,7 @@ def uncertainty(
         text="uncertainty.txt",
         closing="Result (uncertainty.nc), tables and figures are in",
         draw=lambda: draw(uncertainty_pictures(data), figures),
+        page=RESULT,
         failure=str(failures(data) or ""),
     )
 

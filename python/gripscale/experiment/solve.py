@@ -3,10 +3,13 @@
 Answers are written by the calling thread only, in whatever order they come; an answer depends on
 its task alone, so neither the order nor the number of workers changes a bit of it.
 
-On one machine the workers are threads: nearly all time is spent in the compiled kernel, which
-leaves Python's lock free. Measured on two cores with six chains of eight waves: one thread 7.8 s,
-two threads 4.6 s, two processes 3.9 s once they have started, which takes them 1 to 2 s. Threads
-need no guard in the caller's script; `client="local"` gives processes.
+On one machine the workers are threads: a chain spends nearly all its time in the compiled kernel,
+which leaves Python's lock free. Measured on two cores with six chains of eight waves: one thread
+7.8 s, two threads 4.6 s, two processes 3.9 s once they have started, which takes them 1 to 2 s.
+Threads need no guard in the caller's script. The direct contact consists of many short transforms
+and takes the lock between them: eleven contacts took 13.8 s of one thread and 13.9 s of two. For
+these `client="processes"` is worth its start; the caller's script then needs the guard
+`if __name__ == "__main__"`.
 
 On a Dask cluster (`pip install gripscale[cluster]`) tasks go to whatever workers there are and
 answers come back to the caller, which stores them: the workers need gripscale but no common file
@@ -16,7 +19,12 @@ system. A worker that dies loses only the prediction it was solving; its tasks g
 from __future__ import annotations
 
 import importlib
+import multiprocessing
+import signal
+import warnings
 from collections.abc import Callable, Generator, Iterator, Mapping
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
 from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass
 from functools import partial
@@ -26,10 +34,11 @@ from typing import Any
 
 import xarray as xr
 
-from gripscale.core.errors import ConvergenceError, InputError
+from gripscale.core.errors import ConvergenceError, InputError, RubberWarning
 from gripscale.core.parallel import in_threads, sharing, worker_count
 from gripscale.core.provenance import software
 from gripscale.experiment.task import PREDICTIONS, Solved, Store, Task
+from gripscale.io import netcdf
 
 
 @dataclass(frozen=True)
@@ -61,7 +70,8 @@ class Bench:
     workers: int | None = None
     """Threads, or processes of a local cluster; one per core by default."""
     client: Any = None
-    """None: threads of this process. "local": a Dask cluster of processes on this machine.
+    """None: threads of this process. "processes": processes on this machine. "local": the same by
+    a Dask cluster, which replaces those that die.
     "tcp://...": the address of a Dask scheduler. Or a `distributed.Client`."""
     on_task: OnTask | None = None
     """Called after each task with its `Progress`."""
@@ -109,11 +119,15 @@ class Bench:
         count = worker_count(self.workers)
         with ExitStack() as ending:
             solve: Solve = partial(_in_threads, workers=count)
-            if missing and self.client is not None:
+            if missing and self.client == PROCESSES:
+                solve = partial(_in_processes, workers=min(count, len(missing)))
+            elif missing and self.client is not None:
                 solve = ending.enter_context(cluster(self.client, count))
             for key, solved, seconds in ending.enter_context(closing(solve(missing))):
-                answer = self.store.put(key, solved.assign_attrs(seconds=seconds))
-                finish(key, answer, seconds, stored=False)
+                answer = solved.assign_attrs(seconds=seconds)
+                path = self.store.put(key, answer)
+                # a reduction takes the same numbers from either; a whole answer is as read back
+                finish(key, answer if pick else netcdf.load(path), seconds, stored=False)
         return answers
 
 
@@ -162,6 +176,32 @@ def solve_all(
 def _in_threads(tasks: list[Task], workers: int) -> Generator[Solved, None, None]:
     with closing(in_threads([task.solve for task in tasks], workers)) as stream:
         yield from (solved for _, solved in stream)
+
+
+PROCESSES = "processes"
+
+
+def _in_processes(tasks: list[Task], workers: int) -> Generator[Solved, None, None]:
+    """Yield results as they come; an interrupt waits for the tasks that are being solved."""
+    context = multiprocessing.get_context("spawn")  # a fork would lack the threads of the kernel
+    with ProcessPoolExecutor(workers, context, _ignore_interrupts) as pool:
+        try:
+            futures = [pool.submit(_alone, task.reduced()) for task in tasks]
+            for future in as_completed(futures):
+                yield future.result()
+        except BrokenProcessPool as error:
+            raise ConvergenceError(
+                "a process that solved a prediction ended; the machine may be short of memory "
+                "(use fewer workers, or run again: what was solved is kept)"
+            ) from error
+        finally:
+            pool.shutdown(cancel_futures=True)
+
+
+def _ignore_interrupts() -> None:
+    """Leave Ctrl-C, which reaches all processes of a terminal, to the one that asked for them."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    warnings.simplefilter("ignore", RubberWarning)  # the caller has seen those of its inputs
 
 
 CONNECT_SECONDS = 10

@@ -151,9 +151,9 @@ class Store:
         data = load_stored(self.path(key))
         return data if data is not None and data.attrs.get("prediction_key") == key else None
 
-    def put(self, key: str, solved: xr.Dataset) -> xr.Dataset:
-        """Write the prediction of `key` and return it as read back.
+    def put(self, key: str, solved: xr.Dataset) -> Path:
+        """Write the prediction of `key`; return the path of its file.
 
         Raises `FileError` if it cannot be written.
         """
-        return netcdf.load(netcdf.save(solved, self.path(key)))
+        return netcdf.save(solved, self.path(key))

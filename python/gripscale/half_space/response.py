@@ -44,13 +44,24 @@ class HalfSpace:
     """Factor of the loss angle at unchanged |M|, 0 to 1; 1 is the rubber itself."""
     by_scale: RubberByScale | None = None
     """The rubber at each scale under conditions."""
+    _of_lines: dict[tuple[float, ...], ComplexArray] = field(
+        default_factory=dict, repr=False, compare=False
+    )
+    """E* at the wavenumbers of the finest line so far, by its length: coarser lines have the first
+    of them, to the last bit where the points differ by powers of two."""
 
     def young_modulus(self, grid: Grid) -> ComplexArray:
         """Return E* [Pa] at the wavenumbers of `grid`, broadcastable to its spectrum."""
         omega = self.speed * grid.along
-        if self.by_scale is None:
+        if self.by_scale is not None:
+            return self.by_scale.complex_modulus(omega, grid.wavenumber)
+        if len(grid.shape) > 1:
             return self.rubber.complex_modulus(omega)
-        return self.by_scale.complex_modulus(omega, grid.wavenumber)
+        value = self._of_lines.get(grid.lengths, np.empty(0, dtype=complex))
+        if value.size < omega.size:
+            new = self.rubber.complex_modulus(omega[value.size :])
+            value = self._of_lines[grid.lengths] = np.concatenate([value, new])
+        return value[: omega.size]
 
     def modulus(self, grid: Grid) -> ComplexArray:
         """Return M [Pa] at the wavenumbers of `grid`, broadcastable to its spectrum."""

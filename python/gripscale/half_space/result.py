@@ -22,6 +22,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from dataclasses import fields as fields_of
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -289,8 +290,14 @@ class RoughContact:
 
     def lost_by_harmonic(self) -> Array:
         """Return the friction each harmonic adds [-], over the half spectrum of the grid."""
+        return self._lost
+
+    @cached_property
+    def _lost(self) -> Array:
         body = HalfSpace(self.rubber, self.speed, by_scale=self.by_scale)
-        return lost_by_harmonic(body.compliance(self.grid), self.grid, self.pressure)
+        lost = lost_by_harmonic(body.compliance(self.grid), self.grid, self.pressure)
+        lost.flags.writeable = False
+        return lost
 
     def _positions(self, axis: int) -> Array:
         offset = self.grid.spacing[axis] * np.arange(self.grid.shape[axis], dtype=float)

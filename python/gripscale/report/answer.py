@@ -15,6 +15,8 @@ from gripscale import model
 from gripscale.analysis.best_estimate import IsotropicSurface
 from gripscale.analysis.intervals import LEVEL, interval_ends
 from gripscale.analysis.ladder import DIRECT
+from gripscale.analysis.sampled_answer import FRICTION_BELOW_MEASUREMENT
+from gripscale.chain.chain import Chain
 from gripscale.charts.view import HEADINGS, SYMBOLS
 from gripscale.core.units import display_unit_of, in_mm
 from gripscale.io.table import significant
@@ -182,15 +184,17 @@ def _sampled_too_little(data: xr.Dataset) -> Iterator[str]:
     """Yield that the surface is too small for an interval, or for one that says something."""
     widths = [float(data[f"best_{name}_half_width"]) for name in _of(data)]
     if not math.isfinite(float(data.best_contact_fraction_half_width)):
+        if not is_measured(data):
+            yield "Fewer than two samples have an answer."
+            return
         yield (
             "The measured surface is too small to tell how well it represents its road: it holds "
             "fewer than four pieces of two largest waves."
         )
     elif any(math.asinh(width) > math.log(2.0) for width in widths if math.isfinite(width)):
-        yield (
-            "The interval is more than a factor of two either way: the measured surface is too "
-            "small to represent its road."
-        )
+        # the parts of an interval that is sampled say why
+        why = "" if "part_label" in data else ": the measured surface is too small for its road"
+        yield f"The interval is more than a factor of two either way{why}."
 
 
 def _moving(data: xr.Dataset) -> bool:
@@ -209,19 +213,20 @@ def answer_cards(data: xr.Dataset) -> Iterator[Card]:
     source = "not to be relied on" if no_answer(data) else "best estimate"
     for name in _of(data):
         title = f"{HEADINGS[name].capitalize()} {SYMBOLS[name]}"
-        interval = _interval(data, name)
-        detail = f"{source}; {interval} ({100.0 * LEVEL:.0f} %)" if interval else source
+        ends = interval(data, name)
+        detail = f"{source}; {ends} ({100.0 * LEVEL:.0f} %)" if ends else source
         value = significant(float(data[f"best_{name}"]))
         yield Card(title, value, detail, bad=bool(no_answer(data)))
 
 
 def number_and_interval(data: xr.Dataset, name: str) -> str:
     """Return a best estimate and its interval, such as `0.19 (0.15 to 0.23)`."""
-    interval = _interval(data, name)
-    return f"{significant(float(data[f'best_{name}']))}{f' ({interval})' if interval else ''}"
+    ends = interval(data, name)
+    return f"{significant(float(data[f'best_{name}']))}{f' ({ends})' if ends else ''}"
 
 
-def _interval(data: xr.Dataset, name: str) -> str:
+def interval(data: xr.Dataset, name: str) -> str:
+    """Return the interval of a best estimate, such as `0.15 to 0.23`; empty if there is none."""
     ends = interval_ends(data[f"best_{name}"], data[f"best_{name}_half_width"])
     low, high = map(float, ends)
     return f"{significant(low)} to {significant(high)}" if math.isfinite(low) else ""
@@ -233,9 +238,17 @@ def _level(data: xr.Dataset) -> str:
     return " without an interval"
 
 
+def is_measured(data: xr.Dataset) -> bool:
+    """Return whether an answer is of a measured surface: otherwise it is the chain's."""
+    total = data.get("total_friction")
+    return total is None or total.attrs.get("source") != Chain.name
+
+
 def _factors(data: xr.Dataset, names: tuple[str, ...]) -> Iterator[str]:
     """Yield the direct contact and each factor on it, friction first."""
-    yield "the direct contact of the measured surface"
+    yield (
+        "the direct contact of the measured surface" if is_measured(data) else "the chain of waves"
+    )
     for at, label in enumerate(data.factor_label.values):
         values = [float(data[f"best_{name}_factor"][at]) for name in names]
         if not all(map(math.isfinite, values)):
@@ -251,6 +264,13 @@ def _rests_on(data: xr.Dataset, name: str) -> Iterator[str]:
     sampling = float(data[f"best_{name}_sampling_error"])
     if math.isfinite(sampling):
         yield f"sampling of the road ± {percent(sampling)} (standard error)"
+    below = data.get(FRICTION_BELOW_MEASUREMENT)
+    if below is not None and not below.ndim and float(below) > WORTH_NAMING:
+        limit = in_mm(float(data.resolution_limit), 3)
+        yield (
+            f"{percent(float(below))} of the friction in waves shorter than {limit}, which were "
+            "not measured"
+        )
     labels = data.factor_label.values
     if IsotropicSurface.label in labels:
         yield "a road without direction is assumed: ridges 3:1 change the area by up to 1.7"

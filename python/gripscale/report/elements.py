@@ -108,6 +108,8 @@ class Section:
     name: str
     title: str
     elements: Sequence[Element]
+    folded: bool = False
+    """Whether the reader has to open it."""
 
 
 @dataclass(frozen=True)

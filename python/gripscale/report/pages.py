@@ -20,7 +20,7 @@ from gripscale.charts.sensitivity import sensitivity_charts
 from gripscale.charts.side_by_side import compound_pictures, road_pictures
 from gripscale.charts.study import study_charts
 from gripscale.charts.surface import correlation_charts, profile_charts
-from gripscale.charts.uncertainty import calibration_pictures, uncertainty_pictures
+from gripscale.charts.uncertainty import calibration_pictures
 from gripscale.charts.view import SYMBOLS
 from gripscale.charts.wave_and_chain import contact_charts, verification_charts
 from gripscale.core.provenance import versions
@@ -86,10 +86,6 @@ COMPOUNDS = (
     "Each compound on the same road under the same load. A range is what the measured moduli leave "
     "open; a difference lies beyond it where its own range does not hold zero."
 )
-UNCERTAINTY = (
-    "The case was solved many times, each time with other values of the inputs that are not known "
-    "exactly. 90 % of the samples lie between the quantiles of 5 and 95 %."
-)
 CALIBRATION = (
     "A law of the shear stress in the real contact area, fitted so that the predicted hysteresis "
     "and this area term together give the measured friction. The hysteresis is not fitted."
@@ -133,11 +129,6 @@ def _page(
     chapters = [section for section in sections if section.elements]
     lines = () if answered is None else tuple(answer.basis_lines(answered))
     return Page(title, subtitle, ranked(heads), list(numbers), chapters, lines)
-
-
-def _elements(parts: Iterable[str | Table]) -> list[Element]:
-    """Return sentences as paragraphs, tables as they are."""
-    return [Text(part) if isinstance(part, str) else part for part in parts]
 
 
 def run_page(run: Run) -> Page:
@@ -444,23 +435,18 @@ def uncertainty_page(source: Study) -> Page:
     """Return the report of an uncertainty."""
     data = source.data
     case = case_name(data.attrs)
-    failed = uncertainty.failures(data)
     return _page(
-        f"{data.attrs.get('title', 'Uncertainty')}{f': {case}' if case else ''}",
-        f"{data.sizes['sample']} samples; {', '.join(str(name) for name in data.model.values)}",
-        [Notice("error", f"{notices.explained(failed)}.")] if failed else [],
-        uncertainty.uncertainty_cards(data),
+        f"Friction and contact area, inputs sampled{f': {case}' if case else ''}",
+        uncertainty.subtitle(data),
+        uncertainty.page_notices(data),
+        uncertainty.page_cards(data),
         [
-            Section(
-                "result",
-                "Quantiles, and what matters most",
-                [Text(UNCERTAINTY), *_elements(uncertainty.uncertainty_parts(data))],
-            ),
-            Section("figures", "Figures", list(map(image, uncertainty_pictures(data)))),
+            *uncertainty.page_sections(data),
             rerun_section(
                 data.attrs, shlex.join(["gripscale", "uncertainty", case or "case.toml"])
             ),
         ],
+        data,
     )
 
 
@@ -468,7 +454,10 @@ def calibration_page(source: Study) -> Page:
     """Return the report of a calibration."""
     data = source.data
     case, failed = case_name(data.attrs), calibration.failures(data)
-    tables, facts = _elements(calibration.calibration_parts(data)), calibration.law_facts(data)
+    tables, facts = (
+        uncertainty.as_elements(calibration.calibration_parts(data)),
+        calibration.law_facts(data),
+    )
     fit, residuals, profiles = map(image, calibration_pictures(data))
     return _page(
         f"{data.attrs.get('title', 'Calibration')}{f': {case}' if case else ''}",
@@ -494,7 +483,7 @@ def sensitivity_page(source: Study) -> Page:
         [Notice("error", notices.explained(each)) for each in sensitivity.failures(data)],
         sensitivity.cards(data),
         [
-            Section("effects", "What the friction depends on", _elements(parts)),
+            Section("effects", "What the friction depends on", uncertainty.as_elements(parts)),
             Section(
                 "curves", "Over the master curve", [Text(SENSITIVITY), *sensitivity_charts(data)]
             ),

@@ -10,21 +10,37 @@ from itertools import pairwise
 import numpy as np
 import xarray as xr
 
+from gripscale.analysis.intervals import LEVEL, interval_ends
+from gripscale.analysis.ladder import DIRECT
 from gripscale.analysis.propagation import LEVELS, QUANTITIES, of_same_inputs, summary
+from gripscale.analysis.sampled_answer import NOT_ALONE, RUN
 from gripscale.analysis.variance_shares import SIGNIFICANCE
-from gripscale.charts.uncertainty import axis_of
+from gripscale.charts.blocks import image
+from gripscale.charts.uncertainty import axis_of, uncertainty_pictures
 from gripscale.charts.view import CONVERGED, SYMBOLS
 from gripscale.experiment.axis import name_of
-from gripscale.io.table import Column, Table
+from gripscale.io.table import Column, Table, percent
 from gripscale.model import status_words
-from gripscale.report.elements import Card
-from gripscale.report.notices import Failure
+from gripscale.report.answer import (
+    answer_cards,
+    answer_lines,
+    has_answer,
+    interval,
+    is_measured,
+    number_and_interval,
+)
+from gripscale.report.elements import Card, Element, Notice, Section, Text
+from gripscale.report.notices import Failure, explained
 
 HEADS = {name: SYMBOLS[name] for name in QUANTITIES}
 """Symbols of the quantities, in their order."""
 OF_ANOTHER = (
     "The uncertainty in this folder is of another case and is left out; run `gripscale "
     "uncertainty` again."
+)
+UNCERTAINTY = (
+    "The case was solved many times, each time with other values of the inputs that are not known "
+    "exactly. 90 % of the samples of a model lie between its quantiles of 5 and 95 %."
 )
 SUMMARY = (0.05, 0.5, 0.95)
 """Quantiles in the summaries of other reports."""
@@ -43,22 +59,130 @@ def places(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
 
 
 def uncertainty_parts(data: xr.Dataset) -> Iterator[str | Table]:
-    """Yield tables and sentences of an uncertainty."""
+    """Yield the answer, what matters most to it, the quantiles of the models, then warnings."""
+    yield from answer_parts(data)
+    yield from part_tables(data)
     yield quantile_table(data)
+    if not axis_of(data):
+        yield f"{summary(data)}."
+    yield from share_parts(data)
+    yield from warning_sentences(data)
+
+
+def answer_parts(data: xr.Dataset) -> Iterator[str | Table]:
+    """Yield the answer with what its interval holds; at several loads a table of answers."""
+    axis = axis_of(data)
+    if not axis:
+        first, *below = answer_lines(data)
+        yield from (first, f"  {interval_sentence(data)}", *below)
+        return
+    yield answer_table(data, axis)
+    yield interval_sentence(data)
+
+
+def answer_table(data: xr.Dataset, axis: str) -> Table:
+    """Return the answer at each load."""
+    parts = [data.isel({axis: at}) for at in range(data.sizes[axis])]
+    columns = [Column(axis, [name_of(data, axis, at) for at in range(len(parts))])]
+    for name, symbol in HEADS.items():
+        values = [float(part[f"best_{name}"]) for part in parts]
+        columns.append(Column(f"best_{name}", values, symbol))
+        ends = np.array(
+            [interval_ends(part[f"best_{name}"], part[f"best_{name}_half_width"]) for part in parts]
+        )
+        columns.append(Column(f"{name}_interval", ends, f"{100.0 * LEVEL:.0f} % interval"))
+    return Table("answers", columns, f"Answer by {axis}", keys=1)
+
+
+def interval_sentence(data: xr.Dataset) -> str:
+    """Return what the interval of an answer holds, and how that of `gripscale run` differs."""
+    count = data.sizes["sample"]
+    if not is_measured(data):
+        return (
+            f"interval: {count} samples of what is not known of the inputs, of the chain alone; no "
+            "surface was measured that could judge it"
+        )
+    if DIRECT not in data.model.values:
+        return (
+            "interval: that of `gripscale run`, without errors of the inputs: the direct contact "
+            "was not sampled (--model direct or both)"
+        )
+    text = f"interval: what is not known of the inputs, drawn in {count} samples, is in it"
+    widths = [data[f"best_{name}_{RUN}"] for name in HEADS]
+    if axis_of(data) or not all(np.isfinite(width) for width in widths):
+        return f"{text}; `gripscale run` states sampling of the road, grid and factors only"
+    of_run = data.assign({f"best_{name}_half_width": data[f"best_{name}_{RUN}"] for name in HEADS})
+    ranges = ", ".join(f"{symbol} {interval(of_run, name)}" for name, symbol in HEADS.items())
+    return f"{text}; `gripscale run`, without them: {ranges}"
+
+
+def part_tables(data: xr.Dataset) -> Iterator[Table]:
+    """Yield what the interval of the answer is made of, at each load, most first."""
+    axis = axis_of(data)
+    loads = [("", data)]
+    if axis:
+        labels = [f" ({axis} {name_of(data, axis, at)})" for at in range(data.sizes[axis])]
+        loads = [(label, data.isel({axis: at})) for at, label in enumerate(labels)]
+    for title, part in loads:
+        if has_answer(part) and part.sizes["part"]:
+            yield part_table(part, f"What matters most to the answer{title}")
+
+
+def part_table(part: xr.Dataset, title: str) -> Table:
+    """Return the parts of the interval of an answer: standard errors and shares of variance."""
+    moving = float(part.nominal_speed) > 0.0
+    names = [name for name in HEADS if moving or name != "friction"]
+    ranked = np.argsort(-part[f"best_{names[0]}_part_error"].values, kind="stable")
+    columns = [Column("part", part.part_label.values[ranked].tolist(), "not known")]
+    for name in names:
+        sigma = part[f"best_{name}_part_error"].values[ranked]
+        share = sigma**2 / float(part[f"best_{name}_uncertainty"]) ** 2
+        columns += [
+            Column(f"{name}_error", sigma, "±", group=HEADS[name], format=percent),
+            Column(f"{name}_share", share, "share", group=HEADS[name], format="{:.0%}".format),
+        ]
+    error = part[f"best_{names[0]}_part_share_error"].values[ranked]
+    notes = ["±: standard error of the logarithm; share: of its square in that of the interval."]
+    if NOT_ALONE in part.part_label.values:
+        notes.append(
+            f"{NOT_ALONE[0].upper()}{NOT_ALONE[1:]}: steps, interactions, and what a stretch of "
+            "road does beyond its correlation."
+        )
+    unseen = [
+        str(label)
+        for label, value, scatter in zip(columns[0].values, columns[2].values, error, strict=True)
+        if np.isfinite(scatter) and value < SIGNIFICANCE * scatter
+    ]
+    if unseen:
+        count = part.sizes["sample"]
+        notes.append(f"No significant effect with {count} samples: {', '.join(unseen)}.")
+    return Table("parts", columns, title, notes)
+
+
+def share_parts(data: xr.Dataset) -> Iterator[str | Table]:
+    """Yield what matters most to the samples of a model whose answer has no parts."""
     without_shares = []
     for title, part in places(data):
         if np.isfinite(part.friction_share).any():
-            yield share_table(part, title)
+            if str(part.model.item()) != DIRECT:
+                yield share_table(part, title)
         elif int(part.failed) < part.sizes["sample"]:
             without_shares.append(title)
     if without_shares:
         where = "; ".join(without_shares)
         yield f"Too few samples, or no friction, to find what matters most: {where}."
+
+
+def warning_sentences(data: xr.Dataset) -> Iterator[str]:
+    """Yield what the reader is to know of grids, sources left out and failures."""
     yield from grid_sentences(data)
-    yield from (f"Not sampled: {why}." for why in json.loads(data.attrs["left_out"]))
-    if not axis_of(data):
-        yield f"{summary(data)}."
+    yield from left_out_sentences(data)
     yield from map(str, filter(None, [failures(data)]))
+
+
+def left_out_sentences(data: xr.Dataset) -> Iterator[str]:
+    """Yield which sources were not sampled, and why."""
+    yield from (f"Not sampled: {why}." for why in json.loads(data.attrs["left_out"]))
 
 
 def quantile_table(data: xr.Dataset) -> Table:
@@ -139,6 +263,7 @@ def order_sentences(part: xr.Dataset) -> list[str]:
 
 def grid_sentences(data: xr.Dataset) -> Iterator[str]:
     """Yield the estimated errors of the grids of the direct contact, if it was sampled."""
+    drawn = "grid" in data.source.values
     for name in data.model.values:
         model = data.sel(model=name)
         errors = {head: model[f"{key}_grid_error"].values for key, head in HEADS.items()}
@@ -150,7 +275,8 @@ def grid_sentences(data: xr.Dataset) -> Iterator[str]:
         if texts:
             yield (
                 f"{name}: the estimated error of the grid of a sample is {' and '.join(texts)} "
-                "(median). The quantiles do not include it; --tolerance makes it smaller."
+                f"(median), {'drawn' if drawn else 'not'} in its quantiles; the grid of the answer "
+                "is finer. --tolerance makes it smaller."
             )
 
 
@@ -194,23 +320,43 @@ def uncertainty_lines(
     axis = axis_of(data)
     if axis:
         return [f"The uncertainty of this case was sampled over {axis}: see uncertainty.txt."]
+    parts = [data.sel(model=name) for name in data.model.values]
+    count = _samples(parts[0])
+    answered = ", ".join(
+        f"{head} = {number_and_interval(data, name)}" for name, head in _widened(data)
+    )
     return [
-        f"Uncertainty, {part.model.item()}, 5, 50 and 95 % of {_samples(part)}: "
-        + "; ".join(f"{head} = {', '.join(numbers)}" for head, numbers in _quantiles(part))
-        for part in (data.sel(model=name) for name in data.model.values)
+        *([f"With what is not known of the inputs, {count}: {answered}"] if answered else []),
+        *(
+            f"Uncertainty, {part.model.item()}, 5, 50 and 95 % of {_samples(part)}: "
+            + "; ".join(f"{head} = {', '.join(numbers)}" for head, numbers in _quantiles(part))
+            for part in parts
+        ),
     ]
 
 
 def uncertainty_cards(data: xr.Dataset | None) -> list[Card]:
-    """Return a card with 5 and 95 % of each quantity and model, the median below."""
+    """Return the interval of the answer with errors of the inputs, or quantiles of each model."""
     if data is None or axis_of(data):
         return []
-    return [
+    count = _samples(data.isel(model=0))
+    detail = f"{100.0 * LEVEL:.0f} % interval of the best estimate; {count}"
+    cards = [
+        Card(f"{head}, inputs sampled", interval(data, name), detail)
+        for name, head in _widened(data)
+    ]
+    return cards or [
         Card(f"{head}, 5 to 95 %", f"{low} to {high}", f"{name}: median {median}; {_samples(part)}")
         for name in data.model.values.tolist()
         for part in [data.sel(model=name)]
         for head, (low, median, high) in _quantiles(part)
     ]
+
+
+def _widened(data: xr.Dataset) -> Iterator[tuple[str, str]]:
+    """Yield name and symbol of each number whose interval holds errors of the inputs."""
+    if has_answer(data) and (DIRECT in data.model.values or not is_measured(data)):
+        yield from ((name, head) for name, head in HEADS.items() if interval(data, name))
 
 
 def _quantiles(part: xr.Dataset) -> Iterator[tuple[str, list[str]]]:
@@ -224,3 +370,55 @@ def _quantiles(part: xr.Dataset) -> Iterator[tuple[str, list[str]]]:
 def _samples(part: xr.Dataset) -> str:
     failed, count = int(part.failed), part.sizes["sample"]
     return f"{count} samples" if not failed else f"{count - failed} of {count} samples"
+
+
+def subtitle(data: xr.Dataset) -> str:
+    """Return how many samples of which models a page is of."""
+    models = ", ".join(str(name) for name in data.model.values)
+    return f"{data.sizes['sample']} samples; {models}"
+
+
+def page_notices(data: xr.Dataset) -> list[Notice]:
+    """Return failures."""
+    failed = failures(data)
+    return [Notice("error", f"{explained(failed)}.")] if failed else []
+
+
+def page_cards(data: xr.Dataset) -> list[Card]:
+    """Return the answer at one load, else the quantiles."""
+    answered = not axis_of(data) and has_answer(data)
+    return list(answer_cards(data)) if answered else uncertainty_cards(data)
+
+
+def page_sections(data: xr.Dataset) -> list[Section]:
+    """Return what matters most with one figure, then the details, folded."""
+    first, *others = map(image, uncertainty_pictures(data))
+    axis, parts = axis_of(data), list(part_tables(data))
+    head: list[Element] = [answer_table(data, axis), first] if axis else [first, *parts]
+    samples: list[str | Table] = [UNCERTAINTY, quantile_table(data)]
+    samples += [] if axis else [f"{summary(data)}."]
+    samples += [*grid_sentences(data), *left_out_sentences(data)]
+    return [
+        Section(
+            "answer",
+            "Answer" if axis else "What matters most",
+            [*head, Text(_sentence(interval_sentence(data)))],
+        ),
+        Section("parts", "What matters most", parts if axis else [], folded=True),
+        Section("samples", "Samples of each model", as_elements(samples), folded=True),
+        Section(
+            "shares",
+            "What matters most to the samples",
+            [*as_elements(share_parts(data)), *others],
+            folded=True,
+        ),
+    ]
+
+
+def as_elements(parts: Iterable[str | Table]) -> list[Element]:
+    """Return sentences as paragraphs, tables as they are."""
+    return [Text(part) if isinstance(part, str) else part for part in parts]
+
+
+def _sentence(text: str) -> str:
+    return f"{text[0].upper()}{text[1:]}."

@@ -204,3 +204,19 @@ def filled(z: Array, steps: tuple[float, ...] = (), *, periodic: bool = False) -
     result = z.copy()
     result[missing] = factors.solve(pull)
     return result
+
+
+def filled_smoothly(z: Array) -> Array:
+    """Return heights [m], shape (points,), with gaps (NaN) filled by cubics without a kink.
+
+    The cubics are monotone (F. N. Fritsch & R. E. Carlson, SIAM J. Numer. Anal. 17 (1980) 238,
+    doi:10.1137/0717021), so that a gap makes no asperity here either; `filled` draws a straight
+    line. At the ends the nearest height holds.
+    """
+    from scipy.interpolate import PchipInterpolator
+
+    valid = np.flatnonzero(np.isfinite(z))
+    if valid.size < 2 or valid.size == z.size:
+        return filled(z)
+    at = np.clip(np.arange(z.size), valid[0], valid[-1])
+    return np.where(np.isnan(z), PchipInterpolator(valid, z[valid])(at), z)

@@ -11,6 +11,7 @@ from gripscale.analysis import of_same_inputs, stored_uncertainty
 from gripscale.cli import app
 from gripscale.io import netcdf
 from gripscale.report import write_report
+from gripscale.report.answer import number_and_interval
 from gripscale.report.uncertainty import OF_ANOTHER, uncertainty_lines
 
 
@@ -47,19 +48,22 @@ def test_the_same_inputs_whatever_is_done_with_them(case: Path) -> None:
 def test_quantiles_stand_in_the_texts(case: Path, name: str) -> None:
     data = stored_uncertainty(case.parent / "results")
     assert data is not None
-    (line,) = uncertainty_lines(data, case.read_text())
+    answer, line = uncertainty_lines(data, case.read_text())
+    friction = number_and_interval(data, "friction")
+    assert answer.startswith(f"With what is not known of the inputs, 10 samples: μ = {friction}")
     low, middle, high = (f"{v:#.2g}" for v in data.friction_quantile.values[0, [0, 2, 4]])
     assert line.startswith(
-        f"Uncertainty, chain, 5, 50 and 95 % of 10 samples: μ = {low}, {middle}, {high}; A_r"
+        f"Uncertainty, direct, 5, 50 and 95 % of 10 samples: μ = {low}, {middle}, {high}; A_r"
     )
-    text = (case.parent / "results" / name).read_text()
-    assert line in " ".join(text.split())
+    text = " ".join((case.parent / "results" / name).read_text().split())
+    assert answer in text
+    assert line in text
 
 
 @pytest.mark.parametrize("name", [".", "comparison"])
 def test_quantiles_stand_on_the_pages(case: Path, tmp_path: Path, name: str) -> None:
     page = write_report(case.parent / "results" / name, tmp_path / "page.html").read_text()
-    assert "μ, 5 to 95 %" in page
+    assert "μ, inputs sampled" in page
     assert OF_ANOTHER.replace("`", "") not in page.replace("`", "")
 
 
@@ -78,4 +82,4 @@ def test_those_of_another_case_are_left_out_and_said(case: Path, tmp_path: Path)
     assert OF_ANOTHER in text
     page = write_report(tmp_path / "results").read_text()
     assert "The uncertainty in this folder is of another case" in page
-    assert "μ, 5 to 95 %" not in page
+    assert "μ, inputs sampled" not in page

@@ -32,14 +32,24 @@ def run(folder, tmp_path_factory):
     target = tmp_path_factory.mktemp("run")
     told: dict[bool, int] = {}
     data = propagate(
-        folder / "case.toml", QUICK, samples=12, folder=target, on_task=counted(told), workers=2
+        folder / "case.toml",
+        QUICK,
+        samples=12,
+        models=["chain"],
+        folder=target,
+        on_task=counted(told),
+        workers=2,
     )
     return data, target, told
 
 
+ANSWERED = 14
+"""Tasks of `run`: twelve samples, the case, and the direct contact of the one profile."""
+
+
 def test_quantiles_are_those_of_the_samples(run):
     data, _, told = run
-    assert told == {False: 13}
+    assert told == {False: ANSWERED}
     assert int(data.failed.sum()) == 0
     friction = data.friction.values[0]
     assert np.unique(friction).size == 12
@@ -54,7 +64,14 @@ def test_quantiles_are_those_of_the_samples(run):
 def test_a_second_run_solves_nothing(folder, run):
     data, target, _ = run
     told: dict[bool, int] = {}
-    again = propagate(folder / "case.toml", QUICK, samples=12, folder=target, on_task=counted(told))
+    again = propagate(
+        folder / "case.toml",
+        QUICK,
+        samples=12,
+        models=["chain"],
+        folder=target,
+        on_task=counted(told),
+    )
     assert told == {}
     np.testing.assert_array_equal(again.friction, data.friction)
 
@@ -67,9 +84,14 @@ def test_what_is_missing_is_solved_and_nothing_else(folder, run, tmp_path):
     sorted((tmp_path / "predictions").iterdir())[3].unlink()
     told: dict[bool, int] = {}
     again = propagate(
-        folder / "case.toml", QUICK, samples=12, folder=tmp_path, on_task=counted(told)
+        folder / "case.toml",
+        QUICK,
+        samples=12,
+        models=["chain"],
+        folder=tmp_path,
+        on_task=counted(told),
     )
-    assert told == {True: 12, False: 1}
+    assert told == {True: ANSWERED - 1, False: 1}
     np.testing.assert_array_equal(again.friction, data.friction)
 
 
@@ -85,7 +107,8 @@ def half_failing(folder, tmp_path_factory):
     """Ten samples, and where they are; half of the cut-offs lie far beyond the largest wave."""
     target = tmp_path_factory.mktemp("half")
     choice = Uncertainty(without=["waves"], ranges={"cut_off": "1 mm,1000 m"})
-    return propagate(folder / "case.toml", choice, samples=10, folder=target), target
+    data = propagate(folder / "case.toml", choice, samples=10, models=["chain"], folder=target)
+    return data, target
 
 
 def test_failures_are_counted_and_said(half_failing):
@@ -107,7 +130,7 @@ def test_a_refusal_while_solving_is_a_failure_too(folder, tmp_path):
     text = (folder / "case.toml").read_text()
     case.write_text(text.replace("static = false", 'static = false\nload_time = "infinite"'))
     choice = Uncertainty(without=["waves", "modulus"], ranges={"equilibrium_modulus": "1 Pa,6 MPa"})
-    data = propagate(case, choice, samples=10)
+    data = propagate(case, choice, samples=10, models=["chain"])
     assert int(data.failed.sum()) == 5
     assert "equilibrium_modulus [Pa] must be" in str(failures(data))
     assert set(data.status_word.values.ravel()) == {"converged", ""}  # a refusal has no word
@@ -118,7 +141,10 @@ def over_speed(folder, tmp_path_factory):
     """The samples of `run` at two speeds, and where they are."""
     target = tmp_path_factory.mktemp("over_speed")
     speeds = {"speed": [0.1, 0.3]}
-    return propagate(folder / "case.toml", QUICK, samples=12, vary=speeds, folder=target), target
+    data = propagate(
+        folder / "case.toml", QUICK, samples=12, models=["chain"], vary=speeds, folder=target
+    )
+    return data, target
 
 
 def test_the_same_samples_at_each_speed(run, over_speed):
@@ -129,7 +155,7 @@ def test_the_same_samples_at_each_speed(run, over_speed):
 
 
 def test_both_models_have_the_same_draws(folder):
-    choice = Uncertainty(without=["waves", "load_time"])
+    choice = Uncertainty(without=["waves", "load_time", "cleaning"])
     data = propagate(folder / "case.toml", choice, samples=10, models=["chain", "direct"])
     assert list(data.model.values) == ["chain", "direct"]
     assert int(data.failed.sum()) == 0
@@ -162,25 +188,38 @@ ENOUGH = 21
 
 def test_the_command_writes_result_table_and_figures(folder, tmp_path):
     case = folder / "case.toml"
-    without = [word for name in ("waves", "profile", "modulus") for word in ("--without", name)]
-    options = ["--samples", ENOUGH, *without, "--output", tmp_path, "--workers", 2]
+    left_out = ("waves", "cleaning", "profile", "modulus")
+    without = [word for name in left_out for word in ("--without", name)]
+    options = [
+        "--samples",
+        ENOUGH,
+        "--model",
+        "chain",
+        *without,
+        "--output",
+        tmp_path,
+        "--workers",
+        2,
+    ]
     code, output = called(case, *options)
     assert code == 0, output
     assert "What matters most (chain)" in output
     assert {path.name for path in (tmp_path / "figures").iterdir()} == {
-        f"{name}.{kind}" for name in ("distributions", "tornado_chain") for kind in ("png", "pdf")
+        f"{name}.{kind}"
+        for name in ("answer", "distributions", "tornado_chain")
+        for kind in ("png", "pdf")
     }
     assert netcdf.load(tmp_path / "uncertainty.nc").sizes["sample"] == ENOUGH
     text = (tmp_path / "uncertainty.txt").read_text()
     assert f"in 90 % of {ENOUGH} samples" in text
     page = write_report(tmp_path).read_text()
     assert f"in 90 % of {ENOUGH} samples" in page
-    assert page.count("<img ") == 2
+    assert page.count("<img ") == 3
 
 
 def test_the_command_draws_a_band_over_speed(folder, over_speed):
     _, target = over_speed
-    options = ["--samples", 12, "--without", "waves", "--vary", "speed=0.1,0.3"]
+    options = ["--samples", 12, "--model", "chain", "--without", "waves", "--vary", "speed=0.1,0.3"]
     code, output = called(folder / "case.toml", *options, "--output", target)
     assert code == 0, output
     assert (target / "figures" / "over_speed.png").is_file()
@@ -188,7 +227,8 @@ def test_the_command_draws_a_band_over_speed(folder, over_speed):
 
 def test_the_command_ends_with_3_where_samples_failed(folder, half_failing):
     _, target = half_failing
-    options = ["--samples", 10, "--without", "waves", "--range", "cut_off=1 mm,1000 m"]
+    options = ["--samples", 10, "--model", "chain", "--without", "waves"]
+    options += ["--range", "cut_off=1 mm,1000 m"]
     code, output = called(folder / "case.toml", *options, "--output", target)
     assert code == 3
     assert "5 of 10 samples have no answer" in output

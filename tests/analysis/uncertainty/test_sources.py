@@ -23,7 +23,15 @@ from gripscale.chain.chain import Chain
 from gripscale.core.errors import InputError
 from gripscale.half_space.model import DirectContact
 from gripscale.model import Load
-from gripscale.surface import HeightMap, Measured, Profile, SineStack, Surface
+from gripscale.surface import (
+    HeightMap,
+    Measured,
+    Profile,
+    SineStack,
+    Surface,
+    clean,
+    height_difference,
+)
 from gripscale.theory.half_plane import HalfPlane
 from gripscale.wave.block import FiniteStrainBlock
 from gripscale.wave.problem import Sine, WaveLoad, WaveProblem
@@ -134,6 +142,79 @@ def test_a_solver_stays_refinable_or_not():
     assert longer.coarser() == loaded_longer(FiniteStrainBlock().coarser(), 2.0)
 
 
+STEPS = {100: 2.0, 400: 2.0, 700: 5.0, 1000: 9.5}
+"""Jumps between neighbours of `spiky`, in steps, by the number of the first."""
+
+
+@pytest.fixture(scope="module")
+def spiky(known):
+    """Return what is known of the road with jumps, cleaned as in a case with the usual limit."""
+    line = known.profiles[0]
+    z = line.z.copy()
+    for at, slope in STEPS.items():
+        # between its neighbours, but for the jump
+        z[at + 1 :] += slope * line.step - (z[at + 1] - z[at])
+    raw = replace(line, z=z)
+    options = {"remove_spikes": True, "spike_slope": 3.0, "across_gaps": False, "detrend": "none"}
+    measured = Measured([(raw, clean(raw, **options)[0])], [], None, "")
+    correlation = height_difference(measured.cleaned)
+    surface = replace(known.surface, measured=measured, correlation=correlation)
+    return replace(known, surface=surface, cleaning=options)
+
+
+def test_cleaning_marks_other_spikes_and_fills_gaps_in_both_ways(spiky):
+    drawn = alone("cleaning", spiky)
+    slopes = 3.0 * np.exp(told(drawn, "spike_slope"))
+    assert 1.5 < slopes.min() < 2.0
+    assert 9.5 > slopes.max() > 8.0
+    assert len(set(slopes.round(9))) == 8, "the profiles are cleaned once for each limit"
+    assert set(told(drawn, "smooth_gaps")) == {0.0, 1.0}
+    gaps = spiky.surface.measured.cleaned[0].z
+    assert set(np.flatnonzero(np.isnan(gaps))) == {700, 701, 1000, 1001}
+    for one, slope in zip(drawn, slopes, strict=True):
+        marked = {at for at, jump in STEPS.items() if jump >= slope}
+        line = one.inputs.cleaned.profiles[0]
+        assert marked <= set(np.flatnonzero(np.isnan(line.z)))
+        assert np.isfinite(line.z[list(STEPS.keys() - marked)]).all()
+        (solved,) = one.inputs.measured.cleaned
+        smooth = bool(one.coordinates["smooth_gaps"])
+        assert np.isnan(solved.z).any() != smooth
+        kept = np.isfinite(line.z)
+        np.testing.assert_array_equal(solved.z[kept], line.z[kept])
+
+
+def test_cleaning_reaches_correlation_blocks_and_contact(spiky):
+    """With a limit of 1.8 the jump of two steps is gone from the blocks, with 9 it is not."""
+    both = Uncertainty(without=["waves"], ranges={"cleaning": "1.8,9"}).of(spiky, ["direct"])
+    sources = [source for source in both.sources if source.name in ("cleaning", "profile")]
+    drawn = list(draws(Inputs.of(spiky), sources, 12, 0))
+    for one in drawn:
+        strict = one.coordinates["spike_slope"] < 0.0
+        steepest = max(
+            np.nanmax(np.abs(np.diff(line.z))) / line.step for line in one.inputs.redrawn()
+        )
+        assert steepest < 1.8 if strict else steepest < 9.0
+    strict, loose = (
+        next(one for one in drawn if (one.coordinates["spike_slope"] < 0.0) == wanted)
+        for wanted in (True, False)
+    )
+    shortest = [one.inputs.cleaned.correlation.value[0] for one in (strict, loose)]
+    assert shortest[0] < shortest[1]
+    # the same blocks of the road as the case cleans it have another correlation
+    as_cleaned = draws(Inputs.of(spiky), sources[1:], 12, 0)
+    pairs = zip(drawn, as_cleaned, strict=True)
+    assert any(a.inputs.correlation.value[0] != b.inputs.correlation.value[0] for a, b in pairs)
+
+
+def test_cleaning_has_nothing_to_draw_where_nothing_is_cleaned(spiky, known):
+    left = replace(spiky, cleaning={**spiky.cleaning, "remove_spikes": False})
+    with pytest.raises(InputError, match="no source of uncertainty is left"):
+        alone("cleaning", left)
+    assert alone("cleaning", left, cleaning="2:4"), "a stated range asks for it"
+    with pytest.raises(InputError, match="no source of uncertainty is left"):
+        alone("cleaning", replace(known, cleaning={}))
+
+
 def test_leaving_out_a_source_changes_no_draw_of_the_others(known):
     without = alone("cut_off", known)
     chosen = Uncertainty(without=["waves"]).of(known, ["chain"])
@@ -154,6 +235,7 @@ def test_waves_by_hand_and_a_named_rubber_leave_what_they_leave():
     [
         ({"without": ["cutoff"]}, "did you mean cut_off"),
         ({"ranges": {"profile": 3}}, "drawn from what was measured"),
+        ({"ranges": {"grid": 3}}, "drawn from its estimate"),
         ({"ranges": {"waves": 3}, "without": ["waves"]}, "got both"),
         ({"block_length": 0.0}, "block_length"),
     ],

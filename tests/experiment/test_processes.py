@@ -1,0 +1,46 @@
+"""The same study in processes of this machine, one of which may die."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+import xarray as xr
+
+from gripscale import Rubber
+from gripscale.core.errors import ConvergenceError
+from gripscale.experiment import Study
+from gripscale.experiment.solve import PROCESSES, solve_all
+from gripscale.experiment.task import Store, Task
+from gripscale.model import Load, Model
+from gripscale.surface import Surface
+from tests.samples import THREE_SINES
+
+Compare = Callable[[xr.Dataset, xr.Dataset], None]
+
+
+def test_processes_change_nothing(case: Path, tmp_path: Path, same_bytes: Compare) -> None:
+    study = Study(case, {"speed": [0.01, 0.1, 1.0]})
+    result = study.run(tmp_path / "processes", client=PROCESSES, workers=2)
+    same_bytes(result, study.run(tmp_path / "threads"))
+
+
+@dataclass(frozen=True)
+class Dying(Model):
+    """Ends its process."""
+
+    name = "dying"
+
+    def predict(self, *_: Any, **__: Any) -> xr.Dataset:
+        """Return nothing."""
+        os._exit(1)
+
+
+def test_a_process_that_dies_is_one_sentence(tmp_path: Path) -> None:
+    task = Task(Rubber(6e6), Surface(THREE_SINES, ""), Load(3e5, 0.3, 0.1), Dying())
+    with pytest.raises(ConvergenceError, match="short of memory"):
+        solve_all({"dying": task}, Store(tmp_path), client=PROCESSES, workers=1)
