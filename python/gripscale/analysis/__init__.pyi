@@ -14,6 +14,7 @@ from .effects import case_effects as case_effects
 from .effects import effect_tasks as effect_tasks
 from .effects import effects as effects
 from .effects import stored_effects as stored_effects
+from .first_order import first_order as first_order
 from .friction_sensitivity import FrictionSensitivity as FrictionSensitivity
 from .friction_sensitivity import case_sensitivity as case_sensitivity
 from .ladder import LADDER as LADDER

@@ -27,8 +27,10 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 import xarray as xr
 
+from gripscale.analysis.first_order import first_order
 from gripscale.case.prepare import prepare_conditions
 from gripscale.case.read import CaseFile, read_case
+from gripscale.case.run import prepare_case
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
 from gripscale.core.checks import checked
@@ -56,6 +58,8 @@ FILE = "sensitivity.nc"
 VARIED = ("speed", "pressure", "temperature", "smallest_wavelength", "rubber", "surface")
 """What may be varied: derivatives are taken at each value."""
 STORAGE, LOSS = "d_ln_friction_d_ln_storage", "d_ln_friction_d_ln_loss"
+CARRIED = "source_friction_error"
+"""Name of the errors that sources of uncertainty carry to the friction."""
 FEEDBACK = "_with_feedback"
 """End of the names of derivatives with the rubber's answer to the change."""
 
@@ -201,6 +205,8 @@ def case_sensitivity(
         the answer of softening and heat. `storage_modulus` and `loss_modulus` [Pa] of the master
         curve over `modulus_frequency` [rad/s]; with a shift, over `rule`, the frequency that each
         rule of thumb stands for, and the share of the effect of E'' within half a decade of it.
+        Where nothing is varied, `source_friction_error` over `source`: the relative standard error
+        that what is not known of the inputs carries to the friction (`first_order`).
 
     Raises
     ------
@@ -223,6 +229,9 @@ def case_sensitivity(
     bench = Bench(Store(Path(folder) / PREDICTIONS), workers, None, on_task)
     data = solve_design(study.design, bench, _kept)
     data = data.assign_coords(coordinates(study.axes, file.units))
+    if STORAGE in data and vary is None:
+        errors = first_order(prepare_case(file), seed=file.case.uncertainty.seed)
+        data = data.assign(errors.rename(friction_error=CARRIED).variables)
     if STORAGE in data:
         data = _with_master_curve(data.fillna({STORAGE: 0.0, LOSS: 0.0}), study.rubbers[0])
     attrs = {

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 import xarray as xr
 
-from gripscale.analysis.friction_sensitivity import FEEDBACK, LOSS, RULE_FREQUENCY, STORAGE
+from gripscale.analysis.friction_sensitivity import CARRIED, FEEDBACK, LOSS, RULE_FREQUENCY, STORAGE
 from gripscale.charts.sensitivity import points
 from gripscale.charts.view import CONVERGED
 from gripscale.core.units import display_unit_of
@@ -39,6 +39,8 @@ def sensitivity_parts(data: xr.Dataset) -> Iterator[str | Table]:
     yield from answer_lines(data)
     yield sums_table(data)
     yield decades_table(data)
+    if CARRIED in data:
+        yield carried_table(data)
     yield from rule_lines(data)
 
 
@@ -140,6 +142,22 @@ def decades_table(data: xr.Dataset) -> Table:
     if chosen.size < len(shown):
         notes.append(f"{chosen.size} of {len(shown)} points; the others are in the result file.")
     return Table("decades", columns, "What each decade of the master curve is worth", notes, keys=1)
+
+
+def carried_table(data: xr.Dataset) -> Table:
+    """Return what is not known of the inputs, and what it carries to the friction, most first."""
+    error = data[CARRIED].values
+    ranked = np.argsort(-np.nan_to_num(error), kind="stable")
+    ranked = ranked[np.isfinite(error[ranked])]
+    together = float(np.sqrt(np.sum(error[ranked] ** 2)))
+    columns = [
+        Column("source", [*data.label.values[ranked].tolist(), "together"], "not known"),
+        Column(
+            "friction_error", [*error[ranked].tolist(), together], "± of friction", format=percent
+        ),
+    ]
+    notes = ["Standard errors, to first order; `gripscale uncertainty` samples them."]
+    return Table("carried", columns, "What the errors of the inputs carry", notes, keys=1)
 
 
 def rule_lines(data: xr.Dataset) -> Iterator[str]:
