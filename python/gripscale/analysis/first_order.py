@@ -25,7 +25,7 @@ from gripscale.analysis.ladder import DIRECT
 from gripscale.analysis.sampled_answer import GRID, ROAD
 from gripscale.analysis.sampled_inputs import Inputs, Measurement
 from gripscale.analysis.sampling import Uncertainty, draws
-from gripscale.analysis.sources import Source
+from gripscale.analysis.sources import LABELS, Source
 from gripscale.case.results import CaseResults
 from gripscale.conditions.conditions import Conditions
 from gripscale.core.arrays import Array
@@ -114,21 +114,14 @@ def _by_surface(adjoint: FrictionAdjoint, surface: Profile | HeightMap) -> float
     return float((adjoint.by_height * change).sum() / contact.friction_from_dissipation)
 
 
-def first_order(
-    results: CaseResults,
-    sources: Sequence[Source] | None = None,
-    *,
-    count: int = DRAWS,
-    seed: int = 0,
-) -> xr.Dataset:
+def first_order(results: CaseResults, *, count: int = DRAWS, seed: int = 0) -> xr.Dataset:
     """Return the error of the friction of a case by each source, from one solution.
 
     Parameters
     ----------
     results : CaseResults
-        A prepared case with a measured surface, in motion.
-    sources : sequence of Source, optional
-        What is not known; by default what the case says of its direct contact.
+        A prepared case with a measured surface, in motion. Its table [uncertainty] says what is
+        left out, and what is known of a source.
     count : int
         Draws of each source.
     seed : int
@@ -137,36 +130,26 @@ def first_order(
     Returns
     -------
     xarray.Dataset
-        Over `source`: `friction_error`, the relative standard error by first order [-]; NaN where
-        a source has no first order (the grid), or pieces of the profiles are too few.
+        Over `source`: `friction_error`, the relative standard error by first order [-]; NaN for
+        the stretch of road where pieces of the profiles are too few. The grid has none.
 
     Raises
     ------
     InputError
         As `Tangent.of`.
     """
-    measurement = Measurement.of(results)
-    if sources is None:
-        table = results.file.case.uncertainty
-        without = [*table.without, *([ROAD] if measurement.is_map else [])]  # a map has no blocks
-        sources = Uncertainty.of_case(table, without=without).of(measurement, (DIRECT,)).sources
+    measurement, table = Measurement.of(results), results.file.case.uncertainty
     tangent, case = Tangent.of(results), Inputs.of(measurement)
-    errors = []
-    for source in sources:
-        if source.name == GRID:
-            errors.append(math.nan)
-        elif source.name == ROAD:
-            errors.append(tangent.sampling_error)
-        else:
-            errors.append(_scatter(tangent, case, source, count, seed))
+    drawn = Uncertainty.of_case(table, without=[*table.without, ROAD, GRID])
+    sources = drawn.of(measurement, (DIRECT,)).sources
+    errors = {each.name: _scatter(tangent, case, each, count, seed) for each in sources}
+    if ROAD not in table.without:
+        errors[ROAD] = tangent.sampling_error
     attrs = {"units": "1", "long_name": "relative standard error of friction, by first order"}
-    names, labels = (
-        np.array([getattr(source, name) for source in sources], dtype=object)
-        for name in ("name", "label")
-    )
+    labels = np.array([LABELS[name] for name in errors], dtype=object)
     return xr.Dataset(
-        {"friction_error": ("source", errors, attrs)},
-        {"source": names, "label": ("source", labels)},
+        {"friction_error": ("source", [*errors.values()], attrs)},
+        {"source": np.array([*errors], dtype=object), "label": ("source", labels)},
     )
 
 

@@ -1,0 +1,107 @@
+"""First-order effects of other inputs against solutions with them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from gripscale.analysis import first_order
+from gripscale.analysis.first_order import Tangent
+from gripscale.analysis.sampled_inputs import CleanedProfiles, Inputs, Measurement
+from gripscale.case import prepare_case
+from gripscale.case.results import CaseResults
+from gripscale.core.errors import InputError
+from gripscale.half_space import DirectContact
+from tests.samples import case_text, write_short_road
+
+CASE = case_text(
+    'files = ["road.txt"]\nscales = 3\nsmallest_wavelength = "1 mm"', 'file = "dma.txt"\nterms = 4'
+)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with a case of a short road."""
+    path = tmp_path_factory.mktemp("first_order")
+    write_short_road(path)
+    (path / "case.toml").write_text(CASE)
+    return path
+
+
+@pytest.fixture(scope="module")
+def results(folder: Path) -> CaseResults:
+    """The case, prepared."""
+    return prepare_case(folder / "case.toml")
+
+
+@pytest.fixture(scope="module")
+def tangent(results: CaseResults) -> Tangent:
+    """Its direct contact with the derivatives."""
+    return Tangent.of(results)
+
+
+def solved_change(results: CaseResults, inputs: Inputs) -> float:
+    """The change of ln mu by solving the direct contact anew, on its first full grid."""
+    surface, model = inputs.for_model(DirectContact(tolerance=None))
+    answers = [
+        model.predict(rubber, each, results.load).total_friction_from_dissipation
+        for rubber, each in (
+            (inputs.rubber, surface),
+            (results.rubber.rubber, results.surface),
+        )
+    ]
+    return math.log(float(answers[0] / answers[1]))
+
+
+def test_another_rubber(results, tangent):
+    case = Inputs.of(Measurement.of(results))
+    rubber = case.rubber
+    factors = 1.0 + 0.1 * np.cos(np.arange(rubber.moduli.size))
+    changed = replace(case, rubber=replace(rubber, moduli=rubber.moduli * factors, admissible=None))
+    expected = solved_change(results, changed)
+    assert abs(expected) > 0.005
+    # the second order of moduli changed by a tenth
+    assert tangent.change(changed, case) == pytest.approx(expected, abs=0.002, rel=0.1)
+
+
+def test_other_heights(results, tangent):
+    case = Inputs.of(Measurement.of(results))
+    lines = []
+    for line in results.surface.measured.cleaned:
+        wave = 2e-6 * np.sin(2.0 * np.pi * line.x / 2e-3)
+        lines.append(replace(line, z=line.z + wave))
+    changed = replace(case, cleaned=CleanedProfiles(tuple(lines), results.surface.counted))
+    expected = solved_change(results, changed)
+    assert abs(expected) > 0.002
+    assert tangent.change(changed, case) == pytest.approx(expected, rel=0.15)
+
+
+def test_another_cut_off(results, tangent):
+    case = Inputs.of(Measurement.of(results))
+    changed = case.ended_at(1.2 * case.end)
+    expected = solved_change(results, changed)
+    # the exponent is that of the last octave, of a road of a few waves
+    assert tangent.change(changed, case) == pytest.approx(expected, rel=0.5)
+    assert tangent.change(changed, case) < 0.0
+
+
+def test_errors_of_each_source(results):
+    data = first_order(results, count=16)
+    errors = dict(zip(data.source.values, data.friction_error.values, strict=True))
+    assert set(errors) == {"cleaning", "cut_off", "modulus", "bulk_modulus", "profile"}
+    assert errors["cut_off"] > errors["bulk_modulus"] > 0.0
+    # cut-offs are spread evenly in their logarithm over an octave
+    exponent = Tangent.of(results).contacts[0].cut_off_exponents.friction
+    spread = abs(exponent) * math.log(2.0) / math.sqrt(12.0)
+    assert errors["cut_off"] == pytest.approx(spread, rel=0.05)
+
+
+def test_refuses_rest(folder):
+    text = CASE.replace('speed = "0.3 m/s"', "speed = 0.0")
+    (folder / "rest.toml").write_text(text)
+    with pytest.raises(InputError, match="friction for its derivatives"):
+        Tangent.of(prepare_case(folder / "rest.toml"))
