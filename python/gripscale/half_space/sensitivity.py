@@ -33,7 +33,7 @@ with G = E*/3 and B three times the bulk modulus. Summed over the waves of a ban
 these are the effects of E' and E'' in the band. Speed and temperature change E* of every wave.
 
 The contact fraction has no such derivative, because the borders decide it: with the square of the
-pressure near the border in place of the step, the adjoint is off by 10 to 50 % of differences on
+pressure near the border in decade of the step, the adjoint is off by 10 to 50 % of differences on
 lines of 1,280 to 20,480 points. Its derivatives are differences of contacts that start from the
 solved one.
 """
@@ -222,9 +222,9 @@ class Bands:
         if contact.by_scale is not None:
             omega = omega * contact.by_scale.shift(grid.wavenumber)
         moving = omega > 0.0
-        place = np.floor(per_decade * np.log10(np.where(moving, omega, np.inf)) + 1e-9)
-        first, last = place.min(), place[moving].max()
-        of_wave = np.where(moving, place - first, 0.0).astype(int)
+        decade = np.floor(per_decade * np.log10(np.where(moving, omega, np.inf)) + 1e-9)
+        first, last = decade.min(), decade[moving].max()
+        of_wave = np.where(moving, decade - first, 0.0).astype(int)
         return cls(10.0 ** (np.arange(first, last + 2.0) / per_decade), of_wave)
 
     @property
