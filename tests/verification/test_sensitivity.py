@@ -128,3 +128,7 @@ def test_derivatives_as_central_differences(dimensions, count):
     rows = np.array(table)
     print("median", np.median(rows, axis=0), "nine of ten", np.quantile(rows, 0.9, axis=0))
     assert len(rows) >= 0.8 * count
+    # measured 0.16 % and 1.4 % on lines, 0.08 % and 0.2 % on maps; the rest are lines whose few
+    # contacts change within the step, and friction below 0.001
+    assert (np.median(rows, axis=0) <= 0.003).all()
+    assert (np.quantile(rows, 0.9, axis=0) <= 0.02).all()

@@ -33,7 +33,7 @@ with G = E*/3 and B three times the bulk modulus. Summed over the waves of a ban
 these are the effects of E' and E'' in the band. Speed and temperature change E* of every wave.
 
 The contact fraction has no such derivative, because the borders decide it: with the square of the
-pressure near the border in decade of the step, the adjoint is off by 10 to 50 % of differences on
+pressure near the border in place of the step, the adjoint is off by 10 to 50 % of differences on
 lines of 1,280 to 20,480 points. Its derivatives are differences of contacts that start from the
 solved one.
 """

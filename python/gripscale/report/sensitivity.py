@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 import xarray as xr
@@ -38,6 +38,8 @@ def sensitivity_parts(data: xr.Dataset) -> Iterator[str | Table]:
         return
     yield from answer_lines(data)
     yield sums_table(data)
+    if _has_feedback(data):
+        yield feedback_table(data)
     yield decades_table(data)
     if CARRIED in data:
         yield carried_table(data)
@@ -90,38 +92,42 @@ def _middle_half(point: xr.Dataset) -> tuple[float, float]:
 def sums_table(data: xr.Dataset) -> Table:
     """Return the derivatives by each input at each point, the moduli summed over frequency."""
     shown = list(points(data))
-    columns = [
-        Column("point", [text for text, _ in shown], ""),
-        Column("loss", [float(each[LOSS].sum()) for _, each in shown], "E''", format=signed),
-        Column("storage", [float(each[STORAGE].sum()) for _, each in shown], "E'", format=signed),
+    moduli = [
+        Column(key, [float(each[name].sum()) for _, each in shown], symbol, format=signed)
+        for key, name, symbol in (("loss", LOSS, "E''"), ("storage", STORAGE, "E'"))
     ]
-    for end in ("", FEEDBACK):
-        for name, (heading, unit) in SCALARS.items():
-            variable = f"d_ln_friction_d_{name}{end}"
-            if variable not in data or not np.isfinite(data[variable].values).any():
-                continue
-            values = [float(each[variable]) for _, each in shown]
-            size = 0.01 if unit == "1/K" else 1.0
-            columns.append(
-                Column(
-                    f"{name}{end}",
-                    values,
-                    f"{heading}, anew" if end else heading,
-                    "%/K" if unit == "1/K" else "",
-                    size,
-                    format=signed,
-                )
-            )
+    columns = [_points_column(shown), *moduli, *_scalar_columns(data, "")]
     notes = ["Per cent of friction for a per cent of the input; of temperature, for a kelvin."]
-    if any(str(name).endswith(FEEDBACK) for name in data):
-        notes.append(
-            "Anew: strain and temperature of the rubber follow the change; else they stay."
-        )
-    elif data.attrs["iterated"]:
+    if data.attrs["iterated"] and not _has_feedback(data):
         notes.append(
             "Strain and temperature of the rubber are kept; --with-feedback also lets them follow."
         )
     return Table("sums", columns, "What the friction depends on", notes, keys=1)
+
+
+def feedback_table(data: xr.Dataset) -> Table:
+    """Return the derivatives with the answer of softening and heat."""
+    columns = [_points_column(list(points(data))), *_scalar_columns(data, FEEDBACK)]
+    title = "The same where strain and temperature of the rubber follow the change"
+    return Table("feedback", columns, title, keys=1)
+
+
+def _points_column(shown: Sequence[tuple[str, xr.Dataset]]) -> Column:
+    return Column("point", [text for text, _ in shown], "")
+
+
+def _scalar_columns(data: xr.Dataset, end: str) -> Iterator[Column]:
+    """Yield the derivatives by single numbers that are known, with an end of their names."""
+    for name, (heading, unit) in SCALARS.items():
+        variable = f"d_ln_friction_d_{name}{end}"
+        if variable in data and np.isfinite(data[variable].values).any():
+            values = [float(each[variable]) for _, each in points(data)]
+            size, shown = (0.01, "%/K") if unit == "1/K" else (1.0, "")
+            yield Column(f"{name}{end}", values, heading, shown, size, format=signed)
+
+
+def _has_feedback(data: xr.Dataset) -> bool:
+    return any(str(name).endswith(FEEDBACK) for name in data)
 
 
 def decades_table(data: xr.Dataset) -> Table:
