@@ -6,9 +6,12 @@ what they change. With the adjoint of `gripscale.half_space.sensitivity`
     ln mu' - ln mu = (sum_q Re c(q) ln(M'/M) + sum_x dmu/dh (h' - h)) / mu + e ln(l'/l),
 
 M' being the moduli of another rubber, h' other heights, and e the exponent of the cut-off l over
-its last octave. The standard deviation over draws is the error of the source. Another stretch of
-road is no small change of this one: its error is that of the pieces of the profiles
-(`gripscale.half_space.sampling_error`).
+its last octave. The standard deviation over draws is the error of the source.
+
+Two sources are no small change. Another stretch of road has the error of the pieces of the profiles
+(`gripscale.half_space.sampling_error`). Where spikes are removed or kept, heights change by
+millimetres: on the shipped road the tangent gives 8.2 % of friction and contacts solved anew 2.9 %.
+A few draws of the cleaning are therefore solved.
 """
 
 from __future__ import annotations
@@ -41,6 +44,8 @@ from gripscale.surface import HeightMap, Profile
 
 DRAWS = 64
 """Draws of each source: the standard deviation is known to a tenth. A draw costs no contact."""
+SOLVED, SOLVED_DRAWS = "cleaning", 8
+"""The source whose draws are solved, and how many."""
 FRICTION_SAMPLING_ERROR = list(SAMPLING_ERRORS)[1]
 
 
@@ -48,10 +53,13 @@ FRICTION_SAMPLING_ERROR = list(SAMPLING_ERRORS)[1]
 class Tangent:
     """The direct contacts of a case, the derivatives of their friction, and the shares in it."""
 
+    results: CaseResults
     contacts: Sequence[RoughContact]
     adjoints: Sequence[FrictionAdjoint]
     share: Array
     """Of the friction of all [-], shape (contacts,)."""
+    friction: float
+    """Of all, from dissipation [-]."""
     sampling_error: float
     """Relative standard error of the friction from pieces of the profiles [-]."""
 
@@ -62,9 +70,9 @@ class Tangent:
         Raises `InputError` if the case is at rest, or a contact has no result.
         """
         contacts: list[RoughContact] = []
-        model = DirectContact(tolerance=None, conditions=results.conditions)
-        rubber, surface = results.rubber.rubber, results.surface
-        answer = model.predict(rubber, surface, results.load, on_progress=contacts.append)
+        answer = _model(results).predict(
+            results.rubber.rubber, results.surface, results.load, on_progress=contacts.append
+        )
         friction = np.array([each.friction_from_dissipation for each in contacts])
         if any(each.status not in USABLE for each in contacts) or not (friction > 0.0).all():
             status = ", ".join(str(each.status) for each in contacts)
@@ -75,7 +83,15 @@ class Tangent:
         weight = friction * [each.grid.lengths[0] for each in contacts]
         error = float(answer.get(FRICTION_SAMPLING_ERROR, math.nan))
         adjoints = [FrictionAdjoint.of(each) for each in contacts]
-        return cls(contacts, adjoints, weight / weight.sum(), error)
+        mean = float(answer["total_friction_from_dissipation"])
+        return cls(results, contacts, adjoints, weight / weight.sum(), mean, error)
+
+    def solved_change(self, inputs: Inputs, case: Inputs) -> float:
+        """Return the change of ln mu by a contact with the other inputs [-]."""
+        del case  # its contact is this one
+        surface, model = inputs.for_model(_model(self.results))
+        answer = model.predict(inputs.rubber, surface, self.results.load)
+        return math.log(float(answer["total_friction_from_dissipation"]) / self.friction)
 
     def change(self, inputs: Inputs, case: Inputs) -> float:
         """Return what other inputs than those of the case change in ln mu, to first order [-]."""
@@ -90,6 +106,11 @@ class Tangent:
                 exponent = contact.cut_off_exponents.friction
                 parts[at] += exponent * math.log(inputs.end / case.end)
         return float(self.share @ parts)
+
+
+def _model(results: CaseResults) -> DirectContact:
+    """Return the direct contact on the grid with four points in the smallest wave."""
+    return DirectContact(tolerance=None, conditions=results.conditions)
 
 
 def _by_rubber(adjoint: FrictionAdjoint, rubber: Rubber) -> float:
@@ -157,6 +178,10 @@ def _scatter(tangent: Tangent, case: Inputs, source: Source, count: int, seed: i
     """Return the standard deviation of ln mu over draws of a source [-], to first order."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RubberWarning)  # drawn rubbers are not made by hand
-        drawn = [each.inputs for each in draws(case, [source], count, seed)]
-        changes = [tangent.change(each, case) for each in drawn if each is not None]
+        solved = source.name == SOLVED
+        drawn = [
+            each.inputs for each in draws(case, [source], SOLVED_DRAWS if solved else count, seed)
+        ]
+        change = tangent.solved_change if solved else tangent.change
+        changes = [change(each, case) for each in drawn if each is not None]
     return float(np.std(changes))
