@@ -49,11 +49,11 @@ def sensitivity_figure(data: xr.Dataset) -> Figure:
 def _panels(data: xr.Dataset) -> list[Panel]:
     """Return the master curve, and an effect by decade of frequency below it for E'' and E'."""
     omega = data.modulus_frequency.values
-    shown = list(points(data))
-    if len(shown) > MOST_CURVES:
-        chosen = np.linspace(0, len(shown) - 1, MOST_CURVES).round().astype(int)
-        shown = [shown[i] for i in chosen]
-    colours = style.colours(len(shown), ordered=len(shown) > 1)
+    listed = list(points(data))
+    if len(listed) > MOST_CURVES:
+        chosen = np.linspace(0, len(listed) - 1, MOST_CURVES).round().astype(int)
+        listed = [listed[i] for i in chosen]
+    colours = style.colours(len(listed), ordered=len(listed) > 1)
     axis = Axis("angular frequency $\\omega$ [rad/s]", True, float(omega[0]), float(omega[-1]))
     rules = [CrossLine(at, GREY, "", "dotted", 0.9, upright=True) for _, at in _rules(data)]
     moduli: list[Mark] = [
@@ -82,11 +82,11 @@ def _panels(data: xr.Dataset) -> list[Panel]:
                 # bands that are not excited at this point have no derivative
                 each[name].where(each[name] != 0.0).values * int(data.attrs["bands_per_decade"]),
                 colour,
-                text if len(shown) > 1 else "",
+                text if len(listed) > 1 else "",
                 marker="o",
                 size=2.5,
             )
-            for (text, each), colour in zip(shown, colours, strict=True)
+            for (text, each), colour in zip(listed, colours, strict=True)
             if np.isfinite(each[name].values).any()
         ]
         panels.append(

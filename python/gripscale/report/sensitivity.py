@@ -91,12 +91,12 @@ def _middle_half(point: xr.Dataset) -> tuple[float, float]:
 
 def sums_table(data: xr.Dataset) -> Table:
     """Return the derivatives by each input at each point, the moduli summed over frequency."""
-    shown = list(points(data))
+    listed = list(points(data))
     moduli = [
-        Column(key, [float(each[name].sum()) for _, each in shown], symbol, format=signed)
+        Column(key, [float(each[name].sum()) for _, each in listed], symbol, format=signed)
         for key, name, symbol in (("loss", LOSS, "E''"), ("storage", STORAGE, "E'"))
     ]
-    columns = [_points_column(shown), *moduli, *_scalar_columns(data, "")]
+    columns = [_points_column(listed), *moduli, *_scalar_columns(data, "")]
     notes = ["Per cent of friction for a per cent of the input; of temperature, for a kelvin."]
     if data.attrs["iterated"] and not _has_feedback(data):
         notes.append(
@@ -112,8 +112,8 @@ def feedback_table(data: xr.Dataset) -> Table:
     return Table("feedback", columns, title, keys=1)
 
 
-def _points_column(shown: Sequence[tuple[str, xr.Dataset]]) -> Column:
-    return Column("point", [text for text, _ in shown], "")
+def _points_column(listed: Sequence[tuple[str, xr.Dataset]]) -> Column:
+    return Column("point", [text for text, _ in listed], "")
 
 
 def _scalar_columns(data: xr.Dataset, end: str) -> Iterator[Column]:
@@ -122,8 +122,8 @@ def _scalar_columns(data: xr.Dataset, end: str) -> Iterator[Column]:
         variable = f"d_ln_friction_d_{name}{end}"
         if variable in data and np.isfinite(data[variable].values).any():
             values = [float(each[variable]) for _, each in points(data)]
-            size, shown = (0.01, "%/K") if unit == "1/K" else (1.0, "")
-            yield Column(f"{name}{end}", values, heading, shown, size, format=signed)
+            size, unit_text = (0.01, "%/K") if unit == "1/K" else (1.0, "")
+            yield Column(f"{name}{end}", values, heading, unit_text, size, format=signed)
 
 
 def _has_feedback(data: xr.Dataset) -> bool:
@@ -134,19 +134,21 @@ def decades_table(data: xr.Dataset) -> Table:
     """Return what E'' and E' of each decade of frequency are worth, at the first few points."""
     decade = np.floor(np.log10(data.frequency.values) + 1e-9).astype(int)
     rows = np.arange(decade.min(), decade.max() + 1)
-    shown = list(points(data))
-    chosen = np.unique(np.linspace(0, len(shown) - 1, min(MOST_POINTS, len(shown))).astype(int))
+    listed = list(points(data))
+    chosen = np.unique(np.linspace(0, len(listed) - 1, min(MOST_POINTS, len(listed))).astype(int))
     columns = [Column("decade", [f"1e{row} to 1e{row + 1}" for row in rows], "rad/s")]
     for i in chosen:
-        text, each = shown[i]
+        text, each = listed[i]
         for name, symbol in ((LOSS, "E''"), (STORAGE, "E'")):
             values = [float(each[name].values[decade == row].sum()) for row in rows]
             columns.append(
-                Column(f"{name}_{i}", values, symbol, text if len(shown) > 1 else "", format=signed)
+                Column(
+                    f"{name}_{i}", values, symbol, text if len(listed) > 1 else "", format=signed
+                )
             )
     notes = []
-    if chosen.size < len(shown):
-        notes.append(f"{chosen.size} of {len(shown)} points; the others are in the result file.")
+    if chosen.size < len(listed):
+        notes.append(f"{chosen.size} of {len(listed)} points; the others are in the result file.")
     return Table("decades", columns, "What each decade of the master curve is worth", notes, keys=1)
 
 
