@@ -135,14 +135,21 @@ def _by_surface(adjoint: FrictionAdjoint, surface: Profile | HeightMap) -> float
     return float((adjoint.by_height * change).sum() / contact.friction_from_dissipation)
 
 
-def first_order(results: CaseResults, *, count: int = DRAWS, seed: int = 0) -> xr.Dataset:
+def first_order(
+    results: CaseResults,
+    uncertainty: Uncertainty | None = None,
+    *,
+    count: int = DRAWS,
+    seed: int = 0,
+) -> xr.Dataset:
     """Return the error of the friction of a case by each source, from one solution.
 
     Parameters
     ----------
     results : CaseResults
-        A prepared case with a measured surface, in motion. Its table [uncertainty] says what is
-        left out, and what is known of a source.
+        A prepared case with a measured surface, in motion.
+    uncertainty : Uncertainty, optional
+        What is uncertain; by default as the table [uncertainty] of the case says.
     count : int
         Draws of each source.
     seed : int
@@ -159,12 +166,13 @@ def first_order(results: CaseResults, *, count: int = DRAWS, seed: int = 0) -> x
     InputError
         As `Tangent.of`.
     """
-    measurement, table = Measurement.of(results), results.file.case.uncertainty
+    measurement = Measurement.of(results)
+    stated = uncertainty or Uncertainty.of_case(results.file.case.uncertainty)
     tangent, case = Tangent.of(results), Inputs.of(measurement)
-    drawn = Uncertainty.of_case(table, without=[*table.without, ROAD, GRID])
-    sources = drawn.of(measurement, (DIRECT,)).sources
+    drawn = replace(stated, without=(*stated.without, ROAD, GRID))
+    sources = drawn.of(measurement, (DIRECT,), any_number=True).sources
     errors = {each.name: _scatter(tangent, case, each, count, seed) for each in sources}
-    if ROAD not in table.without:
+    if ROAD not in stated.without:
         errors[ROAD] = tangent.sampling_error
     attrs = {"units": "1", "long_name": "relative standard error of friction, by first order"}
     labels = np.array([LABELS[name] for name in errors], dtype=object)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from itertools import pairwise
@@ -12,8 +13,15 @@ import xarray as xr
 
 from gripscale.analysis.intervals import LEVEL, interval_ends
 from gripscale.analysis.ladder import DIRECT
-from gripscale.analysis.propagation import LEVELS, QUANTITIES, of_same_inputs, summary
-from gripscale.analysis.sampled_answer import NOT_ALONE, RUN
+from gripscale.analysis.propagation import (
+    FIRST_ORDER,
+    LEVELS,
+    QUANTITIES,
+    of_same_inputs,
+    summary,
+)
+from gripscale.analysis.sampled_answer import NOT_ALONE, ROAD, RUN
+from gripscale.analysis.sources import LABELS
 from gripscale.analysis.variance_shares import SIGNIFICANCE
 from gripscale.charts.blocks import image
 from gripscale.charts.uncertainty import axis_of, uncertainty_pictures
@@ -42,6 +50,11 @@ UNCERTAINTY = (
     "The case was solved many times, each time with other values of the inputs that are not known "
     "exactly. 90 % of the samples of a model lie between its quantiles of 5 and 95 %."
 )
+LEAST_SHARE = 0.02
+"""Share of a part in the variance of the friction from which its linearity is judged: below it the
+samples do not know the part to a third."""
+APART = 4.0 / 3.0
+"""Ratio of errors by derivatives and by samples from which the friction is not linear."""
 SUMMARY = (0.05, 0.5, 0.95)
 """Quantiles in the summaries of other reports."""
 
@@ -141,6 +154,19 @@ def part_table(part: xr.Dataset, title: str) -> Table:
             Column(f"{name}_error", sigma, "±", group=HEADS[name], format=percent),
             Column(f"{name}_share", share, "share", group=HEADS[name], format="{:.0%}".format),
         ]
+    tangent = first_order_of(part)
+    if tangent and names[0] == "friction":
+        values = [tangent.get(label, math.nan) for label in columns[0].values]
+        columns.append(
+            Column(
+                "first_order",
+                values,
+                "± by",
+                "derivatives",
+                group=HEADS["friction"],
+                format=percent,
+            )
+        )
     error = part[f"best_{names[0]}_part_share_error"].values[ranked]
     notes = ["±: standard error of the logarithm; share: of its square in that of the interval."]
     if NOT_ALONE in part.part_label.values:
@@ -156,7 +182,44 @@ def part_table(part: xr.Dataset, title: str) -> Table:
     if unseen:
         count = part.sizes["sample"]
         notes.append(f"No significant effect with {count} samples: {', '.join(unseen)}.")
-    return Table("parts", columns, title, notes)
+    return Table("parts", columns, title, [*notes, *_not_linear(part)])
+
+
+def first_order_of(data: xr.Dataset) -> dict[str, float]:
+    """Return the error that each source carries to the friction by derivatives, by its label."""
+    if FIRST_ORDER not in data:
+        return {}
+    pairs = zip(data.label.values.tolist(), data[FIRST_ORDER].values.tolist(), strict=True)
+    return {label: error for label, error in pairs if math.isfinite(error)}
+
+
+def _not_linear(part: xr.Dataset) -> Iterator[str]:
+    """Yield the sources that samples and derivatives do not agree on.
+
+    Not the road, whose stretches are no small change.
+    """
+    if not (tangent := first_order_of(part)):
+        return
+    sampled = dict(
+        zip(
+            part.part_label.values.tolist(),
+            part.best_friction_part_error.values.tolist(),
+            strict=True,
+        )
+    )
+    least = math.sqrt(LEAST_SHARE) * float(part.best_friction_uncertainty)
+    apart = [
+        f"{label} ({percent(tangent[label])}, {percent(error)})"
+        for label, error in sampled.items()
+        if label in tangent
+        and label != LABELS[ROAD]
+        and max(error, tangent[label]) > max(least, APART * min(error, tangent[label]))
+    ]
+    if apart:
+        yield (
+            "The friction is not linear in what derivatives and samples differ on by more than a "
+            f"third: {', '.join(apart)}."
+        )
 
 
 def share_parts(data: xr.Dataset) -> Iterator[str | Table]:

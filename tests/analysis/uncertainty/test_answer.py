@@ -187,3 +187,28 @@ def test_parts_add_up_and_have_their_freedom() -> None:
     squares = {float(e.freedom): float(e.sigma) ** 2 for e in error.errors}
     assert squares[7.0] == pytest.approx(error.variance["profile"] + error.variance[REST])
     assert squares[399.0] == pytest.approx(error.variance["other"])
+
+
+def test_derivatives_stand_beside_samples(folder: Path) -> None:
+    """A cut-off within a few per cent is a small change: both give the same error."""
+    ends = "0.98 mm:1.02 mm"
+    data = propagate(folder / "case.toml", only(cut_off=ends), samples=40)
+    label = SOURCES["cut_off"].label
+    carried = float(data.friction_first_order.sel(source="cut_off"))
+    assert carried > 0.0
+    (table,) = part_tables(data)
+    column = next(each for each in table.columns if each.name == "first_order")
+    assert carried in column.values
+    # where they differ by more than a third, the table says so
+    assert not any("not linear" in note for note in with_errors(data, label, 1.2 * carried))
+    assert any("not linear" in note for note in with_errors(data, label, 1.5 * carried))
+
+
+def with_errors(data: xr.Dataset, label: str, sampled: float) -> list[str]:
+    """Return the notes of the parts where the samples gave a source this error."""
+    errors = data.best_friction_part_error.copy()
+    errors[data.part_label.values.tolist().index(label)] = sampled
+    changed = data.assign(best_friction_part_error=errors)
+    changed["best_friction_uncertainty"] = 1.1 * sampled
+    (table,) = part_tables(changed)
+    return list(table.notes)
