@@ -9,10 +9,15 @@ from .comparison import compare_case as compare_case
 from .comparison import compare_over as compare_over
 from .comparison import solve_reference as solve_reference
 from .comparison_dataset import Comparison as Comparison
+from .compound_design import design_compound as design_compound
+from .compound_limits import CompoundLimits as CompoundLimits
+from .compound_limits import PointLimit as PointLimit
+from .design_text import designed_rubber as designed_rubber
 from .effects import case_effects as case_effects
 from .effects import effect_tasks as effect_tasks
 from .effects import effects as effects
 from .effects import stored_effects as stored_effects
+from .goal_friction import CompoundGoal as CompoundGoal
 from .ladder import LADDER as LADDER
 from .ladder import ComparisonSetup as ComparisonSetup
 from .ladder import Rung as Rung
