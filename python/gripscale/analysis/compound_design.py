@@ -22,7 +22,12 @@ import xarray as xr
 
 from gripscale.analysis.compound_gain import gain, series_derivatives, series_error
 from gripscale.analysis.compound_limits import CompoundLimits, changed
-from gripscale.analysis.compound_search import DesignProblem, best_change, design_problem
+from gripscale.analysis.compound_search import (
+    DesignProblem,
+    best_change,
+    design_problem,
+    nearest_design,
+)
 from gripscale.analysis.design_dataset import of_change, of_compound, scalars, today
 from gripscale.analysis.goal_friction import CompoundGoal, GoalFriction
 from gripscale.analysis.rubber_comparison import at_one_temperature
@@ -159,7 +164,8 @@ def _solved_point(
 ) -> xr.Dataset:
     """Return one point of the curve."""
     friction, admissible = problem.friction, problem.admissible(level)
-    optimum = best_change(friction, admissible, start)
+    best = best_change(friction, admissible, start)
+    optimum = nearest_design(friction, admissible, best)
     rubber = changed(problem.rubber, optimum.ratio)
     series = series_derivatives(friction, friction.contacts(rubber))
     contacts = friction.contacts(rubber, tolerance=TOLERANCE, warm=False)
@@ -176,6 +182,10 @@ def _solved_point(
         "gain_searched": (
             math.expm1(optimum.log_friction - reference.log_friction),
             "gain on the grid of the search",
+        ),
+        "gain_optimum": (
+            math.expm1(best.log_friction - reference.log_friction),
+            "the same of the optimum, which the design stays near",
         ),
         "gain_twice_cut_off": (math.expm1(result.twice_cut_off), "gain with twice the cut-off"),
         "gain_sampling_error": (result.sampling, "standard error from the sampling of the road"),

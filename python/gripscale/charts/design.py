@@ -1,6 +1,4 @@
-"""Charts of a compound design: friction against rolling resistance, and the master curves it asks
-for.
-"""
+"""Charts of a design: friction over rolling resistance, and the master curves it asks for."""
 
 from __future__ import annotations
 
