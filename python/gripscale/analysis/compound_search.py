@@ -143,12 +143,13 @@ def nearest_design(
     matrix, most = admissible.rows
     matrix = np.vstack([matrix, -optimum.slope])
     most = np.append(most, GIVEN_AWAY - float(optimum.slope @ optimum.ratio))
-    solved = minimize(
-        lambda ratio: float(np.sum(np.log(ratio) ** 2)),
-        optimum.ratio,
-        **_programme(admissible, matrix, most, PRECISION),
-        jac=lambda ratio: 2.0 * np.log(ratio) / ratio,
-    )
+
+    def distance(ratio: Array) -> tuple[float, Array]:
+        logarithm = np.log(ratio)
+        return float(logarithm @ logarithm), 2.0 * logarithm / ratio
+
+    settings = _programme(admissible, matrix, most, PRECISION)
+    solved = minimize(distance, optimum.ratio, jac=True, **settings)
     ratio = np.asarray(np.clip(solved.x, *admissible.bounds), dtype=float)
     if admissible.violation(ratio) > ROUNDING:
         return optimum
