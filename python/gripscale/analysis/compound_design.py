@@ -31,10 +31,12 @@ from gripscale.analysis.compound_search import (
 from gripscale.analysis.design_dataset import of_change, of_compound, scalars, today
 from gripscale.analysis.goal_friction import CompoundGoal, GoalFriction
 from gripscale.analysis.rubber_comparison import at_one_temperature
+from gripscale.case import folder as folders
 from gripscale.case.read import CaseFile, read_case
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
+from gripscale.experiment.design import attributes
 from gripscale.experiment.inputs import contents, rubber_of, stated_by
 from gripscale.experiment.task import canonical_json, load_stored
 from gripscale.half_space.result import RoughContact
@@ -121,6 +123,7 @@ def design_compound(
     wanted = [checks.positive("level", level) for level in levels] or problem.default_levels()
     key = _key(file, problem, wanted, rubbers or {})
     target = Path(folder) / RESULT
+    folders.make(target.parent)
     stored = _stored_points(target, key)
     reference = Reference.of(problem.friction)
     base = today(problem, reference.contacts, TOLERANCE).assign_attrs(
@@ -171,6 +174,7 @@ def _solved_point(
     contacts = friction.contacts(rubber, tolerance=TOLERANCE, warm=False)
     result = gain(friction, reference.contacts, contacts)
     rolling = problem.rolling_ratio(rubber)
+    worth = problem.worth_of_limits(level, best.slope)
     low, high = result.interval
     numbers = {
         "rolling_level": (level, "largest loss factor at the rolling condition over today's"),
@@ -200,8 +204,11 @@ def _solved_point(
             "share of the moduli at a bound or as far from a neighbour as they may be",
         ),
     }
+    text = "gain of ln mu by a tenth more room, to first order"
     return scalars(numbers).assign(
-        of_compound(problem, rubber, contacts) | of_change(admissible, optimum.ratio)
+        of_compound(problem, rubber, contacts)
+        | of_change(admissible, optimum.ratio)
+        | {"limit_worth": ("widened", np.array(list(worth.values())), attributes(text))}
     )
 
 

@@ -67,6 +67,17 @@ class PointLimit(Checked):
         if not self.low < self.high:
             raise InputError(f"low must be below high; got {self.low:g} and {self.high:g}")
 
+    @property
+    def condition(self) -> str:
+        """Frequency and temperature in words."""
+        kelvin = self.temperature
+        where = "the temperature measured" if kelvin is None else f"{kelvin - ZERO_CELSIUS:.3g} °C"
+        return f"{self.frequency:g} Hz and {where}"
+
+    def __str__(self) -> str:
+        symbol = "E'" if self.quantity == "storage_modulus" else "tan δ"
+        return f"{symbol} at {self.condition}, {self.low:g} to {self.high:g} times today's"
+
 
 def _factor(name: str, value: float) -> float:
     factor = checks.positive(name, value)

@@ -21,7 +21,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -56,6 +56,12 @@ ROLLING = ZERO_CELSIUS + 60.0
 """Temperature of the loss factor that stands for rolling resistance [K]."""
 FREQUENCY = 10.0
 """Its frequency [Hz]."""
+LARGEST_FACTOR, PER_DECADE = "largest factor on a modulus", "largest change per decade"
+FACTORS = {LARGEST_FACTOR: "largest_factor", PER_DECADE: "factor_per_decade"}
+ROLLING_LEVEL = "rolling resistance"
+"""What is limited, beside ranges of moduli."""
+WIDER = 1.1
+"""Factor on a limit whose worth is asked for."""
 DOWNWARD = 4
 """Levels below today's, down to the least that the limits admit."""
 UPWARD = (1.15, 1.3)
@@ -94,10 +100,41 @@ class DesignProblem:
         """Return tan(delta) of a compound at the rolling condition over today's [-]."""
         return self.rolling_loss_factor(rubber) / self.rolling_loss_factor(self.rubber)
 
+    def worth_of_limits(self, level: float, slope: Array) -> dict[str, float]:
+        """Return what a tenth more room gives in ln mu [-], by what is limited, to first order.
+
+        `slope` is the gradient at the optimum of the level. A range of moduli gets a tenth wider at
+        both ends, a factor or the level a tenth larger.
+        """
+        limits, narrow = self.limits, self.admissible(level)
+        *points, rolling = narrow.points
+        wider = {
+            LARGEST_FACTOR: (replace(limits, largest_factor=WIDER * limits.largest_factor), points),
+            PER_DECADE: (
+                replace(limits, factor_per_decade=WIDER * limits.factor_per_decade),
+                points,
+            ),
+        }
+        for i, point in enumerate(points):
+            room = replace(point, low=point.low / WIDER, high=point.high * WIDER)
+            wider[str(point)] = (limits, [*points[:i], room, *points[i + 1 :]])
+        least = _most(narrow, slope)
+        worth = {
+            name: _most(AdmissibleChanges(self.rubber, room, (*ranges, rolling)), slope) - least
+            for name, (room, ranges) in wider.items()
+        }
+        return worth | {ROLLING_LEVEL: _most(self.admissible(WIDER * level), slope) - least}
+
     def default_levels(self) -> list[float]:
         """Return levels in the order they are solved: today's, then down, then up."""
         least = NEAR_LEAST * self.admissible().least_loss_factor(self.rolling)
         return [1.0, *np.linspace(1.0, least, DOWNWARD + 1)[1:].tolist(), *UPWARD]
+
+
+def _most(admissible: AdmissibleChanges, slope: Array) -> float:
+    """Return the largest slope . r of the admissible changes, NaN without one."""
+    corner = admissible.best(slope)
+    return math.nan if corner is None else float(slope @ corner)
 
 
 @dataclass(frozen=True)

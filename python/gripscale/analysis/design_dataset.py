@@ -16,7 +16,13 @@ from gripscale.analysis.compound_limits import (
     modulus_parts,
     rubber_at,
 )
-from gripscale.analysis.compound_search import FREQUENCY, DesignProblem
+from gripscale.analysis.compound_search import (
+    FREQUENCY,
+    LARGEST_FACTOR,
+    PER_DECADE,
+    ROLLING_LEVEL,
+    DesignProblem,
+)
 from gripscale.core import provenance
 from gripscale.core.arrays import Array
 from gripscale.core.units import ZERO_CELSIUS
@@ -26,7 +32,7 @@ from gripscale.rubber import Rubber
 
 WET = ZERO_CELSIUS
 """Temperature of the loss factor that is the rule of thumb for wet grip [K]."""
-PER_DECADE = 8
+FREQUENCIES_PER_DECADE = 8
 """Frequencies of a stored master curve in a decade."""
 
 
@@ -40,10 +46,8 @@ def scalars(values: Mapping[str, tuple[float, str]]) -> xr.Dataset:
 def of_change(admissible: AdmissibleChanges, ratio: Array) -> dict[str, Any]:
     """Return the change of each modulus, and of what is limited at a point of frequency."""
     points = admissible.points[:-1]  # the last is the rolling condition
-    values, reached = [], []
+    values = []
     for point in points:
-        rows = admissible.point_rows(point)
-        reached.append(any(abs(float(row @ ratio) - most) < 1e-3 for row, most in rows))
         today, design = (
             _point_value(point, rubber)
             for rubber in (admissible.rubber, changed(admissible.rubber, ratio))
@@ -52,7 +56,6 @@ def of_change(admissible: AdmissibleChanges, ratio: Array) -> dict[str, Any]:
     return {
         "modulus_ratio": ("term", ratio, attributes("modulus over today's, E_inf first")),
         "limited_ratio": ("limit", np.array(values), attributes("limited modulus over today's")),
-        "limit_reached": ("limit", np.array(reached, dtype=bool), attributes("whether it limits")),
     }
 
 
@@ -94,7 +97,7 @@ def _frequencies(rubber: Rubber) -> Array:
     """Return the frequencies of a stored master curve [Hz]: its measured band, or its times."""
     times = rubber.relaxation_times
     low, high = rubber.valid_band or (0.1 / times.max(initial=1.0), 10.0 / times.min(initial=1.0))
-    count = max(2, math.ceil(PER_DECADE * math.log10(high / low)) + 1)
+    count = max(2, math.ceil(FREQUENCIES_PER_DECADE * math.log10(high / low)) + 1)
     return np.asarray(np.geomspace(low, high, count) / (2.0 * math.pi))
 
 
@@ -107,7 +110,8 @@ def today(problem: DesignProblem, contacts: Sequence[RoughContact], tolerance: f
     excited = [_excited(contact) for contact in contacts]
     times = np.concatenate([[math.inf], rubber.relaxation_times])
     goals = [str(goal) for goal in friction.goals]
-    limits = [_words(point) for point in problem.admissible().points[:-1]]
+    limits = [str(point) for point in problem.admissible().points[:-1]]
+    widened = [LARGEST_FACTOR, PER_DECADE, *limits, ROLLING_LEVEL]
     data |= {
         "excited_low": ((), min(low for low, _ in excited), attributes("excited from", "Hz")),
         "excited_high": ((), max(high for _, high in excited), attributes("up to", "Hz")),
@@ -116,6 +120,7 @@ def today(problem: DesignProblem, contacts: Sequence[RoughContact], tolerance: f
     coordinates = {
         "goal": ("goal", np.array(goals, dtype=object)),
         "limit": ("limit", np.array(limits, dtype=object)),
+        "widened": ("widened", np.array(widened, dtype=object)),
         "relaxation_time": ("term", times, attributes("relaxation time", "s")),
         "frequency": ("frequency", _frequencies(rubber), attributes("frequency", "Hz")),
     }
@@ -123,7 +128,7 @@ def today(problem: DesignProblem, contacts: Sequence[RoughContact], tolerance: f
     about = {
         "title": "Design of a compound: friction against rolling resistance",
         "rubber": f"{rubber.name}; {rubber.source}".strip("; "),
-        "rolling_condition": _condition(problem.rolling),
+        "rolling_condition": problem.rolling.condition,
         "reference_temperature": math.nan if kelvin is None else kelvin,
         "largest_factor": problem.limits.largest_factor,
         "factor_per_decade": problem.limits.factor_per_decade,
@@ -146,15 +151,3 @@ def _excited(contact: RoughContact) -> tuple[float, float]:
     ends = np.searchsorted(share, [EXCITED, 1.0 - EXCITED])
     low, high = omega.reshape(-1)[order][ends] / (2.0 * math.pi)
     return float(low), float(high)
-
-
-def _condition(point: PointLimit) -> str:
-    """Return frequency and temperature of a limit in words."""
-    kelvin = point.temperature
-    where = "the temperature measured" if kelvin is None else f"{kelvin - ZERO_CELSIUS:.3g} °C"
-    return f"{point.frequency:g} Hz and {where}"
-
-
-def _words(point: PointLimit) -> str:
-    symbol = "E'" if point.quantity == "storage_modulus" else "tan δ"
-    return f"{symbol} at {_condition(point)}, {point.low:g} to {point.high:g} times today's"

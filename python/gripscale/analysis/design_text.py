@@ -12,6 +12,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.analysis.compound_limits import QUANTITIES, PointLimit, changed
+from gripscale.analysis.compound_search import ROLLING_LEVEL
 from gripscale.analysis.goal_friction import CompoundGoal
 from gripscale.case import folder as folders
 from gripscale.core import checks
@@ -20,6 +21,8 @@ from gripscale.core.units import parse_quantity
 from gripscale.io.table import Column, Table, change, fixed, significant, write_csv
 from gripscale.rubber import MasterCurve, Rubber, write_master_curve
 
+DECIDES = 1e-3
+"""Friction gained by a tenth more room from which a limit decides."""
 GOAL_KEYS = {"speed": "speed", "pressure": "pressure", "temperature": "temperature"}
 """What a goal may state, with the kind of quantity; beside `weight` and `road`."""
 TITLE = "Trade-off: each row is the admissible compound of most friction"
@@ -117,7 +120,7 @@ def design_lines(data: xr.Dataset) -> Iterator[str]:
             f"friction {_gain(lowest)}"
         )
     chosen = data.isel(point=-1) if same is None else same
-    decided = "the limits decide" if _limits(chosen) else "the limits do not decide"
+    decided = "the limits decide" if _decide(chosen) else "the limits do not decide"
     answer = "; or ".join(answers) or "no more friction for less rolling resistance"
     yield f"Answer: {answer}; {decided}"
     for goal in data.goal.values.tolist():
@@ -130,9 +133,14 @@ def design_lines(data: xr.Dataset) -> Iterator[str]:
         f"{significant(tangent)} today"
     )
     yield f"  {_what_changes(data, chosen)}"
-    limits = _limits(chosen)
-    if limits:
-        yield f"  what decides: {'; '.join(limits)}. Wider limits give more."
+    count = round(float(chosen.limited_share) * chosen.sizes["term"])
+    yield (
+        f"  {count} of {chosen.sizes['term']} moduli are at the largest factor "
+        f"({data.attrs['largest_factor']:g}) or as far from a neighbour as they may be (a factor "
+        f"of {data.attrs['factor_per_decade']:g} a decade)"
+    )
+    worths = [f"{name}, {_percent(worth)}" for name, worth in _worths(chosen).items()]
+    yield f"  a tenth more room gives friction, to first order: {'; '.join(worths)}"
     yield f"  {_interval_sources(chosen)}"
     yield from (f"note: {note}" for note in data.attrs.get("notes", "").splitlines())
 
@@ -144,21 +152,18 @@ def _gain(point: xr.Dataset) -> str:
 
 
 def _percent(value: float) -> str:
-    return f"{100.0 * value:+.0f} %" if abs(value) >= 0.1 else f"{100.0 * value:+.1f} %"
+    return f"{100.0 * value:+.0f} %" if abs(value) >= 0.1 else f"{100.0 * value:+z.1f} %"
 
 
-def _limits(point: xr.Dataset) -> list[str]:
-    """Return what holds a point back, but for the rolling resistance."""
-    count = round(float(point.limited_share) * point.sizes["term"])
-    out = []
-    if count:
-        out.append(
-            f"{count} of {point.sizes['term']} moduli at their largest factor "
-            f"({point.attrs['largest_factor']:g}) or as far from a neighbour as they may be "
-            f"(a factor of {point.attrs['factor_per_decade']:g} a decade)"
-        )
-    out += [str(limit) for limit in point.limit.values[point.limit_reached.values]]
-    return out
+def _worths(point: xr.Dataset) -> dict[str, float]:
+    """Return what a tenth more room is worth, by what limits the friction of a point."""
+    pairs = zip(point.widened.values.tolist(), point.limit_worth.values.tolist(), strict=True)
+    return {name: math.expm1(worth) for name, worth in pairs}
+
+
+def _decide(point: xr.Dataset) -> bool:
+    """Return whether a limit other than the rolling resistance holds the friction back."""
+    return any(worth > DECIDES for name, worth in _worths(point).items() if name != ROLLING_LEVEL)
 
 
 def changed_frequencies(data: xr.Dataset, point: xr.Dataset) -> list[tuple[float, float]]:
