@@ -185,6 +185,7 @@ def test_limits_hold_for_the_rubber_itself():
         assert limits.violation(ratio) < 1e-6
     # all moduli 3.5 times today's: 0.5 above the largest factor, 2.45 above E', 2.5 above the glass
     assert limits.violation(np.full(11, 3.5)) == pytest.approx(2.5, abs=1e-9)
+    assert admissible(MAXWELL).violation(np.full(4, 0.4)) == pytest.approx(0.1)
 
 
 def test_parts_add_up_to_the_modulus():
