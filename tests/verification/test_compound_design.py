@@ -11,6 +11,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from gripscale.analysis.compound_design import TOLERANCE
+from gripscale.analysis.compound_limits import changed
 from gripscale.analysis.compound_search import best_change, design_problem, nearest_design
 from gripscale.case import read_case
 from tests.analysis.design.test_search import mixtures
@@ -47,3 +49,22 @@ def test_no_admissible_change_of_the_shipped_rubber_is_better():
     # ln mu is all but concave: nowhere above its tangent by more than a small part of the gain
     assert (solved - tangent[chosen]).max() < 0.02
     assert np.median(solved[SOLVED:]) < optimum.log_friction
+
+
+@pytest.mark.verification
+def test_the_promised_friction_is_that_of_finer_contacts():
+    problem = design_problem(read_case(EXAMPLES / "road_and_tread" / "case.toml"))
+    friction, limits = problem.friction, problem.admissible(1.0)
+    start = np.ones(1 + problem.rubber.moduli.size)
+    design = nearest_design(friction, limits, best_change(friction, limits, start))
+    rubber = changed(problem.rubber, design.ratio)
+    promised, finer = (
+        friction.averaged(
+            [
+                contact.friction_from_dissipation
+                for contact in friction.contacts(rubber, tolerance=tolerance, warm=False)
+            ]
+        )
+        for tolerance in (TOLERANCE, 0.02)
+    )
+    assert finer == pytest.approx(promised, rel=0.01)

@@ -2,9 +2,10 @@
 
 A point of the trade-off curve is the admissible compound with the most friction
 (`compound_search`) whose tan(delta) at the rolling condition is at most `level` times today's. The
-first has today's level; the others follow outward, each from the nearest that is solved. Friction
-and gain of a point are those of contacts solved anew, to the tolerance of a comparison
-(`compound_gain`). The result is written after each point.
+levels rise, and each is sought from today's compound and from the point before, which it admits
+too: ln mu need not be concave, and the better of the two ends counts. Friction and gain of a point
+are those of contacts solved anew, to the tolerance of a comparison (`compound_gain`). The result is
+written after each point.
 """
 
 from __future__ import annotations
@@ -138,7 +139,7 @@ def design_compound(
             continue
         point = stored.get(level)
         if point is None:
-            point = _solved_point(problem, reference, level, _start(points, level, problem))
+            point = _solved_point(problem, reference, level, points[-1:])
         points.append(point)
         data = _joined(base, points)
         netcdf.save(data, target)
@@ -154,20 +155,15 @@ def _saturated(points: Sequence[xr.Dataset], level: float) -> bool:
     )
 
 
-def _start(points: Sequence[xr.Dataset], level: float, problem: DesignProblem) -> Array:
-    """Return the moduli of the nearest point solved, or today's."""
-    if not points:
-        return np.ones(1 + problem.rubber.moduli.size)
-    nearest = min(points, key=lambda point: abs(float(point.rolling_level) - level))
-    return np.asarray(nearest.modulus_ratio.values, dtype=float)
-
-
 def _solved_point(
-    problem: DesignProblem, reference: Reference, level: float, start: Array
+    problem: DesignProblem, reference: Reference, level: float, before: Sequence[xr.Dataset]
 ) -> xr.Dataset:
-    """Return one point of the curve."""
+    """Return one point of the curve, sought from today's compound and from the point before it."""
     friction, admissible = problem.friction, problem.admissible(level)
-    best = best_change(friction, admissible, start)
+    starts = [np.ones(1 + problem.rubber.moduli.size)]
+    starts += [np.asarray(point.modulus_ratio.values, dtype=float) for point in before]
+    optima = [best_change(friction, admissible, start) for start in starts]
+    best = max(optima, key=lambda optimum: optimum.log_friction)
     optimum = nearest_design(friction, admissible, best)
     rubber = changed(problem.rubber, optimum.ratio)
     series = series_derivatives(friction, friction.contacts(rubber))
@@ -291,7 +287,7 @@ def _stored_points(target: Path, key: str) -> dict[float, xr.Dataset]:
 
 
 def _order(levels: Sequence[float], problem: DesignProblem) -> list[float]:
-    """Return the levels as they are solved: the nearest to today's first, each way outward."""
+    """Return the levels that the limits admit, rising: each admits the optimum of the last."""
     least = problem.admissible().least_loss_factor(problem.rolling)
     reachable = sorted({float(level) for level in levels if level > least})
     if not reachable:
@@ -299,5 +295,4 @@ def _order(levels: Sequence[float], problem: DesignProblem) -> list[float]:
             f"levels must include one above {least:.3g}, the least rolling loss factor over "
             f"today's that the limits admit; got {', '.join(f'{level:g}' for level in levels)}"
         )
-    down = [level for level in reversed(reachable) if level <= 1.0]
-    return [*down, *(level for level in reachable if level > 1.0)]
+    return reachable

@@ -120,8 +120,15 @@ def require_shift(rubber: Rubber, kelvin: float | None, what: str) -> None:
 
 
 def rubber_at(rubber: Rubber, kelvin: float | None) -> Rubber:
-    """Return the rubber at a temperature [K], None for that of the measurement."""
-    return rubber if kelvin is None or rubber.shift is None else rubber.at(kelvin)
+    """Return the rubber at a temperature [K], None for that of the measurement.
+
+    Not for threads: what is to be warned of a rubber was said of today's, and is held back here.
+    """
+    if kelvin is None or rubber.shift is None:
+        return rubber
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RubberWarning)
+        return rubber.at(kelvin)
 
 
 def changed(rubber: Rubber, ratio: Array, name: str = "") -> Rubber:

@@ -126,7 +126,7 @@ class DesignProblem:
         return worth | {ROLLING_LEVEL: _most(self.admissible(WIDER * level), slope) - least}
 
     def default_levels(self) -> list[float]:
-        """Return levels in the order they are solved: today's, then down, then up."""
+        """Return today's level, some down to the least that is admissible, and some above."""
         least = NEAR_LEAST * self.admissible().least_loss_factor(self.rolling)
         return [1.0, *np.linspace(1.0, least, DOWNWARD + 1)[1:].tolist(), *UPWARD]
 

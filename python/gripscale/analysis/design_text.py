@@ -152,7 +152,7 @@ def _gain(point: xr.Dataset) -> str:
 
 
 def _percent(value: float) -> str:
-    return f"{100.0 * value:+.0f} %" if abs(value) >= 0.1 else f"{100.0 * value:+z.1f} %"
+    return f"{100.0 * value:+.0f} %" if abs(value) > 0.0995 else f"{100.0 * value:+z.1f} %"
 
 
 def _worths(point: xr.Dataset) -> dict[str, float]:
@@ -226,21 +226,20 @@ def design_table(data: xr.Dataset) -> Table:
             format=change,
         ),
     ]
+    notes = []
     for at, goal in enumerate(data.goal.values.tolist()):
-        columns.append(Column(f"friction_{at + 1}", data.friction.values[:, at], f"μ, {goal}"))
+        columns.append(Column(f"friction_{at + 1}", data.friction.values[:, at], f"μ {at + 1}"))
+        notes.append(f"μ {at + 1}: {goal}")
     for at, limit in enumerate(data.limit.values.tolist()):
         name = limit.split(" at ")[0]
         values = data.limited_ratio.values[:, at]
         columns.append(Column(f"limit_{at + 1}", values, f"{name} / today", format=fixed(2)))
     if bool(np.isfinite(data.wet_loss_factor.values).all()):
-        columns.append(
-            Column("wet_loss_factor", data.wet_loss_factor.values, "tan δ at 0 °C, 10 Hz")
-        )
-    columns.append(
-        Column("limited_share", data.limited_share.values, "moduli at a limit", format=_share)
-    )
-    columns.append(Column("gap", data.gap.values, "still to gain at most", format=change))
-    return Table("design", columns, TITLE)
+        columns.append(Column("wet_loss_factor", data.wet_loss_factor.values, "tan δ wet"))
+        notes.append("tan δ wet: at 10 Hz and 0 °C, the rule of thumb for wet grip")
+    columns.append(Column("limited_share", data.limited_share.values, "at a limit", format=_share))
+    columns.append(Column("gap", data.gap.values, "left to gain", format=change))
+    return Table("design", columns, TITLE, notes)
 
 
 def compounds_table(data: xr.Dataset) -> Table | None:

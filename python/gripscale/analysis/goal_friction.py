@@ -141,12 +141,13 @@ class GoalFriction:
 
         Raises `ConvergenceError` if one cannot be used.
         """
+        bodies = [rubber_at(rubber, goal.temperature) for goal in self.goals]
 
         def solve(index: int) -> RoughContact:
             part = self.parts[index]
             goal = self.goals[part.goal]
             contact = solve_rough_contact(
-                rubber_at(rubber, goal.temperature),
+                bodies[part.goal],
                 part.surface,
                 pressure=goal.pressure,
                 speed=goal.speed,
