@@ -247,6 +247,14 @@ class AdmissibleChanges:
         excess = [(matrix @ ratio - most).max(), (low - ratio).max(), (ratio - high).max()]
         return max(0.0, *map(float, excess))
 
+    def require_some(self) -> None:
+        """Raise `InputError` if nothing is admissible."""
+        if self.best(np.zeros(1 + self.rubber.moduli.size)) is None:
+            raise InputError(
+                "the limits must leave an admissible change; got limits on the moduli that "
+                "contradict one another within the largest factors"
+            )
+
     def best(self, gradient: Array) -> Array | None:
         """Return the admissible r with the largest gradient . r, None if nothing is admissible."""
         from scipy.optimize import linprog
@@ -266,18 +274,19 @@ class AdmissibleChanges:
     def least_loss_factor(self, point: PointLimit) -> float:
         """Return the least ratio of a loss factor to today's [-] that the limits admit.
 
-        E''/E' over a polytope is a linear fraction: its level is lowered until no change is left
-        below it (W. Dinkelbach, Manag. Sci. 13 (1967) 492), from today's down.
+        E''/E' over a polytope is a linear fraction: its level is moved until no admissible
+        change has a lower one (W. Dinkelbach, Manag. Sci. 13 (1967) 492).
+
+        Raises `InputError` if nothing is admissible.
         """
         body = rubber_at(self.rubber, point.temperature)
         storage, loss = modulus_parts(body, np.array(2.0 * math.pi * point.frequency))
+        self.require_some()
         today = level = float(loss.sum() / storage.sum())
         for _ in range(50):
             ratio = self.best(level * storage - loss)
-            if ratio is None:
-                return math.nan
-            lower = float(loss @ ratio / (storage @ ratio))
-            if lower > level * (1.0 - 1e-9):
+            assert ratio is not None
+            before, level = level, float(loss @ ratio / (storage @ ratio))
+            if abs(level / before - 1.0) < 1e-9:
                 break
-            level = lower
         return level / today

@@ -156,11 +156,7 @@ def best_change(friction: GoalFriction, admissible: AdmissibleChanges, start: Ar
 
     Raises `InputError` if no change is admissible.
     """
-    if admissible.best(np.zeros(start.size)) is None:
-        raise InputError(
-            "the limits must leave an admissible change; got limits on the moduli that "
-            "contradict one another within the largest factors"
-        )
+    admissible.require_some()
     optimum = _corner_steps(friction, admissible, start)
     if optimum.gap > LEAST_GAP:
         inside = _quadratic_steps(friction, admissible, optimum.ratio)
@@ -264,6 +260,8 @@ def design_problem(
 ) -> DesignProblem:
     """Return the problem that a case, goals and limits make; arguments as `design_compound`."""
     rubber = case_rubber(file)
+    if not rubber.moduli.size:
+        raise InputError("a design needs a rubber that relaxes; got an elastic one")
     wanted = list(goals) or [default_goal(file)]
     roads = {goal.road: surface_of(goal.road, file) for goal in wanted}
     friction = GoalFriction.of(rubber, wanted, roads, worker_count(workers))

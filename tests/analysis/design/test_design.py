@@ -171,6 +171,16 @@ def test_answer_first_and_the_limits_named(data):
 def test_no_level_within_the_limits_is_refused(case, tmp_path):
     with pytest.raises(InputError, match="levels must include one above"):
         design_compound(case, tmp_path, levels=[0.01])
+    stiff = CompoundLimits(points=[PointLimit("storage_modulus", 3.0, 4.0)])
+    with pytest.raises(InputError, match="limits must leave an admissible change"):
+        design_compound(case, tmp_path, limits=stiff)
+
+
+def test_limits_that_today_does_not_keep(case, tmp_path):
+    """A stiffer rubber is asked for: the search starts outside and ends inside."""
+    stiff = CompoundLimits(points=[PointLimit("storage_modulus", 1.2, 1.5)])
+    data = design_compound(case, tmp_path, levels=[1.0], limits=stiff)
+    assert float(data.limited_ratio[0, 0]) == pytest.approx(1.2, abs=1e-4)
 
 
 def test_goals_and_limits_as_text():

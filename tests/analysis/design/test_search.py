@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -203,6 +205,9 @@ def test_least_loss_factor_of_one_relaxation():
     today = 4.5 / (1.0 + 4.5)
     least = 0.5 * 4.5 / (2.0 + 0.5 * 4.5)
     assert limits.least_loss_factor(point) == pytest.approx(least / today, rel=1e-6)
+    lossier = replace(point, low=1.1, high=1.3)  # which today's rubber does not keep
+    limits = admissible(rubber, lossier, factor_per_decade=1e3)
+    assert limits.least_loss_factor(point) == pytest.approx(1.1, rel=1e-6)
 
 
 def test_limits_that_contradict_one_another_are_refused():
