@@ -183,6 +183,23 @@ def test_limits_that_today_does_not_keep(case, tmp_path):
     assert float(data.limited_ratio[0, 0]) == pytest.approx(1.2, abs=1e-4)
 
 
+def test_a_goal_on_another_road(case, tmp_path):
+    """Each road counts with its weight, and has a friction of its own."""
+    other = self_affine_profile(0.8, 3e-3, 4e-4, length=0.4, step=1e-4, seed=2)
+    write_road(tmp_path / "smooth.txt", other)
+    smooth = str(tmp_path / "smooth.txt")
+    goals = [CompoundGoal(0.3, 3e5, weight=3.0), CompoundGoal(0.3, 3e5, road=smooth)]
+    free = CompoundLimits(points=[])
+    data = design_compound(case, tmp_path, goals=goals, levels=[1.0], limits=free)
+    assert data.sizes["limit"] == 0
+    rough, mild = data.today_friction.values
+    assert mild < 0.8 * rough
+    ratios = np.log(data.friction.values[0] / data.today_friction.values)
+    mean = float(np.array([0.75, 0.25]) @ ratios)
+    assert float(data.gain[0]) == pytest.approx(np.expm1(mean), rel=1e-9)
+    assert len(list(design_lines(data))) > 5
+
+
 def test_goals_and_limits_as_text():
     default = CompoundGoal(0.3, 3e5)
     goal = parse_goal("speed=3 mm/s, weight=2, temperature=0 C", default)
